@@ -11,14 +11,14 @@
     reason = "a bench stops at the first surprise, prints, and reads what time it took"
 )]
 
-use rtc::color::quantize8;
-use rtc::diag::Sink;
-use rtc::passes::Overrides;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Arithmetic, Plan, Rules};
-use rtc::render::{self, Film, Job};
-use rtc::source::{Loader, SourceMap};
-use rtc::valid::Proof;
+use rtc::internals::color::quantize8;
+use rtc::internals::diag::Sink;
+use rtc::internals::passes::Overrides;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Arithmetic, Plan, Rules};
+use rtc::internals::render::{self, Film, Job};
+use rtc::internals::source::{Loader, SourceMap};
+use rtc::internals::valid::Proof;
 use std::path::Path;
 
 const ALL: [(&str, Arithmetic); 3] = [

@@ -11,11 +11,11 @@
 
 use cpu_time::ProcessTime;
 use libm::{cos, sin};
-use rtc::diag::Sink;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Shape, World};
-use rtc::source::{Loader, SourceMap};
+use rtc::internals::diag::Sink;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Shape, World};
+use rtc::internals::source::{Loader, SourceMap};
 use std::f64::consts::{PI, TAU};
 use std::fs::File;
 use std::io::{BufWriter, Write};

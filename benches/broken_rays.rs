@@ -6,12 +6,12 @@
     clippy::unwrap_used,
     reason = "a measurement stops at the first surprise"
 )]
-use rtc::diag::Sink;
-use rtc::math::Vec3;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Ray, World};
-use rtc::source::SourceMap;
+use rtc::internals::diag::Sink;
+use rtc::internals::math::Vec3;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Ray, World};
+use rtc::internals::source::SourceMap;
 use std::fmt::Write as _;
 
 /// Numbers in [−1, 1): a golden ratio sequence for each coordinate.

@@ -8,11 +8,11 @@
     clippy::disallowed_methods,
     reason = "a measurement stops at the first surprise and has a clock; an allocator is unsafe"
 )]
-use rtc::diag::Sink;
-use rtc::pipeline;
-use rtc::plan::{Plan, Rules};
-use rtc::source::SourceMap;
-use rtc::valid::Proof;
+use rtc::internals::diag::Sink;
+use rtc::internals::pipeline;
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::source::SourceMap;
+use rtc::internals::valid::Proof;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::fmt::Write as _;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};

@@ -16,10 +16,10 @@ mod setup;
 
 use cpu_time::ProcessTime;
 use exr::prelude::{ReadChannels as _, ReadLayers as _, read};
-use rtc::math::Vec3;
-use rtc::pipeline;
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Film, Job, Values};
+use rtc::internals::math::Vec3;
+use rtc::internals::pipeline;
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Film, Job, Values};
 use serde_json::Value;
 use std::path::Path;
 

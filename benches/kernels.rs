@@ -12,10 +12,12 @@
 mod setup;
 
 use cpu_time::ThreadTime;
-use rtc::passes::Overrides;
-use rtc::plan::{Features, PathFeatures, Plan, Rules, Shapes};
-use rtc::render::{AnyWorld, Film, Job, KERNELS, PATH_KERNELS, choose, choose_for_paths};
-use rtc::valid::Proof;
+use rtc::internals::passes::Overrides;
+use rtc::internals::plan::{Features, PathFeatures, Plan, Rules, Shapes};
+use rtc::internals::render::{
+    AnyWorld, Film, Job, KERNELS, PATH_KERNELS, choose, choose_for_paths,
+};
+use rtc::internals::valid::Proof;
 use std::path::Path;
 
 /// Paths a pixel.

@@ -14,10 +14,10 @@
 mod setup;
 
 use cpu_time::ProcessTime;
-use rtc::pipeline::Renderer;
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Film, Job, Seeds, Values};
-use rtc::valid::{Proof, Shape, Surface};
+use rtc::internals::pipeline::Renderer;
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Film, Job, Seeds, Values};
+use rtc::internals::valid::{Proof, Shape, Surface};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;

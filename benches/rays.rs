@@ -14,12 +14,12 @@
 )]
 
 use cpu_time::ProcessTime;
-use rtc::diag::Sink;
-use rtc::math::Vec3;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Hit, Ray, World};
-use rtc::source::{Loader, SourceMap};
+use rtc::internals::diag::Sink;
+use rtc::internals::math::Vec3;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Hit, Ray, World};
+use rtc::internals::source::{Loader, SourceMap};
 use serde_json::json;
 use std::path::Path;
 

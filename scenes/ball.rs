@@ -9,7 +9,7 @@
     reason = "a tool stops at the first surprise, and writes"
 )]
 
-use rtc::math::Vec3;
+use rtc::internals::math::Vec3;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 

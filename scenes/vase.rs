@@ -9,7 +9,7 @@
     reason = "a tool stops at the first surprise, and writes"
 )]
 
-use rtc::math::{Vec3, cos, sin};
+use rtc::internals::math::{Vec3, cos, sin};
 use serde_json::json;
 use std::f64::consts::TAU;
 

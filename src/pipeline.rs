@@ -2,11 +2,27 @@
 //! prints or exits.
 
 mod exposure;
+#[cfg(not(target_family = "wasm"))]
+mod file;
+mod findings;
+mod input;
+mod light;
+mod look;
 mod meter;
+mod part;
+mod setup;
+mod share;
 pub mod trial;
 
 pub use exposure::OwnLight;
+#[cfg(not(target_family = "wasm"))]
+pub use file::{NewFile, WriteObserver};
+pub use input::{Input, Loaded, Proven, Provenance};
+pub use look::{Exposure, OutputFormat, OutputLook, SettledLook};
 pub use meter::Meter;
+pub use part::{MOST as MOST_SHARES, PartError, PicturePart};
+pub use setup::{Observer, PictureSetup, RenderError, RenderSubject};
+pub use share::{SharedBy, Shares};
 
 use crate::diag::{Diagnostic, Sink, clip, codes};
 use crate::front::course::assets::{self, Asset};
@@ -16,13 +32,16 @@ use crate::ir::{Field, Lowered, Noun, Origins, Place, Scene};
 use crate::math::BasisFault;
 use crate::passes::{Stage, Staged};
 use crate::plan::{self, Plan};
-use crate::render::{self, AnyWorld, Aov, Crop, Film, Job, Mismatch, OnPixel, SimdLevel};
+use crate::render::{
+    self, AnyWorld, Aov, Film, FilmError, Job, Mismatch, OnPixel, PartialFilm, SimdLevel,
+};
 use crate::source::{FileId, SourceMap};
 use crate::study::{self, Order, Reached, Stopped, Watch};
 use crate::valid::{self, Proof, Surface};
 use crate::{codec, front};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 /// How strict the check is.
 #[derive(Clone, Debug, Default)]
@@ -191,7 +210,7 @@ const MAX_UNSEEN: usize = 10;
 /// A scene prepared as planned, and the threads that render it.
 pub struct Renderer {
     world: AnyWorld,
-    pool: ThreadPool,
+    threads: Threads,
 }
 
 impl Renderer {
@@ -213,14 +232,14 @@ impl Renderer {
         threads: usize,
         simd: SimdLevel,
     ) -> Result<Self, ThreadPoolBuildError> {
-        let pool = pool(threads)?;
-        let world = pool.install(|| AnyWorld::prepare_at(scene, plan, simd));
-        Ok(Self { world, pool })
+        let threads = Threads::new(threads)?;
+        let world = threads.install(|| AnyWorld::prepare_at(scene, plan, simd));
+        Ok(Self { world, threads })
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone.
     pub fn change(&mut self, scene: Proof) {
-        self.pool.install(|| self.world.change(scene));
+        self.threads.install(|| self.world.change(scene));
     }
 
     /// Whether there is memory for so many bytes: they are asked for, and given back at once. A
@@ -229,8 +248,8 @@ impl Renderer {
     #[must_use]
     pub fn has_room(&self, bytes: usize) -> bool {
         // A thread that takes its first byte takes room for more.
-        self.pool
-            .broadcast(|_| drop(std::hint::black_box(Box::new(0_u8))));
+        self.threads
+            .each(|| drop(std::hint::black_box(Box::new(0_u8))));
         Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
     }
 
@@ -239,7 +258,7 @@ impl Renderer {
     /// `on_pixel` is called from all threads, after each pixel and within long ones.
     #[must_use]
     pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
-        self.pool.install(|| self.world.render(job, on_pixel))
+        self.threads.install(|| self.world.render(job, on_pixel))
     }
 
     /// Renders the scene that it was made of until a goal is reached.
@@ -252,20 +271,35 @@ impl Renderer {
         order: &Order,
         watch: &Watch<'_>,
     ) -> Result<Reached, Stopped> {
-        let Self { world, pool } = self;
-        pool.install(|| study::approach(world, scene, order, watch))
+        let Self { world, threads } = self;
+        threads.install(|| study::approach(world, scene, order, watch))
     }
 
-    /// Renders layers of a part of the picture. `None` if `on_pixel` said stop.
+    /// Renders a part of a picture: the tiles of the job, and of traced paths only the range of
+    /// samples given, if any. `None` if `on_pixel` said stop.
+    ///
+    /// # Errors
+    /// If the samples are not whole blocks, or no paths are traced.
+    pub fn render_part(
+        &self,
+        job: &Job,
+        samples: Option<Range<u32>>,
+        on_pixel: &OnPixel<'_>,
+    ) -> Result<Option<PartialFilm>, FilmError> {
+        self.threads
+            .install(|| self.world.render_part(job, samples, on_pixel))
+    }
+
+    /// Renders layers of the pixels that a job asks for. `None` if `on_pixel` said stop.
     #[must_use]
     pub fn layers(
         &self,
         wanted: &[Aov],
-        crop: Crop,
+        job: &Job,
         on_pixel: &(dyn Fn() -> bool + Sync),
     ) -> Option<Layers> {
-        self.pool
-            .install(|| self.world.layers(wanted, crop, &|_| on_pixel()))
+        self.threads
+            .install(|| self.world.layers(wanted, job, &|_| on_pixel()))
     }
 }
 
@@ -295,10 +329,45 @@ pub fn verify(
     threads: usize,
     on_pixel: &OnPixel<'_>,
 ) -> Result<Option<Result<Film, Mismatch>>, ThreadPoolBuildError> {
-    Ok(pool(threads)?.install(|| render::verify(scene, plan, job, on_pixel)))
+    Ok(Threads::new(threads)?.install(|| render::verify(scene, plan, job, on_pixel)))
 }
 
-/// So many threads, 0 for one per core.
-fn pool(threads: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
-    ThreadPoolBuilder::new().num_threads(threads).build()
+/// The hash of a proven scene's IR, by which a picture or a report says what it is of.
+///
+/// # Panics
+/// If a number of the scene is not finite, so never if it is proven.
+#[must_use]
+pub fn hash(scene: &Scene) -> String {
+    let hash = codec::hash(scene).expect("a proven scene holds finite numbers only");
+    format!("xxh3:{hash:032x}")
+}
+
+/// The threads that render; where the system has none to give, as in a browser, the calling one.
+struct Threads(Option<ThreadPool>);
+
+impl Threads {
+    /// So many threads, 0 for one per core.
+    fn new(threads: usize) -> Result<Self, ThreadPoolBuildError> {
+        if cfg!(target_family = "wasm") {
+            return Ok(Self(None));
+        }
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
+        Ok(Self(Some(pool)))
+    }
+
+    /// Does a piece of work on them.
+    fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        match &self.0 {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+    }
+
+    /// Does the same on each of them.
+    fn each(&self, work: impl Fn() + Sync) {
+        match &self.0 {
+            Some(pool) => drop(pool.broadcast(|_| work())),
+            None => work(),
+        }
+    }
 }

@@ -6,66 +6,108 @@
 /// The parameters in the order of the IR: `field: kind = default, omitted;`.
 ///
 /// The kind says which type a value has and from what range it is; `omitted` names the test by
-/// which an IR text leaves the value out.
+/// which an IR text leaves the value out. The scene format has a key for each, whose meaning is the
+/// doc.
 macro_rules! parameters {
     ($then:ident) => {
         $then! {
+            /// The colour and its alpha; of a metal that of its mirror image.
             base_color: fractions = [1.0; 4], "never";
+            /// Multiplies it, alpha too; coded as sRGB.
             base_color_map: map = None, "Option::is_none";
+            /// How much of it is metal.
             metallic: fraction = 1.0, "never";
+            /// How rough it is: 0 is a mirror.
             roughness: fraction = 1.0, "never";
+            /// Its green multiplies the roughness, its blue the metal.
             metallic_roughness_map: map = None, "Option::is_none";
             /// The reflectance at normal incidence and the glossiness (rgb, a) of
             /// `KHR_materials_pbrSpecularGlossiness`, in place of metallic, roughness and ior.
             specular_glossiness: some_fractions = None, "Option::is_none";
+            /// Multiplies them, alpha too; its colour is coded as sRGB.
             specular_glossiness_map: map = None, "Option::is_none";
             /// The radiance, strength included.
             emissive: color = [0.0; 3], "is_zero";
+            /// Multiplies it; coded as sRGB.
             emissive_map: map = None, "Option::is_none";
+            /// The shading normal in the frame of the surface: red along u, green along v, blue away from it.
             normal_map: map = None, "Option::is_none";
+            /// How much of its red and green counts.
             normal_scale: number = 1.0, "is_one";
+            /// What alpha means: nothing, a cut, or a fraction.
             alpha: alpha = Alpha::Opaque, "is_default";
             /// Whether camera rays of traced paths see the back. They always see the back of a
             /// transmitting material, and all other rays hit the back of any material.
             double_sided: flag = false, "is_default";
+            /// Whether it shows its colour as it is, whatever light there is.
             unlit: flag = false, "is_default";
+            /// The index of refraction, at least 1; 0 mirrors all light.
             ior: ior = 1.5, "never";
+            /// How far the index differs between colours: 20 over the Abbe number.
             dispersion: non_negative = 0.0, "is_zero";
+            /// How much of light is mirrored that no metal mirrors.
             specular: fraction = 1.0, "is_one";
+            /// Its alpha multiplies that.
             specular_map: map = None, "Option::is_none";
+            /// The colour of that mirror image, seen along the normal.
             specular_color: color = [1.0; 3], "never";
+            /// Multiplies it; coded as sRGB.
             specular_color_map: map = None, "Option::is_none";
+            /// How much of the light that is not mirrored goes through.
             transmission: fraction = 0.0, "is_zero";
+            /// Its red multiplies that.
             transmission_map: map = None, "Option::is_none";
-            /// Above 0 the surface bounds a volume.
+            /// How thick it is; above 0 the surface bounds a volume.
             thickness: non_negative = 0.0, "is_zero";
+            /// Its green multiplies it.
             thickness_map: map = None, "Option::is_none";
-            /// None for infinite.
+            /// The distance after which white light has the attenuation colour; none for infinite.
             attenuation_distance: distance = None, "Option::is_none";
+            /// The colour that white light has after the attenuation distance.
             attenuation_color: fraction_color = [1.0; 3], "never";
+            /// How much of it is under a clear coat.
             clearcoat: fraction = 0.0, "is_zero";
+            /// Its red multiplies that.
             clearcoat_map: map = None, "Option::is_none";
+            /// How rough the coat is.
             clearcoat_roughness: fraction = 0.0, "is_zero";
+            /// Its green multiplies that.
             clearcoat_roughness_map: map = None, "Option::is_none";
+            /// The shading normal of the coat.
             clearcoat_normal_map: map = None, "Option::is_none";
+            /// How much of its red and green counts.
             clearcoat_normal_scale: number = 1.0, "is_one";
+            /// The colour of a sheen as of cloth; black is none.
             sheen_color: fraction_color = [0.0; 3], "is_zero";
+            /// Multiplies it; coded as sRGB.
             sheen_color_map: map = None, "Option::is_none";
+            /// How rough the sheen is.
             sheen_roughness: fraction = 0.0, "is_zero";
+            /// Its alpha multiplies that.
             sheen_roughness_map: map = None, "Option::is_none";
+            /// How much the mirror image is drawn out in one direction.
             anisotropy: fraction = 0.0, "is_zero";
-            /// In radians.
+            /// The direction in which it is drawn out, in radians from that of u.
             anisotropy_rotation: number = 0.0, "is_zero";
+            /// Its red and green are a direction, its blue multiplies the strength.
             anisotropy_map: map = None, "Option::is_none";
+            /// How much of it has a thin film.
             iridescence: fraction = 0.0, "is_zero";
+            /// Its red multiplies that.
             iridescence_map: map = None, "Option::is_none";
+            /// The index of refraction of the film.
             iridescence_ior: index_of_refraction = 1.3, "never";
-            /// From the least to the greatest, in nanometres.
+            /// How thick the film is, from the least to the greatest, in nanometres.
             iridescence_thickness: pair = [100.0, 400.0], "never";
+            /// Its green says how thick, between both.
             iridescence_thickness_map: map = None, "Option::is_none";
+            /// How much of the diffuse light goes through.
             diffuse_transmission: fraction = 0.0, "is_zero";
+            /// Its alpha multiplies that.
             diffuse_transmission_map: map = None, "Option::is_none";
+            /// The colour of what goes through.
             diffuse_transmission_color: fraction_color = [1.0; 3], "is_one";
+            /// Multiplies it; coded as sRGB.
             diffuse_transmission_color_map: map = None, "Option::is_none";
         }
     };
@@ -200,4 +242,101 @@ macro_rules! map_of {
     };
 }
 
-pub(crate) use {extensions, layers, map_of, parameters, plain_layers};
+/// The bytes of a name in camel case, and how many of them count: `base_color` is `baseColor`.
+pub(crate) const fn camel_bytes<const N: usize>(name: &str) -> ([u8; N], usize) {
+    let bytes = name.as_bytes();
+    let (mut camel, mut length, mut at) = ([0; N], 0, 0);
+    while at < bytes.len() {
+        if bytes[at] == b'_' {
+            at += 1;
+            camel[length] = bytes[at].to_ascii_uppercase();
+        } else {
+            camel[length] = bytes[at];
+        }
+        (at, length) = (at + 1, length + 1);
+    }
+    (camel, length)
+}
+
+/// The name of a field as texts write it, in camel case.
+macro_rules! camel_case {
+    ($field:ident) => {{
+        const NAME: &str = stringify!($field);
+        const CAMEL: ([u8; NAME.len()], usize) = $crate::standard::camel_bytes(NAME);
+        const KEY: &str = match std::str::from_utf8(CAMEL.0.split_at(CAMEL.1).0) {
+            Ok(key) => key,
+            Err(_) => panic!("the name of a field is ASCII"),
+        };
+        KEY
+    }};
+}
+
+pub(crate) use {camel_case, extensions, layers, map_of, parameters, plain_layers};
+
+/// The terms of Phong's model that a fit looks at, all of any size.
+pub(crate) struct PhongTerms {
+    pub(crate) color: [f64; 3],
+    pub(crate) kd: f64,
+    pub(crate) ks: f64,
+    pub(crate) n: f64,
+    pub(crate) kt: f64,
+    pub(crate) eta: f64,
+}
+
+/// The parameters of the glTF material that comes nearest to Phong's model; of what it does not
+/// name, the default.
+pub(crate) struct PhongFit {
+    pub(crate) base_color: [f64; 3],
+    pub(crate) metallic: f64,
+    pub(crate) roughness: f64,
+    pub(crate) specular: f64,
+    pub(crate) transmission: f64,
+    pub(crate) thickness: f64,
+    pub(crate) ior: f64,
+}
+
+/// The glTF material that comes nearest to Phong's model: the diffuse term becomes Lambert's, a
+/// mirror without one a smooth metal of its weight, and what refracts a volume with a smooth surface.
+///
+/// The exponent n of a highlight becomes the width α of a microfacet distribution by n = 2/α² − 2
+/// (Walter et al., "Microfacet models for refraction through rough surfaces", EGSR 2007, section
+/// 5.2); glTF's roughness is √α.
+pub(crate) fn fit_phong(phong: &PhongTerms) -> PhongFit {
+    let fraction = |weight: f64| weight.clamp(0.0, 1.0);
+    let (kd, ks, kt) = (fraction(phong.kd), fraction(phong.ks), fraction(phong.kt));
+    let (mirrors, refracts) = (ks > 0.0, kt > 0.0);
+    let is_mirror = mirrors && kd == 0.0 && !refracts;
+    let weight = if ks > kd { 1.0 } else { kd };
+    let one_if = |condition| if condition { 1.0 } else { 0.0 };
+    PhongFit {
+        base_color: if is_mirror {
+            [ks; 3]
+        } else {
+            phong
+                .color
+                .map(|channel| fraction(channel.min(1.0) * weight))
+        },
+        metallic: one_if(is_mirror),
+        roughness: if is_mirror || refracts {
+            0.0
+        } else {
+            (2.0 / (phong.n + 2.0)).sqrt().sqrt()
+        },
+        specular: one_if(mirrors || refracts),
+        transmission: kt,
+        thickness: one_if(refracts),
+        ior: phong.eta.max(1.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_capital_begins_each_word_but_the_first() {
+        assert_eq!(camel_case!(ior), "ior");
+        assert_eq!(
+            camel_case!(clearcoat_roughness_map),
+            "clearcoatRoughnessMap"
+        );
+    }
+}

@@ -1,8 +1,8 @@
 //! Laws of the camera: its basis for any view, its sub-samples, and the points of its lens.
 
 use proptest::prelude::*;
-use rtc::math::{Vec3, camera_basis, cross, dot, pow};
-use rtc::render::{Camera, Projection, image_point, vogel};
+use rtc::internals::math::{Vec3, camera_basis, cross, dot, pow};
+use rtc::internals::render::{Camera, Projection, image_point, vogel};
 
 /// Four units in the last place.
 const FOUR_ULP: f64 = 4.0 * f64::EPSILON;

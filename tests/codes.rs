@@ -3,7 +3,7 @@
 //! `RTC_UPDATE=1 cargo test --test codes` rewrites the page.
 
 #![expect(clippy::disallowed_methods, reason = "reads and renews what it checks")]
-use rtc::diag::codes;
+use rtc::internals::diag::codes;
 use std::path::Path;
 use std::process::Command;
 

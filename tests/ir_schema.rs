@@ -11,10 +11,10 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise and reads what it checks"
 )]
-use rtc::codec::{self, Form};
-use rtc::diag::Sink;
-use rtc::ir::VERSION;
-use rtc::source::SourceMap;
+use rtc::internals::codec::{self, Form};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::VERSION;
+use rtc::internals::source::SourceMap;
 use serde_json::{Value, json};
 use std::path::Path;
 

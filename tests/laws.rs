@@ -11,13 +11,13 @@ mod scale;
 mod small;
 
 use every::{is_the_same_in_any_order, makes_the_same_picture_times, powers};
-use rtc::codec::{self, Form};
-use rtc::diag::Sink;
-use rtc::ir::{Lowered, Origins, Scene};
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Crop, Job, Seeds, Tiles};
-use rtc::source::SourceMap;
+use rtc::internals::codec::{self, Form};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Crop, Job, Seeds, Tiles};
+use rtc::internals::source::SourceMap;
 use small::{WHOLE, bits, film, paths, small};
 use std::collections::BTreeSet;
 
@@ -156,7 +156,7 @@ fn seeds_change_the_noise_alone() {
         seeded(&scene, 1) != seeded(&scene, 2),
         "another seed is another picture"
     );
-    let distance = |a: &rtc::image::Image, b: &rtc::image::Image| {
+    let distance = |a: &rtc::internals::image::Image, b: &rtc::internals::image::Image| {
         let squares = a
             .pixels
             .iter()

@@ -3,13 +3,13 @@
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
-use rtc::diag::Sink;
-use rtc::math::ldexp;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Film, Job, Values};
-use rtc::source::SourceMap;
-use rtc::valid::Proof;
+use rtc::internals::diag::Sink;
+use rtc::internals::math::ldexp;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Film, Job, Values};
+use rtc::internals::source::SourceMap;
+use rtc::internals::valid::Proof;
 
 /// The bits of every value.
 fn bits(film: &Film) -> Vec<u64> {

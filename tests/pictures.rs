@@ -3,13 +3,13 @@
 
 #![expect(clippy::unwrap_used, reason = "a test stops at a surprise")]
 
-use rtc::diag::Sink;
-use rtc::ir::{self, Lowered, Scene};
-use rtc::math::{DoubleDouble, Vec3, view_basis};
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Film, Geometry, Job, Shape, World, camera_ray, image_point};
-use rtc::valid::{self, Proof};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{self, Lowered, Scene};
+use rtc::internals::math::{DoubleDouble, Vec3, view_basis};
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Film, Geometry, Job, Shape, World, camera_ray, image_point};
+use rtc::internals::valid::{self, Proof};
 
 fn proven(scene: Scene) -> Proof {
     let (mut sink, options) = (Sink::default(), Options::default());
@@ -87,6 +87,7 @@ fn earth() -> Scene {
         }],
         names: Vec::new(),
         environment: None,
+        display: ir::Display::default(),
     }
 }
 

@@ -3,9 +3,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test stops at a surprise")]
 
-use rtc::math::{Positive, Vec3};
-use rtc::render::{Geometry, PlainShape, Prepare, Ray, Real, Shape, Shear, SimdLevel};
-use rtc::valid;
+use rtc::internals::math::{Positive, Vec3};
+use rtc::internals::render::{Geometry, PlainShape, Prepare, Ray, Real, Shape, Shear, SimdLevel};
+use rtc::internals::valid;
 use std::sync::Arc;
 
 fn length(x: f64) -> Positive {

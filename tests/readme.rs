@@ -13,11 +13,11 @@
     reason = "a test stops at the first surprise, makes the files it needs, and writes the README if asked"
 )]
 
-use rtc::diag::Sink;
-use rtc::pipeline::{self, Options};
-use rtc::render::Step;
-use rtc::source::{Loader, SourceMap};
-use rtc::study::{self, About, Bench, Clock, Effort};
+use rtc::internals::diag::Sink;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::render::Step;
+use rtc::internals::source::{Loader, SourceMap};
+use rtc::internals::study::{self, About, Bench, Clock, Effort};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

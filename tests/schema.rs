@@ -9,10 +9,10 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise and reads what it checks"
 )]
-use rtc::diag::{Severity, Sink};
-use rtc::front::{self, course};
-use rtc::pipeline;
-use rtc::source::{SourceMap, budget};
+use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::front::{self, course};
+use rtc::internals::pipeline;
+use rtc::internals::source::{SourceMap, budget};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// Beside them, those of the files a scene names.
 const DECODER_ONLY: &[&str] = &[
     "SC007", "VA001", "VA002", "VA003", "VA009", "VA010", "VA012", "VA013", "VA015", "VA016",
-    "VA019", "VA104", "VA105", "VA106", "VA107",
+    "VA019", "VA021", "VA104", "VA105", "VA106", "VA107",
 ];
 
 const MUTANTS: u32 = 20_000;
@@ -189,13 +189,16 @@ fn material() -> (Vec<&'static str>, Vec<Value>) {
                 rotation side depth min max dimension direction height h ends p1 center1 center2 uv0 uv1 uv2 uv3 typ file \
                 path scale size normalMap specularMap pattern AA Reflections LightSamples CameraEye CameraLookPoint \
                 CameraUpVector Environment irradiance fov ImageSize Resolution AspectRatio SoftShadows \
-                AntiAliasing width x y nt isTransparent";
+                AntiAliasing width x y nt isTransparent intensity range innerAngle outerAngle projection matrix transform label \
+                ToneMap Exposure PathParameters samples baseColor baseColorMap roughness alpha ior wrap filter set";
     let values = json!([
         null, true, 0, 1, -1, 3, 0.5, -0.5, 2.0, 4.0, 70_000, 5e9, 1e-3, "text", "phong", "Z-Buffer", "gooch", "sphere",
         "plane", "triangle", "torus", "quad", "circle", "disk", "cylinder", "cone", "box", "mesh", "model", "bplane",
         "tetrahedron", "prism", "gltf", "sun", "point", "path", "jitter", "earth.png", [3, [0, 1, 0]], [3, 4], [0.5, 0.5], "", "1", "true", [], {}, [1, 2, 3], [0, 0, 1], [0.5, 1, 2], [1, 2], [1, 2, 3, 4],
         [1, "2", 3], [-1, 0, 0], [40, 30], [0, 5], [1.5, 2], { "factor": 2 }, { "factor": 0 }, { "b": 0.4 }, "On", "off", "refraction",
-        { "x": 40, "y": 30 }, [{ "width": 40 }, { "height": 30 }], [{ "w": 40, "h": 30 }]
+        { "x": 40, "y": 30 }, [{ "width": 40 }, { "height": 30 }], [{ "w": 40, "h": 30 }], "standard",
+        "spot", "blend", "clamp", "orthographic", ["repeat", "mirror"], { "mask": 0.5 }, { "file": "earth.png", "set": 1 },
+        { "samples": 3 }, { "type": "standard" }, [1, 0, 0, 0, 1, 0, 0, 0, 1], [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0]
     ]);
     (
         keys.split_whitespace().collect(),

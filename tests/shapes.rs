@@ -4,8 +4,8 @@
 mod solids;
 
 use proptest::prelude::*;
-use rtc::math::Vec3;
-use rtc::render::{
+use rtc::internals::math::Vec3;
+use rtc::internals::render::{
     Attributes, Disc, Geometry, Instance, PreparedMesh, Quad, Ray, Shear, Torus, Triangle,
 };
 use std::sync::Arc;
@@ -145,7 +145,7 @@ proptest! {
         });
         let nearest = nearest.min_by(f64::total_cmp);
         let positions = corners.iter().map(|corner| corner.to_array()).collect();
-        let level = rtc::render::SimdLevel::best();
+        let level = rtc::internals::render::SimdLevel::best();
         let mesh = PreparedMesh::new(&positions, &triangles.into(), Attributes::default(), level);
         let instance = Instance::new(&Arc::new(mesh), [x, y, z, to]);
         let found = instance.intersect(&ray, &Shear::new(&ray), f64::INFINITY).map(|(t, _)| t);

@@ -3,15 +3,15 @@
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
-use rtc::diag::Sink;
-use rtc::pipeline::{self, Options};
-use rtc::source::SourceMap;
+use rtc::internals::diag::Sink;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::SourceMap;
 use serde_json::{Value, json};
 
 /// A sound scene with one of everything that faults are made in.
 fn sound() -> Value {
     json!({
-        "irVersion": rtc::ir::VERSION,
+        "irVersion": rtc::internals::ir::VERSION,
         "camera": {"eye": [0.0, 0.0, 9.0], "center": [0.0, 0.0, 0.0], "right": [1.0, 0.0, 0.0], "up": [0.0, 1.0, 0.0],
                    "size": [4, 4], "lens": {"radius": 0.0, "samples": 1}},
         "settings": {"mode": "phong", "shadows": false, "maxDepth": 0, "supersampling": 1},

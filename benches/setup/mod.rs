@@ -7,15 +7,15 @@
     reason = "a measurement stops at the first surprise, and reads what it measures"
 )]
 
-use rtc::diag::Sink;
-use rtc::ir::{
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{
     Camera, Emitter, Environment, Lens, Light, Lowered, Mode, PathSettings as Paths, Projection,
     Punctual, Scene,
 };
-use rtc::math::{Vec3, camera_basis};
-use rtc::pipeline::{self, Options};
-use rtc::source::SourceMap;
-use rtc::valid::Proof;
+use rtc::internals::math::{Vec3, camera_basis};
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::SourceMap;
+use rtc::internals::valid::Proof;
 use serde_json::Value;
 use std::path::Path;
 

@@ -1,4 +1,4 @@
 //! A .glb file is lowered and proven or refused, and a proven scene survives both forms of the IR.
 
 #![no_main]
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc::pipeline::trial::glb(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc::internals::pipeline::trial::glb(bytes));

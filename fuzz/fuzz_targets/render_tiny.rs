@@ -1,4 +1,4 @@
 //! A proven scene is a picture of numbers in [0, 1].
 
 #![no_main]
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc::pipeline::trial::picture(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc::internals::pipeline::trial::picture(bytes));

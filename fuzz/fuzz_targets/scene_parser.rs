@@ -1,4 +1,4 @@
 //! A text of the course's format is lowered or refused.
 
 #![no_main]
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc::pipeline::trial::lower(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc::internals::pipeline::trial::lower(bytes));

@@ -2,7 +2,7 @@
 //! `image` do with it, and their replay in `tests/cases/corpora.rs`. The files lie in a temporary folder,
 //! and nothing is read or written outside.
 
-use rtc::pipeline::trial;
+use rtc::internals::pipeline::trial;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 use tempfile::TempDir;

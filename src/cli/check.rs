@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::args::CheckArgs;
-use super::input::Input;
+use super::input;
 use super::talk::{self, Talk};
 
 /// Checks the files and tells what was found.
@@ -10,9 +10,11 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let mut talk = Talk::as_result(&args.talk);
     let mut worst = Ok(());
     for path in &args.files {
-        let mut input = Input::read(path, &args.reading);
-        input.prove(|_, _| ());
-        match input.tell(&mut talk) {
+        let mut input = input::read(path, &args.reading);
+        if let Some(loaded) = input.load() {
+            input.prove(loaded, |_, _| ());
+        }
+        match input::tell(&mut input, &mut talk) {
             Err(gone @ Failure::ClosedPipe) => return Err(gone),
             Err(Failure::Findings) if worst.is_err() => {}
             Err(failure) => worst = Err(failure),

@@ -1,15 +1,20 @@
-//! `rtc compile`: a scene to the IR as text or binary, or back to its canonical spelling.
+//! `rtc compile`: a scene to the IR as text or binary, back to its canonical spelling, or to glTF.
 
 use super::Failure;
 use super::args::{Compile, Emit, Explanation, MessageFormat};
-use super::input::{self, Input};
+use super::input;
 use super::interrupt::Interrupt;
-use super::output::{self, Output};
+use super::output::{self, Companions, Output};
 use super::report::PlanReport;
+use super::simd;
 use super::talk::Talk;
-use crate::codec::{self, Form};
+use crate::codec::{self, Encoded, Form};
 use crate::emit;
+use crate::emit::course::WrittenScene;
+use crate::emit::gltf::GltfAsset;
+use crate::image::BackgroundFill;
 use crate::ir::Scene;
+use crate::pipeline::{Input, Observer, OutputFormat, OutputLook, PictureSetup, Proven};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -17,8 +22,12 @@ use std::path::Path;
 pub(super) fn run(args: &Compile) -> Result<(), Failure> {
     let target = target(args).unwrap_or(Path::new("-"));
     let emit = args.emit.map_or_else(|| by_extension(target), Ok)?;
-    if emit == Emit::IrBin {
+    if matches!(emit, Emit::IrBin | Emit::Glb) {
         output::refuse_terminal(target)?;
+    }
+    if emit != Emit::Glb && args.tolerance.is_some() {
+        let words = "`--tolerance` is about the meshes of glTF; name the output .glb";
+        return Err(Failure::Trouble(words.to_owned()));
     }
     let mut talk = Talk::beside_result(&args.talk);
     let outcome = carry_out(args, emit, &mut talk);
@@ -27,24 +36,102 @@ pub(super) fn run(args: &Compile) -> Result<(), Failure> {
 }
 
 fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure> {
-    let mut input = Input::staged(&args.file, &args.reading, &args.stage)?;
-    let proven = input::require(&mut input, talk, input::fill)?;
-    if let Some(form) = args.explain {
-        let form = if args.talk.message_format == MessageFormat::Json {
-            Explanation::Json
-        } else {
-            form
-        };
-        output::to_stdout(PlanReport::new(&proven, &input)?.print(form).as_bytes())?;
+    let mut input = input::staged(&args.file, &args.reading, &args.stage)?;
+    if emit == Emit::Yaml {
+        return carry_out_text(args, input, talk);
     }
+    let proven = input::require(&mut input, talk, input::fill)?;
+    explain(args, &proven, &input)?;
     let Some(target) = target(args) else {
         return Ok(());
     };
-    let write = writer(emit, &proven.lowered.scene).map_err(|reason| {
-        Failure::Input(format!("`{}` can't be written so: {reason}", input.name()))
-    })?;
+    let scene = &proven.lowered.scene;
+    let written = match emit {
+        Emit::Ir | Emit::Yaml => ir(Form::Text, scene),
+        Emit::IrBin => ir(Form::Binary, scene),
+        Emit::Glb => {
+            let asset = input.gltf(&proven.lowered, args.tolerance);
+            Ok(Written::Gltf(input::unless_refused(
+                asset, &mut input, talk,
+            )?))
+        }
+    };
+    let written = written.map_err(|reason| cannot(&input, &reason))?;
     let interrupt = Interrupt::listen()?;
-    Output::open(target, &input)?.commit_by(&write, &interrupt)
+    Output::open(target, &input)?.commit_by(&|out| written.write(out), &interrupt)
+}
+
+/// The same for the canonical spelling, which says how a picture is shown too.
+fn carry_out_text(args: &Compile, mut input: Input, talk: &mut Talk) -> Result<(), Failure> {
+    let look = OutputLook::new(OutputFormat::Png8, None, None, BackgroundFill::Film, &[]);
+    let mut setup = PictureSetup {
+        simd: simd::level()?,
+        ..PictureSetup::new(look.map_err(|words| Failure::Trouble(words.to_owned()))?)
+    };
+    let subject = match input.load() {
+        Some(loaded) => setup.prove(loaded, &mut input)?,
+        None => None,
+    };
+    let mut subject = input::unless_refused(subject, &mut input, talk)?;
+    let interrupt = Interrupt::listen()?;
+    let observer = Observer {
+        on_step: &|_| (),
+        is_stopped: &|| interrupt.is_raised(),
+    };
+    setup.light(&mut subject, &mut input, &observer)?;
+    input::tell(&mut input, talk)?;
+    let mut proven = subject.proven;
+    proven.lowered.scene.display = setup.look.as_display();
+    explain(args, &proven, &input)?;
+    match target(args) {
+        Some(target) => write_text(target, &proven, &input, &interrupt),
+        None => Ok(()),
+    }
+}
+
+/// Tells the plan, if that is asked for.
+fn explain(args: &Compile, proven: &Proven, input: &Input) -> Result<(), Failure> {
+    let Some(form) = args.explain else {
+        return Ok(());
+    };
+    let form = if args.talk.message_format == MessageFormat::Json {
+        Explanation::Json
+    } else {
+        form
+    };
+    output::to_stdout(PlanReport::new(proven, input)?.print(form).as_bytes())
+}
+
+/// Writes the scene in its canonical spelling, and beside it the files that it needs: those of a
+/// scene text without assets are there.
+fn write_text(
+    target: &Path,
+    proven: &Proven,
+    input: &Input,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
+    let scene = &proven.lowered.scene;
+    let output = Output::open(target, input)?;
+    let refuse = |reason: String| cannot(input, &reason);
+    if input.has_files_of_its_own(&proven.lowered) {
+        let text = emit::course::emit(scene).map_err(refuse)?;
+        return output.commit(text.as_bytes(), interrupt);
+    }
+    let folder = output.folder_beside(target);
+    let WrittenScene { text, files } =
+        emit::course::emit_beside(scene, folder.as_deref()).map_err(refuse)?;
+    let mut companions = Companions::beside(target);
+    for file in &files {
+        let bytes = file.bytes().map_err(refuse)?;
+        companions.put(&file.name, &bytes, interrupt)?;
+    }
+    output.commit(text.as_bytes(), interrupt)?;
+    companions.keep();
+    Ok(())
+}
+
+fn cannot(input: &Input, reason: &str) -> Failure {
+    Failure::Input(format!("`{}` can't be written so: {reason}", input.name()))
 }
 
 /// Where the IR goes, if anywhere: an explanation takes its place on standard output.
@@ -61,25 +148,32 @@ fn by_extension(output: &Path) -> Result<Emit, Failure> {
         Some("json") => Ok(Emit::Ir),
         Some("rtir") => Ok(Emit::IrBin),
         Some("yaml" | "yml") => Ok(Emit::Yaml),
+        Some("glb") => Ok(Emit::Glb),
         _ => Err(Failure::Trouble(format!(
-            "can't tell from `{}` what to write; name it .json, .rtir or .yaml, or give `--emit`",
+            "can't tell from `{}` what to write; name it .json, .rtir, .yaml or .glb, or give `--emit`",
             output.display()
         ))),
     }
 }
 
-/// What writes the scene in this form.
-fn writer(emit: Emit, scene: &Scene) -> Result<impl Fn(&mut dyn Write) -> io::Result<()>, String> {
-    let ir = |form| {
-        codec::prepare(form, scene).map_err(|codec::NotFinite| "a number is not finite".to_owned())
-    };
-    let (encoded, text) = match emit {
-        Emit::Ir => (Some(ir(Form::Text)?), String::new()),
-        Emit::IrBin => (Some(ir(Form::Binary)?), String::new()),
-        Emit::Yaml => (None, emit::course::emit(scene)?),
-    };
-    Ok(move |out: &mut dyn Write| match &encoded {
-        Some(encoded) => encoded.write(out),
-        None => out.write_all(text.as_bytes()),
-    })
+/// A scene in the form that is written.
+enum Written<'s> {
+    Ir(Encoded<'s>),
+    Gltf(GltfAsset),
+}
+
+impl Written<'_> {
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        match self {
+            Self::Ir(encoded) => encoded.write(out),
+            Self::Gltf(asset) => asset.write(out),
+        }
+    }
+}
+
+fn ir(form: Form, scene: &Scene) -> Result<Written<'_>, String> {
+    let encoded = codec::prepare(form, scene);
+    encoded
+        .map(Written::Ir)
+        .map_err(|codec::NotFinite| "a number is not finite".to_owned())
 }

@@ -2,11 +2,13 @@
 
 use super::Failure;
 use super::args::{self, StudyFormat};
-use super::input::{self, Input};
+use super::input;
 use super::interrupt::Interrupt;
 use super::output::Output;
+use super::simd;
 use super::talk::Talk;
 use crate::ir::Scene;
+use crate::pipeline::{self, Input};
 use crate::source::{Loader, SourceMap};
 use crate::study::{self, About, Bench, Clock, Stopped, Study};
 use cpu_time::ThreadTime;
@@ -16,7 +18,7 @@ use std::time::{Duration, Instant};
 /// Studies the scene and writes the report.
 pub(super) fn run(args: &args::Cost) -> Result<(), Failure> {
     let mut talk = Talk::beside_result(&args.talk);
-    let mut input = Input::staged(&args.file, &args.reading, &args.stage)?;
+    let mut input = input::staged(&args.file, &args.reading, &args.stage)?;
     input.use_threads(threads(args));
     let outcome = carry_out(args, &mut input, &mut talk);
     talk.finish()?;
@@ -63,7 +65,7 @@ fn measure(
     scene: &Scene,
     interrupt: &Interrupt,
 ) -> Result<Study, Failure> {
-    let start = Instant::now();
+    let (simd, start) = (simd::level()?, Instant::now());
     let cpu = || ThreadTime::try_now().map_or(Duration::ZERO, |time| time.as_duration());
     let wall = || start.elapsed();
     let on_pixel = |_| !interrupt.is_raised();
@@ -76,6 +78,7 @@ fn measure(
         &on_pixel,
     );
     let bench = bench.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
+    let bench = bench.at_level(simd);
     study::study(scene, about, args.effort.into(), args.seed, &bench)
         .map_err(|Stopped| Failure::Interrupted)
 }
@@ -86,7 +89,7 @@ fn about(name: &str, scene: &Scene) -> About {
             || name.to_owned(),
             |name| name.to_string_lossy().into_owned(),
         ),
-        hash: input::hash(scene),
+        hash: pipeline::hash(scene),
         software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
         processor: processor().unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
         cores: std::thread::available_parallelism().map_or(1, usize::from),

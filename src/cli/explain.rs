@@ -2,7 +2,7 @@
 
 use super::args::Explain;
 use super::{Failure, output};
-use crate::diag::{Code, Severity, clip, codes};
+use crate::diag::{Code, clip, codes};
 use crate::plan::Rule;
 
 /// Columns of the text.
@@ -67,11 +67,7 @@ fn entry(code: &Code) -> String {
         explanation,
         aliases,
     } = code;
-    let severity = match severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-        Severity::Note => "note",
-    };
+    let severity = severity.name();
     let known = match aliases {
         [] => String::new(),
         names => format!(

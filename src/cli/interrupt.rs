@@ -5,6 +5,7 @@
 //! the second.
 
 use super::Failure;
+use crate::pipeline::WriteObserver;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -39,13 +40,15 @@ impl Interrupt {
     pub(super) fn is_raised(&self) -> bool {
         self.0.raised.load(Ordering::Relaxed)
     }
+}
 
-    /// Does some work during which the file at `draft` is not to stay behind.
-    pub(super) fn guard<T>(&self, draft: &Path, work: impl FnOnce() -> T) -> T {
-        *self.0.draft() = Some(draft.to_owned());
-        let done = work();
-        *self.0.draft() = None;
-        done
+impl WriteObserver for Interrupt {
+    fn is_stopped(&self) -> bool {
+        self.is_raised()
+    }
+
+    fn draft(&self, path: Option<&Path>) {
+        *self.0.draft() = path.map(Path::to_owned);
     }
 }
 

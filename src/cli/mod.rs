@@ -8,10 +8,9 @@ mod check;
 mod compile;
 mod cost;
 mod explain;
-mod findings;
 mod input;
 mod interrupt;
-mod look;
+mod merge;
 mod output;
 mod parse;
 mod progress;
@@ -73,7 +72,8 @@ fn guarded(work: impl FnOnce() -> u8) -> u8 {
 }
 
 fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let cli = match Cli::try_parse_from(arguments) {
+    let typed: Vec<OsString> = arguments.into_iter().collect();
+    let cli = match Cli::try_parse_from(&typed) {
         Ok(cli) => cli,
         Err(error) => {
             // Help and version come this way too. That nobody reads them is no failure.
@@ -90,7 +90,8 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let outcome = match cli.command {
         Command::Check(args) => check::run(&args),
         Command::Compile(args) => compile::run(&args),
-        Command::Render(args) => render::run(&args),
+        Command::Render(args) => render::run(&args, &typed),
+        Command::Merge(args) => merge::run(&args),
         Command::Cost(args) => cost::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Schema(args) => tell::schema(&args),

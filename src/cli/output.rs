@@ -1,20 +1,14 @@
-//! The one writer: a result appears whole or not at all.
-//!
-//! A file is written beside its target under another name, synced and renamed. An unfinished file
-//! is removed.
+//! Where results go: standard output, a stream, or a file, which appears whole or not at all.
 
 use super::Failure;
-use super::input::Input;
 use super::interrupt::Interrupt;
-use std::fs::{self, File, OpenOptions, Permissions};
+use crate::pipeline::{Input, NewFile};
+use crate::source::{Loader, SourceMap};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
-use tempfile::NamedTempFile;
-
-/// The most links that are followed to where a file is to be.
-const MAX_LINKS: usize = 40;
 
 /// How long to wait for a reader before looking again, and for a signal.
 const WAIT: Duration = Duration::from_millis(10);
@@ -30,8 +24,7 @@ enum Place {
     Stdout,
     /// A device or a pipe, which cannot be replaced.
     Stream(PathBuf),
-    /// A file, which will have these permissions if there is one already.
-    File(PathBuf, Option<Permissions>),
+    File(NewFile),
 }
 
 /// What writes a result.
@@ -41,6 +34,11 @@ impl Output {
     /// Looks whether `path`, `-` being standard output, can be written, so that a long work is not
     /// done in vain: it may be none of what was read.
     pub(super) fn open(path: &Path, input: &Input) -> Result<Self, Failure> {
+        Self::apart_from(path, input.map())
+    }
+
+    /// The same for what was read into a map, or noted there.
+    pub(super) fn apart_from(path: &Path, read: &SourceMap) -> Result<Self, Failure> {
         if path.as_os_str() == "-" {
             return Ok(Self {
                 name: "standard output".to_owned(),
@@ -48,13 +46,26 @@ impl Output {
             });
         }
         let name = format!("`{}`", path.display());
-        if input.has_read(path) {
+        if read.has_read(path) {
             return Err(Failure::Trouble(format!(
                 "can't write {name}: it is an input of this run"
             )));
         }
-        let place = Place::new(path).map_err(|error| failure(&name, &error))?;
+        let file = NewFile::at(path).map_err(|error| failure(&name, &error))?;
+        let place = file.map_or_else(|| Place::Stream(path.to_owned()), Place::File);
         Ok(Self { name, place })
+    }
+
+    /// The name of a folder beside the result for files that it needs; none beside what is no file.
+    pub(super) fn folder_beside(&self, path: &Path) -> Option<String> {
+        let is_file = matches!(self.place, Place::File(_));
+        let stem = path.file_stem().filter(|_| is_file)?.to_string_lossy();
+        let allowed = |letter: char| letter.is_alphanumeric() || "-_. ".contains(letter);
+        let stem: String = stem
+            .chars()
+            .map(|letter| if allowed(letter) { letter } else { '_' })
+            .collect();
+        Some(format!("{stem}.files"))
     }
 
     /// Writes the result; a file appears under its name only now, and not after Ctrl-C.
@@ -72,9 +83,7 @@ impl Output {
             Place::Stream(target) => {
                 stream(target, interrupt).and_then(|mut stream| write(&mut stream))
             }
-            Place::File(target, permissions) => {
-                replace(target, permissions.clone(), write, interrupt)
-            }
+            Place::File(file) => file.write(write, interrupt),
         };
         written.map_err(|error| match interrupt.is_raised() {
             true => Failure::Interrupted,
@@ -83,39 +92,87 @@ impl Output {
     }
 }
 
-impl Place {
-    fn new(path: &Path) -> io::Result<Self> {
-        let present = fs::metadata(path).ok();
-        let permissions = match &present {
-            Some(meta) if meta.is_dir() => return Err(ErrorKind::IsADirectory.into()),
-            Some(meta) if !meta.is_file() => return Ok(Self::Stream(path.to_owned())),
-            Some(meta) if meta.permissions().readonly() => {
-                return Err(io::Error::other("the file is read-only"));
+/// Files that a result needs, in folders beside it: they go again unless they are to be kept.
+pub(super) struct Companions {
+    folder: PathBuf,
+    /// The files and folders that were made, in this order.
+    files: Vec<PathBuf>,
+    folders: Vec<PathBuf>,
+}
+
+impl Companions {
+    /// None so far, beside the result at `path`.
+    pub(super) fn beside(path: &Path) -> Self {
+        Self {
+            folder: folder_of(path).to_owned(),
+            files: Vec::new(),
+            folders: Vec::new(),
+        }
+    }
+
+    /// Writes one, by its path from the folder of the result. What is there with the same bytes stays;
+    /// anything else is never written over.
+    pub(super) fn put(
+        &mut self,
+        name: &str,
+        bytes: &[u8],
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let target = self.folder.join(name);
+        let shown = format!("`{}`", target.display());
+        match fs::symlink_metadata(&target) {
+            Ok(there) if is_same(&there, &target, bytes) => return Ok(()),
+            Ok(_) => {
+                let fault = io::Error::other("there is something else of this name");
+                return Err(failure(&shown, &fault));
             }
-            Some(meta) => Some(meta.permissions()),
-            None => None,
-        };
-        // A link stays a link: what it points to is replaced, or made.
-        let target = path.canonicalize().or_else(|_| followed(path))?;
-        let folder = folder_of(&target);
-        // The errors of what follows name the draft, which means nothing to the user: the folder
-        // and the kind say it.
-        fs::metadata(folder)?;
-        draft(folder).map_err(|error| io::Error::from(error.kind()))?;
-        Ok(Self::File(target, permissions))
+            Err(_) => {}
+        }
+        let written = self.make_folder(&target).and_then(|()| {
+            let file = NewFile::at(&target)?.ok_or(ErrorKind::AlreadyExists)?;
+            file.write(&|out| out.write_all(bytes), interrupt)
+        });
+        match written {
+            Ok(()) => self.files.push(target),
+            Err(_) if interrupt.is_raised() => return Err(Failure::Interrupted),
+            Err(error) => return Err(failure(&shown, &error)),
+        }
+        Ok(())
+    }
+
+    fn make_folder(&mut self, target: &Path) -> io::Result<()> {
+        let folder = folder_of(target);
+        if !folder.is_dir() {
+            fs::create_dir(folder)?;
+            self.folders.push(folder.to_owned());
+        }
+        Ok(())
+    }
+
+    /// Lets them stay: the result is there.
+    pub(super) fn keep(mut self) {
+        self.files.clear();
+        self.folders.clear();
     }
 }
 
-/// The target of a path through links, which need not exist yet.
-fn followed(path: &Path) -> io::Result<PathBuf> {
-    let mut target = path.to_owned();
-    for _ in 0..MAX_LINKS {
-        match fs::read_link(&target) {
-            Ok(next) => target = folder_of(&target).join(next),
-            Err(_) => return Ok(target),
+impl Drop for Companions {
+    fn drop(&mut self) {
+        // What can't be removed stays: the fault that led here is told.
+        for file in self.files.drain(..) {
+            let _ = fs::remove_file(file);
+        }
+        for folder in self.folders.drain(..) {
+            let _ = fs::remove_dir(folder);
         }
     }
-    Err(io::Error::other("too many links"))
+}
+
+/// Whether a file holds these bytes.
+fn is_same(there: &fs::Metadata, path: &Path, bytes: &[u8]) -> bool {
+    let length = bytes.len() as u64;
+    let read = || Loader.bytes(path, length, &SourceMap::default());
+    there.is_file() && there.len() == length && read().is_ok_and(|own| own == bytes)
 }
 
 fn folder_of(target: &Path) -> &Path {
@@ -123,38 +180,6 @@ fn folder_of(target: &Path) -> &Path {
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty())
         .unwrap_or(Path::new("."))
-}
-
-/// An empty file with the permissions of any new one, gone when dropped.
-fn draft(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".rtc-").suffix(".tmp");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
-}
-
-/// Writes a file beside its target and puts it in place, unless Ctrl-C comes before.
-fn replace(
-    target: &Path,
-    permissions: Option<Permissions>,
-    write: Writer<'_>,
-    interrupt: &Interrupt,
-) -> io::Result<()> {
-    let mut draft = draft(folder_of(target)).map_err(|error| io::Error::from(error.kind()))?;
-    let path = draft.path().to_owned();
-    interrupt.guard(&path, || {
-        if let Some(permissions) = permissions {
-            draft.as_file().set_permissions(permissions)?;
-        }
-        // By the file itself: the errors of its wrapper name the draft.
-        write(draft.as_file_mut())?;
-        draft.as_file().sync_all()?;
-        if interrupt.is_raised() {
-            return Err(ErrorKind::Interrupted.into());
-        }
-        draft.persist(target).map_err(|error| error.error).map(drop)
-    })
 }
 
 /// A device or a pipe whose waits a signal ends.

@@ -2,6 +2,7 @@
 
 use crate::image::BackgroundFill;
 use crate::passes::{Orbit, Sun};
+use crate::pipeline::{Exposure, MOST_SHARES};
 use crate::plan::Rule;
 use crate::render::Crop;
 use crate::source::Resource;
@@ -18,9 +19,25 @@ pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
         .ok_or_else(|| "expected width and height above 0, as 640x480".to_owned())
 }
 
+/// Which share, and of how many.
+pub(super) fn share(text: &str) -> Result<[u32; 2], String> {
+    let numbers = text.split_once('/');
+    let numbers = numbers.and_then(|(i, n)| Some([i.parse().ok()?, n.parse().ok()?]));
+    numbers
+        .filter(|[index, count]| (1..=*count).contains(index) && *count <= MOST_SHARES)
+        .ok_or_else(|| format!("expected a share and their number, at most {MOST_SHARES}, as 3/8"))
+}
+
 pub(super) fn moment(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
     number.ok_or_else(|| "expected a number of seconds, as 1.5".to_owned())
+}
+
+/// A length above 0.
+pub(super) fn length(text: &str) -> Result<f64, String> {
+    let length = text.parse().ok();
+    let length = length.filter(|length: &f64| *length > 0.0 && length.is_finite());
+    length.ok_or_else(|| "expected a length above 0, as 0.01".to_owned())
 }
 
 /// A limit by its name, and its number, which a unit may follow.
@@ -147,6 +164,11 @@ pub(super) fn seconds(text: &str) -> Result<Duration, String> {
         .ok_or_else(|| "expected seconds above 0, as 2.5".to_owned())
 }
 
+/// Seconds, with an `s` or without.
+pub(super) fn interval(text: &str) -> Result<Duration, String> {
+    seconds(text.strip_suffix('s').unwrap_or(text))
+}
+
 pub(super) fn setting(text: &str) -> Result<(String, String), String> {
     let pair = text
         .split_once('=')
@@ -170,15 +192,6 @@ pub(super) fn orbit(text: &str) -> Result<Orbit, String> {
         elevation: elevation.to_radians(),
         roll: roll.to_radians(),
     })
-}
-
-/// An exposure.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Exposure {
-    /// By what is seen.
-    Auto,
-    /// In stops.
-    Stops(f64),
 }
 
 pub(super) fn exposure(text: &str) -> Result<Exposure, String> {

@@ -93,13 +93,18 @@ pub(super) fn per_second(rays: u64, elapsed: Duration) -> String {
     format!("{} rays/s", HumanCount(rate))
 }
 
+/// `1,234,567 rays`.
+pub(super) fn rays(count: u64) -> String {
+    format!("{} rays", HumanCount(count))
+}
+
 /// `1,234,567 rays, 0.52 s, 2,374,167 rays/s`.
-pub(super) fn summary(rays: u64, elapsed: Duration) -> String {
+pub(super) fn summary(count: u64, elapsed: Duration) -> String {
     format!(
-        "{} rays, {:.2} s, {}",
-        HumanCount(rays),
+        "{}, {:.2} s, {}",
+        rays(count),
         elapsed.as_secs_f64(),
-        per_second(rays, elapsed)
+        per_second(count, elapsed)
     )
 }
 

@@ -6,8 +6,7 @@
 
 use super::Failure;
 use super::args::Explanation;
-use super::input::{Input, Proven};
-use crate::pipeline;
+use crate::pipeline::{self, Input, Proven};
 use crate::plan::{Plan, Rule, Rules, State, Verdict};
 use crate::render::{Counts, Job, KERNELS, PATH_KERNELS, Stride, choose, choose_for_paths};
 use crate::valid::{Mode, Proof};

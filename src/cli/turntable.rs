@@ -1,9 +1,9 @@
 //! A turntable: views all around a scene, which is proven once; and what their files are called.
 
 use super::Failure;
-use super::input::Proven;
 use crate::ir::{Camera, Scene};
 use crate::math::{Vec3, unit};
+use crate::pipeline::Proven;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 

@@ -96,6 +96,7 @@ pub(super) fn encode(scene: &Scene) -> Result<ContainerDraft<'_>, NotFinite> {
         surfaces,
         names,
         environment,
+        display,
     } = scene;
     if !meshes.iter().all(is_finite) {
         return Err(NotFinite);
@@ -123,6 +124,9 @@ pub(super) fn encode(scene: &Scene) -> Result<ContainerDraft<'_>, NotFinite> {
     }
     if let Some(environment) = environment {
         scene.insert("environment".to_owned(), tree(environment)?);
+    }
+    if !display.is_plain() {
+        scene.insert("display".to_owned(), tree(display)?);
     }
     let header = Header {
         ir_version: VERSION,

@@ -11,7 +11,7 @@ pub fn schema() -> Value {
     if let Some(root) = schema.as_object_mut() {
         root.insert(
             "title".to_owned(),
-            format!("rtc scene IR, version {VERSION} (unreleased)").into(),
+            format!("rtc scene IR, version {VERSION}").into(),
         );
         put_first(root, "properties", version_property());
         if let Some(required) = root.get_mut("required").and_then(Value::as_array_mut) {

@@ -7,7 +7,8 @@
 use super::{Decoded, faults, locate, newer, span, typed, wrong_shape};
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{
-    Camera, Environment, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture, VERSION,
+    Camera, Display, Environment, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture,
+    VERSION,
 };
 use crate::source::tree::{Tree, json};
 use crate::source::{Budget, FileId, Resource};
@@ -46,6 +47,8 @@ struct Document {
     names: Vec<String>,
     #[serde(default)]
     environment: Option<Environment>,
+    #[serde(default)]
+    display: Display,
 }
 
 impl From<Document> for Scene {
@@ -65,6 +68,7 @@ impl From<Document> for Scene {
             surfaces,
             names,
             environment,
+            display,
             ..
         } = document;
         Self {
@@ -78,6 +82,7 @@ impl From<Document> for Scene {
             surfaces,
             names,
             environment,
+            display,
         }
     }
 }

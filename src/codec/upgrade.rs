@@ -33,7 +33,8 @@ fn from_1(_tree: &mut Value) {}
 /// a default.
 fn from_2(_tree: &mut Value) {}
 
-/// Version 4 is not released; what it adds has a default, or is a shape that older files don't hold.
+/// Version 4 added measured lamps, paraboloids, cartoons, surfaces without a shadow, the display and
+/// more of the material; what is absent has a default, or is of a kind that older files don't hold.
 fn from_3(_tree: &mut Value) {}
 
 fn rename(map: &mut Value, old: &str, new: &str) {

@@ -2,9 +2,13 @@
 //! number and give numbers in [0, 1], but for [`Tone::None`].
 
 use super::srgb_encoded;
+use arbitrary::Arbitrary;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// How linear values become those of a display.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase")]
 pub enum Tone {
     /// As they are.
     None,
@@ -19,7 +23,10 @@ pub enum Tone {
 }
 
 impl Tone {
-    /// Its name on the command line.
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::None, Self::Srgb, Self::Agx, Self::PbrNeutral];
+
+    /// Its name on the command line and in scene files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -11,7 +11,7 @@ mod sink;
 
 pub use clip::{clip, clip_path, clip_words};
 pub use codes::{Code, Severity};
-pub use print::{Format, PrintOptions, Printer};
+pub use print::{Format, PrintOptions, Printer, one};
 pub use sink::Sink;
 
 use crate::source::Span;

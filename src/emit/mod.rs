@@ -1,3 +1,4 @@
-//! The IR back to text that people and other tools read. One folder a language.
+//! The IR back to what people and other tools read. One folder a language.
 
 pub mod course;
+pub mod gltf;

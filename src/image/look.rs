@@ -3,9 +3,11 @@
 
 use super::{Image, Layers, Picture};
 use crate::color::Tone;
+use serde::{Deserialize, Serialize};
 
 /// The background.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub enum BackgroundFill {
     /// The background of the film.
     #[default]

@@ -12,7 +12,7 @@ mod texels;
 
 pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
 pub use look::{Association, BackgroundFill, Look, exposure};
-pub use png::commented;
+pub use png::{commented, png_bytes};
 pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::Lost;
 pub use texels::{Texel, Texels};

@@ -50,10 +50,29 @@ fn encode(
     samples: &[u8],
     kinds: [ExtendedColorType; 2],
 ) -> Result<Vec<u8>, EncodeError> {
-    let mut bytes = Vec::new();
     let kind = kinds[usize::from(picture.alpha.is_some())];
+    png([picture.image.width, picture.image.height], samples, kind)
+}
+
+/// Pixels of 8 bits a channel, in rows from the top, as they are: red, green, blue, and opacity if
+/// there is one.
+///
+/// # Panics
+/// If there are not as many as width and height say.
+#[must_use]
+pub fn png_bytes(size: [u32; 2], has_alpha: bool, pixels: &[u8]) -> Vec<u8> {
+    let kind = [ExtendedColorType::Rgb8, ExtendedColorType::Rgba8][usize::from(has_alpha)];
+    png(size, pixels, kind).expect("the pixels are as many as the size says")
+}
+
+fn png(
+    [width, height]: [u32; 2],
+    samples: &[u8],
+    kind: ExtendedColorType,
+) -> Result<Vec<u8>, EncodeError> {
+    let mut bytes = Vec::new();
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive)
-        .write_image(samples, picture.image.width, picture.image.height, kind)
+        .write_image(samples, width, height, kind)
         .map_err(|error| EncodeError(error.to_string()))?;
     Ok(bytes)
 }

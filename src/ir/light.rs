@@ -133,6 +133,8 @@ pub struct Spelling<'a> {
     pub kind: &'static str,
     /// The keys of its points and directions, with their values.
     pub triples: Vec<(&'static str, [f64; 3])>,
+    /// The keys of its numbers, with their values.
+    pub numbers: Vec<(&'static str, f64)>,
     /// The file of its profile.
     pub file: Option<&'a str>,
     /// The key of the intensity.
@@ -243,32 +245,57 @@ impl Emitter {
         }
     }
 
-    /// How a scene of the course writes it, if that can.
+    /// How a scene of the course writes it.
     #[must_use]
-    pub fn spelling(&self) -> Option<Spelling<'_>> {
+    pub fn spelling(&self) -> Spelling<'_> {
+        let range = self.range().map(|range| ("range", range));
         match self {
-            Self::Sun { direction } => Some(Spelling {
+            Self::Sun { direction } => Spelling {
                 kind: "sun",
                 triples: vec![("direction", *direction)],
+                numbers: Vec::new(),
                 file: None,
                 intensity: "irradiance",
-            }),
+            },
+            Self::Point { position, range: _ } => Spelling {
+                kind: "point",
+                triples: vec![("position", *position)],
+                numbers: range.into_iter().collect(),
+                file: None,
+                intensity: "intensity",
+            },
+            Self::Spot {
+                position,
+                direction,
+                inner_angle,
+                outer_angle,
+                range: _,
+            } => {
+                let angles = [("innerAngle", *inner_angle), ("outerAngle", *outer_angle)];
+                Spelling {
+                    kind: "spot",
+                    triples: vec![("position", *position), ("direction", *direction)],
+                    numbers: angles.into_iter().chain(range).collect(),
+                    file: None,
+                    intensity: "intensity",
+                }
+            }
             Self::Lamp {
                 position,
                 direction,
                 horizontal,
                 photometry,
-            } => Some(Spelling {
+            } => Spelling {
                 kind: "ies",
                 triples: vec![
                     ("position", *position),
                     ("direction", *direction),
                     ("horizontal", *horizontal),
                 ],
+                numbers: Vec::new(),
                 file: Some(&photometry.name),
                 intensity: "color",
-            }),
-            Self::Point { .. } | Self::Spot { .. } => None,
+            },
         }
     }
 }

@@ -7,6 +7,7 @@
 
 mod bounds;
 mod camera;
+mod display;
 mod environment;
 mod image;
 mod light;
@@ -22,6 +23,7 @@ mod texture;
 pub use crate::math::{Column, Shared};
 pub use bounds::Ball;
 pub use camera::{Camera, Lens, Projection};
+pub use display::Display;
 pub use environment::Environment;
 pub use image::{Image, ImageId, Pixels};
 pub use light::{Emitter, Light, Photometry, PointLight, Punctual, Spelling};
@@ -39,8 +41,7 @@ use serde::{Deserialize, Serialize};
 
 /// The version of the representation that this build writes. It reads this one and every older one.
 ///
-/// Version 4 is not released: until it is closed, fields and shapes may still be added to it, each
-/// with a default, and files of it are promised to no later build.
+/// A closed version is never changed: what is added is a new one (`schema/ir.md`).
 pub const VERSION: u32 = 4;
 
 /// One scene: what the camera sees, by which rules, and all there is to see.
@@ -72,6 +73,9 @@ pub struct Scene {
     /// What surrounds it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<Environment>,
+    /// How its values are shown.
+    #[serde(default, skip_serializing_if = "Display::is_plain")]
+    pub display: Display,
 }
 
 impl Scene {
@@ -89,6 +93,7 @@ impl Scene {
             surfaces: Vec::new(),
             names: Vec::new(),
             environment: None,
+            display: Display::default(),
         }
     }
 

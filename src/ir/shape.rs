@@ -96,7 +96,7 @@ macro_rules! declare {
 
         impl ShapeKind {
             /// Its word in the IR.
-            pub(super) fn word(self) -> &'static str {
+            pub fn word(self) -> &'static str {
                 match self {
                     $(Self::$Name => stringify!($word),)*
                 }

@@ -63,6 +63,14 @@ macro_rules! map_mut_of {
     };
 }
 
+/// Leaves out the map that a parameter of a kind holds, if its texture is missing.
+macro_rules! forget_map {
+    (map, $map:expr, $is_missing:ident) => {
+        $map.take_if(|map| $is_missing(&map.texture))
+    };
+    ($kind:ident, $value:expr, $is_missing:ident) => {};
+}
+
 /// The material, from the table of its parameters.
 macro_rules! material {
     ($(
@@ -74,11 +82,8 @@ macro_rules! material {
         /// gives it.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
         #[serde(rename_all = "camelCase", deny_unknown_fields, default)]
-        #[expect(
-            missing_docs,
-            reason = "each is named and described in the specification of glTF"
-        )]
         pub struct Standard {
+            /// What people call it.
             #[serde(skip_serializing_if = "String::is_empty")]
             pub name: String,
             $(
@@ -98,6 +103,11 @@ macro_rules! material {
             pub fn maps_mut(&mut self) -> impl Iterator<Item = &mut Map> {
                 [$(map_mut_of!($kind, self.$field)),*].into_iter().flatten()
             }
+
+            /// Leaves out the maps whose textures are said to be missing.
+            pub fn forget_maps(&mut self, is_missing: impl Fn(&TextureId) -> bool) {
+                $(forget_map!($kind, self.$field, is_missing);)*
+            }
         }
 
         impl Default for Standard {
@@ -110,15 +120,6 @@ macro_rules! material {
 }
 
 parameters!(material);
-
-impl Standard {
-    /// Whether camera rays skip the back. The back of a transmitting material is never skipped: a
-    /// ray may meet it from inside.
-    #[must_use]
-    pub fn is_seen_from_one_side(&self) -> bool {
-        !self.double_sided && self.transmission == 0.0
-    }
-}
 
 /// Of what an IR text always holds.
 fn never<T>(_: &T) -> bool {

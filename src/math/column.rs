@@ -116,6 +116,15 @@ impl<const N: usize> Column<N> {
         self.len() == 0
     }
 
+    /// How many bytes its numbers take.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        match self {
+            Self::Single(vectors) => size_of_val(vectors.as_slice()),
+            Self::Double(vectors) => size_of_val(vectors.as_slice()),
+        }
+    }
+
     /// What it says of vertex `index`, which is below the length.
     #[must_use]
     #[inline]

@@ -14,5 +14,6 @@ pub use overrides::Overrides;
 pub use settings::set;
 pub use stage::{
     EnvironmentOverride, FillLight, IntegratorChoice, Stage, Staged, StudioChoice, Sun, View,
+    add_light, remove_lights,
 };
 pub use studio::fill;

@@ -299,6 +299,20 @@ fn leave_paths(scene: &mut Scene) {
     }
 }
 
+/// Adds a light. As of a scene text: what has a physical light is shown by its paths.
+pub fn add_light(scene: &mut Scene, light: Light) {
+    if light.point().is_none() && scene.settings.mode == Mode::Phong {
+        trace_paths(scene);
+    }
+    scene.lights.push(light);
+}
+
+/// Takes the lights away, and where they were written.
+pub fn remove_lights(lowered: &mut Lowered) {
+    lowered.scene.lights.clear();
+    lowered.origins.forget(Noun::Light);
+}
+
 /// Puts lights of the course in place of physical ones, which Whitted's integrator does not see.
 fn stand_lights(scene: &mut Scene) {
     if scene.lights.iter().all(|light| light.point().is_some()) {

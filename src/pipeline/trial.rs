@@ -224,6 +224,7 @@ fn make_tiny(scene: &mut Scene) {
         surfaces,
         names,
         environment: _,
+        display: _,
     } = scene;
     camera.size = camera.size.map(|pixels| pixels.min(2 * TINY));
     camera.lens.samples = camera.lens.samples.min(TINY);

@@ -123,6 +123,11 @@ impl LightFindings {
                     receiver,
                 });
             }
+            if let Some(bits) = self.plans[light].casters.get_mut(receiver)
+                && facts.is_clear(may_cast, caster, receiver, &source)
+            {
+                *bits &= !(1 << caster);
+            }
         }
         falls
     }
@@ -179,6 +184,10 @@ impl Facts<'_> {
                 kept,
                 direct: rule.is_none(),
                 shadowed,
+                casters: match self.bodies.len() {
+                    count @ 0..=64 => vec![u64::MAX; count],
+                    _ => Vec::new(),
+                },
             },
             rule,
         )
@@ -211,6 +220,29 @@ impl Facts<'_> {
             Hull::Other => false,
         };
         spares && self.rules.contains(Rule::ShadowConvex)
+    }
+
+    /// Whether shadow rays from a surface need not ask a caster, given whether it may cast a shadow
+    /// there.
+    ///
+    /// Of itself only a ball and a plane along an axis are not asked: the rounding of a triangle's
+    /// own plane may hide a light from it where the light grazes it.
+    fn is_clear(&self, may_cast: bool, caster: usize, receiver: usize, light: &Space) -> bool {
+        let (body, other) = (&self.bodies[receiver], &self.bodies[caster]);
+        match (&body.extent, &other.extent) {
+            (Extent::Plane(flat), Extent::Plane(_)) if caster == receiver => {
+                self.rules.contains(Rule::ShadowConvex)
+                    && share_an_axis(flat, flat)
+                    && flat.sides(light) != Sides::BOTH
+            }
+            (Extent::Plane(flat), Extent::Plane(other)) => {
+                self.rules.contains(Rule::ShadowPair)
+                    && share_an_axis(flat, other)
+                    && is_beside(other, &Space::around(flat.point, Vec3::ZERO), light)
+            }
+            _ if caster == receiver => !may_cast && matches!(body.form, Hull::Ball(..)),
+            _ => !may_cast,
+        }
     }
 }
 
@@ -273,6 +305,13 @@ impl BoundingBall {
         let min = (-linear / square).clamp(0.0, 1.0);
         [0.0, min, 1.0].into_iter().any(|tau| value(tau) <= slack)
     }
+}
+
+/// Whether the normals of two planes lie along one axis, exactly: the planes are parallel however
+/// far they reach.
+fn share_an_axis(first: &Flat, second: &Flat) -> bool {
+    let is_axis = |normal: Vec3| Vec3::AXES.contains(&normal.abs());
+    is_axis(first.normal) && first.normal.abs() == second.normal.abs()
 }
 
 /// Whether two boxes lie on the same side of a plane.

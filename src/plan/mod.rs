@@ -85,6 +85,18 @@ pub struct LightPlan {
     pub direct: bool,
     /// Per surface of the scene, whether something may stand between it and the light.
     pub shadowed: Vec<bool>,
+    /// Per surface of the scene, which surfaces may: a bit for each. Empty where there are more than
+    /// 64, of which all may.
+    pub casters: Vec<u64>,
+}
+
+impl LightPlan {
+    /// Whether a surface may hide the light from another one.
+    #[must_use]
+    pub fn may_hide(&self, caster: usize, receiver: usize) -> bool {
+        let bits = self.casters.get(receiver);
+        bits.is_none_or(|bits| bits >> caster & 1 == 1)
+    }
 }
 
 /// The work that a picture needs.

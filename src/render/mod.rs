@@ -24,6 +24,7 @@ pub use bsdf::{Bsdf, BsdfSample, Evaluation, Lobes, dispersed};
 pub use camera::{Camera, Projection, camera_ray, image_point, vogel};
 pub use film::heartbeat::{OnPixel, Step};
 pub use film::partial::{FilmError, PartialFilm};
+pub use film::pixel::BLOCK as SAMPLES_OF_BLOCK;
 pub use film::progressive::{ProgressiveFilm, Replicates};
 pub use film::{Background, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
 pub use frame::verify::Mismatch;

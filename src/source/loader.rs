@@ -4,11 +4,12 @@
 //! What the user names is opened as it is. What a scene names is opened first, and judged by what
 //! was opened: a path can lead elsewhere the next time it is followed.
 
-use super::{FileId, Found, SourceMap};
+use super::{FileId, Found, MemoryFiles, SourceMap};
 use std::fmt;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The largest file read, in bytes: offsets are 32 bits, and a larger scene text is a mistake.
 const MAX_BYTES: u64 = 1 << 30;
@@ -48,6 +49,20 @@ impl Loader {
         Ok(map.add_from(path, bytes))
     }
 
+    /// Reads the file at `path` of files in memory, as a scene that may name the others.
+    ///
+    /// # Errors
+    /// If there is none, or that it is too large.
+    pub fn memory(
+        &self,
+        path: &str,
+        files: &Arc<MemoryFiles>,
+        map: &mut SourceMap,
+    ) -> Result<FileId, LoadError> {
+        let bytes = in_memory(files, Path::new(path), MAX_BYTES)?;
+        Ok(map.add_memory(path, files, bytes))
+    }
+
     /// Reads all of `reader`, for instance standard input, under the name given.
     ///
     /// # Errors
@@ -67,7 +82,9 @@ impl Loader {
     /// # Errors
     /// What the system says, or that the file is too large.
     pub fn found(&self, found: &Found, limit: u64, map: &SourceMap) -> Result<Vec<u8>, LoadError> {
-        map.note(&found.path);
+        if found.opened().memory().is_none() {
+            map.note(&found.path);
+        }
         found.opened().bytes(limit)
     }
 
@@ -88,7 +105,13 @@ impl Loader {
 
 /// What tells a file from others, by whatever names and links it is reached.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Identity(FileIdentity);
+pub struct Identity(Known);
+
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Known {
+    ToSystem(FileIdentity),
+    InMemory(PathBuf),
+}
 
 /// Device and inode.
 #[cfg(unix)]
@@ -102,8 +125,14 @@ type FileIdentity = PathBuf;
 #[derive(Debug)]
 pub(super) struct Opened {
     path: PathBuf,
+    content: Content,
+}
+
+#[derive(Debug)]
+enum Content {
     /// Or why the system did not open it.
-    file: io::Result<File>,
+    System(io::Result<File>),
+    Memory(Arc<MemoryFiles>),
 }
 
 impl Opened {
@@ -121,7 +150,27 @@ impl Opened {
                 return None;
             }
         }
-        Some(Self { path, file })
+        Some(Self {
+            path,
+            content: Content::System(file),
+        })
+    }
+
+    /// The file at a path of files in memory.
+    pub(super) fn in_memory(files: &Arc<MemoryFiles>, path: &Path) -> Option<Self> {
+        let (path, _) = files.get(path)?;
+        Some(Self {
+            path: path.to_owned(),
+            content: Content::Memory(Arc::clone(files)),
+        })
+    }
+
+    /// The files in memory that it is of.
+    pub(super) fn memory(&self) -> Option<&Arc<MemoryFiles>> {
+        match &self.content {
+            Content::System(_) => None,
+            Content::Memory(files) => Some(files),
+        }
     }
 
     /// Where it lies, free of links.
@@ -131,18 +180,21 @@ impl Opened {
 
     /// What tells it from other files; `None` if it can't be read.
     pub(super) fn identity(&self) -> Option<Identity> {
-        let file = self.file.as_ref().ok()?;
+        let Content::System(file) = &self.content else {
+            return Some(Identity(Known::InMemory(self.path.clone())));
+        };
+        let file = file.as_ref().ok()?;
         #[cfg(unix)]
         let key = key(&file.metadata().ok()?);
         #[cfg(not(unix))]
         let key = file.metadata().ok().map(|_| self.path.clone())?;
-        Some(Identity(key))
+        Some(Identity(Known::ToSystem(key)))
     }
 
     /// The first bytes, of at most 64 KiB; none if it can't be read.
     pub(super) fn head(&self) -> Vec<u8> {
         let mut head = Vec::new();
-        if let Ok(file) = &self.file
+        if let Content::System(Ok(file)) = &self.content
             && file.take(1 << 16).read_to_end(&mut head).is_err()
         {
             head.clear();
@@ -151,12 +203,13 @@ impl Opened {
     }
 
     fn bytes(&self, limit: u64) -> Result<Vec<u8>, LoadError> {
-        match &self.file {
-            Ok(file) => {
+        match &self.content {
+            Content::Memory(files) => in_memory(files, &self.path, limit),
+            Content::System(Ok(file)) => {
                 (&*file).rewind().map_err(LoadError::Io)?;
                 whole(file, limit)
             }
-            Err(error) => Err(LoadError::Io(
+            Content::System(Err(error)) => Err(LoadError::Io(
                 error
                     .raw_os_error()
                     .map_or(error.kind().into(), io::Error::from_raw_os_error),
@@ -193,6 +246,13 @@ fn is_same(a: &Metadata, b: &Metadata) -> bool {
 #[cfg(not(unix))]
 fn is_same(a: &Metadata, b: &Metadata) -> bool {
     (a.len(), a.modified().ok()) == (b.len(), b.modified().ok())
+}
+
+/// A copy of a file in memory.
+fn in_memory(files: &MemoryFiles, path: &Path, limit: u64) -> Result<Vec<u8>, LoadError> {
+    let missing = || LoadError::Io(io::ErrorKind::NotFound.into());
+    let (_, bytes) = files.get(path).ok_or_else(missing)?;
+    all(bytes, bytes.len(), limit)
 }
 
 /// All of an open file.

@@ -1,10 +1,11 @@
 //! The source map: owns the bytes of every file read and turns offsets into lines and columns.
 
-use super::{Budget, Folder, Found, Limits};
+use super::memory::resolved;
+use super::{Budget, Folder, Found, Limits, MemoryFiles};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// How far into a file a NUL is looked for.
 const SNIFF: usize = 8192;
@@ -119,6 +120,17 @@ impl SourceMap {
     pub fn add_from(&mut self, path: &Path, bytes: Vec<u8>) -> FileId {
         let folder = Folder::new(path.parent().unwrap_or(Path::new("")));
         self.push(path.display().to_string(), folder, bytes)
+    }
+
+    /// Adds a file at a path of files in memory.
+    ///
+    /// # Panics
+    /// As [`Self::add`].
+    pub fn add_memory(&mut self, path: &str, files: &Arc<MemoryFiles>, bytes: Vec<u8>) -> FileId {
+        let parent = Path::new(path).parent().unwrap_or(Path::new(""));
+        let shown = Some(parent.to_owned());
+        let folder = Folder::in_memory(files, &resolved(parent), shown);
+        self.push(path.to_owned(), Some(folder), bytes)
     }
 
     /// Adds a file that was found; it is called as the user would write it.

@@ -4,10 +4,12 @@
 pub mod budget;
 mod loader;
 mod map;
+mod memory;
 mod search;
 pub mod tree;
 
 pub use budget::{Budget, Exceeded, Limits, Resource};
 pub use loader::{Identity, LoadError, Loader};
 pub use map::{FileId, LineColumn, SourceMap, Span};
+pub use memory::MemoryFiles;
 pub use search::{FileKind, Folder, Found, Missing, Search};

@@ -7,20 +7,17 @@
 //! The parent is not the scene's own: what it lends is shown by its name and its first bytes to be
 //! what the scene asks for, and a home, a folder of the system or a hidden file lends nothing.
 
+mod folder;
 mod neighbours;
+
+pub use folder::Folder;
 
 use super::loader::{Identity, Opened};
 use std::fs;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// The maximum number of components of a name that are tried, from its end.
 const MAX_COMPONENTS: usize = 16;
-
-/// Folders of the system, which lend nothing, nor does any folder below.
-const OF_THE_SYSTEM: [&str; 5] = ["/proc", "/sys", "/dev", "/etc", "/private/etc"];
-
-/// Folders of homes.
-const OF_HOMES: [&str; 3] = ["/home", "/Users", "C:\\Users"];
 
 /// The folders in which files are looked for, in this order.
 #[derive(Clone, Debug, Default)]
@@ -30,15 +27,6 @@ pub struct Search {
     has_parent: bool,
     /// The folder the user allows, resolved.
     allowed: Option<PathBuf>,
-}
-
-/// A folder.
-#[derive(Clone, Debug)]
-pub struct Folder {
-    /// As the user would write it.
-    shown: PathBuf,
-    /// Without links and `..`.
-    resolved: PathBuf,
 }
 
 /// A kind of file that scenes name.
@@ -73,62 +61,6 @@ pub enum Missing {
     Outside(Vec<PathBuf>),
 }
 
-impl Folder {
-    /// The folder that the user writes so; `None` if there is none. Nothing stands for the current
-    /// one.
-    #[must_use]
-    pub fn new(shown: &Path) -> Option<Self> {
-        let path = if shown.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            shown
-        };
-        Some(Self {
-            shown: shown.to_owned(),
-            resolved: fs::canonicalize(path).ok()?,
-        })
-    }
-
-    /// A folder free of links, shown by the first of these names that leads there.
-    fn named(resolved: &Path, names: impl IntoIterator<Item = PathBuf>) -> Self {
-        let leads_there = |folder: &Self| folder.resolved == resolved;
-        let folder = names
-            .into_iter()
-            .find_map(|name| Self::new(&name).filter(leads_there));
-        folder.unwrap_or_else(|| Self {
-            shown: resolved.to_owned(),
-            resolved: resolved.to_owned(),
-        })
-    }
-
-    fn parent(&self) -> Option<Self> {
-        let lexical = self
-            .shown
-            .parent()
-            .filter(|_| !self.shown.ends_with(".."))
-            .map(Path::to_owned);
-        Some(Self::named(
-            self.resolved.parent()?,
-            lexical.into_iter().chain([self.shown.join("..")]),
-        ))
-    }
-
-    /// Whether it may lend files to scenes in a folder within; `home` is that of the user.
-    fn lends(&self, home: Option<&Path>) -> bool {
-        let path = &self.resolved;
-        let names = path
-            .components()
-            .filter(|part| matches!(part, Component::Normal(_)))
-            .count();
-        let of_system = OF_THE_SYSTEM.iter().any(|folder| path.starts_with(folder));
-        let is_home = home == Some(path)
-            || OF_HOMES
-                .iter()
-                .any(|homes| path.parent() == Some(Path::new(homes)));
-        names >= 2 && !of_system && !is_home
-    }
-}
-
 impl Found {
     fn new(opened: Opened, shown: PathBuf, elsewhere: bool) -> Self {
         Self {
@@ -142,10 +74,12 @@ impl Found {
     /// The folder it lies in.
     #[must_use]
     pub fn folder(&self) -> Option<Folder> {
-        Some(Folder::named(
-            self.path.parent()?,
-            self.shown.parent().map(Path::to_owned),
-        ))
+        let shown = self.shown.parent().map(Path::to_owned);
+        let resolved = self.path.parent()?;
+        Some(match self.opened.memory() {
+            Some(files) => Folder::in_memory(files, resolved, shown),
+            None => Folder::named(resolved, shown),
+        })
     }
 
     /// What tells it from other files; `None` if it can't be read.
@@ -217,10 +151,13 @@ enum At {
 }
 
 impl Search {
-    /// Looks in `folder`, that of the scene, and in `allowed`.
+    /// Looks in `folder`, that of the scene, and in `allowed`; of files in memory in all.
     #[must_use]
     pub fn new(folder: Option<&Folder>, allowed: Option<&Path>) -> Self {
-        let given = allowed.and_then(Folder::new);
+        let given = match folder.and_then(Folder::memory) {
+            Some(files) => Some(Folder::in_memory(files, Path::new(""), None)),
+            None => allowed.and_then(Folder::new),
+        };
         let allowed = given.as_ref().map(|folder| folder.resolved.clone());
         Self {
             folders: folder.cloned().into_iter().chain(given).collect(),
@@ -327,7 +264,7 @@ impl Search {
             .as_ref()
             .filter(|_| name.climbs > 0 && !name.is_absolute)?;
         let above = scene.resolved.ancestors().nth(name.climbs)?;
-        let opened = Opened::at(&above.join(name.components.iter().collect::<PathBuf>()))?;
+        let opened = scene.open(&above.join(name.components.iter().collect::<PathBuf>()))?;
         self.is_allowed(opened.path()).then_some(opened)
     }
 
@@ -349,7 +286,7 @@ impl Search {
     }
 
     fn within(&self, folder: &Folder, tail: &Path) -> At {
-        let Some(opened) = Opened::at(&folder.resolved.join(tail)) else {
+        let Some(opened) = folder.open(&folder.resolved.join(tail)) else {
             return At::Nothing;
         };
         let is_inside =
@@ -366,8 +303,7 @@ impl Search {
     fn other_case(&self, place: usize, tail: &Path, kind: &FileKind) -> Option<Found> {
         let folder = &self.folders[place];
         let wanted = tail.file_name()?.to_str()?.to_lowercase();
-        let entries = fs::read_dir(folder.resolved.join(tail).parent()?).ok()?;
-        let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let names = folder.names(folder.resolved.join(tail).parent()?);
         let mut alike: Vec<String> = names.filter(|name| name.to_lowercase() == wanted).collect();
         alike.sort();
         alike.into_iter().find_map(|name| {

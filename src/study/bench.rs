@@ -1,6 +1,8 @@
 //! The environment of a study: threads, a clock, and an observer who may say stop.
 
-use crate::render::{OnPixel, Step};
+use crate::plan::Plan;
+use crate::render::{AnyWorld, Film, Job, OnPixel, SimdLevel};
+use crate::valid::Proof;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::time::Duration;
 
@@ -61,6 +63,8 @@ pub struct Bench<'a> {
     wide: ThreadPool,
     /// One thread, for timed work: its processor time does not depend on other load.
     narrow: ThreadPool,
+    /// The vector instructions that scenes are rendered with.
+    simd: SimdLevel,
 }
 
 impl<'a> Bench<'a> {
@@ -80,12 +84,20 @@ impl<'a> Bench<'a> {
             on_pixel,
             wide: pool(threads)?,
             narrow: pool(1)?,
+            simd: SimdLevel::best(),
         })
     }
 
-    /// Whether to go on after a step of a render.
-    pub(super) fn goes_on(&self, step: Step) -> bool {
-        (self.on_pixel)(step)
+    /// The same bench, where scenes are rendered with the vector instructions of a level: what is
+    /// found is the same, but for the time it takes.
+    #[must_use]
+    pub fn at_level(self, simd: SimdLevel) -> Self {
+        Self { simd, ..self }
+    }
+
+    /// Renders a scene as planned; `None` if the observer said stop.
+    pub(super) fn render(&self, scene: &Proof, plan: &Plan, job: &Job) -> Option<Film> {
+        AnyWorld::prepare_at(scene, plan, self.simd).render(job, self.on_pixel)
     }
 
     /// Does a piece of work on all threads.

@@ -17,6 +17,7 @@ mod pareto;
 mod precision;
 mod race;
 mod reference;
+#[cfg(feature = "cli")]
 mod report;
 mod setting;
 mod statistics;
@@ -32,6 +33,7 @@ pub use metrics::{Errors, LEVELS, rmse};
 pub use outcome::{About, KnobReport, Rays, ReferenceReport, Row, Study, StudyArea};
 pub use precision::PrecisionCost;
 pub use reference::{DepthEnd, Level};
+#[cfg(feature = "cli")]
 pub use report::{csv, html, json, table};
 pub use setting::Setting;
 pub use statistics::{Estimate, PowerLaw, Rng, median};

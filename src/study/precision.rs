@@ -29,6 +29,7 @@ pub struct PrecisionCost {
     pub difference: Errors,
 }
 
+#[cfg(feature = "cli")]
 impl PrecisionCost {
     /// Its name, and whether there is a warning.
     pub(super) fn words(&self) -> String {

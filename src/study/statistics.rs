@@ -1,7 +1,7 @@
 //! Statistics for studies: medians with confidence intervals, power laws, and repeatable random
 //! numbers.
 
-use crate::math::{exp, ln, pow};
+use crate::math::{GAMMA, exp, ln, mix, pow};
 use serde::{Deserialize, Serialize};
 
 /// A number with its 95 % confidence interval.
@@ -47,8 +47,7 @@ impl Estimate {
     }
 }
 
-/// Repeatable random numbers: SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
-/// generators", 2014).
+/// Repeatable random numbers, by SplitMix64.
 #[derive(Clone, Debug)]
 pub struct Rng(u64);
 
@@ -61,10 +60,9 @@ impl Rng {
 
     /// A number below `bound`, which is above 0.
     pub fn below(&mut self, bound: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        let wide = u128::from(x ^ (x >> 31)) * bound as u128;
+        let bits = mix(self.0);
+        self.0 = self.0.wrapping_add(GAMMA);
+        let wide = u128::from(bits) * bound as u128;
         usize::try_from(wide >> 64).unwrap_or(0)
     }
 

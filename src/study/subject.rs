@@ -6,7 +6,7 @@ use super::setting::Setting;
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
 use crate::plan::{Arithmetic, Plan, Rules};
-use crate::render::{Counts, Crop, Job, Seeds, Tiles, render};
+use crate::render::{Counts, Crop, Job, Seeds, Tiles};
 use crate::valid::{Proof, revalidate};
 
 /// A scene, and the part of its picture that is rendered.
@@ -140,7 +140,7 @@ impl<'bench> Subject<'bench> {
         };
         let seconds = |job| {
             let plan = || Plan::by(setting.precision, &scene, Rules::ALL);
-            let work = || render(&scene, &plan(), job, &|step| self.bench.goes_on(step));
+            let work = || self.bench.render(&scene, &plan(), job);
             self.bench.measure(work).1.cpu
         };
         let round = |_| {
@@ -180,7 +180,7 @@ impl<'bench> Subject<'bench> {
             ..Job::default()
         };
         let plan = Plan::by(arithmetic, scene, Rules::ALL);
-        let film = render(scene, &plan, &job, &|step| self.bench.goes_on(step)).ok_or(Stopped)?;
+        let film = self.bench.render(scene, &plan, &job).ok_or(Stopped)?;
         let counts = film.counts;
         if self.is_whole() {
             return Ok(RenderedTiles {

@@ -164,10 +164,12 @@ pub fn validate(
         surfaces,
         names: _,
         environment,
+        display,
     } = scene;
     let mut check = Check::new(origins, sink);
     let valid_camera = camera::camera(camera, &mut check);
     let valid_settings = settings::settings(settings, &mut check);
+    settings::display(display, &mut check);
     let valid_lights = check.all(lights, light::light);
     let valid_environment =
         environment::environment(environment.as_ref(), images.len(), &mut check);

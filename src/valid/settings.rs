@@ -229,6 +229,18 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<
     check.report(at(culprit), "", finding);
 }
 
+/// Checks how values are shown: by so many stops as change a picture.
+pub(super) fn display(display: &ir::Display, check: &mut Check<'_>) {
+    const MOST: f64 = ir::Display::MOST_STOPS;
+    let ir::Display { exposure, tone: _ } = display;
+    if !(-MOST..=MOST).contains(exposure) {
+        let message =
+            format!("the exposure is `{exposure}` stops, but must be from -{MOST} to {MOST}");
+        let finding = Diagnostic::new(&codes::OUT_OF_RANGE, message);
+        check.report(at(Field::Whole), "", finding);
+    }
+}
+
 /// The number of rays per sub-sample, by purpose.
 struct SampleCounts {
     paths: u32,

@@ -5,7 +5,7 @@ use super::texture::{self, Map};
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{self, Field, Noun, Place};
 use crate::math::{NonNegative, Positive, UnitInterval, Vec3};
-use crate::standard::{map_of, parameters};
+use crate::standard::{camel_case, map_of, parameters};
 
 /// The type of a proven parameter of a kind of the table.
 macro_rules! proven {
@@ -78,10 +78,6 @@ macro_rules! material {
         /// The material of glTF, proven: the factors of its specification, by whose names they go,
         /// each in its range, and the maps that multiply them.
         #[derive(Clone, Debug, PartialEq)]
-        #[expect(
-            missing_docs,
-            reason = "each is named and described in the specification of glTF"
-        )]
         pub struct Standard {
             $($(#[doc = $about])* pub $field: proven!($kind),)*
         }
@@ -105,7 +101,7 @@ macro_rules! material {
             let ir::Standard { name: _, $($field,)* } = material;
             let at = place(Noun::Material, index, Field::Whole);
             let mut parameters = Parameters { at, counts, check };
-            $(let $field = parameters.$kind($field, stringify!($field));)*
+            $(let $field = parameters.$kind($field, camel_case!($field));)*
             Some(Standard { $($field: $field?,)* })
         }
     };
@@ -162,7 +158,6 @@ impl Parameters<'_, '_> {
     fn within(&mut self, value: f64, name: &str, [low, high]: Range) -> Option<f64> {
         let is_sound = low <= value && value <= high;
         if !is_sound {
-            let name = camel_case(name);
             let message =
                 format!("`{name}` of a material is `{value}`, but must be from {low} to {high}");
             let finding = Diagnostic::new(&codes::BAD_FACTOR, message);
@@ -273,14 +268,4 @@ impl Parameters<'_, '_> {
             texture::map(map, counts, at, check)
         })
     }
-}
-
-/// A name of a field as the IR text writes it.
-fn camel_case(name: &str) -> String {
-    let mut words = name.split('_');
-    let first = words.next().unwrap_or_default().to_owned();
-    words.fold(first, |whole, word| {
-        let (initial, rest) = word.split_at(word.len().min(1));
-        whole + &initial.to_uppercase() + rest
-    })
 }

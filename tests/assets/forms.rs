@@ -2,11 +2,11 @@
 
 use super::{folder, write};
 use proptest::prelude::*;
-use rtc::diag::Sink;
-use rtc::front::mesh::{Parsed, ParsedMesh, Unread, is_mesh, parse};
-use rtc::ir::{Lowered, Material, Mode};
-use rtc::pipeline::{Options, load, prove};
-use rtc::source::{Budget, Limits, Loader, Resource, SourceMap};
+use rtc::internals::diag::Sink;
+use rtc::internals::front::mesh::{Parsed, Unread, is_mesh, parse};
+use rtc::internals::ir::{Column, Lowered, Material, Mode};
+use rtc::internals::pipeline::{Options, load, prove};
+use rtc::internals::source::{Budget, Limits, Loader, Resource, SourceMap};
 
 /// The vertices of a tetrahedron.
 const CORNERS: [[f32; 3]; 4] = [
@@ -104,20 +104,17 @@ fn fault(bytes: &[u8]) -> (String, String) {
 #[test]
 fn stl_says_the_same_as_text_and_in_binary() {
     for is_text in [true, false] {
-        let ParsedMesh {
-            positions,
-            normals,
-            uvs,
-            colors,
-            triangles,
-        } = read(&stl(is_text)).mesh;
+        let mesh = read(&stl(is_text)).mesh;
         let expected = FACES.as_flattened().iter();
         let expected: Vec<_> = expected
             .map(|at| CORNERS[*at as usize].map(f64::from))
             .collect();
-        assert_eq!(positions, expected);
-        assert_eq!(triangles, [[0, 1, 2], [3, 4, 5], [6, 7, 8], [9, 10, 11]]);
-        assert_eq!((normals.len(), uvs.len(), colors.len()), (0, 0, 0));
+        assert_eq!(mesh.positions.iter().collect::<Vec<_>>(), expected);
+        let triangles = [[0, 1, 2], [3, 4, 5], [6, 7, 8], [9, 10, 11]];
+        assert_eq!(*mesh.triangles, triangles);
+        let none = (mesh.normals.len(), mesh.uvs.len(), mesh.colors.len());
+        assert_eq!(none, (0, 0, 0));
+        assert_eq!((mesh.second_uvs.len(), mesh.tangents.len()), (0, 0));
     }
 }
 
@@ -127,13 +124,13 @@ fn ply_says_the_same_in_every_form() {
         let parsed = read(&ply(form));
         let mesh = parsed.mesh;
         assert_eq!(
-            mesh.positions,
+            mesh.positions.iter().collect::<Vec<_>>(),
             CORNERS.map(|corner| corner.map(f64::from)),
             "{}",
             form.0
         );
-        assert_eq!(mesh.triangles, [[0, 2, 1], [0, 1, 3], [0, 3, 2]]);
-        let [red, green, blue, alpha] = mesh.colors[3];
+        assert_eq!(*mesh.triangles, [[0, 2, 1], [0, 1, 3], [0, 3, 2]]);
+        let [red, green, blue, alpha] = mesh.colors.at(3);
         assert_eq!((red, green, alpha), (1.0, 0.0, 1.0));
         assert!((blue - 0.214).abs() < 1e-3, "a coded 0.5 is {blue}");
         assert_eq!(
@@ -142,6 +139,35 @@ fn ply_says_the_same_in_every_form() {
             "a face of two corners"
         );
     }
+}
+
+#[test]
+fn a_ply_keeps_the_precision_of_its_numbers() {
+    let head = |kind: &str| {
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty {kind} x\nproperty {kind} y\n\
+             property {kind} z\nproperty float s1\nproperty float t1\nproperty float linear_red\n\
+             property float linear_green\nproperty float linear_blue\nproperty float linear_alpha\n\
+             element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        )
+    };
+    let body = "0 0 0 0.5 0.25 0.5 2 0 1\n1 0 0 0 0 0 0 0 1\n0 1 0 0 0 0 0 0 1\n3 0 1 2\n";
+    for (kind, is_single) in [("float", true), ("double", false), ("int", false)] {
+        let mesh = read(format!("{}{body}", head(kind)).as_bytes()).mesh;
+        assert_eq!(
+            matches!(mesh.positions, Column::Single(_)),
+            is_single,
+            "{kind}"
+        );
+        assert_eq!(mesh.second_uvs.at(0), [0.5, 0.25]);
+        assert_eq!(
+            mesh.colors.at(0),
+            [0.5, 2.0, 0.0, 1.0],
+            "nothing decodes or clamps them"
+        );
+    }
+    let negative = format!("{}{body}", head("float")).replace("0.5 2 0 1", "0.5 -2 0 1");
+    assert_eq!(fault(negative.as_bytes()).0, "a colour is negative");
 }
 
 #[test]

@@ -13,14 +13,17 @@ mod names;
 mod outside;
 mod picture;
 mod search;
+#[path = "../texts/mod.rs"]
+mod texts;
+mod written;
 
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
-use rtc::diag::{Severity, Sink};
-use rtc::front::FrontOptions;
-use rtc::front::course::UnfinishedScene;
-use rtc::front::course::assets::{self, Asset, Wanted};
-use rtc::ir::{Bump, Image, ImageId, Lowered, Mesh, MeshId, Pixels, Texture, TextureId};
-use rtc::source::{Loader, SourceMap, Span};
+use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::front::FrontOptions;
+use rtc::internals::front::course::UnfinishedScene;
+use rtc::internals::front::course::assets::{self, Asset, Wanted};
+use rtc::internals::ir::{Bump, Image, ImageId, Lowered, Mesh, MeshId, Pixels, Texture, TextureId};
+use rtc::internals::source::{Loader, SourceMap, Span};
 use std::fs;
 use std::io::Cursor;
 use std::path::Path;
@@ -33,8 +36,13 @@ fn lowered(map: &mut SourceMap) -> Lowered {
                 position: [0, 0, 0], radius: 1, material: {color: [1, 0, 0], ka: 1, kd: 1, ks: 0, n: 1}}\n";
     let file = map.add("course", text.as_bytes().to_vec());
     let mut sink = Sink::default();
-    let mut lowered =
-        rtc::pipeline::load(file, map, &rtc::pipeline::Options::default(), &mut sink).unwrap();
+    let mut lowered = rtc::internals::pipeline::load(
+        file,
+        map,
+        &rtc::internals::pipeline::Options::default(),
+        &mut sink,
+    )
+    .unwrap();
     assert!(!sink.has_errors(), "{sink:?}");
     lowered.scene.images = vec![Image {
         name: "picture".to_owned(),

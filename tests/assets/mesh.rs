@@ -2,8 +2,8 @@
 
 use super::{MESH, Outcome, bring, folder, write};
 use proptest::prelude::*;
-use rtc::front::FrontOptions;
-use rtc::ir::{Column, Mesh};
+use rtc::internals::front::FrontOptions;
+use rtc::internals::ir::{Column, Mesh};
 
 /// Brings a mesh file of this text.
 fn mesh(text: impl AsRef<[u8]>) -> Outcome {

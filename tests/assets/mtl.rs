@@ -3,12 +3,12 @@
 
 use super::{folder, write};
 use proptest::prelude::*;
-use rtc::diag::Sink;
-use rtc::emit::course::emit;
-use rtc::front::mesh::mtl;
-use rtc::ir::{Instance, Lowered, Phong, Scene, Shape};
-use rtc::pipeline::{Options, load};
-use rtc::source::{Budget, Loader, SourceMap};
+use rtc::internals::diag::Sink;
+use rtc::internals::emit::course::emit;
+use rtc::internals::front::mesh::mtl;
+use rtc::internals::ir::{Instance, Lowered, Phong, Scene, Shape};
+use rtc::internals::pipeline::{Options, load};
+use rtc::internals::source::{Budget, Loader, SourceMap};
 use std::path::Path;
 
 /// A mesh of three faces: one asks for nothing, one for `a`, one for `b`.

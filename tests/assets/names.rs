@@ -1,10 +1,10 @@
 //! Files of many names.
 
 use super::{folder, png, write};
-use rtc::diag::Sink;
-use rtc::ir::{ImageId, MeshId, Scene, Shape, Texture};
-use rtc::pipeline::{self, Options};
-use rtc::source::{Loader, SourceMap};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{ImageId, MeshId, Scene, Shape, Texture};
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::{Loader, SourceMap};
 use std::fs;
 use tempfile::TempDir;
 

@@ -2,8 +2,8 @@
 
 use super::search::found;
 use super::{IMAGE, MESH, bring, folder, pixels, png, write};
-use rtc::front::FrontOptions;
-use rtc::front::course::assets::Asset;
+use rtc::internals::front::FrontOptions;
+use rtc::internals::front::course::assets::Asset;
 use std::fs;
 use tempfile::TempDir;
 

@@ -2,8 +2,8 @@
 
 use super::{IMAGE, Outcome, bring, encoded, folder, pixels, png, write};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage, Rgba, RgbaImage};
-use rtc::front::FrontOptions;
-use rtc::ir::TextureId;
+use rtc::internals::front::FrontOptions;
+use rtc::internals::ir::TextureId;
 
 /// Brings a picture of these bytes.
 fn picture(bytes: &[u8]) -> Outcome {

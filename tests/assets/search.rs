@@ -1,12 +1,12 @@
 //! Where the files a scene names are looked for.
 
 use super::{IMAGE, MESH, bring, folder, lowered, pixels, png, write};
-use rtc::diag::Sink;
-use rtc::front::FrontOptions;
-use rtc::front::course::UnfinishedScene;
-use rtc::front::course::assets::{self, Wanted};
-use rtc::ir::TextureId;
-use rtc::source::{SourceMap, Span};
+use rtc::internals::diag::Sink;
+use rtc::internals::front::FrontOptions;
+use rtc::internals::front::course::UnfinishedScene;
+use rtc::internals::front::course::assets::{self, Wanted};
+use rtc::internals::ir::TextureId;
+use rtc::internals::source::{SourceMap, Span};
 
 /// Brings a picture named `path`, with these files around; the first byte of what was found, and
 /// the findings with the folder called `F`.

@@ -2,8 +2,8 @@
 //! difference.
 
 use crate::{lattice, variety, view};
-use rtc::math::Vec3;
-use rtc::render::{Bsdf, StandardParameters};
+use rtc::internals::math::Vec3;
+use rtc::internals::render::{Bsdf, StandardParameters};
 use std::f64::consts::{PI, TAU};
 
 /// Bins over the sphere: along the cosine, and along the azimuth.

@@ -1,8 +1,8 @@
 //! No material makes light, a white one loses none, and reflection is the same both ways.
 
 use crate::{albedo, lattice, variety, view};
-use rtc::math::Vec3;
-use rtc::render::{Bsdf, Clearcoat, StandardParameters};
+use rtc::internals::math::Vec3;
+use rtc::internals::render::{Bsdf, Clearcoat, StandardParameters};
 
 #[test]
 fn a_white_surface_in_a_white_sky_is_white() {

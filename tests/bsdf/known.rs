@@ -2,8 +2,8 @@
 //! formulas of glTF's appendix B.
 
 use crate::{albedo, view};
-use rtc::math::Vec3;
-use rtc::render::{Bsdf, StandardParameters};
+use rtc::internals::math::Vec3;
+use rtc::internals::render::{Bsdf, StandardParameters};
 use std::f64::consts::PI;
 
 #[test]

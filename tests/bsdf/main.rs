@@ -10,8 +10,8 @@ mod density;
 mod energy;
 mod known;
 
-use rtc::math::Vec3;
-use rtc::render::{
+use rtc::internals::math::Vec3;
+use rtc::internals::render::{
     Anisotropy, Bsdf, Clearcoat, DiffuseTransmission, Iridescence, Sheen, StandardParameters,
 };
 use std::f64::consts::FRAC_1_PI;

@@ -7,8 +7,8 @@ mod inputs;
 
 use super::suite::{root, trial};
 use libtest_mimic::Trial;
-use rtc::cli;
-use rtc::pipeline::trial as run;
+use rtc::internals::cli;
+use rtc::internals::pipeline::trial as run;
 use std::path::PathBuf;
 
 /// The folders every target starts from.

@@ -3,10 +3,10 @@
 
 use super::suite::{files, name, root, trial};
 use libtest_mimic::Trial;
-use rtc::diag::{Severity, Sink};
-use rtc::ir::{Mesh, Scene};
-use rtc::pipeline::{self, Options};
-use rtc::source::{Loader, SourceMap};
+use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::ir::{Mesh, Scene};
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::{Loader, SourceMap};
 use std::collections::BTreeSet;
 use std::path::Path;
 use xxhash_rust::xxh3::xxh3_64;

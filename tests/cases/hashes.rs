@@ -10,9 +10,9 @@
 use super::small::{WHOLE, bits, film, paths, reduced, small};
 use super::suite::{root, trial, updates};
 use libtest_mimic::Trial;
-use rtc::ir::Scene;
-use rtc::pipeline::Options;
-use rtc::source::SourceMap;
+use rtc::internals::ir::Scene;
+use rtc::internals::pipeline::Options;
+use rtc::internals::source::SourceMap;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;

@@ -2,11 +2,11 @@
 //! approved; and laws that hold for each of them.
 use super::suite::{files, name, root, trial};
 use libtest_mimic::Trial;
-use rtc::codec::{self, Form};
-use rtc::diag::Sink;
-use rtc::ir::Scene;
-use rtc::pipeline::{self, Options};
-use rtc::source::{FileId, Loader, SourceMap};
+use rtc::internals::codec::{self, Form};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::Scene;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::{FileId, Loader, SourceMap};
 use std::path::{Path, PathBuf};
 
 pub(crate) fn trials() -> Vec<Trial> {

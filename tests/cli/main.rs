@@ -9,6 +9,7 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise, and makes the files it needs"
 )]
+mod checkpoints;
 mod exposure;
 mod framing;
 mod looks;
@@ -16,12 +17,15 @@ mod mesh;
 mod numbers;
 #[cfg(unix)]
 mod outputs;
+mod parts;
 mod rays;
 mod render;
 mod reports;
 mod set;
 mod stage;
 mod studio;
+mod texts;
+mod to_gltf;
 #[cfg(unix)]
 mod unix;
 mod words;

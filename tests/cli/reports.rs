@@ -1,6 +1,6 @@
 //! What `rtc` reports of a scene: what accuracy costs, and what the picture needs.
 
-use super::{code, folder, names, rtc, scene_with, stderr};
+use super::{code, command, folder, names, rtc, scene_with, stderr};
 use std::fs;
 
 #[test]
@@ -50,6 +50,17 @@ fn a_study_is_written_in_the_form_asked_for() {
         (Some("rtc-cost/1"), Some("depth.json"))
     );
     assert_eq!(code(&rtc(&folder, &["cost", "bad.json"])), 1);
+}
+
+#[test]
+fn a_study_asks_for_the_vector_instructions_that_a_render_asks_for() {
+    let folder = folder();
+    for verb in ["render", "cost"] {
+        let mut asked = command(folder.path(), &[verb, "ball.json", "-o", "x"]);
+        let output = asked.env("RTC_SIMD", "sse9").output().unwrap();
+        assert_eq!(code(&output), 2, "{verb}: {}", stderr(&output));
+        assert!(stderr(&output).contains("no `sse9`"), "{verb}");
+    }
 }
 
 #[test]

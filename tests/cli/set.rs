@@ -3,7 +3,7 @@
 use super::{SCENE, code, command, stderr};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use rtc::image::{DecodeError, Opacity, PixelFile, Pixels};
+use rtc::internals::image::{DecodeError, Opacity, PixelFile, Pixels};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use super::*;
 
-const LEAF: &str = include_str!("../render/light/leaf.gltf");
+pub(super) const LEAF: &str = include_str!("../render/light/leaf.gltf");
 const SUNNY: &str = include_str!("../render/light/directional.gltf");
 
 fn holding(asset: &str) -> TempDir {

@@ -1,9 +1,9 @@
 //! All faults of an IR text are found at once, each with its pointer and its words.
 
 use super::small;
-use rtc::codec::{self, Form};
-use rtc::diag::{Diagnostic, Sink};
-use rtc::source::SourceMap;
+use rtc::internals::codec::{self, Form};
+use rtc::internals::diag::{Diagnostic, Sink};
+use rtc::internals::source::SourceMap;
 
 /// The code, the pointer and the words of every finding about a text.
 fn all_faults(text: &str) -> Vec<(&'static str, String, String)> {

@@ -13,10 +13,10 @@ mod sections;
 mod versions;
 
 use proptest::prelude::*;
-use rtc::codec::{self, Form};
-use rtc::diag::{Diagnostic, Sink};
-use rtc::ir::{Column, ImageId, Pixels, Scene, Shape, Texture};
-use rtc::source::SourceMap;
+use rtc::internals::codec::{self, Form};
+use rtc::internals::diag::{Diagnostic, Sink};
+use rtc::internals::ir::{Column, ImageId, Pixels, Scene, Shape, Texture};
+use rtc::internals::source::SourceMap;
 use scenes::scene;
 use std::path::{Path, PathBuf};
 use xxhash_rust::xxh3::xxh3_128;

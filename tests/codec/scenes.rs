@@ -1,11 +1,12 @@
 //! Scenes of every kind, for the laws: odd numbers, long and short lists and texts.
 
 use proptest::prelude::*;
-use rtc::ir::{
-    Alpha, Bump, Camera, Column, Emitter, Environment, Filter, Gooch, Image, ImageId, Instance,
-    Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, PathSettings, Pattern, Phong,
-    Photometry, Pixels, Plane, PointLight, Projection, Punctual, Sampled, Scene, Settings, Shape,
-    Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
+use rtc::internals::color::Tone;
+use rtc::internals::ir::{
+    Alpha, Bump, Camera, Column, Display, Emitter, Environment, Filter, Gooch, Image, ImageId,
+    Instance, Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, PathSettings, Pattern,
+    Phong, Photometry, Pixels, Plane, PointLight, Projection, Punctual, Sampled, Scene, Settings,
+    Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
 };
 
 fn number() -> impl Strategy<Value = f64> {
@@ -232,6 +233,12 @@ fn environment() -> impl Strategy<Value = Environment> {
         })
 }
 
+fn display() -> impl Strategy<Value = Display> {
+    let tones = vec![Tone::None, Tone::Srgb, Tone::Agx, Tone::PbrNeutral];
+    let tone = prop::option::of(prop::sample::select(tones));
+    (number(), tone).prop_map(|(exposure, tone)| Display { exposure, tone })
+}
+
 /// Materials of glTF with some of the fields other than their defaults.
 fn standard() -> impl Strategy<Value = Material> {
     let map = (
@@ -359,15 +366,18 @@ prop_compose! {
     pub(crate) fn scene()(
         camera in camera(),
         settings in settings(),
-        lights in prop::collection::vec(light(), 0..4),
-        images in prop::collection::vec(image(), 0..3),
+        lights in prop::collection::vec(light(), 0..4).boxed(),
+        images in prop::collection::vec(image(), 0..3).boxed(),
         textures in prop::collection::vec(texture(), 0..3),
-        meshes in prop::collection::vec(mesh(), 0..3),
-        materials in prop::collection::vec(material(), 0..4),
-        surfaces in prop::collection::vec(surface(), 0..9),
+        meshes in prop::collection::vec(mesh(), 0..3).boxed(),
+        materials in prop::collection::vec(material(), 0..4).boxed(),
+        surfaces in prop::collection::vec(surface(), 0..9).boxed(),
         names in prop::collection::vec(text(), 0..4),
         environment in prop::option::of(environment()),
+        display in display(),
     ) -> Scene {
-        Scene { camera, settings, lights, images, textures, meshes, materials, surfaces, names, environment }
+        Scene {
+            camera, settings, lights, images, textures, meshes, materials, surfaces, names, environment, display,
+        }
     }
 }

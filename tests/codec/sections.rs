@@ -1,8 +1,8 @@
 //! Sections of a container: what is in them, and that none is believed that lies.
 
 use super::{decode, fault, frozen, large, with_header};
-use rtc::codec::{self, Form};
-use rtc::ir::{Column, Scene};
+use rtc::internals::codec::{self, Form};
+use rtc::internals::ir::{Column, Scene};
 
 /// In files of version 2 every long list and text is a section, whatever it belongs to.
 #[test]

@@ -1,6 +1,8 @@
 //! Files of every version so far decode to the scene that they held.
 
 use super::*;
+use rtc::internals::color::Tone;
+use rtc::internals::ir::{Emitter, Light, Material, Punctual};
 
 /// The files of each version as they were written when it was new. They are never rewritten.
 #[test]
@@ -108,6 +110,45 @@ fn frozen_files_of_version_3_decode() {
     );
 }
 
+/// The scenes of version 4: a cartoon of a paraboloid without a shadow and of the parts of an OBJ; and
+/// paths from a measured lamp through glass that disperses, shown by another tone map.
+#[test]
+fn frozen_files_of_version_4_decode() {
+    let [course, path] = ["course", "path"].map(|name| {
+        let read = |extension| std::fs::read(frozen(&format!("v4/{name}.{extension}"))).unwrap();
+        let text = decode(Form::Text, &read("json")).unwrap();
+        assert_eq!(decode(Form::Binary, &read("rtir")).unwrap(), text, "{name}");
+        text
+    });
+    assert!(course.settings.toon && course.surfaces[0].casts_no_shadow);
+    assert!(matches!(&course.surfaces[0].shape, Shape::Paraboloid(it) if it.radius == 0.75));
+    let parts: Vec<_> = course
+        .meshes
+        .iter()
+        .map(|mesh| mesh.part.as_deref())
+        .collect();
+    assert_eq!(parts, [Some("red"), Some("blue")]);
+    let Light::Punctual(Punctual {
+        emitter: Emitter::Lamp { photometry, .. },
+        ..
+    }) = &path.lights[0]
+    else {
+        panic!("the first light is a lamp")
+    };
+    assert_eq!(
+        (photometry.name.as_str(), photometry.vertical[1]),
+        ("washer.ies", 10.0)
+    );
+    let Material::Standard(glass) = &path.materials[0] else {
+        panic!("the first material is that of glTF")
+    };
+    assert_eq!((glass.dispersion, glass.diffuse_transmission), (8.0, 0.5));
+    assert_eq!(
+        (path.display.exposure, path.display.tone),
+        (0.5, Some(Tone::Agx))
+    );
+}
+
 #[test]
 fn older_files_are_the_same_scene_in_the_current_version() {
     let names = [
@@ -116,10 +157,14 @@ fn older_files_are_the_same_scene_in_the_current_version() {
         "v2/scene.json",
         "v3/course.json",
         "v3/path.json",
+        "v4/course.json",
+        "v4/path.json",
         "v1/scene.rtir",
         "v2/scene.rtir",
         "v3/course.rtir",
         "v3/path.rtir",
+        "v4/course.rtir",
+        "v4/path.rtir",
     ];
     for name in names {
         let form = if name.ends_with(".rtir") {

@@ -84,9 +84,9 @@ pub(super) fn picture(scene: &Scene, setting: Setting) -> Image {
 }
 
 pub(super) fn film(scene: &Scene) -> Image {
-    let lowered = rtc::ir::Lowered {
+    let lowered = rtc::internals::ir::Lowered {
         scene: scene.clone(),
-        origins: rtc::ir::Origins::default(),
+        origins: rtc::internals::ir::Origins::default(),
     };
     let mut sink = Sink::default();
     let valid = pipeline::prove(&lowered, &Options::default(), &mut sink)

@@ -7,16 +7,18 @@ mod error;
 mod knob;
 mod report;
 
-use rtc::codec;
-use rtc::diag::Sink;
-use rtc::image::Image;
-use rtc::ir::Scene;
-use rtc::passes::Overrides;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Arithmetic, Plan, Rules};
-use rtc::render::{Job, Step, render};
-use rtc::source::SourceMap;
-use rtc::study::{self, About, Bench, Clock, Effort, Knob, PowerLaw, Row, Setting, Stopped, Study};
+use rtc::internals::codec;
+use rtc::internals::diag::Sink;
+use rtc::internals::image::Image;
+use rtc::internals::ir::Scene;
+use rtc::internals::passes::Overrides;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Arithmetic, Plan, Rules};
+use rtc::internals::render::{Job, Step, render};
+use rtc::internals::source::SourceMap;
+use rtc::internals::study::{
+    self, About, Bench, Clock, Effort, Knob, PowerLaw, Row, Setting, Stopped, Study,
+};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{LazyLock, Mutex};
 use std::time::Duration;

@@ -1,9 +1,9 @@
 //! Hostile assets too large to keep: each ends in the finding it must, or passes if it is legal.
 
 use super::errors;
-use rtc::diag::Sink;
-use rtc::pipeline::{self, Options};
-use rtc::source::SourceMap;
+use rtc::internals::diag::Sink;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::SourceMap;
 
 fn check(text: String) -> Sink {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());

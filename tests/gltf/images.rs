@@ -2,10 +2,10 @@
 //! depend on the number of threads.
 
 use super::make;
-use rtc::diag::Sink;
-use rtc::front::FrontOptions;
-use rtc::pipeline::{self, Options};
-use rtc::source::{Limits, Resource, SourceMap};
+use rtc::internals::diag::Sink;
+use rtc::internals::front::FrontOptions;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::{Limits, Resource, SourceMap};
 
 /// The pixels of the images, and the findings in their order, of so many threads.
 fn loaded(asset: &[u8], limits: Limits, threads: usize) -> (Vec<Vec<u8>>, Vec<String>) {

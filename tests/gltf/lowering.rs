@@ -2,16 +2,16 @@
 //! however it is stored.
 
 use super::make;
-use rtc::codec::{self, Form};
-use rtc::diag::{Diagnostic, Severity, Sink};
-use rtc::front;
-use rtc::ir::{Emitter, Environment, Light, Lowered, Material, Origins, Scene, Shape};
-use rtc::math::Vec3;
-use rtc::passes::Overrides;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::Job;
-use rtc::source::{Loader, SourceMap};
+use rtc::internals::codec::{self, Form};
+use rtc::internals::diag::{Diagnostic, Severity, Sink};
+use rtc::internals::front;
+use rtc::internals::ir::{Emitter, Environment, Light, Lowered, Material, Origins, Scene, Shape};
+use rtc::internals::math::Vec3;
+use rtc::internals::passes::Overrides;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::Job;
+use rtc::internals::source::{Loader, SourceMap};
 
 /// The scene that an asset shows; every asset here is sound, and some have lines or no tangents.
 fn lower(bytes: Vec<u8>, front: front::FrontOptions) -> Scene {

@@ -6,7 +6,7 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise and reads what it checks"
 )]
-use rtc::diag::{Severity, Sink};
+use rtc::internals::diag::{Severity, Sink};
 use std::collections::BTreeSet;
 
 mod hostile;

@@ -387,11 +387,13 @@ pub(super) fn images(sides: &[u32], cut: Option<usize>) -> Vec<u8> {
 fn squares(side: u32) -> Vec<u8> {
     let pixel = |index: u32| [index / side, index % side, 3].map(|level| f64::from(level) / 255.0);
     let pixels = (0..side * side).map(pixel).collect();
-    let image = rtc::image::Image {
+    let image = rtc::internals::image::Image {
         width: side,
         height: side,
         pixels,
     };
-    let picture = rtc::image::Picture::opaque(image);
-    picture.encode(&rtc::image::FileFormat::Png8).unwrap()
+    let picture = rtc::internals::image::Picture::opaque(image);
+    picture
+        .encode(&rtc::internals::image::FileFormat::Png8)
+        .unwrap()
 }

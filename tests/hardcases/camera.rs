@@ -1,8 +1,8 @@
 //! Camera bases, orthonormal bases, and points of the lens.
 
 use super::truth::{Report, cases, error, id, number, vector, vector_error};
-use rtc::math::{Basis, U, Vec3, view_basis};
-use rtc::render::vogel;
+use rtc::internals::math::{Basis, U, Vec3, view_basis};
+use rtc::internals::render::vogel;
 
 #[test]
 fn camera_bases() {

@@ -4,9 +4,9 @@
 //! shape; all roots are candidates, those that the other conditions allow count. 106 bits leave an
 //! error below (1 + κ)·2⁻⁹⁰ of t.
 
-use rtc::ir;
-use rtc::math::{DoubleDouble, Vec3};
-use rtc::render::Ray;
+use rtc::internals::ir;
+use rtc::internals::math::{DoubleDouble, Vec3};
+use rtc::internals::render::Ray;
 
 type Wide = [DoubleDouble; 3];
 

@@ -7,9 +7,9 @@ use super::random::{Random, rays};
 use super::scenes::{cone, cylinder, plane, sphere, torus, triangle, world};
 use super::truth::{Report, Table, tables};
 use rayon::prelude::*;
-use rtc::ir;
-use rtc::math::{DoubleDouble, U, Vec3};
-use rtc::render::Ray;
+use rtc::internals::ir;
+use rtc::internals::math::{DoubleDouble, U, Vec3};
+use rtc::internals::render::Ray;
 
 /// Spheres and planes are right to this many u whatever κ.
 const ABSOLUTE: f64 = 64.0;

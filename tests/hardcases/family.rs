@@ -3,9 +3,9 @@
 
 use super::random::Random;
 use super::scenes::{cone, cylinder, paraboloid, plane, sphere, torus, triangle};
-use rtc::ir;
-use rtc::math::Vec3;
-use rtc::render::Ray;
+use rtc::internals::ir;
+use rtc::internals::math::Vec3;
+use rtc::internals::render::Ray;
 
 type Row = (ir::Shape, Ray);
 

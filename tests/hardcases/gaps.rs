@@ -3,7 +3,7 @@
 
 use super::random::{Random, rays, tally};
 use super::solids::{Form, KINDS, Kind, first, hit, icosphere};
-use rtc::render::{PreparedMesh, Ray};
+use rtc::internals::render::{PreparedMesh, Ray};
 use std::sync::Arc;
 
 /// Of the scale.

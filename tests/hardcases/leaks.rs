@@ -4,8 +4,8 @@
 use super::mesh::Mesh;
 use super::random::{Random, rays, tally};
 use super::truth::{Report, cases, id, number, vector};
-use rtc::math::Vec3;
-use rtc::render::{Ray, World};
+use rtc::internals::math::Vec3;
+use rtc::internals::render::{Ray, World};
 
 /// A scale, by how much radii are stretched, and where: those at which other systems leak.
 const CONFIGURATIONS: [(&str, f64, f64, Vec3); 6] = [

@@ -2,9 +2,9 @@
 
 use super::random::Random;
 use super::scenes::{prepare, scene, triangle, world};
-use rtc::ir;
-use rtc::math::Vec3;
-use rtc::render::World;
+use rtc::internals::ir;
+use rtc::internals::math::Vec3;
+use rtc::internals::render::World;
 
 /// A closed mesh: vertices and triangles.
 pub(crate) struct Mesh {

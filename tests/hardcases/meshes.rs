@@ -5,8 +5,8 @@ use super::mesh::Mesh;
 use super::random::Random;
 use super::scenes::{sphere, triangle, world};
 use super::truth::{Report, cases, id, number, relative_error, vector};
-use rtc::math::Vec3;
-use rtc::render::{Geometry, Hit, Ray, Shear, World};
+use rtc::internals::math::Vec3;
+use rtc::internals::render::{Geometry, Hit, Ray, Shear, World};
 use serde_json::Value;
 
 #[test]

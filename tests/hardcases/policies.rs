@@ -3,11 +3,11 @@
 use super::random::Random;
 use super::scenes::{check, plane, proven, scene, sphere, triangle, white, world};
 use super::truth::{Report, all, id};
-use rtc::diag::codes;
-use rtc::ir::{self, Light, Material, MaterialId, Phong, PointLight};
-use rtc::math::{BasisFault, Vec3, camera_basis, fallback_up};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Film, Job, Ray, Values, render};
+use rtc::internals::diag::codes;
+use rtc::internals::ir::{self, Light, Material, MaterialId, Phong, PointLight};
+use rtc::internals::math::{BasisFault, Vec3, camera_basis, fallback_up};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Film, Job, Ray, Values, render};
 
 fn film(scene: &ir::Scene) -> Film {
     let job = Job {

@@ -2,9 +2,9 @@
 //! number of threads.
 
 use rayon::prelude::*;
-use rtc::math::Vec3;
+use rtc::internals::math::{GAMMA, Vec3, mix};
 
-/// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
+/// A sequence of numbers by SplitMix64.
 pub(crate) struct Random(u64);
 
 impl Random {
@@ -18,10 +18,9 @@ impl Random {
     }
 
     fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        x ^ (x >> 31)
+        let bits = mix(self.0);
+        self.0 = self.0.wrapping_add(GAMMA);
+        bits
     }
 
     /// In [0, 1).
@@ -36,7 +35,7 @@ impl Random {
 
     /// Between `low` and `high`, the same share for every power of ten.
     pub(crate) fn magnitude(&mut self, low: f64, high: f64) -> f64 {
-        low * rtc::math::pow(high / low, self.uniform())
+        low * rtc::internals::math::pow(high / low, self.uniform())
     }
 
     pub(crate) fn below(&mut self, n: usize) -> usize {

@@ -1,11 +1,11 @@
 //! Worlds out of shapes, by the same way every scene takes: IR, proof, world.
 
 use super::truth::{number, vector};
-use rtc::diag::Sink;
-use rtc::ir;
-use rtc::plan::{Plan, Rules};
-use rtc::render::World;
-use rtc::valid::{self, Proof};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir;
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::World;
+use rtc::internals::valid::{self, Proof};
 use serde_json::Value;
 
 /// A white Phong material that is lit, shines and mirrors.
@@ -50,6 +50,7 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
         surfaces: shapes.into_iter().map(surface).collect(),
         names: Vec::new(),
         environment: None,
+        display: ir::Display::default(),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::random::{Random, rays, tally};
 use super::solids::{Form, KINDS, Kind, first, hit, icosphere};
-use rtc::math::Vec3;
-use rtc::render::{Interaction, PreparedMesh, Ray};
+use rtc::internals::math::Vec3;
+use rtc::internals::render::{Interaction, PreparedMesh, Ray};
 use std::sync::Arc;
 
 /// Scales, and how far from the origin.

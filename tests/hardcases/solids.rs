@@ -3,8 +3,8 @@
 
 use super::mesh::Mesh;
 use super::random::Random;
-use rtc::math::Vec3;
-use rtc::render::{
+use rtc::internals::math::Vec3;
+use rtc::internals::render::{
     Attributes, Cone, Cylinder, Disc, Geometry, Instance, Interaction, Paraboloid, Plane,
     PreparedMesh, Quad, Ray, Shape, Shear, SimdLevel, Sphere, TexturedSphere, TexturedTriangle,
     Torus, Triangle,

@@ -1,6 +1,6 @@
 //! Reading the truth: numbers are strings, exact values are pairs of f64, errors are counted in u.
 
-use rtc::math::{U, Vec3};
+use rtc::internals::math::{U, Vec3};
 use serde_json::Value;
 
 /// All single cases.

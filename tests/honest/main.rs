@@ -5,9 +5,9 @@
 mod paths;
 mod scenes;
 
-use rtc::ir::Scene;
-use rtc::render::{Crop, Values};
-use rtc::study::{Goal, Order, Reached, Stopped, Watch, approach};
+use rtc::internals::ir::Scene;
+use rtc::internals::render::{Crop, Values};
+use rtc::internals::study::{Goal, Order, Reached, Stopped, Watch, approach};
 use scenes::{error, order, references, render, scene, world};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::Duration;

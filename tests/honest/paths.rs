@@ -3,10 +3,10 @@
 
 use super::on;
 use super::scenes::{error, references, render};
-use rtc::codec::{self, Form};
-use rtc::diag::Sink;
-use rtc::ir::Scene;
-use rtc::source::SourceMap;
+use rtc::internals::codec::{self, Form};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::Scene;
+use rtc::internals::source::SourceMap;
 
 /// Two balls on a floor, under a disc that shines and a sky.
 fn balls() -> Scene {

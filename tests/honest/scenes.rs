@@ -1,15 +1,15 @@
 //! Made-up scenes with everything that makes noise, and how far a render to a target is from what
 //! it promises.
 
-use rtc::color::Tone;
-use rtc::diag::Sink;
-use rtc::image::Image;
-use rtc::ir::{Lowered, Origins, Scene};
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{AnyWorld, Background, Crop, Values};
-use rtc::source::SourceMap;
-use rtc::study::{Goal, LEVELS, Order, Reached, Rng, Watch, approach};
+use rtc::internals::color::Tone;
+use rtc::internals::diag::Sink;
+use rtc::internals::image::Image;
+use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{AnyWorld, Background, Crop, Values};
+use rtc::internals::source::SourceMap;
+use rtc::internals::study::{Goal, LEVELS, Order, Reached, Rng, Watch, approach};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;

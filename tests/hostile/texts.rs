@@ -6,9 +6,9 @@
 
 #![expect(unsafe_code, reason = "an allocator is unsafe code")]
 
-use rtc::diag::{Severity, Sink};
-use rtc::pipeline;
-use rtc::source::SourceMap;
+use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::pipeline;
+use rtc::internals::source::SourceMap;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::fmt::Write as _;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};

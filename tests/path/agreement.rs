@@ -3,9 +3,9 @@
 use crate::{
     add_light, add_quad, add_sphere, add_square, lambert, mean, prove, render, render_by, scene,
 };
-use rtc::ir::{Emitter, Environment, Image, ImageId, Pixels, Punctual, Scene, Standard};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Job, Strategy};
+use rtc::internals::ir::{Emitter, Environment, Image, ImageId, Pixels, Punctual, Scene, Standard};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Job, Strategy};
 
 /// A glossy floor and a ball under a shining square, all kinds of scattering among them.
 fn room(samples: u32) -> Scene {
@@ -133,7 +133,7 @@ fn one_thread_and_several_give_the_same_bytes() {
     let proof = prove(&scene);
     let plan = Plan::new(&proof, Rules::ALL);
     let on = |threads| {
-        rtc::pipeline::render(&proof, &plan, &Job::default(), threads, &|_| true)
+        rtc::internals::pipeline::render(&proof, &plan, &Job::default(), threads, &|_| true)
             .unwrap()
             .unwrap()
     };

@@ -1,8 +1,8 @@
 //! Scenes whose radiance is known in closed form.
 
 use crate::{add_light, add_sphere, add_square, lambert, mean, middle, render, scene, sky};
-use rtc::ir::{Emitter, Mode, PathSettings, Punctual, Standard};
-use rtc::math::Vec3;
+use rtc::internals::ir::{Emitter, Mode, PathSettings, Punctual, Standard};
+use rtc::internals::math::Vec3;
 use std::f64::consts::PI;
 
 const ALBEDO: [f64; 3] = [0.8, 0.4, 0.2];

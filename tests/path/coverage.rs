@@ -5,7 +5,7 @@ use super::*;
 fn film(scene: &Scene, background: Background) -> Film {
     let proof = prove(scene);
     let job = Job { background, ..JOB };
-    rtc::render::render(&proof, &Plan::new(&proof, Rules::ALL), &job, &|_| true).unwrap()
+    rtc::internals::render::render(&proof, &Plan::new(&proof, Rules::ALL), &job, &|_| true).unwrap()
 }
 
 #[test]

@@ -4,10 +4,12 @@
 use super::{
     JOB, add_light, add_sphere, add_square, lambert, material, mean, prove, render, scene, sky,
 };
-use rtc::ir::{Alpha, Emitter, Instance, Mesh, MeshId, Punctual, Scene, Shape, Standard, Surface};
-use rtc::math::{Vec3, cos, sin};
-use rtc::plan::{Arithmetic, Plan, Rules};
-use rtc::render::{Geometry, Hit, Ray, Shape as Prepared, Shear, World};
+use rtc::internals::ir::{
+    Alpha, Emitter, Instance, Mesh, MeshId, Punctual, Scene, Shape, Standard, Surface,
+};
+use rtc::internals::math::{Vec3, cos, sin};
+use rtc::internals::plan::{Arithmetic, Plan, Rules};
+use rtc::internals::render::{Geometry, Hit, Ray, Shape as Prepared, Shear, World};
 
 /// Numbers in [−1, 1), always the same.
 pub(super) fn numbers(seed: u64) -> impl FnMut() -> f64 {
@@ -246,7 +248,7 @@ fn a_veil_that_is_opaque_changes_no_order() {
     let proof = prove(&scene);
     let [pruned, unpruned] = [Rules::ALL, Rules::NONE].map(|rules| {
         let plan = Plan::new(&proof, rules);
-        rtc::render::render(&proof, &plan, &JOB, &|_| true).unwrap()
+        rtc::internals::render::render(&proof, &plan, &JOB, &|_| true).unwrap()
     });
     assert!(pruned.image.pixels == unpruned.image.pixels);
 }
@@ -257,7 +259,7 @@ fn veils_let_light_through_in_every_arithmetic() {
     let proof = prove(&below_veils(2));
     let [robust, plain, _] = Arithmetic::ALL.map(|arithmetic| {
         let plan = Plan::by(arithmetic, &proof, Rules::ALL);
-        mean(&rtc::render::render(&proof, &plan, &JOB, &|_| true).unwrap())
+        mean(&rtc::internals::render::render(&proof, &plan, &JOB, &|_| true).unwrap())
     });
     assert!(
         (plain - robust).abs().max_element() < 1e-6,

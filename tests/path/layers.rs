@@ -1,9 +1,9 @@
 //! Layers beside the colours against closed forms, with both integrators and on any threads.
 
 use super::*;
-use rtc::image::Layers;
-use rtc::pipeline::Renderer;
-use rtc::render::{AnyWorld, Aov, Crop};
+use rtc::internals::image::Layers;
+use rtc::internals::pipeline::Renderer;
+use rtc::internals::render::{AnyWorld, Aov, Crop};
 
 const ALL: [Aov; 6] = [
     Aov::Albedo,
@@ -20,11 +20,18 @@ const WHOLE: Crop = Crop {
     height: 16,
 };
 
+fn of(crop: Crop) -> Job {
+    Job {
+        crop: Some(crop),
+        ..Job::default()
+    }
+}
+
 fn layers(scene: &Scene, wanted: &[Aov], crop: Crop, threads: usize) -> Layers {
     let proof = prove(scene);
     Renderer::new(&proof, &Plan::new(&proof, Rules::ALL), threads)
         .unwrap()
-        .layers(wanted, crop, &|| true)
+        .layers(wanted, &of(crop), &|| true)
         .unwrap()
 }
 
@@ -181,7 +188,7 @@ fn a_world_that_shows_another_view_is_as_one_made_for_it() {
     let seen = |world: &AnyWorld| {
         (
             world.render(&JOB, &|_| true).unwrap().image,
-            world.layers(&ALL, WHOLE, &|_| true).unwrap(),
+            world.layers(&ALL, &of(WHOLE), &|_| true).unwrap(),
         )
     };
     let [first, second] = proofs

@@ -3,9 +3,9 @@
 use crate::{
     add_light, add_sphere, add_square, lambert, mean, middle, render, render_by, scene, sky,
 };
-use rtc::ir::{Emitter, Punctual, Scene, Standard};
-use rtc::math::Vec3;
-use rtc::render::Strategy;
+use rtc::internals::ir::{Emitter, Punctual, Scene, Standard};
+use rtc::internals::math::Vec3;
+use rtc::internals::render::Strategy;
 use std::f64::consts::PI;
 
 const COLOR: [f64; 3] = [0.9, 0.6, 0.3];

@@ -2,11 +2,11 @@
 
 use super::hierarchy::{numbers, place, waves};
 use super::{JOB, lambert, prove, scene, sky};
-use rtc::ir::Scene;
-use rtc::math::{Column, Vec3};
-use rtc::pipeline::Renderer;
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Hit, Ray, Shape, SimdLevel, World};
+use rtc::internals::ir::Scene;
+use rtc::internals::math::{Column, Vec3};
+use rtc::internals::pipeline::Renderer;
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Hit, Ray, Shape, SimdLevel, World};
 
 const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
@@ -30,17 +30,23 @@ fn sea(is_moved: bool) -> Scene {
     scene
 }
 
-fn rays(count: usize) -> Vec<Ray> {
+/// From one point to another.
+fn ray(origin: Vec3, target: Vec3) -> Ray {
+    Ray {
+        origin,
+        direction: target - origin,
+    }
+}
+
+/// Rays from anywhere, then rays of a camera, row by row.
+fn rays() -> Vec<Ray> {
     let mut number = numbers(11);
     let mut cube = || Vec3::new(number(), number(), number());
-    let ray = |_| {
-        let (origin, target) = (cube() * 3.0, cube());
-        Ray {
-            origin,
-            direction: target - origin,
-        }
-    };
-    (0..count).map(ray).collect()
+    let from_anywhere = (0..64 * 90).map(|_| ray(cube() * 3.0, cube()));
+    let eye = Vec3::new(0.3, 2.0, 2.5);
+    let target = |k: i32| Vec3::new(f64::from(k % 64), 0.0, f64::from(k / 64)) / 24.0 - 1.0;
+    let of_a_camera = (0..64 * 40).map(|k| ray(eye, target(k).with_y(0.0)));
+    from_anywhere.chain(of_a_camera).collect()
 }
 
 fn levels() -> impl Iterator<Item = SimdLevel> {
@@ -61,7 +67,7 @@ fn rays_find_the_same_at_all_levels_alone_and_together() {
     for is_moved in [false, true] {
         let proof = prove(&sea(is_moved));
         let plan = Plan::new(&proof, Rules::NONE);
-        let rays = rays(6000);
+        let rays = rays();
         let expected = alone(&World::prepare_at(&proof, &plan, SimdLevel::best()), &rays);
         let hits = expected.0.iter().flatten().count();
         assert!(hits > 600, "{hits}");

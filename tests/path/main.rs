@@ -13,16 +13,18 @@ mod levels;
 mod sides;
 mod surfaces;
 
-use rtc::diag::Sink;
-use rtc::ir::{
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{
     Alpha, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, Origins,
     PathSettings, Pattern, Phong, Projection, Punctual, Scene, Settings, Shape, Sphere, Standard,
     Surface, Triangle,
 };
-use rtc::math::Vec3;
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Background, Basic, Film, Job, Seeds, Strategy, Stride, Values, World};
-use rtc::valid::{self, Proof};
+use rtc::internals::math::Vec3;
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{
+    Background, Basic, Film, Job, Seeds, Strategy, Stride, Values, World,
+};
+use rtc::internals::valid::{self, Proof};
 
 /// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at
 /// the origin.
@@ -157,7 +159,7 @@ fn render_by(scene: &Scene, strategy: Strategy) -> Film {
 
 fn render(scene: &Scene) -> Film {
     let proof = prove(scene);
-    rtc::render::render(&proof, &Plan::new(&proof, Rules::ALL), &JOB, &|_| true).unwrap()
+    rtc::internals::render::render(&proof, &Plan::new(&proof, Rules::ALL), &JOB, &|_| true).unwrap()
 }
 
 fn mean(film: &Film) -> Vec3 {

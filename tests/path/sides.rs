@@ -1,8 +1,8 @@
 //! Rays of the camera go through the backs of one-sided surfaces; all other rays meet them.
 
 use super::*;
-use rtc::ir::{Instance, Mesh, MeshId};
-use rtc::render::{AnyWorld, Aov, Crop};
+use rtc::internals::ir::{Instance, Mesh, MeshId};
+use rtc::internals::render::{AnyWorld, Aov, Job};
 
 const RED: Vec3 = Vec3::X;
 const GREEN: Vec3 = Vec3::Y;
@@ -69,19 +69,14 @@ fn coverage_and_layers_go_by_what_is_seen() {
         ..JOB
     };
     let film =
-        rtc::render::render(&proof, &Plan::new(&proof, Rules::ALL), &job, &|_| true).unwrap();
+        rtc::internals::render::render(&proof, &Plan::new(&proof, Rules::ALL), &job, &|_| true)
+            .unwrap();
     assert!(film.coverage.iter().all(|share| *share == 0.0) && film.counts.hits == 0);
     // The wall's triangles come third and fourth.
     let proof = prove(&before_a_wall(|scene| add_back(scene, 0.0, flat(RED))));
-    let crop = Crop {
-        x: 0,
-        y: 0,
-        width: 16,
-        height: 16,
-    };
     let wanted = [Aov::Instance, Aov::Depth];
     let world = AnyWorld::prepare(&proof, &Plan::new(&proof, Rules::ALL));
-    let layers = world.layers(&wanted, crop, &|_| true).unwrap();
+    let layers = world.layers(&wanted, &Job::default(), &|_| true).unwrap();
     assert!(
         layers
             .values

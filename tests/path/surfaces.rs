@@ -1,11 +1,11 @@
 //! Alpha, textures, corners' colours, normal maps, dispersion, and the orthographic camera.
 
 use crate::{add_light, add_quad, add_square, lambert, material, mean, middle, render, scene, sky};
-use rtc::ir::{
+use rtc::internals::ir::{
     Alpha, Emitter, Filter, Image, ImageId, Instance, Map, Mesh, MeshId, Pixels, Projection,
     Punctual, Sampled, Scene, Shape, Standard, Surface, Texture, TextureId, Wrap,
 };
-use rtc::math::Vec3;
+use rtc::internals::math::Vec3;
 
 /// A texture of the pixels given, sampled without blending.
 fn add_texture(scene: &mut Scene, [width, height]: [u32; 2], pixels: &[[u8; 4]]) -> Option<Map> {

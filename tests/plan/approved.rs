@@ -5,8 +5,8 @@
 
 use super::dice::Dice;
 use super::{proven, root};
-use rtc::ir::{Cone, Cylinder, Disc, Scene, Shape, Sphere, Torus};
-use rtc::plan::{Arithmetic, Plan, Rule, Rules, State, loss};
+use rtc::internals::ir::{Cone, Cylinder, Disc, Scene, Shape, Sphere, Torus};
+use rtc::internals::plan::{Arithmetic, Plan, Rule, Rules, State, loss};
 use std::fmt::Write as _;
 use std::fs;
 use xxhash_rust::xxh3::xxh3_64;

@@ -3,8 +3,8 @@
 use super::dice::Dice;
 use super::told::lies;
 use super::{film, proven};
-use rtc::plan::{Effect, Plan, Rules, State};
-use rtc::render::Values;
+use rtc::internals::plan::{Effect, Plan, Rules, State};
+use rtc::internals::render::Values;
 
 #[test]
 fn what_is_told_absent_is_never_simulated() {

@@ -2,8 +2,8 @@
 
 use super::proven;
 use super::stage::{ball, first_light, material, matt, texture, with};
-use rtc::ir::{Phong, Scene, Texture, TextureId};
-use rtc::plan::{Plan, Rule, Rules};
+use rtc::internals::ir::{Phong, Scene, Texture, TextureId};
+use rtc::internals::plan::{Plan, Rule, Rules};
 
 /// Two balls that show each other without end, of which one point adds ks + kt of what it sees, and
 /// of a white light (ka + kd) · 0.8 + ks = 1.1 at most.

@@ -5,8 +5,8 @@ mod extreme;
 mod light;
 mod paths;
 
-use rtc::ir::{self, ImageId, MaterialId, MeshId, Scene, Texture, TextureId};
-use rtc::math::{Vec3, view_basis};
+use rtc::internals::ir::{self, ImageId, MaterialId, MeshId, Scene, Texture, TextureId};
+use rtc::internals::math::{GAMMA, Vec3, mix, view_basis};
 
 /// A source of choices, the same for the same seed.
 pub(super) struct Dice(u64);
@@ -17,11 +17,9 @@ impl Dice {
     }
 
     fn roll(&mut self, sides: u32) -> u32 {
-        // SplitMix64.
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        u32::try_from((x >> 33) % u64::from(sides)).unwrap()
+        let bits = mix(self.0);
+        self.0 = self.0.wrapping_add(GAMMA);
+        u32::try_from((bits >> 33) % u64::from(sides)).unwrap()
     }
 
     fn chance(&mut self, sides: u32) -> bool {
@@ -92,6 +90,7 @@ impl Dice {
                 .collect(),
             names: Vec::new(),
             environment: None,
+            display: ir::Display::default(),
         };
         for surface in &mut scene.surfaces {
             surface.casts_no_shadow = self.chance(5);

@@ -2,8 +2,8 @@
 
 use super::stage::{ball, matt, shiny, with};
 use super::verdict;
-use rtc::ir::Scene;
-use rtc::plan::{Effect, PixelClass, Plan, Rules};
+use rtc::internals::ir::Scene;
+use rtc::internals::plan::{Effect, PixelClass, Plan, Rules};
 
 /// Small balls side by side before a wide camera, the first of them mirrors.
 fn many(count: u32, mirrors: u32) -> Scene {

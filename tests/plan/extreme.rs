@@ -4,13 +4,13 @@
 
 use super::dice::Dice;
 use super::{bits, film, proven};
-use rtc::codec::{self, Form};
-use rtc::diag::Sink;
-use rtc::ir::{Light, Lowered, Material, Origins, Phong, Scene};
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rule, Rules};
-use rtc::render::{Job, Values};
-use rtc::source::SourceMap;
+use rtc::internals::codec::{self, Form};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{Light, Lowered, Material, Origins, Phong, Scene};
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rule, Rules};
+use rtc::internals::render::{Job, Values};
+use rtc::internals::source::SourceMap;
 use std::collections::BTreeSet;
 use std::fmt::{Debug, Write as _};
 

@@ -4,10 +4,10 @@ use super::dice::Dice;
 use super::path_rules::{traced, white};
 use super::stage::disc;
 use super::{film, proven};
-use rtc::ir::{Emitter, Light, Punctual, Scene};
-use rtc::math::Vec3;
-use rtc::plan::Rules;
-use rtc::render::Values;
+use rtc::internals::ir::{Emitter, Light, Punctual, Scene};
+use rtc::internals::math::Vec3;
+use rtc::internals::plan::Rules;
+use rtc::internals::render::Values;
 use std::f64::consts::PI;
 
 /// One pixel that sees next to nothing but the origin, on a white floor that faces +z.

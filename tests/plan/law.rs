@@ -5,9 +5,9 @@ use super::dice::Dice;
 use super::stage::{ball, disc, first_light, matt, shiny, with};
 use super::{bits, file_name, files, film, proven, scene, small};
 use proptest::prelude::*;
-use rtc::ir::Scene;
-use rtc::plan::{Plan, Rule, Rules};
-use rtc::render::{AnyWorld, Job, Values};
+use rtc::internals::ir::Scene;
+use rtc::internals::plan::{Plan, Rule, Rules};
+use rtc::internals::render::{AnyWorld, Job, Values};
 
 /// The sets of rules to compare with none: all, each alone, all but each.
 fn sets() -> Vec<(String, Rules)> {

@@ -31,14 +31,14 @@ mod stage;
 mod told;
 mod validation;
 
-use rtc::diag::Sink;
-use rtc::ir::{Lowered, Origins, Scene};
-use rtc::passes::Overrides;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Effect, Plan, Rule, Rules, State, Verdict};
-use rtc::render::{Film, Job, Values};
-use rtc::source::{Loader, SourceMap};
-use rtc::valid::Proof;
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::passes::Overrides;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Effect, Plan, Rule, Rules, State, Verdict};
+use rtc::internals::render::{Film, Job, Values};
+use rtc::internals::source::{Loader, SourceMap};
+use rtc::internals::valid::Proof;
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -3,10 +3,10 @@
 
 use super::fate;
 use super::stage::{ball, disc, first_light, material, matt, plane, shiny, stage, texture, with};
-use rtc::diag::Sink;
-use rtc::ir::{Bump, Lowered, Mode, Origins, Scene};
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Effect, PixelClass, Plan, Rule, Rules, State};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{Bump, Lowered, Mode, Origins, Scene};
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Effect, PixelClass, Plan, Rule, Rules, State};
 
 fn is_not_needed(effect: Effect, ways: &[(&str, Scene)]) {
     assert!(ways.len() >= 3);
@@ -32,7 +32,7 @@ fn busy() -> Scene {
     })
 }
 
-fn all(scene: &mut Scene, change: impl Fn(&mut rtc::ir::Phong)) {
+fn all(scene: &mut Scene, change: impl Fn(&mut rtc::internals::ir::Phong)) {
     (0..scene.materials.len()).for_each(|index| change(material(scene, index)));
 }
 
@@ -182,7 +182,7 @@ fn lights() {
 #[test]
 fn lenses_and_samples() {
     let lens = changed(&busy(), |scene| {
-        scene.camera.lens = rtc::ir::Lens {
+        scene.camera.lens = rtc::internals::ir::Lens {
             radius: 0.2,
             samples: 4,
         }
@@ -268,7 +268,7 @@ fn textures_and_normal_maps() {
             texture,
             height: 1.0,
         });
-        let all = rtc::ir::Phong {
+        let all = rtc::internals::ir::Phong {
             color_map: Some(texture),
             bump,
             ..shiny()

@@ -5,8 +5,8 @@ use super::path_rules::{lamp, traced, white};
 use super::proven;
 use super::stage::{ball, disc};
 use super::told::{film, lies};
-use rtc::ir::{Alpha, Scene, Standard};
-use rtc::plan::{Effect, Layer, PathFeatures, Plan, Rules, State};
+use rtc::internals::ir::{Alpha, Scene, Standard};
+use rtc::internals::plan::{Effect, Layer, PathFeatures, Plan, Rules, State};
 
 /// A ball of a material before a white disc, under a lamp.
 pub(super) fn lit(material: &Standard) -> Scene {

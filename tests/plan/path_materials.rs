@@ -5,10 +5,10 @@ use super::path_rules::{across, add, fires, lamp, placed, traced, white};
 use super::proven;
 use super::stage::ball;
 use super::told::film;
-use rtc::ir::{
+use rtc::internals::ir::{
     self, Alpha, ImageId, Map, Mode, Pixels, Punctual, Scene, Standard, Texture, TextureId,
 };
-use rtc::plan::{Effect, Plan, Rule, Rules};
+use rtc::internals::plan::{Effect, Plan, Rule, Rules};
 use std::ops::Range;
 
 /// A map of the first texture.

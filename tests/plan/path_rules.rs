@@ -4,12 +4,12 @@
 use super::proven;
 use super::stage::{ball, disc, stage};
 use super::told::{difference, film};
-use rtc::ir::{
+use rtc::internals::ir::{
     self, Alpha, Emitter, Environment, ImageId, Material, MaterialId, Mode, PathSettings, Pixels,
     Punctual, Scene, Shape, Standard, Surface,
 };
-use rtc::math::Vec3;
-use rtc::plan::{Effect, Plan, Rule, Rules};
+use rtc::internals::math::Vec3;
+use rtc::internals::plan::{Effect, Plan, Rule, Rules};
 
 /// White without reflection, seen from both sides.
 pub(super) fn white() -> Standard {

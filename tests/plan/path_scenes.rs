@@ -4,11 +4,11 @@
 use super::path_effects::{GLOSSY, LAYERED, LIT, beyond, lit, needs};
 use super::path_materials::FIRST;
 use super::path_rules::{across, add, placed, white};
-use rtc::ir::{
+use rtc::internals::ir::{
     self, Environment, ImageId, Material, Mode, PathSettings, Pixels, Scene, Shape, Standard,
     Texture,
 };
-use rtc::plan::{Effect, Layer, PathFeatures};
+use rtc::internals::plan::{Effect, Layer, PathFeatures};
 
 /// A name, a change of the scene, the effects that it brings and takes, and the features then.
 type OfScene = (

@@ -6,8 +6,8 @@ use super::path_materials::FIRST;
 use super::path_rules::white;
 use super::path_scenes::{cover, path, sky, standard};
 use super::proven;
-use rtc::ir::{self, Alpha, Emitter, ImageId, Punctual, Scene, Standard, Texture};
-use rtc::plan::{Plan, Rule, Rules, State, Verdict};
+use rtc::internals::ir::{self, Alpha, Emitter, ImageId, Punctual, Scene, Standard, Texture};
+use rtc::internals::plan::{Plan, Rule, Rules, State, Verdict};
 
 /// What is told of the effects in some state, a line each: the effect, the rule, the reason, the
 /// values.

@@ -4,8 +4,8 @@
 use super::dice::Dice;
 use super::told::{difference, film, lies, traced, unmet};
 use super::{file_name, files, proven, scene};
-use rtc::ir::Scene;
-use rtc::plan::{Plan, Rule, Rules, State};
+use rtc::internals::ir::Scene;
+use rtc::internals::plan::{Plan, Rule, Rules, State};
 use std::env;
 
 /// How many made-up scenes are tried: `RTC_SCENES=1000 cargo test --test plan paths` tries more.

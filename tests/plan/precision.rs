@@ -2,8 +2,8 @@
 
 use super::proven;
 use super::stage::{ball, first_light, material, matt, plane, with};
-use rtc::ir::{self, Mode, Phong, Scene, Shape, Surface};
-use rtc::plan::{Arithmetic, Loss, NEAREST, Symptom, loss};
+use rtc::internals::ir::{self, Mode, Phong, Scene, Shape, Surface};
+use rtc::internals::plan::{Arithmetic, Loss, NEAREST, Symptom, loss};
 
 /// The unit of rounding of f32.
 const UNIT: f64 = f32::EPSILON as f64 / 2.0;

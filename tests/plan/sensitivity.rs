@@ -5,9 +5,9 @@ use super::stage::{
     ball, disc, first_light, light, material, matt, plane, shiny, square, texture, with,
 };
 use super::{bits, fate, film, proven};
-use rtc::ir::{Mode, Scene};
-use rtc::plan::{Effect, Rule, Rules, State};
-use rtc::render::Values;
+use rtc::internals::ir::{Mode, Scene};
+use rtc::internals::plan::{Effect, Plan, Rule, Rules, State};
+use rtc::internals::render::Values;
 
 /// A scene in which a rule leaves an effect out, and a change after which it is needed.
 fn turns(effect: Effect, rule: Rule, scene: &Scene, change: impl FnOnce(&mut Scene)) {
@@ -68,6 +68,34 @@ fn a_second_ball_and_a_light_inside_make_shadows() {
     });
 }
 
+/// Where some surface hides a light, shadow rays still ask no other.
+#[test]
+fn a_light_is_asked_of_those_alone_that_may_hide_it() {
+    let mut scene = with(&[
+        (ball([0.0; 3], 1.0), matt()),
+        (ball([0.75, 1.0, 3.0], 0.25), matt()),
+        (ball([0.0, -50.0, 0.0], 1.0), matt()),
+        (plane(-60.0), matt()),
+        (plane(20.0), matt()),
+    ]);
+    let asked = |scene: &Scene, rules: Rules| {
+        let plan = Plan::new(&proven(scene), rules);
+        let may_hide = |receiver: usize| {
+            let casters = (0..5).filter(|caster| plan.lights[0].may_hide(*caster, receiver));
+            casters.collect::<Vec<_>>()
+        };
+        [0, 3].map(may_hide)
+    };
+    assert_eq!(asked(&scene, Rules::ALL), [vec![1], vec![0, 1, 2]]);
+    let all = vec![0, 1, 2, 3, 4];
+    assert_eq!(asked(&scene, Rules::NONE), [all.clone(), all.clone()]);
+    let alone = Rules::ALL.without(Rule::ShadowConvex);
+    assert_eq!(asked(&scene, alone), [vec![0, 1], vec![0, 1, 2, 3]]);
+    // A light beyond the upper plane.
+    first_light(&mut scene).position = [3.0, 44.0, 12.0];
+    assert_eq!(asked(&scene, Rules::ALL), [vec![4], vec![0, 1, 2, 4]]);
+}
+
 #[test]
 fn a_plane_between_hides_the_light_and_one_beside_does_not() {
     let far = with(&[
@@ -115,7 +143,7 @@ fn a_lens_needs_a_radius_and_samples() {
     turns(Effect::Lens, Rule::Pinhole, &lens, |scene| {
         scene.camera.lens.radius = 1e-3
     });
-    lens.camera.lens = rtc::ir::Lens {
+    lens.camera.lens = rtc::internals::ir::Lens {
         radius: 0.1,
         samples: 1,
     };
@@ -180,7 +208,7 @@ fn a_mirror_shows_what_is_before_it_and_nothing_background() {
     let alone = with(&[(ball([0.0; 3], 1.0), shiny())]);
     let torus = |scene: &mut Scene| {
         let (center, axis) = ([0.0; 3], [0.0, 0.0, 1.0]);
-        scene.surfaces[0].shape = rtc::ir::Shape::Torus(rtc::ir::Torus {
+        scene.surfaces[0].shape = rtc::internals::ir::Shape::Torus(rtc::internals::ir::Torus {
             center,
             axis,
             major: 1.0,
@@ -236,7 +264,7 @@ fn a_ball_that_comes_into_view_brings_what_it_needs() {
 fn a_second_light_behind_the_disc_is_left_out_alone() {
     let mut scene = with(&[(disc([0.0; 3], 2.0), matt())]);
     scene.lights.push(light([0.0, 0.0, -3.0]));
-    let plan = rtc::plan::Plan::new(&proven(&scene), Rules::ALL);
+    let plan = rtc::internals::plan::Plan::new(&proven(&scene), Rules::ALL);
     assert_eq!(
         [plan.lights[0].direct, plan.lights[1].direct],
         [true, false]

@@ -1,6 +1,6 @@
 //! A small stage: a ball, a disc and what else a test puts there, seen from (0, 0, 10) along −z.
 
-use rtc::ir::{
+use rtc::internals::ir::{
     self, ImageId, Light, Material, MaterialId, Phong, Scene, Shape, Surface, Texture, TextureId,
 };
 
@@ -59,6 +59,7 @@ pub(super) fn stage() -> Scene {
         surfaces: Vec::new(),
         names: Vec::new(),
         environment: None,
+        display: ir::Display::default(),
     }
 }
 

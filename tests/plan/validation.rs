@@ -5,9 +5,9 @@ use super::dice::Dice;
 use super::stage::{ball, disc, matt, shiny, with};
 use super::{file_name, files, proven, scene, small};
 use proptest::prelude::*;
-use rtc::ir::Scene;
-use rtc::plan::{Effect, Plan, Rule, Rules};
-use rtc::render::{Job, Mismatch, verify};
+use rtc::internals::ir::Scene;
+use rtc::internals::plan::{Effect, Plan, Rule, Rules};
+use rtc::internals::render::{Job, Mismatch, verify};
 
 fn validate(scene: &Scene, change: impl FnOnce(&mut Plan)) -> Result<(), Mismatch> {
     let scene = proven(scene);
@@ -89,7 +89,7 @@ fn what_is_cut_off_is_too_small_to_see() {
     assert_eq!((exact.max_depth, cut.max_depth), (60, 10));
     assert_eq!(cut.rule_of(Effect::Depth), Some(Rule::Cut));
     let picture = |plan: &Plan| {
-        rtc::render::render(&scene, plan, &Job::default(), &|_| true)
+        rtc::internals::render::render(&scene, plan, &Job::default(), &|_| true)
             .unwrap()
             .image
             .pixels

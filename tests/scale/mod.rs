@@ -1,6 +1,6 @@
 //! Scenes made larger or smaller, for suites that state laws of scale.
 
-use rtc::ir::{self, Scene, Shape};
+use rtc::internals::ir::{self, Scene, Shape};
 use serde_json::Value;
 
 /// Every length of the scene times a factor; what is a direction or a colour stays.

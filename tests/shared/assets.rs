@@ -2,9 +2,9 @@
 
 use super::scenes::each;
 use libtest_mimic::Trial;
-use rtc::diag::Sink;
-use rtc::pipeline::{self, Options};
-use rtc::source::SourceMap;
+use rtc::internals::diag::Sink;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::SourceMap;
 use std::path::Path;
 
 pub(crate) fn trials() -> Vec<Trial> {

@@ -2,9 +2,9 @@
 
 use super::suite::{absent, files, name, shared, trial};
 use libtest_mimic::Trial;
-use rtc::diag::{Severity, Sink};
-use rtc::pipeline::{self, Options};
-use rtc::source::{Loader, SourceMap};
+use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::{Loader, SourceMap};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

@@ -4,9 +4,9 @@
 use super::scenes::COURSE;
 use super::suite::{files, needs, shared};
 use libtest_mimic::Trial;
-use rtc::diag::{Severity, Sink};
-use rtc::pipeline::{self, Options};
-use rtc::source::{Loader, SourceMap};
+use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::{Loader, SourceMap};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 

@@ -5,13 +5,13 @@
 
 use super::suite::needs;
 use libtest_mimic::Trial;
-use rtc::color::quantize8;
-use rtc::diag::Sink;
-use rtc::passes::Overrides;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::Job;
-use rtc::source::{Loader, SourceMap};
+use rtc::internals::color::quantize8;
+use rtc::internals::diag::Sink;
+use rtc::internals::passes::Overrides;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::Job;
+use rtc::internals::source::{Loader, SourceMap};
 use std::path::{Path, PathBuf};
 
 struct Figure {

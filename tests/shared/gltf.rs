@@ -3,10 +3,10 @@
 use super::scenes::{accepted, each};
 use super::suite::needs;
 use libtest_mimic::Trial;
-use rtc::diag::Sink;
-use rtc::ir::Mesh;
-use rtc::pipeline::{self, Options};
-use rtc::source::{Loader, SourceMap};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::Mesh;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::{Loader, SourceMap};
 use std::path::Path;
 
 pub(crate) fn trials() -> Vec<Trial> {

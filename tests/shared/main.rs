@@ -31,9 +31,12 @@ mod seen;
 mod small;
 #[path = "../suite/mod.rs"]
 mod suite;
+#[path = "../texts/mod.rs"]
+mod texts;
 #[path = "../small/told.rs"]
 mod told;
 mod wild;
+mod written;
 
 use std::process::ExitCode;
 
@@ -52,6 +55,7 @@ fn main() -> ExitCode {
         plan::trials(),
         seen::trials(),
         wild::trials(),
+        written::trials(),
     ];
     suite::run(suites.into_iter().flatten().collect())
 }

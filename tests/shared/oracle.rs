@@ -3,8 +3,8 @@
 
 use super::scenes::{course, proven};
 use libtest_mimic::Trial;
-use rtc::plan::{Effect, Plan, Rules, State, Verdict};
-use rtc::valid::Proof;
+use rtc::internals::plan::{Effect, Plan, Rules, State, Verdict};
+use rtc::internals::valid::Proof;
 
 use Effect::{
     DepthBuffer, DirectLight, GlossyReflection, Highlight, Lens, Mirror, NormalBuffer,

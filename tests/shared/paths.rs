@@ -5,7 +5,7 @@ use super::scenes::{accepted, each, proven};
 use super::suite::{files, needs};
 use super::told::{difference, film, traced, unmet};
 use libtest_mimic::Trial;
-use rtc::plan::Rules;
+use rtc::internals::plan::Rules;
 use std::path::Path;
 
 const ASSETS: &str = "gltf/assets";

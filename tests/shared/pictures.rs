@@ -3,9 +3,9 @@
 use super::scenes::{at, course, proven, whole};
 use super::suite::trial;
 use libtest_mimic::Trial;
-use rtc::image::Image;
-use rtc::ir::Scene;
-use rtc::render::{Counts, Film};
+use rtc::internals::image::Image;
+use rtc::internals::ir::Scene;
+use rtc::internals::render::{Counts, Film};
 
 const CURVED: [&str; 5] = [
     "tori.yaml",

@@ -3,11 +3,11 @@
 
 use super::scenes::{COURSE, at, course, each, film, proven, read};
 use libtest_mimic::Trial;
-use rtc::color::quantize8;
-use rtc::ir::Scene;
-use rtc::plan::{Arithmetic, Plan, Rules, Symptom, loss};
-use rtc::render::{Film, Job};
-use rtc::valid::Proof;
+use rtc::internals::color::quantize8;
+use rtc::internals::ir::Scene;
+use rtc::internals::plan::{Arithmetic, Plan, Rules, Symptom, loss};
+use rtc::internals::render::{Film, Job};
+use rtc::internals::valid::Proof;
 use std::path::Path;
 
 pub(crate) fn trials() -> Vec<Trial> {

@@ -5,11 +5,11 @@ use super::oracle;
 use super::scenes::{COURSE, accepted, course, each, film, proven, whole};
 use super::small::bits;
 use libtest_mimic::Trial;
-use rtc::ir::Scene;
-use rtc::passes::Overrides;
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Job, Values, verify};
-use rtc::valid::Proof;
+use rtc::internals::ir::Scene;
+use rtc::internals::passes::Overrides;
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Job, Values, verify};
+use rtc::internals::valid::Proof;
 use std::path::Path;
 
 pub(crate) fn trials() -> Vec<Trial> {

@@ -2,14 +2,14 @@
 
 use super::suite::{absent, files, shared, trial};
 use libtest_mimic::Trial;
-use rtc::diag::Sink;
-use rtc::ir::{Lowered, Origins, Scene};
-use rtc::passes::Overrides;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Film, Job};
-use rtc::source::{Loader, SourceMap};
-use rtc::valid::Proof;
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::passes::Overrides;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Film, Job};
+use rtc::internals::source::{Loader, SourceMap};
+use rtc::internals::valid::Proof;
 use std::path::Path;
 
 /// The scenes of the course, of which each shows something.

@@ -5,12 +5,12 @@
 use super::scenes::{COURSE, each};
 use super::suite::{files, root, trial};
 use libtest_mimic::Trial;
-use rtc::diag::{Sink, codes};
-use rtc::passes::Overrides;
-use rtc::pipeline::{self, Options, Renderer};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Aov, Crop};
-use rtc::source::{Loader, SourceMap};
+use rtc::internals::diag::{Sink, codes};
+use rtc::internals::passes::Overrides;
+use rtc::internals::pipeline::{self, Options, Renderer};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Aov, Job};
+use rtc::internals::source::{Loader, SourceMap};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -63,14 +63,9 @@ fn never_seen_is_not_shown(path: &Path) {
     if numbers.is_empty() {
         return;
     }
-    let whole = Crop {
-        x: 0,
-        y: 0,
-        width: 48,
-        height: 48,
-    };
+    let whole = Job::default();
     let renderer = Renderer::new(&scene, &Plan::new(&scene, Rules::NONE), 0).unwrap();
-    let layers = renderer.layers(&[Aov::Instance], whole, &|| true).unwrap();
+    let layers = renderer.layers(&[Aov::Instance], &whole, &|| true).unwrap();
     let shown: BTreeSet<String> = layers.values.iter().map(f32::to_string).collect();
     for number in numbers {
         assert!(!shown.contains(&number.to_string()), "{number} is shown");

@@ -4,12 +4,12 @@
 use super::scenes::{COURSE, each};
 use super::suite::{files, needs};
 use libtest_mimic::Trial;
-use rtc::diag::{Severity, Sink};
-use rtc::passes::Overrides;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::Job;
-use rtc::source::{Loader, SourceMap};
+use rtc::internals::diag::{Severity, Sink};
+use rtc::internals::passes::Overrides;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::Job;
+use rtc::internals::source::{Loader, SourceMap};
 use std::path::Path;
 
 const SCENES: &[&str] = &["yaml", "yml"];
@@ -152,8 +152,9 @@ fn places(path: &Path, shared: &Path) -> Vec<String> {
         .kept()
         .iter()
         .filter(|finding| ["RE001", "RE002", "RE003"].contains(&finding.code.id));
-    let line =
-        |finding: &rtc::diag::Diagnostic| format!("{} {name}: {}", finding.code, finding.message);
+    let line = |finding: &rtc::internals::diag::Diagnostic| {
+        format!("{} {name}: {}", finding.code, finding.message)
+    };
     of_places
         .map(|finding| line(finding).replace(&format!("{}/", shared.display()), ""))
         .collect()

@@ -3,12 +3,12 @@
 
 use crate::scale::scaled;
 use crate::small::{WHOLE, bits, film, small};
-use rtc::diag::Sink;
-use rtc::ir::{self, Lowered, Origins, Scene};
-use rtc::math::ldexp;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Geometry, Shear, World, camera_ray, image_point};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{self, Lowered, Origins, Scene};
+use rtc::internals::math::ldexp;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Geometry, Shear, World, camera_ray, image_point};
 use std::path::Path;
 
 /// Scenes, each with the powers of two it is scaled by: all from −40 to 40 occur, `RTC_ALL_POWERS`

@@ -2,14 +2,14 @@
 //! pictures.
 #![allow(dead_code, reason = "no suite needs all of it")]
 
-use rtc::diag::Sink;
-use rtc::ir::{Lowered, Origins, Scene};
-use rtc::passes::Overrides;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Background, Film, Job, Seeds, Stride, Values};
-use rtc::source::{FileId, Loader, SourceMap};
-use rtc::valid::Proof;
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::passes::Overrides;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Background, Film, Job, Seeds, Stride, Values};
+use rtc::internals::source::{FileId, Loader, SourceMap};
+use rtc::internals::valid::Proof;
 use std::path::{Path, PathBuf};
 
 /// The scenes of the repo.

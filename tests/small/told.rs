@@ -1,11 +1,11 @@
 //! What a plan of paths tells, beside what its picture counts; and that its rules change no bit.
 
-use rtc::ir::{self, Mode, Scene};
-use rtc::passes::Overrides;
-use rtc::pipeline;
-use rtc::plan::{Effect, Plan, Rules, State};
-use rtc::render::{Counts, Film, Job, Values};
-use rtc::valid::Proof;
+use rtc::internals::ir::{self, Mode, Scene};
+use rtc::internals::passes::Overrides;
+use rtc::internals::pipeline;
+use rtc::internals::plan::{Effect, Plan, Rules, State};
+use rtc::internals::render::{Counts, Film, Job, Values};
+use rtc::internals::valid::Proof;
 
 /// The scene as the path integrator renders it, in few pixels, paths and bounces.
 pub(crate) fn traced(mut scene: Scene) -> Scene {

@@ -2,15 +2,15 @@
 
 use super::{agrees, along_and_from, axis, ray, vector};
 use proptest::prelude::*;
-use rtc::diag::Sink;
-use rtc::emit;
-use rtc::ir::Lowered;
-use rtc::math::{U, Vec3, ldexp, unit_scale};
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Geometry, Interaction, Job, PlainShape, Prepare, Ray, Shear, World};
-use rtc::source::SourceMap;
-use rtc::valid::Proof;
+use rtc::internals::diag::Sink;
+use rtc::internals::emit;
+use rtc::internals::ir::Lowered;
+use rtc::internals::math::{U, Vec3, ldexp, unit_scale};
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Geometry, Interaction, Job, PlainShape, Prepare, Ray, Shear, World};
+use rtc::internals::source::SourceMap;
+use rtc::internals::valid::Proof;
 
 /// Where a solid is: over a disc around `base`, `height` high along a unit axis.
 #[derive(Clone, Copy, Debug)]
@@ -131,7 +131,7 @@ proptest! {
     #[test]
     fn a_ray_from_outside_finds_the_first_point_of_a_solid(ray in ray(), place in place()) {
         for solid in SOLIDS {
-            let world = world::<rtc::render::Shape>(solid, &place);
+            let world = world::<rtc::internals::render::Shape>(solid, &place);
             agrees(&ray, hit(&world, &ray).map(|(t, _)| t), |p| distance(solid, &place, p))?;
         }
     }
@@ -142,7 +142,7 @@ proptest! {
         let origin = place.base + place.axis * (share * place.height);
         let ray = Ray { origin, direction: away.normalize() };
         for solid in SOLIDS {
-            let world = world::<rtc::render::Shape>(solid, &place);
+            let world = world::<rtc::internals::render::Shape>(solid, &place);
             let found = hit(&world, &ray).map(|(t, _)| t);
             prop_assert!(found.is_some());
             agrees(&ray, found, |p| -distance(solid, &place, p))?;
@@ -155,7 +155,7 @@ proptest! {
     fn points_are_on_the_surface_and_normals_lead_out(ray in ray(), place in place(), away in axis()) {
         const STEP: f64 = 1e-7;
         for solid in SOLIDS {
-            let world = world::<rtc::render::Shape>(solid, &place);
+            let world = world::<rtc::internals::render::Shape>(solid, &place);
             let Some((_, at)) = hit(&world, &ray) else { continue };
             let off = distance(solid, &place, at.point);
             prop_assert!(off.abs() < 1e-14, "{:e} off the surface", off);
@@ -169,7 +169,7 @@ proptest! {
     #[test]
     fn plain_formulas_find_the_same_where_rays_are_benign(ray in ray(), place in place()) {
         for solid in SOLIDS {
-            let robust = world::<rtc::render::Shape>(solid, &place);
+            let robust = world::<rtc::internals::render::Shape>(solid, &place);
             let Some((t, at)) = hit(&robust, &ray) else { continue };
             let slope = at.normal.dot(ray.direction).abs();
             let narrow = place.radius.min(place.height) < 0.2;
@@ -196,9 +196,9 @@ proptest! {
         };
         let scaled_ray = Ray { origin: ray.origin * factor, direction: ray.direction * factor };
         for solid in SOLIDS {
-            let (world, other) = (world::<rtc::render::Shape>(solid, &place), world(solid, &scaled));
+            let (world, other) = (world::<rtc::internals::render::Shape>(solid, &place), world(solid, &scaled));
             let found = hit(&world, &ray).map(|(t, at)| (t, at.point * factor, at.normal));
-            let wanted = hit::<rtc::render::Shape>(&other, &scaled_ray).map(|(t, at)| (t, at.point, at.normal));
+            let wanted = hit::<rtc::internals::render::Shape>(&other, &scaled_ray).map(|(t, at)| (t, at.point, at.normal));
             prop_assert_eq!(found, wanted);
         }
     }

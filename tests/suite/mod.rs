@@ -15,6 +15,19 @@ pub(crate) fn trial(name: impl Into<String>, test: impl FnOnce() + Send + 'stati
     })
 }
 
+/// A test that may find that there is nothing to test, and then says why; it counts as ignored.
+pub(crate) fn trial_if(
+    name: impl Into<String>,
+    test: impl FnOnce() -> Result<(), &'static str> + Send + 'static,
+) -> Trial {
+    Trial::ignorable_test(name, move || {
+        Ok(match test() {
+            Ok(()) => Completion::Completed,
+            Err(why) => Completion::ignored_with(why),
+        })
+    })
+}
+
 /// A test of a file or folder of `../shared`; ignored where that is not at hand.
 pub(crate) fn needs(
     name: impl Into<String>,

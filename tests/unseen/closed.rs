@@ -1,9 +1,9 @@
 //! Closed meshes let no light in, whatever the normals of their corners.
 
 use super::{film, scene, smooth};
-use rtc::ir::Scene;
-use rtc::plan::Rules;
-use rtc::render::Film;
+use rtc::internals::ir::Scene;
+use rtc::internals::plan::Rules;
+use rtc::internals::render::Film;
 
 /// The inside of a closed mesh with lights outside, one of them in the plane of a face of the
 /// icosahedron.

@@ -1,10 +1,10 @@
 //! Where surfaces lie in one place, the first of the scene is seen.
 
 use super::{film, noise, proven, random, scene};
-use rtc::ir::{self, Scene};
-use rtc::math::{U, Vec3, pow};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Film, Geometry, Ray, Shape, World};
+use rtc::internals::ir::{self, Scene};
+use rtc::internals::math::{U, Vec3, pow};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Film, Geometry, Ray, Shape, World};
 
 /// What all is made of.
 const MATERIAL: &str = "material: {color: [1, 1, 1], ka: 1, kd: 0, ks: 0, n: 1}";

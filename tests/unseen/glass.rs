@@ -1,8 +1,8 @@
 //! Glass of an index of 1 is not there, of whatever shape.
 
 use super::{film, scene, smooth};
-use rtc::ir::{Material, Scene};
-use rtc::plan::Rules;
+use rtc::internals::ir::{Material, Scene};
+use rtc::internals::plan::Rules;
 
 /// Every shape of the course, and meshes with normals.
 const SHAPES: [(&str, f64); 15] = [

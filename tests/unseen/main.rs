@@ -7,14 +7,14 @@ mod closed;
 mod coplanar;
 mod glass;
 
-use rtc::diag::Sink;
-use rtc::ir::{Lowered, Origins, Scene};
-use rtc::math::Vec3;
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Film, Job, Values, render};
-use rtc::source::SourceMap;
-use rtc::valid::Proof;
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::math::Vec3;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Film, Job, Values, render};
+use rtc::internals::source::SourceMap;
+use rtc::internals::valid::Proof;
 use std::path::Path;
 
 /// A scene of the course, by its text; assets are those of the repo.

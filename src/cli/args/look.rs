@@ -1,9 +1,10 @@
 //! What `rtc render` is told of the look of a picture: how bright, by which tone map, before what,
 //! with which layers.
 
-use super::super::parse::{Exposure, background, exposure};
+use super::super::parse::{background, exposure};
 use crate::color::Tone;
 use crate::image::BackgroundFill;
+use crate::pipeline::Exposure;
 use crate::render::Aov;
 use clap::{Args, ValueEnum};
 

@@ -3,15 +3,18 @@
 mod common;
 mod cost;
 mod look;
+mod merge;
 mod render;
 mod stage;
 
 pub(super) use common::{Color, MessageFormat, Reading, TalkArgs};
 pub(super) use cost::{Cost, StudyFormat};
 pub(super) use look::{BitDepth, LookArgs};
+pub(super) use merge::Merge;
 pub(super) use render::{Pruning, Render};
 pub(super) use stage::{GroundArg, StageArgs};
 
+use super::parse::length;
 use crate::ir;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
@@ -46,6 +49,8 @@ pub(super) enum Command {
     Compile(Compile),
     /// Render a scene to a picture
     Render(Box<Render>),
+    /// Merge parts of a picture, rendered by `rtc render --part`, into the picture
+    Merge(Merge),
     /// Show what accuracy costs in a scene, and which settings are worth it
     Cost(Cost),
     /// Explain a code of a diagnostic
@@ -80,9 +85,13 @@ pub(super) struct Compile {
     /// Say which effects the picture needs, and why it does without the others
     #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true, default_missing_value = "human")]
     pub(super) explain: Option<Explanation>,
-    /// What to write [default: by the extension of the output (.json, .rtir, .yaml), or `ir`]
+    /// What to write [default: by the extension of the output (.json, .rtir, .yaml, .glb), or `ir`]
     #[arg(long, value_enum)]
     pub(super) emit: Option<Emit>,
+    /// How far a mesh of the glTF may be from the curved shape it stands for, in scene units
+    /// [default: a thousandth of the radius of each shape]
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub(super) tolerance: Option<f64>,
     #[command(flatten)]
     pub(super) stage: StageArgs,
     #[command(flatten)]
@@ -136,6 +145,8 @@ pub(super) enum Emit {
     IrBin,
     /// The scene, in canonical spelling
     Yaml,
+    /// A binary glTF 2.0 asset: shapes become meshes
+    Glb,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -1,7 +1,8 @@
 //! What `rtc render` is told.
 
-use super::super::parse::{crop, levels, rule, seconds, setting, size};
+use super::super::parse::{crop, interval, levels, rule, seconds, setting, share, size};
 use super::{LookArgs, Reading, StageArgs, TalkArgs};
+use crate::pipeline::SharedBy;
 use crate::plan::{self, Rule};
 use crate::render::Crop;
 use clap::{Args, ValueEnum, ValueHint};
@@ -50,6 +51,25 @@ pub(in crate::cli) struct Render {
     /// `-%04d`
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects")]
     pub(in crate::cli) turntable: Option<u32>,
+    /// Render one of N shares of the picture into a part, .rtp; `rtc merge` makes the picture of all
+    #[arg(long, value_name = "I/N", value_parser = share, conflicts_with_all = ["turntable", "verify_effects"])]
+    pub(in crate::cli) part: Option<[u32; 2]>,
+    /// What is shared out: tiles, or the samples of traced paths
+    #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
+    pub(in crate::cli) parts_by: SharedByArg,
+    /// The picture that the part is of, .png or .exr [default: the scene's name with .png]
+    #[arg(long, value_name = "FILE", requires = "part", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) picture: Option<PathBuf>,
+    /// Save what is done into this file, .rtp, now and then and when told to end; the same command goes
+    /// on from there
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["part", "turntable", "verify_effects"])]
+    pub(in crate::cli) checkpoint: Option<PathBuf>,
+    /// How often to save, in seconds
+    #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = interval)]
+    pub(in crate::cli) every: Duration,
+    /// Begin anew, whatever was saved
+    #[arg(long, requires = "checkpoint")]
+    pub(in crate::cli) restart: bool,
     /// Threads to work on [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(in crate::cli) threads: Option<u16>,
@@ -87,6 +107,24 @@ pub(in crate::cli) struct Pruning {
     /// Simulate also what is left out, and stop at a pixel where it would show
     #[arg(long, conflicts_with = "no_prune")]
     pub(in crate::cli) verify_effects: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum SharedByArg {
+    /// Each part has some tiles, with all their samples
+    #[default]
+    Tiles,
+    /// Each part has some blocks of 16 samples of all pixels
+    Samples,
+}
+
+impl From<SharedByArg> for SharedBy {
+    fn from(by: SharedByArg) -> Self {
+        match by {
+            SharedByArg::Tiles => Self::Tiles,
+            SharedByArg::Samples => Self::Samples,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -1,62 +1,60 @@
 //! `rtc render`: a scene to a picture. What was typed becomes a [`RenderSetup`] before anything is read.
 
-mod light;
+mod checkpoint;
+mod part;
 mod shot;
 
 use super::Failure;
-use super::args;
-use super::findings;
-use super::input::{self, Input, Proven, Provenance};
+use super::args::{self, BitDepth};
+use super::input;
 use super::interrupt::Interrupt;
-use super::look::OutputLook;
 use super::output::{self, Output};
 use super::simd;
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable};
-use crate::diag::Diagnostic;
-use crate::image::{BackgroundFill, Layers, Lost, Origin};
-use crate::ir::{Mode, Scene};
-use crate::passes::{self, Framing, Overrides};
-use crate::pipeline::Renderer;
-use crate::plan::{self, Rule, Rules};
-use crate::render::{Crop, SimdLevel};
+use crate::color::Tone;
+use crate::image::BackgroundFill;
+use crate::passes::Overrides;
+use crate::pipeline::{
+    Input, Observer, OutputFormat, OutputLook, PictureSetup, RenderError, RenderSubject,
+};
+use crate::plan::{Rule, Rules};
+use crate::render::{Aov, Crop};
 use crate::study::Goal;
-use crate::valid::Proof;
-use light::FirstView;
+use checkpoint::Checkpoint;
+use part::PartSetup;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// A render as it will be done.
 struct RenderSetup {
     output: PathBuf,
-    look: OutputLook,
-    overrides: Overrides,
-    set: Vec<(String, String)>,
-    arithmetic: plan::Arithmetic,
-    crop: Option<Crop>,
-    goal: Goal,
-    threads: usize,
-    simd: SimdLevel,
-    rules: Rules,
-    verify: bool,
+    picture: PictureSetup,
     /// Views around the scene, if more than its own.
     turntable: Option<u32>,
     up: Option<[f64; 3]>,
-    /// The studio fills in beside the light of the scene.
-    is_filled: bool,
+    /// The share of the picture that is rendered, if not all of it.
+    part: Option<PartSetup>,
+    /// Where it is saved on its way.
+    checkpoint: Option<Checkpoint>,
 }
 
-/// What pictures are taken of: a proven scene, and its renderer from the first picture on.
-struct Subject {
-    proven: Proven,
-    renderer: Option<Renderer>,
+impl From<RenderError> for Failure {
+    fn from(error: RenderError) -> Self {
+        match error {
+            RenderError::Stopped => Self::Interrupted,
+            RenderError::RanOut(_) => Self::Findings,
+            RenderError::Refused(words) => Self::Trouble(words),
+        }
+    }
 }
 
 /// Renders the scene and writes the picture.
-pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
-    let mut plan = RenderSetup::new(args)?;
+pub(super) fn run(args: &args::Render, typed: &[OsString]) -> Result<(), Failure> {
+    let mut plan = RenderSetup::new(args, typed)?;
     let mut talk = Talk::beside_result(&args.talk);
-    let mut input = Input::staged(&args.file, &args.reading, &args.stage)?;
-    input.use_threads(plan.threads);
+    let mut input = input::staged(&args.file, &args.reading, &args.stage)?;
+    input.use_threads(plan.picture.threads);
     input.restage(|stage| {
         stage.all_around = args.turntable.is_some();
         if args.look.background == BackgroundFill::Transparent {
@@ -69,10 +67,12 @@ pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
 }
 
 impl RenderSetup {
-    fn new(args: &args::Render) -> Result<Self, Failure> {
-        let output = match &args.output {
-            Some(output) => output.clone(),
-            None => beside_here(&args.file, args.reading.stdin_name.as_deref())?,
+    fn new(args: &args::Render, typed: &[OsString]) -> Result<Self, Failure> {
+        let part = PartSetup::new(args, typed)?;
+        let output = match (&args.output, &part) {
+            (Some(output), _) => output.clone(),
+            (None, Some(part)) => part.beside_here(args)?,
+            (None, None) => beside_here(args)?,
         };
         if args.turntable.is_some() && output.as_os_str() == "-" {
             return Err(Failure::Trouble(
@@ -84,9 +84,8 @@ impl RenderSetup {
             error: args.target_error,
             time: args.time_budget,
         };
-        Ok(Self {
-            look: OutputLook::new(&args.look, &output)?,
-            output,
+        let picture = part.as_ref().map_or(output.as_path(), PartSetup::picture);
+        let picture = PictureSetup {
             overrides: Overrides {
                 size: args.size,
                 supersampling: args.supersampling,
@@ -104,46 +103,44 @@ impl RenderSetup {
             simd: simd::level()?,
             rules: rules(&args.pruning, goal),
             verify: args.pruning.verify_effects,
+            ..PictureSetup::new(look(&args.look, picture)?)
+        };
+        Ok(Self {
+            output,
+            picture,
             turntable: args.turntable,
             up: args.stage.up,
-            is_filled: false,
+            part,
+            checkpoint: Checkpoint::new(args)?,
         })
     }
 
     fn carry_out(&mut self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
-        let (mut set, mut first, mut fitted) = (Ok(()), None, None);
-        let proven = input::require(input, talk, |lowered, provenance| {
-            let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
-            first = Some(FirstView {
-                camera: lowered.scene.camera.clone(),
-                is_lit_asset: provenance.is_lit_asset && is_traced,
-                fill: provenance.fill,
-            });
-            if provenance.is_asset && is_traced && !provenance.is_unlit {
-                self.look.show_asset();
-            }
-            fitted = resize(&mut lowered.scene, self.overrides.size, provenance);
-            self.overrides.apply(&mut lowered.scene);
-            set = self.set.iter().try_for_each(|(name, value)| {
-                passes::set(&mut lowered.scene.settings, name, value)
-            });
-        })?;
-        set.map_err(|words| Failure::Trouble(format!("--set: {words}")))?;
-        self.window(&proven.lowered.scene)?;
-        let imprecise = findings::imprecise(&proven, self.arithmetic);
-        imprecise
-            .into_iter()
-            .chain(fitted)
-            .for_each(|finding| input.push(finding));
-        let interrupt = Interrupt::listen()?;
-        let mut subject = Subject {
-            proven,
-            renderer: None,
+        let subject = match input.load() {
+            Some(loaded) => self.picture.prove(loaded, input),
+            None => Ok(None),
         };
-        if let Some(view) = first {
-            self.light(&mut subject, &view, input, &interrupt)?;
+        let mut subject = match subject {
+            Ok(subject) => input::unless_refused(subject, input, talk)?,
+            Err(error) => {
+                input::tell(input, talk)?;
+                return Err(error.into());
+            }
+        };
+        self.picture.window(&subject.proven.lowered.scene)?;
+        let interrupt = Interrupt::listen()?;
+        let observer = Observer {
+            on_step: &|_| (),
+            is_stopped: &|| interrupt.is_raised(),
+        };
+        self.picture.light(&mut subject, input, &observer)?;
+        input::tell(input, talk)?;
+        if let Some(part) = &self.part {
+            return self.shoot_part(part, &mut subject, input, talk, &interrupt);
         }
-        input.tell(talk)?;
+        if let Some(checkpoint) = &self.checkpoint {
+            return self.shoot_saving(checkpoint, &mut subject, input, talk, &interrupt);
+        }
         let Some(count) = self.turntable else {
             return self.shoot(&mut subject, &self.output, input, talk, &interrupt);
         };
@@ -153,182 +150,71 @@ impl RenderSetup {
         })?;
         for frame in 0..count {
             table.turn(&mut subject.proven, frame)?;
-            if let Some(renderer) = &mut subject.renderer {
-                renderer.change(subject.proven.scene.clone());
-            }
-            self.shoot(
-                &mut subject,
-                &turntable::name(&self.output, frame),
-                input,
-                talk,
-                &interrupt,
-            )?;
+            subject.turn();
+            let path = turntable::name(&self.output, frame);
+            self.shoot(&mut subject, &path, input, talk, &interrupt)?;
         }
         Ok(())
+    }
+
+    /// The part of the picture that is rendered, for which there is memory, and where it goes.
+    fn ready(
+        &self,
+        subject: &mut RenderSubject,
+        path: &Path,
+        input: &Input,
+    ) -> Result<(Crop, Output), Failure> {
+        let window = self.picture.window(&subject.proven.lowered.scene)?;
+        self.picture.find_room(subject, window)?;
+        Ok((window, Output::open(path, input)?))
     }
 
     /// Renders one picture and writes it.
     fn shoot(
         &self,
-        subject: &mut Subject,
+        subject: &mut RenderSubject,
         path: &Path,
         input: &mut Input,
         talk: &mut Talk,
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
-        let window = self.window(&subject.proven.lowered.scene)?;
-        self.find_room(subject, window)?;
-        let output = Output::open(path, input)?;
+        let (window, output) = self.ready(subject, path, input)?;
         let (quiet, verbose) = (talk.is_quiet(), talk.is_verbose());
-        let shot = match self.goal {
+        let shot = match self.picture.goal {
             Goal {
                 error: None,
                 time: None,
-            } => self.trace(subject, (window, input.rays()), interrupt, quiet)?,
+            } => self.trace(subject, (window, input.rays()), interrupt, quiet),
             Goal { error: _, time: _ } => {
-                self.approach(subject, (window, input.rays()), interrupt, quiet)?
+                self.approach(subject, (window, input.rays()), interrupt, quiet)
             }
         };
         let shot = match shot {
             Ok(shot) => shot,
-            Err(finding) => {
-                input.push(*finding);
-                return input.tell(talk);
-            }
+            Err(error) => return halted(error, input, talk),
         };
-        if self.crop.is_none() && shot.counts.hits == 0 {
-            input.push(findings::nothing_in_view(&subject.proven));
-            input.tell(talk)?;
-        }
-        let summary = shot.summary(path, &self.light_told(), verbose);
-        // Where samples are clamped, and where a tone map follows, no more is seen of what is no
-        // number.
-        let unnumbered = shot.image.unnumbered().max(shot.counts.unnumbered);
-        let mut picture = self.look.develop(
-            shot.image,
-            shot.coverage,
-            &subject.proven.scene.settings().mode,
-        );
-        picture.layers = self.layers(subject, window, interrupt)?;
-        let lost = self.look.lost(&picture);
-        let findings = findings::unholdable(
-            &Lost {
-                unnumbered: lost.unnumbered.max(unnumbered),
-                ..lost
-            },
-            self.arithmetic,
-        );
-        if !findings.is_empty() {
-            findings.into_iter().for_each(|finding| input.push(finding));
-            input.tell(talk)?;
-        }
-        let bytes = self
-            .look
-            .encode(&picture, || self.origin(&subject.proven.lowered.scene))?;
+        let summary = shot.summary(path, &self.picture.light_told(), verbose);
+        let film = (shot.image, shot.coverage, &shot.counts);
+        let is_stopped = || interrupt.is_raised();
+        let picture = self.picture.develop(subject, film, input, &is_stopped)?;
+        input::tell(input, talk)?;
+        let bytes = self.picture.encode(&picture, subject)?;
         output.commit(&bytes, interrupt)?;
         if !quiet {
             talk::say(&summary);
         }
         Ok(())
     }
+}
 
-    /// The part of the picture that is rendered.
-    fn window(&self, scene: &Scene) -> Result<Crop, Failure> {
-        let [width, height] = scene.camera.size;
-        let window = self.crop.map_or(
-            Crop {
-                x: 0,
-                y: 0,
-                width,
-                height,
-            },
-            |crop| crop.within(width, height),
-        );
-        if window.width == 0 || window.height == 0 {
-            return Err(Failure::Trouble(format!(
-                "the crop lies outside the picture of {width}×{height} pixels"
-            )));
+/// Ends a command whose render came to no end: where rays ran out is a finding about the scene.
+fn halted(error: RenderError, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
+    match error {
+        RenderError::RanOut(finding) => {
+            input.push(*finding);
+            input::tell(input, talk)
         }
-        Ok(window)
-    }
-
-    /// Refuses a picture that there is no memory for.
-    fn find_room(&self, subject: &mut Subject, window: Crop) -> Result<(), Failure> {
-        /// A pixel of a film, with what is counted of it; and of one that grows.
-        const FILM: [usize; 2] = [40, 320];
-        let Crop { width, height, .. } = window;
-        let pixel = FILM[usize::from(self.goal != Goal::default())] + self.look.memory();
-        let bytes = (width as usize)
-            .saturating_mul(height as usize)
-            .saturating_mul(pixel);
-        let (_, renderer) = self.renderer(subject).map_err(no_threads)?;
-        if renderer.has_room(bytes) {
-            return Ok(());
-        }
-        let size = bytes.div_ceil(1 << 20);
-        let message = format!(
-            "there is no memory for a picture of {width}×{height} pixels: it takes up to {size} MiB"
-        );
-        Err(Failure::Trouble(message))
-    }
-
-    /// The layers beside the colours.
-    fn layers(
-        &self,
-        subject: &mut Subject,
-        window: Crop,
-        interrupt: &Interrupt,
-    ) -> Result<Layers, Failure> {
-        if self.look.aovs.is_empty() {
-            return Ok(Layers::default());
-        }
-        let (_, renderer) = self.renderer(subject).map_err(no_threads)?;
-        renderer
-            .layers(&self.look.aovs, window, &|| !interrupt.is_raised())
-            .ok_or(Failure::Interrupted)
-    }
-
-    /// What a scene needs for its picture.
-    fn plan(&self, scene: &Proof) -> plan::Plan {
-        plan::Plan::by(self.arithmetic, scene, self.rules)
-    }
-
-    /// A scene and its renderer, which is made when it is first asked for.
-    fn renderer<'s>(
-        &self,
-        subject: &'s mut Subject,
-    ) -> Result<(&'s Proven, &'s mut Renderer), rayon::ThreadPoolBuildError> {
-        let Subject { proven, renderer } = subject;
-        let made = match renderer.take() {
-            Some(made) => made,
-            None => {
-                let plan = self.plan(&proven.scene);
-                Renderer::at_level(&proven.scene, &plan, self.threads, self.simd)?
-            }
-        };
-        Ok((proven, renderer.insert(made)))
-    }
-
-    /// Enough to make the same picture again: which rtc, which scene, which part of it.
-    fn origin(&self, scene: &Scene) -> Origin {
-        let mut settings = serde_json::json!({
-            "size": scene.camera.size,
-            "lens": scene.camera.lens,
-            "settings": scene.settings,
-            "crop": self.crop.map(|Crop { x, y, width, height }| [x, y, width, height]),
-        });
-        if let Some(levels) = self.goal.error {
-            settings["targetError"] = levels.into();
-        }
-        if let Some(time) = self.goal.time {
-            settings["timeBudget"] = time.as_secs_f64().into();
-        }
-        self.look.describe(&mut settings);
-        Origin {
-            software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
-            scene: input::hash(scene),
-            settings: settings.to_string(),
-        }
+        error @ (RenderError::Stopped | RenderError::Refused(_)) => Err(error.into()),
     }
 }
 
@@ -348,35 +234,48 @@ fn rules(args: &args::Pruning, goal: Goal) -> Rules {
     }
 }
 
-/// Gives the view of an asset a picture of another size: it shows no less than before; what is to be
-/// said of that. Other scenes keep their height.
-fn resize(
-    scene: &mut Scene,
-    size: Option<[u32; 2]>,
-    provenance: &Provenance,
-) -> Option<Diagnostic> {
-    match (size, provenance.framing) {
-        (Some(_), Some(framing)) => Framing { size, ..framing }.apply(scene),
-        (Some(size), None) if provenance.is_asset => {
-            let before = scene.camera.size;
-            scene.camera.fit(size);
-            return findings::fitted(before, size);
-        }
-        _ => {}
+/// The look that is asked for.
+fn look(args: &args::LookArgs, output: &Path) -> Result<OutputLook, Failure> {
+    let refused = |words: &str| Failure::Trouble(words.to_owned());
+    let kind = kind(output, args.bits)?;
+    let aovs: Vec<Aov> = args.aov.iter().map(|layer| Aov::from(*layer)).collect();
+    let tone = args.tonemap.map(Tone::from);
+    let look = OutputLook::new(kind, tone, args.exposure, args.background, &aovs);
+    let look = look.map_err(refused)?;
+    if kind != OutputFormat::Exr && !aovs.is_empty() {
+        return Err(refused("`--aov` is for EXR; a PNG holds colours alone"));
     }
-    None
+    Ok(look)
 }
 
-fn no_threads(fault: rayon::ThreadPoolBuildError) -> Failure {
-    Failure::Trouble(format!("can't start threads: {fault}"))
+/// The kind of pixel file that a name stands for.
+pub(super) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<OutputFormat, Failure> {
+    let extension = output
+        .extension()
+        .map(|extension| extension.to_string_lossy().to_lowercase());
+    let is_stdout = output.as_os_str() == "-";
+    match (extension.as_deref(), bits) {
+        (Some("exr"), None) => Ok(OutputFormat::Exr),
+        (Some("exr"), Some(_)) => Err(Failure::Trouble(
+            "`--bits` is for PNG; an EXR holds 32-bit floats".to_owned(),
+        )),
+        (Some("png"), Some(BitDepth::Sixteen)) => Ok(OutputFormat::Png16),
+        (Some("png"), Some(BitDepth::Eight) | None) => Ok(OutputFormat::Png8),
+        (None, Some(BitDepth::Sixteen)) if is_stdout => Ok(OutputFormat::Png16),
+        (None, Some(BitDepth::Eight) | None) if is_stdout => Ok(OutputFormat::Png8),
+        _ => Err(Failure::Trouble(format!(
+            "can't tell what `{}` is to be; name it .png or .exr",
+            output.display()
+        ))),
+    }
 }
 
 /// The name of the scene with `.png`, in the current folder.
-fn beside_here(file: &Path, stdin_name: Option<&str>) -> Result<PathBuf, Failure> {
-    let name = if file.as_os_str() == "-" {
-        stdin_name.map(Path::new)
+fn beside_here(args: &args::Render) -> Result<PathBuf, Failure> {
+    let name = if args.file.as_os_str() == "-" {
+        args.reading.stdin_name.as_deref().map(Path::new)
     } else {
-        Some(file)
+        Some(args.file.as_path())
     };
     let stem = name.and_then(Path::file_stem);
     let stem =

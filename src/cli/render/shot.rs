@@ -1,14 +1,13 @@
-//! One render: as the scene says or until a goal is reached, or where its rays ran out.
+//! One render: as the scene says or until a goal is reached, or where its rays ran out; with a bar
+//! that shows how far it is.
 
-use super::super::Failure;
 use super::super::interrupt::Interrupt;
 use super::super::progress::{self, RenderProgress};
-use super::{RenderSetup, Subject, no_threads};
-use crate::diag::Diagnostic;
+use super::RenderSetup;
 use crate::image::Image;
-use crate::pipeline::{self, Meter};
-use crate::plan::{Effect, Rule};
-use crate::render::{Counts, Crop, Film, Job, Mismatch};
+use crate::pipeline::{Meter, Observer, RenderError, RenderSubject};
+use crate::plan::Effect;
+use crate::render::{Counts, Crop, Film};
 use crate::study::{Order, Reached, Samples, Stopped, Watch};
 use indicatif::HumanCount;
 use std::path::Path;
@@ -28,23 +27,28 @@ impl Rendered {
     /// What is said of it, with what is told of its light; if `verbose`, with how often each effect was
     /// simulated.
     pub(super) fn summary(&self, path: &Path, light: &str, verbose: bool) -> String {
-        let Self {
-            image,
-            counts,
-            elapsed,
-            quality,
-            coverage: _,
-        } = self;
-        let work = progress::summary(counts.rays(), *elapsed);
-        let line = format!(
-            "{}: {}×{}, {light}{work}",
-            path.display(),
-            image.width,
-            image.height
-        );
-        let effects = verbose.then(|| simulated(counts));
-        let lines = [Some(line), effects, quality.clone()];
+        let size = [self.image.width, self.image.height];
+        let line = summary(path, size, light, (&self.counts, self.elapsed), verbose);
+        let lines = [Some(line), self.quality.clone()];
         lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// What is said of a picture: its size, what is told of its light, its rays and how long they took; if
+/// `verbose`, how often each effect was simulated.
+pub(super) fn summary(
+    path: &Path,
+    [width, height]: [u32; 2],
+    light: &str,
+    (counts, elapsed): (&Counts, Duration),
+    verbose: bool,
+) -> String {
+    let work = progress::summary(counts.rays(), elapsed);
+    let line = format!("{}: {width}×{height}, {light}{work}", path.display());
+    if verbose {
+        format!("{line}\n{}", simulated(counts))
+    } else {
+        line
     }
 }
 
@@ -62,94 +66,79 @@ impl RenderSetup {
     /// many.
     pub(super) fn trace(
         &self,
-        subject: &mut Subject,
+        subject: &mut RenderSubject,
         (window, rays): (Crop, u64),
         interrupt: &Interrupt,
         quiet: bool,
-    ) -> Result<Result<Rendered, Box<Diagnostic>>, Failure> {
-        let scene = &subject.proven.scene;
-        let values = self.look.values(&scene.settings().mode);
-        let job = Job {
-            crop: Some(window),
-            values,
-            background: self.look.background(),
-            ..Job::default()
+    ) -> Result<Rendered, RenderError> {
+        let progress = RenderProgress::start(window.pixels() as u64, quiet);
+        let observer = Observer {
+            on_step: &|step| progress.step(step),
+            is_stopped: &|| interrupt.is_raised(),
         };
-        let progress =
-            RenderProgress::start(u64::from(window.width) * u64::from(window.height), quiet);
-        let renders = if self.verify { 2 } else { 1 };
-        let meter = Meter::of_each(rays, window, renders);
-        let on_pixel = |step| {
-            progress.step(step);
-            !interrupt.is_raised() && meter.step(step)
-        };
-        let film = if self.verify {
-            pipeline::verify(scene, &self.plan(scene), &job, self.threads, &on_pixel)
-        } else {
-            self.renderer(subject)
-                .map(|(_, renderer)| renderer.render(&job, &on_pixel).map(Ok))
-        };
+        let film = self.picture.trace(subject, (window, rays), &observer);
         let elapsed = progress.finish();
-        let film = film.map_err(no_threads)?;
-        if let Some(finding) = ran_out(&meter, subject, interrupt) {
-            return Ok(Err(finding));
-        }
-        let film = film.ok_or(Failure::Interrupted)?;
         let Film {
             image,
             coverage,
             counts,
-        } = film.map_err(|mismatch| Failure::Trouble(left_out(&mismatch)))?;
-        Ok(Ok(Rendered {
+        } = film?;
+        Ok(Rendered {
             image,
             coverage,
             counts,
             elapsed,
             quality: None,
-        }))
+        })
     }
 
     /// The picture with the samples that its goal takes, or where its rays ran out.
     pub(super) fn approach(
         &self,
-        subject: &mut Subject,
+        subject: &mut RenderSubject,
         (window, rays): (Crop, u64),
         interrupt: &Interrupt,
         quiet: bool,
-    ) -> Result<Result<Rendered, Box<Diagnostic>>, Failure> {
+    ) -> Result<Rendered, RenderError> {
+        let setup = &self.picture;
+        let mode = &subject.proven.scene.settings().mode;
         let order = Order {
-            goal: self.goal,
+            goal: setup.goal,
             crop: window,
-            background: self.look.background(),
-            values: self.look.values(&subject.proven.scene.settings().mode),
-            display: self.look.display(&subject.proven.scene.settings().mode),
-            keep_lights: self.overrides.light_samples.is_some(),
+            background: setup.look.background(),
+            values: setup.look.values(mode),
+            display: setup.look.display(mode),
+            keep_lights: setup.overrides.light_samples.is_some(),
             seed: 0,
         };
         let progress = RenderProgress::start(0, quiet);
         let meter = Meter::new(rays, window);
+        let observer = Observer {
+            on_step: &|step| progress.step(step),
+            is_stopped: &|| interrupt.is_raised(),
+        };
         let watch = Watch {
             on_pixel: &|step| {
                 progress.step(step);
                 !interrupt.is_raised() && meter.step(step)
             },
-            is_stopped: &|| interrupt.is_raised(),
+            is_stopped: observer.is_stopped,
             elapsed: &|| progress.elapsed(),
             round: &|state| {
                 meter.begin_round();
                 progress.round(state.pixels, state.error.map_or_else(String::new, error));
             },
         };
-        let reached = self.renderer(subject);
+        let reached = setup.renderer(subject);
         let reached = reached
             .map(|(proven, renderer)| renderer.approach(&proven.lowered.scene, &order, &watch));
+        let ran_out = subject.ran_out(&meter, &observer);
         let elapsed = progress.finish();
-        let ran_out = ran_out(&meter, subject, interrupt);
-        let (reached, end) = match (reached.map_err(no_threads)?, ran_out) {
+        let (reached, end) = match (reached?, ran_out) {
             (Ok(reached), None) => (reached, ""),
             (Ok(reached), Some(_)) => (reached, ", ended by `--limit rays`"),
-            (Err(Stopped), Some(finding)) => return Ok(Err(finding)),
-            (Err(Stopped), None) => return Err(Failure::Interrupted),
+            (Err(Stopped), Some(finding)) => return Err(RenderError::RanOut(finding)),
+            (Err(Stopped), None) => return Err(RenderError::Stopped),
         };
         let Reached {
             image,
@@ -162,37 +151,14 @@ impl RenderSetup {
             "{} (90 %), {mean:.0} samples a pixel on the mean, {min} … {most}{end}",
             error(reached.error)
         );
-        Ok(Ok(Rendered {
+        Ok(Rendered {
             image,
             coverage,
             counts,
             elapsed,
             quality: Some(quality),
-        }))
+        })
     }
-}
-
-/// What to say if the rays ran out, unless a signal ended the render.
-fn ran_out(meter: &Meter, subject: &Subject, interrupt: &Interrupt) -> Option<Box<Diagnostic>> {
-    let pixel = meter.ran_out().filter(|_| !interrupt.is_raised())?;
-    Some(Box::new(meter.finding(&subject.proven.lowered, pixel)))
-}
-
-/// What to say of a rule that was wrong.
-fn left_out(mismatch: &Mismatch) -> String {
-    let Mismatch {
-        pixel: [x, y],
-        effect,
-        rule,
-        what,
-    } = mismatch;
-    let rule = rule.map_or("no rule", Rule::name);
-    let version = env!("CARGO_PKG_VERSION");
-    format!(
-        "internal error: {}, left out by {rule}: {what} at pixel {x}, {y}\n\
-         This is a fault of rtc {version}, please report it with the scene.",
-        effect.name()
-    )
 }
 
 /// An error in grey levels, in words.

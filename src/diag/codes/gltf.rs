@@ -220,4 +220,16 @@ super::codes! { GL:
     GLTF_STILL = "GL049", Warning, "a scene without animations is asked for a time",
         "`--time` shows what the first animation of a glTF asset, or the one that `--animation` names, makes of it then. The \
          scene has none, so it is the same at all times.";
+    GLTF_NEARLY = "GL050", Note, "what is written as glTF comes near what the scene says",
+        "`rtc compile -o scene.glb` writes meshes for curved shapes, squares for planes, 32-bit floats for what is finer, \
+         and for Phong's model the metallic-roughness material that comes nearest. `--tolerance` says how far a mesh may be \
+         from its shape.";
+    GLTF_OWN_WORDS = "GL051", Note, "glTF has no words for a value, so it stands in `extras.rtc`",
+        "glTF says nothing of lenses, of cameras that look past the middle of their picture, of lights without falloff, of \
+         Phong's weights, or of how a picture is made. `rtc compile -o scene.glb` writes such values into `extras.rtc` of \
+         the part they belong to. rtc reads them back; other programs show the scene without them.";
+    GLTF_UNSAID = "GL052", Warning, "glTF has no words for a value, and it is left out",
+        "`rtc compile -o scene.glb` has no place for the value, not even in `extras.rtc`: the picture of an environment, \
+         a texture that is sheared, numbers beyond the range of 32-bit floats. Without a place for its geometry a scene is \
+         not written at all.";
 }

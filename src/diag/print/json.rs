@@ -4,7 +4,7 @@
 //! If findings were left out, a last line `{"omitted": N}` says how many.
 
 use super::place::FilePlace;
-use super::{severity, text};
+use super::text;
 use crate::diag::{Diagnostic, Hint, Label, Replacement};
 use crate::source::{SourceMap, Span};
 use serde::Serialize;
@@ -66,7 +66,7 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
     } = diagnostic;
     let finding = Finding {
         code: code.id,
-        severity: severity(*level),
+        severity: level.name(),
         message,
         file: name,
         primary: primary.as_ref().map(|label| labelled(map, label)),

@@ -44,6 +44,22 @@ impl Format {
     }
 }
 
+/// One finding for people, without colours.
+#[must_use]
+pub fn one(found: &Diagnostic, map: &SourceMap, width: usize) -> String {
+    let options = PrintOptions {
+        color: false,
+        width,
+        least: Severity::Note,
+        max: 1,
+    };
+    let alone = Fold {
+        first: found,
+        others: Vec::new(),
+    };
+    human::finding(&alone, map, &options)
+}
+
 /// How findings are shown.
 #[derive(Clone, Copy, Debug)]
 pub struct PrintOptions {
@@ -150,12 +166,4 @@ fn cap(found: Vec<Fold<'_>>, max: usize) -> Vec<Fold<'_>> {
     let is_wanted = |(index, _): &(usize, Fold<'_>)| wanted.next_if_eq(index).is_some();
     let kept = found.into_iter().enumerate().filter(is_wanted);
     kept.map(|(_, fold)| fold).collect()
-}
-
-fn severity(severity: Severity) -> &'static str {
-    match severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-        Severity::Note => "note",
-    }
 }

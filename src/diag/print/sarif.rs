@@ -4,6 +4,7 @@ use super::place::FilePlace;
 use super::text;
 use crate::diag::{Diagnostic, Label, Severity, codes};
 use crate::source::{SourceMap, Span};
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Value, json};
 
 /// The whole log, of the results given; `omitted` findings were left out.
@@ -35,7 +36,7 @@ fn rule(code: &'static codes::Code) -> Value {
 }
 
 fn level(severity: Severity) -> &'static str {
-    super::severity(severity)
+    severity.name()
 }
 
 /// One finding; `name` stands for its file where it has no place.
@@ -120,20 +121,17 @@ fn fixes(diagnostic: &Diagnostic, map: &SourceMap) -> Vec<Value> {
     changes.map(fix).collect()
 }
 
+/// What is escaped in the path of a URI: all but the unreserved characters (RFC 3986, section 2.3)
+/// and the slash.
+const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC
+    .remove(b'-')
+    .remove(b'.')
+    .remove(b'_')
+    .remove(b'~')
+    .remove(b'/');
+
 /// The path as a URI reference: relative as the user gave it, or with the scheme `file`.
 fn uri(path: &str) -> String {
-    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte);
-    let escape = |byte: u8| {
-        if plain(byte) {
-            char::from(byte).to_string()
-        } else {
-            format!("%{byte:02X}")
-        }
-    };
-    let escaped: String = path.bytes().map(escape).collect();
-    if path.starts_with('/') {
-        format!("file://{escaped}")
-    } else {
-        escaped
-    }
+    let scheme = if path.starts_with('/') { "file://" } else { "" };
+    format!("{scheme}{}", utf8_percent_encode(path, ESCAPED))
 }

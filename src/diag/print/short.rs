@@ -1,7 +1,6 @@
 //! For editors: one line a finding, `file:line:column: error[VA001]: message`.
 
 use super::place::FilePlace;
-use super::severity;
 use super::text::clean;
 use crate::diag::Diagnostic;
 use crate::source::SourceMap;
@@ -15,7 +14,7 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
     };
     format!(
         "{place}: {}[{}]: {}\n",
-        severity(diagnostic.severity),
+        diagnostic.severity.name(),
         diagnostic.code,
         clean(&diagnostic.message)
     )

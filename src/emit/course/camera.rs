@@ -1,10 +1,10 @@
 //! The camera back to text.
 
 use super::Text;
-use crate::ir::{Camera, Lens};
+use crate::ir::{Camera, Lens, Projection};
 use crate::math::{Vec3, camera_basis, length, unit};
 
-impl Text {
+impl Text<'_> {
     pub(super) fn camera(&mut self, camera: &Camera) {
         let Camera {
             eye,
@@ -13,7 +13,7 @@ impl Text {
             up,
             size: [width, height],
             lens,
-            projection: _,
+            projection,
         } = camera;
         let Lens { radius, samples } = lens;
         self.line(0, "Camera:");
@@ -27,6 +27,10 @@ impl Text {
             }
         }
         self.line(2, &format!("viewSize: [{width}, {height}]"));
+        match projection {
+            Projection::Perspective => {}
+            Projection::Orthographic => self.line(2, "projection: orthographic"),
+        }
         if *radius != 0.0 || *samples != 1 {
             self.number("apertureRadius", *radius, 2);
             self.line(2, &format!("apertureSamples: {samples}"));

@@ -1,10 +1,10 @@
 //! The lights and the surroundings back to text.
 
 use super::Text;
-use super::material::file_name;
-use crate::ir::{Environment, Image, Light, PointLight, Punctual};
+use super::files::file_name;
+use crate::ir::{Environment, Light, PointLight, Punctual, Scene};
 
-impl Text {
+impl<'s> Text<'s> {
     pub(super) fn light(&mut self, light: &Light) -> Result<(), String> {
         match light {
             Light::Point(PointLight {
@@ -19,12 +19,13 @@ impl Text {
                 }
             }
             Light::Punctual(Punctual { emitter, intensity }) => {
-                let spelling = emitter
-                    .spelling()
-                    .ok_or("a point or spot light in physical units has no spelling")?;
+                let spelling = emitter.spelling();
                 self.line(2, &format!("- type: {}", spelling.kind));
                 for (key, value) in &spelling.triples {
                     self.numbers(key, value, 4);
+                }
+                for (key, value) in &spelling.numbers {
+                    self.number(key, *value, 4);
                 }
                 if let Some(file) = spelling.file {
                     self.line(4, &format!("file: {}", file_name(file)?));
@@ -38,23 +39,22 @@ impl Text {
     pub(super) fn environment(
         &mut self,
         environment: &Environment,
-        images: &[Image],
+        scene: &'s Scene,
     ) -> Result<(), String> {
         let Environment {
             radiance,
             image,
             image_from_world,
         } = environment;
-        if image_from_world.is_some() {
-            return Err("the environment is turned, and its angles are forgotten".to_owned());
-        }
         self.line(0, "Environment:");
         self.numbers("color", radiance, 2);
         if let Some(image) = image {
-            let image = images
-                .get(image.0 as usize)
-                .ok_or("the environment refers to an image that does not exist")?;
-            self.line(2, &format!("file: {}", file_name(&image.name)?));
+            let name = self.names.image(scene, *image)?;
+            self.line(2, &format!("file: {name}"));
+        }
+        if let Some(rows) = image_from_world {
+            let rows = self.list(rows.iter().flatten().copied());
+            self.line(2, &format!("matrix: {rows}"));
         }
         Ok(())
     }

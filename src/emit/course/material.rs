@@ -3,19 +3,20 @@
 use super::Text;
 use crate::ir::{Bump, Material, Phong, Scene, Texture, TextureId};
 
-/// The word that stands for the uv of the surface in place of a file.
-const UV: &str = "UV";
-
-impl Text {
+impl<'s> Text<'s> {
     pub(super) fn material(
         &mut self,
         key: &str,
         material: &Material,
-        scene: &Scene,
+        scene: &'s Scene,
     ) -> Result<(), String> {
-        let phong = material
-            .phong()
-            .ok_or("a material of glTF has no spelling")?;
+        match material {
+            Material::Phong(phong) => self.phong(key, phong, scene),
+            Material::Standard(standard) => self.standard(key, standard, scene),
+        }
+    }
+
+    fn phong(&mut self, key: &str, phong: &Phong, scene: &'s Scene) -> Result<(), String> {
         let Phong {
             color,
             ka,
@@ -56,39 +57,27 @@ impl Text {
         ];
         for (key, texture) in maps {
             if let Some(texture) = texture {
-                self.line(6, &format!("{key}: {}", texture_name(*texture, scene)?));
+                let name = self.texture_name(*texture, scene)?;
+                self.line(6, &format!("{key}: {name}"));
             }
         }
         Ok(())
     }
-}
 
-/// What stands for a texture in a text.
-fn texture_name(TextureId(id): TextureId, scene: &Scene) -> Result<String, String> {
-    let texture = scene
-        .textures
-        .get(id as usize)
-        .ok_or("a material refers to a texture that does not exist")?;
-    match texture {
-        Texture::Uv => Ok(UV.to_owned()),
-        Texture::Sampled(_) => Err("a texture of glTF has no spelling".to_owned()),
-        Texture::Image(image) => {
-            let image = scene
-                .images
-                .get(image.0 as usize)
-                .ok_or("a texture refers to an image that does not exist")?;
-            file_name(&image.name)
+    /// What stands for a texture in a text.
+    fn texture_name(&mut self, texture: TextureId, scene: &'s Scene) -> Result<String, String> {
+        match exists(texture, scene)? {
+            Texture::Uv => Ok("UV".to_owned()),
+            Texture::Sampled(_) => {
+                Err("a material of the course looks at a texture of glTF".to_owned())
+            }
+            Texture::Image(image) => self.names.image(scene, *image),
         }
     }
 }
 
-/// The name of a file in quotes, if it names one.
-pub(super) fn file_name(name: &str) -> Result<String, String> {
-    if name.is_empty() || name.eq_ignore_ascii_case(UV) || name.contains('\\') {
-        return Err(format!(
-            "an image or mesh of the name `{}` comes from no file",
-            name.escape_debug()
-        ));
-    }
-    Ok(serde_json::Value::from(name).to_string())
+/// The texture that a material refers to.
+pub(super) fn exists(TextureId(id): TextureId, scene: &Scene) -> Result<&Texture, String> {
+    let texture = scene.textures.get(id as usize);
+    texture.ok_or_else(|| "a material refers to a texture that does not exist".to_owned())
 }

@@ -2,15 +2,30 @@
 //! the shortest that reads back.
 
 mod camera;
+mod files;
 mod light;
 mod material;
+mod ply;
 mod shape;
+mod standard;
+
+pub use files::Attachment;
 
 use crate::ir::{
-    Gooch, Light, MaterialId, Mode, PathSettings, Pattern, Projection, Scene, Settings, Surface,
+    Display, Gooch, Light, MaterialId, Mode, PathSettings, Pattern, Scene, Settings, Shape, Surface,
 };
 use crate::math::shortest;
+use files::FileNames;
 use std::fmt::Write as _;
+
+/// A text, and the files beside it that it names.
+#[derive(Debug)]
+pub struct WrittenScene<'s> {
+    /// The scene.
+    pub text: String,
+    /// The files.
+    pub files: Vec<Attachment<'s>>,
+}
 
 /// Writes the scene in the canonical spelling with a `Camera`.
 ///
@@ -21,53 +36,65 @@ use std::fmt::Write as _;
 /// # Errors
 /// The reason, in words, why the scene can't be said in this format.
 pub fn emit(scene: &Scene) -> Result<String, String> {
+    write(scene, FileNames::known()).map(|document| document.text)
+}
+
+/// The same for a scene whose images and meshes need not be files: those of a scene that holds
+/// materials of glTF, and images without a name, become files in `folder`, which is named as the text
+/// is to name it. Lowering the text gives the scene again but for the names and the order of images,
+/// textures and meshes, and for those that no surface shows.
+///
+/// # Errors
+/// As [`emit`]; without a folder also if files would be needed.
+pub fn emit_beside<'s>(scene: &'s Scene, folder: Option<&str>) -> Result<WrittenScene<'s>, String> {
+    write(scene, FileNames::beside(scene, folder))
+}
+
+fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>, String> {
     let Scene {
         camera,
         settings,
         lights,
-        images,
+        images: _,
         textures: _,
         meshes: _,
         materials: _,
         surfaces: _,
         names: _,
         environment,
+        display,
     } = scene;
-    if camera.projection == Projection::Orthographic {
-        return Err("the scene has an orthographic camera, which this format has not".to_owned());
-    }
-    let mut text = Text::default();
+    let mut text = Text {
+        text: String::new(),
+        finite: true,
+        names,
+    };
     text.camera(camera);
-    text.settings(settings, lights)?;
+    text.settings(settings, lights);
+    text.display(display);
     if let Some(environment) = environment {
-        text.environment(environment, images)?;
+        text.environment(environment, scene)?;
     }
     text.lights(lights)?;
     text.objects(scene)?;
-    if text.finite {
-        Ok(text.text)
-    } else {
-        Err("a number of the scene is not finite".to_owned())
+    if !text.finite {
+        return Err("a number of the scene is not finite".to_owned());
     }
+    Ok(WrittenScene {
+        text: text.text,
+        files: text.names.into_files(),
+    })
 }
 
 /// The text so far.
-struct Text {
+struct Text<'s> {
     text: String,
     /// Whether all numbers so far were.
     finite: bool,
+    names: FileNames<'s>,
 }
 
-impl Default for Text {
-    fn default() -> Self {
-        Self {
-            text: String::new(),
-            finite: true,
-        }
-    }
-}
-
-impl Text {
+impl<'s> Text<'s> {
     fn line(&mut self, indent: usize, content: &str) {
         writeln!(self.text, "{:indent$}{content}", "")
             .expect("a string takes all that is written to it");
@@ -83,6 +110,25 @@ impl Text {
         self.line(indent, &format!("{key}: {}", triple(*value)));
     }
 
+    /// Numbers as a flow list.
+    fn list(&mut self, numbers: impl IntoIterator<Item = f64>) -> String {
+        let shown = numbers.into_iter().map(|number| {
+            self.finite &= number.is_finite();
+            shortest(number)
+        });
+        format!("[{}]", shown.collect::<Vec<_>>().join(", "))
+    }
+
+    fn display(&mut self, display: &Display) {
+        let Display { exposure, tone } = display;
+        if let Some(tone) = tone {
+            self.line(0, &format!("ToneMap: {}", tone.name()));
+        }
+        if *exposure != 0.0 {
+            self.number("Exposure", *exposure, 0);
+        }
+    }
+
     fn lights(&mut self, lights: &[Light]) -> Result<(), String> {
         if lights.is_empty() {
             self.line(0, "Lights: []");
@@ -92,7 +138,7 @@ impl Text {
         lights.iter().try_for_each(|light| self.light(light))
     }
 
-    fn objects(&mut self, scene: &Scene) -> Result<(), String> {
+    fn objects(&mut self, scene: &'s Scene) -> Result<(), String> {
         if scene.surfaces.is_empty() {
             self.line(0, "Objects: []");
         } else {
@@ -105,13 +151,26 @@ impl Text {
                 .ok_or("a surface refers to a material that does not exist")? += 1;
         }
         let mut written = vec![false; uses.len()];
-        for Surface {
-            shape,
-            material: MaterialId(id),
-            casts_no_shadow,
-        } in &scene.surfaces
-        {
+        for (index, surface) in scene.surfaces.iter().enumerate() {
+            let Surface {
+                shape,
+                material: MaterialId(id),
+                casts_no_shadow,
+            } = surface;
             self.shape(shape, scene)?;
+            let name = scene.names.get(index).filter(|name| !name.is_empty());
+            match (name, shape) {
+                (Some(name), Shape::Instance(_)) => {
+                    self.line(4, &format!("label: {}", quoted(name)))
+                }
+                (Some(name), _) => {
+                    return Err(format!(
+                        "`{}` has a name, and only meshes have",
+                        name.escape_debug()
+                    ));
+                }
+                (None, _) => {}
+            }
             let at = *id as usize;
             let material = &scene.materials[at];
             match (uses[at] > 1, std::mem::replace(&mut written[at], true)) {
@@ -126,7 +185,7 @@ impl Text {
         Ok(())
     }
 
-    fn settings(&mut self, settings: &Settings, lights: &[Light]) -> Result<(), String> {
+    fn settings(&mut self, settings: &Settings, lights: &[Light]) {
         let Settings {
             mode,
             shadows,
@@ -154,8 +213,9 @@ impl Text {
         }
         self.line(0, &format!("Shadows: {shadows}"));
         self.line(0, &format!("MaxRecursionDepth: {max_depth}"));
+        let factor = self.paths(mode, *supersampling);
         self.line(0, "SuperSampling:");
-        self.line(2, &format!("factor: {}", factor(mode, *supersampling)?));
+        self.line(2, &format!("factor: {factor}"));
         match pattern {
             Pattern::Grid => {}
             Pattern::Jitter => self.line(2, "pattern: jitter"),
@@ -169,26 +229,32 @@ impl Text {
         {
             self.line(0, &format!("LightSamples: {light_samples}"));
         }
-        Ok(())
+    }
+
+    /// Says how paths are followed, where their number a pixel is not that of `SuperSampling`; returns
+    /// what that is to be.
+    fn paths(&mut self, mode: &Mode, supersampling: u32) -> u32 {
+        let Mode::Path(PathSettings {
+            samples,
+            multiple_scattering,
+        }) = mode
+        else {
+            return supersampling;
+        };
+        let side = samples.isqrt();
+        if *multiple_scattering && supersampling == 1 && side * side == *samples {
+            return side;
+        }
+        self.line(0, "PathParameters:");
+        self.line(2, &format!("samples: {samples}"));
+        self.line(2, &format!("multipleScattering: {multiple_scattering}"));
+        supersampling
     }
 }
 
-/// The rays along the side of a pixel, that of paths too.
-fn factor(mode: &Mode, supersampling: u32) -> Result<u32, String> {
-    let Mode::Path(PathSettings {
-        samples,
-        multiple_scattering,
-    }) = mode
-    else {
-        return Ok(supersampling);
-    };
-    let side = samples.isqrt();
-    if !multiple_scattering || supersampling != 1 || side * side != *samples {
-        return Err(
-            "paths are so many a pixel, or so followed, as this format can't say".to_owned(),
-        );
-    }
-    Ok(side)
+/// A text in quotes, in which YAML and JSON agree.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
 }
 
 /// Three numbers as a flow list.

@@ -1,15 +1,18 @@
 //! The camera, as new files (`Camera`) and old ones (`Eye`) say it.
 
-use super::decode::{Context, Spanned};
+use super::decode::{Context, Spanned, Value};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative, Opening, Positive, Side};
 use super::picture::PictureSize;
 use super::record::{FieldOutcome, keys, record};
-use super::value::{Point, Vector};
+use super::schema::Definitions;
+use super::value::{Point, Vector, word, word_schema};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field};
 use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, unit};
 use crate::source::Span;
+use crate::source::tree::NodeId;
+use serde_json::Value as Json;
 
 record! {
     /// The camera: where it stands, what it looks at, and the image it makes.
@@ -32,12 +35,51 @@ record! {
         /// The angle in degrees that the image spans from bottom to top, above 0 and below 180; then the length of `up` does
         /// not count.
         fov: Spanned<Opening>, optional, keys!["fov"];
+        /// How the rays run: `perspective`, from the eye; or `orthographic`, side by side in the direction from the eye to
+        /// `center`, so that the picture is as large everywhere; then `fov` has no effect.
+        projection: Spanned<Projection>, default(Projection::PERSPECTIVE), keys!["projection"];
         /// The radius of the lens in scene units; 0 keeps everything in focus.
         aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["apertureRadius"];
         /// How many points of the lens each sub-sample looks through.
         aperture_samples: Spanned<Count>, default(Count(1)), keys!["apertureSamples"];
     }
     forms { [view_size] [sides] }
+}
+
+/// How the rays run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Projection(ir::Projection);
+
+impl Projection {
+    const PERSPECTIVE: Self = Self(ir::Projection::Perspective);
+}
+
+/// The words for it.
+const PROJECTIONS: &[(&str, ir::Projection)] = &[
+    ("perspective", ir::Projection::Perspective),
+    ("orthographic", ir::Projection::Orthographic),
+];
+
+impl Value for Projection {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        word(node, PROJECTIONS, context).map(Self)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        word_schema(PROJECTIONS)
+    }
+
+    fn json(&self) -> Json {
+        let word = PROJECTIONS.iter().find(|(_, own)| *own == self.0);
+        word.map_or(Json::Null, |(word, _)| (*word).into())
+    }
+}
+
+impl Camera {
+    /// Whether an angle says how much the image shows.
+    fn has_opening(&self) -> bool {
+        !self.fov.is_absent() && self.projection.value.0 == ir::Projection::Perspective
+    }
 }
 
 /// The size of the picture where neither a `Camera` nor an `ImageSize` says it.
@@ -71,7 +113,8 @@ impl Lowering {
             view_size,
             sides,
             focal_distance: _,
-            fov,
+            fov: _,
+            projection,
             aperture_radius,
             aperture_samples,
         } = &camera.value;
@@ -82,7 +125,7 @@ impl Lowering {
             }
             _ => return,
         };
-        let opening = opening(fov, &up, context);
+        let opening = opening(&camera.value, &up, context);
         let basis = basis(&camera.value, &center, &up, context);
         for (field, span) in [
             (Field::Whole, camera.span),
@@ -114,7 +157,7 @@ impl Lowering {
                 radius: aperture_radius.value.0,
                 samples: aperture_samples.value.0,
             },
-            projection: ir::Projection::Perspective,
+            projection: projection.value.0,
         };
         if let Some(opening) = opening {
             self.scene.camera.open(opening);
@@ -137,6 +180,7 @@ impl Lowering {
             sides: FieldOutcome::Absent,
             focal_distance: FieldOutcome::Absent,
             fov: FieldOutcome::Absent,
+            projection: Spanned::unwritten(Projection::PERSPECTIVE),
             aperture_radius: Spanned::unwritten(NonNegative(0.0)),
             aperture_samples: Spanned::unwritten(Count(1)),
         };
@@ -180,18 +224,23 @@ fn focused(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
 }
 
 /// The angle that the image spans, in radians, if that is given.
-fn opening(
-    fov: &FieldOutcome<Spanned<Opening>>,
-    up: &Spanned<Vector>,
-    context: &mut Context<'_>,
-) -> Option<f64> {
+fn opening(camera: &Camera, up: &Spanned<Vector>, context: &mut Context<'_>) -> Option<f64> {
     let FieldOutcome::Read(Spanned {
         value: Opening(degrees),
         span: Some(span),
-    }) = *fov
+    }) = camera.fov
     else {
         return None;
     };
+    if !camera.has_opening() {
+        let message = || "`fov` has no effect on rays that run side by side".to_owned();
+        context.report(&codes::NO_EFFECT, span, message, |d| {
+            d.at(span, "ignored: the length of `up` is the size of a pixel")
+                .also(camera.projection.span, "an orthographic picture")
+                .severity(Severity::Warning)
+        });
+        return None;
+    }
     let length = length(Vec3::from_array(up.value.0));
     if let (Some(place), true) = (up.span, (length - 1.0).abs() > 1e-6) {
         let message = || "the length of `up` has no effect beside `fov`".to_owned();
@@ -211,9 +260,7 @@ fn basis(
     up: &Spanned<Vector>,
     context: &mut Context<'_>,
 ) -> Option<(Vec3, Vec3)> {
-    let Camera {
-        eye, right, fov, ..
-    } = camera;
+    let Camera { eye, right, .. } = camera;
     match right {
         FieldOutcome::Read(right) => {
             return Some((
@@ -225,7 +272,7 @@ fn basis(
         FieldOutcome::Absent => {}
     }
     let [from, to, mut upward] = [eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
-    if !fov.is_absent() {
+    if camera.has_opening() {
         upward = unit(upward).unwrap_or(Vec3::ZERO);
     }
     match camera_basis(from, to, upward) {

@@ -1,11 +1,14 @@
 //! What surrounds a scene.
 
-use super::decode::Spanned;
+use super::decode::{Context, Spanned};
 use super::lower::Lowering;
 use super::object::solid::turned;
 use super::record::{FieldOutcome, keys, record};
+use super::turn::RotationRows;
 use super::value::{Channels, FileName, Vector};
+use crate::diag::{Severity, codes};
 use crate::ir::{self, Field, Noun};
+use crate::source::Span;
 
 record! {
     /// What surrounds the scene: light from every direction where nothing stands. A scene with one is shown by its paths.
@@ -16,29 +19,43 @@ record! {
         file: Spanned<FileName>, optional, keys!["file"];
         /// The angles in radians by which it is turned: first about x, then y, then z.
         rotation: Spanned<Vector>, optional, keys!["rotation"];
+        /// The same as nine numbers, in place of `rotation`: the rows of the rotation from directions of the world to those
+        /// of the picture.
+        matrix: Spanned<RotationRows>, optional, keys!["matrix"];
     }
 }
 
 impl Lowering {
     /// Lowers an environment: its file is wanted.
-    pub(super) fn environment(&mut self, environment: &Spanned<Environment>) {
+    pub(super) fn environment(
+        &mut self,
+        environment: &Spanned<Environment>,
+        context: &mut Context<'_>,
+    ) {
         let Environment {
             color,
             file,
             rotation,
+            matrix,
         } = &environment.value;
         let image = match file {
             FieldOutcome::Read(file) => Some(self.files.environment(&mut self.scene, file)),
             FieldOutcome::Absent => None,
             FieldOutcome::Broken => return,
         };
-        let turn = match rotation {
+        let turn = match (matrix, rotation) {
+            (FieldOutcome::Read(matrix), rotation) => {
+                if let FieldOutcome::Read(rotation) = rotation {
+                    note_two_turns(rotation.span, context);
+                }
+                Some(matrix.value.0)
+            }
             // Its rows are where the axes come to: the way back from the world.
-            FieldOutcome::Read(rotation) => {
+            (FieldOutcome::Absent, FieldOutcome::Read(rotation)) => {
                 Some(turned(rotation.value.0).map(|axis| axis.to_array()))
             }
-            FieldOutcome::Absent => None,
-            FieldOutcome::Broken => return,
+            (FieldOutcome::Absent, FieldOutcome::Absent) => None,
+            (FieldOutcome::Broken, _) | (_, FieldOutcome::Broken) => return,
         };
         self.scene.environment = Some(ir::Environment {
             radiance: color.value.0,
@@ -47,4 +64,13 @@ impl Lowering {
         });
         self.origin(Noun::Environment, 0, Field::Whole, environment.span);
     }
+}
+
+/// Says that a matrix counts alone.
+fn note_two_turns(rotation: Option<Span>, context: &mut Context<'_>) {
+    let Some(span) = rotation else { return };
+    let message = || "the environment is turned once: the `matrix` counts".to_owned();
+    context.report(&codes::NO_EFFECT, span, message, |d| {
+        d.at(span, "no effect").severity(Severity::Warning)
+    });
 }

@@ -3,7 +3,7 @@
 use super::assets::Asset;
 use super::decode::{Context, Spanned, Value};
 use super::lower::Lowering;
-use super::number::NonNegative;
+use super::number::{HalfAngle, NonNegative, Positive};
 use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::value::{Channels, Color, FileName, Point, Vector, word, word_schema};
@@ -14,9 +14,9 @@ use crate::source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {
-    /// A point or sphere that shines equally in all directions, without falloff; a sun, infinitely far away; or a lamp
-    /// with a measured profile, whose light falls off with the square of the distance. A scene with a sun or such a lamp is
-    /// shown by its paths.
+    /// A point or sphere that shines equally in all directions, without falloff; a sun, infinitely far away; or what falls
+    /// off with the square of the distance: a point or a spot with an `intensity`, or a lamp with a measured profile. A
+    /// scene with any but the first is shown by its paths.
     struct Light, "light" {
         /// What kind of light this is.
         kind: Spanned<LightKind>, optional, keys!["type"];
@@ -26,17 +26,30 @@ record! {
         color: Spanned<Color>, optional, keys!["color"], json "color";
         /// The radius of the sphere that shines; 0 is a point. A larger one makes the edges of shadows soft.
         radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["radius" "size"];
-        /// The direction from the scene to the sun; with a `file`, that in which the lamp points, its vertical angle 0.
+        /// The direction from the scene to the sun; that in which a spot shines; with a `file`, that in which the lamp
+        /// points, its vertical angle 0.
         direction: Spanned<Vector>, optional, keys!["direction"];
         /// The irradiance on a surface that faces the sun: red, green, blue, or one number for all. A white surface
         /// then has the radiance irradiance/π.
         irradiance: Spanned<Channels>, optional, keys!["irradiance"];
+        /// The radiant intensity of a point or a spot, power per steradian: red, green, blue, or one number for all.
+        intensity: Spanned<Channels>, optional, keys!["intensity"];
+        /// The distance in which a point or a spot with an `intensity` fades to nothing, by the falloff of
+        /// `KHR_lights_punctual`; without it, it never does.
+        range: Spanned<Positive>, optional, keys!["range"];
+        /// The angle from its direction, in radians, within which a spot shines fully.
+        inner_angle: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["innerAngle"];
+        /// The angle from its direction, in radians, beyond which a spot is dark: more than `innerAngle`, at most π/2.
+        outer_angle: Spanned<HalfAngle>, optional, keys!["outerAngle"];
         /// The profile of the lamp: an IES file (LM-63) of type C with `TILT=NONE`.
         file: Spanned<FileName>, optional, keys!["file"];
         /// The direction of the horizontal angle 0 of the profile; only its part across `direction` counts.
         horizontal: Spanned<Vector>, default(Vector([1.0, 0.0, 0.0])), keys!["horizontal"];
     }
-    forms { [position color] [direction irradiance] [position direction file] [position direction file color] }
+    forms {
+        [position color] [direction irradiance] [position direction file] [position direction file color]
+        [position intensity] [position direction intensity outer_angle]
+    }
 }
 
 /// A kind of light.
@@ -44,6 +57,7 @@ record! {
 pub(super) enum LightKind {
     Point,
     Sun,
+    Spot,
     Ies,
 }
 
@@ -51,6 +65,7 @@ pub(super) enum LightKind {
 const KINDS: &[(&str, LightKind)] = &[
     ("point", LightKind::Point),
     ("sun", LightKind::Sun),
+    ("spot", LightKind::Spot),
     ("ies", LightKind::Ies),
 ];
 
@@ -77,28 +92,7 @@ impl Lowering {
         let Some((made, is)) = self.light_of_its_kind(&light.value) else {
             return;
         };
-        let (kind, radius, horizontal) = (
-            &light.value.kind,
-            &light.value.radius,
-            &light.value.horizontal,
-        );
-        if let FieldOutcome::Read(kind) = kind
-            && kind.value != is
-        {
-            let message = "the `type` of the light has no effect: its other keys say otherwise";
-            let hint = "a sun has `direction` and `irradiance`, a point `position` and `color`, a \
-                        lamp `position`, `direction` and `file`";
-            no_effect(kind.span, message, hint, context);
-        }
-        if is != LightKind::Point {
-            let message = "the `radius` of the light has no effect: only a point has one";
-            no_effect(radius.span, message, "remove it", context);
-        }
-        if is != LightKind::Ies {
-            let message =
-                "`horizontal` has no effect on this light: only a profile has horizontal angles";
-            no_effect(horizontal.span, message, "remove it", context);
-        }
+        note_unused(&light.value, is, made.point().is_none(), context);
         let index = self.scene.lights.len();
         self.scene.lights.push(made);
         self.origin(Noun::Light, index, Field::Whole, light.span);
@@ -107,41 +101,31 @@ impl Lowering {
     /// The light that the keys make.
     fn light_of_its_kind(&mut self, light: &Light) -> Option<(ir::Light, LightKind)> {
         let Light {
-            kind: _,
             position,
             color,
-            radius,
             direction,
             irradiance,
             file,
-            horizontal,
+            intensity,
+            ..
         } = light;
-        match (position, color, direction, irradiance, file) {
+        match (position, color, direction, irradiance, file, intensity) {
             (
                 FieldOutcome::Read(position),
                 color,
                 FieldOutcome::Read(direction),
                 _,
                 FieldOutcome::Read(file),
-            ) => {
-                let intensity = match color {
-                    FieldOutcome::Read(color) => color.value.0,
-                    FieldOutcome::Absent => [1.0; 3],
-                    FieldOutcome::Broken => return None,
-                };
-                self.files
-                    .want(Asset::Photometry(self.scene.lights.len()), file);
-                let emitter = ir::Emitter::Lamp {
-                    position: position.value.0,
-                    direction: direction.value.0,
-                    horizontal: horizontal.value.0,
-                    photometry: Box::new(Photometry::dark(file.value.0.replace('\\', "/"))),
-                };
-                let lamp = ir::Punctual { emitter, intensity };
-                Some((ir::Light::Punctual(lamp), LightKind::Ies))
+                _,
+            ) => self.lamp(light, [position.value.0, direction.value.0], color, file),
+            (FieldOutcome::Read(position), _, direction, .., FieldOutcome::Read(intensity)) => {
+                let (emitter, kind) = focused(light, position.value.0, direction)?;
+                let intensity = intensity.value.0;
+                let light = ir::Punctual { emitter, intensity };
+                Some((ir::Light::Punctual(light), kind))
             }
             (FieldOutcome::Read(position), FieldOutcome::Read(color), ..) => {
-                let index = self.scene.lights.len();
+                let (index, radius) = (self.scene.lights.len(), &light.radius);
                 self.origin(Noun::Light, index, Field::Position, position.span);
                 self.origin(Noun::Light, index, Field::Color, color.span);
                 self.origin(Noun::Light, index, Field::LightRadius, radius.span);
@@ -153,7 +137,7 @@ impl Lowering {
                 };
                 Some((ir::Light::Point(point), LightKind::Point))
             }
-            (_, _, FieldOutcome::Read(direction), FieldOutcome::Read(irradiance), _) => {
+            (_, _, FieldOutcome::Read(direction), FieldOutcome::Read(irradiance), ..) => {
                 let emitter = ir::Emitter::Sun {
                     direction: direction.value.0,
                 };
@@ -165,6 +149,93 @@ impl Lowering {
             }
             _ => None,
         }
+    }
+
+    /// A lamp, dark until its file is there.
+    fn lamp(
+        &mut self,
+        light: &Light,
+        [position, direction]: [[f64; 3]; 2],
+        color: &FieldOutcome<Spanned<Color>>,
+        file: &Spanned<FileName>,
+    ) -> Option<(ir::Light, LightKind)> {
+        let intensity = match color {
+            FieldOutcome::Read(color) => color.value.0,
+            FieldOutcome::Absent => [1.0; 3],
+            FieldOutcome::Broken => return None,
+        };
+        self.files
+            .want(Asset::Photometry(self.scene.lights.len()), file);
+        let emitter = ir::Emitter::Lamp {
+            position,
+            direction,
+            horizontal: light.horizontal.value.0,
+            photometry: Box::new(Photometry::dark(file.value.0.replace('\\', "/"))),
+        };
+        let lamp = ir::Punctual { emitter, intensity };
+        Some((ir::Light::Punctual(lamp), LightKind::Ies))
+    }
+}
+
+/// A point or a spot with an intensity.
+fn focused(
+    light: &Light,
+    position: [f64; 3],
+    direction: &FieldOutcome<Spanned<Vector>>,
+) -> Option<(ir::Emitter, LightKind)> {
+    let range = match light.range {
+        FieldOutcome::Read(range) => Some(range.value.0),
+        FieldOutcome::Absent => None,
+        FieldOutcome::Broken => return None,
+    };
+    match (direction, light.outer_angle) {
+        (FieldOutcome::Read(direction), FieldOutcome::Read(outer)) => {
+            let spot = ir::Emitter::Spot {
+                position,
+                direction: direction.value.0,
+                inner_angle: light.inner_angle.value.0,
+                outer_angle: outer.value.0,
+                range,
+            };
+            Some((spot, LightKind::Spot))
+        }
+        (FieldOutcome::Absent, FieldOutcome::Absent) => {
+            Some((ir::Emitter::Point { position, range }, LightKind::Point))
+        }
+        _ => None,
+    }
+}
+
+/// Warns of the keys that a light of this kind has no use for.
+fn note_unused(light: &Light, is: LightKind, is_physical: bool, context: &mut Context<'_>) {
+    if let FieldOutcome::Read(kind) = light.kind
+        && kind.value != is
+    {
+        let message = "the `type` of the light has no effect: its other keys say otherwise";
+        let hint = "a sun has `direction` and `irradiance`, a point `position` and `color` or \
+                    `intensity`, a spot `direction` and `outerAngle` too, a lamp `position`, \
+                    `direction` and `file`";
+        no_effect(kind.span, message, hint, context);
+    }
+    if is != LightKind::Point || is_physical {
+        let message =
+            "the `radius` of the light has no effect: only a point with a `color` has one";
+        no_effect(light.radius.span, message, "remove it", context);
+    }
+    if is != LightKind::Ies {
+        let message =
+            "`horizontal` has no effect on this light: only a profile has horizontal angles";
+        no_effect(light.horizontal.span, message, "remove it", context);
+    }
+    if is != LightKind::Spot {
+        let message = "`innerAngle` has no effect on this light: only a spot has angles";
+        no_effect(light.inner_angle.span, message, "remove it", context);
+    }
+    let has_range = is_physical && matches!(is, LightKind::Point | LightKind::Spot);
+    if let (false, FieldOutcome::Read(range)) = (has_range, light.range) {
+        let message = "`range` has no effect on this light: only a point or a spot with an \
+                       `intensity` has one";
+        no_effect(range.span, message, "remove it", context);
     }
 }
 

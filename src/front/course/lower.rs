@@ -143,7 +143,7 @@ impl Lowering {
         self.compare_sizes(&scene, context);
         self.settings(&scene, context);
         if let FieldOutcome::Read(environment) = &scene.environment {
-            self.environment(environment);
+            self.environment(environment, context);
         }
         scene
             .lights
@@ -167,6 +167,11 @@ impl Lowering {
                 }
                 self.object(&object.value, context);
             });
+        if !self.scene.names.is_empty() {
+            // What has no name stands between those that have.
+            let count = self.scene.surfaces.len();
+            self.scene.names.resize(count, String::new());
+        }
         self.follow_paths(&scene);
         self.show_uv(&scene);
     }

@@ -3,18 +3,20 @@
 use super::decode::{Context, SharedValue, Spanned, Value};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
+use super::reader::look_up;
 use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
+use super::standard::{self, StandardMaterial};
 use super::value::{Color, FileName, word, word_schema};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field, MaterialId, Noun};
 use crate::source::Span;
 use crate::source::tree::NodeId;
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 
 record! {
     /// What a surface is made of: Phong's model with mirror and refraction.
-    struct Material, "material" {
+    struct PhongMaterial, "material" {
         /// The colour: red, green, blue.
         color: Spanned<Color>, optional, keys!["color"], json "color";
         /// The file of a picture laid over the surface, which gives its colour; or `UV` for the colours (u, 0, v).
@@ -46,6 +48,37 @@ record! {
         glossy_samples: Spanned<Count>, default(Count(1)), keys!["glossySamples"];
     }
     forms { [color] [texture] [color texture] }
+}
+
+/// A material of either family.
+pub(super) enum Material {
+    Phong(Box<PhongMaterial>),
+    Standard(Box<StandardMaterial>),
+}
+
+/// The key that says of which.
+const KIND: &str = "type";
+
+impl Value for Material {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        let is_map = context.tree.is_map(node);
+        let kind = is_map.then(|| look_up(KIND, node, context)).flatten();
+        let word = kind.and_then(|kind| context.tree.text(kind));
+        if word.is_some_and(|word| word.eq_ignore_ascii_case(standard::WORD)) {
+            return StandardMaterial::decode(node, context)
+                .map(|own| Self::Standard(Box::new(own)));
+        }
+        PhongMaterial::decode(node, context).map(|own| Self::Phong(Box::new(own)))
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        let standard = word_schema(&[(standard::WORD, ())]);
+        json!({
+            "if": { "type": "object", "properties": { KIND: standard }, "required": [KIND] },
+            "then": StandardMaterial::schema(definitions),
+            "else": PhongMaterial::schema(definitions),
+        })
+    }
 }
 
 /// What becomes of light on a surface, as some files say it.
@@ -92,7 +125,25 @@ impl Lowering {
         if let Some(id) = self.shared.get(node) {
             return Some(*id);
         }
-        let value = value.as_ref()?;
+        let id = match value.as_ref()? {
+            Material::Phong(phong) => self.phong_material(phong, material.span, context)?,
+            Material::Standard(standard) => {
+                let own = self.standard(standard);
+                let id = self.add_material(own);
+                self.origin(Noun::Material, id.0 as usize, Field::Whole, material.span);
+                id
+            }
+        };
+        self.shared.insert(*node, id);
+        Some(id)
+    }
+
+    fn phong_material(
+        &mut self,
+        value: &PhongMaterial,
+        whole: Option<Span>,
+        context: &mut Context<'_>,
+    ) -> Option<MaterialId> {
         let color = match (&value.color, &value.texture) {
             (FieldOutcome::Read(color), _) => *color,
             (FieldOutcome::Absent, _) => Spanned::unwritten(Color([1.0; 3])),
@@ -109,14 +160,13 @@ impl Lowering {
             None => only_an_index(value, context),
         }
         self.note_mirror(value, context);
-        let id = self.add_material(phong);
-        self.material_origins(id, value, material.span, color.span);
-        self.shared.insert(*node, id);
+        let id = self.add_material(ir::Material::Phong(phong));
+        self.material_origins(id, value, whole, color.span);
         Some(id)
     }
 
-    fn phong(&mut self, material: &Material, color: Color) -> ir::Phong {
-        let Material {
+    fn phong(&mut self, material: &PhongMaterial, color: Color) -> ir::Phong {
+        let PhongMaterial {
             color: _,
             texture,
             bump,
@@ -153,7 +203,7 @@ impl Lowering {
     }
 
     /// Says that `type: default` mirrors here, where the picture shows that.
-    fn note_mirror(&self, material: &Material, context: &mut Context<'_>) {
+    fn note_mirror(&self, material: &PhongMaterial, context: &mut Context<'_>) {
         let FieldOutcome::Read(Spanned {
             value: Finish::Default,
             span: Some(span),
@@ -185,11 +235,11 @@ impl Lowering {
     fn material_origins(
         &mut self,
         id: MaterialId,
-        material: &Material,
+        material: &PhongMaterial,
         whole: Option<Span>,
         color: Option<Span>,
     ) {
-        let Material {
+        let PhongMaterial {
             color: _,
             texture,
             bump,
@@ -232,14 +282,16 @@ impl Lowering {
 
     /// The material of what has none.
     pub(super) fn grey(&mut self) -> MaterialId {
-        let id = self.grey.unwrap_or_else(|| self.add_material(GREY));
+        let id = self
+            .grey
+            .unwrap_or_else(|| self.add_material(ir::Material::Phong(GREY)));
         self.grey = Some(id);
         id
     }
 
-    fn add_material(&mut self, phong: ir::Phong) -> MaterialId {
+    fn add_material(&mut self, material: ir::Material) -> MaterialId {
         let id = MaterialId(u32::try_from(self.scene.materials.len()).unwrap_or(u32::MAX));
-        self.scene.materials.push(ir::Material::Phong(phong));
+        self.scene.materials.push(material);
         id
     }
 }
@@ -262,8 +314,8 @@ fn specular(ks: &FieldOutcome<Spanned<NonNegative>>) -> Spanned<NonNegative> {
 }
 
 /// Whether a material is said to be glass or not, and where; by words, not by a weight.
-fn glass(material: &Material) -> Option<(bool, Span)> {
-    let Material {
+fn glass(material: &PhongMaterial) -> Option<(bool, Span)> {
+    let PhongMaterial {
         kind,
         is_transparent,
         ..
@@ -307,8 +359,8 @@ fn no_glass(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
 }
 
 /// Says that an index of refraction refracts nothing without a weight.
-fn only_an_index(material: &Material, context: &mut Context<'_>) {
-    let Material { kt, eta, .. } = material;
+fn only_an_index(material: &PhongMaterial, context: &mut Context<'_>) {
+    let PhongMaterial { kt, eta, .. } = material;
     let bends = eta.value.0 > 0.0 && (eta.value.0 - 1.0).abs() > 1e-9;
     if let (true, None, Some(span)) = (bends, kt.span, eta.span) {
         let message = || "an index of refraction alone refracts nothing".to_owned();

@@ -7,8 +7,10 @@ use super::decode::{Context, Value, describe};
 use super::schema::Definitions;
 use crate::diag::clip;
 use crate::diag::codes;
+use crate::ir::Display;
 use crate::source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
+use std::f64::consts::FRAC_PI_2;
 
 /// What a word says about a number.
 enum Reading {
@@ -238,11 +240,11 @@ pub(super) fn json_number(value: f64) -> Json {
 }
 
 /// Declares a number in a range as a type of the format.
-macro_rules! number {
+macro_rules! ranged {
     ($(#[doc = $doc:literal])+ $name:ident($inner:ty), $decode:expr, $schema:tt) => {
         $(#[doc = $doc])+
         #[derive(Clone, Copy, Debug)]
-        pub(super) struct $name(pub(super) $inner);
+        pub(in crate::front::course) struct $name(pub(in crate::front::course) $inner);
 
         impl Value for $name {
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -261,12 +263,14 @@ macro_rules! number {
     };
 }
 
-number! {
+pub(super) use ranged;
+
+ranged! {
     /// Any finite number.
     Real(f64), |node, context| number(node, "a number", context), { "type": "number" }
 }
 
-number! {
+ranged! {
     /// The angle of a view in degrees.
     Opening(f64), |node, context| {
         let degrees = number(node, "a number", context)?;
@@ -281,7 +285,7 @@ number! {
     }, { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 180 }
 }
 
-number! {
+ranged! {
     /// An angle in degrees.
     Degrees(f64), |node, context| {
         let degrees = number(node, "a number", context)?;
@@ -292,32 +296,52 @@ number! {
     }, { "type": "number" }
 }
 
-number! {
+ranged! {
     /// A number of at least 0.
     NonNegative(f64), |node, context| number(node, "a number", context), { "type": "number", "minimum": 0 }
 }
 
-number! {
+ranged! {
     /// A number above 0.
     Positive(f64), |node, context| number(node, "a number", context), { "type": "number", "exclusiveMinimum": 0 }
 }
 
-number! {
+ranged! {
     /// A whole number of at least 0.
     Natural(u32), |node, context| whole(0, u32::MAX, node, context),
     { "type": "integer", "minimum": 0, "maximum": 4_294_967_295_u32 }
 }
 
-number! {
+ranged! {
     /// A whole number of at least 1.
     Count(u32), |node, context| whole(1, u32::MAX, node, context),
     { "type": "integer", "minimum": 1, "maximum": 4_294_967_295_u32 }
 }
 
+ranged! {
+    /// An angle in radians of at most a quarter turn.
+    HalfAngle(f64), |node, context| {
+        number(node, "a number", context).map(|angle| in_radians(angle, node, context))
+    }, { "type": "number", "exclusiveMinimum": 0, "maximum": FRAC_PI_2 }
+}
+
+ranged! {
+    /// An exposure in stops.
+    Stops(f64), |node, context| {
+        const MOST: f64 = Display::MOST_STOPS;
+        let stops = number(node, "a number", context)?;
+        if !(-MOST..=MOST).contains(&stops) {
+            out_of_range("from -64 to 64", node, context);
+            return Some(0.0);
+        }
+        Some(stops)
+    }, { "type": "number", "minimum": -64, "maximum": 64 }
+}
+
 /// The largest side of an image.
 const MAX_SIDE: u32 = 65_535;
 
-number! {
+ranged! {
     /// A side of an image in pixels.
     Side(u32), |node, context| whole(1, MAX_SIDE, node, context), { "type": "integer", "minimum": 1, "maximum": MAX_SIDE }
 }

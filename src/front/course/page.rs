@@ -4,13 +4,15 @@
 use super::camera::Camera;
 use super::environment::Environment;
 use super::light::Light;
-use super::material::Material;
+use super::material::PhongMaterial;
 use super::object::{KINDS, ObjectKind};
+use super::paths::Paths;
 use super::picture::Sides;
 use super::record::{Field, Need, Record};
 use super::sampling::Grid;
 use super::schema::Definitions;
 use super::settings::{Gooch, Scene};
+use super::standard::{StandardMaterial, TextureMap};
 use serde_json::Value as Json;
 use std::fmt::Write as _;
 
@@ -37,9 +39,12 @@ pub fn page() -> String {
         ("`ImageSize` as a map", &Sides::RECORD),
         ("`SuperSampling`", &Grid::RECORD),
         ("`GoochParameters`", &Gooch::RECORD),
+        ("`PathParameters`", &Paths::RECORD),
         ("`Environment`", &Environment::RECORD),
         ("`Lights`", &Light::RECORD),
-        ("`material`", &Material::RECORD),
+        ("`material`", &PhongMaterial::RECORD),
+        ("`material` of `type: standard`", &StandardMaterial::RECORD),
+        ("A texture of a `standard` material", &TextureMap::RECORD),
     ] {
         section(title, record, &mut page);
     }

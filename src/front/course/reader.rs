@@ -103,7 +103,7 @@ impl Reader {
     /// Reports what was left unread and what is missing. False if the map has none of the forms it
     /// may have.
     pub(super) fn close(self, context: &mut Context<'_>) -> bool {
-        let (mut partial, slips) = (0_u32, context.slips.len());
+        let (mut partial, slips) = (0_u64, context.slips.len());
         for at in self.from..context.entries.len() {
             let entry = context.entries[at];
             if !entry.claimed && entry.key != COMMENT {
@@ -147,7 +147,7 @@ impl Reader {
 
     /// Reports a key nobody used. The bit of the field it is a part of, if that field is
     /// incomplete.
-    fn unread(&self, entry: MapEntry<'_>, context: &mut Context<'_>) -> u32 {
+    fn unread(&self, entry: MapEntry<'_>, context: &mut Context<'_>) -> u64 {
         let Record { word, fields, .. } = self.record;
         let span = context.tree.span(entry.key_node);
         let part_of = |field: &Field| field.rows.iter().any(|row| row.contains(&entry.key));

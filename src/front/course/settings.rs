@@ -1,13 +1,14 @@
 //! The whole file, and of it the settings: what a pixel shows and how much work goes into it.
 
-use super::assets::Asset;
 use super::camera::Camera;
 use super::decode::{Context, Each, Spanned, Value};
+use super::display::ToneWord;
 use super::environment::Environment;
 use super::light::Light;
 use super::lower::Lowering;
-use super::number::{Count, Natural, Real, plain_number};
+use super::number::{Count, Natural, Real, Stops, plain_number};
 use super::object::Object;
+use super::paths::Paths;
 use super::picture::PictureSize;
 use super::record::{FieldOutcome, keys, record};
 use super::sampling::SuperSampling;
@@ -30,8 +31,8 @@ record! {
         /// The camera as three keys: where it stands, what it looks at, and the upward direction, whose length is the size of
         /// a pixel; the image has 400 × 400 pixels. Better written as a `Camera`.
         look: [Spanned<Point>; 3], optional, &[&["CameraEye", "CameraLookPoint", "CameraUpVector"]];
-        /// What a pixel shows: `phong` the lit surface, `path` the light along all paths (the default with a sun, an
-        /// `Environment` or a glTF asset), `zbuffer` its distance, `normal` its direction, `gooch` a drawing, `texture` its
+        /// What a pixel shows: `phong` the lit surface, `path` the light along all paths (the default with a light in
+        /// physical units, an `Environment`, a glTF asset or a `standard` material), `zbuffer` its distance, `normal` its direction, `gooch` a drawing, `texture` its
         /// texture coordinates as the colours (u, 0, v).
         mode: Spanned<Mode>, default(Mode::Phong), keys!["RenderMode" "renderMode" "rendermode"];
         /// Whether surfaces hide lights from each other.
@@ -60,6 +61,14 @@ record! {
         toon: Spanned<bool>, default(false), keys!["Toon"], json "Toon";
         /// The colours of `RenderMode: gooch`.
         gooch: Spanned<Gooch>, optional, keys!["GoochParameters"];
+        /// How the light along all paths is followed.
+        paths: Spanned<Paths>, optional, keys!["PathParameters"];
+        /// How a PNG shows linear values: `none` as they are, `srgb` cut off at 1 and coded by sRGB, `agx` AgX,
+        /// `pbr-neutral` the PBR Neutral of Khronos; without it `srgb` where paths are traced, else `none`. An EXR holds
+        /// them as they are.
+        tone: Spanned<ToneWord>, optional, keys!["ToneMap"];
+        /// The exposure of a PNG in stops: each doubles the values before the tone map.
+        exposure: Spanned<Stops>, default(Stops(0.0)), keys!["Exposure"];
         /// What surrounds the scene.
         environment: Spanned<Environment>, optional, keys!["Environment"];
         /// The lights.
@@ -174,6 +183,7 @@ impl Lowering {
         } = scene;
         let light_samples = light_samples.ok().unwrap_or(Spanned::unwritten(Count(1)));
         note_unused(scene, context);
+        self.display(scene);
         self.scene.settings = ir::Settings {
             mode: self.mode(mode.value, gooch, context),
             shadows: shadows.value,
@@ -212,49 +222,6 @@ impl Lowering {
             if let ir::Light::Point(light) = light {
                 light.radius = light.radius.min(0.0);
             }
-        }
-    }
-
-    /// Has paths traced if the file says so, or holds what only paths show; after the lights and
-    /// the objects.
-    pub(super) fn follow_paths(&mut self, scene: &Scene) {
-        let Scene {
-            mode,
-            sampling,
-            depth,
-            reflections,
-            ..
-        } = scene;
-        let is_physical = self.scene.environment.is_some()
-            || self
-                .scene
-                .lights
-                .iter()
-                .any(|light| light.point().is_none())
-            || self
-                .files
-                .wanted
-                .iter()
-                .any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
-        if mode.value != Mode::Path && (mode.span.is_some() || !is_physical) {
-            return;
-        }
-        let rays = sampling
-            .value
-            .factor
-            .0
-            .saturating_mul(sampling.value.factor.0);
-        let usual = ir::PathSettings::default();
-        let samples = if sampling.span.is_some() {
-            rays
-        } else {
-            usual.samples
-        };
-        let settings = &mut self.scene.settings;
-        settings.mode = ir::Mode::Path(ir::PathSettings { samples, ..usual });
-        settings.supersampling = 1;
-        if depth.span.is_none() && reflections.is_absent() {
-            settings.max_depth = ir::PathSettings::DEPTH;
         }
     }
 

@@ -9,32 +9,13 @@ pub(super) fn nearest<'k>(word: &str, known: impl Iterator<Item = &'k str>) -> O
         return None;
     }
     let lower = word.to_lowercase();
-    let far = |candidate: &str| distance(&lower, &candidate.to_lowercase());
+    // How many letters were changed, left out, put in or swapped with their neighbour.
+    let far = |candidate: &str| strsim::osa_distance(&lower, &candidate.to_lowercase());
     let (cost, best) = known
         .map(|candidate| (far(candidate), candidate))
         .min_by_key(|(cost, _)| *cost)?;
     let tolerated = (word.chars().count().max(best.chars().count()) / 3).max(1);
     (cost <= tolerated && cost < best.chars().count()).then_some(best)
-}
-
-/// How many letters were changed, left out, put in or swapped with their neighbour.
-fn distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
-    let mut before: Vec<usize> = Vec::new();
-    let mut last: Vec<usize> = (0..=b.len()).collect();
-    for i in 0..a.len() {
-        let mut row = vec![i + 1];
-        for j in 0..b.len() {
-            let change = last[j] + usize::from(a[i] != b[j]);
-            let mut cost = change.min(last[j + 1] + 1).min(row[j] + 1);
-            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
-                cost = cost.min(before[j - 1] + 1);
-            }
-            row.push(cost);
-        }
-        before = std::mem::replace(&mut last, row);
-    }
-    last[b.len()]
 }
 
 /// Words in backticks, with commas and `and`.

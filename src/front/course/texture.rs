@@ -4,7 +4,9 @@ use super::assets::{Asset, Wanted};
 use super::decode::Spanned;
 use super::value::FileName;
 
-use crate::ir::{Image, ImageId, Mesh, MeshId, Pixels, Scene, Texture, TextureId};
+use crate::ir::{
+    Filter, Image, ImageId, Mesh, MeshId, Pixels, Sampled, Scene, Texture, TextureId, Wrap,
+};
 use std::collections::BTreeMap;
 
 /// The word that stands for the uv of the surface in place of a file.
@@ -22,6 +24,8 @@ pub(super) struct Files {
     textures: BTreeMap<String, TextureId>,
     meshes: BTreeMap<(String, Option<String>), MeshId>,
     uv: Option<TextureId>,
+    /// The images that `standard` materials look at, with their opacity.
+    sampled: BTreeMap<String, ImageId>,
     pub(super) wanted: Vec<Wanted>,
 }
 
@@ -35,19 +39,37 @@ impl Files {
         if let Some(id) = self.textures.get(&name) {
             return *id;
         }
-        let pixels = PLACEHOLDER.to_vec().into();
-        let image = Image {
-            name: name.clone(),
-            width: 1,
-            height: 1,
-            kind: Pixels::Rgb8,
-            pixels,
-        };
-        let image = add(&mut scene.images, image, ImageId);
+        let image = scene.add_image(white(name.clone()));
         self.want(Asset::Image(image), file);
         let id = add(&mut scene.textures, Texture::Image(image), TextureId);
         self.textures.insert(name, id);
         id
+    }
+
+    /// The texture of that name as glTF samples it, whose image has one pixel until its file is there.
+    pub(super) fn sampled(
+        &mut self,
+        scene: &mut Scene,
+        file: &Spanned<FileName>,
+        (wrap, filter): ([Wrap; 2], Filter),
+    ) -> TextureId {
+        let name = file.value.0.replace('\\', "/");
+        let image = self.sampled.get(&name).copied().unwrap_or_else(|| {
+            let image = scene.add_image(white(name.clone()));
+            self.sampled.insert(name, image);
+            self.want(Asset::Sampled(image), file);
+            image
+        });
+        let texture = Texture::Sampled(Sampled {
+            image,
+            wrap,
+            filter,
+        });
+        let known = scene.textures.iter().position(|known| *known == texture);
+        match known.map(u32::try_from) {
+            Some(Ok(known)) => TextureId(known),
+            Some(Err(_)) | None => add(&mut scene.textures, texture, TextureId),
+        }
     }
 
     /// The texture of the uv of surfaces.
@@ -106,6 +128,17 @@ impl Files {
             path: file.value.0.clone(),
             span: file.span,
         });
+    }
+}
+
+/// An image of one white pixel.
+fn white(name: String) -> Image {
+    Image {
+        name,
+        width: 1,
+        height: 1,
+        kind: Pixels::Rgb8,
+        pixels: PLACEHOLDER.to_vec().into(),
     }
 }
 

@@ -28,6 +28,46 @@ impl Value for Quaternion {
     }
 }
 
+/// Declares vectors that stand one after another in one list, as a type of the format.
+macro_rules! matrix {
+    ($(#[doc = $doc:literal])+ $name:ident, $count:literal, $columns:literal, $what:literal) => {
+        $(#[doc = $doc])+
+        #[derive(Clone, Copy, Debug)]
+        pub(super) struct $name(pub(super) [[f64; 3]; $columns]);
+
+        impl Value for $name {
+            const IS_LIST: bool = true;
+
+            fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+                let numbers: [f64; $count] =
+                    tuple(node, $what, context, |node, context| number(node, $what, context))?;
+                let vectors = numbers.as_chunks::<3>().0;
+                Some(Self(std::array::from_fn(|at| vectors[at])))
+            }
+
+            fn schema(_: &mut Definitions) -> Json {
+                let item = json!({ "type": "number", "minimum": -1e60, "maximum": 1e60 });
+                json!({ "type": "array", "items": item, "minItems": $count, "maxItems": $count })
+            }
+        }
+    };
+}
+
+matrix! {
+    /// The rows of a rotation.
+    RotationRows, 9, 3, "a list of nine numbers"
+}
+
+matrix! {
+    /// The columns of an affine map: the images of the three axes, and that of the origin.
+    AffineColumns, 12, 4, "a list of twelve numbers"
+}
+
+matrix! {
+    /// The rows of an affine map of the plane: (a, b, c) for a·u + b·v + c.
+    PlaneRows, 6, 2, "a list of six numbers"
+}
+
 /// A rotation; none where `--lenient` leaves out one that is written in an unknown way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rotation<T>(pub(super) Option<T>);

@@ -278,6 +278,23 @@ impl Value for Text {
     }
 }
 
+/// What people call something: any text.
+#[derive(Clone, Debug)]
+pub(super) struct Caption(pub(super) String);
+
+impl Value for Caption {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        match context.tree.shape(node) {
+            NodeContent::Word(text) | NodeContent::Text(text) => Some(Self(text.to_owned())),
+            NodeContent::List | NodeContent::Map => context.expected(node, "text"),
+        }
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        Text::schema(definitions)
+    }
+}
+
 /// The name of a file, or of what stands for one.
 #[derive(Clone, Debug)]
 pub(super) struct FileName(pub(super) String);

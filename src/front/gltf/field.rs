@@ -54,6 +54,11 @@ impl<'t, 's> Fields<'t, 's> {
         self.object("extensions")?.object(name)
     }
 
+    /// What rtc itself has put into the extras.
+    pub(super) fn own(&self) -> Option<Self> {
+        self.object("extras")?.object("rtc")
+    }
+
     /// The objects of the list that `key` holds.
     pub(super) fn objects(&self, key: &str) -> impl Iterator<Item = Self> + use<'t, 's> {
         let (json, list, moved) = (self.json, self.node(key), self.moved);
@@ -71,6 +76,12 @@ impl<'t, 's> Fields<'t, 's> {
     pub(super) fn index(&self, key: &str) -> Option<usize> {
         self.whole(key)
             .and_then(|number| usize::try_from(number).ok())
+    }
+
+    /// A count, which is below 2^32.
+    pub(super) fn count_or(&self, key: &str, default: u32) -> u32 {
+        let count = self.whole(key).map(u32::try_from);
+        count.and_then(Result::ok).unwrap_or(default)
     }
 
     pub(super) fn indices(&self, key: &str) -> Vec<usize> {

@@ -4,6 +4,7 @@
 use base64::Engine as _;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use percent_encoding::percent_decode_str;
 
 /// Base64 with or without padding.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -133,29 +134,21 @@ fn unescape(text: &str) -> Result<String, UriFault> {
         .map_err(|_| UriFault::Malformed("its escapes are not UTF-8"))
 }
 
-/// Resolves `%41` and its like (RFC 3986, section 2.1).
+/// Resolves `%41` and its like (RFC 3986, section 2.1); a `%` that begins none is a fault.
 fn unescape_bytes(text: &str) -> Result<Vec<u8>, UriFault> {
-    let mut bytes = Vec::with_capacity(text.len());
-    let mut rest = text.as_bytes();
-    while let [first, after @ ..] = rest {
-        rest = after;
-        if *first != b'%' {
-            bytes.push(*first);
-            continue;
-        }
-        let hex = after
-            .split_at_checked(2)
-            .and_then(|(hex, rest)| Some((std::str::from_utf8(hex).ok()?, rest)));
-        let digits = hex.filter(|(hex, _)| hex.bytes().all(|byte| byte.is_ascii_hexdigit()));
-        let (hex, after) =
-            digits.ok_or(UriFault::Malformed("two hexadecimal digits follow a `%`"))?;
-        bytes.push(
-            u8::from_str_radix(hex, 16)
-                .map_err(|_| UriFault::Malformed("two hexadecimal digits follow a `%`"))?,
-        );
-        rest = after;
+    let is_escape = |after: &[u8]| {
+        let digits = after.get(..2);
+        digits.is_some_and(|digits| digits.iter().all(u8::is_ascii_hexdigit))
+    };
+    if !text
+        .as_bytes()
+        .split(|byte| *byte == b'%')
+        .skip(1)
+        .all(is_escape)
+    {
+        return Err(UriFault::Malformed("two hexadecimal digits follow a `%`"));
     }
-    Ok(bytes)
+    Ok(percent_decode_str(text).collect())
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ pub use crate::front::words::{Unread, WordFault, WordSpan};
 pub use material_use::{MaterialUse, Named};
 
 use crate::front::words::{Lines, Word};
+use crate::ir::Mesh;
 use crate::source::{Budget, Exceeded, Resource};
 
 /// So many faults of one file are told.
@@ -22,48 +23,39 @@ pub const MAX_FAULTS: usize = 10;
 /// A mesh file as read.
 #[derive(Debug, Default)]
 pub struct Parsed {
-    /// What is drawn.
-    pub mesh: ParsedMesh,
+    /// What is drawn, without a name, its numbers in the precision of the file: normals, texture
+    /// coordinates, tangents and colours only where the file has some, colours at least 0, the corners
+    /// of triangles in range.
+    pub mesh: Mesh,
     /// Elements that don't show: the first, and how many.
     pub not_drawn: Option<(WordFault, usize)>,
     /// Which materials it asks for.
     pub material_use: MaterialUse,
 }
 
-/// A mesh without a name.
-#[derive(Debug, Default)]
-pub struct ParsedMesh {
-    /// Where each vertex is.
-    pub positions: Vec<[f64; 3]>,
-    /// The normal of each vertex; none if no face has any.
-    pub normals: Vec<[f64; 3]>,
-    /// The texture coordinates of each vertex; none if no face has any.
-    pub uvs: Vec<[f64; 2]>,
-    /// The colour of each vertex, linear, with alpha, each from 0 to 1; none if no vertex has any.
-    pub colors: Vec<[f64; 4]>,
-    /// The vertices of each triangle, from 0, in range.
-    pub triangles: Vec<[u32; 3]>,
-}
-
-impl ParsedMesh {
-    /// Charges what it holds, and frees what it has no use for.
-    fn charge(&mut self, budget: &Budget) -> Result<(), Exceeded> {
-        let Self {
-            positions,
-            normals,
-            uvs,
-            colors,
-            triangles,
-        } = self;
-        triangles.shrink_to_fit();
-        budget.charge(Resource::Vertices, positions.len() as u64)?;
-        let bytes = size_of_val(&**positions)
-            + size_of_val(&**normals)
-            + size_of_val(&**uvs)
-            + size_of_val(&**colors)
-            + size_of_val(&**triangles);
-        budget.charge(Resource::Memory, bytes as u64)
-    }
+/// Charges what a mesh holds, and frees what it has no use for.
+fn charge(mesh: &mut Mesh, budget: &Budget) -> Result<(), Exceeded> {
+    let Mesh {
+        name: _,
+        part: _,
+        positions,
+        normals,
+        uvs,
+        second_uvs,
+        tangents,
+        colors,
+        triangles,
+    } = mesh;
+    triangles.shrink_to_fit();
+    budget.charge(Resource::Vertices, positions.len() as u64)?;
+    let bytes = positions.bytes()
+        + normals.bytes()
+        + uvs.bytes()
+        + second_uvs.bytes()
+        + tangents.bytes()
+        + colors.bytes()
+        + size_of_val(triangles.as_slice());
+    budget.charge(Resource::Memory, bytes as u64)
 }
 
 /// What the names of such files end in, in lower case.

@@ -5,8 +5,10 @@
 //! Groups make no difference; which material each face asks for is kept beside the mesh. Corners
 //! without a normal, where others have one, are shaded flat.
 
-use super::{MAX_FAULTS, MaterialUse, Parsed, ParsedMesh, Unread};
+use super::{MAX_FAULTS, MaterialUse, Parsed, Unread};
 use crate::front::words::{Lines, Word, WordFault, numbers};
+use crate::ir::Mesh;
+use crate::math::Column;
 use crate::source::{Budget, Resource};
 
 /// How many there are of what corners refer to: positions, texture coordinates, normals.
@@ -146,7 +148,7 @@ impl Check {
     }
 
     /// The mesh of a file without faults.
-    fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, Unread> {
+    fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<Mesh, Unread> {
         let is_plain = self.used == [false; 2];
         // A corner, and its number, while equal ones are looked for.
         let passing = if is_plain {
@@ -180,7 +182,7 @@ impl Check {
 
     /// The mesh of a file whose corners are positions alone: those that are used, in the order of
     /// their first use.
-    fn plain(&mut self, bytes: &[u8]) -> ParsedMesh {
+    fn plain(&mut self, bytes: &[u8]) -> Mesh {
         const UNUSED: u32 = u32::MAX;
         let mut vertex_of = vec![UNUSED; self.vertices.positions.len()];
         let (mut positions, mut triangles) = (Vec::new(), Vec::with_capacity(self.triangles));
@@ -199,15 +201,15 @@ impl Check {
                 [first, before, last]
             }));
         });
-        ParsedMesh {
-            positions,
-            triangles,
-            ..ParsedMesh::default()
+        Mesh {
+            positions: positions.into(),
+            triangles: triangles.into(),
+            ..Mesh::default()
         }
     }
 
     /// The mesh of a file whose corners are more than positions.
-    fn merged(&mut self, bytes: &[u8]) -> ParsedMesh {
+    fn merged(&mut self, bytes: &[u8]) -> Mesh {
         let [_, uvs, normals] = self.vertices.counts();
         let mut sorted = Vec::with_capacity(self.corners);
         let mut triangles = Vec::with_capacity(self.triangles);
@@ -237,7 +239,7 @@ impl Check {
     }
 
     /// Makes one vertex of equal corners, in the order in which they are first used.
-    fn merge(&mut self, mut sorted: Vec<[u32; 4]>, mut triangles: Vec<[u32; 3]>) -> ParsedMesh {
+    fn merge(&mut self, mut sorted: Vec<[u32; 4]>, mut triangles: Vec<[u32; 3]>) -> Mesh {
         sorted.sort_unstable();
         let same = |a: &[u32; 4], b: &[u32; 4]| a[..3] == b[..3];
         // Of each corner the first that is equal, and then the vertex.
@@ -269,30 +271,26 @@ impl Check {
             uvs,
             normals,
         } = std::mem::take(&mut self.vertices);
-        fn pick<const N: usize>(
-            sorted: &[[u32; 4]],
-            part: usize,
-            from: &[[f64; N]],
-        ) -> Vec<[f64; N]> {
+        fn pick<const N: usize>(sorted: &[[u32; 4]], part: usize, from: &[[f64; N]]) -> Column<N> {
             sorted
                 .iter()
                 .map(|corner| from.get(corner[part] as usize).copied().unwrap_or([0.0; N]))
                 .collect()
         }
-        ParsedMesh {
+        Mesh {
             positions: pick(&sorted, 0, &positions),
             uvs: if self.used[0] {
                 pick(&sorted, 1, &uvs)
             } else {
-                Vec::new()
+                Column::default()
             },
             normals: if self.used[1] {
                 pick(&sorted, 2, &normals)
             } else {
-                Vec::new()
+                Column::default()
             },
-            triangles,
-            ..ParsedMesh::default()
+            triangles: triangles.into(),
+            ..Mesh::default()
         }
     }
 

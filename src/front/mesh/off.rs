@@ -2,7 +2,7 @@
 //!
 //! Nothing is allocated by a count: the lines that are there are read.
 
-use super::{MAX_FAULTS, Parsed, ParsedMesh, Unread};
+use super::{MAX_FAULTS, Parsed, Unread, charge};
 use crate::front::words::{Lines, Word, WordFault, numbers};
 use crate::source::{Budget, Resource};
 
@@ -28,7 +28,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     if !faults.is_empty() {
         return Err(Unread::Faults(faults));
     }
-    parsed.mesh.charge(budget)?;
+    charge(&mut parsed.mesh, budget)?;
     Ok(parsed)
 }
 
@@ -106,15 +106,24 @@ fn body<'a>(
     parsed: &mut Parsed,
     faults: &mut Vec<WordFault>,
 ) {
+    let (mut positions, mut normals) = (Vec::new(), Vec::new());
     for _ in 0..head.vertices.value {
-        match reader.line(&head.vertices) {
-            Ok(words) => faults.extend(vertex(words, head.has_normals, &mut parsed.mesh).err()),
+        let words = match reader.line(&head.vertices) {
+            Ok(words) => words,
             Err(end) => return faults.push(end),
+        };
+        match vertex(words, head.has_normals) {
+            Ok((position, normal)) => {
+                positions.push(position);
+                normals.extend(normal);
+            }
+            Err(fault) => faults.push(fault),
         }
         if faults.len() >= MAX_FAULTS {
             return;
         }
     }
+    (parsed.mesh.positions, parsed.mesh.normals) = (positions.into(), normals.into());
     for _ in 0..head.faces.value {
         match reader.line(&head.faces) {
             Ok(words) => faults.extend(face(words, &head.vertices, parsed).err()),
@@ -126,13 +135,14 @@ fn body<'a>(
     }
 }
 
-fn vertex(words: &[Word<'_>], has_normals: bool, mesh: &mut ParsedMesh) -> Result<(), WordFault> {
-    mesh.positions.push(numbers(&words[0], words)?);
-    if has_normals {
-        mesh.normals
-            .push(numbers(&words[0], words.get(3..).unwrap_or_default())?);
-    }
-    Ok(())
+/// The position of a vertex, and its normal if there are any.
+fn vertex(
+    words: &[Word<'_>],
+    has_normals: bool,
+) -> Result<([f64; 3], Option<[f64; 3]>), WordFault> {
+    let position = numbers(&words[0], words)?;
+    let normal = || numbers(&words[0], words.get(3..).unwrap_or_default());
+    Ok((position, has_normals.then(normal).transpose()?))
 }
 
 /// A polygon, as the fan of its triangles; what follows its corners is its colour.

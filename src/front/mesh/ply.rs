@@ -4,21 +4,21 @@
 
 mod body;
 mod head;
+mod vertex;
 
-use super::{MAX_FAULTS, Parsed, ParsedMesh, Unread};
-use crate::color::srgb_decoded;
+use super::{MAX_FAULTS, Parsed, Unread, charge};
 use crate::front::words::{Word, WordFault};
 use crate::source::{Budget, Resource};
 use body::PlyBody;
-use head::{PlyElement, PlyProperty};
+use head::PlyElement;
 
 /// True if a file that begins so is a PLY.
 pub(super) fn is_head(head: &[u8]) -> bool {
     head.starts_with(b"ply\n") || head.starts_with(b"ply\r")
 }
 
-/// Reads a PLY. Of vertices it keeps positions, normals, texture coordinates and colours, of faces
-/// their corners.
+/// Reads a PLY. Of vertices it keeps positions, normals, texture coordinates, tangents and colours, of
+/// faces their corners.
 pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     let one = |fault| Unread::Faults(vec![fault]);
     let (elements, form, start) = head::read(bytes).map_err(one)?;
@@ -29,7 +29,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
             return Err(one(element.is_cut_off()));
         }
         match element.name.bytes {
-            b"vertex" => vertices(element, &mut body, &mut parsed.mesh, budget)?,
+            b"vertex" => vertex::read(element, &mut body, &mut parsed.mesh, budget)?,
             // Any number of nothing.
             _ if element.properties.is_empty() => {}
             b"face" => {
@@ -57,84 +57,8 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     if !faults.is_empty() {
         return Err(Unread::Faults(faults));
     }
-    parsed.mesh.charge(budget)?;
+    charge(&mut parsed.mesh, budget)?;
     Ok(parsed)
-}
-
-/// The values of a vertex that are kept, by the names of their properties.
-const VALUES: [&[&[u8]]; 12] = [
-    &[b"x"],
-    &[b"y"],
-    &[b"z"],
-    &[b"nx"],
-    &[b"ny"],
-    &[b"nz"],
-    &[b"s", b"u", b"texture_u"],
-    &[b"t", b"v", b"texture_v"],
-    &[b"red", b"r", b"diffuse_red"],
-    &[b"green", b"g", b"diffuse_green"],
-    &[b"blue", b"b", b"diffuse_blue"],
-    &[b"alpha", b"a", b"diffuse_alpha"],
-];
-
-fn vertices(
-    element: &PlyElement<'_>,
-    body: &mut PlyBody<'_>,
-    mesh: &mut ParsedMesh,
-    budget: &Budget,
-) -> Result<(), Unread> {
-    let one = |fault| Unread::Faults(vec![fault]);
-    let slot = |property: &PlyProperty<'_>| {
-        let mut values = VALUES.iter();
-        let at = values.position(|names| names.contains(&property.name.bytes));
-        at.filter(|_| property.length.is_none())
-    };
-    let slots: Vec<_> = element.properties.iter().map(slot).collect();
-    let has = |values: &[usize]| values.iter().all(|value| slots.contains(&Some(*value)));
-    if !has(&[0, 1, 2]) {
-        return Err(one(element
-            .name
-            .fault("the vertices have no x, y and z", "these")));
-    }
-    let (has_normals, has_uvs, has_colors) = (has(&[3, 4, 5]), has(&[6, 7]), has(&[8, 9, 10]));
-    let vertex = 24
-        + 24 * usize::from(has_normals)
-        + 16 * usize::from(has_uvs)
-        + 32 * usize::from(has_colors);
-    budget.has(Resource::Vertices, element.count as u64)?;
-    budget.has(
-        Resource::Memory,
-        (vertex as u64).saturating_mul(element.count as u64),
-    )?;
-    mesh.positions.reserve_exact(element.count);
-    for _ in 0..element.count {
-        let mut values = [0.0; 12];
-        values[11] = 1.0;
-        for (property, slot) in element.properties.iter().zip(&slots) {
-            match slot {
-                Some(slot) => {
-                    let number = body.number(property.kind, element).map_err(one)?;
-                    let is_color = *slot > 7;
-                    values[*slot] = if is_color {
-                        property.kind.fraction(number)
-                    } else {
-                        number
-                    };
-                    if !number.is_finite() {
-                        return Err(one(body.fault("a number is not finite", "of this vertex")));
-                    }
-                }
-                None => body.skip(property, element).map_err(one)?,
-            }
-        }
-        let [x, y, z, nx, ny, nz, u, v, r, g, b, alpha] = values;
-        mesh.positions.push([x, y, z]);
-        mesh.normals.extend(has_normals.then_some([nx, ny, nz]));
-        mesh.uvs.extend(has_uvs.then_some([u, v]));
-        let [r, g, b] = [r, g, b].map(srgb_decoded);
-        mesh.colors.extend(has_colors.then_some([r, g, b, alpha]));
-    }
-    Ok(())
 }
 
 /// The faces, each as the fan of its triangles.
@@ -144,6 +68,10 @@ fn faces(
     parsed: &mut Parsed,
     faults: &mut Vec<WordFault>,
 ) -> Result<(), WordFault> {
+    let Parsed {
+        mesh, not_drawn, ..
+    } = parsed;
+    let triangles: &mut Vec<[u32; 3]> = &mut mesh.triangles;
     for _ in 0..element.count {
         for property in &element.properties {
             let Some(length) = property.length.filter(|_| property.is_corners()) else {
@@ -163,7 +91,7 @@ fn faces(
                     continue;
                 };
                 if at > 1 {
-                    parsed.mesh.triangles.push([fan[0], fan[1], corner]);
+                    triangles.push([fan[0], fan[1], corner]);
                 }
                 fan[usize::from(at > 0)] = corner;
             }
@@ -176,7 +104,7 @@ fn faces(
                         0,
                     )
                 };
-                parsed.not_drawn.get_or_insert_with(first).1 += 1;
+                not_drawn.get_or_insert_with(first).1 += 1;
             }
         }
     }

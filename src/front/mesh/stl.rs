@@ -3,8 +3,9 @@
 //!
 //! The normals of the file are not read: the order of the corners says the same.
 
-use super::{MAX_FAULTS, Parsed, ParsedMesh, Unread, first_lines};
+use super::{MAX_FAULTS, Parsed, Unread, charge, first_lines};
 use crate::front::words::{Lines, Word, WordFault, numbers};
+use crate::ir::Mesh;
 use crate::source::{Budget, Resource};
 
 /// What stands before the triangles of a binary file: 80 bytes of any kind, and their count.
@@ -69,14 +70,14 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
         return Err(Unread::Faults(faults));
     }
     let count = u32::try_from(positions.len() / 3).unwrap_or(u32::MAX / 3);
-    let mut mesh = ParsedMesh {
-        positions,
+    let mut mesh = Mesh {
+        positions: positions.into(),
         triangles: (0..count)
             .map(|at| [3 * at, 3 * at + 1, 3 * at + 2])
             .collect(),
-        ..ParsedMesh::default()
+        ..Mesh::default()
     };
-    mesh.charge(budget)?;
+    charge(&mut mesh, budget)?;
     Ok(Parsed {
         mesh,
         ..Parsed::default()

@@ -1,6 +1,7 @@
 //! Materials as each integrator sees them: Whitted's integrator sees Phong's model, paths see glTF's.
 
 use crate::math::{NonNegative, Positive, UnitInterval, Vec3};
+use crate::standard::{PhongTerms, fit_phong};
 use crate::valid::{Map, Material, Phong, Standard, UvSet};
 use std::num::NonZeroU32;
 
@@ -13,8 +14,7 @@ pub fn phong(material: &Material) -> Phong {
     }
 }
 
-/// The material as the path integrator sees it. Of Phong's model the diffuse term becomes
-/// Lambert's, and a mirror becomes a smooth metal.
+/// The material as the path integrator sees it; of Phong's model, the one that comes nearest.
 #[must_use]
 pub fn standard(material: &Material) -> Standard {
     match material {
@@ -40,40 +40,24 @@ fn phong_of_standard(standard: &Standard) -> Phong {
 }
 
 fn standard_of_phong(phong: &Phong) -> Standard {
-    let fraction = |weight: NonNegative| UnitInterval::saturating(weight.get());
-    let (kd, ks, kt) = (fraction(phong.kd), fraction(phong.ks), fraction(phong.kt));
-    let (mirrors, refracts) = (ks > UnitInterval::ZERO, kt > UnitInterval::ZERO);
-    let is_mirror = mirrors && kd == UnitInterval::ZERO && !refracts;
-    let weight = if ks > kd { 1.0 } else { kd.get() };
-    let [r, g, b] = phong
-        .color
-        .to_array()
-        .map(|channel| UnitInterval::saturating(channel.min(1.0) * weight));
-    let one_if = |condition| {
-        if condition {
-            UnitInterval::ONE
-        } else {
-            UnitInterval::ZERO
-        }
-    };
-    let roughness = (2.0 / (phong.n.get() + 2.0)).sqrt().sqrt();
+    let fit = fit_phong(&PhongTerms {
+        color: phong.color.to_array(),
+        kd: phong.kd.get(),
+        ks: phong.ks.get(),
+        n: phong.n.get(),
+        kt: phong.kt.get(),
+        eta: phong.eta.get(),
+    });
+    let [r, g, b] = fit.base_color.map(UnitInterval::saturating);
     Standard {
-        base_color: if is_mirror {
-            [ks, ks, ks, UnitInterval::ONE]
-        } else {
-            [r, g, b, UnitInterval::ONE]
-        },
+        base_color: [r, g, b, UnitInterval::ONE],
         base_color_map: phong.maps.as_ref().and_then(|maps| maps.color).map(whole),
-        metallic: one_if(is_mirror),
-        roughness: if is_mirror || refracts {
-            UnitInterval::ZERO
-        } else {
-            UnitInterval::saturating(roughness)
-        },
-        specular: one_if(mirrors || refracts),
-        transmission: kt,
-        thickness: one_if(refracts).into(),
-        ior: NonNegative::saturating(phong.eta.get().max(1.0)),
+        metallic: UnitInterval::saturating(fit.metallic),
+        roughness: UnitInterval::saturating(fit.roughness),
+        specular: UnitInterval::saturating(fit.specular),
+        transmission: UnitInterval::saturating(fit.transmission),
+        thickness: NonNegative::saturating(fit.thickness),
+        ior: NonNegative::saturating(fit.ior),
         ..WHITE
     }
 }

@@ -165,10 +165,19 @@ impl Beam {
         let axes = [(main + 1) % 3, (main + 2) % 3, main];
         let down = direction.is_negative_bitmask();
         Ok(Self {
-            origin: axes.map(|axis| origin[axis] as f32),
+            // Written out: `map` of an array is a call here.
+            origin: [
+                origin[axes[0]] as f32,
+                origin[axes[1]] as f32,
+                origin[axes[2]] as f32,
+            ],
             near_origin: (origin + shift).as_vec3().to_array(),
             far_origin: (origin - shift).as_vec3().to_array(),
-            inverse: steep.as_vec3().to_array().map(f32::recip),
+            inverse: [
+                (steep.x as f32).recip(),
+                (steep.y as f32).recip(),
+                (steep.z as f32).recip(),
+            ],
             down: [down & 1 != 0, down & 2 != 0, down & 4 != 0],
             axes,
             main: direction[main] as f32,

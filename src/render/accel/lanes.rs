@@ -1,4 +1,5 @@
-//! Eight boxes or four triangles against one ray at once, in single precision.
+//! Eight boxes or four triangles against one ray at once, or one triangle against eight rays, in
+//! single precision.
 //!
 //! Each level of [`super::simd`] does the same operations in the same order, and none of them is a
 //! fused one: so all find the same.
@@ -23,6 +24,9 @@ pub(in crate::render::accel) const LINKS: usize = 6 * WIDTH;
 /// A leaf: for each corner and axis the coordinates of four triangles, then their items as the bits
 /// of numbers.
 pub(in crate::render::accel) type WideLeaf = [f32; 40];
+
+/// By how much the far ends of boxes grow: more than the relative errors of both ends.
+pub(in crate::render::accel) const GROWN: f32 = 1.0 + 16.0 * f32::EPSILON;
 
 /// Where the items of a leaf are.
 pub(in crate::render::accel) const ITEMS: usize = 9 * TRIANGLES;
@@ -51,6 +55,13 @@ fn fours<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x4<S>; 3] {
     ]
 }
 
+/// Where the nearer ends of boxes are among those of an axis.
+#[inline(always)]
+pub(in crate::render::accel) fn nearer_ends([x, y, z]: [bool; 3]) -> [usize; 3] {
+    let nearer = |down: bool| if down { WIDTH } else { 0 };
+    [nearer(x), nearer(y), nearer(z)]
+}
+
 /// What of a beam boxes are met by.
 #[derive(Clone, Copy)]
 pub(in crate::render::accel) struct BoxLanes<S: Simd> {
@@ -68,7 +79,7 @@ impl<S: Simd> BoxLanes<S> {
             near_origin: eights(simd, beam.near_origin),
             far_origin: eights(simd, beam.far_origin),
             inverse: eights(simd, beam.inverse),
-            near: beam.down.map(|down| if down { WIDTH } else { 0 }),
+            near: nearer_ends(beam.down),
         }
     }
 
@@ -90,8 +101,7 @@ impl<S: Simd> BoxLanes<S> {
 
     /// Which boxes of a node the beam may meet before `limit`, as bits, and where.
     ///
-    /// As in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end grows by more than the
-    /// relative errors of both.
+    /// As in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end is [`GROWN`].
     #[inline(always)]
     pub(in crate::render::accel) fn meet(
         &self,
@@ -99,7 +109,6 @@ impl<S: Simd> BoxLanes<S> {
         node: &WideNode,
         limit: f32,
     ) -> (u32, [f32; WIDTH]) {
-        const GROWN: f32 = 1.0 + 16.0 * f32::EPSILON;
         let enter = self
             .enter::<0>(simd, node)
             .max(self.enter::<1>(simd, node))
@@ -117,31 +126,33 @@ impl<S: Simd> BoxLanes<S> {
 /// The bits of at most 32 lanes.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "there are 8 lanes at most")]
-fn bits(mask: u64) -> u32 {
+pub(in crate::render::accel) fn bits(mask: u64) -> u32 {
     mask as u32
 }
 
-/// Corners of four triangles after the shear that turns the beam into its main axis.
-type Sheared<S> = [f32x4<S>; 3];
+/// A corner in each lane, after the shear that turns the lane's beam into its main axis.
+type Sheared<V> = [V; 3];
 
-/// What of a beam triangles are hit by.
+/// What of beams triangles are hit by: one beam in all lanes, or one in each. All have the same
+/// main axis.
 #[derive(Clone, Copy)]
-pub(in crate::render::accel) struct TriangleLanes<S: Simd> {
-    axes: [usize; 3],
-    origin: [f32x4<S>; 3],
-    main: f32x4<S>,
-    slopes: [f32x4<S>; 2],
-    error: f32x4<S>,
+pub(in crate::render::accel) struct TriangleLanes<V> {
+    pub(in crate::render::accel) axes: [usize; 3],
+    pub(in crate::render::accel) origin: [V; 3],
+    pub(in crate::render::accel) main: V,
+    pub(in crate::render::accel) slopes: [V; 2],
+    pub(in crate::render::accel) error: V,
 }
 
-/// Which triangles of a leaf a beam may hit, and which of them it hits for sure, as bits.
+/// Which lanes may be hits, and which of them are hits for sure, as bits.
 #[derive(Clone, Copy)]
 pub(in crate::render::accel) struct LeafVerdict {
     pub(in crate::render::accel) may: u32,
     pub(in crate::render::accel) sure: u32,
 }
 
-impl<S: Simd> TriangleLanes<S> {
+impl<S: Simd> TriangleLanes<f32x4<S>> {
+    /// One beam.
     #[inline(always)]
     pub(in crate::render::accel) fn new(simd: S, beam: &Beam) -> Self {
         let [x, y] = beam.slopes;
@@ -154,58 +165,81 @@ impl<S: Simd> TriangleLanes<S> {
         }
     }
 
-    /// A corner as seen from the origin, along the k-th axis of the beam.
-    #[inline(always)]
-    fn seen<const CORNER: usize>(&self, simd: S, leaf: &WideLeaf, k: usize) -> f32x4<S> {
-        let at = place(CORNER, self.axes[k]);
-        f32x4::from_slice(simd, &leaf[at..at + TRIANGLES]) - self.origin[k]
-    }
-
-    #[inline(always)]
-    fn sheared<const CORNER: usize>(&self, simd: S, leaf: &WideLeaf) -> Sheared<S> {
-        let along = self.seen::<CORNER>(simd, leaf, 2) * self.main;
-        [
-            self.seen::<CORNER>(simd, leaf, 0) - along * self.slopes[0],
-            self.seen::<CORNER>(simd, leaf, 1) - along * self.slopes[1],
-            along,
-        ]
-    }
-
     /// Which triangles of a leaf the beam may hit before `limit`; if `SURE`, also which it surely
     /// hits before `sure_limit`.
-    ///
-    /// The signs of the edge functions are those of exact arithmetic where they exceed a bound on
-    /// their error: a triangle with two sure signs that differ is missed, one with three that agree
-    /// is hit.
     #[inline(always)]
     pub(in crate::render::accel) fn judge<const SURE: bool>(
         &self,
         simd: S,
         leaf: &WideLeaf,
-        [limit, sure_limit]: [f32; 2],
+        limits: [f32; 2],
     ) -> LeafVerdict {
+        self.verdict::<SURE, S>(
+            #[inline(always)]
+            |at: usize| f32x4::from_slice(simd, &leaf[at..at + TRIANGLES]),
+            [f32x4::splat(simd, limits[0]), f32x4::splat(simd, limits[1])],
+        )
+    }
+}
+
+impl<V> TriangleLanes<V> {
+    /// A corner as seen from the origin, along the k-th axis of the beam.
+    #[inline(always)]
+    fn seen<S: Simd>(&self, corner: usize, k: usize, coordinate: &impl Fn(usize) -> V) -> V
+    where
+        V: SimdFloat<S, Element = f32>,
+    {
+        coordinate(place(corner, self.axes[k])) - self.origin[k]
+    }
+
+    #[inline(always)]
+    fn sheared<S: Simd>(&self, corner: usize, coordinate: &impl Fn(usize) -> V) -> Sheared<V>
+    where
+        V: SimdFloat<S, Element = f32>,
+    {
+        let along = self.seen(corner, 2, coordinate) * self.main;
+        [
+            self.seen(corner, 0, coordinate) - along * self.slopes[0],
+            self.seen(corner, 1, coordinate) - along * self.slopes[1],
+            along,
+        ]
+    }
+
+    /// Which lanes may be hits before their limit; if `SURE`, also which surely are before their
+    /// second limit. `coordinate` gives those of the triangles at a place of a leaf.
+    ///
+    /// The signs of the edge functions are those of exact arithmetic where they exceed a bound on
+    /// their error: a triangle with two sure signs that differ is missed, one with three that agree
+    /// is hit.
+    #[inline(always)]
+    pub(in crate::render::accel) fn verdict<const SURE: bool, S: Simd>(
+        &self,
+        coordinate: impl Fn(usize) -> V,
+        [limit, sure_limit]: [V; 2],
+    ) -> LeafVerdict
+    where
+        V: SimdFloat<S, Element = f32>,
+    {
         let error = self.error;
-        let a = self.sheared::<0>(simd, leaf);
-        let b = self.sheared::<1>(simd, leaf);
-        let c = self.sheared::<2>(simd, leaf);
+        let a = self.sheared(0, &coordinate);
+        let b = self.sheared(1, &coordinate);
+        let c = self.sheared(2, &coordinate);
         let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
         // Products of coordinates of size m with errors e: 4·m·e + 2·e², and 3 roundings of each
         // product.
         let size = size_of(&a).max(size_of(&b)).max(size_of(&c)) + error;
-        let relative = f32x4::splat(simd, 8.0 * f32::EPSILON);
-        let bound = size * (size * relative + error * f32x4::splat(simd, 6.0));
+        let bound = size * (size * (8.0 * f32::EPSILON) + error * 6.0);
         let (min, max) = (u.min(v).min(w), u.max(v).max(w));
         let outside = min.simd_lt(-bound) & max.simd_gt(bound);
         let nearest = a[2].min(b[2]).min(c[2]) - error;
         let farthest = a[2].max(b[2]).max(c[2]) + error;
-        let beyond =
-            nearest.simd_gt(f32x4::splat(simd, limit)) | farthest.simd_lt(f32x4::splat(simd, 0.0));
-        let may = !bits((outside | beyond).to_bitmask()) & 0b1111;
+        let beyond = nearest.simd_gt(limit) | farthest.simd_lt(0.0);
+        let may = bits((!(outside | beyond)).to_bitmask());
         if !SURE {
             return LeafVerdict { may, sure: 0 };
         }
         let inside = min.simd_gt(bound) | max.simd_lt(-bound);
-        let between = nearest.simd_gt(error) & farthest.simd_lt(f32x4::splat(simd, sure_limit));
+        let between = nearest.simd_gt(error) & farthest.simd_lt(sure_limit);
         let sure = bits((inside & between).to_bitmask()) & may;
         LeafVerdict { may, sure }
     }
@@ -213,12 +247,12 @@ impl<S: Simd> TriangleLanes<S> {
 
 /// The larger of the sizes of both coordinates across the beam.
 #[inline(always)]
-fn size_of<S: Simd>(corner: &Sheared<S>) -> f32x4<S> {
+fn size_of<S: Simd, V: SimdFloat<S, Element = f32>>(corner: &Sheared<V>) -> V {
     corner[0].abs().max(corner[1].abs())
 }
 
 /// The edge function of the edge between two corners.
 #[inline(always)]
-fn edge<S: Simd>(p: &Sheared<S>, q: &Sheared<S>) -> f32x4<S> {
+fn edge<S: Simd, V: SimdFloat<S, Element = f32>>(p: &Sheared<V>, q: &Sheared<V>) -> V {
     p[0] * q[1] - p[1] * q[0]
 }

@@ -6,6 +6,7 @@ pub(in crate::render) mod bounds;
 pub(in crate::render) mod bundle;
 pub(in crate::render) mod bvh;
 pub(in crate::render) mod lanes;
+mod packet;
 mod pages;
 pub(in crate::render) mod simd;
 pub(in crate::render) mod wide;

@@ -2,7 +2,7 @@
 //! go anywhere wait for the addresses of pages as much as for the rows themselves.
 
 use bytemuck::Pod;
-use memmap2::{Advice, MmapMut, MmapOptions};
+use memmap2::{MmapMut, MmapOptions};
 use std::marker::PhantomData;
 
 /// Lists of so many bytes are worth pages of their own: twice the size of a huge page.
@@ -27,7 +27,7 @@ impl<T: Pod> Pages<T> {
         };
         // Without huge pages it is slower, and no less right.
         #[cfg(target_os = "linux")]
-        let _ = map.advise(Advice::HugePage);
+        let _ = map.advise(memmap2::Advice::HugePage);
         let mut rest: &mut [T] = bytemuck::cast_slice_mut(&mut map);
         for list in lists {
             let (here, after) = rest.split_at_mut(list.len());

@@ -93,6 +93,7 @@ impl SimdLevel {
 /// Does the same with the instructions of a level; `$simd` names them within.
 macro_rules! at_level {
     ($level:expr, $simd:ident => $what:expr) => {{
+        #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
         use fearless_simd::Simd;
         use $crate::render::accel::simd::Tokens;
         match $level.tokens() {

@@ -13,7 +13,7 @@ pub use counts::Counts;
 
 use crate::color::Tone;
 use crate::image::Image;
-use crate::render::sampler::mix;
+use crate::math::mix;
 use std::num::NonZeroU32;
 
 /// What to render of a world.
@@ -87,6 +87,11 @@ impl Tiles {
         mix(mix(seed) ^ (u64::from(tile[0]) << 32 | u64::from(tile[1])))
     }
 
+    /// The rectangles of all tiles of a part of a picture, row by row.
+    pub fn of(crop: Crop) -> impl Iterator<Item = Crop> {
+        tiled::tiles_of(crop)
+    }
+
     /// Whether a pixel lies in one of the tiles.
     #[must_use]
     pub fn contain(&self, pixel: [u32; 2]) -> bool {
@@ -142,6 +147,12 @@ pub struct Crop {
 }
 
 impl Crop {
+    /// How many pixels it has.
+    #[must_use]
+    pub fn pixels(self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
     /// The part of this rectangle inside a picture of the size given; may be empty.
     #[must_use]
     pub fn within(self, width: u32, height: u32) -> Self {
@@ -185,4 +196,32 @@ pub struct Film {
     pub coverage: Vec<f32>,
     /// The rays it took.
     pub counts: Counts,
+}
+
+impl Film {
+    /// The pixels of `crop` of a film of the whole picture. A film of the size of `crop` stays as it
+    /// is.
+    #[must_use]
+    pub fn cut(self, crop: Crop) -> Self {
+        if (self.image.width, self.image.height) == (crop.width, crop.height) {
+            return self;
+        }
+        let width = self.image.width as usize;
+        let rows = (crop.y..crop.y + crop.height).map(|y| y as usize * width + crop.x as usize);
+        let row = |start: usize| start..start + crop.width as usize;
+        let pixels = rows
+            .clone()
+            .flat_map(|start| &self.image.pixels[row(start)]);
+        let image = Image {
+            width: crop.width,
+            height: crop.height,
+            pixels: pixels.copied().collect(),
+        };
+        let coverage = rows.flat_map(|start| &self.coverage[row(start)]);
+        Self {
+            image,
+            coverage: coverage.copied().collect(),
+            counts: self.counts,
+        }
+    }
 }

@@ -149,7 +149,7 @@ impl FilmLayout {
             return Err(FilmError::Inseparable);
         };
         let blocks = samples.start / BLOCK..samples.end.div_ceil(BLOCK);
-        let is_whole = !samples.is_empty() && self.samples_of(&blocks) == samples;
+        let is_whole = self.samples_of(&blocks) == samples;
         is_whole
             .then_some(blocks)
             .ok_or(FilmError::Misaligned(samples))
@@ -229,6 +229,12 @@ fn depths(film: &Tiled<PixelSum>) -> impl Fn(&PixelSum) -> [f64; 3] {
 }
 
 impl PartialFilm {
+    /// The rays it took.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
     /// A film without samples.
     pub(in crate::render) fn new(layout: FilmLayout) -> Self {
         Self {
@@ -286,13 +292,18 @@ impl PartialFilm {
     /// # Errors
     /// If samples are missing.
     pub fn develop(&self) -> Result<Film, FilmError> {
-        let mut film = Tiled::new(self.layout.crop, PixelSum::default());
         let all = 0..self.layout.blocks();
-        for ((area, sums), nodes) in film.tiles_mut().into_iter().zip(&self.tiles) {
-            match nodes.as_slice() {
-                [node] if node.blocks == all => sums.copy_from_slice(&node.sums),
-                _ => return Err(FilmError::Missing([area.x, area.y])),
-            }
+        // What is missing is known before memory is taken for the picture.
+        let is_whole = |nodes: &[SumNode]| matches!(nodes, [node] if node.blocks == all);
+        let missing = self.tiles.iter().position(|nodes| !is_whole(nodes));
+        if let Some(area) = missing.and_then(|tile| tiles_of(self.layout.crop).nth(tile)) {
+            return Err(FilmError::Missing([area.x, area.y]));
+        }
+        let mut film = Tiled::new(self.layout.crop, PixelSum::default());
+        for ((_, sums), nodes) in film.tiles_mut().into_iter().zip(&self.tiles) {
+            nodes
+                .iter()
+                .for_each(|node| sums.copy_from_slice(&node.sums));
         }
         Ok(self.layout.develop(&film, self.counts))
     }

@@ -155,7 +155,7 @@ impl Accumulator for InOrder {
 }
 
 /// Samples of a block, which are added one after the other.
-pub(in crate::render) const BLOCK: u32 = 16;
+pub const BLOCK: u32 = 16;
 
 /// The samples, added in aligned blocks of [`BLOCK`] along a binary tree over the blocks: pictures
 /// of traced paths. The sum of any 2^k aligned blocks is one node of the tree, whoever adds it.

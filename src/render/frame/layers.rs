@@ -3,10 +3,10 @@
 use super::{Selection, run};
 use crate::image::Layers;
 use crate::plan::{Features, PathFeatures};
+use crate::render::film::Job;
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::Accumulator;
 use crate::render::film::tiled::Tiled;
-use crate::render::film::{Crop, Job};
 use crate::render::frame::picture::asked;
 use crate::render::integrator::aov::{Aov, FirstHit, FirstHits, LayerSums};
 use crate::render::integrator::path::{PathTracer, Strategy};
@@ -15,13 +15,14 @@ use crate::render::light::Lights;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
 use crate::render::world::settings::Mode;
+use std::iter::repeat_n;
 
 impl<S: Geometry> World<S> {
     /// As [`crate::render::AnyWorld::layers`], of what this world holds.
     pub(in crate::render) fn layers(
         &self,
         wanted: &[Aov],
-        crop: Crop,
+        job: &Job,
         on_pixel: &OnPixel<'_>,
     ) -> Option<Layers> {
         if let Mode::Path(samples) = self.settings.mode {
@@ -35,10 +36,10 @@ impl<S: Geometry> World<S> {
                 )
                 .knowing_all()
             };
-            return self.layers_by(worker, samples, wanted, crop);
+            return self.layers_by(worker, samples, wanted, job);
         }
         let worker = || Tracer::<S, { Features::EVERYTHING.0 }>::new(self, on_pixel);
-        self.layers_by(worker, self.settings.grid.samples(), wanted, crop)
+        self.layers_by(worker, self.settings.grid.samples(), wanted, job)
     }
 
     /// Renders layers by integrators that `worker` makes.
@@ -47,30 +48,24 @@ impl<S: Geometry> World<S> {
         worker: impl Fn() -> I + Sync + Send,
         samples: u32,
         wanted: &[Aov],
-        crop: Crop,
+        job: &Job,
     ) -> Option<Layers> {
-        let job = Job {
-            crop: Some(crop),
-            ..Job::default()
-        };
         let camera = &self.camera;
         let open = |_: [u32; 2], _: usize, _: &<LayerSums<'_> as Accumulator>::Kept| {
-            (LayerSums::new(wanted, camera), asked(&job, 0..samples))
+            (LayerSums::new(wanted, camera), asked(job, 0..samples))
         };
-        let mut film = Tiled::new(self.crop(&job), <LayerSums<'_> as Accumulator>::Kept::new());
-        run(
-            &mut film,
-            Selection::default(),
-            || FirstHits(worker()),
-            &open,
-        )?;
+        let mut film = Tiled::new(self.crop(job), <LayerSums<'_> as Accumulator>::Kept::new());
+        run(&mut film, Selection::of(job), || FirstHits(worker()), &open)?;
+        let names: Vec<_> = wanted.iter().flat_map(|aov| aov.channels()).collect();
+        // A pixel that nobody asked for has no numbers.
+        let mut values = Vec::with_capacity(film.len() * names.len());
+        for kept in film.iter() {
+            values.extend_from_slice(kept);
+            values.extend(repeat_n(0.0, names.len() - kept.len()));
+        }
         Some(Layers {
-            names: wanted
-                .iter()
-                .flat_map(|aov| aov.channels())
-                .copied()
-                .collect(),
-            values: film.iter().flatten().copied().collect(),
+            values,
+            names: names.into_iter().copied().collect(),
         })
     }
 }

@@ -1,7 +1,6 @@
 //! Whole pictures and parts of them: each pixel takes the samples that the scene asks for, or some of them.
 
 use super::{Selection, run};
-use crate::image::Image;
 use crate::plan::{Features, PixelClass};
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::partial::{FilmError, FilmLayout, PartialFilm, Summation};
@@ -98,7 +97,7 @@ impl<S: Geometry> World<S> {
             Summation::InOrder | Summation::InBlocks(_) => job.tiles,
         };
         let (film, counts) = sum(&layout.all_samples(), &Job { tiles, ..*job })?;
-        Some(cut(layout.develop(&film, counts), self.crop(job)))
+        Some(layout.develop(&film, counts).cut(self.crop(job)))
     }
 
     /// Renders some samples of a picture, or all, from the sums that `sum` makes of a range of
@@ -152,7 +151,8 @@ impl<S: Geometry> World<S> {
 }
 
 impl Selection {
-    fn of(job: &Job) -> Self {
+    /// What a job asks for.
+    pub(in crate::render) fn of(job: &Job) -> Self {
         Self {
             tiles: job.tiles,
             stride: job.stride,
@@ -168,36 +168,4 @@ fn limited(job: &Job, samples: u32) -> u32 {
 /// The samples of a pixel that a job asks for.
 pub(in crate::render) fn asked(job: &Job, samples: Range<u32>) -> SampleRanges {
     SampleRanges::Picture(job.seeds, samples)
-}
-
-/// The pixels of `crop` of a film of the whole picture. A film of the size of `crop` stays as it
-/// is.
-fn cut(film: Film, crop: Crop) -> Film {
-    if (film.image.width, film.image.height) == (crop.width, crop.height) {
-        return film;
-    }
-    let Film {
-        image,
-        coverage,
-        counts,
-    } = film;
-    let width = image.width as usize;
-    let rows = (crop.y..crop.y + crop.height).map(|y| y as usize * width + crop.x as usize);
-    let row = |start: usize| start..start + crop.width as usize;
-    let image = Image {
-        width: crop.width,
-        height: crop.height,
-        pixels: rows
-            .clone()
-            .flat_map(|start| image.pixels[row(start)].iter().copied())
-            .collect(),
-    };
-    let coverage = rows
-        .flat_map(|start| coverage[row(start)].iter().copied())
-        .collect();
-    Film {
-        image,
-        coverage,
-        counts,
-    }
 }

@@ -7,9 +7,11 @@ use crate::render::camera::Camera;
 use crate::render::film::Counts;
 use crate::render::film::heartbeat::Heartbeat;
 use crate::render::film::pixel::{Accumulator, SampleId};
+use serde::{Deserialize, Serialize};
 
 /// A layer. All are zero without a hit, except the depth.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub enum Aov {
     /// The base colour, maps included, linear, in [0, 1]; C·kd of Phong's model.
     Albedo,

@@ -5,7 +5,7 @@ pub(in crate::render) mod discrete;
 pub(in crate::render) mod sequence;
 pub(in crate::render) mod sobol;
 
-use crate::math::{Basis, NonNegative, Vec3, cos_sin_turns, golden_turns, pow};
+use crate::math::{Basis, NonNegative, Vec3, cos_sin_turns, golden_turns, mix, pow};
 
 /// The key of one vertex of one path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,15 +48,6 @@ impl Key {
         const UNIT: f64 = 1.0 / 9_007_199_254_740_992.0;
         (self.bits(dimension) >> 11) as f64 * UNIT
     }
-}
-
-/// The finaliser of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
-/// generators", 2014).
-pub(in crate::render) fn mix(x: u64) -> u64 {
-    let x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    x ^ (x >> 31)
 }
 
 /// Points spread evenly over a disc of radius 1: a golden spiral, turned by a number of the key.

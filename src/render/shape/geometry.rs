@@ -15,6 +15,12 @@ pub trait Geometry: Sized + Send + Sync {
     #[must_use]
     fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)>;
 
+    /// Whether [`Geometry::intersect`] looks at the shear.
+    #[must_use]
+    fn uses_shear(&self) -> bool {
+        false
+    }
+
     /// As [`Geometry::intersect`], but of roots that rounding cannot tell apart, the one on the
     /// first primitive.
     #[must_use]

@@ -56,13 +56,14 @@ impl Instance {
             bounds: Bounds::EMPTY,
             error_bound: 0.0,
         };
-        for corner in mesh.all_vertices().flatten() {
-            let point = instance.to_world(corner);
+        let (mut bounds, mut error_bound) = (Bounds::EMPTY, 0.0_f64);
+        mesh.visit_places(|place| {
             // Grow the box by the rounding error of the transform.
-            let rounding = instance.rounding(corner);
-            instance.bounds = instance.bounds.union(Bounds::around(point, rounding));
-            instance.error_bound = instance.error_bound.max(rounding);
-        }
+            let rounding = instance.rounding(place);
+            bounds = bounds.union(Bounds::around(instance.to_world(place), rounding));
+            error_bound = error_bound.max(rounding);
+        });
+        (instance.bounds, instance.error_bound) = (bounds, error_bound);
         instance
     }
 

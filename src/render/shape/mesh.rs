@@ -57,7 +57,7 @@ impl PreparedMesh {
         attributes: Attributes,
         simd: SimdLevel,
     ) -> Self {
-        let has_area = |corners: &[u32; 3]| Normal::of(places(positions, *corners)).is_some();
+        let has_area = |corners: &[u32; 3]| has_area(places(positions, *corners));
         let corners = if triangles.par_iter().all(has_area) {
             triangles.clone()
         } else {
@@ -103,6 +103,22 @@ impl PreparedMesh {
         corners.map(|corners| places(&self.positions, *corners))
     }
 
+    /// Visits the places of all vertices that they use, each at least once.
+    pub(in crate::render) fn visit_places(&self, mut visit: impl FnMut(Vec3)) {
+        // The list of vertices may be longer than what this mesh uses of it.
+        if self.positions.len() > 3 * self.count() {
+            self.all_vertices().flatten().for_each(visit);
+            return;
+        }
+        let mut is_used = vec![false; self.positions.len()];
+        for corner in self.corners.iter().flatten() {
+            is_used[*corner as usize] = true;
+        }
+        for (vertex, _) in is_used.iter().enumerate().filter(|(_, is_used)| **is_used) {
+            visit(Vec3::from_array(self.positions.at(vertex)));
+        }
+    }
+
     /// One of them.
     #[inline]
     pub(in crate::render) fn triangle(&self, triangle: u32) -> Triangle {
@@ -140,6 +156,19 @@ impl PreparedMesh {
         };
         self.hierarchy.get_or_init(build).as_ref()
     }
+}
+
+/// Whether three corners are not in line, as [`Normal::of`] tells; by plain arithmetic where that
+/// is sure.
+fn has_area([a, b, c]: [Vec3; 3]) -> bool {
+    /// A sine this large is not an error of rounding.
+    const SURE: f64 = 1e-6;
+    /// Above this no product is below the normal numbers.
+    const NORMAL: f64 = 1e-290;
+    let (first, second) = (b - a, c - a);
+    let size = first.abs().max_element() * second.abs().max_element();
+    let area = first.cross(second).abs().max_element();
+    size > NORMAL && area > SURE * size || Normal::of([a, b, c]).is_some()
 }
 
 /// Where three corners are.

@@ -11,6 +11,12 @@ macro_rules! dispatch {
                 }
             }
 
+            fn uses_shear(&self) -> bool {
+                match self {
+                    $(Self::$Name(shape) => <$Name as Geometry>::uses_shear(shape),)*
+                }
+            }
+
             #[inline]
             fn closest_hit(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
                 match self {

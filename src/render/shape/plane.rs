@@ -22,6 +22,29 @@ pub(in crate::render) struct Normal {
     unit: Vec3,
 }
 
+/// An axis that a normal lies along, and its sign there: products with such a normal are exact, and
+/// so are their sums.
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    index: usize,
+    sign: f64,
+}
+
+impl Axis {
+    /// N·(anchor − p), but for the sign of a 0.
+    #[inline(always)]
+    fn distance(self, anchor: Vec3, p: Vec3) -> f64 {
+        let (step, error) = two_difference(anchor[self.index], p[self.index]);
+        self.sign * step + self.sign * error
+    }
+
+    /// Whether a point lies on the plane through `anchor`, and has no 0 whose sign a sum may change.
+    #[inline(always)]
+    fn is_on(self, anchor: Vec3, p: Vec3) -> bool {
+        p[self.index] == anchor[self.index] && p.x != 0.0 && p.y != 0.0 && p.z != 0.0
+    }
+}
+
 /// A prepared plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane {
@@ -63,40 +86,42 @@ impl Normal {
     /// The t of the plane through `anchor` along the ray; see [`Plane::parameter`].
     #[inline(always)]
     fn parameter(&self, anchor: Vec3, ray: &Ray) -> Option<f64> {
-        let slope = match self.axis() {
-            Some((axis, sign)) => sign * ray.direction[axis],
+        let axis = self.axis();
+        let slope = match axis {
+            Some(Axis { index, sign }) => sign * ray.direction[index],
             None => dot(self.raw, ray.direction),
         };
         if slope == 0.0 {
             return None;
         }
-        Some(self.distance(anchor, ray.origin) / slope)
+        Some(self.distance(axis, anchor, ray.origin) / slope)
     }
 
-    /// The axis along which the normal lies, and its sign there, if it lies along one: products
-    /// with such a normal are exact, and so are their sums.
+    /// The axis along which the normal lies, if it lies along one.
     #[inline]
-    fn axis(&self) -> Option<(usize, f64)> {
-        let [x, y, z] = self.raw.abs().to_array();
-        let axis = match (x == 0.0, y == 0.0, z == 0.0) {
-            (true, true, false) => 2,
-            (true, false, true) => 1,
-            (false, true, true) => 0,
-            _ => return None,
+    fn axis(&self) -> Option<Axis> {
+        if self.square != 1.0 {
+            return None;
+        }
+        let [x, y, z] = self.raw.to_array();
+        let (index, sign, others) = if z != 0.0 {
+            (2, z, [x, y])
+        } else if y != 0.0 {
+            (1, y, [x, z])
+        } else {
+            (0, x, [y, z])
         };
-        (self.square == 1.0).then_some((axis, self.raw[axis]))
+        (others == [0.0; 2]).then_some(Axis { index, sign })
     }
 
     /// N·(anchor − p), as if in twice the precision.
     #[inline(always)]
-    fn distance(&self, anchor: Vec3, p: Vec3) -> f64 {
-        if let Some((axis, sign)) = self.axis() {
-            let (step, error) = two_difference(anchor[axis], p[axis]);
-            let distance = sign * step + sign * error;
-            // The sign of a 0 is that of the sum.
-            if distance != 0.0 {
-                return distance;
-            }
+    fn distance(&self, axis: Option<Axis>, anchor: Vec3, p: Vec3) -> f64 {
+        // The sign of a 0 is that of the sum.
+        if let Some(distance) = axis.map(|axis| axis.distance(anchor, p))
+            && distance != 0.0
+        {
+            return distance;
         }
         let (x, x_error) = two_difference(anchor.x, p.x);
         let (y, y_error) = two_difference(anchor.y, p.y);
@@ -131,7 +156,12 @@ impl Normal {
     pub(in crate::render) fn interaction(&self, anchor: Vec3, ray: &Ray, t: f64) -> Interaction {
         let near = ray.origin + ray.direction * t;
         let Self { raw, square, unit } = *self;
-        let point = near + raw * (self.distance(anchor, near) / square);
+        let axis = self.axis();
+        let point = if axis.is_some_and(|axis| axis.is_on(anchor, near)) {
+            near
+        } else {
+            near + raw * (self.distance(axis, anchor, near) / square)
+        };
         Interaction::new(ray, point, unit, anchor, 0.0)
     }
 }
@@ -269,6 +299,27 @@ mod tests {
             }
         }
         assert!(told > 2000, "{told}");
+    }
+
+    #[test]
+    fn a_point_on_a_plane_along_an_axis_has_the_bits_of_the_sum() {
+        let normals = [Vec3::X, Vec3::NEG_Y * 3.0, Vec3::NEG_Z];
+        for (index, normal) in (0..3000_u32).zip(normals.into_iter().cycle()) {
+            let (normal, key) = (Normal::new(normal), Key::new([3, 6], index.into()));
+            let number = |k: u64| [0.0, -0.0, 0.5, -3.0][(key.bits(k) % 4) as usize];
+            let place = Vec3::new(number(0), number(1), number(2));
+            let ray = Ray {
+                origin: place,
+                direction: Vec3::NEG_ONE,
+            };
+            for anchor in [place, Vec3::ONE] {
+                let distance = normal.distance(None, anchor, place);
+                let sum = place + normal.raw * (distance / normal.square);
+                let point = normal.interaction(anchor, &ray, 0.0).point;
+                let bits = |v: Vec3| v.to_array().map(f64::to_bits);
+                assert_eq!(bits(point), bits(sum), "{place} {anchor}");
+            }
+        }
     }
 
     #[test]

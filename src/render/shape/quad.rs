@@ -225,6 +225,10 @@ impl Geometry for Quad {
         self.intersect(ray, shear)
     }
 
+    fn uses_shear(&self) -> bool {
+        true
+    }
+
     fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
         self.interaction(ray, t, prim_id)
     }

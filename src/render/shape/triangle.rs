@@ -27,6 +27,13 @@ pub struct Shear {
 }
 
 impl Shear {
+    /// For shapes that look at none.
+    pub(in crate::render) const UNUSED: Self = Self {
+        axes: [0, 1, 2],
+        x: 0.0,
+        y: 0.0,
+    };
+
     /// The shear of a ray.
     #[must_use]
     #[inline]
@@ -206,6 +213,10 @@ impl Geometry for TexturedTriangle {
     #[inline]
     fn intersect(&self, ray: &Ray, shear: &Shear, _: f64) -> Option<(f64, u32)> {
         self.triangle.intersect(ray, shear).map(|t| (t, 0))
+    }
+
+    fn uses_shear(&self) -> bool {
+        true
     }
 
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {

@@ -6,7 +6,7 @@ use crate::render::accel::simd::SimdLevel;
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::partial::{FilmError, PartialFilm};
 use crate::render::film::progressive::ProgressiveFilm;
-use crate::render::film::{Crop, Film, Job};
+use crate::render::film::{Film, Job};
 use crate::render::integrator::aov::Aov;
 use crate::render::shape::Shape;
 use crate::render::shape::basic::Basic;
@@ -107,19 +107,19 @@ impl AnyWorld {
         })
     }
 
-    /// Renders layers of a part of the picture; `None` if `on_pixel` said stop.
+    /// Renders layers of the pixels that a job asks for; `None` if `on_pixel` said stop.
     ///
     /// `on_pixel` is called from all threads after each pixel.
     #[must_use]
-    pub fn layers(&self, wanted: &[Aov], crop: Crop, on_pixel: &OnPixel<'_>) -> Option<Layers> {
+    pub fn layers(&self, wanted: &[Aov], job: &Job, on_pixel: &OnPixel<'_>) -> Option<Layers> {
         let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
         if plan.rules == Rules::NONE {
-            return each!(self, world => world.layers(wanted, crop, on_pixel));
+            return each!(self, world => world.layers(wanted, job, on_pixel));
         }
         // Rules keep the colours; only a plan without them keeps all that a layer may show.
         let simd = each!(self, world => world.simd);
         Self::prepare_at(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE), simd)
-            .layers(wanted, crop, on_pixel)
+            .layers(wanted, job, on_pixel)
     }
 
     /// Takes samples until both halves of each pixel have those wanted: `wanted(i)` is how many

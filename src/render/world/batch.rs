@@ -1,16 +1,18 @@
 //! Many rays at once: what each meets is what it meets alone.
 
-use super::flattened::FlattenedRay;
+use super::flattened::{Flattened, FlattenedRay};
 use super::search::{AnySearch, ClosestSearch};
-use super::{Hit, NOWHERE, World};
+use super::{Hit, NOWHERE, OVER, World};
+use crate::render::accel::wide::Visitor;
 use crate::render::ray::Ray;
 use crate::render::shape::geometry::Geometry;
+use crate::render::shape::tie::Nearest;
 
 /// So many rays are prepared at once.
 const CHUNK: usize = 64;
 
-/// Whether most rays point nearly where the one before points, within about 8°: they find in the
-/// caches what that one met, and need no turns.
+/// Whether most rays point nearly where the one before points, within about 8°: they visit much
+/// the same nodes.
 fn are_coherent<'rays>(mut rays: impl Iterator<Item = &'rays Ray>) -> bool {
     const SQUARED_COSINE: f64 = 0.98;
     let Some(first) = rays.next() else {
@@ -35,26 +37,24 @@ impl<S: Geometry> World<S> {
             return rays.iter().map(|ray| self.closest_hit(ray)).collect();
         };
         let mut hits = Vec::with_capacity(rays.len());
+        let mut units = Vec::with_capacity(CHUNK);
         let mut searches = Vec::with_capacity(CHUNK);
         for rays in rays.chunks(CHUNK) {
-            if are_coherent(rays.iter()) {
-                hits.extend(rays.iter().map(|ray| self.closest_hit(ray)));
-                continue;
-            }
-            searches.extend(rays.iter().map(|ray| {
+            for ray in rays {
                 let is_finite = ray.origin.is_finite() && ray.direction.is_finite();
-                let (ray, _) = ray.rescaled();
-                let nearest = self.closest_hit_apart(&ray);
+                let (ray, unit) = ray.rescaled();
+                units.push(unit);
+                let nearest = if is_finite {
+                    self.closest_hit_apart(&ray)
+                } else {
+                    Nearest::up_to(OVER, NOWHERE)
+                };
                 let triangles = FlattenedRay::new(&ray, NOWHERE, &self.surfaces, flattened);
-                // A ray that ends before it starts meets nothing.
-                let t_max = if is_finite { nearest.t } else { -1.0 };
-                (ray, t_max, ClosestSearch { triangles, nearest })
-            }));
-            flattened.hierarchy.walk_all(&mut searches);
-            for (ray, (rescaled, t_max, search)) in rays.iter().zip(searches.drain(..)) {
-                let (_, unit) = ray.rescaled();
-                let hit = self.hit(&rescaled, unit, NOWHERE, &search.nearest);
-                hits.push(hit.filter(|_| t_max >= 0.0));
+                searches.push((ray, nearest.t, ClosestSearch { triangles, nearest }));
+            }
+            flattened.walk_all(&mut searches);
+            for (unit, (ray, _, search)) in units.drain(..).zip(searches.drain(..)) {
+                hits.push(self.hit(&ray, unit, NOWHERE, &search.nearest));
             }
         }
         hits
@@ -72,10 +72,6 @@ impl<S: Geometry> World<S> {
         let mut hits = Vec::with_capacity(rays.len());
         let mut searches = Vec::with_capacity(CHUNK);
         for rays in rays.chunks(CHUNK) {
-            if are_coherent(rays.iter().map(|(ray, _)| ray)) {
-                hits.extend(rays.iter().map(|(ray, t_max)| self.any_hit(ray, *t_max)));
-                continue;
-            }
             let first = hits.len();
             for (ray, t_max) in rays {
                 let (ray, unit) = ray.rescaled();
@@ -83,15 +79,26 @@ impl<S: Geometry> World<S> {
                 let is_hit = self.any_hit_apart(&ray, t_max);
                 hits.push(is_hit);
                 let triangles = FlattenedRay::new(&ray, NOWHERE, &self.surfaces, flattened);
-                let t_max = if is_hit { -1.0 } else { t_max };
+                let t_max = if is_hit { OVER } else { t_max };
                 searches.push((ray, t_max, AnySearch::new(triangles, t_max)));
             }
-            flattened.hierarchy.walk_all(&mut searches);
+            flattened.walk_all(&mut searches);
             for (hit, (_, _, search)) in hits[first..].iter_mut().zip(searches.drain(..)) {
                 *hit |= search.is_hit;
             }
         }
         hits
+    }
+}
+
+impl Flattened {
+    /// Has each ray's visitor visit the triangles it may hit.
+    fn walk_all<V: Visitor>(&self, searches: &mut [(Ray, f64, V)]) {
+        if are_coherent(searches.iter().map(|(ray, ..)| ray)) {
+            self.hierarchy.walk_together(searches);
+        } else {
+            self.hierarchy.walk_all(searches);
+        }
     }
 }
 

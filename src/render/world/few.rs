@@ -3,6 +3,7 @@
 
 use super::{Hit, NOWHERE, Surface, World, segment};
 use crate::math::Vec3;
+use crate::plan::{LightPlan, Plan};
 use crate::render::accel::bundle::{Balls, MAX_ITEMS};
 use crate::render::ray::Ray;
 use crate::render::shape::geometry::Geometry;
@@ -12,8 +13,12 @@ use crate::render::shape::triangle::Shear;
 /// Surfaces with bits: that of a surface is its index in the world.
 pub(in crate::render) struct Few {
     pub(in crate::render) balls: Balls,
+    /// The surfaces that look at the shear of a ray.
+    sheared: u64,
     /// The surfaces that cast shadows.
     casters: u64,
+    /// Per light of the plan and surface of the scene, those that may hide the one from the other.
+    hiding: Vec<Vec<u64>>,
 }
 
 impl Few {
@@ -28,17 +33,43 @@ impl Few {
             return None;
         }
         let balls = surfaces.iter().map(|surface| surface.shape.ball());
-        let bits = casters.iter().map(|caster| 1 << caster);
+        let sheared = (0..surfaces.len()).filter(|index| surfaces[*index].shape.uses_shear());
         Some(Self {
             balls: Balls::new(balls.enumerate()),
-            casters: bits.fold(0, |bits, bit: u64| bits | bit),
+            sheared: bits(sheared),
+            casters: bits(casters.iter().map(|caster| *caster as usize)),
+            hiding: Vec::new(),
         })
     }
 
-    /// Those of some surfaces that cast shadows.
+    /// Takes over from a plan which surfaces may hide a light from which.
+    pub(super) fn follow<S>(&mut self, surfaces: &[Surface<S>], plan: &Plan) {
+        let hiding = |light: &LightPlan, receiver: usize| {
+            let may_hide = |bit: &usize| light.may_hide(surfaces[*bit].index, receiver);
+            self.casters & bits((0..surfaces.len()).filter(may_hide))
+        };
+        let of_light = |light: &LightPlan| {
+            let receivers = 0..light.casters.len();
+            receivers.map(|receiver| hiding(light, receiver)).collect()
+        };
+        self.hiding = plan.lights.iter().map(of_light).collect();
+    }
+
+    /// The surfaces that may hide a light from a surface of the scene.
     #[inline]
-    pub(in crate::render) fn casting(&self, items: u64) -> u64 {
-        items & self.casters
+    pub(in crate::render) fn hiding(&self, light: usize, receiver: usize) -> u64 {
+        let of_light = &self.hiding[light];
+        of_light.get(receiver).copied().unwrap_or(self.casters)
+    }
+
+    /// The shear of a ray, if one of some surfaces looks at it.
+    #[inline(always)]
+    fn shear(&self, items: u64, ray: &Ray) -> Shear {
+        if items & self.sheared == 0 {
+            Shear::UNUSED
+        } else {
+            Shear::new(ray)
+        }
     }
 
     /// The index of the first surface of some, and the others.
@@ -53,15 +84,25 @@ impl Few {
     }
 }
 
+/// A number with some bits.
+fn bits(indices: impl Iterator<Item = usize>) -> u64 {
+    indices.fold(0, |bits, index| bits | 1 << index)
+}
+
 impl<S: Geometry> World<S> {
     /// As [`World::closest_hit`], of a finite ray of length 1 that can meet only some surfaces.
     #[inline(always)]
-    pub(in crate::render) fn closest_hit_of(&self, mut items: u64, ray: &Ray) -> Option<Hit> {
+    pub(in crate::render) fn closest_hit_of(
+        &self,
+        few: &Few,
+        mut items: u64,
+        ray: &Ray,
+    ) -> Option<Hit> {
         let mut nearest = Nearest::up_to(f64::INFINITY, NOWHERE);
         if items == 0 {
             return None;
         }
-        let shear = Shear::new(ray);
+        let shear = few.shear(items, ray);
         while let Some(surface) = Few::pop(&mut items) {
             let shape = &self.surfaces[surface].shape;
             if let Some((t, prim_id)) = shape.closest_hit(ray, &shear, nearest.limit()) {
@@ -82,7 +123,12 @@ impl<S: Geometry> World<S> {
 
     /// As [`World::occluded`], where only some surfaces can stand between.
     #[inline(always)]
-    pub(in crate::render) fn occluded_by(&self, mut items: u64, from: Vec3, to: Vec3) -> bool {
+    pub(in crate::render) fn occluded_by(
+        &self,
+        few: &Few,
+        mut items: u64,
+        [from, to]: [Vec3; 2],
+    ) -> bool {
         let ray = Ray {
             origin: from,
             direction: to - from,
@@ -90,7 +136,7 @@ impl<S: Geometry> World<S> {
         if !ray.is_scaled() {
             return self.occluded(from, to);
         }
-        let shear = Shear::new(&ray);
+        let shear = few.shear(items, &ray);
         // The end of the segment is asked for only where there is something to compare it with.
         let is_before_end = |t: f64| segment(from, to).is_some_and(|(_, t_max)| t < t_max);
         while let Some(surface) = Few::pop(&mut items) {

@@ -137,7 +137,11 @@ impl Lookup {
             .collect();
         // A naive world asks all surfaces, so that a validation sees what a bundle passed over.
         let bundled = !is_path && plan.rules != Rules::NONE;
-        let few = || Few::new(surfaces, &apart, &casters);
+        let few = || {
+            let mut few = Few::new(surfaces, &apart, &casters)?;
+            few.follow(surfaces, plan);
+            Some(few)
+        };
         Self {
             few: bundled.then(few).flatten(),
             casters: (casters.len() < apart.len()).then(|| Apart::of(surfaces, &casters)),

@@ -63,6 +63,9 @@ impl<S> World<S> {
     pub(super) fn show(&mut self, scene: Proof, plan: Plan) {
         self.camera = camera(scene.camera());
         self.settings = settings(&scene);
+        if let Some(few) = &mut self.few {
+            few.follow(&self.surfaces, &plan);
+        }
         (self.scene, self.plan) = (scene, plan);
     }
 }

@@ -2,7 +2,6 @@
 //! told, and how one that was found is called from the folders that are searched.
 
 use super::{FileKind, Folder, Found, Search};
-use std::fs;
 use std::path::{Component, Path};
 
 /// The maximum number of files that are looked at for a name like another.
@@ -22,13 +21,10 @@ impl Search {
         };
         let place = folder.resolved.join(path.parent().unwrap_or(Path::new("")));
         // A link may lead out of the scene's folder.
-        let place = fs::canonicalize(place).ok();
+        let place = folder.resolve(&place);
         let place = place.filter(|place| place.starts_with(&folder.resolved));
-        let entries = place.and_then(|place| fs::read_dir(place).ok());
-        let entries = entries.into_iter().flatten().flatten();
-        let names = entries
-            .take(MAX_NEIGHBOURS)
-            .filter_map(|entry| entry.file_name().into_string().ok());
+        let names = place.map(|place| folder.names(&place));
+        let names = names.into_iter().flatten().take(MAX_NEIGHBOURS);
         let is_of_kind = |name: &String| {
             let extension = Path::new(name).extension().unwrap_or_default();
             let extension = extension.to_string_lossy().to_lowercase();

@@ -3,10 +3,12 @@
 
 use super::super::flip::{PIXELS_PER_DEGREE, flip};
 use crate::image::{FileFormat, Image, Picture};
+use ::image::imageops::thumbnail;
+use ::image::{ImageBuffer, Rgb32FImage};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
-/// Larger pictures are shrunk to about this width.
+/// Wider pictures are shrunk to this width, in pixels.
 const WIDTH: u32 = 400;
 
 /// The tiles side by side, as a PNG in a URI.
@@ -73,22 +75,23 @@ fn mosaic(tiles: &[Image]) -> Image {
     }
 }
 
-/// Every n-th pixel of a picture that is too wide.
+/// A picture that is too wide, made as wide as the page shows it: each pixel the mean of those it
+/// stands for.
 fn shrunk(image: Image) -> Image {
-    let step = image.width.div_ceil(WIDTH) as usize;
-    if step < 2 {
+    if image.width <= WIDTH {
         return image;
     }
-    let kept = |length: u32| length.div_ceil(step as u32);
-    let rows = image.pixels.chunks(image.width as usize).step_by(step);
-    let pixels = rows
-        .flat_map(|row| row.iter().step_by(step))
-        .copied()
-        .collect();
+    let sides = [image.width, image.height];
+    let height = u64::from(image.height) * u64::from(WIDTH) / u64::from(image.width);
+    let height = u32::try_from(height.max(1)).unwrap_or(u32::MAX);
+    let channels = image.pixels.into_iter().flatten();
+    let channels = channels.map(|value| value as f32).collect();
+    let whole: Option<Rgb32FImage> = ImageBuffer::from_raw(sides[0], sides[1], channels);
+    let small = thumbnail(&whole.unwrap_or_default(), WIDTH, height);
     Image {
-        width: kept(image.width),
-        height: kept(image.height),
-        pixels,
+        width: WIDTH,
+        height,
+        pixels: small.pixels().map(|pixel| pixel.0.map(f64::from)).collect(),
     }
 }
 
@@ -131,7 +134,7 @@ mod tests {
         let small = shrunk(wide);
         assert_eq!(
             (small.width, small.height, small.pixels.len()),
-            (334, 3, 334 * 3)
+            (400, 2, 400 * 2)
         );
     }
 }

@@ -4,11 +4,11 @@
 //! comments of `<case>.options` beside any other file.
 
 use libtest_mimic::Failed;
-use rtc::color::Tone;
-use rtc::image::BackgroundFill;
-use rtc::passes::{IntegratorChoice, Overrides, Sun, View};
-use rtc::plan::Arithmetic;
-use rtc::render::Aov;
+use rtc::internals::color::Tone;
+use rtc::internals::image::BackgroundFill;
+use rtc::internals::passes::{IntegratorChoice, Overrides, Sun, View};
+use rtc::internals::plan::Arithmetic;
+use rtc::internals::render::Aov;
 use std::fs;
 use std::path::Path;
 
@@ -28,7 +28,7 @@ pub(super) struct Options {
     pub(super) env_color: Option<[f64; 3]>,
     /// A file beside the case.
     pub(super) env: Option<String>,
-    pub(super) front: rtc::front::FrontOptions,
+    pub(super) front: rtc::internals::front::FrontOptions,
     /// The codes of all that is found in it.
     pub(super) finds: Vec<String>,
 }
@@ -51,7 +51,7 @@ impl Options {
             suns: Vec::new(),
             env_color: None,
             env: None,
-            front: rtc::front::FrontOptions::default(),
+            front: rtc::internals::front::FrontOptions::default(),
             finds: Vec::new(),
         };
         for word in said(case)?.split_whitespace() {

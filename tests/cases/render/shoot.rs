@@ -3,17 +3,19 @@
 
 use super::options::Options;
 use libtest_mimic::Failed;
-use rtc::color::Tone;
-use rtc::diag::Sink;
-use rtc::front::pixels;
-use rtc::image::{Association, BackgroundFill, FileFormat, Image, Layers, Look, Picture};
-use rtc::ir::Lowered;
-use rtc::passes::{EnvironmentOverride, Stage};
-use rtc::pipeline::{self, Renderer};
-use rtc::plan::{Plan, Rules};
-use rtc::render::{Aov, Background, Crop, Job, Values};
-use rtc::source::{Loader, SourceMap};
-use rtc::valid::{Mode, Proof};
+use rtc::internals::color::Tone;
+use rtc::internals::diag::Sink;
+use rtc::internals::front::pixels;
+use rtc::internals::image::{
+    Association, BackgroundFill, FileFormat, Image, Layers, Look, Picture,
+};
+use rtc::internals::ir::Lowered;
+use rtc::internals::passes::{EnvironmentOverride, Stage};
+use rtc::internals::pipeline::{self, Renderer};
+use rtc::internals::plan::{Plan, Rules};
+use rtc::internals::render::{Aov, Background, Job, Values};
+use rtc::internals::source::{Loader, SourceMap};
+use rtc::internals::valid::{Mode, Proof};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -130,13 +132,7 @@ fn colors(renderer: &Renderer, scene: &Proof, options: &Options) -> Picture {
 fn layer(renderer: &Renderer, scene: &Proof, aov: Aov, [low, high]: [f64; 2]) -> Picture {
     let camera = scene.camera();
     let (width, height) = (camera.width.get(), camera.height.get());
-    let whole = Crop {
-        x: 0,
-        y: 0,
-        width,
-        height,
-    };
-    let Layers { names, values } = renderer.layers(&[aov], whole, &|| true).unwrap();
+    let Layers { names, values } = renderer.layers(&[aov], &Job::default(), &|| true).unwrap();
     assert_eq!(names, aov.channels());
     let shade = |value: &f32| ((f64::from(*value) - low) / (high - low)).clamp(0.0, 1.0);
     let color = |values: &[f32]| match values {

@@ -4,10 +4,10 @@
 
 use super::super::scale::{scale_shape, scaled};
 use super::Dice;
-use rtc::ir::{
+use rtc::internals::ir::{
     self, ImageId, Light, Map, Material, Mode, Scene, Shape, Standard, Texture, TextureId,
 };
-use rtc::math::Vec3;
+use rtc::internals::math::Vec3;
 
 impl Dice {
     /// Not every scene is sound: where sizes are mixed, some are refused.

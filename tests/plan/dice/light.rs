@@ -1,7 +1,7 @@
 //! Made-up emitters.
 
 use super::Dice;
-use rtc::ir::{Emitter, Photometry};
+use rtc::internals::ir::{Emitter, Photometry};
 
 impl Dice {
     /// An emitter of any kind.

@@ -2,7 +2,7 @@
 //! or of one value, so that rules have something to leave out.
 
 use super::Dice;
-use rtc::ir::{
+use rtc::internals::ir::{
     self, Alpha, Environment, Filter, ImageId, Map, Material, MaterialId, Mode, PathSettings,
     Pixels, Punctual, Sampled, Scene, Standard, Texture, TextureId, Wrap,
 };

@@ -4,7 +4,9 @@ use super::{Asset, Known, Porter, Wanted, Without};
 use crate::diag::{Diagnostic, Sink, clip_path, codes};
 use crate::front::pixels::{self, Refused};
 use crate::image::{Opacity, Pixels, is_picture};
-use crate::ir::{Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId};
+use crate::ir::{
+    self, Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId,
+};
 use crate::source::{FileKind, Found};
 use std::collections::BTreeMap;
 
@@ -24,7 +26,7 @@ pub(super) fn bring(
     id: ImageId,
     wish: &Wanted,
     lowered: &mut Lowered,
-    known: &mut Known<ImageId>,
+    (known, opacity): (&mut Known<ImageId>, Opacity),
     porter: &mut Porter<'_>,
 ) -> Option<ImageId> {
     let found = porter.find(wish, without(wish))?;
@@ -32,10 +34,13 @@ pub(super) fn bring(
         let Pixels {
             width,
             height,
-            has_alpha: _,
+            has_alpha,
             bytes,
-        } = read(&found, wish, porter)?;
+        } = read(&found, wish, opacity, porter)?;
         let image = lowered.scene.images.get_mut(id.0 as usize)?;
+        if has_alpha {
+            image.kind = ir::Pixels::Rgba8;
+        }
         (image.width, image.height) = (width, height);
         image.pixels = bytes.into();
         Some(id)
@@ -48,16 +53,26 @@ pub(super) fn bring(
 pub(super) fn settle(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scene) {
     let mut missing = vec![false; scene.textures.len()];
     for (texture, missing) in scene.textures.iter_mut().zip(&mut missing) {
-        if let Texture::Image(id) = texture {
-            match image_of.get(&id.0) {
-                Some(Some(image)) => *id = *image,
-                Some(None) => *missing = true,
-                None => {}
-            }
+        let id = match texture {
+            Texture::Image(id) => id,
+            Texture::Sampled(sampled) => &mut sampled.image,
+            Texture::Uv => continue,
+        };
+        match image_of.get(&id.0) {
+            Some(Some(image)) => *id = *image,
+            Some(None) => *missing = true,
+            None => {}
         }
     }
     let is_missing = |texture: &TextureId| missing.get(texture.0 as usize) == Some(&true);
-    for phong in scene.materials.iter_mut().filter_map(Material::phong_mut) {
+    for material in &mut scene.materials {
+        let phong = match material {
+            Material::Phong(phong) => phong,
+            Material::Standard(standard) => {
+                standard.forget_maps(is_missing);
+                continue;
+            }
+        };
         for map in [
             &mut phong.color_map,
             &mut phong.specular_map,
@@ -78,11 +93,11 @@ fn without(wish: &Wanted) -> Without {
     }
 }
 
-fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Pixels> {
+fn read(found: &Found, wish: &Wanted, opacity: Opacity, porter: &mut Porter<'_>) -> Option<Pixels> {
     match porter.loader.found(found, MAX_BYTES, porter.map) {
         Ok(bytes) => {
             porter.map.budget().read(bytes.len());
-            let pixels = pixels::decode(&bytes, Opacity::Dropped, porter.map.budget());
+            let pixels = pixels::decode(&bytes, opacity, porter.map.budget());
             pixels
                 .map_err(|fault| porter.refuse(refusal(&fault, found, wish), without(wish)))
                 .ok()

@@ -3,9 +3,9 @@
 use super::text::TextKind;
 use super::{Known, Porter, Wanted, Without};
 use crate::diag::{Diagnostic, Sink, clip, codes};
-use crate::front::mesh::{EXTENSIONS, MaterialUse, Parsed, ParsedMesh, is_mesh, parse};
+use crate::front::mesh::{EXTENSIONS, MaterialUse, Parsed, is_mesh, parse};
 use crate::front::over_limit;
-use crate::ir::{Column, Lowered, Mesh, MeshId, Mode, Scene, Shape};
+use crate::ir::{Lowered, Mesh, MeshId, Mode, Scene, Shape};
 use crate::source::{Budget, Exceeded, FileId, FileKind, Found, Resource, Span};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -138,25 +138,10 @@ fn fill(place: &mut Mesh, mesh: Mesh) {
 impl MeshFile {
     pub(super) fn new(parsed: Parsed, file: FileId, path: String) -> Self {
         let Parsed {
-            mesh,
+            mesh: whole,
             not_drawn: _,
             material_use,
         } = parsed;
-        let ParsedMesh {
-            positions,
-            normals,
-            uvs,
-            colors,
-            triangles,
-        } = mesh;
-        let whole = Mesh {
-            positions: positions.into(),
-            normals: normals.into(),
-            uvs: uvs.into(),
-            colors: Column::rounded(colors),
-            triangles: triangles.into(),
-            ..Mesh::default()
-        };
         Self {
             whole,
             home: None,

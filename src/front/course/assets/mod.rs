@@ -21,6 +21,7 @@ use super::object;
 use super::spelling::nearest;
 use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
 use crate::front::FrontOptions;
+use crate::image::Opacity;
 use crate::ir::{Field, ImageId, Lowered, MeshId, Noun, Photometry, Place};
 use crate::source::{FileId, FileKind, Found, Identity, Loader, Missing, Search, SourceMap, Span};
 use std::collections::BTreeMap;
@@ -42,6 +43,8 @@ pub struct Wanted {
 pub enum Asset {
     /// An image, of one pixel until its file is there.
     Image(ImageId),
+    /// An image with its opacity, of one pixel until its file is there.
+    Sampled(ImageId),
     /// A mesh, empty until its file is there.
     Mesh(MeshId),
     /// The image of the environment, of one dark pixel until its file is there.
@@ -60,7 +63,9 @@ impl Asset {
     /// The noun of the IR that the file becomes, if it is one.
     pub(super) fn place(&self) -> Option<Place> {
         match self {
-            Self::Image(id) | Self::Environment(id) | Self::Map(id) => Some((Noun::Image, id.0)),
+            Self::Image(id) | Self::Sampled(id) | Self::Environment(id) | Self::Map(id) => {
+                Some((Noun::Image, id.0))
+            }
             Self::Mesh(id) => Some((Noun::Mesh, id.0)),
             Self::Gltf(_) | Self::Photometry(_) | Self::Materials => None,
         }
@@ -106,6 +111,8 @@ pub fn bring(
 struct Port<'run> {
     porter: Porter<'run>,
     images: Known<ImageId>,
+    /// Those with their opacity.
+    sampled: Known<ImageId>,
     /// Which image came of each that was wanted.
     image_of: BTreeMap<u32, Option<ImageId>>,
     meshes: mesh::MeshFiles,
@@ -129,6 +136,7 @@ impl<'run> Port<'run> {
                 sink,
             },
             images: Known::default(),
+            sampled: Known::default(),
             image_of: BTreeMap::new(),
             meshes: mesh::MeshFiles::default(),
             assets: gltf::Assets::default(),
@@ -151,7 +159,13 @@ impl<'run> Port<'run> {
         for wish in wanted {
             match wish.asset {
                 Asset::Image(id) | Asset::Map(id) => {
-                    let image = image::bring(id, &wish, lowered, &mut self.images, porter);
+                    let kind = (&mut self.images, Opacity::Dropped);
+                    let image = image::bring(id, &wish, lowered, kind, porter);
+                    self.image_of.insert(id.0, image);
+                }
+                Asset::Sampled(id) => {
+                    let kind = (&mut self.sampled, Opacity::Kept);
+                    let image = image::bring(id, &wish, lowered, kind, porter);
                     self.image_of.insert(id.0, image);
                 }
                 Asset::Mesh(id) => self.meshes.bring(id, &wish, lowered, porter),
@@ -311,7 +325,7 @@ impl Porter<'_> {
 /// The kind of file that an asset is in.
 fn kind_of(asset: &Asset) -> &'static FileKind {
     match asset {
-        Asset::Image(_) | Asset::Map(_) => &image::KIND,
+        Asset::Image(_) | Asset::Sampled(_) | Asset::Map(_) => &image::KIND,
         Asset::Mesh(_) => &mesh::TEXT.file,
         Asset::Environment(_) => &environment::KIND,
         Asset::Gltf(_) => &gltf::KIND,

@@ -10,7 +10,8 @@ use crate::front::course::material::Material;
 use crate::front::course::number::Real;
 use crate::front::course::record::{FieldOutcome, keys, record};
 use crate::front::course::schema::Definitions;
-use crate::front::course::value::{FileName, Point, Scale, Text, word, word_schema};
+use crate::front::course::turn::AffineColumns;
+use crate::front::course::value::{Caption, FileName, Point, Scale, Text, word, word_schema};
 use crate::ir::{self, Field, Lowered, Noun, Place};
 use crate::math::{Vec3, shortest};
 use crate::source::Span;
@@ -29,6 +30,9 @@ record! {
         position: Spanned<Point>, default(Point([0.0; 3])), keys!["position" "center"], json "position";
         /// How many times larger it is than in its file, in all directions or along x, y and z.
         scale: Spanned<Scale>, optional, keys!["scale" "scalefactor" "scaleFactor"], json "scale";
+        /// Twelve numbers in place of `position` and `scale`: where x, y and z of the file's coordinates point, each with the
+        /// length that a unit has, and where their origin comes to.
+        transform: Spanned<AffineColumns>, optional, keys!["transform"];
         /// A factor as `scale`, unless the mesh would hide the view or hold the eye in its box: then 1.5 times what `fit`
         /// says, with a warning. Better written `scale` or `fit`.
         size: Spanned<Real>, optional, keys!["size"];
@@ -44,10 +48,12 @@ record! {
         materials: Spanned<MaterialSource>, optional, keys!["materials"];
         /// Of an OBJ: the faces alone that ask for the material of this name by `usemtl`; empty for those that ask for none.
         part: Spanned<PartName>, optional, keys!["part"];
+        /// What people call it.
+        label: Spanned<Caption>, optional, keys!["label"];
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
-    forms { [file] [file scale] [file size] [file fit] }
+    forms { [file] [file scale] [file size] [file fit] [file transform] }
 }
 
 /// Where materials come from.
@@ -103,14 +109,12 @@ impl Lower for Mesh {
         let Mesh {
             kind,
             file,
-            position,
-            scale,
-            size,
-            fit,
             material,
             materials,
             part,
+            label,
             shadow,
+            ..
         } = self;
         let clothes = match material {
             FieldOutcome::Read(material) => lowering.clothe(kind, material, shadow, context),
@@ -118,28 +122,10 @@ impl Lower for Mesh {
             FieldOutcome::Broken => None,
         };
         let index = lowering.scene.surfaces.len();
-        let (scale, sizing) = match (scale, size, fit) {
-            (FieldOutcome::Read(scale), ..) => (scale.map(|scale| scale.0), None),
-            (_, FieldOutcome::Read(size), _) => {
-                (size.map(|size| [size.0; 3]), Some(Sizing::Check(index)))
-            }
-            (.., FieldOutcome::Read(fit)) => {
-                useless_axis(fit, context);
-                (fit.map(|fit| [fit.length; 3]), Some(Sizing::Fit(index)))
-            }
-            (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Absent) => {
-                let span = position.span;
-                (
-                    Spanned {
-                        value: [1.0; 3],
-                        span,
-                    },
-                    None,
-                )
-            }
-            _ => return,
+        let (Some((transform, sizing)), Some(clothes)) = (self.place(index, context), clothes)
+        else {
+            return;
         };
-        let Some(clothes) = clothes else { return };
         let part = match part {
             FieldOutcome::Read(part) => Some(&*part.value.0),
             FieldOutcome::Absent => None,
@@ -152,11 +138,68 @@ impl Lower for Mesh {
         lowering.sizings.extend(sizing);
         let shape = ir::Instance {
             mesh,
-            world_from_object: placed(scale.value, position.value.0),
+            world_from_object: transform.value.0,
         };
-        let places = [("mesh", file.span), (TRANSFORM, scale.span)];
+        let places = [("mesh", file.span), (TRANSFORM, transform.span)];
         lowering.put(&clothes, ir::Shape::Instance(shape), &places);
+        if let FieldOutcome::Read(label) = label {
+            lowering.call(&label.value.0);
+        }
     }
+}
+
+impl Mesh {
+    /// The transform of the surface of this index, and what is still to be done about its size.
+    fn place(
+        &self,
+        index: usize,
+        context: &mut Context<'_>,
+    ) -> Option<(Spanned<AffineColumns>, Option<Sizing>)> {
+        let Self {
+            position,
+            scale,
+            transform,
+            size,
+            fit,
+            ..
+        } = self;
+        let (scale, sizing) = match (transform, scale, size, fit) {
+            (FieldOutcome::Read(transform), ..) => {
+                useless_position(position.span, context);
+                return Some((*transform, None));
+            }
+            (_, FieldOutcome::Read(scale), ..) => (scale.map(|scale| scale.0), None),
+            (.., FieldOutcome::Read(size), _) => {
+                (size.map(|size| [size.0; 3]), Some(Sizing::Check(index)))
+            }
+            (.., FieldOutcome::Read(fit)) => {
+                useless_axis(fit, context);
+                (fit.map(|fit| [fit.length; 3]), Some(Sizing::Fit(index)))
+            }
+            (
+                FieldOutcome::Absent,
+                FieldOutcome::Absent,
+                FieldOutcome::Absent,
+                FieldOutcome::Absent,
+            ) => (position.map(|_| [1.0; 3]), None),
+            _ => return None,
+        };
+        Some((
+            scale.map(|scale| AffineColumns(placed(*scale, position.value.0))),
+            sizing,
+        ))
+    }
+}
+
+/// Says that a mesh that has a transform is at no other place.
+fn useless_position(position: Option<Span>, context: &mut Context<'_>) {
+    let Some(span) = position else { return };
+    let message = || "`position` has no effect beside `transform`".to_owned();
+    context.report(&codes::NO_EFFECT, span, message, |d| {
+        d.at(span, "ignored")
+            .severity(Severity::Warning)
+            .hint("the last three numbers of `transform` say where the mesh stands")
+    });
 }
 
 /// The way to the transform of an instance in the IR.

@@ -238,4 +238,14 @@ impl Lowering {
         }
         self.origin(Noun::Surface, index, Field::Material, span);
     }
+
+    /// Calls the last surface by a name.
+    fn call(&mut self, name: &str) {
+        let names = &mut self.scene.names;
+        names.resize(self.scene.surfaces.len(), String::new());
+        names
+            .last_mut()
+            .into_iter()
+            .for_each(|last| name.clone_into(last));
+    }
 }

@@ -67,7 +67,11 @@ impl Lowering<'_, '_, '_> {
     fn own(&self, seen: &Seen) -> Option<(NodeId, Camera)> {
         let at = *self.doc.cameras.get(seen.camera)?;
         let fields = Fields::new(self.report.json, at).moved(&self.materials.moved);
-        Some((at, through(projection(fields)?, seen.world)?))
+        let mut camera = through(projection(fields)?, seen.world)?;
+        if let Some(own) = fields.own() {
+            refine(&mut camera, own);
+        }
+        Some((at, camera))
     }
 
     fn find_camera(&self, name: &str) -> Option<&Seen> {
@@ -113,6 +117,35 @@ fn through(projection: Projection, world: DAffine3) -> Option<Camera> {
         Projection::Orthographic { xmag, ymag } => ([xmag, ymag], ir::Projection::Orthographic),
     };
     Some(camera(world.translation, [x, y, z], half, kind))
+}
+
+/// Gives a camera what glTF has no words for: the size of its picture, the plane of focus, where
+/// the middle of the picture lies, in halves of it, and the lens.
+fn refine(camera: &mut Camera, own: Fields<'_, '_>) {
+    let [eye, center, right, up] =
+        [camera.eye, camera.center, camera.right, camera.up].map(Vec3::from_array);
+    let [width, height] = camera.size;
+    let size = [own.count_or("width", width), own.count_or("height", height)];
+    let distance = own.number_or("focusDistance", 1.0);
+    // Halves of the picture in the plane of focus; those of parallel rays are the same in all.
+    let far = match camera.projection {
+        ir::Projection::Perspective => distance,
+        ir::Projection::Orthographic => 1.0,
+    };
+    let half = [
+        right * (far * f64::from(width) / 2.0),
+        up * (far * f64::from(height) / 2.0),
+    ];
+    let [across, upward] = own.vector_or("shift", [0.0; 2]);
+    let middle = eye + (center - eye) * distance + half[0] * across + half[1] * upward;
+    camera.center = middle.to_array();
+    camera.right = (half[0] * (2.0 / f64::from(size[0]))).to_array();
+    camera.up = (half[1] * (2.0 / f64::from(size[1]))).to_array();
+    camera.size = size;
+    camera.lens = Lens {
+        radius: own.number_or("lensRadius", 0.0),
+        samples: own.count_or("lensSamples", 1),
+    };
 }
 
 /// A camera at `eye` that sees so much to each side at distance 1.

@@ -1,9 +1,9 @@
 //! Punctual lights in the world (`KHR_lights_punctual`): they shine along their negative z axis,
-//! scale has no effect.
+//! scale has no effect. `extras.rtc` may say that one has no falloff, or how it was measured.
 
 use super::super::field::Fields;
 use super::Lowering;
-use crate::ir::{Emitter, Field, Light, Noun, Place, Punctual};
+use crate::ir::{Emitter, Field, Light, Noun, Photometry, Place, PointLight, Punctual};
 use crate::math::{Vec3, unit};
 use crate::source::tree::NodeId;
 use glam::DAffine3;
@@ -16,6 +16,9 @@ impl Lowering<'_, '_, '_> {
         let intensity = fields.number_or("intensity", 1.0);
         let position = world.translation.to_array();
         let backward = unit(world.z_axis).unwrap_or(Vec3::ZERO);
+        if let Some(own) = fields.own().and_then(|own| own_light(own, world)) {
+            return self.add_light(light, own);
+        }
         let range = fields.number("range").filter(|range| *range > 0.0);
         let emitter = match fields.text("type").as_deref() {
             Some("directional") if backward != Vec3::ZERO => Emitter::Sun {
@@ -44,11 +47,45 @@ impl Lowering<'_, '_, '_> {
         let color = fields
             .vector_or("color", [1.0; 3])
             .map(|channel| channel * intensity);
-        let place = Place::new(Noun::Light, self.scene.lights.len(), Field::Whole);
-        self.origins.record(place, self.report.json.span(light));
-        self.scene.lights.push(Light::Punctual(Punctual {
+        let punctual = Punctual {
             emitter,
             intensity: color,
+        };
+        self.add_light(light, Light::Punctual(punctual));
+    }
+
+    fn add_light(&mut self, at: NodeId, light: Light) {
+        let place = Place::new(Noun::Light, self.scene.lights.len(), Field::Whole);
+        self.origins.record(place, self.report.json.span(at));
+        self.scene.lights.push(light);
+    }
+}
+
+/// A light for which glTF has no words.
+fn own_light(own: Fields<'_, '_>, world: DAffine3) -> Option<Light> {
+    let position = world.translation.to_array();
+    if let Some(point) = own.object("point") {
+        return Some(Light::Point(PointLight {
+            position,
+            color: point.vector("color")?,
+            radius: point.number_or("radius", 0.0),
         }));
     }
+    let measured = own.object("photometry")?;
+    let photometry = Photometry {
+        name: measured.text("name").unwrap_or_default(),
+        vertical: measured.numbers("vertical")?,
+        horizontal: measured.numbers("horizontal")?,
+        candela: measured.numbers("candela")?,
+    };
+    let axis = |axis: Vec3| unit(axis).unwrap_or(Vec3::ZERO);
+    Some(Light::Punctual(Punctual {
+        emitter: Emitter::Lamp {
+            position,
+            direction: (-axis(world.z_axis)).to_array(),
+            horizontal: axis(world.x_axis).to_array(),
+            photometry: Box::new(photometry),
+        },
+        intensity: measured.vector("factor")?,
+    }))
 }

@@ -9,7 +9,9 @@ use super::mesh::to_u32;
 use super::texture::LoweredTextures;
 use super::uv::TexCoordSets;
 use crate::diag::codes;
-use crate::ir::{self, Alpha, Field, Map, MaterialId, Noun, Origins, Place, Scene, Standard};
+use crate::ir::{
+    self, Alpha, Bump, Field, Map, MaterialId, Noun, Origins, Phong, Place, Scene, Standard,
+};
 use crate::source::tree::Tree;
 use std::collections::BTreeMap;
 
@@ -114,21 +116,28 @@ impl Materials {
         if let Some(known) = known {
             return known;
         }
+        let id = MaterialId(to_u32(scene.materials.len()));
         let mut standard = match material {
             None => Standard::default(),
             Some(material) => {
                 let fields = Fields::new(report.json, doc.materials[material]).moved(&self.moved);
-                Reader {
+                let mut reader = Reader {
                     doc,
                     textures: &mut self.textures,
                     scene,
                     origins,
                     report,
+                };
+                if let Some(phong) = reader.phong(fields) {
+                    let place = Place::new(Noun::Material, scene.materials.len(), Field::Whole);
+                    origins.record(place, report.json.span(fields.at));
+                    scene.materials.push(ir::Material::Phong(phong));
+                    self.made[material] = Some(id);
+                    return id;
                 }
-                .material(fields)
+                reader.material(fields)
             }
         };
-        let id = MaterialId(to_u32(scene.materials.len()));
         let (sets, lost) = TexCoordSets::choose(&mut standard);
         if sets != TexCoordSets::default() {
             self.uv_sets.insert(id.0, sets);
@@ -209,6 +218,34 @@ impl Reader<'_, '_, '_, '_> {
         standard.clearcoat_normal_scale = number(coat, "scale", 1.0);
         self.iridescence(fields, &mut standard);
         standard
+    }
+
+    /// Phong's model, if `extras.rtc` says it.
+    fn phong(&mut self, fields: Fields<'_, '_>) -> Option<Phong> {
+        let own = fields.own()?.object("phong")?;
+        let mut texture = |key| {
+            let index = own.index(key)?;
+            self.textures
+                .of_phong(self.doc, index, self.scene, self.origins, self.report)
+        };
+        let matt = Phong::MATT;
+        Some(Phong {
+            color: own.vector("color")?,
+            ka: own.number_or("ka", matt.ka),
+            kd: own.number_or("kd", matt.kd),
+            ks: own.number_or("ks", matt.ks),
+            n: own.number_or("n", matt.n),
+            kt: own.number_or("kt", matt.kt),
+            eta: own.number_or("eta", matt.eta),
+            glossy_samples: own.count_or("glossySamples", matt.glossy_samples),
+            color_map: texture("colorMap"),
+            specular_map: texture("specularMap"),
+            normal_map: texture("normalMap"),
+            bump: texture("bumpMap").map(|texture| Bump {
+                texture,
+                height: own.number_or("bumpHeight", 1.0),
+            }),
+        })
     }
 
     fn specular_glossiness(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {

@@ -8,6 +8,7 @@ mod material;
 mod mesh;
 mod place;
 mod pose;
+mod settings;
 mod shape;
 mod stroke;
 mod tangent;
@@ -258,10 +259,11 @@ impl Lowering<'_, '_, '_> {
         });
         let place = Place::new(Noun::Surface, self.scene.surfaces.len(), Field::Whole);
         self.origins.record(place, self.report.json.span(at));
+        let own = Fields::new(self.report.json, at).own();
         self.scene.surfaces.push(ir::Surface {
             shape,
             material,
-            casts_no_shadow: false,
+            casts_no_shadow: own.is_some_and(|own| own.truth("castsNoShadow")),
         });
         self.scene.names.push(name.to_owned());
     }
@@ -300,6 +302,7 @@ impl Lowering<'_, '_, '_> {
     fn finish(mut self, camera: Option<&str>) -> Lowered {
         self.strokes.thicken(&mut self.scene);
         self.camera(camera);
+        self.own_settings();
         if self.scene.names.iter().all(String::is_empty) {
             self.scene.names.clear();
         }

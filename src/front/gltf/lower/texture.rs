@@ -13,6 +13,8 @@ use std::collections::BTreeMap;
 /// What became of the textures and images of the asset.
 pub(super) struct LoweredTextures {
     textures: Vec<Option<Option<TextureId>>>,
+    /// Those that Phong's model looks up.
+    of_phong: BTreeMap<usize, TextureId>,
     /// The image that each picture of the document became.
     images: BTreeMap<usize, ImageId>,
 }
@@ -26,6 +28,7 @@ impl LoweredTextures {
     pub(super) fn new(doc: &Document<'_>) -> Self {
         Self {
             textures: vec![None; doc.textures.len()],
+            of_phong: BTreeMap::new(),
             images: BTreeMap::new(),
         }
     }
@@ -51,6 +54,28 @@ impl LoweredTextures {
             set: u32::try_from(set).unwrap_or(u32::MAX),
             texture_from_surface: transform.map(texture_from_surface),
         })
+    }
+
+    /// The image of a texture as Phong's model looks it up; none if it can't be read.
+    pub(super) fn of_phong(
+        &mut self,
+        doc: &Document<'_>,
+        index: usize,
+        scene: &mut Scene,
+        origins: &mut Origins,
+        report: &AssetReport<'_, '_>,
+    ) -> Option<TextureId> {
+        if let Some(known) = self.of_phong.get(&index) {
+            return Some(*known);
+        }
+        let texture = doc.textures.get(index)?;
+        let image = self.image(doc, texture.source?, scene, origins, report)?;
+        let id = TextureId(super::mesh::to_u32(scene.textures.len()));
+        let place = Place::new(Noun::Texture, scene.textures.len(), Field::Whole);
+        origins.record(place, report.json.span(texture.at));
+        scene.textures.push(ir::Texture::Image(image));
+        self.of_phong.insert(index, id);
+        Some(id)
     }
 
     fn texture(

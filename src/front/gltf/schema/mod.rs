@@ -3,6 +3,7 @@
 
 mod core;
 mod extension;
+mod own;
 mod value;
 mod walk;
 

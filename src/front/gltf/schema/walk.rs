@@ -2,7 +2,7 @@
 //! stand.
 
 use super::core::ROOT;
-use super::{Key, Object, POOLS, Pool, extension};
+use super::{Key, Object, POOLS, Pool, extension, own};
 use crate::diag::codes;
 use crate::front::gltf::report::{AssetReport, shown};
 use crate::source::tree::{NodeId, NodeKind};
@@ -95,7 +95,7 @@ impl Walk<'_, '_, '_> {
             if json.is(name, "extensions") {
                 self.extensions(value, object);
             } else if json.is(name, "extras") {
-                self.extras(value);
+                self.extras(value, object);
             } else if let Some(at) = known {
                 seen |= u32::from(json.kind(value) != NodeKind::Null) << at;
                 self.value(value, &object.keys[at].value, object.keys[at].name);
@@ -133,7 +133,14 @@ impl Walk<'_, '_, '_> {
             .say(&codes::GLTF_UNKNOWN, "UNEXPECTED_PROPERTY", name, message);
     }
 
-    fn extras(&mut self, value: NodeId) {
+    /// Extras are anything, but for what rtc itself puts there.
+    fn extras(&mut self, value: NodeId, owner: &'static Object) {
+        let rtc = self.report.json.get(value, "rtc");
+        if let Some((node, object)) = rtc.zip(own::find(owner.name))
+            && self.expect(node, NodeKind::Map, "rtc")
+        {
+            self.open.push((node, object));
+        }
         if ![NodeKind::Map, NodeKind::Null].contains(&self.report.json.kind(value)) {
             let message = "extras are best an object".to_owned();
             self.report

@@ -57,7 +57,12 @@ impl Wide {
             Builders::One => (0..count).map(item).collect(),
             Builders::All => all().map(item).collect(),
         };
-        let (root, branches) = grow_all(builders, &mut items, &Leaves { frame, corners });
+        let leaves = Leaves {
+            builders,
+            frame,
+            corners,
+        };
+        let (root, branches) = grow_all(&mut items, &leaves);
         drop(items);
         let is_exact = branches.iter().all(|branch| branch.is_exact);
         let (nodes, leaves) = branches
@@ -75,8 +80,9 @@ impl Wide {
     }
 }
 
-/// What leaves are made of.
+/// What leaves are made of, and by whom.
 struct Leaves<C> {
+    builders: Builders,
     frame: QuantizationFrame,
     corners: C,
 }
@@ -118,7 +124,6 @@ struct LeftPart<'items> {
 
 /// The link to the root, and all branches: links count the nodes and the leaves of all, in order.
 fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
-    builders: Builders,
     items: &mut [BoxedItem],
     leaves: &Leaves<C>,
 ) -> (u32, Vec<Branch>) {
@@ -138,7 +143,7 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
         let link = branch.grow(left.part, left.depth, leaves, &mut Some);
         (left.node, left.lane, link, branch)
     };
-    let grown: Vec<_> = match builders {
+    let grown: Vec<_> = match leaves.builders {
         Builders::One => left.into_iter().map(grow).collect(),
         Builders::All => left.into_par_iter().map(grow).collect(),
     };
@@ -189,7 +194,7 @@ impl Branch {
             self.is_exact &= is_exact;
             return LEAF | to_u32(self.leaves.len() - 1) << 2 | to_u32(part.items.len() - 1);
         }
-        let children = part.into_children(depth);
+        let children = part.into_children(leaves.builders, depth);
         let here = self.nodes.len();
         self.nodes.push(node(&children));
         for (lane, part) in children.into_iter().enumerate() {

@@ -5,6 +5,7 @@
 
 mod build;
 mod split;
+mod together;
 mod walk;
 
 use crate::math::Vec3;

@@ -1,12 +1,23 @@
 //! How a list of boxes is split into two or eight: by the surface area heuristic over bins (Wald,
 //! "On fast construction of SAH-based bounding volume hierarchies", 2007).
 
-use super::HEURISTIC_DEPTH;
+use super::{Builders, HEURISTIC_DEPTH};
 use crate::math::Lanes;
 use crate::render::accel::lanes::{TRIANGLES, WIDTH};
 use arrayvec::ArrayVec;
+use rayon::prelude::*;
 
+/// The most bins of an axis.
 const BINS: usize = 16;
+
+/// So many items are put into bins by one thread at a time.
+const CHUNK: usize = 1 << 14;
+
+/// The bins of an axis of so many items: few items need few.
+#[inline(always)]
+fn bins_of(count: usize) -> usize {
+    (4 + count / 4).min(BINS)
+}
 
 /// The box of a triangle in the cube, and its number as the bits of the fourth lane of `min`.
 #[derive(Clone, Copy)]
@@ -81,7 +92,7 @@ struct Border {
 }
 
 /// The bins of all axes: the box of what is in each, and how much that is.
-type Bins = [[(LaneBox, u32); 3]; BINS];
+type Bins = ArrayVec<[(LaneBox, u32); 3], BINS>;
 
 impl<'items> Part<'items> {
     /// All of some items.
@@ -105,7 +116,7 @@ impl<'items> Part<'items> {
 
     /// Its parts, at most eight: the one that is met most often is split next, which has the largest
     /// area, or, deep down, the most items.
-    pub(super) fn into_children(self, depth: usize) -> ArrayVec<Self, WIDTH> {
+    pub(super) fn into_children(self, builders: Builders, depth: usize) -> ArrayVec<Self, WIDTH> {
         let is_deep = depth >= HEURISTIC_DEPTH;
         let weight = |part: &Self| match part.items.len() {
             0..=TRIANGLES => 0.0,
@@ -123,19 +134,20 @@ impl<'items> Part<'items> {
             if heaviest.0 == 0.0 {
                 break;
             }
-            let halves = parts.swap_remove(heaviest.1).split(!is_deep);
+            let halves = parts.swap_remove(heaviest.1).split(builders, !is_deep);
             parts.extend(halves);
         }
         parts
     }
 
     /// Two parts of it, neither empty; it has two items at least.
-    fn split(self, by_heuristic: bool) -> [Self; 2] {
+    fn split(self, builders: Builders, by_heuristic: bool) -> [Self; 2] {
         let size = self.centers.max - self.centers.min;
-        let scale = Lanes::splat(BINS as f32 * 0.9999) / size.max(Lanes::splat(1e-30));
+        let count = bins_of(self.items.len());
+        let scale = Lanes::splat(count as f32 * 0.9999) / size.max(Lanes::splat(1e-30));
         let bins = |item: &BoxedItem| (item.center() - self.centers.min) * scale;
         let border = if by_heuristic {
-            cheapest_border(&self.fill(&bins), size)
+            cheapest_border(&self.fill(builders, count, &bins), size)
         } else {
             None
         };
@@ -145,19 +157,20 @@ impl<'items> Part<'items> {
         }
     }
 
-    /// What falls into the bins.
-    #[inline(always)]
-    fn fill(&self, place: &impl Fn(&BoxedItem) -> Lanes) -> Bins {
-        let mut bins = [[(LaneBox::EMPTY, 0); 3]; BINS];
-        for item in self.items.iter() {
-            let places = place(item).to_array();
-            for (axis, place) in places.into_iter().take(3).enumerate() {
-                let (bounds, count) = &mut bins[bin(place)][axis];
-                bounds.add(item.min, item.max);
-                *count += 1;
-            }
+    /// What falls into so many bins.
+    fn fill(
+        &self,
+        builders: Builders,
+        count: usize,
+        place: &(impl Fn(&BoxedItem) -> Lanes + Sync),
+    ) -> Bins {
+        if builders == Builders::One || self.items.len() <= 2 * CHUNK {
+            return filled(self.items, count, place);
         }
-        bins
+        self.items
+            .par_chunks(CHUNK)
+            .map(|items| filled(items, count, place))
+            .reduce(|| empty_bins(count), joined)
     }
 
     /// The items below a border, and those above.
@@ -201,6 +214,40 @@ impl<'items> Part<'items> {
     }
 }
 
+/// Bins with nothing in them.
+#[inline(always)]
+fn empty_bins(count: usize) -> Bins {
+    let mut bins = Bins::new();
+    for _ in 0..count {
+        bins.push([(LaneBox::EMPTY, 0); 3]);
+    }
+    bins
+}
+
+/// The bins of some items.
+#[inline(always)]
+fn filled(items: &[BoxedItem], count: usize, place: &impl Fn(&BoxedItem) -> Lanes) -> Bins {
+    let mut bins = empty_bins(count);
+    for item in items {
+        let places = place(item).to_array();
+        for (axis, place) in places.into_iter().take(3).enumerate() {
+            let (bounds, count) = &mut bins[bin(place)][axis];
+            bounds.add(item.min, item.max);
+            *count += 1;
+        }
+    }
+    bins
+}
+
+/// The bins of the items of both.
+fn joined(mut bins: Bins, others: Bins) -> Bins {
+    for ((bounds, count), (other, more)) in bins.iter_mut().flatten().zip(others.iter().flatten()) {
+        bounds.add(other.min, other.max);
+        *count += more;
+    }
+    bins
+}
+
 /// The bin of a place.
 #[inline(always)]
 #[expect(
@@ -216,14 +263,14 @@ fn bin(place: f32) -> usize {
 /// triangles are tested at once as a leaf has.
 fn cheapest_border(bins: &Bins, size: Lanes) -> Option<Border> {
     let mut best: Option<Border> = None;
+    let mut above = [(f32::INFINITY, LaneBox::EMPTY); BINS];
     for axis in (0..3).filter(|axis| size[*axis] > 0.0) {
-        let mut above = [(f32::INFINITY, LaneBox::EMPTY); BINS];
         let mut side = (LaneBox::EMPTY, 0);
-        for bin in (1..BINS).rev() {
+        for bin in (1..bins.len()).rev() {
             above[bin] = (add_work(&mut side, &bins[bin][axis]), side.0);
         }
         let mut side = (LaneBox::EMPTY, 0);
-        for bin in 1..BINS {
+        for bin in 1..bins.len() {
             let work = add_work(&mut side, &bins[bin - 1][axis]) + above[bin].0;
             if work < best.as_ref().map_or(f32::INFINITY, |best| best.work) {
                 let sides = [side.0, above[bin].1];

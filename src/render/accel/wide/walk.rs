@@ -2,13 +2,13 @@
 //! one waits for is fetched the others go on.
 
 use super::{Candidate, LEAF, NONE, TraversalStack, Wide, item};
-use crate::render::accel::beam::{Beam, NoBeam};
+use crate::render::accel::beam::Beam;
 use crate::render::accel::lanes::{
     BoxLanes, LINKS, LeafVerdict, TRIANGLES, TriangleLanes, WIDTH, WideLeaf, WideNode,
 };
 use crate::render::accel::simd::at_level;
 use crate::render::ray::Ray;
-use fearless_simd::Simd;
+use fearless_simd::{Simd, f32x4};
 use std::hint::black_box;
 
 /// So many rays go by turns.
@@ -21,7 +21,7 @@ struct Traversal<'walk, S: Simd> {
     unit: Option<f64>,
     beam: Beam,
     boxes: BoxLanes<S>,
-    triangles: TriangleLanes<S>,
+    triangles: TriangleLanes<f32x4<S>>,
     limit: f32,
     sure_limit: f32,
     link: u32,
@@ -73,10 +73,28 @@ impl Wide {
     }
 
     #[inline(always)]
-    fn walk_one<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, visitor: &mut impl Visitor) {
-        if let Some(mut traversal) = self.start(simd, ray, t_max, visitor) {
-            while traversal.step(simd, visitor) == Step::GoesOn {}
+    pub(super) fn walk_one<S: Simd, V: Visitor>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        t_max: f64,
+        visitor: &mut V,
+    ) {
+        if let Some(beam) = self.beam(ray, t_max, visitor) {
+            self.walk_along(simd, beam, t_max, visitor);
         }
+    }
+
+    #[inline(always)]
+    pub(super) fn walk_along<S: Simd, V: Visitor>(
+        &self,
+        simd: S,
+        beam: Beam,
+        t_max: f64,
+        visitor: &mut V,
+    ) {
+        let mut traversal = self.start::<S, V>(simd, beam, t_max);
+        while traversal.step(simd, visitor) == Step::GoesOn {}
     }
 
     #[inline(always)]
@@ -87,8 +105,8 @@ impl Wide {
             while under_way.len() < TURNS
                 && let Some((ray, t_max, visitor)) = waiting.next()
             {
-                if let Some(traversal) = self.start(simd, ray, *t_max, visitor) {
-                    under_way.push((traversal, visitor));
+                if let Some(beam) = self.beam(ray, *t_max, visitor) {
+                    under_way.push((self.start::<S, V>(simd, beam, *t_max), visitor));
                 }
             }
             if under_way.is_empty() {
@@ -106,25 +124,10 @@ impl Wide {
         }
     }
 
-    /// A ray at the root; `None` if it meets nothing, or where arithmetic can't tell and all
-    /// triangles have been visited.
+    /// A beam at the root.
     #[inline(always)]
-    fn start<S: Simd, V: Visitor>(
-        &self,
-        simd: S,
-        ray: &Ray,
-        t_max: f64,
-        visitor: &mut V,
-    ) -> Option<Traversal<'_, S>> {
-        let beam = match Beam::new(&self.frame, ray) {
-            Ok(beam) => beam,
-            Err(NoBeam::Missed) => return None,
-            Err(NoBeam::Untold) => {
-                self.visit_all(visitor);
-                return None;
-            }
-        };
-        Some(Traversal {
+    fn start<S: Simd, V: Visitor>(&self, simd: S, beam: Beam, t_max: f64) -> Traversal<'_, S> {
+        Traversal {
             nodes: self.nodes.rows(),
             leaves: self.leaves.rows(),
             unit: self.unit,
@@ -139,13 +142,13 @@ impl Wide {
             link: self.root,
             open: TraversalStack::new(),
             beam,
-        })
+        }
     }
 
     /// Has all triangles visited, while they may count.
     #[cold]
     #[inline(never)]
-    fn visit_all(&self, visitor: &mut impl Visitor) {
+    pub(super) fn visit_all(&self, visitor: &mut impl Visitor) {
         let unit = self.unit;
         let all = self.leaves.rows().iter();
         for (leaf, lane) in all.flat_map(|leaf| (0..TRIANGLES).map(move |lane| (leaf, lane))) {
@@ -243,12 +246,12 @@ impl<S: Simd> Traversal<'_, S> {
 
 /// The lanes of some bits.
 #[inline(always)]
-fn lanes_of(mut bits: u32) -> impl Iterator<Item = usize> {
+pub(super) fn lanes_of(mut bits: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let lane = bits.trailing_zeros() as usize;
         let is_there = bits != 0;
         bits &= bits.wrapping_sub(1);
-        is_there.then_some(lane & (TRIANGLES - 1))
+        is_there.then_some(lane & (WIDTH - 1))
     })
 }
 

@@ -60,8 +60,10 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             Some(_) => shading_point.ks,
             None => shading_point.ks + shading_point.material.kt.get(),
         };
-        let mirror = mirror_direction(direction, shading_point);
-        self.push_mirror(path, shading_point, mirror, mirror_weight);
+        if self.weighs(path.beta * mirror_weight) {
+            let mirror = mirror_direction(direction, shading_point);
+            self.push_mirror(path, shading_point, mirror, mirror_weight);
+        }
         if let Some(refracted) = refracted {
             self.push_ray(
                 path,
@@ -137,10 +139,15 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         self.pending.extend(path.map(Pending::Ray));
     }
 
+    /// Whether a path of a weight is followed.
+    fn weighs(&self, beta: f64) -> bool {
+        beta > 0.0 || !self.applies(Rule::MirrorKs)
+    }
+
     /// The path one bounce further, or `None` if its weight is 0.
     fn next(&self, path: &Branch, weight: f64, ray: Ray, kind: BranchKind) -> Option<Branch> {
         let beta = (path.beta * weight).min(f64::MAX);
-        let goes_on = beta > 0.0 || !self.applies(Rule::MirrorKs);
+        let goes_on = self.weighs(beta);
         let key = if Self::can(Features::SAMPLED) {
             path.key.child(kind as u64)
         } else {

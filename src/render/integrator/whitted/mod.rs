@@ -180,7 +180,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         if let Some(few) = &self.world.few
             && let Some(items) = self.bundles.along(&few.balls, self.bounces as usize, ray)
         {
-            return self.world.closest_hit_of(items, ray);
+            return self.world.closest_hit_of(few, items, ray);
         }
         self.world.closest_hit(ray)
     }

@@ -118,13 +118,8 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         let world = self.world;
         let samples = world.settings.light_samples;
         let mut sum = Vec3::ZERO;
-        for (index, (light, plan)) in world
-            .lights
-            .course
-            .iter()
-            .zip(&world.plan.lights)
-            .enumerate()
-        {
+        for (index, light) in world.lights.course.iter().enumerate() {
+            let plan = &world.plan.lights[index];
             if !plan.kept {
                 continue;
             }
@@ -235,6 +230,10 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             return !world.occluded(start(), light);
         };
         let lights = &world.lights.course;
+        let hiding = few.hiding(shadowed.light, shading_point.surface);
+        if hiding == 0 {
+            return true;
+        }
         let place = [self.bounces as usize, shadowed.light, lights.len()];
         let target = || {
             let CourseLight {
@@ -248,8 +247,8 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         let items = self
             .bundles
             .towards(&few.balls, place, interaction.point, target);
-        let items = few.casting(items);
-        items == 0 || !world.occluded_by(items, start(), light)
+        let items = items & hiding;
+        items == 0 || !world.occluded_by(few, items, [start(), light])
     }
 
     /// Gooch et al., "A non-photorealistic lighting model for automatic technical illustration"

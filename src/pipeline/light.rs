@@ -1,13 +1,10 @@
 //! The light of a picture: how it is exposed, and whether the studio fills in beside the light that
 //! the scene brings.
 
-use super::{RenderSetup, Subject, no_threads};
-use crate::cli::input::Input;
-use crate::cli::interrupt::Interrupt;
-use crate::cli::{Failure, findings};
+use super::setup::{Observer, PictureSetup, RenderError, RenderSubject};
+use super::{Input, OwnLight, findings};
 use crate::ir::Camera;
 use crate::passes::{self, FillLight};
-use crate::pipeline::OwnLight;
 use crate::valid::revalidate;
 
 /// The light of a scene shows most of it if that part of its surfaces is seen.
@@ -21,27 +18,41 @@ pub(super) struct FirstView {
     pub(super) fill: FillLight,
 }
 
-impl RenderSetup {
+impl PictureSetup {
     /// Finds the exposure of all pictures by the first view, whatever the size of the picture, and
     /// lets the studio fill in where the light of the scene shows little of it.
-    pub(super) fn light(
+    ///
+    /// # Errors
+    /// If someone said stop, or the system gives no threads.
+    pub fn light(
         &mut self,
-        subject: &mut Subject,
-        view: &FirstView,
+        subject: &mut RenderSubject,
         input: &mut Input,
-        interrupt: &Interrupt,
-    ) -> Result<(), Failure> {
-        let finds_exposure = self.look.finds_exposure(view.is_lit_asset);
-        if !finds_exposure && view.fill == FillLight::Never {
+        observer: &Observer<'_>,
+    ) -> Result<(), RenderError> {
+        let remarks = subject.remarks.drain(..);
+        remarks.for_each(|remark| input.push(remark));
+        let FirstView {
+            is_lit_asset, fill, ..
+        } = subject.first;
+        let finds_exposure = self.look.finds_exposure(is_lit_asset);
+        if !finds_exposure && fill == FillLight::Never {
             return Ok(());
         }
-        let (proven, renderer) = self.renderer(subject).map_err(no_threads)?;
-        let on_pixel = |_| !interrupt.is_raised();
-        let exposes = finds_exposure || view.is_lit_asset;
-        let light = renderer.own_light(&proven.lowered.scene, &view.camera, exposes, &on_pixel);
-        let OwnLight { stops, seen } = light.ok_or(Failure::Interrupted)?;
-        if view.fill == FillLight::Always || (view.fill == FillLight::IfDim && seen < MOST) {
-            let proven = &mut subject.proven;
+        self.renderer(subject)?;
+        let RenderSubject {
+            proven,
+            renderer,
+            first,
+            ..
+        } = subject;
+        let on_pixel = |_| !(observer.is_stopped)();
+        let exposes = finds_exposure || is_lit_asset;
+        let light = renderer.as_mut().and_then(|renderer| {
+            renderer.own_light(&proven.lowered.scene, &first.camera, exposes, &on_pixel)
+        });
+        let OwnLight { stops, seen } = light.ok_or(RenderError::Stopped)?;
+        if fill == FillLight::Always || (fill == FillLight::IfDim && seen < MOST) {
             passes::fill(&mut proven.lowered.scene, stops);
             proven.scene = revalidate(&proven.lowered.scene);
             subject.renderer = None;
@@ -58,7 +69,8 @@ impl RenderSetup {
     }
 
     /// What is said of it beside a picture.
-    pub(super) fn light_told(&self) -> String {
+    #[must_use]
+    pub fn light_told(&self) -> String {
         let exposed = self.look.found_exposure();
         let exposed = exposed.map(|stops| format!("exposed by {stops:+.2} stops, "));
         let filled = self

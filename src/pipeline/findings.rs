@@ -1,17 +1,14 @@
-//! What `rtc render` finds in a picture: nothing, numbers that give way, values that no file holds.
+//! What is found in a picture: nothing, numbers that give way, values that no file holds.
 
-use super::input::Proven;
+use super::Proven;
 use crate::diag::{Diagnostic, codes};
 use crate::image::Lost;
 use crate::ir::{Field, Noun, Place};
 use crate::plan::{self, Symptom};
+use crate::source::Span;
 
 /// Remarks that the picture is empty.
-pub(super) fn nothing_in_view(proven: &Proven) -> Diagnostic {
-    let camera = proven
-        .lowered
-        .origins
-        .span(Place::new(Noun::Camera, 0, Field::Whole));
+pub(super) fn nothing_in_view(camera: Option<Span>) -> Diagnostic {
     Diagnostic::new(&codes::NOTHING_IN_VIEW, "no ray of the camera hit anything")
         .at(camera, "this camera sees only the background")
         .hint("check where the camera stands and looks, and where the objects are")

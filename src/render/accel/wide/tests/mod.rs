@@ -1,5 +1,7 @@
 //! Whatever is hit is visited, and little else.
 
+mod together;
+
 use super::*;
 use crate::render::ray::Ray;
 use crate::render::sampler::Key;
@@ -312,8 +314,8 @@ fn a_hierarchy_built_amid_the_work_of_all_threads_ends() {
         let key = Key::new([3, 17], item.into());
         [0, 3, 6].map(|k| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)))
     };
-    let one = Wide::build(Builders::One, SimdLevel::best(), 20_000, 0.0, corners).unwrap();
-    let all = Wide::build(Builders::All, SimdLevel::best(), 20_000, 0.0, corners).unwrap();
+    let one = Wide::build(Builders::One, SimdLevel::best(), 40_000, 0.0, corners).unwrap();
+    let all = Wide::build(Builders::All, SimdLevel::best(), 40_000, 0.0, corners).unwrap();
     assert_eq!(one.root, all.root);
     assert!(
         one.nodes

@@ -1,0 +1,21 @@
+//! The library's door: [`Scene::open`], [`Scene::check`], [`Scene::render`], [`Picture::save`].
+//!
+//! It holds no rule about scenes: it hands what is asked for to [`crate::pipeline`], as the command
+//! line does, so both find the same and render the same bytes.
+
+mod error;
+mod finding;
+mod light;
+mod options;
+mod picture;
+mod scene;
+
+pub use crate::color::Tone;
+pub use crate::diag::Severity;
+pub use crate::render::Aov;
+pub use error::Error;
+pub use finding::{Finding, Hint, Label, Location};
+pub use light::Light;
+pub use options::{Format, Options, Reading};
+pub use picture::{Picture, Statistics};
+pub use scene::Scene;

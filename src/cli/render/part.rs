@@ -1,0 +1,123 @@
+//! One share of a picture, for `rtc merge` to put together with the others.
+
+use super::super::progress::{self, RenderProgress};
+use super::super::{Failure, args, interrupt::Interrupt, talk, talk::Talk};
+use super::{RenderSetup, beside_here, halted};
+use crate::pipeline::{Input, Observer, RenderSubject, SharedBy, Shares};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+/// A share as it will be rendered.
+pub(super) struct PartSetup {
+    shares: Shares,
+    /// The picture that it is of.
+    picture: PathBuf,
+    /// The words of the command but for the share and the output.
+    command: Vec<String>,
+}
+
+impl PartSetup {
+    /// The share asked for, if any.
+    pub(super) fn new(args: &args::Render, typed: &[OsString]) -> Result<Option<Self>, Failure> {
+        let Some([index, count]) = args.part else {
+            return Ok(None);
+        };
+        let trouble = |words: &str| Err(Failure::Trouble(words.to_owned()));
+        if has_goal(args) {
+            return trouble(
+                "a part can't know when the whole picture is good enough; \
+                 give its samples, by `--spp` or `--supersampling`, in place of a goal",
+            );
+        }
+        let is_part = |output: &PathBuf| output.extension().is_some_and(|it| it == "rtp");
+        if args.output.as_ref().is_some_and(|output| !is_part(output)) {
+            return trouble(
+                "a part is no picture yet; name it .rtp, and the picture by `--picture`",
+            );
+        }
+        Ok(Some(Self {
+            shares: Shares {
+                by: args.parts_by.into(),
+                first: index,
+                last: index,
+                count,
+            },
+            picture: args.picture.clone().map_or_else(|| beside_here(args), Ok)?,
+            command: without_share(typed),
+        }))
+    }
+
+    /// The picture that it is of.
+    pub(super) fn picture(&self) -> &Path {
+        &self.picture
+    }
+
+    /// The name of the scene with the share and `.rtp`, in the current folder.
+    pub(super) fn beside_here(&self, args: &args::Render) -> Result<PathBuf, Failure> {
+        let Shares { first, count, .. } = self.shares;
+        let picture = beside_here(args)?;
+        Ok(picture.with_extension(format!("{first}-of-{count}.rtp")))
+    }
+}
+
+/// Whether a picture is asked for that is done when it is good enough.
+pub(super) fn has_goal(args: &args::Render) -> bool {
+    args.target_error.is_some() || args.time_budget.is_some()
+}
+
+/// The words that were typed, without program, share and output.
+fn without_share(typed: &[OsString]) -> Vec<String> {
+    let mut words = typed.iter().skip(1).map(|word| word.to_string_lossy());
+    let mut kept = Vec::new();
+    while let Some(word) = words.next() {
+        match word.as_ref() {
+            // The value is the next word.
+            "--part" | "--output" | "-o" => drop(words.next()),
+            word if word.starts_with("--part=")
+                || word.starts_with("--output=")
+                || (word.starts_with("-o") && !word.starts_with("--")) => {}
+            word => kept.push(word.to_owned()),
+        }
+    }
+    kept
+}
+
+impl RenderSetup {
+    /// Renders one share of the picture and writes it.
+    pub(super) fn shoot_part(
+        &self,
+        part: &PartSetup,
+        subject: &mut RenderSubject,
+        input: &mut Input,
+        talk: &mut Talk,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let (window, output) = self.ready(subject, &self.output, input)?;
+        let Shares {
+            by, first, count, ..
+        } = part.shares;
+        let pixels = match by {
+            SharedBy::Tiles => window.pixels() as u64 / u64::from(count),
+            SharedBy::Samples => window.pixels() as u64,
+        };
+        let progress = RenderProgress::start(pixels, talk.is_quiet());
+        let observer = Observer {
+            on_step: &|step| progress.step(step),
+            is_stopped: &|| interrupt.is_raised(),
+        };
+        let order = (part.shares, window, input.rays());
+        let made = self.picture.part(subject, order, &observer);
+        let elapsed = progress.finish();
+        let made = match made {
+            Ok(made) => made.made_by(part.command.clone()),
+            Err(error) => return halted(error, input, talk),
+        };
+        output.commit(&made.save(), interrupt)?;
+        if !talk.is_quiet() {
+            let path = self.output.display();
+            let work = progress::summary(made.counts().rays(), elapsed);
+            talk::say(&format!("{path}: share {first} of {count}, {work}"));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,79 @@
+//! Meshes as PLY (Turk, "The PLY polygon file format", 1994), binary and little-endian: all columns,
+//! each number as it is.
+//!
+//! Names are those in common use; for what has none, `s1 t1` are the second texture coordinates,
+//! `tx ty tz tw` the tangent with the side of growing v, and `linear_red` to `linear_alpha` the colour
+//! as no display codes it.
+
+use crate::ir::{Column, Mesh};
+use std::fmt::Write as _;
+
+/// The file of a mesh.
+pub(super) fn encode(mesh: &Mesh) -> Vec<u8> {
+    let Mesh {
+        name: _,
+        part: _,
+        positions,
+        normals,
+        uvs,
+        second_uvs,
+        tangents,
+        colors,
+        triangles,
+    } = mesh;
+    let count = positions.len();
+    let mut head = format!("ply\nformat binary_little_endian 1.0\nelement vertex {count}\n");
+    declare(positions, ["x", "y", "z"], &mut head);
+    declare(normals, ["nx", "ny", "nz"], &mut head);
+    declare(uvs, ["s", "t"], &mut head);
+    declare(second_uvs, ["s1", "t1"], &mut head);
+    declare(tangents, ["tx", "ty", "tz", "tw"], &mut head);
+    let linear = ["linear_red", "linear_green", "linear_blue", "linear_alpha"];
+    declare(colors, linear, &mut head);
+    let faces = triangles.len();
+    writeln!(
+        head,
+        "element face {faces}\nproperty list uchar uint vertex_indices\nend_header"
+    )
+    .expect("a string takes all that is written to it");
+    let mut bytes = head.into_bytes();
+    for vertex in 0..count {
+        store(positions, vertex, &mut bytes);
+        store(normals, vertex, &mut bytes);
+        store(uvs, vertex, &mut bytes);
+        store(second_uvs, vertex, &mut bytes);
+        store(tangents, vertex, &mut bytes);
+        store(colors, vertex, &mut bytes);
+    }
+    for triangle in triangles.iter() {
+        bytes.push(3);
+        bytes.extend(triangle.iter().flat_map(|corner| corner.to_le_bytes()));
+    }
+    bytes
+}
+
+/// Names the numbers of a column in the head, unless it is empty.
+fn declare<const N: usize>(column: &Column<N>, names: [&str; N], head: &mut String) {
+    let kind = match column {
+        _ if column.is_empty() => return,
+        Column::Single(_) => "float",
+        Column::Double(_) => "double",
+    };
+    for name in names {
+        writeln!(head, "property {kind} {name}").expect("a string takes all that is written to it");
+    }
+}
+
+/// Writes what a column says of a vertex; nothing if it is empty.
+fn store<const N: usize>(column: &Column<N>, vertex: usize, bytes: &mut Vec<u8>) {
+    match column {
+        Column::Single(vectors) => {
+            let vector = vectors.get(vertex).into_iter().flatten();
+            bytes.extend(vector.flat_map(|number| number.to_le_bytes()));
+        }
+        Column::Double(vectors) => {
+            let vector = vectors.get(vertex).into_iter().flatten();
+            bytes.extend(vector.flat_map(|number| number.to_le_bytes()));
+        }
+    }
+}

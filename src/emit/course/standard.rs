@@ -1,0 +1,159 @@
+//! The material of glTF back to text, from the table of its parameters.
+
+use super::material::exists;
+use super::{Text, quoted};
+use crate::ir::{Alpha, Filter, Map, Sampled, Scene, Standard, Texture, Wrap};
+use crate::math::shortest;
+use crate::standard::{camel_case, parameters};
+
+/// Writes all parameters that are not as by default: the kind of each names its way.
+macro_rules! material {
+    ($(
+        $(#[doc = $about:literal])*
+        $field:ident: $kind:ident = $default:expr, $omitted:literal;
+    )*) => {
+        impl<'s> Text<'s> {
+            pub(super) fn standard(
+                &mut self,
+                key: &str,
+                material: &Standard,
+                scene: &'s Scene,
+            ) -> Result<(), String> {
+                let default = Standard::default();
+                let Standard { name, $($field),* } = material;
+                self.line(4, key);
+                self.line(6, "type: standard");
+                if !name.is_empty() {
+                    self.line(6, &format!("name: {}", quoted(name)));
+                }
+                let mut parameters = Parameters { text: self, scene };
+                $(if *$field != default.$field {
+                    let value = parameters.$kind($field)?;
+                    parameters.text.line(6, &format!("{}: {value}", camel_case!($field)));
+                })*
+                Ok(())
+            }
+        }
+    };
+}
+
+parameters!(material);
+
+/// The parameters of one material, each as it is written.
+struct Parameters<'t, 's> {
+    text: &'t mut Text<'s>,
+    scene: &'s Scene,
+}
+
+/// What is written, or the reason why it can't be.
+type Written = Result<String, String>;
+
+#[expect(
+    clippy::unnecessary_wraps,
+    clippy::trivially_copy_pass_by_ref,
+    reason = "the rows of the table are alike"
+)]
+impl Parameters<'_, '_> {
+    fn number(&mut self, value: &f64) -> Written {
+        self.text.finite &= value.is_finite();
+        Ok(shortest(*value))
+    }
+
+    fn fraction(&mut self, value: &f64) -> Written {
+        self.number(value)
+    }
+
+    fn non_negative(&mut self, value: &f64) -> Written {
+        self.number(value)
+    }
+
+    fn ior(&mut self, value: &f64) -> Written {
+        self.number(value)
+    }
+
+    fn index_of_refraction(&mut self, value: &f64) -> Written {
+        self.number(value)
+    }
+
+    fn distance(&mut self, value: &Option<f64>) -> Written {
+        self.number(&value.unwrap_or(f64::NAN))
+    }
+
+    fn pair(&mut self, values: &[f64; 2]) -> Written {
+        Ok(self.text.list(*values))
+    }
+
+    fn color(&mut self, values: &[f64; 3]) -> Written {
+        Ok(self.text.list(*values))
+    }
+
+    fn fraction_color(&mut self, values: &[f64; 3]) -> Written {
+        Ok(self.text.list(*values))
+    }
+
+    fn fractions(&mut self, values: &[f64; 4]) -> Written {
+        Ok(self.text.list(*values))
+    }
+
+    fn some_fractions(&mut self, values: &Option<[f64; 4]>) -> Written {
+        Ok(self.text.list(values.unwrap_or_default()))
+    }
+
+    #[expect(clippy::unused_self, reason = "a row of the table like the others")]
+    fn flag(&mut self, value: &bool) -> Written {
+        Ok(value.to_string())
+    }
+
+    fn alpha(&mut self, alpha: &Alpha) -> Written {
+        match alpha {
+            Alpha::Opaque => Ok("opaque".to_owned()),
+            Alpha::Blend => Ok("blend".to_owned()),
+            Alpha::Mask(cutoff) => Ok(format!("{{mask: {}}}", self.number(cutoff)?)),
+        }
+    }
+
+    fn map(&mut self, map: &Option<Map>) -> Written {
+        let Some(Map {
+            texture,
+            set,
+            texture_from_surface,
+        }) = map
+        else {
+            return Ok("none".to_owned());
+        };
+        let Texture::Sampled(sampled) = exists(*texture, self.scene)? else {
+            let message = "a material of glTF looks at a texture as only those of the course are";
+            return Err(message.to_owned());
+        };
+        let Sampled {
+            image,
+            wrap,
+            filter,
+        } = sampled;
+        let mut keys = format!("file: {}", self.text.names.image(self.scene, *image)?);
+        if *set != 0 {
+            keys += &format!(", set: {set}");
+        }
+        if *wrap != [Wrap::Repeat; 2] {
+            let [u, v] = wrap.map(wrap_word);
+            keys += &format!(", wrap: [{u}, {v}]");
+        }
+        match filter {
+            Filter::Linear => {}
+            Filter::Nearest => keys += ", filter: nearest",
+        }
+        if let Some(rows) = texture_from_surface {
+            let rows = self.text.list(rows.iter().flatten().copied());
+            keys += &format!(", transform: {rows}");
+        }
+        Ok(format!("{{{keys}}}"))
+    }
+}
+
+fn wrap_word(wrap: Wrap) -> &'static str {
+    match wrap {
+        Wrap::Repeat => "repeat",
+        Wrap::Mirror => "mirror",
+        Wrap::Clamp => "clamp",
+    }
+}

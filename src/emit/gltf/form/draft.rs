@@ -1,0 +1,110 @@
+//! Meshes in the making: sheets of vertices with normals.
+
+use crate::ir::{Column, Mesh};
+use crate::math::{Vec3, cos_sin_turns};
+
+/// A point of a surface.
+#[derive(Clone, Copy)]
+pub(super) struct DraftVertex {
+    pub(super) position: Vec3,
+    /// Of any length but 0.
+    pub(super) normal: Vec3,
+    pub(super) uv: [f64; 2],
+}
+
+/// Vertices, and the triangles between them.
+#[derive(Default)]
+pub(super) struct MeshDraft {
+    vertices: Vec<DraftVertex>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl MeshDraft {
+    /// Adds a sheet of so many columns and rows: `at` says where the corners of its cells are, by
+    /// their numbers, the last ones included. Cells that close up in a point lose a triangle.
+    pub(super) fn sheet(
+        &mut self,
+        [columns, rows]: [u32; 2],
+        at: impl Fn(u32, u32) -> DraftVertex,
+    ) {
+        let first = to_u32(self.vertices.len());
+        let width = columns + 1;
+        for row in 0..=rows {
+            self.vertices
+                .extend((0..width).map(|column| at(column, row)));
+        }
+        for row in 0..rows {
+            for column in 0..columns {
+                let a = first + row * width + column;
+                let [b, c, d] = [a + 1, a + width + 1, a + width];
+                self.triangle([a, b, c]);
+                self.triangle([a, c, d]);
+            }
+        }
+    }
+
+    /// Adds a triangle, turned so that its front is where its normals point.
+    fn triangle(&mut self, corners: [u32; 3]) {
+        let [a, b, c] = corners.map(|corner| self.vertices[corner as usize]);
+        let front = (b.position - a.position).cross(c.position - a.position);
+        let is_empty =
+            a.position == b.position || b.position == c.position || c.position == a.position;
+        if is_empty || front == Vec3::ZERO {
+            return;
+        }
+        let [a_at, b_at, c_at] = corners;
+        let is_front = front.dot(a.normal + b.normal + c.normal) >= 0.0;
+        self.triangles.push(if is_front {
+            corners
+        } else {
+            [a_at, c_at, b_at]
+        });
+    }
+
+    /// The mesh of the vertices that triangles use.
+    pub(super) fn mesh(self, has_uvs: bool) -> Mesh {
+        let Self {
+            vertices,
+            mut triangles,
+        } = self;
+        let mut kept = Vec::with_capacity(vertices.len());
+        let mut number = vec![None; vertices.len()];
+        for corner in triangles.iter_mut().flatten() {
+            let at = *corner as usize;
+            *corner = *number[at].get_or_insert_with(|| {
+                kept.push(vertices[at]);
+                to_u32(kept.len() - 1)
+            });
+        }
+        let normal = |vertex: &DraftVertex| vertex.normal.normalize().to_array();
+        let uvs = kept.iter().filter(|_| has_uvs).map(|vertex| vertex.uv);
+        Mesh {
+            positions: Column::rounded(kept.iter().map(|vertex| vertex.position.to_array())),
+            normals: Column::rounded(kept.iter().map(normal)),
+            uvs: Column::rounded(uvs),
+            triangles: triangles.into(),
+            ..Mesh::default()
+        }
+    }
+}
+
+/// The cosine and sine of `step` of `steps` around a circle; the last step is the first.
+pub(super) fn turn(step: u32, steps: u32) -> [f64; 2] {
+    let turns = (u128::from(step) << 64) / u128::from(steps.max(1));
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a whole turn is none, which is what the cut off bit says"
+    )]
+    let (cos, sin) = cos_sin_turns(turns as u64);
+    [cos, sin]
+}
+
+/// `step` of `steps`, from 0 to 1.
+pub(super) fn fraction(step: u32, steps: u32) -> f64 {
+    f64::from(step) / f64::from(steps.max(1))
+}
+
+/// A count of vertices, which was charged.
+fn to_u32(count: usize) -> u32 {
+    u32::try_from(count).unwrap_or(u32::MAX)
+}

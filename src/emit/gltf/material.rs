@@ -1,0 +1,268 @@
+//! Materials: glTF's own from the table of its parameters, Phong's by the one that comes nearest.
+
+use super::phong;
+use super::writer::{GltfWriter, extras, single};
+use crate::ir::{Alpha, Field, Map, Material, MaterialId, MeshId, Noun, Place, Standard};
+use crate::standard::{self, parameters};
+use gltf::json;
+use json::extensions::material::Material as MaterialExtensions;
+use json::material::{
+    AlphaCutoff, AlphaMode, EmissiveFactor, NormalTexture, PbrBaseColorFactor,
+    PbrMetallicRoughness, StrengthFactor,
+};
+use json::validation::Checked;
+use json::{Index, Value};
+use serde_json::{Map as Block, json};
+
+/// A material of the scene, on meshes with or without each set of texture coordinates: without one,
+/// the maps that ask for it have no effect, and are left out.
+pub(super) type MaterialKey = (u32, [bool; 2]);
+
+impl GltfWriter<'_> {
+    /// The material as it shows on a mesh.
+    pub(super) fn material(&mut self, id: MaterialId, mesh: MeshId) -> Index<json::Material> {
+        let mesh = &self.scene.meshes[mesh.0 as usize];
+        let key = (id.0, [!mesh.uvs.is_empty(), !mesh.second_uvs.is_empty()]);
+        if let Some(known) = self.materials.get(&key) {
+            return *known;
+        }
+        let place = Place::new(Noun::Material, id.0 as usize, Field::Whole);
+        let (mut standard, own) = match &self.scene.materials[id.0 as usize] {
+            Material::Standard(standard) => ((**standard).clone(), Block::new()),
+            Material::Phong(phong) => {
+                let own = self.phong(phong, key.1[0], place);
+                (phong::nearest(phong), own)
+            }
+        };
+        drop_maps(&mut standard, key.1);
+        let material = self.standard(&standard, place);
+        let index = self.root.push(json::Material {
+            extras: extras(own),
+            ..material
+        });
+        self.materials.insert(key, index);
+        index
+    }
+
+    fn standard(&mut self, own: &Standard, place: Place) -> json::Material {
+        let at = format!("/materials/{}", self.root.materials.len());
+        let pbr = self.metallic_roughness(own, &at, place);
+        let mut blocks = Block::new();
+        self.blocks(own, &mut blocks, place);
+        self.other_blocks(own, &mut blocks, place);
+        let (mode, cutoff) = match own.alpha {
+            Alpha::Opaque => (AlphaMode::Opaque, None),
+            Alpha::Mask(cutoff) => (AlphaMode::Mask, Some(AlphaCutoff(single(cutoff)))),
+            Alpha::Blend => (AlphaMode::Blend, None),
+        };
+        if let Alpha::Mask(cutoff) = own.alpha {
+            self.exact
+                .push((format!("{at}/alphaCutoff"), cutoff.into()));
+        }
+        let strength = strength(own.emissive);
+        let emissive = own.emissive.map(|channel| channel / strength);
+        self.exact
+            .push((format!("{at}/emissiveFactor"), emissive.to_vec().into()));
+        json::Material {
+            alpha_cutoff: cutoff,
+            alpha_mode: Checked::Valid(mode),
+            double_sided: own.double_sided,
+            name: Some(own.name.clone()).filter(|name| !name.is_empty()),
+            pbr_metallic_roughness: pbr,
+            normal_texture: own.normal_map.as_ref().map(|map| {
+                let at = format!("{at}/normalTexture/scale");
+                self.exact.push((at, own.normal_scale.into()));
+                typed::<NormalTexture>(self.texture_info(map, place))
+            }),
+            occlusion_texture: None,
+            emissive_texture: self.info(own.emissive_map.as_ref(), place),
+            emissive_factor: EmissiveFactor(emissive.map(single)),
+            extensions: (!blocks.is_empty()).then(|| MaterialExtensions {
+                others: blocks,
+                ..MaterialExtensions::default()
+            }),
+            extras: None,
+        }
+    }
+
+    /// The core of the material. That of `KHR_materials_pbrSpecularGlossiness` has its colour
+    /// elsewhere.
+    fn metallic_roughness(
+        &mut self,
+        own: &Standard,
+        at: &str,
+        place: Place,
+    ) -> PbrMetallicRoughness {
+        let is_core = own.specular_glossiness.is_none();
+        let color = if is_core { own.base_color } else { [1.0; 4] };
+        let at = format!("{at}/pbrMetallicRoughness");
+        self.exact.extend([
+            (format!("{at}/baseColorFactor"), color.to_vec().into()),
+            (format!("{at}/metallicFactor"), own.metallic.into()),
+            (format!("{at}/roughnessFactor"), own.roughness.into()),
+        ]);
+        let color_map = own.base_color_map.as_ref().filter(|_| is_core);
+        PbrMetallicRoughness {
+            base_color_factor: PbrBaseColorFactor(color.map(single)),
+            base_color_texture: self.info(color_map, place),
+            metallic_factor: StrengthFactor(single(own.metallic)),
+            roughness_factor: StrengthFactor(single(own.roughness)),
+            metallic_roughness_texture: self.info(own.metallic_roughness_map.as_ref(), place),
+            extensions: None,
+            extras: None,
+        }
+    }
+
+    fn info(&mut self, map: Option<&Map>, place: Place) -> Option<json::texture::Info> {
+        map.map(|map| typed(self.texture_info(map, place)))
+    }
+
+    /// The extensions whose properties are not parameters as they stand.
+    fn other_blocks(&mut self, own: &Standard, blocks: &mut Block<String, Value>, place: Place) {
+        let strength = strength(own.emissive);
+        if strength != 1.0 {
+            let block = json!({ "emissiveStrength": strength });
+            self.block("KHR_materials_emissive_strength", block, blocks);
+        }
+        if own.unlit {
+            self.block("KHR_materials_unlit", json!({}), blocks);
+        }
+        if let Some([r, g, b, glossiness]) = own.specular_glossiness {
+            let mut block = json!({
+                "diffuseFactor": own.base_color,
+                "specularFactor": [r, g, b],
+                "glossinessFactor": glossiness,
+            });
+            let maps = [
+                ("diffuseTexture", &own.base_color_map),
+                ("specularGlossinessTexture", &own.specular_glossiness_map),
+            ];
+            self.maps(&mut block, &maps, place);
+            self.block("KHR_materials_pbrSpecularGlossiness", block, blocks);
+        }
+        self.iridescence(own, blocks, place);
+    }
+
+    fn iridescence(&mut self, own: &Standard, blocks: &mut Block<String, Value>, place: Place) {
+        let default = Standard::default();
+        let [least, greatest] = own.iridescence_thickness;
+        let maps = [
+            ("iridescenceTexture", &own.iridescence_map),
+            (
+                "iridescenceThicknessTexture",
+                &own.iridescence_thickness_map,
+            ),
+        ];
+        let is_default = own.iridescence == default.iridescence
+            && own.iridescence_ior == default.iridescence_ior
+            && own.iridescence_thickness == default.iridescence_thickness
+            && maps.iter().all(|(_, map)| map.is_none());
+        if is_default {
+            return;
+        }
+        let mut block = json!({
+            "iridescenceFactor": own.iridescence,
+            "iridescenceIor": own.iridescence_ior,
+            "iridescenceThicknessMinimum": least,
+            "iridescenceThicknessMaximum": greatest,
+        });
+        self.maps(&mut block, &maps, place);
+        self.block("KHR_materials_iridescence", block, blocks);
+    }
+
+    fn maps(&mut self, block: &mut Value, maps: &[(&str, &Option<Map>)], place: Place) {
+        for (key, map) in maps {
+            if let Some(map) = map {
+                block[*key] = self.texture_info(map, place);
+            }
+        }
+    }
+
+    fn block(&mut self, name: &'static str, block: Value, blocks: &mut Block<String, Value>) {
+        self.used.insert(name);
+        blocks.insert(name.to_owned(), block);
+    }
+}
+
+/// What a parameter of a kind of the table is as JSON; none for the default.
+macro_rules! written {
+    (map, $own:ident.$field:ident, $writer:ident, $place:ident) => {
+        $own.$field
+            .as_ref()
+            .map(|map| $writer.texture_info(map, $place))
+    };
+    (normal_map, $own:ident.$field:ident, $writer:ident, $place:ident) => {
+        $own.$field.as_ref().map(|map| {
+            let mut info = $writer.texture_info(map, $place);
+            info["scale"] = $own.clearcoat_normal_scale.into();
+            info
+        })
+    };
+    ($kind:ident, $own:ident.$field:ident, $writer:ident, $place:ident) => {
+        ($own.$field != Standard::default().$field).then(|| json!($own.$field))
+    };
+}
+
+/// Writes all extensions of the table.
+macro_rules! extensions {
+    ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
+        impl GltfWriter<'_> {
+            fn blocks(&mut self, own: &Standard, blocks: &mut Block<String, Value>, place: Place) {
+                $(
+                    let mut block = Block::new();
+                    $(if let Some(value) = written!($kind, own.$field, self, place) {
+                        block.insert($key.to_owned(), value);
+                    })*
+                    if !block.is_empty() {
+                        self.block($name, block.into(), blocks);
+                    }
+                )*
+            }
+        }
+    };
+}
+
+standard::extensions!(extensions);
+
+/// Drops a map that asks for texture coordinates which the mesh has not.
+macro_rules! drop_map {
+    (map, $map:expr, $sets:ident) => {
+        if $map
+            .as_ref()
+            .is_some_and(|map| !$sets[map.set.min(1) as usize])
+        {
+            $map = None;
+        }
+    };
+    ($kind:ident, $value:expr, $sets:ident) => {};
+}
+
+/// Drops such maps among all parameters.
+macro_rules! drop_all {
+    ($(
+        $(#[doc = $about:literal])*
+        $field:ident: $kind:ident = $default:expr, $omitted:literal;
+    )*) => {
+        fn drop_maps(own: &mut Standard, sets: [bool; 2]) {
+            $(drop_map!($kind, own.$field, sets);)*
+        }
+    };
+}
+
+parameters!(drop_all);
+
+/// The power of two by which a colour is divided so that no channel is above 1, as glTF demands it.
+pub(super) fn strength(color: [f64; 3]) -> f64 {
+    let greatest = color.into_iter().fold(0.0, f64::max);
+    std::iter::successors(Some(1.0), |strength| Some(strength * 2.0))
+        .find(|strength| greatest <= *strength)
+        .unwrap_or(f64::MAX)
+}
+
+/// The value in the type of `gltf::json`.
+fn typed<T: serde::de::DeserializeOwned>(value: Value) -> T {
+    match serde_json::from_value(value) {
+        Ok(typed) => typed,
+        Err(fault) => unreachable!("what is written has the shape of glTF: {fault}"),
+    }
+}

@@ -1,0 +1,112 @@
+//! How the picture is made, and what surrounds the scene, in `extras.rtc` of the asset.
+
+use super::writer::{GltfWriter, extras};
+use crate::color::Tone;
+use crate::diag::codes;
+use crate::ir::{
+    Display, Environment, Field, Gooch, Mode, Noun, PathSettings, Pattern, Place, Settings,
+};
+use serde_json::{Map as Block, Value, json};
+
+impl GltfWriter<'_> {
+    /// Writes the settings, unless they are those that glTF is rendered with, the display and the
+    /// environment.
+    pub(super) fn settings(&mut self) {
+        let mut own = Block::new();
+        if self.scene.settings != of_gltf() {
+            let place = Place::new(Noun::Settings, 0, Field::Whole);
+            self.told.own_words("how the picture is made", place);
+            own = settings(&self.scene.settings);
+        }
+        if !self.scene.display.is_plain() {
+            let place = Place::new(Noun::Settings, 0, Field::Whole);
+            self.told.own_words("how the picture is shown", place);
+            let Display { exposure, tone } = &self.scene.display;
+            let tone = tone.map(Tone::name);
+            own.insert(
+                "display".to_owned(),
+                json!({ "exposure": exposure, "tone": tone.unwrap_or("mode") }),
+            );
+        }
+        if let Some(environment) = &self.scene.environment {
+            self.environment(environment, &mut own);
+        }
+        self.root.extras = extras(own);
+    }
+
+    fn environment(&mut self, environment: &Environment, own: &mut Block<String, Value>) {
+        let Environment {
+            radiance,
+            image,
+            image_from_world: _,
+        } = environment;
+        let place = Place::new(Noun::Environment, 0, Field::Whole);
+        if image.is_some() {
+            let message = "the picture of what surrounds the scene is left out";
+            return self.told.tell(&codes::GLTF_UNSAID, message, place);
+        }
+        self.told.own_words("what surrounds the scene", place);
+        own.insert("environment".to_owned(), json!({ "radiance": radiance }));
+    }
+}
+
+/// The settings that a glTF asset is rendered with where nobody says otherwise.
+fn of_gltf() -> Settings {
+    Settings {
+        mode: Mode::Path(PathSettings::default()),
+        shadows: true,
+        max_depth: PathSettings::DEPTH,
+        supersampling: 1,
+        pattern: Pattern::Grid,
+        light_samples: 1,
+        toon: false,
+    }
+}
+
+fn settings(settings: &Settings) -> Block<String, Value> {
+    let Settings {
+        mode,
+        shadows,
+        max_depth,
+        supersampling,
+        pattern,
+        light_samples,
+        toon,
+    } = settings;
+    let (mode, parameters) = match mode {
+        Mode::Phong => ("phong", None),
+        Mode::Zbuffer => ("zbuffer", None),
+        Mode::Normal => ("normal", None),
+        Mode::Gooch(Gooch { b, y, alpha, beta }) => {
+            let own = json!({ "b": b, "y": y, "alpha": alpha, "beta": beta });
+            ("gooch", Some(own))
+        }
+        Mode::Path(PathSettings {
+            samples,
+            multiple_scattering,
+        }) => {
+            let own = json!({ "samples": samples, "multipleScattering": multiple_scattering });
+            ("path", Some(own))
+        }
+    };
+    let pattern = match pattern {
+        Pattern::Grid => "grid",
+        Pattern::Jitter => "jitter",
+        Pattern::Random => "random",
+    };
+    let pairs = [
+        ("mode", mode.into()),
+        ("shadows", (*shadows).into()),
+        ("maxDepth", (*max_depth).into()),
+        ("supersampling", (*supersampling).into()),
+        ("pattern", pattern.into()),
+        ("lightSamples", (*light_samples).into()),
+        ("toon", (*toon).into()),
+    ];
+    let pairs = pairs
+        .into_iter()
+        .map(|(key, value)| (key.to_owned(), value));
+    pairs
+        .chain(parameters.map(|own| (mode.to_owned(), own)))
+        .collect()
+}

@@ -1,0 +1,199 @@
+//! Textures: images as PNG in the binary chunk, samplers, and how the materials look them up.
+
+use super::writer::{GltfWriter, number};
+use crate::diag::codes;
+use crate::image::png_bytes;
+use crate::ir::{self, Field, Filter, Map, Noun, Pixels, Place, Sampled, TextureId, Wrap};
+use crate::math::{atan2, cos, sin};
+use gltf::json;
+use json::image::MimeType;
+use json::texture::{MagFilter, MinFilter, Sampler, WrappingMode};
+use json::validation::Checked;
+use json::{Index, Value};
+use serde_json::json;
+
+/// Pixels along the side of the picture that shows the colours (u, 0, v).
+const UV_SIDE: u32 = 256;
+/// The rows of the map from the coordinates of the course, where v grows upwards, to those of glTF.
+const UPWARDS: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]];
+/// How far a map may be from scales and a turn, as a share of it.
+const SHEAR: f64 = 1e-9;
+
+impl GltfWriter<'_> {
+    /// What a material says of a map: the index of its texture, the set of coordinates, and their
+    /// transformation.
+    pub(super) fn texture_info(&mut self, map: &Map, place: Place) -> Value {
+        let Map {
+            texture,
+            set,
+            texture_from_surface,
+        } = map;
+        let is_upward = matches!(
+            self.scene.textures[texture.0 as usize],
+            ir::Texture::Uv | ir::Texture::Image(_)
+        );
+        let map = match (is_upward, texture_from_surface) {
+            (false, map) => *map,
+            (true, None) => Some(UPWARDS),
+            (true, Some([u, [a, b, c]])) => Some([*u, [-a, -b, 1.0 - c]]),
+        };
+        let mut info = json!({ "index": self.texture(*texture, place).value(), "texCoord": set });
+        if let Some(map) = map {
+            self.used.insert("KHR_texture_transform");
+            let transform = transform(map).unwrap_or_else(|| {
+                let message = "a texture is sheared, for which glTF has no words";
+                self.told.tell(&codes::GLTF_UNSAID, message, place);
+                json!({})
+            });
+            info["extensions"] = json!({ "KHR_texture_transform": transform });
+        }
+        info
+    }
+
+    /// A texture of the scene.
+    pub(super) fn texture(&mut self, id: TextureId, place: Place) -> Index<json::Texture> {
+        if let Some(known) = self.textures.get(&id.0) {
+            return *known;
+        }
+        let (source, wrap, filter) = match &self.scene.textures[id.0 as usize] {
+            ir::Texture::Uv => {
+                let message = "the colours (u, 0, v) become a picture of them";
+                self.told.tell(&codes::GLTF_NEARLY, message, place);
+                (self.uv_image(), [Wrap::Clamp; 2], Filter::Linear)
+            }
+            ir::Texture::Image(image) => (
+                self.image(number(*image)),
+                [Wrap::Repeat; 2],
+                Filter::Linear,
+            ),
+            ir::Texture::Sampled(Sampled {
+                image,
+                wrap,
+                filter,
+            }) => (self.image(number(*image)), *wrap, *filter),
+        };
+        let texture = json::Texture {
+            name: None,
+            sampler: Some(self.sampler(wrap, filter)),
+            source,
+            extensions: None,
+            extras: None,
+        };
+        let index = self.root.push(texture);
+        self.textures.insert(id.0, index);
+        index
+    }
+
+    fn sampler(&mut self, wrap: [Wrap; 2], filter: Filter) -> Index<Sampler> {
+        let [across, down] = wrap.map(wrapping);
+        let (mag, min) = match filter {
+            Filter::Linear => (MagFilter::Linear, MinFilter::LinearMipmapLinear),
+            Filter::Nearest => (MagFilter::Nearest, MinFilter::Nearest),
+        };
+        let key = [across as u8, down as u8, mag as u8];
+        if let Some(known) = self.samplers.get(&key) {
+            return *known;
+        }
+        let sampler = self.root.push(Sampler {
+            mag_filter: Some(Checked::Valid(mag)),
+            min_filter: Some(Checked::Valid(min)),
+            name: None,
+            wrap_s: Checked::Valid(across),
+            wrap_t: Checked::Valid(down),
+            extensions: None,
+            extras: None,
+        });
+        self.samplers.insert(key, sampler);
+        sampler
+    }
+
+    fn image(&mut self, id: u32) -> Index<json::Image> {
+        if let Some(known) = self.images.get(&id) {
+            return *known;
+        }
+        let ir::Image {
+            name,
+            width,
+            height,
+            kind,
+            pixels,
+        } = &self.scene.images[id as usize];
+        let place = Place::new(Noun::Image, id as usize, Field::Whole);
+        let bytes = match kind {
+            Pixels::Rgb8 | Pixels::Rgba8 => pixels.to_vec(),
+            Pixels::Rgb32f => {
+                let message = "a picture of floats as a texture is rounded to 8 bits a channel";
+                self.told.tell(&codes::GLTF_UNSAID, message, place);
+                pixels.as_chunks::<4>().0.iter().map(quantized).collect()
+            }
+        };
+        let png = png_bytes([*width, *height], *kind == Pixels::Rgba8, &bytes);
+        let image = self.png(&png, name);
+        self.images.insert(id, image);
+        image
+    }
+
+    /// The picture of the colours (u, 0, v), v upwards.
+    fn uv_image(&mut self) -> Index<json::Image> {
+        if let Some(known) = self.uv_image {
+            return known;
+        }
+        let byte = |step: u32| u8::try_from(step * 255 / (UV_SIDE - 1)).unwrap_or(u8::MAX);
+        let pixels: Vec<u8> = (0..UV_SIDE)
+            .flat_map(|y| (0..UV_SIDE).flat_map(move |x| [byte(x), 0, byte(UV_SIDE - 1 - y)]))
+            .collect();
+        let png = png_bytes([UV_SIDE; 2], false, &pixels);
+        let image = self.png(&png, "UV");
+        self.uv_image = Some(image);
+        image
+    }
+
+    fn png(&mut self, png: &[u8], name: &str) -> Index<json::Image> {
+        let view = self.view(png, None);
+        self.root.push(json::Image {
+            buffer_view: Some(view),
+            mime_type: Some(MimeType("image/png".to_owned())),
+            name: Some(name.to_owned()).filter(|name| !name.is_empty()),
+            uri: None,
+            extensions: None,
+            extras: None,
+        })
+    }
+}
+
+fn wrapping(wrap: Wrap) -> WrappingMode {
+    match wrap {
+        Wrap::Repeat => WrappingMode::Repeat,
+        Wrap::Mirror => WrappingMode::MirroredRepeat,
+        Wrap::Clamp => WrappingMode::ClampToEdge,
+    }
+}
+
+/// A little-endian float as a byte, 1 as 255.
+fn quantized(bytes: &[u8; 4]) -> u8 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped"
+    )]
+    let byte = (f32::from_le_bytes(*bytes).clamp(0.0, 1.0) * 255.0).round() as u8;
+    byte
+}
+
+/// The scales, turn and offset of `KHR_texture_transform` that make a map; none if it shears.
+fn transform([[a, b, x], [c, d, y]]: [[f64; 3]; 2]) -> Option<Value> {
+    let turn = if b == 0.0 && c == 0.0 {
+        0.0
+    } else {
+        atan2(-c, a)
+    };
+    let (cos, sin) = (cos(turn), sin(turn));
+    let (u, v) = (cos * a - sin * c, sin * b + cos * d);
+    let back = [cos * u, sin * v, -sin * u, cos * v];
+    let off = [a, b, c, d].into_iter().zip(back);
+    let off = off
+        .map(|(own, back)| (own - back).abs())
+        .fold(0.0, f64::max);
+    let size = a.abs().max(b.abs()).max(c.abs()).max(d.abs());
+    (off <= SHEAR * size).then(|| json!({ "offset": [x, y], "rotation": turn, "scale": [u, v] }))
+}

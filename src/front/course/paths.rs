@@ -1,0 +1,78 @@
+//! The paths of light: how they are followed, and when.
+
+use super::assets::Asset;
+use super::decode::Spanned;
+use super::lower::Lowering;
+use super::number::Count;
+use super::record::{FieldOutcome, keys, record};
+use super::settings::{Mode, Scene};
+use crate::ir;
+
+record! {
+    /// How the light along all paths is followed.
+    struct Paths, "path parameters" {
+        /// How many paths each ray of `SuperSampling` follows. Without `PathParameters` each is one path; without both a
+        /// pixel has 64.
+        samples: Spanned<Count>, default(Count(64)), keys!["samples"];
+        /// Whether rough surfaces keep the light that bounces between their facets.
+        multiple_scattering: Spanned<bool>, default(true), keys!["multipleScattering"];
+    }
+}
+
+impl Lowering {
+    /// Has paths traced if the file says so, or holds what only paths show; after the lights and
+    /// the objects.
+    pub(super) fn follow_paths(&mut self, scene: &Scene) {
+        let Scene {
+            mode,
+            sampling,
+            depth,
+            reflections,
+            ..
+        } = scene;
+        let is_physical = self.scene.environment.is_some()
+            || self
+                .scene
+                .lights
+                .iter()
+                .any(|light| light.point().is_none())
+            || self
+                .scene
+                .materials
+                .iter()
+                .any(|material| material.phong().is_none())
+            || self
+                .files
+                .wanted
+                .iter()
+                .any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
+        if mode.value != Mode::Path && (mode.span.is_some() || !is_physical) {
+            return;
+        }
+        let rays = sampling
+            .value
+            .factor
+            .0
+            .saturating_mul(sampling.value.factor.0);
+        let usual = ir::PathSettings::default();
+        let settings = &mut self.scene.settings;
+        settings.mode = ir::Mode::Path(match &scene.paths {
+            FieldOutcome::Read(paths) => ir::PathSettings {
+                samples: paths.value.samples.value.0,
+                multiple_scattering: paths.value.multiple_scattering.value,
+            },
+            FieldOutcome::Absent | FieldOutcome::Broken => {
+                settings.supersampling = 1;
+                let samples = if sampling.span.is_some() {
+                    rays
+                } else {
+                    usual.samples
+                };
+                ir::PathSettings { samples, ..usual }
+            }
+        });
+        if depth.span.is_none() && reflections.is_absent() {
+            settings.max_depth = ir::PathSettings::DEPTH;
+        }
+    }
+}

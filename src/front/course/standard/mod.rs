@@ -1,0 +1,196 @@
+//! The `standard` material: that of glTF, from the table of its parameters.
+//!
+//! A key is the name of a row in camel case; the kind of the row says what is written there.
+
+mod texture;
+mod value;
+
+pub(super) use texture::TextureMap;
+
+use super::decode::{Context, Spanned, Value};
+use super::lower::Lowering;
+use super::number::{NonNegative, Positive, Real};
+use super::reader::Reader;
+use super::record::{Field, FieldOutcome, Need, Record, Slot};
+use super::schema::{self, Definitions};
+use super::value::{Caption, Color, Text};
+use crate::ir::{self, Alpha};
+use crate::source::tree::NodeId;
+use crate::standard::{camel_case, parameters};
+use serde_json::Value as Json;
+use texture::MapOrFile;
+use value::{AlphaMode, Fraction, Pair, Refraction, RefractionOrNone, Rgba, Tint};
+
+/// The word that says that a material is one.
+pub(super) const WORD: &str = "standard";
+
+/// How a parameter of a kind of the table is written.
+macro_rules! written {
+    (fraction) => {
+        Fraction
+    };
+    (number) => {
+        Real
+    };
+    (non_negative) => {
+        NonNegative
+    };
+    (ior) => {
+        RefractionOrNone
+    };
+    (index_of_refraction) => {
+        Refraction
+    };
+    (distance) => {
+        Positive
+    };
+    (pair) => {
+        Pair
+    };
+    (color) => {
+        Color
+    };
+    (fraction_color) => {
+        Tint
+    };
+    (fractions) => {
+        Rgba
+    };
+    (some_fractions) => {
+        Rgba
+    };
+    (flag) => {
+        bool
+    };
+    (alpha) => {
+        AlphaMode
+    };
+    (map) => {
+        MapOrFile
+    };
+}
+
+/// What stands in for a parameter of a kind that is not written.
+macro_rules! need {
+    (map, $default:expr) => {
+        Need::Optional
+    };
+    (distance, $default:expr) => {
+        Need::Optional
+    };
+    (some_fractions, $default:expr) => {
+        Need::Optional
+    };
+    (flag, $default:expr) => {
+        Need::Default(|| Value::json(&$default))
+    };
+    ($kind:ident, $default:expr) => {
+        Need::Default(|| Value::json(&<written!($kind)>::from($default)))
+    };
+}
+
+/// The parameter of the IR that a written one of a kind is.
+macro_rules! lowered {
+    (map, $written:expr, $lowering:expr) => {
+        Some($lowering.texture_map(&$written.value.0))
+    };
+    (distance, $written:expr, $lowering:expr) => {
+        Some($written.value.0)
+    };
+    (some_fractions, $written:expr, $lowering:expr) => {
+        Some($written.value.0)
+    };
+    (flag, $written:expr, $lowering:expr) => {
+        $written.value
+    };
+    ($kind:ident, $written:expr, $lowering:expr) => {
+        $written.value.0
+    };
+}
+
+/// The record, from the table of the parameters.
+macro_rules! material {
+    ($(
+        $(#[doc = $about:literal])*
+        $field:ident: $kind:ident = $default:expr, $omitted:literal;
+    )*) => {
+        /// The material of glTF.
+        pub(in crate::front::course) struct StandardMaterial {
+            name: FieldOutcome<Spanned<Caption>>,
+            $($field: FieldOutcome<Spanned<written!($kind)>>,)*
+        }
+
+        impl StandardMaterial {
+            /// The declaration.
+            pub(in crate::front::course) const RECORD: Record = Record {
+                word: "standard material",
+                doc: " What a surface is made of: the material of glTF 2.0 and of its extensions \
+                      `KHR_materials_*`. Colours are linear, of light rather than of a display; a texture multiplies \
+                      the number or colour beside it, in the channels that glTF gives it.",
+                fields: &[
+                    Field {
+                        name: "kind",
+                        doc: " `standard`: which material this is.",
+                        rows: &[&["type"]],
+                        json: &[],
+                        need: Need::Required,
+                        schema: <Spanned<Text> as Slot>::schema,
+                    },
+                    Field {
+                        name: "name",
+                        doc: " What people call it.",
+                        rows: &[&["name"]],
+                        json: &[],
+                        need: Need::Optional,
+                        schema: <Spanned<Caption> as Slot>::schema,
+                    },
+                    $(Field {
+                        name: stringify!($field),
+                        doc: concat!($($about),*),
+                        rows: &[&[camel_case!($field)]],
+                        json: &[],
+                        need: need!($kind, $default),
+                        schema: <Spanned<written!($kind)> as Slot>::schema,
+                    },)*
+                ],
+                forms: &[],
+                forms_are_lowered: false,
+            };
+
+            /// What it is in the IR; its textures are wanted.
+            fn lowered(&self, lowering: &mut Lowering) -> ir::Standard {
+                let mut standard = ir::Standard::default();
+                if let FieldOutcome::Read(name) = &self.name {
+                    standard.name.clone_from(&name.value.0);
+                }
+                $(if let FieldOutcome::Read(written) = &self.$field {
+                    standard.$field = lowered!($kind, written, lowering);
+                })*
+                standard
+            }
+        }
+
+        impl Value for StandardMaterial {
+            fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+                let mut reader = Reader::open(&Self::RECORD, node, context)?;
+                let _ = reader.next::<Spanned<Text>>(context);
+                let name = reader.next(context);
+                $(let $field = reader.next(context);)*
+                reader.close(context).then_some(Self { name, $($field,)* })
+            }
+
+            fn schema(definitions: &mut Definitions) -> Json {
+                schema::record(&Self::RECORD, definitions)
+            }
+        }
+    };
+}
+
+parameters!(material);
+
+impl Lowering {
+    /// Lowers a standard material.
+    pub(super) fn standard(&mut self, material: &StandardMaterial) -> ir::Material {
+        ir::Material::Standard(Box::new(material.lowered(self)))
+    }
+}

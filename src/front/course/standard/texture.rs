@@ -1,0 +1,131 @@
+//! The textures of a `standard` material: pictures, as glTF lays them on a surface and looks them up.
+
+use super::super::decode::{Context, Spanned, Value};
+use super::super::lower::Lowering;
+use super::super::record::{FieldOutcome, keys, record};
+use super::super::schema::Definitions;
+use super::super::turn::PlaneRows;
+use super::super::value::{FileName, tuple, word, word_schema};
+use super::value::SetIndex;
+use crate::ir::{self, Filter, Wrap};
+use crate::source::tree::{NodeContent, NodeId};
+use serde_json::{Value as Json, json};
+
+record! {
+    /// A texture: a picture, and how it lies on the surface. v = 0 is its top row. The name of the file alone will do.
+    struct TextureMap, "texture" {
+        /// The file of the picture: PNG, JPEG or WebP; its opacity is kept.
+        file: Spanned<FileName>, required, keys!["file"];
+        /// Which set of texture coordinates of the mesh, 0 or 1.
+        set: Spanned<SetIndex>, default(SetIndex(0)), keys!["set"];
+        /// What lies beyond the picture along u and v, one word for both or a list of two: `repeat` it again, `mirror` it
+        /// again, mirrored, `clamp` the texel at its edge.
+        wrap: Spanned<WrapWords>, default(WrapWords([Wrap::Repeat; 2])), keys!["wrap"];
+        /// How texels blend: `linear` the four nearest, `nearest` the nearest alone.
+        filter: Spanned<FilterWord>, default(FilterWord(Filter::Linear)), keys!["filter"];
+        /// Six numbers: the rows (a, b, c) of the map from the coordinates of the surface to those of the picture, each
+        /// a·u + b·v + c.
+        transform: Spanned<PlaneRows>, optional, keys!["transform"];
+    }
+}
+
+/// A texture, or the name of its file alone.
+pub(in crate::front::course) struct MapOrFile(pub(super) TextureMap);
+
+impl Value for MapOrFile {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        if context.tree.is_map(node) {
+            return TextureMap::decode(node, context).map(Self);
+        }
+        let span = Some(context.tree.span(node));
+        let value = FileName::decode(node, context)?;
+        Some(Self(TextureMap {
+            file: Spanned { value, span },
+            set: Spanned::unwritten(SetIndex(0)),
+            wrap: Spanned::unwritten(WrapWords([Wrap::Repeat; 2])),
+            filter: Spanned::unwritten(FilterWord(Filter::Linear)),
+            transform: FieldOutcome::Absent,
+        }))
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        json!({ "anyOf": [FileName::schema(definitions), TextureMap::schema(definitions)] })
+    }
+}
+
+/// What lies beyond a picture along u and v.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::front::course) struct WrapWords([Wrap; 2]);
+
+/// The words for it.
+const WRAPS: &[(&str, Wrap)] = &[
+    ("repeat", Wrap::Repeat),
+    ("mirror", Wrap::Mirror),
+    ("clamp", Wrap::Clamp),
+];
+
+impl Value for WrapWords {
+    const IS_LIST: bool = true;
+
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        if context.tree.shape(node) == NodeContent::List {
+            let each = |node, context: &mut Context<'_>| word(node, WRAPS, context);
+            return tuple(node, "a word or a list of two", context, each).map(Self);
+        }
+        word(node, WRAPS, context).map(|wrap| Self([wrap; 2]))
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        let word = word_schema(WRAPS);
+        json!({ "anyOf": [word, { "type": "array", "items": word, "minItems": 2, "maxItems": 2 }] })
+    }
+
+    fn json(&self) -> Json {
+        let word = WRAPS.iter().find(|(_, wrap)| *wrap == self.0[0]);
+        word.map_or(Json::Null, |(word, _)| json!(word))
+    }
+}
+
+/// How texels blend.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::front::course) struct FilterWord(Filter);
+
+/// The words for it.
+const FILTERS: &[(&str, Filter)] = &[("linear", Filter::Linear), ("nearest", Filter::Nearest)];
+
+impl Value for FilterWord {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        word(node, FILTERS, context).map(Self)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        word_schema(FILTERS)
+    }
+
+    fn json(&self) -> Json {
+        let word = FILTERS.iter().find(|(_, filter)| *filter == self.0);
+        word.map_or(Json::Null, |(word, _)| json!(word))
+    }
+}
+
+impl Lowering {
+    /// Lowers a texture: its file is wanted.
+    pub(super) fn texture_map(&mut self, map: &TextureMap) -> ir::Map {
+        let TextureMap {
+            file,
+            set,
+            wrap,
+            filter,
+            transform,
+        } = map;
+        let sampling = (wrap.value.0, filter.value.0);
+        ir::Map {
+            texture: self.files.sampled(&mut self.scene, file, sampling),
+            set: set.value.0,
+            texture_from_surface: match transform {
+                FieldOutcome::Read(rows) => Some(rows.value.0),
+                FieldOutcome::Absent | FieldOutcome::Broken => None,
+            },
+        }
+    }
+}

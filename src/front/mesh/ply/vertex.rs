@@ -1,0 +1,204 @@
+//! The vertices of a PLY, each column in the precision of its properties.
+
+use super::super::Unread;
+use super::body::PlyBody;
+use super::head::{NumberKind, PlyElement, PlyProperty};
+use crate::color::srgb_decoded;
+use crate::ir::Mesh;
+use crate::math::Column;
+use crate::source::{Budget, Resource};
+
+/// The values of a vertex that are kept, by the names of their properties: position, normal, both
+/// sets of texture coordinates, tangent, colour as sRGB codes it, and as it is.
+const VALUES: [&[&[u8]]; 22] = [
+    &[b"x"],
+    &[b"y"],
+    &[b"z"],
+    &[b"nx"],
+    &[b"ny"],
+    &[b"nz"],
+    &[b"s", b"u", b"texture_u"],
+    &[b"t", b"v", b"texture_v"],
+    &[b"s1", b"u1"],
+    &[b"t1", b"v1"],
+    &[b"tx"],
+    &[b"ty"],
+    &[b"tz"],
+    &[b"tw"],
+    &[b"red", b"r", b"diffuse_red"],
+    &[b"green", b"g", b"diffuse_green"],
+    &[b"blue", b"b", b"diffuse_blue"],
+    &[b"alpha", b"a", b"diffuse_alpha"],
+    &[b"linear_red"],
+    &[b"linear_green"],
+    &[b"linear_blue"],
+    &[b"linear_alpha"],
+];
+
+/// Where the values begin that belong together.
+const NORMAL: usize = 3;
+const UV: usize = 6;
+const SECOND_UV: usize = 8;
+const TANGENT: usize = 10;
+const COLOR: usize = 14;
+const ALPHA: usize = 17;
+const LINEAR_COLOR: usize = 18;
+
+/// The values of one vertex.
+type VertexRow = [f64; VALUES.len()];
+
+/// A column in the making; `N` values of each vertex from one on.
+enum GrowingColumn<const N: usize> {
+    Absent,
+    Single(usize, Vec<[f32; N]>),
+    Double(usize, Vec<[f64; N]>),
+}
+
+impl<const N: usize> GrowingColumn<N> {
+    /// An empty column, in 32 bits if those hold all of its values; absent if one is missing.
+    fn new(first: usize, slots: &[Option<(usize, NumberKind)>], count: usize) -> Self {
+        let kind = |value: usize| {
+            let mut slots = slots.iter().flatten();
+            slots.find(|(at, _)| *at == value).map(|(_, kind)| *kind)
+        };
+        let kinds: Option<Vec<NumberKind>> = (first..first + N).map(kind).collect();
+        match kinds {
+            None => Self::Absent,
+            Some(kinds) if kinds.iter().all(|kind| *kind == NumberKind::F32) => {
+                Self::Single(first, Vec::with_capacity(count))
+            }
+            Some(_) => Self::Double(first, Vec::with_capacity(count)),
+        }
+    }
+
+    fn is_there(&self) -> bool {
+        !matches!(self, Self::Absent)
+    }
+
+    fn push(&mut self, row: &VertexRow) {
+        match self {
+            Self::Absent => {}
+            #[expect(clippy::cast_possible_truncation, reason = "they were 32 bits wide")]
+            Self::Single(first, vectors) => {
+                vectors.push(std::array::from_fn(|at| row[*first + at] as f32));
+            }
+            Self::Double(first, vectors) => {
+                vectors.push(std::array::from_fn(|at| row[*first + at]));
+            }
+        }
+    }
+
+    fn finish(self) -> Column<N> {
+        match self {
+            Self::Absent => Column::default(),
+            Self::Single(_, vectors) => vectors.into(),
+            Self::Double(_, vectors) => vectors.into(),
+        }
+    }
+}
+
+/// Reads the vertices into a mesh.
+pub(super) fn read(
+    element: &PlyElement<'_>,
+    body: &mut PlyBody<'_>,
+    mesh: &mut Mesh,
+    budget: &Budget,
+) -> Result<(), Unread> {
+    let one = |fault| Unread::Faults(vec![fault]);
+    let slots: Vec<_> = element.properties.iter().map(slot).collect();
+    let has = |values: &[usize]| {
+        let mut values = values.iter();
+        values.all(|value| slots.iter().flatten().any(|(at, _)| at == value))
+    };
+    if !has(&[0, 1, 2]) {
+        return Err(one(element
+            .name
+            .fault("the vertices have no x, y and z", "these")));
+    }
+    let count = element.count;
+    budget.has(Resource::Vertices, count as u64)?;
+    // No vertex takes more than all values would.
+    let kept = slots.iter().flatten().count() + 1;
+    budget.has(
+        Resource::Memory,
+        (8 * kept as u64).saturating_mul(count as u64),
+    )?;
+    let mut positions = GrowingColumn::<3>::new(0, &slots, count);
+    let mut normals = GrowingColumn::<3>::new(NORMAL, &slots, count);
+    let mut uvs = GrowingColumn::<2>::new(UV, &slots, count);
+    let mut second_uvs = GrowingColumn::<2>::new(SECOND_UV, &slots, count);
+    let mut tangents = GrowingColumn::<4>::new(TANGENT, &slots, count);
+    let mut linear = GrowingColumn::<4>::new(LINEAR_COLOR, &slots, count);
+    let is_coded = !linear.is_there() && has(&[COLOR, COLOR + 1, COLOR + 2]);
+    let mut coded = Vec::new();
+    for _ in 0..count {
+        let row = row(element, &slots, body)?;
+        positions.push(&row);
+        normals.push(&row);
+        uvs.push(&row);
+        second_uvs.push(&row);
+        tangents.push(&row);
+        linear.push(&row);
+        coded.extend(is_coded.then(|| color(&row)));
+    }
+    mesh.positions = positions.finish();
+    mesh.normals = normals.finish();
+    mesh.uvs = uvs.finish();
+    mesh.second_uvs = second_uvs.finish();
+    mesh.tangents = tangents.finish();
+    mesh.colors = if is_coded {
+        coded.into()
+    } else {
+        linear.finish()
+    };
+    Ok(())
+}
+
+/// The value that a property is, and its type.
+fn slot(property: &PlyProperty<'_>) -> Option<(usize, NumberKind)> {
+    let mut values = VALUES.iter();
+    let at = values.position(|names| names.contains(&property.name.bytes));
+    let at = at.filter(|_| property.length.is_none())?;
+    Some((at, property.kind))
+}
+
+/// The values of the next vertex; without an alpha it is opaque.
+fn row(
+    element: &PlyElement<'_>,
+    slots: &[Option<(usize, NumberKind)>],
+    body: &mut PlyBody<'_>,
+) -> Result<VertexRow, Unread> {
+    let one = |fault| Unread::Faults(vec![fault]);
+    let mut row = [0.0; VALUES.len()];
+    row[ALPHA] = 1.0;
+    for (property, slot) in element.properties.iter().zip(slots) {
+        let Some((slot, kind)) = slot else {
+            body.skip(property, element).map_err(one)?;
+            continue;
+        };
+        let number = body.number(*kind, element).map_err(one)?;
+        if !number.is_finite() {
+            return Err(one(body.fault("a number is not finite", "of this vertex")));
+        }
+        if *slot >= LINEAR_COLOR && number < 0.0 {
+            return Err(one(body.fault("a colour is negative", "of this vertex")));
+        }
+        let is_coded = (COLOR..LINEAR_COLOR).contains(slot);
+        row[*slot] = if is_coded {
+            kind.fraction(number)
+        } else {
+            number
+        };
+    }
+    Ok(row)
+}
+
+/// The colour of a vertex, which is coded as sRGB does.
+fn color(row: &VertexRow) -> [f32; 4] {
+    let [r, g, b] = [row[COLOR], row[COLOR + 1], row[COLOR + 2]].map(srgb_decoded);
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rounded to what the IR stores"
+    )]
+    [r, g, b, row[ALPHA]].map(|channel| channel as f32)
+}

@@ -1,0 +1,38 @@
+//! The display settings: how a picture of 8 or 16 bits shows the values of its film.
+
+use crate::color::Tone;
+use arbitrary::Arbitrary;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How linear values are shown; files of floats hold them as they are.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Display {
+    /// The exposure in stops, from -64 to 64: each doubles the values.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(range(min = -64.0, max = 64.0))]
+    pub exposure: f64,
+    /// The tone map; none for that of the mode.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tone: Option<Tone>,
+}
+
+impl Display {
+    /// The most stops of an exposure, up or down.
+    pub const MOST_STOPS: f64 = 64.0;
+
+    /// Whether values are shown as their mode shows them.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        is_zero(&self.exposure) && self.tone.is_none()
+    }
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands over a reference"
+)]
+fn is_zero(exposure: &f64) -> bool {
+    exposure.to_bits() == 0
+}

@@ -1,0 +1,145 @@
+//! The one writer of files: a file appears whole or not at all.
+//!
+//! It is written beside its target under another name, synced and renamed. An unfinished file is
+//! removed.
+
+use std::fs::{self, Permissions};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// The most links that are followed to where a file is to be.
+const MAX_LINKS: usize = 40;
+
+/// A file that is to appear, fit to be written.
+pub struct NewFile {
+    /// Where it is to be, free of links.
+    target: PathBuf,
+    /// Those of the file that is there already.
+    permissions: Option<Permissions>,
+}
+
+/// Who looks on while a file is written.
+pub trait WriteObserver {
+    /// Whether to stop.
+    fn is_stopped(&self) -> bool;
+
+    /// The draft that is not to stay behind if the process ends now; `None` if there is none.
+    fn draft(&self, path: Option<&Path>);
+}
+
+/// Nobody looks on.
+struct Unobserved;
+
+impl WriteObserver for Unobserved {
+    fn is_stopped(&self) -> bool {
+        false
+    }
+
+    fn draft(&self, _: Option<&Path>) {}
+}
+
+impl NewFile {
+    /// Writes a file of these bytes at `path`, which nobody looks on.
+    ///
+    /// # Errors
+    /// What the system says, or that there is no regular file at `path`.
+    pub fn save(path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let stream = || io::Error::other("it is no regular file");
+        let file = Self::at(path)?.ok_or_else(stream)?;
+        file.write(&|out| out.write_all(bytes), &Unobserved)
+    }
+
+    /// Looks whether the file at `path` can be written. `None` if there is a device or a pipe, which
+    /// cannot be replaced.
+    ///
+    /// # Errors
+    /// If it can't.
+    pub fn at(path: &Path) -> io::Result<Option<Self>> {
+        let present = fs::metadata(path).ok();
+        let permissions = match &present {
+            Some(meta) if meta.is_dir() => return Err(ErrorKind::IsADirectory.into()),
+            Some(meta) if !meta.is_file() => return Ok(None),
+            Some(meta) if meta.permissions().readonly() => {
+                return Err(io::Error::other("the file is read-only"));
+            }
+            Some(meta) => Some(meta.permissions()),
+            None => None,
+        };
+        // A link stays a link: what it points to is replaced, or made.
+        let target = path.canonicalize().or_else(|_| followed(path))?;
+        let folder = folder_of(&target);
+        // The errors of what follows name the draft, which means nothing to the user: the folder
+        // and the kind say it.
+        fs::metadata(folder)?;
+        draft(folder).map_err(|error| io::Error::from(error.kind()))?;
+        Ok(Some(Self {
+            target,
+            permissions,
+        }))
+    }
+
+    /// Writes a file beside its target and puts it in place, unless the observer says stop before.
+    ///
+    /// # Errors
+    /// What the system says, or that someone said stop.
+    pub fn write(
+        &self,
+        write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
+        observer: &dyn WriteObserver,
+    ) -> io::Result<()> {
+        let draft =
+            draft(folder_of(&self.target)).map_err(|error| io::Error::from(error.kind()))?;
+        observer.draft(Some(draft.path()));
+        let written = self.finish(draft, write, observer);
+        observer.draft(None);
+        written
+    }
+
+    fn finish(
+        &self,
+        mut draft: NamedTempFile,
+        write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
+        observer: &dyn WriteObserver,
+    ) -> io::Result<()> {
+        if let Some(permissions) = &self.permissions {
+            draft.as_file().set_permissions(permissions.clone())?;
+        }
+        // By the file itself: the errors of its wrapper name the draft.
+        write(draft.as_file_mut())?;
+        draft.as_file().sync_all()?;
+        if observer.is_stopped() {
+            return Err(ErrorKind::Interrupted.into());
+        }
+        let placed = draft.persist(&self.target);
+        placed.map_err(|error| error.error).map(drop)
+    }
+}
+
+/// The target of a path through links, which need not exist yet.
+fn followed(path: &Path) -> io::Result<PathBuf> {
+    let mut target = path.to_owned();
+    for _ in 0..MAX_LINKS {
+        match fs::read_link(&target) {
+            Ok(next) => target = folder_of(&target).join(next),
+            Err(_) => return Ok(target),
+        }
+    }
+    Err(io::Error::other("too many links"))
+}
+
+fn folder_of(target: &Path) -> &Path {
+    target
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty())
+        .unwrap_or(Path::new("."))
+}
+
+/// An empty file with the permissions of any new one, gone when dropped.
+fn draft(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".rtc-").suffix(".tmp");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
+}

@@ -1,0 +1,314 @@
+//! A scene from its files to its proof, with what was found about it on the way.
+
+use super::{Options, load, prove, stage};
+use crate::codec;
+use crate::diag::{Diagnostic, Sink, codes};
+use crate::emit::{self, gltf::GltfAsset};
+use crate::front::{gltf, mesh, pixels};
+use crate::ir::{Field, Light, Lowered, Noun, Place, Scene};
+use crate::passes::{EnvironmentOverride, FillLight, Framing, Stage};
+use crate::source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
+use crate::valid::Proof;
+use std::io::Read;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The largest picture of surroundings that is read, in bytes: one of 32-bit floats with every
+/// pixel allowed.
+const MAX_ENVIRONMENT: u64 = 1 << 29;
+
+/// A scene that was read, or could not be.
+pub struct Input {
+    /// The name of the scene in messages.
+    name: String,
+    map: SourceMap,
+    sink: Sink,
+    file: Option<FileId>,
+    options: Options,
+    /// Its view and light; none for a scene that is not to be shown.
+    stage: Option<Stage>,
+}
+
+/// A scene that was lowered, before its view and light are set.
+#[derive(Clone)]
+pub struct Loaded {
+    /// The scene and where its values were written.
+    pub lowered: Lowered,
+    /// It is an asset: glTF, or a mesh.
+    is_asset: bool,
+}
+
+/// A scene that was proven, and that from which it was.
+pub struct Proven {
+    /// The scene and where its values were written.
+    pub lowered: Lowered,
+    /// The proof.
+    pub scene: Proof,
+}
+
+/// Where a scene comes from, and what was chosen for it.
+pub struct Provenance {
+    /// It is an asset: glTF, or a mesh.
+    pub is_asset: bool,
+    /// It is one with lights of its own, and they are not left out.
+    pub is_lit_asset: bool,
+    /// It is one of colours that no light changes.
+    pub is_unlit: bool,
+    /// Whether the studio is still to fill in, beside its own light.
+    pub fill: FillLight,
+    /// How its view was found, if it has none of its own.
+    pub framing: Option<Framing>,
+}
+
+impl Input {
+    /// Reads the file at `path`.
+    #[must_use]
+    pub fn file(path: &Path, options: Options) -> Self {
+        let name = path.display().to_string();
+        Self::new(name, options, |_, map| Loader.file(path, map))
+    }
+
+    /// Reads all of `reader`, for instance standard input, under the name given.
+    #[must_use]
+    pub fn reader(name: String, reader: impl Read, options: Options) -> Self {
+        Self::new(name, options, |name, map| Loader.reader(name, reader, map))
+    }
+
+    /// Takes the scene at `path` of files in memory; it may name the others.
+    #[must_use]
+    pub fn memory(path: &str, files: MemoryFiles, options: Options) -> Self {
+        let files = Arc::new(files);
+        let name = path.to_owned();
+        Self::new(name, options, |name, map| Loader.memory(name, &files, map))
+    }
+
+    fn new(
+        name: String,
+        options: Options,
+        read: impl FnOnce(&str, &mut SourceMap) -> Result<FileId, LoadError>,
+    ) -> Self {
+        let limits = options.valid.limits;
+        let (mut map, mut sink) = (SourceMap::with_limits(limits), Sink::within(&limits));
+        let file = read(&name, &mut map);
+        let file = file
+            .map_err(|error| sink.push(unreadable(&name, &error)))
+            .ok();
+        Self {
+            name,
+            map,
+            sink,
+            file,
+            options,
+            stage: None,
+        }
+    }
+
+    /// The surroundings in a file; what is wrong in it is a finding.
+    ///
+    /// # Errors
+    /// If the file can't be read, in words.
+    pub fn environment(&mut self, path: &Path) -> Result<Option<EnvironmentOverride>, String> {
+        let name = path.display().to_string();
+        let bytes = Loader.bytes(path, MAX_ENVIRONMENT, &self.map);
+        let bytes = bytes.map_err(|error| format!("can't read `{name}`: {error}"))?;
+        // Where the file lies is no part of the scene.
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        let picture = pixels::environment(&file, &bytes, self.map.budget());
+        Ok(picture
+            .map_err(|fault| self.push(pixels::no_environment(&fault, &name)))
+            .map(EnvironmentOverride::Picture)
+            .ok())
+    }
+
+    /// Has it shown in the view and the light given.
+    pub fn stage(&mut self, stage: Stage) {
+        self.stage = Some(stage);
+    }
+
+    /// Has it not shown.
+    pub fn unstage(&mut self) {
+        self.stage = None;
+    }
+
+    /// Changes how it is shown.
+    pub fn restage(&mut self, change: impl FnOnce(&mut Stage)) {
+        self.stage.as_mut().map(change);
+    }
+
+    /// Loads it with so many threads, 0 for one per core.
+    pub fn use_threads(&mut self, threads: usize) {
+        self.options.front.threads = threads;
+    }
+
+    /// Lowers the scene, once: loading may release the bytes of its files.
+    pub fn load(&mut self) -> Option<Loaded> {
+        // What a file is, is seen from all of it.
+        let is_asset = self.is_asset();
+        let lowered = load(self.file?, &mut self.map, &self.options, &mut self.sink)?;
+        // What says how its picture is made is shown so, as a scene text is.
+        let settings = Place::new(Noun::Settings, 0, Field::Whole);
+        let is_asset = is_asset && lowered.origins.span(settings).is_none();
+        Some(Loaded { lowered, is_asset })
+    }
+
+    /// Whether the input is an asset by itself, glTF or a mesh.
+    fn is_asset(&self) -> bool {
+        let recognise = |file| {
+            let (name, bytes) = (self.map.name(file), self.map.bytes(file));
+            gltf::recognise(name, bytes) || mesh::recognise(name, bytes)
+        };
+        self.file.is_some_and(recognise)
+    }
+
+    /// Whether it is a scene text whose images and meshes came from files that it names: none is of
+    /// an asset.
+    #[must_use]
+    pub fn has_files_of_its_own(&self, lowered: &Lowered) -> bool {
+        let Some(own) = self.file.filter(|_| !self.is_asset()) else {
+            return false;
+        };
+        let is_ir = codec::recognise(self.map.bytes(own)).is_some();
+        let is_asset = |file| gltf::recognise(self.map.name(file), self.map.bytes(file));
+        let of_asset = |noun, count| {
+            let places = (0..count).map(move |index| Place::new(noun, index, Field::Whole));
+            let mut spans = places.filter_map(|place| lowered.origins.span(place));
+            spans.any(|span| is_asset(span.file))
+        };
+        let Scene {
+            images,
+            meshes,
+            materials,
+            ..
+        } = &lowered.scene;
+        !is_ir
+            && !of_asset(Noun::Image, images.len())
+            && !of_asset(Noun::Mesh, meshes.len())
+            && !of_asset(Noun::Material, materials.len())
+    }
+
+    /// Sets the stage of a scene that was loaded, lets `change` change it, and proves it.
+    pub fn prove(
+        &mut self,
+        loaded: Loaded,
+        change: impl FnOnce(&mut Lowered, &Provenance),
+    ) -> Option<Proven> {
+        let Loaded {
+            mut lowered,
+            is_asset,
+        } = loaded;
+        let provenance = self.set_stage(&mut lowered, is_asset);
+        change(&mut lowered, &provenance);
+        let scene = prove(&lowered, &self.options, &mut self.sink)?;
+        Some(Proven { lowered, scene })
+    }
+
+    fn set_stage(&mut self, lowered: &mut Lowered, is_asset: bool) -> Provenance {
+        let mut provenance = Provenance {
+            is_asset,
+            is_lit_asset: is_asset && lowered.scene.lights.iter().any(Light::shines),
+            is_unlit: is_asset && lowered.scene.is_unlit(),
+            fill: FillLight::Never,
+            framing: None,
+        };
+        let Some(wanted) = &self.stage else {
+            return provenance;
+        };
+        // An asset without a camera is seen by one that we choose.
+        let camera = lowered
+            .origins
+            .span(Place::new(Noun::Camera, 0, Field::Whole));
+        let is_bare = is_asset && camera.is_none();
+        provenance.is_lit_asset &= !wanted.without_lights;
+        if let Some(staged) = stage(lowered, wanted, is_bare, &mut self.sink) {
+            // A scene that says how it is lit is shown as it says.
+            let is_meant = staged.fill == FillLight::IfDim && !is_asset;
+            provenance.fill = if is_meant {
+                FillLight::Never
+            } else {
+                staged.fill
+            };
+            provenance.framing = staged.framing;
+        }
+        provenance
+    }
+
+    /// The scene as glTF; `None` if that is not possible, with a finding that says why.
+    pub fn gltf(&mut self, lowered: &Lowered, tolerance: Option<f64>) -> Option<GltfAsset> {
+        let Lowered { scene, origins } = lowered;
+        emit::gltf::emit(scene, origins, tolerance, self.map.budget(), &mut self.sink)
+    }
+
+    /// What was found since the last time.
+    pub fn take_findings(&mut self) -> Sink {
+        std::mem::replace(&mut self.sink, Sink::within(&self.options.valid.limits))
+    }
+
+    /// Puts what was found before in place of what was found since.
+    pub fn put_findings(&mut self, found: Sink) {
+        self.sink = found;
+    }
+
+    /// Whether the file of the scene could be read.
+    #[must_use]
+    pub fn is_read(&self) -> bool {
+        self.file.is_some()
+    }
+
+    /// Adds a finding.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.sink.push(diagnostic);
+    }
+
+    /// How many rays a picture may take.
+    #[must_use]
+    pub fn rays(&self) -> u64 {
+        self.options.valid.limits.of(Resource::Rays, 0)
+    }
+
+    /// Lets pictures take any number of rays.
+    pub fn lift_rays(&mut self) {
+        self.options.valid.limits.set(Resource::Rays, u64::MAX);
+    }
+
+    /// The file and the line at which a span begins.
+    #[must_use]
+    pub fn line(&self, span: Span) -> (&str, u32) {
+        (
+            self.map.name(span.file),
+            self.map.line_column(span.file, span.start).line,
+        )
+    }
+
+    /// Whether the file at a path was read: the scene, or what it names.
+    #[must_use]
+    pub fn has_read(&self, path: &Path) -> bool {
+        self.map.has_read(path)
+    }
+
+    /// The name of the scene in messages.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its files.
+    #[must_use]
+    pub fn map(&self) -> &SourceMap {
+        &self.map
+    }
+}
+
+fn unreadable(name: &str, error: &LoadError) -> Diagnostic {
+    match error {
+        LoadError::Io(error) => {
+            Diagnostic::new(&codes::CANNOT_READ, format!("can't read `{name}`: {error}"))
+        }
+        LoadError::TooLarge { limit } => {
+            let limit = limit >> 20;
+            Diagnostic::new(
+                &codes::TOO_LARGE,
+                format!("`{name}` is larger than {limit} MiB"),
+            )
+        }
+    }
+}

@@ -1,0 +1,301 @@
+//! From film to file: which kind of file, which values the film must hold for it, and the bytes.
+
+use super::findings;
+use crate::color::Tone;
+use crate::diag::Diagnostic;
+use crate::image::{
+    self, Association, BackgroundFill, EncodeError, Image, Layers, Lost, Origin, Picture,
+};
+use crate::ir::Display;
+use crate::plan::Arithmetic;
+use crate::render::{Aov, Background, Values};
+use crate::valid::Mode;
+use serde::{Deserialize, Serialize};
+
+/// An exposure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Exposure {
+    /// By what is seen.
+    Auto,
+    /// In stops.
+    Stops(f64),
+}
+
+/// A kind of pixel file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum OutputFormat {
+    /// 8 bits a channel, as displayed.
+    Png8,
+    /// 16 bits a channel, as displayed.
+    Png16,
+    /// 32-bit floats, linear.
+    Exr,
+}
+
+/// The look of a picture, as asked for.
+#[derive(Clone, Debug)]
+pub struct OutputLook {
+    /// The kind of file that it is for.
+    pub kind: OutputFormat,
+    /// The tone map asked for.
+    tone: Option<Tone>,
+    /// The exposure asked for.
+    asked: Option<Exposure>,
+    /// The exposure in stops; that of the scene until an automatic one is found.
+    stops: f64,
+    background: BackgroundFill,
+    /// The layers wanted, each once.
+    pub aovs: Vec<Aov>,
+}
+
+impl OutputLook {
+    /// A look for a kind of file: tone map, exposure, background, layers.
+    ///
+    /// # Errors
+    /// What the kind of file does not hold.
+    pub fn new(
+        kind: OutputFormat,
+        tone: Option<Tone>,
+        asked: Option<Exposure>,
+        background: BackgroundFill,
+        layers: &[Aov],
+    ) -> Result<Self, &'static str> {
+        let is_linear = kind == OutputFormat::Exr;
+        if is_linear && tone.is_some_and(|tone| tone != Tone::None) {
+            return Err("`--tonemap` is for PNG; an EXR holds linear values");
+        }
+        if is_linear && asked == Some(Exposure::Auto) {
+            return Err("`--exposure auto` is for PNG; an EXR holds linear values");
+        }
+        let mut aovs: Vec<Aov> = Vec::new();
+        for aov in layers {
+            if !aovs.contains(aov) {
+                aovs.push(*aov);
+            }
+        }
+        Ok(Self {
+            kind,
+            tone,
+            asked,
+            stops: match asked {
+                Some(Exposure::Stops(stops)) => stops,
+                Some(Exposure::Auto) | None => 0.0,
+            },
+            background,
+            aovs,
+        })
+    }
+
+    /// Shows a glTF asset by itself, unless another tone map is asked for: its whites keep their
+    /// shades, and its colours stay those that its maker chose.
+    pub fn show_asset(&mut self) {
+        if self.kind != OutputFormat::Exr {
+            self.tone = self.tone.or(Some(Tone::PbrNeutral));
+        }
+    }
+
+    /// Shows a scene as it asks for, where nothing else is asked for.
+    pub fn show_as(&mut self, display: &Display) {
+        let Display { exposure, tone } = display;
+        if self.kind != OutputFormat::Exr {
+            self.tone = self.tone.or(*tone);
+            if self.asked.is_none() {
+                self.stops = *exposure;
+            }
+        }
+    }
+
+    /// The same as a scene asks for it, with all that was found.
+    #[must_use]
+    pub fn as_display(&self) -> Display {
+        Display {
+            exposure: self.stops,
+            tone: self.tone,
+        }
+    }
+
+    /// Whether the exposure is to be found: if it is asked for, or for the PNG of an asset with
+    /// lights of its own.
+    pub fn finds_exposure(&self, is_lit_asset: bool) -> bool {
+        match self.asked {
+            Some(Exposure::Auto) => true,
+            Some(Exposure::Stops(_)) => false,
+            None => is_lit_asset && self.kind != OutputFormat::Exr,
+        }
+    }
+
+    /// Sets the exposure that was found, in stops.
+    pub fn expose(&mut self, stops: f64) {
+        self.stops = stops;
+    }
+
+    /// The exposure in stops, if nobody asked for it here and it changes the picture; never that of an
+    /// EXR.
+    pub fn found_exposure(&self) -> Option<f64> {
+        let is_asked = matches!(self.asked, Some(Exposure::Stops(_)));
+        (!is_asked && self.stops != 0.0).then_some(self.stops)
+    }
+
+    /// How values are shown, and what they are multiplied by before; linear ones as sRGB shows them.
+    pub fn display(&self, mode: &Mode) -> (Tone, f64) {
+        let tone = match self.tone(mode) {
+            Tone::None | Tone::Srgb => Tone::Srgb,
+            tone @ (Tone::Agx | Tone::PbrNeutral) => tone,
+        };
+        (tone, image::exposure(self.stops))
+    }
+
+    /// The tone map of a picture of this mode.
+    fn tone(&self, mode: &Mode) -> Tone {
+        match self.kind {
+            OutputFormat::Exr => Tone::None,
+            OutputFormat::Png8 | OutputFormat::Png16 => self.tone.unwrap_or(mode.tone()),
+        }
+    }
+
+    /// Which values a film of this mode must hold.
+    pub fn values(&self, mode: &Mode) -> Values {
+        let is_plain = self.kind != OutputFormat::Exr && self.stops == 0.0;
+        // Display values of the course are clamped sample by sample, as only its untouched pictures
+        // want it.
+        if is_plain && mode.tone() == Tone::None && self.tone(mode) == Tone::None {
+            Values::Display
+        } else {
+            Values::Linear
+        }
+    }
+
+    /// What the film must show behind all surfaces.
+    pub fn background(&self) -> Background {
+        if self.background == BackgroundFill::Film {
+            Background::Environment
+        } else {
+            Background::Nothing
+        }
+    }
+
+    /// Adds the settings of the look that differ from the default to the origin of a picture.
+    pub fn describe(&self, settings: &mut serde_json::Value) {
+        if self.stops != 0.0 {
+            settings["exposure"] = self.stops.into();
+        }
+        if let Some(tone) = self.tone {
+            settings["tonemap"] = tone.name().into();
+        }
+        match self.background {
+            BackgroundFill::Film => {}
+            BackgroundFill::Transparent => settings["background"] = "transparent".into(),
+            BackgroundFill::Color(color) => settings["background"] = color.to_vec().into(),
+        }
+    }
+
+    /// The most bytes that a pixel takes on its way into the file: as numbers, packed, and in the
+    /// file, which grows by doubling.
+    pub fn memory(&self) -> usize {
+        let channel = match self.kind {
+            OutputFormat::Png8 => 1,
+            OutputFormat::Png16 => 2,
+            OutputFormat::Exr => 4,
+        };
+        let layers: usize = self.aovs.iter().map(|aov| aov.channels().len()).sum();
+        4 * channel * (4 + layers)
+    }
+
+    /// The look as it is for a scene of this mode, with all that was found.
+    #[must_use]
+    pub fn settled(&self, mode: &Mode) -> SettledLook {
+        SettledLook {
+            kind: self.kind,
+            stops: self.stops,
+            tone: self.tone(mode),
+            background: self.background,
+            found: self.found_exposure(),
+        }
+    }
+}
+
+/// A look of which nothing is still to be found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct SettledLook {
+    /// The kind of file that it is for.
+    pub kind: OutputFormat,
+    stops: f64,
+    tone: Tone,
+    background: BackgroundFill,
+    /// The exposure that was found and is told in the file, in stops.
+    found: Option<f64>,
+}
+
+impl SettledLook {
+    /// The picture of a film.
+    fn develop(&self, film: Image, coverage: Vec<f32>) -> Picture {
+        let association = match self.kind {
+            OutputFormat::Exr => Association::Associated,
+            OutputFormat::Png8 | OutputFormat::Png16 => Association::Straight,
+        };
+        image::Look {
+            stops: self.stops,
+            tone: self.tone,
+            background: self.background,
+        }
+        .develop(film, coverage, association)
+    }
+
+    /// The picture of a film, given with its coverage and how many values are no numbers, and of its
+    /// layers; and what is found in it.
+    #[must_use]
+    pub fn finish(
+        &self,
+        (image, coverage, unnumbered): (Image, Vec<f32>, u64),
+        layers: Layers,
+        arithmetic: Arithmetic,
+    ) -> (Picture, Vec<Diagnostic>) {
+        // Where samples are clamped, and where a tone map follows, no more is seen of what is no
+        // number.
+        let unnumbered = image.unnumbered().max(unnumbered);
+        let mut picture = self.develop(image, coverage);
+        picture.layers = layers;
+        let lost = self.lost(&picture);
+        let lost = Lost {
+            unnumbered: lost.unnumbered.max(unnumbered),
+            ..lost
+        };
+        (picture, findings::unholdable(&lost, arithmetic))
+    }
+
+    /// What the file can't hold; a PNG clamps all colours alike.
+    fn lost(&self, picture: &Picture) -> Lost {
+        let lost = picture.lost();
+        if self.kind == OutputFormat::Exr {
+            lost
+        } else {
+            Lost {
+                beyond: Vec::new(),
+                ..lost
+            }
+        }
+    }
+
+    /// The bytes of the file.
+    ///
+    /// # Errors
+    /// If the picture is larger than the format can hold.
+    pub fn encode(
+        &self,
+        picture: &Picture,
+        origin: impl FnOnce() -> Origin,
+    ) -> Result<Vec<u8>, EncodeError> {
+        let form = match self.kind {
+            OutputFormat::Png8 => image::FileFormat::Png8,
+            OutputFormat::Png16 => image::FileFormat::Png16,
+            OutputFormat::Exr => image::FileFormat::Exr(origin()),
+        };
+        let bytes = picture.encode(&form)?;
+        Ok(match self.found {
+            Some(stops) => image::commented(&bytes, &format!("exposure {stops:.4} stops")),
+            None => bytes,
+        })
+    }
+}

@@ -1,0 +1,123 @@
+//! A part as a file, `.rtp`: 8 bytes magic, version and length of the header (u32 each), length of the
+//! film (u64), the header in JSON, the film, the numbers of the layers, and the xxh3 of all before.
+//! Numbers are little-endian.
+
+use super::{PartError, PartHead, PicturePart};
+use crate::render::PartialFilm;
+use std::collections::BTreeMap;
+use xxhash_rust::xxh3::xxh3_64;
+
+/// What a part begins with; whatever takes it for text changes it.
+const MAGIC: [u8; 8] = *b"\x89RTP\r\n\x1a\n";
+
+/// The version of the format.
+const VERSION: u32 = 1;
+
+/// The bytes before the header: magic, version, and the lengths of header and film.
+const PREAMBLE: usize = 24;
+
+impl PicturePart {
+    /// The part as bytes; equal parts are equal bytes.
+    ///
+    /// # Panics
+    /// If the words of its command take more than 4 GiB.
+    #[must_use]
+    pub fn save(&self) -> Vec<u8> {
+        let head = serde_json::to_vec(&self.head).expect("maps with string keys, lists, numbers");
+        let film = self.film.save();
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend(VERSION.to_le_bytes());
+        let length = u32::try_from(head.len()).expect("a header is short");
+        bytes.extend(length.to_le_bytes());
+        bytes.extend((film.len() as u64).to_le_bytes());
+        bytes.extend(head);
+        bytes.extend(film);
+        let layers = self.layers.values().flatten();
+        bytes.extend(layers.flat_map(|value| value.to_le_bytes()));
+        bytes.extend(xxh3_64(&bytes).to_le_bytes());
+        bytes
+    }
+
+    /// The part of such bytes, of a picture of at most `max_pixels` pixels. No memory is taken that
+    /// the bytes do not fill.
+    ///
+    /// # Errors
+    /// If the bytes are of something else, of another version, or damaged.
+    pub fn load(bytes: &[u8], max_pixels: u64) -> Result<Self, PartError> {
+        if !bytes.starts_with(&MAGIC) {
+            return Err(PartError::NotAPart);
+        }
+        let version = number(bytes, MAGIC.len())?;
+        if version != VERSION {
+            return Err(PartError::Version(version));
+        }
+        let (rest, sum) = bytes.split_last_chunk().ok_or(SHORT)?;
+        if xxh3_64(rest) != u64::from_le_bytes(*sum) {
+            return Err(PartError::Damaged("its checksum does not fit"));
+        }
+        let length = number(rest, 12)? as usize;
+        let film = rest
+            .get(16..PREAMBLE)
+            .and_then(|bytes| bytes.try_into().ok());
+        let film = film.map(u64::from_le_bytes).ok_or(SHORT)?;
+        let film = usize::try_from(film).map_err(|_| SHORT)?;
+        let (head, rest) = rest[PREAMBLE..].split_at_checked(length).ok_or(SHORT)?;
+        let (film, layers) = rest.split_at_checked(film).ok_or(SHORT)?;
+        let head: PartHead = serde_json::from_slice(head)
+            .map_err(|_| PartError::Damaged("its header is not as it should be"))?;
+        head.check(max_pixels)?;
+        let film = PartialFilm::load(film, max_pixels).map_err(PartError::Film)?;
+        let layers = head.layers(layers)?;
+        Ok(Self { head, film, layers })
+    }
+}
+
+/// The most shares of a picture.
+pub const MOST: u32 = 65_536;
+
+const SHORT: PartError = PartError::Damaged("its end is missing");
+
+/// The number of 32 bits at a place.
+fn number(bytes: &[u8], at: usize) -> Result<u32, PartError> {
+    let bytes = bytes
+        .get(at..at + 4)
+        .and_then(|bytes| bytes.try_into().ok());
+    bytes.map(u32::from_le_bytes).ok_or(SHORT)
+}
+
+impl PartHead {
+    /// Refuses shares and windows that no program writes.
+    fn check(&self, max_pixels: u64) -> Result<(), PartError> {
+        let [x, y, width, height] = self.window;
+        let is_window = x.checked_add(width).is_some()
+            && y.checked_add(height).is_some()
+            && u64::from(width) * u64::from(height) <= max_pixels;
+        let ascend = self.shares.windows(2).all(|pair| pair[0] < pair[1]);
+        let are_in_range = self
+            .shares
+            .iter()
+            .all(|share| (1..=self.count).contains(share));
+        let are_once =
+            (1..self.layers.len()).all(|at| !self.layers[..at].contains(&self.layers[at]));
+        let is_count = self.count <= MOST && !self.shares.is_empty();
+        (is_window && is_count && ascend && are_in_range && are_once)
+            .then_some(())
+            .ok_or(PartError::Damaged("its shares can't be those of a picture"))
+    }
+
+    /// The numbers of the layers, tile by tile.
+    fn layers(&self, bytes: &[u8]) -> Result<BTreeMap<usize, Vec<f32>>, PartError> {
+        const WRONG: PartError = PartError::Damaged("its layers have another size");
+        let mut rest = bytes;
+        let mut layers = BTreeMap::new();
+        for (tile, area) in self.tiles() {
+            let length = area.pixels() * self.channels() * 4;
+            let (own, after) = rest.split_at_checked(length).ok_or(WRONG)?;
+            let (numbers, _) = own.as_chunks();
+            let numbers = numbers.iter().copied().map(f32::from_le_bytes);
+            layers.insert(tile, numbers.collect());
+            rest = after;
+        }
+        rest.is_empty().then_some(layers).ok_or(WRONG)
+    }
+}

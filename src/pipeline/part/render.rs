@@ -1,0 +1,68 @@
+//! Shares of a picture rendered, and what says of which picture they are.
+
+use super::super::{
+    Meter, Observer, PicturePart, PictureSetup, RenderError, RenderSubject, SharedBy, Shares,
+};
+use super::Made;
+use crate::render::{Crop, Job};
+use crate::valid;
+
+/// Why a picture has no parts by samples.
+const INSEPARABLE: &str = "only pictures of traced paths have parts by samples; \
+     `--parts-by tiles` shares out any picture";
+
+impl PictureSetup {
+    /// Some shares of the picture, or where its rays ran out, of which there may be so many.
+    ///
+    /// # Errors
+    /// If there is none, or no paths are traced whose samples could be shared out.
+    pub fn part(
+        &self,
+        subject: &mut RenderSubject,
+        (shares, window, rays): (Shares, Crop, u64),
+        observer: &Observer<'_>,
+    ) -> Result<PicturePart, RenderError> {
+        let settings = subject.proven.scene.settings();
+        let look = self.look.settled(&settings.mode);
+        let whole = Job {
+            crop: Some(window),
+            values: self.look.values(&settings.mode),
+            background: self.look.background(),
+            ..Job::default()
+        };
+        let (job, samples) = match (shares.by, &settings.mode) {
+            (SharedBy::Tiles, _) => {
+                let tiles = Some(shares.tiles());
+                (Job { tiles, ..whole }, None)
+            }
+            (SharedBy::Samples, valid::Mode::Path(path)) => {
+                (whole, Some(shares.samples(path.samples.get())))
+            }
+            (SharedBy::Samples, _) => return Err(RenderError::Refused(INSEPARABLE.to_owned())),
+        };
+        let meter = Meter::new(rays, window);
+        let on_pixel = |step| {
+            (observer.on_step)(step);
+            !(observer.is_stopped)() && meter.step(step)
+        };
+        let film = self
+            .renderer(subject)?
+            .1
+            .render_part(&job, samples, &on_pixel);
+        if let Some(finding) = subject.ran_out(&meter, observer) {
+            return Err(RenderError::RanOut(finding));
+        }
+        let film = film.map_err(|error| RenderError::Refused(error.to_string()))?;
+        let film = film.ok_or(RenderError::Stopped)?;
+        let tiles = Some(shares.tiles());
+        let layers = self.layers(subject, &Job { tiles, ..job }, observer.is_stopped)?;
+        let origin = self.origin(&subject.proven.lowered.scene);
+        let made = Made {
+            origin,
+            look,
+            arithmetic: self.arithmetic,
+            aovs: &self.look.aovs,
+        };
+        Ok(PicturePart::new(made, (shares, window), film, &layers))
+    }
+}

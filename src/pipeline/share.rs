@@ -1,0 +1,136 @@
+//! Shares of a picture: which of its tiles, or which of its samples, one of several renders takes.
+//! Together they are all of it, and no two have anything in common.
+
+use crate::render::{SAMPLES_OF_BLOCK, Tiles};
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// How a picture is shared out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum SharedBy {
+    /// Each share is some of its tiles, with all their samples.
+    #[default]
+    Tiles,
+    /// Each share is some blocks of the samples of all pixels, where paths are traced.
+    Samples,
+}
+
+/// Some of the shares of a picture, one after another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shares {
+    /// How it is shared out.
+    pub by: SharedBy,
+    /// The first of them, from 1 on.
+    pub first: u32,
+    /// The last of them, at most `count`; below the first if there are none.
+    pub last: u32,
+    /// How many the picture has.
+    pub count: u32,
+}
+
+impl Shares {
+    /// The tiles of the shares: those whose rank, a hash of their place, lies in these of `count` equal
+    /// stretches.
+    #[must_use]
+    pub fn tiles(&self) -> Tiles {
+        if self.last < self.first {
+            // No rank is in it.
+            return Tiles {
+                seed: 0,
+                first: 1,
+                last: 0,
+            };
+        }
+        let count = u128::from(self.count.max(1));
+        // The border after so many shares, of 2⁶⁴.
+        let border = |shares: u32| (u128::from(shares) << 64) / count;
+        let rank = |border: u128| u64::try_from(border).unwrap_or(u64::MAX);
+        Tiles {
+            seed: 0,
+            first: rank(border(self.first.saturating_sub(1))),
+            last: rank(border(self.last).saturating_sub(1)),
+        }
+    }
+
+    /// The number of the share, of `count`, that has the tile whose upper left pixel is given.
+    #[must_use]
+    pub fn of_tile(count: u32, [x, y]: [u32; 2]) -> u32 {
+        let rank = Tiles::rank(0, [x, y].map(|at| at / Tiles::SIDE));
+        // The last share whose border is not above the rank.
+        let before = ((u128::from(rank) + 1) * u128::from(count.max(1)) - 1) >> 64;
+        u32::try_from(before).map_or(count, |before| before + 1)
+    }
+
+    /// The samples of the shares, of so many a pixel: whole blocks of them; none if there are more
+    /// shares than blocks.
+    #[must_use]
+    pub fn samples(&self, all: u32) -> Range<u32> {
+        let blocks = u64::from(all.div_ceil(SAMPLES_OF_BLOCK));
+        let border = |shares: u32| {
+            let block = blocks * u64::from(shares) / u64::from(self.count.max(1));
+            let sample = block * u64::from(SAMPLES_OF_BLOCK);
+            u32::try_from(sample).map_or(all, |sample| sample.min(all))
+        };
+        border(self.first.saturating_sub(1))..border(self.last)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(by: SharedBy, index: u32, count: u32) -> Shares {
+        Shares {
+            by,
+            first: index,
+            last: index,
+            count,
+        }
+    }
+
+    fn shares(by: SharedBy, count: u32) -> impl Iterator<Item = Shares> {
+        (1..=count).map(move |index| one(by, index, count))
+    }
+
+    #[test]
+    fn each_tile_is_in_one_share() {
+        for count in [1, 2, 3, 7, 64, u32::MAX] {
+            let last = one(SharedBy::Tiles, count, count);
+            assert_eq!(last.tiles().last, u64::MAX, "of {count}");
+        }
+        for count in [1, 2, 3, 7, 64] {
+            let tiles: Vec<Tiles> = shares(SharedBy::Tiles, count)
+                .map(|share| share.tiles())
+                .collect();
+            assert_eq!(tiles[0].first, 0);
+            for pair in tiles.windows(2) {
+                assert_eq!(pair[0].last + 1, pair[1].first, "of {count}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_tile_knows_its_share() {
+        for count in [1, 2, 7, 64, 1000] {
+            for tile in (0..20).flat_map(|x| (0..20).map(move |y| [16 * x, 16 * y])) {
+                let index = Shares::of_tile(count, tile);
+                let share = one(SharedBy::Tiles, index, count);
+                assert!((1..=count).contains(&index) && share.tiles().contain(tile));
+            }
+        }
+    }
+
+    #[test]
+    fn each_block_of_samples_is_in_one_share() {
+        for (all, count) in [(64, 1), (64, 4), (100, 7), (16, 64), (1, 2), (u32::MAX, 3)] {
+            let samples = shares(SharedBy::Samples, count).map(|share| share.samples(all));
+            let end = samples.fold(0, |end, samples| {
+                assert_eq!(samples.start, end, "of {count}");
+                assert!(samples.end == all || samples.end.is_multiple_of(16));
+                samples.end
+            });
+            assert_eq!(end, all);
+        }
+    }
+}

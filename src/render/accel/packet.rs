@@ -1,0 +1,196 @@
+//! Eight rays that go nearly the same way against the boxes of a node, and against a triangle: what
+//! none of them meets alone, they don't meet together.
+//!
+//! Rounding keeps order: what is found for the ends of an interval bounds what is found for each
+//! ray in it, so that intervals need no error bounds beyond those of a single ray.
+
+use crate::render::accel::beam::Beam;
+use crate::render::accel::lanes::{
+    GROWN, LeafVerdict, TRIANGLES, TriangleLanes, WIDTH, WideLeaf, WideNode, bits, nearer_ends,
+};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8};
+
+/// Rays of a packet.
+pub(in crate::render::accel) const RAYS: usize = 8;
+
+/// A number of each ray.
+type OfRays = [f32; RAYS];
+
+/// Eight beams that have the same main axis, and the same signs along all axes.
+pub(in crate::render::accel) struct Packet<S: Simd> {
+    /// Where the nearer ends of boxes are among those of an axis.
+    near: [usize; 3],
+    /// The origins that let boxes be entered first, and left last.
+    first: [f32; 3],
+    last: [f32; 3],
+    /// The least and the greatest of each axis.
+    inverse: [[f32; 2]; 3],
+    near_origin: [f32x8<S>; 3],
+    far_origin: [f32x8<S>; 3],
+    inverses: [f32x8<S>; 3],
+    triangles: TriangleLanes<f32x8<S>>,
+}
+
+/// A number of each beam, and its range.
+#[inline(always)]
+fn of_each(beams: &[Beam; RAYS], number: impl Fn(&Beam) -> f32) -> (OfRays, [f32; 2]) {
+    let (mut all, mut range) = ([0.0; RAYS], [f32::INFINITY, f32::NEG_INFINITY]);
+    // Counted, as are all loops over rays here: chained iterators become calls.
+    for lane in 0..RAYS {
+        all[lane] = number(&beams[lane]);
+        range = [range[0].min(all[lane]), range[1].max(all[lane])];
+    }
+    (all, range)
+}
+
+/// Whether all have the same main axis and the same signs.
+#[inline(always)]
+fn are_alike(beams: &[Beam; RAYS]) -> bool {
+    let mut are_alike = true;
+    for lane in 1..RAYS {
+        are_alike &= beams[lane].axes[2] == beams[0].axes[2] && beams[lane].down == beams[0].down;
+    }
+    are_alike
+}
+
+impl<S: Simd> Packet<S> {
+    /// The packet of eight beams; `None` if they don't go the same way.
+    #[inline(always)]
+    pub(in crate::render::accel) fn new(simd: S, beams: &[Beam; RAYS]) -> Option<Self> {
+        if !are_alike(beams) {
+            return None;
+        }
+        let Beam { axes, down, .. } = beams[0];
+        let lanes = |lanes: OfRays| f32x8::load_array(simd, lanes);
+        let zero = f32x8::splat(simd, 0.0);
+        let [mut near_origin, mut far_origin, mut inverses] = [[zero; 3]; 3];
+        let [mut first, mut last] = [[0.0; 3]; 2];
+        let mut inverse = [[0.0; 2]; 3];
+        for axis in 0..3 {
+            let (near, near_range) = of_each(beams, |beam| beam.near_origin[axis]);
+            let (far, far_range) = of_each(beams, |beam| beam.far_origin[axis]);
+            let (all, range) = of_each(beams, |beam| beam.inverse[axis]);
+            (near_origin[axis], far_origin[axis]) = (lanes(near), lanes(far));
+            (inverses[axis], inverse[axis]) = (lanes(all), range);
+            first[axis] = near_range[usize::from(!down[axis])];
+            last[axis] = far_range[usize::from(down[axis])];
+        }
+        let origin = |k: usize| lanes(of_each(beams, |beam| beam.origin[k]).0);
+        let slope = |k: usize| lanes(of_each(beams, |beam| beam.slopes[k]).0);
+        Some(Self {
+            near: nearer_ends(down),
+            first,
+            last,
+            inverse,
+            near_origin,
+            far_origin,
+            inverses,
+            triangles: TriangleLanes {
+                axes,
+                origin: [origin(0), origin(1), origin(2)],
+                main: f32x8::splat(simd, beams[0].main),
+                slopes: [slope(0), slope(1)],
+                error: lanes(of_each(beams, |beam| beam.error).0),
+            },
+        })
+    }
+
+    /// Where the ends of boxes begin, nearer or farther ones.
+    #[inline(always)]
+    fn ends(&self, axis: usize, is_far: bool) -> usize {
+        let near = if is_far {
+            !self.near[axis]
+        } else {
+            self.near[axis]
+        };
+        2 * WIDTH * axis + (near & WIDTH)
+    }
+
+    /// The two products of which one bounds those of all rays with the ends of boxes.
+    #[inline(always)]
+    fn products(&self, simd: S, node: &WideNode, axis: usize, is_far: bool) -> [f32x8<S>; 2] {
+        let at = self.ends(axis, is_far);
+        let origin = if is_far { self.last } else { self.first }[axis];
+        let distance = f32x8::from_slice(simd, &node[at..at + WIDTH]) - origin;
+        let [least, greatest] = self.inverse[axis];
+        [distance * least, distance * greatest]
+    }
+
+    #[inline(always)]
+    fn enter(&self, simd: S, node: &WideNode, axis: usize) -> f32x8<S> {
+        let [a, b] = self.products(simd, node, axis, false);
+        a.min(b)
+    }
+
+    #[inline(always)]
+    fn leave(&self, simd: S, node: &WideNode, axis: usize) -> f32x8<S> {
+        let [a, b] = self.products(simd, node, axis, true);
+        a.max(b)
+    }
+
+    /// Which boxes of a node any of the beams may meet before `limit`, as bits, and where at the
+    /// earliest.
+    #[inline(always)]
+    pub(in crate::render::accel) fn meet(
+        &self,
+        simd: S,
+        node: &WideNode,
+        limit: f32,
+    ) -> (u32, [f32; WIDTH]) {
+        let enter = self
+            .enter(simd, node, 0)
+            .max(self.enter(simd, node, 1))
+            .max(self.enter(simd, node, 2).max(0.0));
+        let leave = self
+            .leave(simd, node, 0)
+            .min(self.leave(simd, node, 1))
+            .min(self.leave(simd, node, 2))
+            * GROWN;
+        let met = enter.simd_le(leave.min(limit));
+        (bits(met.to_bitmask()), enter.into())
+    }
+
+    /// Whether any beam meets the box of a child before its own limit.
+    #[inline(always)]
+    pub(in crate::render::accel) fn is_met(
+        &self,
+        simd: S,
+        node: &WideNode,
+        child: usize,
+        limits: &OfRays,
+    ) -> bool {
+        let enter = |axis: usize| {
+            let end = f32x8::splat(simd, node[self.ends(axis, false) + child]);
+            (end - self.near_origin[axis]) * self.inverses[axis]
+        };
+        let leave = |axis: usize| {
+            let end = f32x8::splat(simd, node[self.ends(axis, true) + child]);
+            (end - self.far_origin[axis]) * self.inverses[axis]
+        };
+        let first = enter(0).max(enter(1)).max(enter(2).max(0.0));
+        let last = leave(0).min(leave(1)).min(leave(2)) * GROWN;
+        let met = first.simd_le(last.min(f32x8::load_array(simd, *limits)));
+        bits(met.to_bitmask()) != 0
+    }
+
+    /// Which beams may hit a triangle of a leaf before their limits; if `SURE`, also which surely
+    /// hit it before the second ones.
+    #[inline(always)]
+    pub(in crate::render::accel) fn judge<const SURE: bool>(
+        &self,
+        simd: S,
+        leaf: &WideLeaf,
+        lane: usize,
+        limits: &[OfRays; 2],
+    ) -> LeafVerdict {
+        self.triangles.verdict::<SURE, S>(
+            #[inline(always)]
+            |at: usize| f32x8::splat(simd, leaf[at + (lane & (TRIANGLES - 1))]),
+            [
+                f32x8::load_array(simd, limits[0]),
+                f32x8::load_array(simd, limits[1]),
+            ],
+        )
+    }
+}

@@ -1,0 +1,307 @@
+//! The library as its callers see it: by its public names alone.
+
+#![expect(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test stops at the first surprise and reads what it checks"
+)]
+
+#[path = "../examples/check.rs"]
+#[expect(dead_code, reason = "the test calls what main does")]
+mod check;
+#[path = "../examples/custom_light.rs"]
+#[expect(dead_code, reason = "the test calls what main does")]
+mod custom_light;
+#[path = "../examples/render.rs"]
+#[expect(dead_code, reason = "the test calls what main does")]
+mod render;
+
+use rtc::{Aov, Error, Format, Light, Options, Picture, Reading, Scene, Severity, Tone};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use tempfile::TempDir;
+
+/// A ball, and a light on it.
+const BALL: &str = "\
+Camera: {eye: [20, 20, 100], center: [20, 20, 0], up: [0, 1, 0], viewSize: [40, 40]}
+Lights:
+- {position: [-20, 60, 150], color: [1, 1, 1]}
+Objects:
+- {type: sphere, position: [20, 20, 0], radius: 14, material: {color: [1, 0.5, 0.2], ka: 0.2, kd: 0.8, ks: 0, n: 1}}
+";
+
+fn ball() -> Scene {
+    Scene::from_files("ball.yaml", [("ball.yaml".to_owned(), BALL.into())]).unwrap()
+}
+
+fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+fn text(path: &Path) -> String {
+    path.to_str().unwrap().to_owned()
+}
+
+/// The bytes that the command line writes for the same.
+fn by_command(scene: &Path, picture: &str, arguments: &[&str]) -> Vec<u8> {
+    let folder = TempDir::new().unwrap();
+    let picture = folder.path().join(picture);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rtc"));
+    command.arg("render").arg(scene).arg("-o").arg(&picture);
+    let said = command.args(arguments).output().unwrap();
+    assert!(said.status.success(), "{said:?}");
+    fs::read(picture).unwrap()
+}
+
+#[test]
+fn pictures_are_those_of_the_command_line() {
+    let globe = path("scenes/globe.yaml");
+    let small = Options::new().size(24, 20).supersampling(1).threads(2);
+    let arguments = ["--size", "24x20", "--supersampling", "1"];
+    let rendered = |scene: &Path, options: &Options| {
+        let picture = Scene::open(scene).unwrap().render(options).unwrap();
+        picture.encode().unwrap()
+    };
+    assert_eq!(
+        rendered(&globe, &small),
+        by_command(&globe, "a.png", &arguments)
+    );
+    let linear = small.format(Format::Exr).layer(Aov::Depth);
+    let wide = [&arguments[..], &["--aov", "depth"]].concat();
+    assert_eq!(
+        rendered(&globe, &linear),
+        by_command(&globe, "a.exr", &wide)
+    );
+    // An asset: framed, in the studio, toned.
+    let asset = path("tests/render/asset/binary.glb");
+    let toned = Options::new()
+        .size(20, 20)
+        .samples(4)
+        .tonemap(Tone::Agx)
+        .transparent();
+    let arguments = "--size 20x20 --spp 4 --tonemap agx --background transparent";
+    let arguments: Vec<_> = arguments.split(' ').collect();
+    assert_eq!(
+        rendered(&asset, &toned),
+        by_command(&asset, "a.png", &arguments)
+    );
+}
+
+#[test]
+fn the_examples_do_what_they_say() {
+    let folder = TempDir::new().unwrap();
+    let picture = folder.path().join("a.png");
+    render::render(&text(&path("scenes/grey-ball.yaml")), &text(&picture)).unwrap();
+    let first = fs::read(&picture).unwrap();
+    let sun = Light::sun([1.0, 0.4, 0.6], [3.0, 1.6, 0.8]);
+    let relit = |light| {
+        custom_light::relight(
+            &text(&path("scenes/grey-ball.yaml")),
+            &text(&picture),
+            light,
+        )
+    };
+    relit(sun).unwrap();
+    assert_ne!(fs::read(&picture).unwrap(), first, "it is replaced");
+    let error = relit(Light::sun([0.0; 3], [1.0; 3])).unwrap_err();
+    assert!(
+        matches!(&error, Error::Invalid(found) if found.len() == 1),
+        "{error}"
+    );
+    let left: Vec<_> = fs::read_dir(folder.path()).unwrap().collect();
+    assert_eq!(left.len(), 1, "no draft stays behind");
+    let lines = check::check(&text(&path("tests/diagnostics/SC001/misspelt.yaml"))).unwrap();
+    let edits: Vec<_> = lines
+        .iter()
+        .filter(|line| line.starts_with("  bytes"))
+        .collect();
+    assert!(
+        lines[0].contains("misspelt.yaml:12:3: warning[SC001]"),
+        "{lines:?}"
+    );
+    assert!(edits[0].ends_with("become `radius`"), "{lines:?}");
+}
+
+#[test]
+fn findings_say_what_and_where_and_errors_hold_them() {
+    let broken = "Eye: [0, 0, 9]\nObjects:\n- {type: sphere, position: [0, 0, 0], raduis: 1}\n";
+    let files = [("a/b.yaml".to_owned(), broken.as_bytes().to_vec())];
+    let mut scene = Scene::from_files("a/b.yaml", files).unwrap();
+    let findings = scene.check();
+    let typo = findings.iter().find(|found| found.code == "SC001").unwrap();
+    let place = &typo.primary.as_ref().unwrap().location;
+    assert_eq!(
+        (place.file.as_str(), place.line, place.column),
+        ("a/b.yaml", Some(3), Some(39))
+    );
+    assert_eq!(broken.get(place.bytes.clone()), Some("raduis"));
+    assert!(typo.to_string().contains("did you mean `radius`"), "{typo}");
+    let error = scene.render(&Options::new()).unwrap_err();
+    assert!(
+        error
+            .findings()
+            .iter()
+            .any(|found| found.severity == Severity::Error)
+    );
+    assert!(error.to_string().contains("a/b.yaml:3"), "{error}");
+    let missing = Scene::open("no/such/scene.yaml").err().unwrap();
+    assert_eq!(missing.findings()[0].code, "IO001", "{missing}");
+}
+
+#[test]
+fn what_is_found_does_not_add_up() {
+    let mut scene = ball();
+    assert_eq!(scene.check(), []);
+    scene.add_light(Light::point([0.0; 3], [-1.0; 3]));
+    assert_eq!((scene.lights(), scene.check().len()), (2, 1));
+    assert_eq!(scene.check().len(), 1);
+    scene.remove_lights();
+    assert_eq!((scene.lights(), scene.check()), (0, vec![]));
+}
+
+/// The files that a scene with a mesh and a texture is of.
+fn files(names: &[&str]) -> Vec<(String, Vec<u8>)> {
+    let read = |name: &&str| {
+        let bytes = fs::read(path("scenes").join(name)).unwrap();
+        (format!("deep/in/{name}"), bytes)
+    };
+    names.iter().map(read).collect()
+}
+
+#[test]
+fn a_scene_in_memory_is_that_on_disk_and_reads_no_other_file() {
+    for (name, others) in [
+        ("globe.yaml", ["tiles.png"]),
+        ("terminator.yaml", ["ball.obj"]),
+        ("vases.yaml", ["vase.glb"]),
+    ] {
+        let options = Options::new().size(16, 12).supersampling(1).samples(1);
+        let on_disk = Scene::open(path("scenes").join(name)).unwrap();
+        let rendered = |mut scene: Scene| scene.render(&options).unwrap().encode().unwrap();
+        let all = files(&[&[name][..], &others].concat());
+        let main = format!("deep/in/{name}");
+        let in_memory = Scene::from_files(&main, all).unwrap();
+        assert!(rendered(in_memory) == rendered(on_disk), "{name}");
+        // What is not among the files is not there, wherever the process runs.
+        let alone = Scene::from_files(&main, files(&[name])).unwrap().check();
+        assert!(
+            alone.iter().any(|found| found.code.starts_with("RE")),
+            "{alone:?}"
+        );
+    }
+    let secret = BALL.replace("color: [1, 0.5, 0.2]", "texture: /etc/hostname");
+    let files = [("ball.yaml".to_owned(), secret.into_bytes())];
+    let found = Scene::from_files("ball.yaml", files).unwrap().check();
+    assert!(
+        found.iter().any(|found| found.code.starts_with("RE")),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn a_name_that_leads_up_finds_what_lies_there_in_memory() {
+    let text = String::from_utf8(fs::read(path("scenes/globe.yaml")).unwrap()).unwrap();
+    let text = text.replace("tiles.png", "../maps/tiles.png");
+    let tiles = fs::read(path("scenes/tiles.png")).unwrap();
+    let files = [
+        ("./scenes/globe.yaml".to_owned(), text.into_bytes()),
+        ("maps/tiles.png".to_owned(), tiles),
+    ];
+    let mut scene = Reading::new()
+        .from_files("scenes/globe.yaml", files)
+        .unwrap();
+    let found = scene.check();
+    assert!(
+        found.iter().all(|found| found.severity == Severity::Note),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn a_render_is_stopped_and_limited() {
+    let mut scene = ball();
+    let stopped = scene.render_until(&Options::new(), &|| true).unwrap_err();
+    assert!(matches!(stopped, Error::Stopped), "{stopped}");
+    let error = scene.render(&Options::new().max_rays(10)).unwrap_err();
+    assert!(matches!(error, Error::TooManyRays(_)), "{error}");
+    let picture = scene.render(&Options::new()).unwrap();
+    let statistics = picture.statistics();
+    assert!(statistics.hits > 0 && statistics.hits < statistics.camera_rays);
+    assert!(statistics.camera_rays <= 1600);
+}
+
+fn refusal(options: &Options) -> String {
+    match ball().render(options) {
+        Err(Error::Refused(words)) => words,
+        Err(error) => panic!("{error}"),
+        Ok(_) => panic!("it is rendered"),
+    }
+}
+
+#[test]
+fn options_that_do_not_fit_are_refused() {
+    let new = Options::new;
+    let linear = || new().format(Format::Exr);
+    for options in [
+        new().size(0, 4),
+        new().samples(0),
+        new().exposure(f64::NAN),
+        linear().auto_exposure(),
+        linear().tonemap(Tone::Agx),
+        new().background([f64::INFINITY; 3]),
+        new().environment([-1.0; 3]),
+        new().look_at([f64::NAN; 3], [0.0; 3]),
+        new().crop([90, 90], [4, 4]),
+    ] {
+        assert!(!refusal(&options).contains("--"), "{}", refusal(&options));
+    }
+}
+
+#[test]
+fn a_picture_is_saved_by_its_kind_or_not_at_all() {
+    let folder = TempDir::new().unwrap();
+    let to = |name: &str| folder.path().join(name);
+    let picture = ball().render(&Options::new()).unwrap();
+    let error = picture.save(to("a.exr")).unwrap_err();
+    assert!(matches!(error, Error::Refused(_)), "{error}");
+    let error = picture.save(to("none/a.png")).unwrap_err();
+    assert!(matches!(error, Error::Unwritable { .. }), "{error}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    picture.save(to("a.png")).unwrap();
+    assert_eq!(fs::read(to("a.png")).unwrap(), picture.encode().unwrap());
+}
+
+/// The middle of the picture, and its first corner.
+fn two(picture: &Picture) -> [[u8; 4]; 2] {
+    let bytes = picture.rgba8();
+    let at = |index: usize| bytes[4 * index..4 * index + 4].try_into().unwrap();
+    [at(20 * 40 + 20), at(0)]
+}
+
+#[test]
+fn bytes_are_those_of_the_file_and_values_those_of_the_scene() {
+    let mut scene = ball();
+    let mut rendered = |options: Options| scene.render(&options).unwrap();
+    let shown = rendered(Options::new());
+    assert_eq!(
+        (shown.width(), shown.height(), shown.alpha()),
+        (40, 40, None)
+    );
+    let [middle, corner] = two(&shown);
+    let value = shown.pixels()[20 * 40 + 20];
+    assert_eq!(middle[0], (255.0 * value[0]) as u8);
+    assert_eq!(corner, [0, 0, 0, 255]);
+    let clear = rendered(Options::new().transparent());
+    assert_eq!(two(&clear), [middle, [0; 4]]);
+    let linear = Options::new()
+        .format(Format::Exr)
+        .layer(Aov::Depth)
+        .transparent();
+    let linear = rendered(linear);
+    let depth = linear.layer(Aov::Depth).unwrap();
+    assert!((depth[20 * 40 + 20] - 86.0).abs() < 0.1 && depth[0] == 1e10);
+    assert_eq!(linear.layer(Aov::Albedo), None);
+    assert_eq!(two(&linear)[1], [0; 4]);
+    assert!(two(&linear)[0][0] >= middle[0], "coded by sRGB");
+}

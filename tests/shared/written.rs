@@ -1,0 +1,26 @@
+//! The sound assets of `../shared` as scene texts: each comes back from its text and the files beside
+//! it, with its own camera and light or in the studio.
+
+use super::scenes::each;
+use super::texts::assert_comes_back;
+use libtest_mimic::Trial;
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{Field, Noun, Place};
+use rtc::internals::passes::Stage;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::source::{Loader, SourceMap};
+use std::path::Path;
+
+pub(crate) fn trials() -> Vec<Trial> {
+    each("texts", "gltf/assets", &["glb", "gltf"], comes_back)
+}
+
+fn comes_back(path: &Path) {
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = Loader.file(path, &mut map).unwrap();
+    let mut lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink).unwrap();
+    let camera = Place::new(Noun::Camera, 0, Field::Whole);
+    let is_bare = lowered.origins.span(camera).is_none();
+    pipeline::stage(&mut lowered, &Stage::default(), is_bare, &mut sink).unwrap();
+    assert_comes_back(&lowered.scene);
+}
