@@ -1,6 +1,6 @@
 //! Rotations by an axis and an angle, as textures of spheres are turned; and back.
 
-use super::{Vec3, atan2, cos, sin};
+use super::{Vec3, atan2, cos, difference_of_products, dot, sin};
 
 /// `v` turned by an angle in radians about a unit vector, given by its sine and cosine (Rodrigues'
 /// formula).
@@ -28,7 +28,12 @@ pub fn turned_to_z(axis: Vec3, angle: f64) -> Option<[[f64; 3]; 3]> {
 pub fn axis_and_angle(rows: [[f64; 3]; 3]) -> (Vec3, f64) {
     let [row, _, axis] = rows.map(Vec3::from_array);
     let [x, y, _] = shortest_to_z(axis);
-    (axis, atan2(row.dot(y), row.dot(x)).to_degrees())
+    // row = x·cos + y·sin, where x and y are at right angles up to rounding only: a small angle is
+    // that far off unless their product is taken off.
+    let (across, along, both) = (dot(row, y), dot(row, x), dot(x, y));
+    let sine = difference_of_products(across, dot(x, x), along, both);
+    let cosine = difference_of_products(along, dot(y, y), across, both);
+    (axis, atan2(sine, cosine).to_degrees())
 }
 
 /// The rows of the shortest rotation that takes a unit vector to +z; for −z the half turn about x.

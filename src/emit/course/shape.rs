@@ -1,7 +1,6 @@
 //! The shapes back to text.
 
-use super::material::file_name;
-use super::{Text, triple};
+use super::{Text, quoted, triple};
 use crate::ir::{self, Instance, Quad, Scene, Shape, Sphere, Triangle};
 use crate::math::{Vec3, axis_and_angle, shortest, turned_to_z, unit};
 
@@ -9,14 +8,14 @@ use crate::math::{Vec3, axis_and_angle, shortest, turned_to_z, unit};
 trait Emit {
     /// # Errors
     /// Says what the format has no words for.
-    fn emit(&self, text: &mut Text, scene: &Scene) -> Result<(), String>;
+    fn emit<'s>(&self, text: &mut Text<'s>, scene: &'s Scene) -> Result<(), String>;
 }
 
 /// Writes each shape in its own way, or by the keys of its row.
 macro_rules! emit {
     ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
-        impl Text {
-            pub(super) fn shape(&mut self, shape: &Shape, scene: &Scene) -> Result<(), String> {
+        impl<'s> Text<'s> {
+            pub(super) fn shape(&mut self, shape: &Shape, scene: &'s Scene) -> Result<(), String> {
                 match shape {
                     $(Shape::$Name(shape) => shape.emit(self, scene),)*
                 }
@@ -34,7 +33,7 @@ macro_rules! by_keys {
         $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
     }) => {
         impl Emit for ir::$Name {
-            fn emit(&self, text: &mut Text, _: &Scene) -> Result<(), String> {
+            fn emit<'s>(&self, text: &mut Text<'s>, _: &'s Scene) -> Result<(), String> {
                 let Self { $($value),* } = self;
                 text.kind($type);
                 $(text.$rule($key, $value);)*
@@ -46,7 +45,7 @@ macro_rules! by_keys {
 
 shapes!(emit);
 
-impl Text {
+impl Text<'_> {
     fn kind(&mut self, word: &str) {
         self.line(2, &format!("- type: {word}"));
     }
@@ -75,7 +74,7 @@ impl Text {
 }
 
 impl Emit for Sphere {
-    fn emit(&self, text: &mut Text, _: &Scene) -> Result<(), String> {
+    fn emit<'s>(&self, text: &mut Text<'s>, _: &'s Scene) -> Result<(), String> {
         let Self {
             center,
             radius,
@@ -104,7 +103,7 @@ impl Emit for Sphere {
 }
 
 impl Emit for Triangle {
-    fn emit(&self, text: &mut Text, _: &Scene) -> Result<(), String> {
+    fn emit<'s>(&self, text: &mut Text<'s>, _: &'s Scene) -> Result<(), String> {
         let Self { vertices, uvs } = self;
         text.kind("triangle");
         text.corners(vertices);
@@ -117,7 +116,7 @@ impl Emit for Triangle {
 }
 
 impl Emit for Quad {
-    fn emit(&self, text: &mut Text, _: &Scene) -> Result<(), String> {
+    fn emit<'s>(&self, text: &mut Text<'s>, _: &'s Scene) -> Result<(), String> {
         let Self { vertices } = self;
         text.kind("quad");
         text.corners(vertices);
@@ -126,28 +125,25 @@ impl Emit for Quad {
 }
 
 impl Emit for Instance {
-    fn emit(&self, text: &mut Text, scene: &Scene) -> Result<(), String> {
+    fn emit<'s>(&self, text: &mut Text<'s>, scene: &'s Scene) -> Result<(), String> {
         let Self {
             mesh,
             world_from_object,
         } = self;
-        let mesh = scene
-            .meshes
-            .get(mesh.0 as usize)
-            .ok_or("a surface refers to a mesh that does not exist")?;
         let [axes @ .., origin] = world_from_object;
         let scale = [axes[0][0], axes[1][1], axes[2][2]];
         let [x, y, z] = Vec3::AXES;
-        let straight = [x * scale[0], y * scale[1], z * scale[2]];
-        if *axes != straight.map(|axis| axis.to_array()) {
-            return Err(
-                "a mesh is turned, and this format only moves and scales meshes".to_owned(),
-            );
-        }
+        let straight = [x * scale[0], y * scale[1], z * scale[2]].map(|axis| axis.to_array());
+        let (file, part) = text.names.mesh(scene, *mesh)?;
         text.kind("mesh");
-        text.line(4, &format!("file: {}", file_name(&mesh.name)?));
-        if let Some(part) = &mesh.part {
-            text.line(4, &format!("part: {}", serde_json::Value::from(&**part)));
+        text.line(4, &format!("file: {file}"));
+        if let Some(part) = part {
+            text.line(4, &format!("part: {}", quoted(part)));
+        }
+        if axes.map(|axis| axis.map(f64::to_bits)) != straight.map(|axis| axis.map(f64::to_bits)) {
+            let columns = text.list(world_from_object.iter().flatten().copied());
+            text.line(4, &format!("transform: {columns}"));
+            return Ok(());
         }
         text.point("position", origin);
         match scale {
@@ -167,36 +163,24 @@ fn turn_of(rows: [[f64; 3]; 3]) -> Option<([f64; 3], f64)> {
         (0..18).map(|digits: usize| format!("{nearly:.digits$}").parse().unwrap_or(nearly));
     // Halfway between two quarters it counts from which side the angle is written.
     let angles = digits
-        .chain(around(nearly, 0.0))
+        .chain(around(nearly, f64::EPSILON / 2.0))
         .flat_map(|angle| [angle, angle + 360.0, angle - 360.0]);
     let angle = angles.into_iter().find(turns)?;
     // Any length will do, so long as it rounds to this axis.
-    let mut lengths = around(1.0, 1.0 / 4096.0);
+    let mut lengths = around(1.0, 1.0 / 67_108_864.0);
     let axis = lengths
         .find_map(|length| Some(axis * length).filter(|scaled| unit(*scaled) == Some(axis)))?;
     Some((axis.to_array(), angle))
 }
 
-/// Numbers around one, nearest first, a share of it apart, or if that is 0 all that there are.
+/// A number and some on either side of it, the steps between them ever wider: first `share` of the
+/// number, then 16 times as much, and so on. How far off it is depends on what was rounded, so no
+/// one step would do.
 fn around(middle: f64, share: f64) -> impl Iterator<Item = f64> {
-    const TRIES: usize = 1 << 11;
-    let next = move |at: &f64| {
-        Some(if share > 0.0 {
-            at + share * middle
-        } else {
-            at.next_up()
-        })
-    };
-    let before = move |at: &f64| {
-        Some(if share > 0.0 {
-            at - share * middle
-        } else {
-            at.next_down()
-        })
-    };
-    let up = std::iter::successors(Some(middle), next);
-    let down = std::iter::successors(Some(middle), before);
-    up.zip(down)
-        .take(TRIES)
-        .flat_map(|(above, below)| [above, below])
+    const SCALES: u32 = 6;
+    const STEPS: i32 = 1 << 15;
+    let step = move |scale| middle * share * f64::from(16_i32.pow(scale));
+    let steps =
+        (0..SCALES).flat_map(move |scale| (1..=STEPS).map(move |k| step(scale) * f64::from(k)));
+    std::iter::once(middle).chain(steps.flat_map(move |by| [middle + by, middle - by]))
 }
