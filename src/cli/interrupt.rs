@@ -7,39 +7,74 @@
 use super::Failure;
 use crate::pipeline::WriteObserver;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::{fs, process};
+use std::{fs, io, process};
+
+/// The number of the first signal heard, 0 before; signals are sent to the whole process.
+static HEARD: AtomicU8 = AtomicU8::new(0);
+
+/// The number of SIGINT, and of Ctrl-C where there are no signals.
+const INTERRUPT: u8 = 2;
 
 /// Whether the user wants us to stop.
 pub(super) struct Interrupt(Arc<State>);
 
 #[derive(Default)]
 struct State {
-    raised: AtomicBool,
     /// The file that is to disappear if we end at once.
     draft: Mutex<Option<PathBuf>>,
 }
 
+/// The exit code of who was told to stop: 128 and the number of the signal, as a shell has it.
+pub(super) fn exit_code() -> u8 {
+    match HEARD.load(Ordering::Relaxed) {
+        0 => 128 + INTERRUPT,
+        signal => 128 + signal,
+    }
+}
+
 impl Interrupt {
-    /// From now on the first Ctrl-C only raises the flag. To be called after reading: a read would
+    /// From now on the first signal only raises the flag. To be called after reading: a read would
     /// not see the flag.
     pub(super) fn listen() -> Result<Self, Failure> {
         let state = Arc::new(State::default());
         let heard = Arc::clone(&state);
-        ctrlc::set_handler(move || {
-            if heard.raised.swap(true, Ordering::Relaxed) {
+        let on_signal = move |signal| {
+            let first = HEARD.compare_exchange(0, signal, Ordering::Relaxed, Ordering::Relaxed);
+            if first.is_err() {
                 heard.end();
             }
-        })
-        .map_err(|error| Failure::Trouble(format!("can't listen to Ctrl-C: {error}")))?;
+        };
+        listen_for(on_signal)
+            .map_err(|error| Failure::Trouble(format!("can't listen to signals: {error}")))?;
         Ok(Self(state))
     }
 
-    /// True after Ctrl-C.
+    /// True after a signal.
+    #[expect(clippy::unused_self, reason = "nobody is heard before someone listens")]
     pub(super) fn is_raised(&self) -> bool {
-        self.0.raised.load(Ordering::Relaxed)
+        HEARD.load(Ordering::Relaxed) != 0
     }
+}
+
+/// Calls `on_signal` with the number of each signal that asks us to stop, in a thread of its own.
+#[cfg(unix)]
+fn listen_for(on_signal: impl Fn(u8) + Send + 'static) -> io::Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGTERM, SIGINT])?;
+    let listener = std::thread::Builder::new().name("signals".to_owned());
+    let listen = move || {
+        let numbers = signals.forever().map(u8::try_from);
+        numbers.for_each(|signal| on_signal(signal.unwrap_or(INTERRUPT)));
+    };
+    listener.spawn(listen).map(drop)
+}
+
+/// The same for Ctrl-C and its kin, which no number tells apart.
+#[cfg(not(unix))]
+fn listen_for(on_signal: impl Fn(u8) + Send + 'static) -> io::Result<()> {
+    ctrlc::set_handler(move || on_signal(INTERRUPT)).map_err(io::Error::other)
 }
 
 impl WriteObserver for Interrupt {

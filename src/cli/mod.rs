@@ -42,7 +42,7 @@ enum Failure {
     Unreadable,
     /// Usage, files or something internal, in words.
     Trouble(String),
-    /// Ctrl-C.
+    /// Ctrl-C, or another signal to stop.
     Interrupted,
     /// Whoever read our output has had enough.
     ClosedPipe,
@@ -54,7 +54,7 @@ impl Failure {
             Self::ClosedPipe => 0,
             Self::Findings | Self::Input(_) => 1,
             Self::Unreadable | Self::Trouble(_) => 2,
-            Self::Interrupted => 130,
+            Self::Interrupted => interrupt::exit_code(),
         }
     }
 }

@@ -68,7 +68,7 @@ impl Output {
         Some(format!("{stem}.files"))
     }
 
-    /// Writes the result; a file appears under its name only now, and not after Ctrl-C.
+    /// Writes the result; a file appears under its name only now, and not after a signal to stop.
     pub(super) fn commit(self, bytes: &[u8], interrupt: &Interrupt) -> Result<(), Failure> {
         self.commit_by(&|out| out.write_all(bytes), interrupt)
     }

@@ -27,6 +27,15 @@ fn start(folder: &TempDir) -> Child {
         .unwrap()
 }
 
+/// Waits until it has saved for the first time.
+#[cfg(unix)]
+fn saved(folder: &TempDir, mut child: Child) -> Child {
+    while !folder.path().join("a.rtp").exists() && child.try_wait().unwrap().is_none() {
+        sleep(Duration::from_millis(1));
+    }
+    child
+}
+
 fn whole(folder: &TempDir) -> Vec<u8> {
     told(
         folder,
@@ -71,25 +80,107 @@ fn a_render_that_is_killed_goes_on_to_the_same_bytes() {
 fn a_render_that_is_told_to_end_saves_and_says_how_to_go_on() {
     let folder = scenes();
     let whole = whole(&folder);
-    let mut child = start(&folder);
-    while !folder.path().join("a.rtp").exists() && child.try_wait().unwrap().is_none() {
+    for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
+        let child = start(&folder);
+        let child = saved(&folder, child);
+        let pid = child.id().to_string();
+        Command::new("kill").args([signal, &pid]).status().unwrap();
+        let output = child.wait_with_output().unwrap();
+        // On a very slow machine it may be done before the signal comes.
+        if output.status.code() != Some(0) {
+            assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+            let words = "the same command goes on from there";
+            assert!(stderr(&output).contains(words), "{}", stderr(&output));
+            assert!(!folder.path().join("a.png").exists());
+        }
+        told(&folder, &SLOW);
+        assert!(bytes(&folder, "a.png") == whole);
+        fs::remove_file(folder.path().join("a.rtp")).unwrap();
+        fs::remove_file(folder.path().join("a.png")).unwrap();
+    }
+}
+
+/// A part of the ball's picture, as a render that was ended has saved it.
+#[cfg(unix)]
+fn begin(folder: &TempDir) -> Vec<u8> {
+    let part = ["--part", "2/6", "--picture", "a.png", "-o", "a.rtp"];
+    told(folder, &[&["render", "ball.json"], &part[..]].concat());
+    bytes(folder, "a.rtp")
+}
+
+#[cfg(unix)]
+#[test]
+fn where_the_disk_is_full_the_render_goes_on_and_what_was_saved_stays() {
+    let folder = folder();
+    told(&folder, &["render", "ball.json", "-o", "whole.png"]);
+    let (before, all) = (begin(&folder), names(folder.path()));
+    // A write beyond 16 blocks fails, which the picture does not take.
+    let limited = "trap '' XFSZ; ulimit -f 16; exec \"$@\"";
+    let rtc = env!("CARGO_BIN_EXE_rtc");
+    let output = Command::new("sh")
+        .current_dir(folder.path())
+        .args(["-c", limited, "sh", rtc, "render", "ball.json", "-oa.png"])
+        .args(["--checkpoint", "a.rtp", "--every", "0.001s"])
+        .output()
+        .unwrap();
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let words = "warning: `a.rtp` can't be written: ";
+    assert!(stderr(&output).contains(words), "{}", stderr(&output));
+    assert!(bytes(&folder, "a.png") == bytes(&folder, "whole.png"));
+    assert!(bytes(&folder, "a.rtp") == before);
+    let drafts = names(folder.path()).len() - all.len();
+    assert_eq!(drafts, 1, "the picture alone is new");
+}
+
+#[cfg(unix)]
+#[test]
+fn where_the_folder_becomes_read_only_the_render_goes_on_and_what_was_saved_stays() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = scenes();
+    let whole = whole(&folder);
+    let (saves, gone) = (folder.path().join("saves"), folder.path().join("gone"));
+    fs::create_dir(&saves).unwrap();
+    let mut args = SLOW;
+    args[6] = "saves/a.rtp";
+    let child = command(folder.path(), &args).stderr(Stdio::piped()).spawn();
+    let mut child = child.unwrap();
+    while !saves.join("a.rtp").exists() && child.try_wait().unwrap().is_none() {
         sleep(Duration::from_millis(1));
     }
-    let pid = child.id().to_string();
-    Command::new("kill").args(["-INT", &pid]).status().unwrap();
-    let output = child.wait_with_output().unwrap();
-    // On a very slow machine it may be done before the signal comes.
-    if output.status.code() != Some(0) {
-        assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
-        assert!(
-            stderr(&output).contains("the same command goes on from there"),
-            "{}",
-            stderr(&output)
-        );
-        assert!(!folder.path().join("a.png").exists());
+    fs::set_permissions(&saves, fs::Permissions::from_mode(0o555)).unwrap();
+    // The superuser may write nevertheless: then the folder goes away.
+    let is_read_only = fs::write(saves.join("trial"), "").is_err();
+    if !is_read_only {
+        fs::rename(&saves, &gone).unwrap();
     }
-    told(&folder, &SLOW);
+    let is_early = child.try_wait().unwrap().is_none();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let words = "the render goes on, what was saved before stays";
+    assert!(
+        !is_early || stderr(&output).contains(words),
+        "{}",
+        stderr(&output)
+    );
     assert!(bytes(&folder, "a.png") == whole);
+    let kept = if is_read_only { &saves } else { &gone };
+    PicturePart::load(&fs::read(kept.join("a.rtp")).unwrap(), 1 << 20).unwrap();
+    fs::set_permissions(kept, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+#[test]
+fn what_belongs_to_a_flag_is_refused_without_it() {
+    let folder = folder();
+    for (words, flag) in [
+        (["--every", "5s"], "--checkpoint"),
+        (["--parts-by", "samples"], "--part"),
+        (["--picture", "a.png"], "--part"),
+        (["--restart", "-q"], "--checkpoint"),
+    ] {
+        let output = rtc(&folder, &[&["render", "ball.json"], &words[..]].concat());
+        assert_eq!(code(&output), 2, "{words:?}");
+        assert!(stderr(&output).contains(flag), "{}", stderr(&output));
+    }
 }
 
 #[test]

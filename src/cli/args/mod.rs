@@ -34,7 +34,7 @@ static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
 #[derive(Debug, Parser)]
 #[command(name = "rtc", version = LONG_VERSION.as_str(), max_term_width = 100, arg_required_else_help = true)]
 #[command(
-    after_help = "Exit codes: 0 fine, 1 the input has errors, 2 usage, files or internal, 130 interrupted."
+    after_help = "Exit codes: 0 fine, 1 the input has errors, 2 usage, files or internal, 130 interrupted, 143 terminated."
 )]
 pub(super) struct Cli {
     #[command(subcommand)]

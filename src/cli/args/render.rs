@@ -55,7 +55,13 @@ pub(in crate::cli) struct Render {
     #[arg(long, value_name = "I/N", value_parser = share, conflicts_with_all = ["turntable", "verify_effects"])]
     pub(in crate::cli) part: Option<[u32; 2]>,
     /// What is shared out: tiles, or the samples of traced paths
-    #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        value_name = "WHAT",
+        requires = "part"
+    )]
     pub(in crate::cli) parts_by: SharedByArg,
     /// The picture that the part is of, .png or .exr [default: the scene's name with .png]
     #[arg(long, value_name = "FILE", requires = "part", value_hint = ValueHint::FilePath)]
@@ -65,7 +71,7 @@ pub(in crate::cli) struct Render {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["part", "turntable", "verify_effects"])]
     pub(in crate::cli) checkpoint: Option<PathBuf>,
     /// How often to save, in seconds
-    #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = interval)]
+    #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = interval, requires = "checkpoint")]
     pub(in crate::cli) every: Duration,
     /// Begin anew, whatever was saved
     #[arg(long, requires = "checkpoint")]
