@@ -20,7 +20,7 @@ pub use file::{NewFile, WriteObserver};
 pub use input::{Input, Loaded, Proven, Provenance};
 pub use look::{Exposure, OutputFormat, OutputLook, SettledLook};
 pub use meter::Meter;
-pub use part::{MOST as MOST_SHARES, PartError, PicturePart};
+pub use part::{MOST as MOST_SHARES, PartError, PicturePart, hash_of_file};
 pub use setup::{Observer, PictureSetup, RenderError, RenderSubject};
 pub use share::{SharedBy, Shares};
 
@@ -36,7 +36,7 @@ use crate::render::{
     self, AnyWorld, Aov, Film, FilmError, Job, Mismatch, OnPixel, PartialFilm, SimdLevel,
 };
 use crate::source::{FileId, SourceMap};
-use crate::study::{self, Order, Reached, Stopped, Watch};
+use crate::study::{self, Keep, Order, Reached, Stopped, Watch};
 use crate::valid::{self, Proof, Surface};
 use crate::{codec, front};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
@@ -261,7 +261,8 @@ impl Renderer {
         self.threads.install(|| self.world.render(job, on_pixel))
     }
 
-    /// Renders the scene that it was made of until a goal is reached.
+    /// Renders the scene that it was made of until a goal is reached, and keeps what is done on the way
+    /// where that is asked for.
     ///
     /// # Errors
     /// If someone said stop.
@@ -270,9 +271,10 @@ impl Renderer {
         scene: &Scene,
         order: &Order,
         watch: &Watch<'_>,
+        keep: Option<Keep<'_>>,
     ) -> Result<Reached, Stopped> {
         let Self { world, threads } = self;
-        threads.install(|| study::approach(world, scene, order, watch))
+        threads.install(|| study::approach_keeping(world, scene, order, watch, keep))
     }
 
     /// Renders a part of a picture: the tiles of the job, and of traced paths only the range of

@@ -75,7 +75,7 @@ pub(super) fn read_part(
 }
 
 /// What to say of a part that is not as it should be.
-pub(super) fn unfit(path: &Path, error: &PartError) -> Failure {
+pub(super) fn unfit(path: &Path, error: &dyn fmt::Display) -> Failure {
     Failure::Input(said_of(path, error))
 }
 

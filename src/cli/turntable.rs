@@ -38,14 +38,11 @@ impl Turntable {
     /// Shows the scene as it is in one frame, from 0; the camera goes round anticlockwise, seen
     /// from above.
     pub(super) fn turn(&self, proven: &mut Proven, frame: u32) -> Result<(), Failure> {
-        if frame == 0 {
-            return Ok(());
-        }
-        let camera = self.camera.turned(
-            TAU * f64::from(frame) / f64::from(self.count),
-            self.axis,
-            self.middle,
-        );
+        let angle = TAU * f64::from(frame) / f64::from(self.count);
+        let camera = match frame {
+            0 => self.camera.clone(),
+            _ => self.camera.turned(angle, self.axis, self.middle),
+        };
         let unsound = || {
             Failure::Trouble(format!(
                 "frame {} can't be seen: its camera is too far away",

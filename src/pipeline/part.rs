@@ -3,8 +3,9 @@
 
 mod file;
 mod render;
+mod resume;
 
-pub use file::MOST;
+pub use file::{MOST, hash_of_file};
 
 use super::{SettledLook, SharedBy, Shares, findings};
 use crate::diag::Diagnostic;
@@ -39,6 +40,17 @@ struct PartHead {
     shares: Vec<u32>,
     /// The words of the command that made it, but for share and output.
     command: Vec<String>,
+    /// The hashes of the pictures that were finished before, of one that is one of many.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    finished: Vec<String>,
+    /// How many bytes say how far it has grown, of one that grows as a whole.
+    #[serde(default, skip_serializing_if = "is_none")]
+    growth: u64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_none(count: &u64) -> bool {
+    *count == 0
 }
 
 /// What a part was made by.
@@ -57,6 +69,8 @@ pub struct PicturePart {
     /// The values of the layers in the tiles of the shares, by the number of the tile, pixel after
     /// pixel; none without layers.
     layers: BTreeMap<usize, Vec<f32>>,
+    /// How far it has grown, of one that grows as a whole.
+    growth: Vec<u8>,
 }
 
 /// Why a part can't be read, or parts not be merged.
@@ -156,6 +170,8 @@ impl PicturePart {
             count: shares.count,
             shares: (shares.first..=shares.last).collect(),
             command: Vec::new(),
+            finished: Vec::new(),
+            growth: 0,
         };
         let values = |area| {
             let rows = head.rows(area);
@@ -166,6 +182,7 @@ impl PicturePart {
             layers: tiles.map(|(tile, area)| (tile, values(area))).collect(),
             head,
             film,
+            growth: Vec::new(),
         }
     }
 
@@ -228,6 +245,9 @@ impl PicturePart {
     pub fn add(&mut self, other: Self) -> Result<(), PartError> {
         if let Some(what) = self.head.difference(&other.head) {
             return Err(PartError::OtherPicture(what));
+        }
+        if !other.growth.is_empty() {
+            self.grow(other.growth);
         }
         let is_here = |share: &u32| self.head.shares.binary_search(share).is_ok();
         let both: Vec<u32> = other.head.shares.iter().copied().filter(is_here).collect();

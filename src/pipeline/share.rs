@@ -34,23 +34,7 @@ impl Shares {
     /// stretches.
     #[must_use]
     pub fn tiles(&self) -> Tiles {
-        if self.last < self.first {
-            // No rank is in it.
-            return Tiles {
-                seed: 0,
-                first: 1,
-                last: 0,
-            };
-        }
-        let count = u128::from(self.count.max(1));
-        // The border after so many shares, of 2⁶⁴.
-        let border = |shares: u32| (u128::from(shares) << 64) / count;
-        let rank = |border: u128| u64::try_from(border).unwrap_or(u64::MAX);
-        Tiles {
-            seed: 0,
-            first: rank(border(self.first.saturating_sub(1))),
-            last: rank(border(self.last).saturating_sub(1)),
-        }
+        Tiles::shares([self.first, self.last], self.count)
     }
 
     /// The number of the share, of `count`, that has the tile whose upper left pixel is given.

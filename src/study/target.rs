@@ -6,6 +6,7 @@
 //! stays so. An estimate does not know features that no sample has met. Rounds are decided by the
 //! whole film: a target error alone gives the same picture on any number of threads.
 
+use super::growth::{Growth, Keep, Keeper};
 use super::knob::{Knob, idle};
 use super::metrics::LEVELS;
 use super::noise::{Allotment, Noise};
@@ -14,8 +15,7 @@ use crate::color::Tone;
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
 use crate::render::{
-    AnyWorld, Background, Counts, Crop, Film, Job, OnPixel, ProgressiveFilm, Replicates, Tiles,
-    Values,
+    AnyWorld, Background, Counts, Crop, Film, Job, OnPixel, ProgressiveFilm, Tiles, Values,
 };
 use crate::valid::revalidate;
 use std::time::Duration;
@@ -120,12 +120,26 @@ pub fn approach(
     order: &Order,
     watch: &Watch<'_>,
 ) -> Result<Reached, Stopped> {
+    approach_keeping(world, scene, order, watch, None)
+}
+
+/// As [`approach`], but what is done is kept on the way, and what was kept before is gone on from.
+///
+/// # Errors
+/// If someone said stop; what is done is kept then.
+pub fn approach_keeping(
+    world: &mut AnyWorld,
+    scene: &Scene,
+    order: &Order,
+    watch: &Watch<'_>,
+    keep: Option<Keep<'_>>,
+) -> Result<Reached, Stopped> {
     let mut samples = Knob::ALL.into_iter().filter(|knob| knob.samples_pixels());
     if samples.all(|knob| idle(knob, scene).is_some()) {
         return exactly(world, order, watch);
     }
     let own = world.scene().clone();
-    let reached = in_rounds(world, scene, order, watch);
+    let reached = in_rounds(world, scene, order, watch, keep.map(Keeper::new));
     world.change(own);
     reached
 }
@@ -136,15 +150,58 @@ fn in_rounds(
     scene: &Scene,
     order: &Order,
     watch: &Watch<'_>,
+    mut keeper: Option<Keeper<'_>>,
 ) -> Result<Reached, Stopped> {
+    let mut growth = match keeper.as_mut().and_then(Keeper::begun) {
+        Some(begun) => begun,
+        None => begin(world, scene, order, watch)?,
+    };
+    spread(world, scene, growth.light_samples);
+    let mut before: Option<Reached> = None;
+    loop {
+        (watch.round)(Progress {
+            pixels: growth.film.len() as u64,
+            error: before.as_ref().map(|reached| reached.error),
+        });
+        let time = order.goal.time.filter(|_| before.is_some());
+        let is_late = || time.is_some_and(|time| (watch.elapsed)() > time);
+        let on_pixel = |step| (watch.on_pixel)(step) && !is_late();
+        if !growth.grow(world, &on_pixel, keeper.as_mut()) {
+            // A round cut short has favoured pixels at the top: the picture before it stands, where
+            // it was to be as good as can be.
+            return match before {
+                Some(reached) if order.goal.time.is_some() && !(watch.is_stopped)() => Ok(reached),
+                Some(_) | None => Err(Stopped),
+            };
+        }
+        let round = f64::from(growth.rounds + 1);
+        let noise = Noise::of(&growth.film);
+        // A stop at any round is one of many looks: the tails of all rounds, 1/(r(r + 1)), sum to
+        // the one allowed.
+        let tail = TAIL / (round * (round + 1.0));
+        let error = noise.bound(tail);
+        let elapsed = (watch.elapsed)();
+        let wanted = next_round(&growth.film, &noise, tail, &order.goal, elapsed);
+        let reached = growth.reached(error, order.values);
+        let Some(wanted) = wanted else {
+            keeper.iter().for_each(|keeper| keeper.save(&growth));
+            return Ok(reached);
+        };
+        (growth.wanted, before) = (wanted, Some(reached));
+        growth.rounds += 1;
+    }
+}
+
+/// A picture without samples, and how many each pixel is to have after the first round.
+fn begin(
+    world: &mut AnyWorld,
+    scene: &Scene,
+    order: &Order,
+    watch: &Watch<'_>,
+) -> Result<Growth, Stopped> {
     let (light_samples, tried) = light_samples(world, scene, order, watch)?;
-    spread(world, scene, light_samples);
-    let mut film = ProgressiveFilm::new(order.crop, order.seed);
-    (film.background, film.display) = (order.background, order.display);
-    (watch.round)(Progress {
-        pixels: film.len() as u64,
-        error: None,
-    });
+    let mut film = order.film();
+    film.counts = tried;
     let min = if idle(Knob::Paths, scene).is_none() {
         FIRST_PATHS
     } else {
@@ -155,44 +212,22 @@ fn in_rounds(
         .max(min)
         .next_power_of_two();
     let first = u32::try_from(first).unwrap_or(1);
-    if !world.grow(&mut film, &|_| [first; 2], watch.on_pixel) {
-        return Err(Stopped);
+    Ok(Growth {
+        wanted: vec![[first; 2]; film.len()],
+        film,
+        rounds: 0,
+        light_samples,
+        keeps_lights: order.keep_lights,
+    })
+}
+
+impl Order {
+    /// A film without samples.
+    pub(super) fn film(&self) -> ProgressiveFilm {
+        let mut film = ProgressiveFilm::new(self.crop, self.seed);
+        (film.background, film.display) = (self.background, self.display);
+        film
     }
-    for round in 1_u32.. {
-        let noise = Noise::of(&film);
-        // A stop at any round is one of many looks: the tails of all rounds, 1/(r(r + 1)), sum to
-        // the one allowed.
-        let tail = TAIL / (f64::from(round) * f64::from(round + 1));
-        let error = noise.bound(tail);
-        let reached = Reached {
-            image: film.image(order.values),
-            coverage: film.coverage(),
-            counts: film.counts.plus(tried),
-            error,
-            samples: samples_of(&film),
-            light_samples,
-        };
-        let Some(wanted) = next_round(&film, &noise, tail, &order.goal, (watch.elapsed)()) else {
-            return Ok(reached);
-        };
-        (watch.round)(Progress {
-            pixels: film.len() as u64,
-            error: Some(error),
-        });
-        let is_late = || order.goal.time.is_some_and(|time| (watch.elapsed)() > time);
-        if !world.grow(&mut film, &|index| wanted[index], &|step| {
-            (watch.on_pixel)(step) && !is_late()
-        }) {
-            // A round cut short has favoured pixels at the top: the picture before it stands, where
-            // it was to be as good as can be.
-            return if order.goal.time.is_none() || (watch.is_stopped)() {
-                Err(Stopped)
-            } else {
-                Ok(reached)
-            };
-        }
-    }
-    unreachable!("rounds end when all strands are as long as can be")
 }
 
 /// The picture of a mode without sampling.
@@ -292,15 +327,6 @@ fn light_samples(
         best = (count, price);
     }
     Ok((best.0, tried))
-}
-
-fn samples_of(film: &ProgressiveFilm) -> Samples {
-    let counts = || film.pixels().map(Replicates::samples);
-    Samples {
-        min: counts().min().unwrap_or(0),
-        mean: film.samples() as f64 / film.len().max(1) as f64,
-        most: counts().max().unwrap_or(0),
-    }
 }
 
 /// The length of all replicates after the next round; `None` if the goal is reached or the time

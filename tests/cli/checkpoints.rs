@@ -12,7 +12,7 @@ const SLOW: [&str; 9] = [
     "render",
     "paths.json",
     "--spp",
-    "960",
+    "160",
     "-oa.png",
     "--checkpoint",
     "a.rtp",
@@ -39,7 +39,7 @@ fn saved(folder: &TempDir, mut child: Child) -> Child {
 fn whole(folder: &TempDir) -> Vec<u8> {
     told(
         folder,
-        &["render", "paths.json", "--spp", "960", "-o", "whole.png"],
+        &["render", "paths.json", "--spp", "160", "-o", "whole.png"],
     );
     bytes(folder, "whole.png")
 }
@@ -47,7 +47,15 @@ fn whole(folder: &TempDir) -> Vec<u8> {
 #[test]
 fn a_render_that_is_saved_on_its_way_has_the_bytes_of_one_that_is_not() {
     let folder = scenes();
-    for (words, picture) in super::parts::PICTURES {
+    let goals: [(&[&str], &str); 3] = [
+        (&["ball.json", "--target-error", "1.5"], "g.png"),
+        (
+            &["paths.json", "--target-error", "4", "--aov", "depth"],
+            "h.exr",
+        ),
+        (&["depth.json", "--target-error", "1"], "i.png"),
+    ];
+    for (words, picture) in super::parts::PICTURES.into_iter().chain(goals) {
         let render = [&["render"], words, &["-o", picture]].concat();
         told(&folder, &render);
         let whole = bytes(&folder, picture);
@@ -208,4 +216,98 @@ fn what_was_saved_of_another_picture_is_refused_and_begun_anew_if_asked() {
         "{}",
         stderr(&output)
     );
+}
+
+/// Runs a command that is killed after each of these times, in milliseconds, and then to its end; how often
+/// it was killed.
+fn run_with_kills(folder: &TempDir, args: &[&str], waits: &[u64]) -> usize {
+    let is_killed = |wait: &&u64| {
+        let child = command(folder.path(), args).stderr(Stdio::null()).spawn();
+        let mut child = child.unwrap();
+        sleep(Duration::from_millis(**wait));
+        child.kill().unwrap();
+        !child.wait().unwrap().success()
+    };
+    let killed = waits.iter().filter(is_killed).count();
+    told(folder, args);
+    killed
+}
+
+#[test]
+fn a_picture_that_grows_to_its_goal_goes_on_to_the_same_bytes() {
+    let folder = scenes();
+    let render = ["render", "paths.json", "--target-error", "0.7", "-o"];
+    told(&folder, &[&render[..], &["whole.png"]].concat());
+    let saving = ["a.png", "--checkpoint", "a.rtp", "--every", "0.01s"];
+    let saving = [&render[..], &saving].concat();
+    run_with_kills(&folder, &saving, &[60, 110, 160, 90]);
+    assert!(bytes(&folder, "a.png") == bytes(&folder, "whole.png"));
+    // All of it is there.
+    let before = bytes(&folder, "a.rtp");
+    told(&folder, &saving);
+    assert!(bytes(&folder, "a.rtp") == before);
+    let other = [&saving[..], &["--light-samples", "1"]].concat();
+    assert_eq!(code(&rtc(&folder, &other)), 2);
+    let other: Vec<_> = saving
+        .iter()
+        .map(|word| word.replace("0.7", "0.8"))
+        .collect();
+    let other: Vec<&str> = other.iter().map(String::as_str).collect();
+    let output = rtc(&folder, &other);
+    let words = "targetError: 0.7 here, 0.8 there; `--restart` begins anew";
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains(words), "{}", stderr(&output));
+}
+
+/// The frames that a turntable wrote, by their names.
+fn frames(folder: &TempDir, name: &str) -> Vec<Vec<u8>> {
+    let frame = |number| bytes(folder, &format!("{name}-{number}.png"));
+    (1..=4).map(frame).collect()
+}
+
+#[test]
+fn a_turntable_keeps_its_finished_frames_and_goes_on() {
+    let folder = scenes();
+    for goal in [["--spp", "48"], ["--target-error", "3"]] {
+        let render = [&["render", "paths.json", "--turntable", "4"], &goal[..]].concat();
+        told(&folder, &[&render[..], &["-o", "whole-%d.png"]].concat());
+        let saving = [
+            "-oa-%d.png",
+            "--checkpoint",
+            "a.rtp",
+            "--every",
+            "0.01s",
+            "--restart",
+        ];
+        let saving = [&render[..], &saving].concat();
+        let (saving, anew) = (&saving[..saving.len() - 1], &saving[..]);
+        told(&folder, anew);
+        assert!(frames(&folder, "a") == frames(&folder, "whole"), "{goal:?}");
+        // A frame that is gone or another picture is rendered again, the others stay.
+        fs::remove_file(folder.path().join("a-2.png")).unwrap();
+        fs::write(folder.path().join("a-3.png"), "another").unwrap();
+        let said = told(&folder, saving);
+        let is_said = |number: u32| said.contains(&format!("a-{number}.png: "));
+        assert_eq!(
+            [1, 2, 3, 4].map(is_said),
+            [false, true, true, true],
+            "{said}"
+        );
+        assert!(frames(&folder, "a") == frames(&folder, "whole"), "{goal:?}");
+        fs::remove_file(folder.path().join("a.rtp")).unwrap();
+        run_with_kills(&folder, saving, &[60, 150, 80]);
+        assert!(frames(&folder, "a") == frames(&folder, "whole"), "{goal:?}");
+    }
+    let fewer = [
+        "render",
+        "paths.json",
+        "--turntable",
+        "3",
+        "--target-error",
+        "3",
+    ];
+    let saving = ["-oa-%d.png", "--checkpoint", "a.rtp"];
+    let output = rtc(&folder, &[&fewer[..], &saving].concat());
+    assert_eq!(code(&output), 1, "{}", stderr(&output));
+    assert!(stderr(&output).contains("more than 3 frames; `--restart`"));
 }

@@ -68,7 +68,7 @@ pub(in crate::cli) struct Render {
     pub(in crate::cli) picture: Option<PathBuf>,
     /// Save what is done into this file, .rtp, now and then and when told to end; the same command goes
     /// on from there
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["part", "turntable", "verify_effects"])]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["part", "time_budget", "verify_effects"])]
     pub(in crate::cli) checkpoint: Option<PathBuf>,
     /// How often to save, in seconds
     #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = interval, requires = "checkpoint")]

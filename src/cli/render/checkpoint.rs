@@ -5,20 +5,20 @@ use super::super::merge::{read_part, unfit};
 use super::super::output::Output;
 use super::super::progress::RenderProgress;
 use super::super::{Failure, args, input, interrupt::Interrupt, talk, talk::Talk};
-use super::part::has_goal;
-use super::shot::summary;
+use super::shot::{Kept, summary, workers};
 use super::{RenderSetup, halted};
+use crate::image::Picture;
 use crate::pipeline::{
     Input, MOST_SHARES, NewFile, Observer, PicturePart, RenderError, RenderSubject, SharedBy,
-    Shares,
+    Shares, hash_of_file,
 };
 use crate::render::{Crop, Tiles};
 use crate::source::{Resource, SourceMap};
-use std::path::PathBuf;
+use crate::study::{Goal, Stretch};
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
-
-/// Shares of the first stretch of work; then as many as take the time that one may.
-const FIRST: u32 = 64;
 
 /// Where and how often a render is saved.
 pub(super) struct Checkpoint {
@@ -27,44 +27,76 @@ pub(super) struct Checkpoint {
     restarts: bool,
 }
 
-impl Checkpoint {
-    /// The checkpoint asked for, if any.
-    pub(super) fn new(args: &args::Render) -> Result<Option<Self>, Failure> {
-        let Some(file) = args.checkpoint.clone() else {
-            return Ok(None);
-        };
-        if has_goal(args) {
-            return Err(Failure::Trouble(
-                "a picture that is done when it is good enough can't be saved on its way; \
-                 give its samples, by `--spp` or `--supersampling`, in place of a goal"
-                    .to_owned(),
-            ));
-        }
-        Ok(Some(Self {
-            file,
-            every: args.every,
-            restarts: args.restart,
-        }))
+/// What to do about a file that can't be gone on from.
+pub(super) fn or_restart(failure: Failure) -> Failure {
+    match failure {
+        Failure::Input(words) => Failure::Input(format!("{words}; `--restart` begins anew")),
+        other @ (Failure::Findings
+        | Failure::Unreadable
+        | Failure::Trouble(_)
+        | Failure::Interrupted
+        | Failure::ClosedPipe) => other,
+    }
+}
+
+/// A picture that is saved on its way.
+pub(super) struct Saving<'c> {
+    checkpoint: &'c Checkpoint,
+    /// Where the picture goes.
+    pub(super) output: PathBuf,
+    /// The hashes of the pictures that were finished before it.
+    pub(super) finished: Vec<String>,
+    /// What was saved, until it is gone on from.
+    pub(super) saved: Option<PicturePart>,
+}
+
+/// Findings, talk, and whether to stop.
+pub(super) type Desk<'d> = (&'d mut Input, &'d mut Talk, &'d Interrupt);
+
+impl<'c> Saving<'c> {
+    /// Reads what was saved, and looks whether the file can be written, before the work is done.
+    pub(super) fn begin(
+        checkpoint: &'c Checkpoint,
+        output: &Path,
+        input: &Input,
+    ) -> Result<Self, Failure> {
+        Output::open(&checkpoint.file, input).map(drop)?;
+        let saved = checkpoint.read(input)?;
+        Ok(Self {
+            checkpoint,
+            output: output.to_owned(),
+            finished: saved
+                .as_ref()
+                .map_or_else(Vec::new, |saved| saved.finished().to_vec()),
+            saved,
+        })
     }
 
-    /// Adds what was saved, if anything is to be gone on from.
-    fn add_saved(&self, done: &mut PicturePart, input: &Input) -> Result<(), Failure> {
+    /// What to say of what was saved if it can't be gone on from.
+    pub(super) fn refused(&self, error: &dyn fmt::Display) -> Failure {
+        or_restart(unfit(&self.checkpoint.file, error))
+    }
+}
+
+impl Checkpoint {
+    /// The checkpoint asked for, if any.
+    pub(super) fn new(args: &args::Render) -> Option<Self> {
+        Some(Self {
+            file: args.checkpoint.clone()?,
+            every: args.every,
+            restarts: args.restart,
+        })
+    }
+
+    /// What was saved, if anything is to be gone on from.
+    fn read(&self, input: &Input) -> Result<Option<PicturePart>, Failure> {
         if self.restarts || !self.file.exists() {
-            return Ok(());
+            return Ok(None);
         }
         let max_pixels = input.map().budget().limit(Resource::Pixels);
         // Noted in no map that matters: the file is written again.
         let saved = read_part(&self.file, max_pixels, &SourceMap::default());
-        let added =
-            saved.and_then(|saved| done.add(saved).map_err(|error| unfit(&self.file, &error)));
-        added.map_err(|failure| match failure {
-            Failure::Input(words) => Failure::Input(format!("{words}; `--restart` begins anew")),
-            other @ (Failure::Findings
-            | Failure::Unreadable
-            | Failure::Trouble(_)
-            | Failure::Interrupted
-            | Failure::ClosedPipe) => other,
-        })
+        saved.map(Some).map_err(or_restart)
     }
 
     /// Saves what is done, whole or not at all, and says so if that fails: the render goes on.
@@ -81,70 +113,126 @@ impl Checkpoint {
 }
 
 impl RenderSetup {
-    /// Renders the picture, saving it on its way, and writes it.
+    /// Renders the picture, saving it on its way, and writes it; its hash is noted.
     pub(super) fn shoot_saving(
         &self,
-        checkpoint: &Checkpoint,
+        saving: &mut Saving<'_>,
         subject: &mut RenderSubject,
-        input: &mut Input,
-        talk: &mut Talk,
-        interrupt: &Interrupt,
+        (input, talk, interrupt): Desk<'_>,
     ) -> Result<(), Failure> {
-        let (window, output) = self.ready(subject, &self.output, input)?;
-        // Whether it can be written is known before the work is done.
-        Output::open(&checkpoint.file, input).map(drop)?;
-        let mut done = self.begun(checkpoint, subject, window, input)?;
-        let progress = RenderProgress::start(window.pixels() as u64, talk.is_quiet());
-        let order = (window, input.rays());
-        let traced = self.trace_saving(
-            checkpoint,
-            subject,
-            &mut done,
-            order,
-            (interrupt, &progress),
-        );
-        let elapsed = progress.finish();
-        if let Err(error) = traced {
-            return halted(error, input, talk);
+        let (window, output) = self.ready(subject, &saving.output, input)?;
+        let mut done = self.begun(saving, subject, window)?;
+        if !saving.finished.is_empty() {
+            saving.checkpoint.try_save(&done);
         }
-        // Should the picture not be written, its samples are not lost.
-        checkpoint.try_save(&done);
-        let developed = done.develop();
-        let (picture, counts, found) =
-            developed.map_err(|error| Failure::Trouble(error.to_string()))?;
-        found.into_iter().for_each(|finding| input.push(finding));
+        let order = (window, input.rays());
+        let desk = (&mut *input, &mut *talk, interrupt);
+        let (picture, summary) = match has_goal(self.picture.goal) {
+            false => self.share_by_share(saving, subject, &mut done, order, desk)?,
+            true => self.round_by_round(saving, subject, &mut done, order, desk)?,
+        };
         input::tell(input, talk)?;
         let bytes = self.picture.encode(&picture, subject)?;
         let written = output.commit(&bytes, interrupt);
         if interrupt.is_raised() {
-            checkpoint.end(&done);
+            saving.checkpoint.end(&done);
         }
         written?;
+        saving.finished.push(hash_of_file(&bytes));
         if !talk.is_quiet() {
-            let size = [picture.image.width, picture.image.height];
-            let (light, work) = (self.picture.light_told(), (&counts, elapsed));
-            let verbose = talk.is_verbose();
-            talk::say(&summary(&self.output, size, &light, work, verbose));
+            talk::say(&summary);
         }
         Ok(())
     }
 
     /// What was saved of the picture; none of its shares if nothing was.
-    fn begun(
+    pub(super) fn begun(
         &self,
-        checkpoint: &Checkpoint,
+        saving: &mut Saving<'_>,
         subject: &mut RenderSubject,
         window: Crop,
-        input: &Input,
     ) -> Result<PicturePart, Failure> {
         let nobody = Observer {
             on_step: &|_| (),
             is_stopped: &|| false,
         };
         let order = (shares(window, [1, 0]), window, u64::MAX);
-        let mut done = self.picture.part(subject, order, &nobody)?;
-        checkpoint.add_saved(&mut done, input)?;
+        let done = self.picture.part(subject, order, &nobody)?;
+        let mut done = done.after(saving.finished.clone());
+        if let Some(saved) = saving.saved.take() {
+            done.add(saved).map_err(|error| saving.refused(&error))?;
+        }
         Ok(done)
+    }
+
+    /// The picture by its shares, and what to say of it.
+    fn share_by_share(
+        &self,
+        saving: &Saving<'_>,
+        subject: &mut RenderSubject,
+        done: &mut PicturePart,
+        (window, rays): (Crop, u64),
+        (input, talk, interrupt): Desk<'_>,
+    ) -> Result<(Picture, String), Failure> {
+        let progress = RenderProgress::start(window.pixels() as u64, talk.is_quiet());
+        let watch = (interrupt, &progress);
+        let traced = self.trace_saving(saving.checkpoint, subject, done, (window, rays), watch);
+        let elapsed = progress.finish();
+        if let Err(error) = traced {
+            return Err(ended(error, input, talk));
+        }
+        // Should the picture not be written, its samples are not lost.
+        saving.checkpoint.try_save(done);
+        let developed = done.develop();
+        let (picture, counts, found) =
+            developed.map_err(|error| Failure::Trouble(error.to_string()))?;
+        found.into_iter().for_each(|finding| input.push(finding));
+        let size = [picture.image.width, picture.image.height];
+        let (light, work) = (self.picture.light_told(), (&counts, elapsed));
+        let words = summary(&saving.output, size, &light, work, talk.is_verbose());
+        Ok((picture, words))
+    }
+
+    /// The picture that grows towards its goal, and what to say of it.
+    fn round_by_round(
+        &self,
+        saving: &Saving<'_>,
+        subject: &mut RenderSubject,
+        done: &mut PicturePart,
+        order: (Crop, u64),
+        (input, talk, interrupt): Desk<'_>,
+    ) -> Result<(Picture, String), Failure> {
+        let begun = done.take_growth();
+        let (checkpoint, is_saved) = (saving.checkpoint, AtomicBool::new(false));
+        let save = |growth: Vec<u8>| {
+            let mut part = done.clone();
+            part.grow(growth);
+            is_saved.store(checkpoint.try_save(&part), Ordering::Relaxed);
+        };
+        let kept = Kept {
+            begun: &begun,
+            every: checkpoint.every,
+            save: &save,
+        };
+        let shot = self.approach(subject, order, interrupt, talk.is_quiet(), Some(kept));
+        let shot = match shot {
+            Ok(shot) => shot,
+            Err(error) => {
+                if is_saved.into_inner() {
+                    checkpoint.tell("what is done");
+                }
+                return Err(ended(error, input, talk));
+            }
+        };
+        let words = shot.summary(
+            &saving.output,
+            &self.picture.light_told(),
+            talk.is_verbose(),
+        );
+        let film = (shot.image, shot.coverage, &shot.counts);
+        let is_stopped = || interrupt.is_raised();
+        let picture = self.picture.develop(subject, film, input, &is_stopped)?;
+        Ok((picture, words))
     }
 
     /// Renders the shares of the picture that are missing, and saves on the way.
@@ -160,9 +248,9 @@ impl RenderSetup {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
         };
-        let mut stretch = Stretch::new(checkpoint.every);
+        let mut stretch = Stretch::new(checkpoint.every, workers(self.picture.threads));
         let mut saved = progress.elapsed();
-        while let Some(next) = next(done, stretch.shares) {
+        while let Some(next) = next(done, stretch.shares()) {
             let begun = progress.elapsed();
             let left = rays.saturating_sub(done.counts().rays());
             let order = (shares(window, next), window, left);
@@ -183,6 +271,18 @@ impl RenderSetup {
     }
 }
 
+/// Why a command ends whose render came to no end.
+fn ended(error: RenderError, input: &mut Input, talk: &mut Talk) -> Failure {
+    halted(error, input, talk)
+        .err()
+        .unwrap_or(Failure::Findings)
+}
+
+/// Whether a picture is asked for that is done when it is good enough.
+fn has_goal(goal: Goal) -> bool {
+    goal != Goal::default()
+}
+
 /// Shares of a picture of about one tile each.
 fn shares(window: Crop, [first, last]: [u32; 2]) -> Shares {
     let count = u32::try_from(Tiles::of(window).count()).unwrap_or(MOST_SHARES);
@@ -198,12 +298,22 @@ impl Checkpoint {
     /// Saves before the end, and says how to go on.
     fn end(&self, part: &PicturePart) {
         let (shares, count) = part.shares();
-        if !shares.is_empty() && self.try_save(part) {
-            let (file, shares) = (self.file.display(), shares.len());
-            talk::say(&format!(
-                "saved {shares} of {count} shares in `{file}`; the same command goes on from there"
-            ));
+        let (shares, finished) = (shares.len(), part.finished().len());
+        if shares + finished > 0 && self.try_save(part) {
+            let frames = match finished {
+                0 => String::new(),
+                _ => format!("{finished} finished and of the next "),
+            };
+            self.tell(&format!("{frames}{shares} of {count} shares"));
         }
+    }
+
+    /// Says how to go on.
+    fn tell(&self, what: &str) {
+        let file = self.file.display();
+        talk::say(&format!(
+            "saved {what} in `{file}`; the same command goes on from there"
+        ));
     }
 }
 
@@ -216,36 +326,4 @@ fn next(done: &PicturePart, most: u32) -> Option<[u32; 2]> {
         .take_while(|(share, expected)| share == expected)
         .last();
     Some([first, last.map_or(first, |(share, _)| share)])
-}
-
-/// How many shares are rendered at once: as many as take a part of the time between two saves.
-struct Stretch {
-    shares: u32,
-    time: Duration,
-}
-
-impl Stretch {
-    /// Longer ones save no more work, and lose more of it.
-    const LONGEST: Duration = Duration::from_secs(10);
-
-    fn new(every: Duration) -> Self {
-        Self {
-            shares: FIRST,
-            time: (every / 4).min(Self::LONGEST),
-        }
-    }
-
-    /// So many shares took so long.
-    fn adapt(&mut self, shares: u32, took: Duration) {
-        let ratio = self.time.as_secs_f64() / took.as_secs_f64().max(1e-6);
-        let wanted = f64::from(shares) * ratio.clamp(0.25, 4.0);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a positive number, saturated"
-        )]
-        let wanted = wanted as u32;
-        // All threads have work.
-        self.shares = wanted.max(16);
-    }
 }

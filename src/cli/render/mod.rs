@@ -3,6 +3,7 @@
 mod checkpoint;
 mod part;
 mod shot;
+mod turning;
 
 use super::Failure;
 use super::args::{self, BitDepth};
@@ -21,7 +22,7 @@ use crate::pipeline::{
 use crate::plan::{Rule, Rules};
 use crate::render::{Aov, Crop};
 use crate::study::Goal;
-use checkpoint::Checkpoint;
+use checkpoint::{Checkpoint, Saving};
 use part::PartSetup;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -111,7 +112,7 @@ impl RenderSetup {
             turntable: args.turntable,
             up: args.stage.up,
             part,
-            checkpoint: Checkpoint::new(args)?,
+            checkpoint: Checkpoint::new(args),
         })
     }
 
@@ -139,7 +140,12 @@ impl RenderSetup {
             return self.shoot_part(part, &mut subject, input, talk, &interrupt);
         }
         if let Some(checkpoint) = &self.checkpoint {
-            return self.shoot_saving(checkpoint, &mut subject, input, talk, &interrupt);
+            let mut saving = Saving::begin(checkpoint, &self.output, input)?;
+            let desk = (input, talk, &interrupt);
+            return match self.turntable {
+                None => self.shoot_saving(&mut saving, &mut subject, desk),
+                Some(count) => self.turn_saving(count, saving, &mut subject, desk),
+            };
         }
         let Some(count) = self.turntable else {
             return self.shoot(&mut subject, &self.output, input, talk, &interrupt);
@@ -186,7 +192,7 @@ impl RenderSetup {
                 time: None,
             } => self.trace(subject, (window, input.rays()), interrupt, quiet),
             Goal { error: _, time: _ } => {
-                self.approach(subject, (window, input.rays()), interrupt, quiet)
+                self.approach(subject, (window, input.rays()), interrupt, quiet, None)
             }
         };
         let shot = match shot {

@@ -61,7 +61,7 @@ impl PartSetup {
 }
 
 /// Whether a picture is asked for that is done when it is good enough.
-pub(super) fn has_goal(args: &args::Render) -> bool {
+fn has_goal(args: &args::Render) -> bool {
     args.target_error.is_some() || args.time_budget.is_some()
 }
 

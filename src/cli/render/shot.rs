@@ -8,7 +8,7 @@ use crate::image::Image;
 use crate::pipeline::{Meter, Observer, RenderError, RenderSubject};
 use crate::plan::Effect;
 use crate::render::{Counts, Crop, Film};
-use crate::study::{Order, Reached, Samples, Stopped, Watch};
+use crate::study::{Growth, Keep, Order, Reached, Samples, Stopped, Watch};
 use indicatif::HumanCount;
 use std::path::Path;
 use std::time::Duration;
@@ -61,6 +61,43 @@ fn simulated(counts: &Counts) -> String {
     format!("simulated: {}", words.collect::<Vec<_>>().join("; "))
 }
 
+/// What was kept of a picture that grows, and who keeps it on its way.
+pub(super) struct Kept<'a> {
+    /// None, if nothing was.
+    pub(super) begun: &'a [u8],
+    pub(super) every: Duration,
+    pub(super) save: &'a (dyn Fn(Vec<u8>) + Sync),
+}
+
+impl<'a> Kept<'a> {
+    fn into_keep(
+        self,
+        order: &Order,
+        threads: usize,
+        elapsed: &'a (dyn Fn() -> Duration + Sync),
+    ) -> Result<Keep<'a>, RenderError> {
+        let begun = (!self.begun.is_empty()).then(|| Growth::load(self.begun, order));
+        let begun = begun.transpose().map_err(|error| {
+            RenderError::Refused(format!("what was saved can't be used: {error}"))
+        })?;
+        Ok(Keep {
+            begun,
+            every: self.every,
+            threads: workers(threads),
+            elapsed,
+            save: self.save,
+        })
+    }
+}
+
+/// So many threads, for 0 one a core.
+pub(super) fn workers(threads: usize) -> usize {
+    match threads {
+        0 => std::thread::available_parallelism().map_or(1, usize::from),
+        threads => threads,
+    }
+}
+
 impl RenderSetup {
     /// The picture in the setting of the scene, or where its rays ran out, of which there may be so
     /// many.
@@ -92,27 +129,40 @@ impl RenderSetup {
         })
     }
 
-    /// The picture with the samples that its goal takes, or where its rays ran out.
+    /// What a picture with a goal is to be.
+    fn order(&self, subject: &RenderSubject, crop: Crop) -> Order {
+        let setup = &self.picture;
+        let mode = &subject.proven.scene.settings().mode;
+        Order {
+            goal: setup.goal,
+            crop,
+            background: setup.look.background(),
+            values: setup.look.values(mode),
+            display: setup.look.display(mode),
+            keep_lights: setup.overrides.light_samples.is_some(),
+            seed: 0,
+        }
+    }
+
+    /// The picture with the samples that its goal takes, or where its rays ran out; kept on its way where
+    /// that is asked for.
     pub(super) fn approach(
         &self,
         subject: &mut RenderSubject,
         (window, rays): (Crop, u64),
         interrupt: &Interrupt,
         quiet: bool,
+        kept: Option<Kept<'_>>,
     ) -> Result<Rendered, RenderError> {
         let setup = &self.picture;
-        let mode = &subject.proven.scene.settings().mode;
-        let order = Order {
-            goal: setup.goal,
-            crop: window,
-            background: setup.look.background(),
-            values: setup.look.values(mode),
-            display: setup.look.display(mode),
-            keep_lights: setup.overrides.light_samples.is_some(),
-            seed: 0,
-        };
+        let order = self.order(subject, window);
         let progress = RenderProgress::start(0, quiet);
-        let meter = Meter::new(rays, window);
+        let elapsed = || progress.elapsed();
+        let keep = kept.map(|kept| kept.into_keep(&order, setup.threads, &elapsed));
+        let keep = keep.transpose()?;
+        let begun = keep.as_ref().and_then(|keep| keep.begun.as_ref());
+        let left = rays.saturating_sub(begun.map_or(0, Growth::rays));
+        let meter = Meter::new(left, window);
         let observer = Observer {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
@@ -123,15 +173,16 @@ impl RenderSetup {
                 !interrupt.is_raised() && meter.step(step)
             },
             is_stopped: observer.is_stopped,
-            elapsed: &|| progress.elapsed(),
+            elapsed: &elapsed,
             round: &|state| {
                 meter.begin_round();
                 progress.round(state.pixels, state.error.map_or_else(String::new, error));
             },
         };
         let reached = setup.renderer(subject);
-        let reached = reached
-            .map(|(proven, renderer)| renderer.approach(&proven.lowered.scene, &order, &watch));
+        let reached = reached.map(|(proven, renderer)| {
+            renderer.approach(&proven.lowered.scene, &order, &watch, keep)
+        });
         let ran_out = subject.ran_out(&meter, &observer);
         let elapsed = progress.finish();
         let (reached, end) = match (reached?, ran_out) {

@@ -1,11 +1,11 @@
 //! A part as a file, `.rtp`: 8 bytes magic, version and length of the header (u32 each), length of the
-//! film (u64), the header in JSON, the film, the numbers of the layers, and the xxh3 of all before.
-//! Numbers are little-endian.
+//! film (u64), the header in JSON, the film, the numbers of the layers, how far it has grown as a whole, and
+//! the xxh3 of all before. Numbers are little-endian.
 
 use super::{PartError, PartHead, PicturePart};
 use crate::render::PartialFilm;
 use std::collections::BTreeMap;
-use xxhash_rust::xxh3::xxh3_64;
+use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
 
 /// What a part begins with; whatever takes it for text changes it.
 const MAGIC: [u8; 8] = *b"\x89RTP\r\n\x1a\n";
@@ -34,6 +34,7 @@ impl PicturePart {
         bytes.extend(film);
         let layers = self.layers.values().flatten();
         bytes.extend(layers.flat_map(|value| value.to_le_bytes()));
+        bytes.extend(&self.growth);
         bytes.extend(xxh3_64(&bytes).to_le_bytes());
         bytes
     }
@@ -67,9 +68,23 @@ impl PicturePart {
             .map_err(|_| PartError::Damaged("its header is not as it should be"))?;
         head.check(max_pixels)?;
         let film = PartialFilm::load(film, max_pixels).map_err(PartError::Film)?;
+        let growth = usize::try_from(head.growth).map_err(|_| SHORT)?;
+        let border = layers.len().checked_sub(growth).ok_or(SHORT)?;
+        let (layers, growth) = layers.split_at(border);
         let layers = head.layers(layers)?;
-        Ok(Self { head, film, layers })
+        Ok(Self {
+            head,
+            film,
+            layers,
+            growth: growth.to_vec(),
+        })
     }
+}
+
+/// The hash of the bytes of a file.
+#[must_use]
+pub fn hash_of_file(bytes: &[u8]) -> String {
+    format!("xxh3:{:032x}", xxh3_128(bytes))
 }
 
 /// The most shares of a picture.
@@ -99,7 +114,8 @@ impl PartHead {
             .all(|share| (1..=self.count).contains(share));
         let are_once =
             (1..self.layers.len()).all(|at| !self.layers[..at].contains(&self.layers[at]));
-        let is_count = self.count <= MOST && !self.shares.is_empty();
+        let is_begun = !self.shares.is_empty() || !self.finished.is_empty() || self.growth > 0;
+        let is_count = self.count <= MOST && is_begun;
         (is_window && is_count && ascend && are_in_range && are_once)
             .then_some(())
             .ok_or(PartError::Damaged("its shares can't be those of a picture"))

@@ -116,7 +116,7 @@ fn length(count: usize) -> [u8; 4] {
 }
 
 /// The bytes that are still to be read.
-struct Unread<'a>(&'a [u8]);
+pub(super) struct Unread<'a>(pub(super) &'a [u8]);
 
 impl Unread<'_> {
     /// The next bytes.
@@ -129,13 +129,13 @@ impl Unread<'_> {
         Ok(taken)
     }
 
-    fn array<const N: usize>(&mut self) -> Result<[u8; N], FilmError> {
+    pub(super) fn array<const N: usize>(&mut self) -> Result<[u8; N], FilmError> {
         let mut array = [0; N];
         array.copy_from_slice(self.take(N)?);
         Ok(array)
     }
 
-    fn number(&mut self) -> Result<u32, FilmError> {
+    pub(super) fn number(&mut self) -> Result<u32, FilmError> {
         self.array().map(u32::from_le_bytes)
     }
 
@@ -194,10 +194,15 @@ impl Unread<'_> {
 
     fn counts(&mut self) -> Result<Counts, FilmError> {
         const OTHERS: FilmError = FilmError::Corrupt("its counts are of other effects");
-        let mut counts = Counts::default().to_array();
-        if self.number()? as usize != counts.len() {
+        if self.number()? as usize != Counts::default().to_array().len() {
             return Err(OTHERS);
         }
+        self.counts_of_effects()
+    }
+
+    /// So many counts as there are today.
+    pub(super) fn counts_of_effects(&mut self) -> Result<Counts, FilmError> {
+        let mut counts = Counts::default().to_array();
         for count in &mut counts {
             *count = u64::from_le_bytes(self.array()?);
             // So many rays take a million years; more could not be added up.

@@ -2,6 +2,7 @@
 
 mod bytes;
 mod counts;
+pub(in crate::render) mod growing;
 pub(in crate::render) mod heartbeat;
 pub(in crate::render) mod partial;
 pub(in crate::render) mod pixel;
@@ -85,6 +86,29 @@ impl Tiles {
     #[must_use]
     pub fn rank(seed: u64, tile: [u32; 2]) -> u64 {
         mix(mix(seed) ^ (u64::from(tile[0]) << 32 | u64::from(tile[1])))
+    }
+
+    /// The tiles of the shares `first` to `last`, counted from 1, of `count`: those whose rank lies in these
+    /// of `count` equal stretches. None if the last is below the first.
+    #[must_use]
+    pub fn shares([first, last]: [u32; 2], count: u32) -> Self {
+        if last < first {
+            // No rank is in it.
+            return Self {
+                seed: 0,
+                first: 1,
+                last: 0,
+            };
+        }
+        let count = u128::from(count.max(1));
+        // The border after so many shares, of 2⁶⁴.
+        let border = |shares: u32| (u128::from(shares) << 64) / count;
+        let rank = |border: u128| u64::try_from(border).unwrap_or(u64::MAX);
+        Self {
+            seed: 0,
+            first: rank(border(first.saturating_sub(1))),
+            last: rank(border(last).saturating_sub(1)),
+        }
     }
 
     /// The rectangles of all tiles of a part of a picture, row by row.

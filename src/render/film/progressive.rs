@@ -6,7 +6,7 @@
 
 use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;
-use super::{Background, Counts, Crop, DISPLAY, Values, coverage};
+use super::{Background, Counts, Crop, DISPLAY, Tiles, Values, coverage};
 use crate::color::Tone;
 use crate::image::Image;
 use crate::math::Vec3;
@@ -38,6 +38,8 @@ pub struct ProgressiveFilm {
     pub background: Background,
     /// How values are shown, and what they are multiplied by before, where paths are traced.
     pub display: (Tone, f64),
+    /// The tiles that grow; all without.
+    pub tiles: Option<Tiles>,
     pub(in crate::render) pixels: Tiled<Replicates>,
     /// The rays so far.
     pub counts: Counts,
@@ -52,6 +54,7 @@ impl ProgressiveFilm {
             seed,
             background: Background::default(),
             display: (DISPLAY, 1.0),
+            tiles: None,
             pixels: Tiled::new(crop, Replicates::default()),
             counts: Counts::default(),
         }
@@ -189,6 +192,35 @@ impl Replicates {
         match (values, self.tone) {
             (Values::Display, Some(tone)) => shown(tone, mean),
             (Values::Display | Values::Linear, _) => mean,
+        }
+    }
+
+    /// Whether its mean is shown by a tone map.
+    pub(super) fn is_toned(&self) -> bool {
+        self.tone.is_some()
+    }
+
+    /// All sums, and the numbers of samples and of hits per half.
+    pub(super) fn to_numbers(self) -> ([f64; 20], [u32; 2], [u64; 2]) {
+        let mut numbers = [0.0; 20];
+        let sums = self.sums.iter().chain(&self.linear);
+        for (numbers, sum) in numbers.chunks_exact_mut(3).zip(sums) {
+            numbers.copy_from_slice(&sum.to_array());
+        }
+        numbers[18..].copy_from_slice(&self.squares);
+        (numbers, self.counts, self.hits)
+    }
+
+    /// The pixel of [`Self::to_numbers`], without a tone map.
+    pub(super) fn from_numbers(numbers: &[f64; 20], counts: [u32; 2], hits: [u64; 2]) -> Self {
+        let sum = |at: usize| Vec3::new(numbers[at], numbers[at + 1], numbers[at + 2]);
+        Self {
+            tone: None,
+            sums: [sum(0), sum(3), sum(6), sum(9)],
+            squares: [numbers[18], numbers[19]],
+            linear: [sum(12), sum(15)],
+            counts,
+            hits,
         }
     }
 

@@ -43,6 +43,17 @@ impl<K> Tiled<K> {
         &self.pixels[self.place(index % width, index / width)]
     }
 
+    /// The values tile by tile.
+    #[must_use]
+    pub(in crate::render) fn values(&self) -> &[K] {
+        &self.pixels
+    }
+
+    /// The same, to be changed.
+    pub(in crate::render) fn values_mut(&mut self) -> &mut [K] {
+        &mut self.pixels
+    }
+
     /// The values row by row.
     pub(in crate::render) fn iter(&self) -> impl Iterator<Item = &K> {
         (0..self.crop.height).flat_map(|row| self.row(row))

@@ -66,13 +66,17 @@ fn add_samples<'run, I: Integrator<'run, Sample = Sample>>(
     worker: impl Fn() -> I + Sync + Send,
 ) -> bool {
     let seed = film.seed();
+    let selection = Selection {
+        tiles: film.tiles,
+        ..Selection::default()
+    };
     let open = |_: [u32; 2], index: usize, pixel: &Replicates| {
         (
             pixel.toned(tone),
             ProgressiveFilm::lacking(seed, pixel, wanted(index)),
         )
     };
-    let counts = run(&mut film.pixels, Selection::default(), worker, &open);
+    let counts = run(&mut film.pixels, selection, worker, &open);
     film.counts = film.counts.plus(counts.unwrap_or_default());
     counts.is_some()
 }

@@ -1,0 +1,66 @@
+//! A turntable that is saved on its way: finished frames are kept, and the frame begun.
+
+use super::super::Failure;
+use super::super::output::Output;
+use super::super::turntable::{self, Turntable};
+use super::RenderSetup;
+use super::checkpoint::{Desk, Saving};
+use crate::pipeline::{RenderSubject, hash_of_file};
+use crate::source::{Loader, SourceMap};
+use std::path::Path;
+
+/// The largest picture that is looked at again, in bytes.
+const MAX_BYTES: u64 = 1 << 36;
+
+impl RenderSetup {
+    /// Renders the frames that are missing, and writes them.
+    pub(super) fn turn_saving(
+        &self,
+        count: u32,
+        mut saving: Saving<'_>,
+        subject: &mut RenderSubject,
+        (input, talk, interrupt): Desk<'_>,
+    ) -> Result<(), Failure> {
+        let table = Turntable::new(&subject.proven.lowered.scene, self.up, count);
+        let path = |frame| turntable::name(&self.output, frame);
+        (0..count).try_for_each(|frame| Output::open(&path(frame), input).map(drop))?;
+        let turn = |subject: &mut RenderSubject, frame| {
+            table.turn(&mut subject.proven, frame)?;
+            subject.turn();
+            Ok::<(), Failure>(())
+        };
+        let finished = saving.finished.clone();
+        let begun = u32::try_from(finished.len()).unwrap_or(u32::MAX);
+        if begun >= count {
+            return Err(saving.refused(&format!("it is of more than {count} frames")));
+        }
+        if saving.saved.is_some() {
+            // What was saved is of this scene, before a frame is done.
+            turn(subject, begun)?;
+            let window = self.picture.window(&subject.proven.lowered.scene)?;
+            saving.saved = Some(self.begun(&mut saving, subject, window)?);
+        }
+        for (frame, hash) in
+            (0..count).zip(finished.iter().map(Some).chain(std::iter::repeat(None)))
+        {
+            let output = path(frame);
+            if hash.is_some_and(|hash| is_there(&output, hash)) {
+                continue;
+            }
+            turn(subject, frame)?;
+            if hash.is_some() {
+                self.shoot(subject, &output, input, talk, interrupt)?;
+            } else {
+                saving.output = output;
+                self.shoot_saving(&mut saving, subject, (&mut *input, &mut *talk, interrupt))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a file has this hash.
+fn is_there(path: &Path, hash: &str) -> bool {
+    let bytes = Loader.bytes(path, MAX_BYTES, &SourceMap::default());
+    bytes.is_ok_and(|bytes| hash_of_file(&bytes) == hash)
+}

@@ -1,0 +1,140 @@
+//! The bytes of a growing film: magic and version, seed, crop (4 numbers of 32 bits), whether its
+//! means are shown by a tone map, its counts, and the samples of its pixels, tile by tile. Numbers
+//! are little-endian, floating-point numbers keep every bit.
+
+use super::bytes::Unread;
+use super::partial::FilmError;
+use super::progressive::{ProgressiveFilm, Replicates};
+use super::{Crop, Tiles};
+
+/// What the bytes begin with.
+const MAGIC: [u8; 8] = *b"rtc grow";
+
+/// The version of the format, and of what is known of a pixel.
+const VERSION: u32 = 1;
+
+/// The most samples of a replicate.
+const LONGEST: u32 = 1 << 24;
+
+/// What a film held of the pixels of some tiles.
+pub struct Before(Vec<Vec<Replicates>>);
+
+impl ProgressiveFilm {
+    /// What the pixels of the selected tiles are before they grow.
+    #[must_use]
+    pub fn before(&mut self) -> Before {
+        let tiles = self.selected();
+        Before(tiles.into_iter().map(|pixels| pixels.to_vec()).collect())
+    }
+
+    /// Makes the pixels of the selected tiles what they were.
+    pub fn restore(&mut self, before: &Before) {
+        let both = self.selected().into_iter().zip(&before.0);
+        both.for_each(|(pixels, before)| pixels.copy_from_slice(before));
+    }
+
+    fn selected(&mut self) -> Vec<&mut [Replicates]> {
+        let selected: Option<Tiles> = self.tiles;
+        let is_selected =
+            |area: &Crop| selected.is_none_or(|tiles| tiles.contain([area.x, area.y]));
+        let tiles = self.pixels.tiles_mut().into_iter();
+        let tiles = tiles.filter(|(area, _)| is_selected(area));
+        tiles.map(|(_, pixels)| pixels).collect()
+    }
+
+    /// The film as bytes; equal films are equal bytes.
+    #[must_use]
+    pub fn save(&self) -> Vec<u8> {
+        let Crop {
+            x,
+            y,
+            width,
+            height,
+        } = self.crop();
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend(VERSION.to_le_bytes());
+        bytes.extend(self.seed().to_le_bytes());
+        bytes.extend([x, y, width, height].into_iter().flat_map(u32::to_le_bytes));
+        let is_toned = self.pixels.values().iter().any(Replicates::is_toned);
+        bytes.push(u8::from(is_toned));
+        let counts = self.counts.to_array();
+        bytes.extend(counts.into_iter().flat_map(u64::to_le_bytes));
+        bytes.reserve(self.len() * Replicates::BYTES);
+        let pixels = self.pixels.values();
+        pixels.iter().for_each(|pixel| pixel.save(&mut bytes));
+        bytes
+    }
+
+    /// Fills a film without samples with those of such bytes, of a film of the same crop and seed.
+    ///
+    /// # Errors
+    /// If the bytes are of something else or of another version, or damaged.
+    pub fn load(mut self, bytes: &[u8]) -> Result<Self, FilmError> {
+        let mut bytes = Unread(bytes);
+        if bytes.array().ok() != Some(MAGIC) {
+            return Err(FilmError::NotAFilm);
+        }
+        let version = bytes.number()?;
+        if version != VERSION {
+            return Err(FilmError::Version(version));
+        }
+        let seed = u64::from_le_bytes(bytes.array()?);
+        let mut crop = [0; 4];
+        for number in &mut crop {
+            *number = bytes.number()?;
+        }
+        let Crop {
+            x,
+            y,
+            width,
+            height,
+        } = self.crop();
+        if seed != self.seed() || crop != [x, y, width, height] {
+            return Err(FilmError::OtherPicture);
+        }
+        let tone = match bytes.array()? {
+            [0] => None,
+            [1] => Some(self.display),
+            _ => return Err(FilmError::Corrupt("its tone map is unknown")),
+        };
+        self.counts = bytes.counts_of_effects()?;
+        for pixel in self.pixels.values_mut() {
+            *pixel = Replicates::load(&mut bytes)?.toned(tone);
+        }
+        let is_all = bytes.0.is_empty();
+        is_all
+            .then_some(self)
+            .ok_or(FilmError::Corrupt("bytes are left over"))
+    }
+}
+
+impl Replicates {
+    /// The bytes of a pixel.
+    const BYTES: usize = 20 * 8 + 2 * 4 + 2 * 8;
+
+    fn save(&self, bytes: &mut Vec<u8>) {
+        let (numbers, counts, hits) = self.to_numbers();
+        bytes.extend(numbers.into_iter().flat_map(f64::to_le_bytes));
+        bytes.extend(counts.into_iter().flat_map(u32::to_le_bytes));
+        bytes.extend(hits.into_iter().flat_map(u64::to_le_bytes));
+    }
+
+    fn load(bytes: &mut Unread<'_>) -> Result<Self, FilmError> {
+        let mut numbers = [0.0; 20];
+        for number in &mut numbers {
+            *number = f64::from_le_bytes(bytes.array()?);
+        }
+        let counts = [bytes.number()?, bytes.number()?];
+        let mut hits = [0; 2];
+        for hits in &mut hits {
+            *hits = u64::from_le_bytes(bytes.array()?);
+        }
+        let are_some = [0, 1].map(|half: usize| {
+            counts[half] <= LONGEST && hits[half] <= 2 * u64::from(counts[half])
+        });
+        if are_some != [true; 2] || !numbers.iter().all(|number| number.is_finite()) {
+            return Err(FilmError::Corrupt("a pixel has samples that can't be"));
+        }
+        Ok(Self::from_numbers(&numbers, counts, hits))
+    }
+}

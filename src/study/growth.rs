@@ -1,0 +1,194 @@
+//! A picture on its way to its goal, which can be saved between two stretches of a round and goes on from
+//! there to the same bytes: a round takes the samples that are missing, whoever took the others.
+
+use super::stretch::Stretch;
+use super::target::{Order, Reached, Samples};
+use crate::render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
+use std::time::Duration;
+
+/// What is known of a picture that grows.
+pub struct Growth {
+    pub(super) film: ProgressiveFilm,
+    /// How many samples each replicate is to have after the round under way.
+    pub(super) wanted: Vec<[u32; 2]>,
+    /// The rounds that are done.
+    pub(super) rounds: u32,
+    /// Points of each soft light at a hit.
+    pub(super) light_samples: u32,
+    /// Whether those were asked for.
+    pub(super) keeps_lights: bool,
+}
+
+/// How a growing picture is kept on its way.
+pub struct Keep<'a> {
+    /// What was kept before.
+    pub begun: Option<Growth>,
+    /// The time between two saves.
+    pub every: Duration,
+    /// How many threads are to have work.
+    pub threads: usize,
+    /// The time since the start.
+    pub elapsed: &'a (dyn Fn() -> Duration + Sync),
+    /// Takes the bytes of what is done.
+    pub save: &'a (dyn Fn(Vec<u8>) + Sync),
+}
+
+/// Keeps what grows now and then.
+pub(super) struct Keeper<'a> {
+    keep: Keep<'a>,
+    stretch: Stretch,
+    saved: Duration,
+}
+
+impl<'a> Keeper<'a> {
+    pub(super) fn new(keep: Keep<'a>) -> Self {
+        Self {
+            stretch: Stretch::new(keep.every, keep.threads),
+            saved: (keep.elapsed)(),
+            keep,
+        }
+    }
+
+    /// What was kept before.
+    pub(super) fn begun(&mut self) -> Option<Growth> {
+        self.keep.begun.take()
+    }
+
+    /// Keeps it now.
+    pub(super) fn save(&self, growth: &Growth) {
+        (self.keep.save)(growth.save());
+    }
+
+    /// So many tiles took since then.
+    fn took(&mut self, growth: &Growth, tiles: u32, begun: Duration) {
+        let now = (self.keep.elapsed)();
+        self.stretch.adapt(tiles, now.saturating_sub(begun));
+        if now.saturating_sub(self.saved) >= self.keep.every {
+            self.save(growth);
+            self.saved = (self.keep.elapsed)();
+        }
+    }
+}
+
+impl Growth {
+    /// The rays it took.
+    #[must_use]
+    pub fn rays(&self) -> u64 {
+        self.film.counts.rays()
+    }
+
+    /// Takes the samples of the round that are missing, and keeps them on the way; false if someone said
+    /// stop.
+    pub(super) fn grow(
+        &mut self,
+        world: &AnyWorld,
+        on_pixel: &OnPixel<'_>,
+        keeper: Option<&mut Keeper<'_>>,
+    ) -> bool {
+        let Some(keeper) = keeper else {
+            let wanted = |index: usize| self.wanted[index];
+            return world.grow(&mut self.film, &wanted, on_pixel);
+        };
+        let count = Tiles::of(self.film.crop()).count();
+        let count = u32::try_from(count).unwrap_or(u32::MAX);
+        let mut done = 0;
+        while done < count {
+            let last = count.min(done.saturating_add(keeper.stretch.shares()));
+            let begun = (keeper.keep.elapsed)();
+            self.film.tiles = Some(Tiles::shares([done + 1, last], count));
+            let before = self.film.before();
+            let wanted = |index: usize| self.wanted[index];
+            let is_done = world.grow(&mut self.film, &wanted, on_pixel);
+            if !is_done {
+                // A pixel that was cut short is wrong.
+                self.film.restore(&before);
+            }
+            self.film.tiles = None;
+            if !is_done {
+                keeper.save(self);
+                return false;
+            }
+            keeper.took(self, last - done, begun);
+            done = last;
+        }
+        true
+    }
+
+    /// The picture as far as it is, of a bound on its error.
+    pub(super) fn reached(&self, error: f64, values: Values) -> Reached {
+        Reached {
+            image: self.film.image(values),
+            coverage: self.film.coverage(),
+            counts: self.film.counts,
+            error,
+            samples: samples_of(&self.film),
+            light_samples: self.light_samples,
+        }
+    }
+
+    /// Rounds, points of lights and whether those were asked for, the samples wanted, and the film, as bytes.
+    fn save(&self) -> Vec<u8> {
+        let wanted = self.wanted.iter().flatten();
+        let keeps = u32::from(self.keeps_lights);
+        let numbers = [self.rounds, self.light_samples, keeps, 0].into_iter();
+        let numbers = numbers.chain(wanted.copied());
+        let mut bytes: Vec<u8> = numbers.flat_map(u32::to_le_bytes).collect();
+        bytes.extend(self.film.save());
+        bytes
+    }
+
+    /// What was kept in such bytes, of the picture of an order.
+    ///
+    /// # Errors
+    /// If the bytes are of something else or of another version, or damaged.
+    pub fn load(bytes: &[u8], order: &Order) -> Result<Self, FilmError> {
+        /// More rounds than that no picture takes.
+        const MOST: u32 = 1 << 16;
+        const LONGEST: u32 = 1 << 24;
+        const SHORT: FilmError = FilmError::Corrupt("its end is missing");
+        const WRONG: FilmError = FilmError::Corrupt("its rounds can't be");
+        let length = 8 * (order.crop.pixels() + 2);
+        let (numbers, film) = bytes.split_at_checked(length).ok_or(SHORT)?;
+        // As many pixels as there are numbers.
+        let film = order.film().load(film)?;
+        let mut pairs = numbers.chunks_exact(8).map(|pair| {
+            let (pair, _) = pair.as_chunks::<4>();
+            [pair[0], pair[1]].map(u32::from_le_bytes)
+        });
+        let [rounds, light_samples] = pairs.next().ok_or(SHORT)?;
+        if pairs.next() != Some([u32::from(order.keep_lights), 0]) {
+            return Err(FilmError::OtherPicture);
+        }
+        let wanted: Vec<[u32; 2]> = pairs.collect();
+        let is_grown = |(wanted, index): (&[u32; 2], usize)| {
+            [0, 1].into_iter().all(|half| {
+                let (count, wanted) = (film.pixel(index).count(half), wanted[half]);
+                // A round doubles what is there; the first begins with none.
+                let is_taken = count == wanted || 2 * count == wanted;
+                (is_taken || (rounds == 0 && count == 0))
+                    && wanted.is_power_of_two()
+                    && wanted <= LONGEST
+            })
+        };
+        let are_grown = wanted.iter().zip(0..).all(is_grown);
+        if rounds > MOST || light_samples == 0 || !are_grown {
+            return Err(WRONG);
+        }
+        Ok(Self {
+            film,
+            wanted,
+            rounds,
+            light_samples,
+            keeps_lights: order.keep_lights,
+        })
+    }
+}
+
+fn samples_of(film: &ProgressiveFilm) -> Samples {
+    let counts = || film.pixels().map(Replicates::samples);
+    Samples {
+        min: counts().min().unwrap_or(0),
+        mean: film.samples() as f64 / film.len().max(1) as f64,
+        most: counts().max().unwrap_or(0),
+    }
+}
