@@ -16,7 +16,7 @@ pub mod trial;
 
 pub use exposure::OwnLight;
 #[cfg(not(target_family = "wasm"))]
-pub use file::{NewFile, WriteObserver};
+pub use file::{NewFile, NewFolder, WriteObserver};
 pub use input::{Input, Loaded, Proven, Provenance};
 pub use look::{Exposure, OutputFormat, OutputLook, SettledLook};
 pub use meter::Meter;

@@ -28,9 +28,25 @@ pub(super) fn share(text: &str) -> Result<[u32; 2], String> {
         .ok_or_else(|| format!("expected a share and their number, at most {MOST_SHARES}, as 3/8"))
 }
 
+/// The first and the last of some frames, from 1 on.
+pub(super) fn frames(text: &str) -> Result<[u32; 2], String> {
+    let numbers = text.split_once("..");
+    let numbers = numbers.and_then(|(a, b)| Some([a.parse().ok()?, b.parse().ok()?]));
+    numbers
+        .filter(|[first, last]| (1..=*last).contains(first))
+        .ok_or_else(|| "expected the first frame and the last, from 1 on, as 1..48".to_owned())
+}
+
 pub(super) fn moment(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
     number.ok_or_else(|| "expected a number of seconds, as 1.5".to_owned())
+}
+
+/// Pictures a second.
+pub(super) fn rate(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok();
+    rate.filter(|rate| (0.001..=10_000.0).contains(rate))
+        .ok_or_else(|| "expected 0.001 to 10000 pictures a second, as 24".to_owned())
 }
 
 /// A length above 0.

@@ -5,6 +5,7 @@ use crate::ir::{Camera, Scene};
 use crate::math::{Vec3, unit};
 use crate::pipeline::Proven;
 use std::f64::consts::TAU;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Views around the upward axis through the middle of a scene; the first is that of its camera.
@@ -13,6 +14,34 @@ pub(super) struct Turntable {
     axis: Vec3,
     middle: Vec3,
     count: u32,
+}
+
+/// Which views of a turntable are shown.
+pub(super) struct Views {
+    /// How many there are.
+    pub(super) count: u32,
+    /// Those that are shown, from 0.
+    pub(super) shown: Range<u32>,
+}
+
+impl Views {
+    /// So many views, and of them only the first to the last given, from 1, if any are.
+    pub(super) fn new(
+        count: Option<u32>,
+        frames: Option<[u32; 2]>,
+    ) -> Result<Option<Self>, Failure> {
+        let Some(count) = count else {
+            return Ok(None);
+        };
+        let [first, last] = frames.unwrap_or([1, count]);
+        if last > count {
+            return Err(Failure::Trouble(format!(
+                "there is no frame {last}: the turntable has {count}"
+            )));
+        }
+        let shown = first - 1..last;
+        Ok(Some(Self { count, shown }))
+    }
 }
 
 impl Turntable {

@@ -1,12 +1,12 @@
-//! The one writer of files: a file appears whole or not at all.
+//! The one writer of files: a file appears whole or not at all, and so does a folder of them.
 //!
-//! It is written beside its target under another name, synced and renamed. An unfinished file is
+//! It is written beside its target under another name, synced and renamed. What is unfinished is
 //! removed.
 
 use std::fs::{self, Permissions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempDir};
 
 /// The most links that are followed to where a file is to be.
 const MAX_LINKS: usize = 40;
@@ -113,6 +113,70 @@ impl NewFile {
         }
         let placed = draft.persist(&self.target);
         placed.map_err(|error| error.error).map(drop)
+    }
+}
+
+/// A folder that is to appear whole, with all its files, or not at all.
+pub struct NewFolder {
+    target: PathBuf,
+    /// Where it is until then, beside its target; gone when dropped.
+    draft: TempDir,
+}
+
+impl NewFolder {
+    /// Looks whether there can be a folder at `path`: there is nothing, or an empty one.
+    ///
+    /// # Errors
+    /// If there can't.
+    pub fn at(path: &Path) -> io::Result<Self> {
+        match fs::read_dir(path).map(|mut entries| entries.next().is_some()) {
+            Ok(true) => return Err(ErrorKind::DirectoryNotEmpty.into()),
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+            Ok(false) | Err(_) => {}
+        }
+        let target = path.canonicalize().or_else(|_| followed(path))?;
+        let folder = folder_of(&target);
+        fs::metadata(folder)?;
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".rtc-").suffix(".tmp");
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
+        let draft = builder.tempdir_in(folder);
+        let draft = draft.map_err(|error| io::Error::from(error.kind()))?;
+        Ok(Self { target, draft })
+    }
+
+    /// Writes one of its files, unless the observer says stop before.
+    ///
+    /// # Errors
+    /// As [`NewFile::write`].
+    pub fn put(
+        &self,
+        name: &str,
+        write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
+        observer: &dyn WriteObserver,
+    ) -> io::Result<()> {
+        let file = NewFile::at(&self.draft.path().join(name))?;
+        file.ok_or(ErrorKind::AlreadyExists)?.write(write, observer)
+    }
+
+    /// Puts it in place, unless the observer says stop before.
+    ///
+    /// # Errors
+    /// What the system says, as when there is something by now, or that someone said stop.
+    #[expect(clippy::disallowed_methods, reason = "this is the one writer")]
+    pub fn place(self, observer: &dyn WriteObserver) -> io::Result<()> {
+        if observer.is_stopped() {
+            return Err(ErrorKind::Interrupted.into());
+        }
+        // Only an empty folder goes so.
+        if self.target.is_dir() {
+            fs::remove_dir(&self.target)?;
+        }
+        fs::rename(self.draft.path(), &self.target)?;
+        // There is nothing left of the draft.
+        let _ = self.draft.keep();
+        Ok(())
     }
 }
 

@@ -11,6 +11,7 @@
 )]
 mod checkpoints;
 mod exposure;
+mod farm;
 mod framing;
 mod looks;
 mod mesh;

@@ -2,17 +2,21 @@
 
 mod common;
 mod cost;
+mod farm;
 mod look;
 mod merge;
 mod render;
 mod stage;
+mod wanted;
 
 pub(super) use common::{Color, MessageFormat, Reading, TalkArgs};
 pub(super) use cost::{Cost, StudyFormat};
+pub(super) use farm::{Engine, Farm};
 pub(super) use look::{BitDepth, LookArgs};
 pub(super) use merge::Merge;
-pub(super) use render::{Pruning, Render};
+pub(super) use render::{Pruning, Render, SharedByArg};
 pub(super) use stage::{GroundArg, StageArgs};
+pub(super) use wanted::{ArithmeticArg, WantedArgs};
 
 use super::parse::length;
 use crate::ir;
@@ -51,6 +55,8 @@ pub(super) enum Command {
     Render(Box<Render>),
     /// Merge parts of a picture, rendered by `rtc render --part`, into the picture
     Merge(Merge),
+    /// Write a picture in parts as a job for an engine that runs jobs on many machines
+    Farm(Box<Farm>),
     /// Show what accuracy costs in a scene, and which settings are worth it
     Cost(Cost),
     /// Explain a code of a diagnostic

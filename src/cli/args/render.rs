@@ -1,10 +1,9 @@
 //! What `rtc render` is told.
 
-use super::super::parse::{crop, interval, levels, rule, seconds, setting, share, size};
-use super::{LookArgs, Reading, StageArgs, TalkArgs};
+use super::super::parse::{frames, interval, levels, rule, seconds, share};
+use super::{LookArgs, Reading, StageArgs, TalkArgs, WantedArgs};
 use crate::pipeline::SharedBy;
-use crate::plan::{self, Rule};
-use crate::render::Crop;
+use crate::plan::Rule;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -18,27 +17,8 @@ pub(in crate::cli) struct Render {
     /// .png, here]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) output: Option<PathBuf>,
-    /// Width and height in pixels; the picture keeps its height in the scene
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    pub(in crate::cli) size: Option<[u32; 2]>,
-    /// Sub-samples along each side of a pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub(in crate::cli) supersampling: Option<u32>,
-    /// Points of the lens each sub-sample takes
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub(in crate::cli) aperture_samples: Option<u32>,
-    /// Points of each soft light
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub(in crate::cli) light_samples: Option<u32>,
-    /// Rays of each glossy lobe; what is a mirror stays one
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub(in crate::cli) glossy_samples: Option<u32>,
-    /// Paths a pixel, of scenes whose paths are traced
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub(in crate::cli) spp: Option<u32>,
-    /// Bounces after the first hit
-    #[arg(long, value_name = "N")]
-    pub(in crate::cli) depth: Option<u32>,
+    #[command(flatten)]
+    pub(in crate::cli) wanted: WantedArgs,
     /// Sample until the picture is this close, in grey levels of 8 bits (RMSE, kept by 90 of 100
     /// pictures), to what ever more samples at this depth would show
     #[arg(long, value_name = "LEVELS", value_parser = levels, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
@@ -51,8 +31,11 @@ pub(in crate::cli) struct Render {
     /// `-%04d`
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects")]
     pub(in crate::cli) turntable: Option<u32>,
+    /// Only these views of the turntable, from 1 on, the first and the last of them
+    #[arg(long, value_name = "A..B", value_parser = frames, requires = "turntable")]
+    pub(in crate::cli) frames: Option<[u32; 2]>,
     /// Render one of N shares of the picture into a part, .rtp; `rtc merge` makes the picture of all
-    #[arg(long, value_name = "I/N", value_parser = share, conflicts_with_all = ["turntable", "verify_effects"])]
+    #[arg(long, value_name = "I/N", value_parser = share, conflicts_with = "verify_effects")]
     pub(in crate::cli) part: Option<[u32; 2]>,
     /// What is shared out: tiles, or the samples of traced paths
     #[arg(
@@ -79,16 +62,6 @@ pub(in crate::cli) struct Render {
     /// Threads to work on [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(in crate::cli) threads: Option<u16>,
-    /// Render only this part of the picture, in pixels from the upper left
-    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
-    pub(in crate::cli) crop: Option<Crop>,
-    /// How rays meet shapes
-    #[arg(long, value_enum, default_value_t, value_name = "ARITHMETIC")]
-    pub(in crate::cli) arithmetic: ArithmeticArg,
-    /// Replace a setting of the IR by its name there, last of all, as multipleScattering=false;
-    /// `rtc schema ir` lists them
-    #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
-    pub(in crate::cli) set: Vec<(String, String)>,
     #[command(flatten)]
     pub(in crate::cli) look: LookArgs,
     #[command(flatten)]
@@ -129,27 +102,6 @@ impl From<SharedByArg> for SharedBy {
         match by {
             SharedByArg::Tiles => Self::Tiles,
             SharedByArg::Samples => Self::Samples,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum ArithmeticArg {
-    /// With bounds on all errors, in f64
-    #[default]
-    Robust,
-    /// By the formulas of textbooks, in f64
-    Plain,
-    /// By the formulas of textbooks, in f32
-    F32,
-}
-
-impl From<ArithmeticArg> for plan::Arithmetic {
-    fn from(arithmetic: ArithmeticArg) -> Self {
-        match arithmetic {
-            ArithmeticArg::Robust => Self::Robust,
-            ArithmeticArg::Plain => Self::Plain,
-            ArithmeticArg::F32 => Self::F32,
         }
     }
 }

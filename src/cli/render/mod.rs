@@ -12,10 +12,9 @@ use super::interrupt::Interrupt;
 use super::output::{self, Output};
 use super::simd;
 use super::talk::{self, Talk};
-use super::turntable::{self, Turntable};
+use super::turntable::{self, Turntable, Views};
 use crate::color::Tone;
 use crate::image::BackgroundFill;
-use crate::passes::Overrides;
 use crate::pipeline::{
     Input, Observer, OutputFormat, OutputLook, PictureSetup, RenderError, RenderSubject,
 };
@@ -32,7 +31,7 @@ struct RenderSetup {
     output: PathBuf,
     picture: PictureSetup,
     /// Views around the scene, if more than its own.
-    turntable: Option<u32>,
+    turntable: Option<Views>,
     up: Option<[f64; 3]>,
     /// The share of the picture that is rendered, if not all of it.
     part: Option<PartSetup>,
@@ -56,12 +55,7 @@ pub(super) fn run(args: &args::Render, typed: &[OsString]) -> Result<(), Failure
     let mut talk = Talk::beside_result(&args.talk);
     let mut input = input::staged(&args.file, &args.reading, &args.stage)?;
     input.use_threads(plan.picture.threads);
-    input.restage(|stage| {
-        stage.all_around = args.turntable.is_some();
-        if args.look.background == BackgroundFill::Transparent {
-            stage.ground = stage.ground.or(Some(false));
-        }
-    });
+    set_stage(&mut input, &args.look, args.turntable);
     let outcome = plan.carry_out(&mut input, &mut talk);
     talk.finish()?;
     outcome
@@ -75,7 +69,8 @@ impl RenderSetup {
             (None, Some(part)) => part.beside_here(args)?,
             (None, None) => beside_here(args)?,
         };
-        if args.turntable.is_some() && output.as_os_str() == "-" {
+        let turntable = Views::new(args.turntable, args.frames)?;
+        if turntable.is_some() && output.as_os_str() == "-" {
             return Err(Failure::Trouble(
                 "a turntable is many pictures; give `-o NAME-%04d.png`".to_owned(),
             ));
@@ -87,29 +82,16 @@ impl RenderSetup {
         };
         let picture = part.as_ref().map_or(output.as_path(), PartSetup::picture);
         let picture = PictureSetup {
-            overrides: Overrides {
-                size: args.size,
-                supersampling: args.supersampling,
-                aperture_samples: args.aperture_samples,
-                light_samples: args.light_samples,
-                glossy_samples: args.glossy_samples,
-                depth: args.depth,
-                spp: args.spp,
-            },
-            set: args.set.clone(),
-            arithmetic: args.arithmetic.into(),
-            crop: args.crop,
             goal,
             threads: args.threads.map_or(0, usize::from),
-            simd: simd::level()?,
             rules: rules(&args.pruning, goal),
             verify: args.pruning.verify_effects,
-            ..PictureSetup::new(look(&args.look, picture)?)
+            ..wanted(&args.wanted, &args.look, picture)?
         };
         Ok(Self {
             output,
             picture,
-            turntable: args.turntable,
+            turntable,
             up: args.stage.up,
             part,
             checkpoint: Checkpoint::new(args),
@@ -136,6 +118,9 @@ impl RenderSetup {
         };
         self.picture.light(&mut subject, input, &observer)?;
         input::tell(input, talk)?;
+        if let Some(views) = &self.turntable {
+            return self.shoot_around(views, &mut subject, input, talk, &interrupt);
+        }
         if let Some(part) = &self.part {
             return self.shoot_part(part, &mut subject, input, talk, &interrupt);
         }
@@ -147,18 +132,32 @@ impl RenderSetup {
                 Some(count) => self.turn_saving(count, saving, &mut subject, desk),
             };
         }
-        let Some(count) = self.turntable else {
-            return self.shoot(&mut subject, &self.output, input, talk, &interrupt);
+        self.shoot(&mut subject, &self.output, input, talk, &interrupt)
+    }
+
+    /// Renders views around the scene, or a part of the only one, and writes them.
+    fn shoot_around(
+        &self,
+        views: &Views,
+        subject: &mut RenderSubject,
+        input: &mut Input,
+        talk: &mut Talk,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let table = Turntable::new(&subject.proven.lowered.scene, self.up, views.count);
+        let path = |frame| match &self.part {
+            Some(_) => self.output.clone(),
+            None => turntable::name(&self.output, frame),
         };
-        let table = Turntable::new(&subject.proven.lowered.scene, self.up, count);
-        (0..count).try_for_each(|frame| {
-            Output::open(&turntable::name(&self.output, frame), input).map(drop)
-        })?;
-        for frame in 0..count {
+        let mut frames = views.shown.clone();
+        frames.try_for_each(|frame| Output::open(&path(frame), input).map(drop))?;
+        for frame in views.shown.clone() {
             table.turn(&mut subject.proven, frame)?;
             subject.turn();
-            let path = turntable::name(&self.output, frame);
-            self.shoot(&mut subject, &path, input, talk, &interrupt)?;
+            match &self.part {
+                Some(part) => self.shoot_part(part, subject, input, talk, interrupt)?,
+                None => self.shoot(subject, &path(frame), input, talk, interrupt)?,
+            }
         }
         Ok(())
     }
@@ -224,6 +223,16 @@ fn halted(error: RenderError, input: &mut Input, talk: &mut Talk) -> Result<(), 
     }
 }
 
+/// Shows a scene as pictures of this look want it, some of them all around.
+pub(super) fn set_stage(input: &mut Input, look: &args::LookArgs, turntable: Option<u32>) {
+    input.restage(|stage| {
+        stage.all_around = turntable.is_some();
+        if look.background == BackgroundFill::Transparent {
+            stage.ground = stage.ground.or(Some(false));
+        }
+    });
+}
+
 /// The rules that may leave something out.
 fn rules(args: &args::Pruning, goal: Goal) -> Rules {
     // The error that is promised counts no other one.
@@ -238,6 +247,22 @@ fn rules(args: &args::Pruning, goal: Goal) -> Rules {
         Some([]) => Rules::NONE,
         Some(named) => named.iter().fold(all, |rules, rule| rules.without(*rule)),
     }
+}
+
+/// The picture that is asked for, of a kind that its name says.
+pub(super) fn wanted(
+    wanted: &args::WantedArgs,
+    look: &args::LookArgs,
+    name: &Path,
+) -> Result<PictureSetup, Failure> {
+    Ok(PictureSetup {
+        overrides: wanted.overrides(),
+        set: wanted.set.clone(),
+        arithmetic: wanted.arithmetic.into(),
+        crop: wanted.crop,
+        simd: simd::level()?,
+        ..PictureSetup::new(self::look(look, name)?)
+    })
 }
 
 /// The look that is asked for.

@@ -29,6 +29,10 @@ impl PartSetup {
                  give its samples, by `--spp` or `--supersampling`, in place of a goal",
             );
         }
+        let is_one = args.frames.is_some_and(|[first, last]| first == last);
+        if args.turntable.is_some() && !is_one {
+            return trouble("a part is of one picture; say of which by `--frames 3..3`");
+        }
         let is_part = |output: &PathBuf| output.extension().is_some_and(|it| it == "rtp");
         if args.output.as_ref().is_some_and(|output| !is_part(output)) {
             return trouble(

@@ -4,6 +4,7 @@ use super::super::{
     Meter, Observer, PicturePart, PictureSetup, RenderError, RenderSubject, SharedBy, Shares,
 };
 use super::Made;
+use crate::ir::{self, Scene};
 use crate::render::{Crop, Job};
 use crate::valid;
 
@@ -12,6 +13,17 @@ const INSEPARABLE: &str = "only pictures of traced paths have parts by samples; 
      `--parts-by tiles` shares out any picture";
 
 impl PictureSetup {
+    /// Refuses to share out what has no shares of that kind.
+    ///
+    /// # Errors
+    /// If no paths are traced whose samples could be shared out.
+    pub fn separable(&self, scene: &Scene, by: SharedBy) -> Result<(), RenderError> {
+        match (by, &scene.settings.mode) {
+            (SharedBy::Tiles, _) | (SharedBy::Samples, ir::Mode::Path(_)) => Ok(()),
+            (SharedBy::Samples, _) => Err(RenderError::Refused(INSEPARABLE.to_owned())),
+        }
+    }
+
     /// Some shares of the picture, or where its rays ran out, of which there may be so many.
     ///
     /// # Errors

@@ -1,0 +1,164 @@
+//! The commands that the tasks of a job run: one for a part, one for the picture of all.
+
+use super::super::args::{ArithmeticArg, Farm};
+use super::frames::Frames;
+use crate::image::BackgroundFill;
+use crate::pipeline::Exposure;
+use crate::render::Crop;
+use crate::source::Resource;
+use clap::ValueEnum;
+
+/// The words of the commands, without those that differ from task to task.
+pub(super) struct Commands<'a> {
+    frames: &'a Frames,
+    /// How a picture is rendered, beside what the scene says.
+    look: Vec<String>,
+    /// What the run may take.
+    limits: Vec<String>,
+    parts: u32,
+    by: String,
+    threads: u16,
+    picture: String,
+    allows_huge: bool,
+}
+
+impl<'a> Commands<'a> {
+    pub(super) fn new(args: &Farm, frames: &'a Frames) -> Self {
+        let limit = |(name, number): &(Resource, u64)| {
+            ["--limit".to_owned(), format!("{}={number}", name.name())]
+        };
+        let mut limits: Vec<String> = args.reading.limit.iter().flat_map(limit).collect();
+        if args.reading.allow_huge {
+            limits.push("--allow-huge".to_owned());
+        }
+        Self {
+            frames,
+            look: look(args),
+            limits,
+            parts: args.parts,
+            by: name(args.parts_by),
+            threads: args.threads,
+            picture: args.picture.clone(),
+            allows_huge: args.reading.allow_huge,
+        }
+    }
+
+    /// The command that renders the picture of a frame in one process.
+    pub(super) fn whole(&self, frame: &str) -> Vec<String> {
+        let output = ["-o".to_owned(), self.picture.clone()];
+        [self.render("", frame), output.to_vec()].concat()
+    }
+
+    /// The command that renders a part of the picture of a frame, in a folder that is given with a
+    /// slash, or empty where it is the current one.
+    pub(super) fn part(&self, folder: &str, frame: &str, part: &str) -> Vec<String> {
+        let words = [
+            "--picture",
+            &self.picture,
+            "--parts-by",
+            &self.by,
+            "--part",
+            &format!("{part}/{}", self.parts),
+            "--threads",
+            &self.threads.to_string(),
+            "-o",
+            &format!("{folder}{}", self.name(frame, part)),
+        ];
+        let words = words.map(str::to_owned).to_vec();
+        [self.render(folder, frame), words].concat()
+    }
+
+    /// The command that merges parts of the picture of a frame, whose names are given.
+    pub(super) fn merge(&self, folder: &str, frame: &str, parts: &[String]) -> Vec<String> {
+        let mut words = vec!["merge".to_owned()];
+        words.extend(parts.iter().map(|name| format!("{folder}{name}")));
+        if self.allows_huge {
+            words.push("--allow-huge".to_owned());
+        }
+        words.extend(["-o".to_owned(), format!("{folder}{}", self.output(frame))]);
+        words
+    }
+
+    /// The names of all parts of the picture of a frame.
+    pub(super) fn names(&self, frame: &str) -> Vec<String> {
+        let parts = 1..=self.parts;
+        parts
+            .map(|part| self.name(frame, &part.to_string()))
+            .collect()
+    }
+
+    /// The name of a part.
+    pub(super) fn name(&self, frame: &str, part: &str) -> String {
+        match self.frames.range() {
+            Some(_) => format!("part-{frame}-{part}.rtp"),
+            None => format!("part-{part}.rtp"),
+        }
+    }
+
+    /// The name of the picture of a frame.
+    pub(super) fn output(&self, frame: &str) -> String {
+        match (self.frames.range(), self.picture.rsplit_once('.')) {
+            (Some(_), Some((stem, extension))) => format!("{stem}-{frame}.{extension}"),
+            _ => self.picture.clone(),
+        }
+    }
+
+    /// What the commands for a part and for the whole have in common.
+    fn render(&self, folder: &str, frame: &str) -> Vec<String> {
+        // The scene has its light: what is dark stays so.
+        let scene = format!("{folder}{}", self.frames.scene(frame));
+        let scene = ["render", &scene, "--studio", "off"];
+        let mut words = scene.map(str::to_owned).to_vec();
+        words.extend_from_slice(&self.look);
+        words.extend_from_slice(&self.limits);
+        if let Frames::Turntable(_, count) = self.frames {
+            let frames = format!("{frame}..{frame}");
+            let turn = ["--turntable", &count.to_string(), "--frames", &frames];
+            words.extend(turn.map(str::to_owned));
+        }
+        words
+    }
+}
+
+/// What of the look is no part of the scene.
+fn look(args: &Farm) -> Vec<String> {
+    let mut words = Vec::new();
+    let mut say = |flag: &str, value: String| words.push(format!("--{flag}={value}"));
+    if let Some(Crop {
+        x,
+        y,
+        width,
+        height,
+    }) = args.wanted.crop
+    {
+        say("crop", format!("{x},{y},{width},{height}"));
+    }
+    if args.wanted.arithmetic != ArithmeticArg::default() {
+        say("arithmetic", name(args.wanted.arithmetic));
+    }
+    if let Some(map) = args.look.tonemap {
+        say("tonemap", name(map));
+    }
+    if let Some(Exposure::Stops(stops)) = args.look.exposure {
+        say("exposure", stops.to_string());
+    }
+    match args.look.background {
+        BackgroundFill::Film => {}
+        BackgroundFill::Transparent => say("background", "transparent".to_owned()),
+        BackgroundFill::Color([r, g, b]) => say("background", format!("{r},{g},{b}")),
+    }
+    if !args.look.aov.is_empty() {
+        let layers: Vec<String> = args.look.aov.iter().copied().map(name).collect();
+        say("aov", layers.join(","));
+    }
+    if let Some(bits) = args.look.bits {
+        say("bits", name(bits));
+    }
+    words
+}
+
+/// A value as it is typed.
+fn name<T: ValueEnum>(value: T) -> String {
+    let value = value.to_possible_value();
+    value.map_or_else(String::new, |value| value.get_name().to_owned())
+}

@@ -1,0 +1,97 @@
+//! The pictures of a job: one, views of a turntable, or moments of an animation; and which scenes they
+//! are of.
+
+use super::super::Failure;
+use super::super::args::{Engine, Farm};
+use super::super::turntable::Views;
+
+/// The pictures of a job.
+pub(super) enum Frames {
+    One,
+    /// The first and the last of so many views of one scene, from 1.
+    Turntable([u32; 2], u32),
+    /// The first and the last of the moments of a scene, from 1, so many a second.
+    Animation([u32; 2], f64),
+}
+
+/// The most frames of a job for Open Job Description: a list there is no longer.
+const MOST_OF_LIST: u32 = 1024;
+
+impl Frames {
+    pub(super) fn new(args: &Farm) -> Result<Self, Failure> {
+        let frames = Self::asked(args)?;
+        let count = frames.range().map_or(1, |[first, last]| last - first + 1);
+        if args.to == Engine::OpenJd && count > MOST_OF_LIST {
+            return Err(Failure::Trouble(format!(
+                "a job for OpenJD has at most {MOST_OF_LIST} frames; make several, by `--frames`"
+            )));
+        }
+        Ok(frames)
+    }
+
+    fn asked(args: &Farm) -> Result<Self, Failure> {
+        let trouble = |words: &str| Err(Failure::Trouble(words.to_owned()));
+        if let Some(views) = Views::new(args.turntable, args.frames)? {
+            if args.stage.up.is_some() {
+                return trouble(
+                    "a turntable in a job turns around the axis of the scene; leave `--up` out",
+                );
+            }
+            let shown = [views.shown.start + 1, views.shown.end];
+            return Ok(Self::Turntable(shown, views.count));
+        }
+        match (args.frames, args.fps) {
+            (None, None) => Ok(Self::One),
+            (Some([_, last]), Some(_)) if last > 9999 => trouble("there are at most 9999 frames"),
+            (Some(_), Some(_)) if args.file.as_os_str() == "-" => {
+                trouble("an animation is read frame by frame; give the name of its file")
+            }
+            (Some(frames), Some(fps)) => Ok(Self::Animation(frames, fps)),
+            (Some(_), None) | (None, Some(_)) => trouble(
+                "frames are those of `--turntable N`, or with `--fps N` those of an animation",
+            ),
+        }
+    }
+
+    /// The first frame and the last, of more pictures than one.
+    pub(super) fn range(&self) -> Option<[u32; 2]> {
+        match self {
+            Self::One => None,
+            Self::Turntable(range, _) | Self::Animation(range, _) => Some(*range),
+        }
+    }
+
+    /// The frames, as they are in names; a picture by itself is one without a number.
+    pub(super) fn names(&self) -> Vec<String> {
+        match self.range() {
+            Some([first, last]) => (first..=last).map(padded).collect(),
+            None => vec![String::new()],
+        }
+    }
+
+    /// The name of the scene of a frame.
+    pub(super) fn scene(&self, frame: &str) -> String {
+        match self {
+            Self::One | Self::Turntable(..) => "scene.rtir".to_owned(),
+            Self::Animation(..) => format!("scene-{frame}.rtir"),
+        }
+    }
+
+    /// The scenes, each with its moment if there is one: frame 1 is at 0 seconds.
+    pub(super) fn scenes(&self) -> Vec<(String, Option<f64>)> {
+        let Self::Animation([first, last], fps) = self else {
+            return vec![(self.scene(""), None)];
+        };
+        let scene = |frame: u32| (self.scene(&padded(frame)), Some(f64::from(frame - 1) / fps));
+        (*first..=*last).map(scene).collect()
+    }
+
+    /// The moment of the first scene.
+    pub(super) fn first_time(&self) -> Option<f64> {
+        self.scenes().first().and_then(|(_, time)| *time)
+    }
+}
+
+fn padded(frame: u32) -> String {
+    format!("{frame:04}")
+}

@@ -1,0 +1,133 @@
+//! `rtc farm`: a picture in parts as a job for an engine that runs jobs on many machines. The scene
+//! is compiled first, so that workers need no assets. The job is written, never run.
+
+mod commands;
+mod frames;
+mod jobs;
+
+use super::Failure;
+use super::args::{Farm, Reading};
+use super::input;
+use super::interrupt::Interrupt;
+use super::render::{set_stage, wanted};
+use super::talk::{self, Talk};
+use crate::codec::{self, Form};
+use crate::pipeline::{Input, NewFolder, Observer, OutputFormat, RenderSubject, hash};
+use frames::Frames;
+use jobs::FarmJob;
+use std::ffi::OsStr;
+use std::io;
+use std::path::Path;
+
+/// Compiles the scene, at each moment of an animation, and writes the folder.
+pub(super) fn run(args: &Farm) -> Result<(), Failure> {
+    refuse_name(&args.picture)?;
+    let frames = Frames::new(args)?;
+    let mut first = Some(staged(args, frames.first_time())?);
+    let folder = NewFolder::at(&args.output).map_err(|error| failure(args, &error))?;
+    let interrupt = Interrupt::listen()?;
+    let mut talk = Talk::beside_result(&args.talk);
+    let mut hashes = Vec::new();
+    for (name, time) in frames.scenes() {
+        let input = first.take().map_or_else(|| staged(args, time), Ok);
+        let subject = input.and_then(|input| settled(args, input, &mut talk, &interrupt));
+        let written = subject.and_then(|subject| {
+            let scene = &subject.proven.lowered.scene;
+            hashes.push(hash(scene));
+            let written = codec::prepare(Form::Binary, scene)
+                .map_err(|codec::NotFinite| io::Error::other("a number is not finite"))
+                .and_then(|scene| folder.put(&name, &|out| scene.write(out), &interrupt));
+            written.map_err(|error| stopped_or(args, &error, &interrupt))
+        });
+        if written.is_err() {
+            talk.finish()?;
+            return written;
+        }
+    }
+    talk.finish()?;
+    let job = FarmJob::new(args, &frames, &hashes);
+    let mut files = job.files().into_iter();
+    let written = files.try_for_each(|(name, text)| {
+        folder.put(name, &|out| out.write_all(text.as_bytes()), &interrupt)
+    });
+    let placed = written.and_then(|()| folder.place(&interrupt));
+    placed.map_err(|error| stopped_or(args, &error, &interrupt))?;
+    if !args.talk.quiet {
+        let (folder, picture, run) = (args.output.display(), &args.picture, job.how_to_run());
+        let parts = args.parts;
+        talk::say(&format!(
+            "{folder}: {picture} in {parts} parts; in the folder, `{run}` runs them"
+        ));
+    }
+    Ok(())
+}
+
+/// The scene to be read, at a moment of its animation if one is given.
+fn staged(args: &Farm, time: Option<f64>) -> Result<Input, Failure> {
+    let reading = Reading {
+        time: time.or(args.reading.time),
+        ..args.reading.clone()
+    };
+    let mut input = input::staged(&args.file, &reading, &args.stage)?;
+    set_stage(&mut input, &args.look, args.turntable);
+    Ok(input)
+}
+
+/// The scene with all settings of the pictures in it, and for a PNG how it is shown.
+fn settled(
+    args: &Farm,
+    mut input: Input,
+    talk: &mut Talk,
+    interrupt: &Interrupt,
+) -> Result<RenderSubject, Failure> {
+    let mut setup = wanted(&args.wanted, &args.look, Path::new(&args.picture))?;
+    let subject = match input.load() {
+        Some(loaded) => setup.prove(loaded, &mut input),
+        None => Ok(None),
+    };
+    let mut subject = match subject {
+        Ok(subject) => input::unless_refused(subject, &mut input, talk)?,
+        Err(error) => {
+            input::tell(&mut input, talk)?;
+            return Err(error.into());
+        }
+    };
+    let scene = &subject.proven.lowered.scene;
+    setup.window(scene)?;
+    setup.separable(scene, args.parts_by.into())?;
+    let observer = Observer {
+        on_step: &|_| (),
+        is_stopped: &|| interrupt.is_raised(),
+    };
+    setup.light(&mut subject, &mut input, &observer)?;
+    input::tell(&mut input, talk)?;
+    if setup.look.kind != OutputFormat::Exr {
+        subject.proven.lowered.scene.display = setup.look.as_display();
+    }
+    Ok(subject)
+}
+
+/// Refuses a name that a job of some engine would read as more than a name.
+fn refuse_name(picture: &str) -> Result<(), Failure> {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
+    let is_name = Path::new(picture).file_name() == Some(OsStr::new(picture));
+    let is_taken = picture.starts_with(['-', '.']);
+    if is_name && !is_taken && picture.len() <= 100 && picture.chars().all(is_plain) {
+        return Ok(());
+    }
+    Err(Failure::Trouble(
+        "the picture of a job has a name of at most 100 letters, digits, `-`, `_` and `.`, as picture.exr"
+            .to_owned(),
+    ))
+}
+
+fn stopped_or(args: &Farm, error: &io::Error, interrupt: &Interrupt) -> Failure {
+    match interrupt.is_raised() {
+        true => Failure::Interrupted,
+        false => failure(args, error),
+    }
+}
+
+fn failure(args: &Farm, error: &io::Error) -> Failure {
+    Failure::Trouble(format!("can't make `{}`: {error}", args.output.display()))
+}
