@@ -37,7 +37,7 @@ pub(super) fn is_glb(name: &str, bytes: &[u8]) -> bool {
 pub(super) fn text_end(bytes: &[u8]) -> usize {
     let length = bytes.get(HEADER..).and_then(<[u8]>::first_chunk);
     let length = length.map_or(0, |length| u32::from_le_bytes(*length));
-    HEADER + CHUNK_HEADER + length as usize + CHUNK_HEADER
+    (HEADER + CHUNK_HEADER + CHUNK_HEADER).saturating_add(length as usize)
 }
 
 /// Finds the parts of a `.glb`. `None` if there is no text; the sink says why.
@@ -194,7 +194,7 @@ impl Scan<'_> {
             };
             let kind = [kind[0], kind[1], kind[2], kind[3]];
             let start = at + CHUNK_HEADER;
-            let end = start + length;
+            let end = start.saturating_add(length);
             self.chunk(kind, at, start..end.min(size), end, declared);
             if end > size {
                 self.json = self.json.take().filter(|json| json.start != start);

@@ -34,10 +34,11 @@ fn is_binary(head: &[u8]) -> bool {
     let Some(Ok(count)) = head.get(HEAD - 4..HEAD).map(<[u8; 4]>::try_from) else {
         return false;
     };
-    let count = u32::from_le_bytes(count) as usize;
-    let size = HEAD + TRIANGLE * count;
-    count > 0
-        && (head.len() == size || (head.len() == LOOKED_AT && size > LOOKED_AT && is_finite(head)))
+    let (count, length) = (u32::from_le_bytes(count), head.len() as u64);
+    // More than an address of 32 bits may hold.
+    let size = HEAD as u64 + TRIANGLE as u64 * u64::from(count);
+    let is_cut = head.len() == LOOKED_AT && size > length;
+    count > 0 && (length == size || (is_cut && is_finite(head)))
 }
 
 /// Whether the first triangles are made of numbers.
