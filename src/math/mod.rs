@@ -3,6 +3,7 @@
 //! Everything geometric is f64. `u` in comments is the unit round-off, 2⁻⁵³.
 
 mod basis;
+mod bounds;
 mod column;
 mod direction;
 mod double;
@@ -17,6 +18,7 @@ mod turns;
 mod weight;
 
 pub use basis::{BasisFault, camera_basis, fallback_up, view_basis};
+pub use bounds::Bounds;
 pub use column::{Column, Shared};
 pub use direction::{length, unit, unit_scale};
 pub use double::DoubleDouble;

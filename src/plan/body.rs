@@ -1,8 +1,8 @@
 //! The bounds of surfaces for the rules: a bounding box, the plane of a flat one, convexity.
 
 use super::shape::shape_facts;
-use super::space::{Flat, MARGIN, Sides, Space};
-use crate::math::{Vec3, cross, unit};
+use super::space::{Flat, MARGIN, Margins, Sides};
+use crate::math::{Bounds, Vec3, cross, unit};
 use crate::valid::{Instance, Mesh, Proof};
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::plan) enum Extent {
     /// Inside a box.
-    Within(Space),
+    Within(Bounds),
     /// In an unbounded plane.
     Plane(Flat),
     /// Anywhere its arithmetic may report a hit.
@@ -38,7 +38,7 @@ pub(in crate::plan) enum Hull {
 }
 
 impl Body {
-    pub(in crate::plan) fn within(space: Space, form: Hull) -> Self {
+    pub(in crate::plan) fn within(space: Bounds, form: Hull) -> Self {
         Self {
             extent: Extent::Within(space),
             form,
@@ -50,7 +50,7 @@ impl Body {
     fn grow(&mut self, error_bound: f64, thickness: f64) {
         const SMALL: f64 = 1.0 / 1024.0;
         if let Extent::Within(space) = &mut self.extent {
-            *space = space.grown(error_bound);
+            *space = space.widened(error_bound);
         }
         if error_bound > SMALL * thickness {
             self.form = Hull::Other;
@@ -58,7 +58,7 @@ impl Body {
     }
 
     /// The box around it, if it has one.
-    pub(in crate::plan) fn space(&self) -> Option<&Space> {
+    pub(in crate::plan) fn space(&self) -> Option<&Bounds> {
         match &self.extent {
             Extent::Within(space) => Some(space),
             Extent::Plane(_) | Extent::Anywhere => None,
@@ -66,7 +66,7 @@ impl Body {
     }
 
     /// The sides of it that face a box, or anything.
-    pub(in crate::plan) fn sides_seen_from(&self, from: Option<&Space>) -> Sides {
+    pub(in crate::plan) fn sides_seen_from(&self, from: Option<&Bounds>) -> Sides {
         let Some(from) = from else { return Sides::BOTH };
         match self.form {
             Hull::Flat(flat) => flat.sides(from),
@@ -76,13 +76,13 @@ impl Body {
     }
 
     /// Whether a convex solid certainly does not overlap a box.
-    pub(in crate::plan) fn is_clear_of(&self, other: &Space) -> bool {
+    pub(in crate::plan) fn is_clear_of(&self, other: &Bounds) -> bool {
         let Some(space) = self.space() else {
             return false;
         };
         match self.form {
             Hull::Ball(center, radius) => {
-                other.distance(center) > radius + 4.0 * MARGIN * (space.size() + other.size())
+                other.distance(center) > radius + 4.0 * MARGIN * (space.reach() + other.reach())
             }
             Hull::Flat(_) | Hull::Convex | Hull::Other => space.is_apart_from(other),
         }
@@ -92,7 +92,7 @@ impl Body {
 /// The bodies of all surfaces, grown by the rounding of rays: a ray starts at the eye or on another
 /// surface, and rounds by its coordinates.
 pub(in crate::plan) fn bodies(scene: &Proof) -> Vec<Body> {
-    let extent = |mesh: &Arc<Mesh>| Space::of(mesh.positions.iter().map(Vec3::from_array));
+    let extent = |mesh: &Arc<Mesh>| Bounds::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
     let surfaces = || scene.surfaces().iter().map(|surface| &surface.shape);
     let mut bodies = surfaces()
@@ -102,7 +102,7 @@ pub(in crate::plan) fn bodies(scene: &Proof) -> Vec<Body> {
     let farthest = bodies
         .iter()
         .filter_map(Body::space)
-        .map(Space::size)
+        .map(Bounds::reach)
         .fold(eye, f64::max);
     for (body, shape) in bodies.iter_mut().zip(surfaces()) {
         body.grow(MARGIN * farthest, shape_facts(shape).thickness());
@@ -123,10 +123,10 @@ pub(in crate::plan) fn face([a, b, c]: [Vec3; 3]) -> Hull {
 }
 
 /// The box of a circle around an axis, with a tube around it.
-pub(in crate::plan) fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Space {
+pub(in crate::plan) fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Bounds {
     let axis = unit(axis).unwrap_or(Vec3::ZERO);
     let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + MARGIN * (radius + tube);
-    Space::around(
+    Bounds::about(
         center,
         Vec3::new(reach(axis.x), reach(axis.y), reach(axis.z)),
     )
@@ -134,15 +134,15 @@ pub(in crate::plan) fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) ->
 
 /// The box of a mesh in the world. Rays are transformed to its own space and back: a flat transform
 /// has larger rounding errors.
-pub(in crate::plan) fn placed(instance: &Instance, mesh: &Space) -> Space {
+pub(in crate::plan) fn placed(instance: &Instance, mesh: &Bounds) -> Bounds {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
     let axes = [x, y, z].map(|axis| unit(axis).unwrap_or(Vec3::ZERO));
     let volume = axes[0].dot(axes[1].cross(axes[2])).abs();
-    let space = Space::of(mesh.corners().map(to_world));
+    let space = Bounds::of(mesh.corners().map(to_world));
     let terms = x.abs() + y.abs() + z.abs();
-    let size = terms.max_element() * mesh.size() + origin.abs().max_element();
-    space.grown(MARGIN * size / volume)
+    let size = terms.max_element() * mesh.reach() + origin.abs().max_element();
+    space.widened(MARGIN * size / volume)
 }
 
 #[cfg(test)]
@@ -151,7 +151,7 @@ mod tests {
     use super::*;
 
     /// That a box is another with a margin, as exactly as its corners are rounded.
-    fn is_grown(space: Space, from: Space, margin: f64) {
+    fn is_grown(space: Bounds, from: Bounds, margin: f64) {
         let (low, high) = (from.min - space.min, space.max - from.max);
         let margins = [low.x, low.y, low.z, high.x, high.y, high.z];
         assert!(
@@ -200,7 +200,7 @@ mod tests {
     #[test]
     fn a_ball_is_clear_of_a_box_by_room_of_both_and_other_solids_by_their_boxes() {
         let center = Vec3::X * 3.0;
-        let ball = Body::within(Space::around(center, Vec3::ONE), Hull::Ball(center, 1.0));
+        let ball = Body::within(Bounds::about(center, Vec3::ONE), Hull::Ball(center, 1.0));
         let before = |gap: f64| span([4.0 + gap, -1.0, -1.0], [9.0, 1.0, 1.0]);
         has_margin(4.0 * 13.0 * MARGIN, |gap| ball.is_clear_of(&before(gap)));
         assert!(

@@ -2,10 +2,10 @@
 
 use super::body::{Body, Extent, Hull};
 use super::rules::Rule;
-use super::space::{Flat, MARGIN, Sides, Space};
+use super::space::{Flat, MARGIN, Margins, Sides};
 use super::visibility::Visibility;
 use super::{Facts, LightPlan, MAX_PAIRS};
-use crate::math::Vec3;
+use crate::math::{Bounds, Vec3};
 use crate::valid::{CourseLight, Mode};
 
 /// What is left of the lights.
@@ -136,13 +136,13 @@ impl LightFindings {
 /// A light and a surface that it may light.
 struct Pair {
     light: usize,
-    source: Space,
+    source: Bounds,
     receiver: usize,
 }
 
 /// The box of all points of a light.
-fn extent(light: &CourseLight) -> Space {
-    Space::around(light.position, Vec3::splat(light.radius.get()))
+fn extent(light: &CourseLight) -> Bounds {
+    Bounds::about(light.position, Vec3::splat(light.radius.get()))
 }
 
 impl Facts<'_> {
@@ -210,7 +210,7 @@ impl Facts<'_> {
     }
 
     /// Whether a surface certainly does not hide a light with N·L > 0 from itself.
-    fn spares_itself(&self, surface: usize, seen_from: Sides, light: &Space) -> bool {
+    fn spares_itself(&self, surface: usize, seen_from: Sides, light: &Bounds) -> bool {
         let (body, summary) = (&self.bodies[surface], &self.summaries[surface]);
         let spares = match body.form {
             Hull::Flat(flat) => flat.sides(light) != Sides::BOTH,
@@ -227,7 +227,7 @@ impl Facts<'_> {
     ///
     /// Of itself only a ball and a plane along an axis are not asked: the rounding of a triangle's
     /// own plane may hide a light from it where the light grazes it.
-    fn is_clear(&self, may_cast: bool, caster: usize, receiver: usize, light: &Space) -> bool {
+    fn is_clear(&self, may_cast: bool, caster: usize, receiver: usize, light: &Bounds) -> bool {
         let (body, other) = (&self.bodies[receiver], &self.bodies[caster]);
         match (&body.extent, &other.extent) {
             (Extent::Plane(flat), Extent::Plane(_)) if caster == receiver => {
@@ -238,7 +238,7 @@ impl Facts<'_> {
             (Extent::Plane(flat), Extent::Plane(other)) => {
                 self.rules.contains(Rule::ShadowPair)
                     && share_an_axis(flat, other)
-                    && is_beside(other, &Space::around(flat.point, Vec3::ZERO), light)
+                    && is_beside(other, &Bounds::about(flat.point, Vec3::ZERO), light)
             }
             _ if caster == receiver => !may_cast && matches!(body.form, Hull::Ball(..)),
             _ => !may_cast,
@@ -248,7 +248,7 @@ impl Facts<'_> {
 
 impl Body {
     /// Whether `caster` may hide a light from this surface.
-    fn may_be_hidden_by(&self, caster: &Self, light: &Space) -> bool {
+    fn may_be_hidden_by(&self, caster: &Self, light: &Bounds) -> bool {
         let Some(space) = self.space() else {
             return true;
         };
@@ -277,7 +277,7 @@ impl BoundingBall {
     }
 
     /// The ball in a cube.
-    fn around(cube: &Space) -> Self {
+    fn around(cube: &Bounds) -> Self {
         Self(Some((
             cube.min * 0.5 + cube.max * 0.5,
             0.5 * (cube.max.x - cube.min.x),
@@ -315,7 +315,7 @@ fn share_an_axis(first: &Flat, second: &Flat) -> bool {
 }
 
 /// Whether two boxes lie on the same side of a plane.
-fn is_beside(flat: &Flat, first: &Space, second: &Space) -> bool {
+fn is_beside(flat: &Flat, first: &Bounds, second: &Bounds) -> bool {
     let side = flat.sides(first);
     side != Sides::BOTH && side == flat.sides(second)
 }

@@ -4,8 +4,8 @@
 use super::body::{Body, Extent, Hull, face, placed, ring};
 use super::path::Area;
 use super::precision::Formula;
-use super::space::{Flat, Space};
-use crate::math::{Basis, Vec3, cos_sin_turns, unit};
+use super::space::Flat;
+use crate::math::{Basis, Bounds, Vec3, cos_sin_turns, unit};
 use crate::valid::{
     Cone, Cylinder, Disc, Instance, Paraboloid, Plane, Proof, Quad, Shape, Sphere, Torus, Triangle,
 };
@@ -13,7 +13,7 @@ use crate::valid::{
 /// What the rules ask of a shape.
 pub(super) trait ShapeFacts {
     /// Its form and place; `meshes` are the boxes of the meshes.
-    fn body(&self, meshes: &[Space]) -> Body;
+    fn body(&self, meshes: &[Bounds]) -> Body;
 
     /// How thick a solid is, or how long the shortest side of a face; infinite where nothing rests
     /// on it.
@@ -56,9 +56,9 @@ macro_rules! facts {
 shapes!(facts);
 
 impl ShapeFacts for Sphere {
-    fn body(&self, _: &[Space]) -> Body {
+    fn body(&self, _: &[Bounds]) -> Body {
         let radius = self.radius.get();
-        let space = Space::around(self.center, Vec3::splat(radius));
+        let space = Bounds::about(self.center, Vec3::splat(radius));
         Body::within(space, Hull::Ball(self.center, radius))
     }
 
@@ -76,7 +76,7 @@ impl ShapeFacts for Sphere {
 }
 
 impl ShapeFacts for Plane {
-    fn body(&self, _: &[Space]) -> Body {
+    fn body(&self, _: &[Bounds]) -> Body {
         let flat = unit(self.normal).map(|normal| Flat {
             point: self.center,
             normal,
@@ -99,8 +99,8 @@ impl ShapeFacts for Plane {
 }
 
 impl ShapeFacts for Triangle {
-    fn body(&self, _: &[Space]) -> Body {
-        Body::within(Space::of(self.vertices), face(self.vertices))
+    fn body(&self, _: &[Bounds]) -> Body {
+        Body::within(Bounds::of(self.vertices), face(self.vertices))
     }
 
     fn thickness(&self) -> f64 {
@@ -127,7 +127,7 @@ impl ShapeFacts for Triangle {
 
 impl ShapeFacts for Quad {
     /// The formulas of a patch have no known error bound, so it may be anywhere.
-    fn body(&self, _: &[Space]) -> Body {
+    fn body(&self, _: &[Bounds]) -> Body {
         let [a, b, c, d] = self.vertices;
         if !self.is_flat() {
             return Body {
@@ -139,7 +139,7 @@ impl ShapeFacts for Quad {
             Hull::Flat(flat) => Hull::Flat(flat),
             Hull::Ball(..) | Hull::Convex | Hull::Other => face([a, c, d]),
         };
-        Body::within(Space::of(self.vertices), form)
+        Body::within(Bounds::of(self.vertices), form)
     }
 
     fn thickness(&self) -> f64 {
@@ -160,7 +160,7 @@ impl ShapeFacts for Quad {
 }
 
 impl ShapeFacts for Disc {
-    fn body(&self, _: &[Space]) -> Body {
+    fn body(&self, _: &[Bounds]) -> Body {
         let point = self.center;
         let flat = unit(self.normal).map(|normal| Hull::Flat(Flat { point, normal }));
         let space = ring(self.center, self.normal, self.radius.get(), 0.0);
@@ -188,7 +188,7 @@ impl ShapeFacts for Disc {
 }
 
 impl ShapeFacts for Cylinder {
-    fn body(&self, _: &[Space]) -> Body {
+    fn body(&self, _: &[Bounds]) -> Body {
         let top = self.base + unit(self.axis).unwrap_or(Vec3::ZERO) * self.height.get();
         let rim = |center| ring(center, self.axis, self.radius.get(), 0.0);
         Body::within(rim(self.base).union(rim(top)), Hull::Convex)
@@ -204,9 +204,9 @@ impl ShapeFacts for Cylinder {
 }
 
 impl ShapeFacts for Cone {
-    fn body(&self, _: &[Space]) -> Body {
+    fn body(&self, _: &[Bounds]) -> Body {
         let rim = ring(self.base, self.up, self.radius.get(), 0.0);
-        let apex = Space::of([self.base + self.up]);
+        let apex = Bounds::of([self.base + self.up]);
         Body::within(rim.union(apex), Hull::Convex)
     }
 
@@ -220,7 +220,7 @@ impl ShapeFacts for Cone {
 }
 
 impl ShapeFacts for Paraboloid {
-    fn body(&self, _: &[Space]) -> Body {
+    fn body(&self, _: &[Bounds]) -> Body {
         let radius = self.radius.get();
         let rim = ring(self.base, self.up, radius, 0.0);
         // The profile lies between the rim, and the vertex and half the radius beside it.
@@ -242,7 +242,7 @@ impl ShapeFacts for Paraboloid {
 }
 
 impl ShapeFacts for Torus {
-    fn body(&self, _: &[Space]) -> Body {
+    fn body(&self, _: &[Bounds]) -> Body {
         let space = ring(self.center, self.axis, self.major.get(), self.minor.get());
         Body::within(space, Hull::Other)
     }
@@ -258,7 +258,7 @@ impl ShapeFacts for Torus {
 }
 
 impl ShapeFacts for Instance {
-    fn body(&self, meshes: &[Space]) -> Body {
+    fn body(&self, meshes: &[Bounds]) -> Body {
         Body::within(placed(self, &meshes[self.mesh]), Hull::Other)
     }
 

@@ -3,102 +3,41 @@
 //! Hits are accurate to about 10² units of rounding of the coordinates. The rules use [`MARGIN`],
 //! 2²¹ units, so that boxes they find disjoint are disjoint for rays, too.
 
-use crate::math::Vec3;
+use crate::math::{Bounds, Vec3};
 
 /// The margin, as a fraction of the coordinates it is for: 2⁻³².
 pub(in crate::plan) const MARGIN: f64 = 1.0 / 4_294_967_296.0;
 
-/// An axis-aligned box.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::plan) struct Space {
-    pub(in crate::plan) min: Vec3,
-    pub(in crate::plan) max: Vec3,
+/// What the rules ask of boxes, with margins.
+pub(in crate::plan) trait Margins {
+    /// Whether the two certainly have no common point.
+    fn is_apart_from(&self, other: &Self) -> bool;
+
+    /// Whether a segment from this box to `end` may meet `other`, all with margins.
+    ///
+    /// At the fraction τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face
+    /// of `other` bounds τ by a linear inequality; if no τ satisfies all of them, no segment meets it.
+    fn may_see_through(&self, end: &Self, other: &Self) -> bool;
 }
 
-impl Space {
-    /// The box around a point, with half its size along each axis given.
-    pub(in crate::plan) fn around(center: Vec3, half_extent: Vec3) -> Self {
-        Self {
-            min: center - half_extent,
-            max: center + half_extent,
-        }
-    }
-
-    /// The box of some points; an empty box without points.
-    pub(in crate::plan) fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
-        let nothing = Self {
-            min: Vec3::INFINITY,
-            max: Vec3::NEG_INFINITY,
-        };
-        points.into_iter().fold(nothing, |space, point| {
-            space.union(Self {
-                min: point,
-                max: point,
-            })
-        })
-    }
-
-    pub(in crate::plan) fn union(self, other: Self) -> Self {
-        Self {
-            min: self.min.min(other.min),
-            max: self.max.max(other.max),
-        }
-    }
-
-    /// The size of the largest coordinate.
-    pub(in crate::plan) fn size(&self) -> f64 {
-        self.min.abs().max(self.max.abs()).max_element()
-    }
-
-    /// The box with a margin on all sides.
-    pub(in crate::plan) fn grown(self, by: f64) -> Self {
-        Self {
-            min: self.min - Vec3::splat(by),
-            max: self.max + Vec3::splat(by),
-        }
-    }
-
-    pub(in crate::plan) fn corners(&self) -> [Vec3; 8] {
-        let pick = |bit: usize, axis: usize| {
-            if bit == 0 {
-                self.min[axis]
-            } else {
-                self.max[axis]
-            }
-        };
-        std::array::from_fn(|k| Vec3::new(pick(k & 1, 0), pick(k >> 1 & 1, 1), pick(k >> 2, 2)))
-    }
-
-    /// Whether the two certainly have no common point.
-    pub(in crate::plan) fn is_apart_from(&self, other: &Self) -> bool {
-        let margin = MARGIN * (self.size() + other.size());
+impl Margins for Bounds {
+    fn is_apart_from(&self, other: &Self) -> bool {
+        let margin = MARGIN * (self.reach() + other.reach());
         (self.min - other.max)
             .max(other.min - self.max)
             .max_element()
             > margin
     }
 
-    /// The distance from a point to the nearest of the box.
-    pub(in crate::plan) fn distance(&self, point: Vec3) -> f64 {
-        (self.min - point)
-            .max(point - self.max)
-            .max(Vec3::ZERO)
-            .length()
-    }
-
-    /// Whether a segment from this box to `end` may meet `other`, all with margins.
-    ///
-    /// At the fraction τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face
-    /// of `other` bounds τ by a linear inequality; if no τ satisfies all of them, no segment meets it.
-    pub(in crate::plan) fn may_see_through(&self, end: &Self, other: &Self) -> bool {
+    fn may_see_through(&self, end: &Self, other: &Self) -> bool {
         /// Far above the rounding of the bounds on τ, which are at most 1.
         const SLACK: f64 = MARGIN;
-        let near = MARGIN * (self.size() + other.size());
+        let near = MARGIN * (self.reach() + other.reach());
         let (start, end) = (
-            self.grown(near),
-            end.grown(MARGIN * (end.size() + self.size())),
+            self.widened(near),
+            end.widened(MARGIN * (end.reach() + self.reach())),
         );
-        let other = other.grown(near);
+        let other = other.widened(near);
         let (mut low, mut high) = (0.0_f64, 1.0_f64);
         let mut limit = |at_start: f64, at_end: f64| {
             // at_start + τ·(at_end − at_start) ≤ 0
@@ -171,8 +110,8 @@ impl Sides {
 
 impl Flat {
     /// The sides of the plane on which a box lies; both if that is uncertain.
-    pub(in crate::plan) fn sides(&self, space: &Space) -> Sides {
-        let margin = 4.0 * MARGIN * (space.size() + self.point.abs().max_element());
+    pub(in crate::plan) fn sides(&self, space: &Bounds) -> Sides {
+        let margin = 4.0 * MARGIN * (space.reach() + self.point.abs().max_element());
         let heights = space
             .corners()
             .map(|corner| (corner - self.point).dot(self.normal));
@@ -205,15 +144,15 @@ pub(in crate::plan) mod tests {
     }
 
     /// A box, by its corners.
-    pub(in crate::plan) fn span(min: [f64; 3], max: [f64; 3]) -> Space {
-        Space {
+    pub(in crate::plan) fn span(min: [f64; 3], max: [f64; 3]) -> Bounds {
+        Bounds {
             min: Vec3::from_array(min),
             max: Vec3::from_array(max),
         }
     }
 
-    fn unit(x: f64, y: f64, z: f64) -> Space {
-        Space::around(Vec3::new(x, y, z), Vec3::splat(0.5))
+    fn unit(x: f64, y: f64, z: f64) -> Bounds {
+        Bounds::about(Vec3::new(x, y, z), Vec3::splat(0.5))
     }
 
     #[test]
@@ -227,7 +166,7 @@ pub(in crate::plan) mod tests {
     fn what_stands_on_the_way_is_seen_and_what_stands_beside_is_not() {
         let (from, light) = (
             unit(0.0, 0.0, 0.0),
-            Space::around(Vec3::new(10.0, 0.0, 0.0), Vec3::ZERO),
+            Bounds::about(Vec3::new(10.0, 0.0, 0.0), Vec3::ZERO),
         );
         assert!(from.may_see_through(&light, &unit(5.0, 0.0, 0.0)));
         assert!(
@@ -246,7 +185,7 @@ pub(in crate::plan) mod tests {
             !from.may_see_through(&light, &unit(8.0, 0.8, 0.0)),
             "the way has narrowed"
         );
-        let soft = Space::around(Vec3::new(10.0, 0.0, 0.0), Vec3::splat(0.5));
+        let soft = Bounds::about(Vec3::new(10.0, 0.0, 0.0), Vec3::splat(0.5));
         assert!(
             from.may_see_through(&soft, &unit(8.0, 0.8, 0.0)),
             "a soft light is broad"
@@ -264,22 +203,8 @@ pub(in crate::plan) mod tests {
         assert_eq!(flat.sides(&unit(0.0, 0.5, 0.0)), Sides::BOTH);
     }
 
-    #[test]
-    fn boxes_grow_on_all_sides_and_know_their_size_and_distances() {
-        let space = span([-1.0, 2.0, -4.0], [3.0, 2.5, 0.0]);
-        assert_eq!(space.grown(0.5), span([-1.5, 1.5, -4.5], [3.5, 3.0, 0.5]));
-        assert_eq!(space.size(), 4.0);
-        assert_eq!(
-            [space.corners()[0], space.corners()[7]],
-            [space.min, space.max]
-        );
-        assert_eq!(space.distance(Vec3::new(6.0, 6.5, -1.0)), 5.0);
-        assert_eq!(space.distance(Vec3::new(0.0, 2.0, -7.0)), 3.0);
-        assert_eq!(space.distance(Vec3::new(0.0, 2.0, -2.0)), 0.0);
-    }
-
     /// The boxes of a test with permuted and mirrored axes.
-    fn turned(boxes: [Space; 3], axis: usize, mirror: bool) -> [Space; 3] {
+    fn turned(boxes: [Bounds; 3], axis: usize, mirror: bool) -> [Bounds; 3] {
         let turn = |v: Vec3| {
             [
                 Vec3::new(v.x, v.y, v.z),
@@ -287,9 +212,9 @@ pub(in crate::plan) mod tests {
                 Vec3::new(v.y, v.z, v.x),
             ][axis]
         };
-        boxes.map(|Space { min, max }| {
+        boxes.map(|Bounds { min, max }| {
             let [min, max] = if mirror { [-max, -min] } else { [min, max] };
-            Space {
+            Bounds {
                 min: turn(min),
                 max: turn(max),
             }
@@ -299,8 +224,8 @@ pub(in crate::plan) mod tests {
     /// Three boxes are disjoint from a certain gap on, in any arrangement.
     fn have_margin(
         margin: f64,
-        boxes: impl Fn(f64) -> [Space; 3],
-        are_apart: impl Fn([Space; 3]) -> bool,
+        boxes: impl Fn(f64) -> [Bounds; 3],
+        are_apart: impl Fn([Bounds; 3]) -> bool,
     ) {
         for (axis, mirror) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
             has_margin(margin, |gap| are_apart(turned(boxes(gap), axis, mirror)));
@@ -325,7 +250,7 @@ pub(in crate::plan) mod tests {
             span([0.0, -10.0, 0.0], [0.0, -10.0, 0.0]),
         );
         let boxes = |gap| [near, far, span([-7.0, 1.0 + gap, -7.0], [7.0, 2.0, 7.0])];
-        let hides = |[start, end, other]: [Space; 3]| start.may_see_through(&end, &other);
+        let hides = |[start, end, other]: [Bounds; 3]| start.may_see_through(&end, &other);
         // Of the start and the other: 3 and 7, twice, as both grow.
         have_margin(20.0 * MARGIN, boxes, |boxes| !hides(boxes));
         // Of the end and the start, 3 and 10, and of the start and the other, 10 and 7.

@@ -16,7 +16,7 @@ mod shape;
 mod texture;
 mod world;
 
-pub use accel::bounds::Bounds;
+pub use crate::math::Bounds;
 pub use accel::simd::SimdLevel;
 pub use bsdf::optics::{highlight, reflect, refract};
 pub use bsdf::standard::*;

@@ -1,8 +1,8 @@
 //! Projection of boxes through the lens to rectangles of pixels, with a margin.
 
-use crate::math::{U, Vec3, cross, dot};
+use crate::math::{Bounds, U, Vec3, cross, dot};
 use crate::plan::body::{Body, Extent};
-use crate::plan::space::{Flat, MARGIN, Space};
+use crate::plan::space::{Flat, MARGIN};
 use crate::valid::Camera;
 
 /// The largest rounding error of a projected point, in pixels, that is accepted.
@@ -36,7 +36,7 @@ pub(in crate::plan) struct Window {
     /// Points whose convex hull contains the lens.
     lens: Vec<Vec3>,
     /// The box of all points of the lens.
-    lens_box: Space,
+    lens_box: Bounds,
     /// The maximum distance of the lens and the centre of the picture from the origin.
     far: f64,
     /// The steps between pixels, across and upward.
@@ -74,7 +74,7 @@ impl Window {
         let depth = normal / distance;
         let far =
             lens.iter().map(|from| from.length()).fold(0.0, f64::max) + camera.center.length();
-        let lens_box = Space::of(lens.iter().copied());
+        let lens_box = Bounds::of(lens.iter().copied());
         let (steepness, steps) = (depth.length(), [right, up]);
         Self {
             camera: camera.clone(),
@@ -90,7 +90,7 @@ impl Window {
     }
 
     /// The box of all points of the lens.
-    pub(in crate::plan) fn lens(&self) -> Space {
+    pub(in crate::plan) fn lens(&self) -> Bounds {
         self.lens_box
     }
 
@@ -126,7 +126,7 @@ impl Window {
 
     /// The projection of a point through the centre of the lens, in pixels; `None` if it is uncertain.
     pub(in crate::plan) fn middle(&self, point: Vec3) -> Option<[f64; 2]> {
-        let size = point.abs().max_element() + self.lens_box.size();
+        let size = point.abs().max_element() + self.lens_box.reach();
         let depth = (point - self.camera.eye).dot(self.depth);
         let error_bound = 64.0 * U * size * self.steepness;
         let (at, error) = self.place(self.camera.eye, point, depth, error_bound);
@@ -134,9 +134,9 @@ impl Window {
     }
 
     /// The rectangle of a box: the hull of the projections of its corners through the corners of the lens.
-    fn project(&self, space: &Space) -> Shown {
-        let size = space.size() + self.lens_box.size();
-        let space = space.grown(MARGIN * size);
+    fn project(&self, space: &Bounds) -> Shown {
+        let size = space.reach() + self.lens_box.reach();
+        let space = space.widened(MARGIN * size);
         let depths = space
             .corners()
             .map(|corner| (corner - self.camera.eye).dot(self.depth));

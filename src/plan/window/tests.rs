@@ -38,7 +38,7 @@ fn pinhole(eye: [f64; 3], center: [f64; 3], steps: [f64; 2]) -> Window {
 }
 
 fn shown(window: &Window, center: Vec3, reach: f64) -> Shown {
-    let space = Space::around(center, Vec3::splat(reach));
+    let space = Bounds::about(center, Vec3::splat(reach));
     window.shown(&Body {
         extent: Extent::Within(space),
         form: Hull::Other,

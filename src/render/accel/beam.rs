@@ -4,8 +4,7 @@
 //! the scale of the scene. Rays are brought to the cube in f64; a bound on what rounding does to
 //! each widens every comparison. The hit itself is decided elsewhere, in f64.
 
-use crate::math::{U, Vec3, ldexp};
-use crate::render::accel::bounds::Bounds;
+use crate::math::{Bounds, U, Vec3, ldexp};
 use crate::render::ray::Ray;
 
 /// The unit round-off of f32, 2⁻²⁴.

@@ -1,16 +1,7 @@
-//! Boxes, and a slab test that never misses what the shape inside would hit.
+//! A slab test that never misses what the shape inside a box would hit; and balls.
 
-use crate::math::{U, Vec3};
+use crate::math::{Bounds, U, Vec3};
 use crate::render::ray::Ray;
-
-/// An axis-aligned box.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// The lowest corner.
-    pub min: Vec3,
-    /// The highest corner.
-    pub max: Vec3,
-}
 
 /// A ball.
 #[derive(Clone, Copy, Debug)]
@@ -19,75 +10,6 @@ pub struct Ball {
     pub center: Vec3,
     /// Its radius.
     pub radius: f64,
-}
-
-impl Bounds {
-    /// The box that holds nothing.
-    pub const EMPTY: Self = Self {
-        min: Vec3::INFINITY,
-        max: Vec3::NEG_INFINITY,
-    };
-
-    /// The box of some points.
-    #[must_use]
-    pub fn of(points: &[Vec3]) -> Self {
-        points.iter().fold(Self::EMPTY, |bounds, point| Self {
-            min: bounds.min.min(*point),
-            max: bounds.max.max(*point),
-        })
-    }
-
-    /// The box around a sphere, rounded outward.
-    #[must_use]
-    pub fn around(center: Vec3, radius: f64) -> Self {
-        let (low, high) = (center - Vec3::splat(radius), center + Vec3::splat(radius));
-        Self {
-            min: Vec3::new(low.x.next_down(), low.y.next_down(), low.z.next_down()),
-            max: Vec3::new(high.x.next_up(), high.y.next_up(), high.z.next_up()),
-        }
-    }
-
-    /// The box around a disc with a unit normal, rounded outward.
-    #[must_use]
-    pub fn around_disc(center: Vec3, normal: Vec3, radius: f64) -> Self {
-        let half =
-            |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() * (1.0 + 16.0 * U) + radius * 16.0 * U;
-        let half_size = Vec3::new(half(normal.x), half(normal.y), half(normal.z));
-        Self::around(center - half_size, 0.0).union(Self::around(center + half_size, 0.0))
-    }
-
-    /// The box with all points nearer to it than a distance along an axis, rounded outward; the
-    /// same box for 0.
-    #[must_use]
-    pub fn grown(self, by: f64) -> Self {
-        if by > 0.0 {
-            Self::around(self.min, by).union(Self::around(self.max, by))
-        } else {
-            self
-        }
-    }
-
-    /// The smallest box that holds both.
-    #[must_use]
-    pub fn union(self, other: Self) -> Self {
-        Self {
-            min: self.min.min(other.min),
-            max: self.max.max(other.max),
-        }
-    }
-
-    /// The middle.
-    #[must_use]
-    pub fn center(self) -> Vec3 {
-        self.min * 0.5 + self.max * 0.5
-    }
-
-    /// Half the surface area; 0 for the empty box.
-    #[must_use]
-    pub fn half_area(self) -> f64 {
-        let size = (self.max - self.min).max(Vec3::ZERO);
-        size.x * size.y + size.y * size.z + size.z * size.x
-    }
 }
 
 /// What of a ray the slab test needs.
@@ -209,7 +131,7 @@ mod tests {
                 };
                 (
                     1,
-                    u64::from(!Slabs::new(&ray).meet(&Bounds::of(triangle.vertices()), t)),
+                    u64::from(!Slabs::new(&ray).meet(&Bounds::of(*triangle.vertices()), t)),
                 )
             };
             let (hits, missed) = (0..rays)

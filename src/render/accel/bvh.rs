@@ -3,7 +3,8 @@
 //! Built by the binned surface area heuristic (Wald, "On fast construction of SAH-based bounding
 //! volume hierarchies", 2007). A few boxes make a single leaf, which is the plain loop.
 
-use crate::render::accel::bounds::{Bounds, Slabs};
+use crate::math::Bounds;
+use crate::render::accel::bounds::Slabs;
 use crate::render::ray::Ray;
 
 /// Boxes in one leaf at most, where splitting helps.

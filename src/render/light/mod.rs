@@ -8,9 +8,8 @@ pub(in crate::render) mod environment;
 pub(in crate::render) mod punctual;
 mod triangle;
 
-use crate::math::Vec3;
+use crate::math::{Bounds, Vec3};
 use crate::plan::LightLeft;
-use crate::render::accel::bounds::Bounds;
 use crate::render::integrator::path::Strategy;
 use crate::render::light::environment::EnvironmentRadiance;
 use crate::render::light::punctual::Punctual;

@@ -1,8 +1,8 @@
 //! The shapes of most course scenes alone: an integrator of these holds no code of the others.
 
 use super::kinds::{Plane, Sphere, Triangle};
-use crate::math::Vec3;
-use crate::render::accel::bounds::{Ball, Bounds};
+use crate::math::{Bounds, Vec3};
+use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
 use crate::render::shape::tie;

@@ -7,8 +7,7 @@
 //! radius/height times as large in g, so its heights are counted along the ray from where that
 //! meets the base: then g is right to within rounding, however flat it is.
 
-use crate::math::{Vec3, cross, difference_of_products, dot};
-use crate::render::accel::bounds::Bounds;
+use crate::math::{Bounds, Vec3, cross, difference_of_products, dot};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::disc::PlainDisc;
 use crate::render::shape::geometry::Geometry;

@@ -5,8 +5,7 @@
 //! the size of the radius and not of the distance from the eye; they are those of the cross
 //! products with the axis.
 
-use crate::math::{Vec3, cross, dot, unit};
-use crate::render::accel::bounds::Bounds;
+use crate::math::{Bounds, Vec3, cross, dot, unit};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::disc::PlainDisc;
 use crate::render::shape::geometry::Geometry;

@@ -1,7 +1,6 @@
 //! The disc: a plane, and a test of the distance from its centre in the disc's own frame.
 
-use crate::math::Vec3;
-use crate::render::accel::bounds::Bounds;
+use crate::math::{Bounds, Vec3};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::mesh::PlainMesh;

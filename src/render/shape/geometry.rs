@@ -1,7 +1,7 @@
 //! What a world asks of the shapes in it.
 
-use crate::math::Vec3;
-use crate::render::accel::bounds::{Ball, Bounds};
+use crate::math::{Bounds, Vec3};
+use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::triangle::Shear;
 

@@ -1,8 +1,7 @@
 //! An instance of a mesh: rays are transformed to object space, where all instances share triangles
 //! and hierarchy.
 
-use crate::math::{Vec3, cross, unit};
-use crate::render::accel::bounds::Bounds;
+use crate::math::{Bounds, Vec3, cross, unit};
 use crate::render::accel::wide::{Candidate, Visitor};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::corners::{blend, corner_values, handedness, interpolate};

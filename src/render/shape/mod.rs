@@ -157,8 +157,8 @@ pub(in crate::render) mod kinds {
     pub(in crate::render) use super::triangle::TexturedTriangle as Triangle;
 }
 
-use crate::math::Vec3;
-use crate::render::accel::bounds::{Ball, Bounds};
+use crate::math::{Bounds, Vec3};
+use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
 use crate::render::shape::triangle::Shear;

@@ -8,9 +8,9 @@
 //! double-double, from the numbers as given.
 
 use crate::math::{
-    Basis, DoubleDouble, U, Vec3, atan2, cross, difference_of_products, dot, ldexp, unit_scale,
+    Basis, Bounds, DoubleDouble, U, Vec3, atan2, cross, difference_of_products, dot, ldexp,
+    unit_scale,
 };
-use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::disc::PlainDisc;
 use crate::render::shape::geometry::{Asked, Details, Geometry};

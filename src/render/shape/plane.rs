@@ -1,8 +1,7 @@
 //! The plane: t from compensated dot products with the raw normal, accurate at any slope and
 //! distance.
 
-use crate::math::{U, Vec3, cross, dot, two_difference, unit_scale};
-use crate::render::accel::bounds::Bounds;
+use crate::math::{Bounds, U, Vec3, cross, dot, two_difference, unit_scale};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::mesh::PlainMesh;

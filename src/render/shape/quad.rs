@@ -4,8 +4,7 @@
 //! intersections" (Ray Tracing Gems, 2019, ch. 8): the ray meets a line of constant u where a
 //! quadratic in u vanishes.
 
-use crate::math::{Vec3, cross, is_flat};
-use crate::render::accel::bounds::Bounds;
+use crate::math::{Bounds, Vec3, cross, is_flat};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::{Asked, Details, Geometry};
 use crate::render::shape::mesh::PlainMesh;
@@ -122,9 +121,9 @@ impl Quad {
                 .iter()
                 .flatten()
                 .fold(Bounds::EMPTY, |bounds, (triangle, _)| {
-                    bounds.union(Bounds::of(triangle.vertices()))
+                    bounds.union(Bounds::of(*triangle.vertices()))
                 }),
-            Self::Patch(patch) => Bounds::of(&patch.vertices),
+            Self::Patch(patch) => Bounds::of(patch.vertices),
         }
     }
 }

@@ -5,8 +5,8 @@
 //! perpendicular, the roots from the stable quadratic. Where its first-order error bound says that
 //! the sign or the root reported is in doubt, it is computed again.
 
-use crate::math::{DoubleDouble, U, Vec3, acos, atan2};
-use crate::render::accel::bounds::{Ball, Bounds};
+use crate::math::{Bounds, DoubleDouble, U, Vec3, acos, atan2};
+use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::{Asked, Details, Geometry};
 use crate::render::shape::mesh::PlainMesh;

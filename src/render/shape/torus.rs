@@ -7,8 +7,8 @@
 //! distance √((ρ − R)² + z²) − r has the same sign and keeps its digits, so every decision is taken
 //! on it.
 
-use crate::math::{Vec3, cross, ldexp};
-use crate::render::accel::bounds::{Ball, Bounds};
+use crate::math::{Bounds, Vec3, cross, ldexp};
+use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::mesh::PlainMesh;

@@ -5,8 +5,7 @@
 //! value with opposite sign for a shared edge, and zero counts as inside, so no ray slips between.
 //! The plane of the triangle then gives t.
 
-use crate::math::{U, Vec3, difference_of_products};
-use crate::render::accel::bounds::Bounds;
+use crate::math::{Bounds, U, Vec3, difference_of_products};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::corners::interpolate;
 use crate::render::shape::geometry::{Asked, Details, Geometry};
@@ -248,7 +247,7 @@ impl Geometry for TexturedTriangle {
     }
 
     fn bounds(&self) -> Option<Bounds> {
-        Some(Bounds::of(self.triangle.vertices()))
+        Some(Bounds::of(*self.triangle.vertices()))
     }
 }
 

@@ -3,12 +3,12 @@
 use super::PathRule;
 use crate::image::Texels;
 use crate::ir::{Field, Noun, Place};
-use crate::math::Vec3;
+use crate::math::{Bounds, Vec3};
 use crate::plan::body::{Body, Hull};
 use crate::plan::path::draft::{Draft, EnvironmentLeft, LightLeft, lets_light_through};
 use crate::plan::path::facts::is_delta;
 use crate::plan::rules::Rule;
-use crate::plan::space::{Flat, MARGIN, Sides, Space};
+use crate::plan::space::{Flat, MARGIN, Sides};
 use crate::valid::{Alpha, Falloff, Punctual};
 
 fn place(light: usize) -> Place {
@@ -145,7 +145,7 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
         &draft.bodies[surface],
         &draft.materials[draft.scene.surfaces()[surface].material],
     );
-    let eye = Space::around(
+    let eye = Bounds::about(
         draft.scene.camera().eye,
         Vec3::splat(draft.scene.camera().lens.radius.get()),
     );
@@ -202,8 +202,8 @@ fn position(light: &Punctual) -> Option<Vec3> {
     }
 }
 
-fn point(at: Vec3) -> Space {
-    Space::around(at, Vec3::ZERO)
+fn point(at: Vec3) -> Bounds {
+    Bounds::about(at, Vec3::ZERO)
 }
 
 /// Whether a light surely does not reach a surface.
@@ -211,7 +211,7 @@ fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
     let (Some(space), Punctual::Point(light)) = (body.space(), light) else {
         return false;
     };
-    let margin = 8.0 * MARGIN * (space.size() + light.position.abs().max_element());
+    let margin = 8.0 * MARGIN * (space.reach() + light.position.abs().max_element());
     let is_beyond = match light.falloff {
         Falloff::Ranged(range) => space.distance(light.position) > range.get() + margin,
         Falloff::None | Falloff::Square => false,
@@ -225,7 +225,7 @@ const SLACK: f64 = 1e-12;
 
 /// Whether the ball around a box lies outside of a cone by a margin: the cone is given by its apex, its
 /// axis and the cosine of its half angle.
-fn is_beside(space: &Space, apex: Vec3, (axis, cosine): (Vec3, f64), margin: f64) -> bool {
+fn is_beside(space: &Bounds, apex: Vec3, (axis, cosine): (Vec3, f64), margin: f64) -> bool {
     // Widen the cone: where it is narrow, a rounding error of the cosine is a large one of the angle.
     let cosine = cosine - SLACK;
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
@@ -254,7 +254,7 @@ mod tests {
             let angle = f64::to_radians(degrees);
             let apex = Vec3::new(1.0, -2.0, 3.0);
             let center = apex + Vec3::new(sin(angle), 0.0, cos(angle)) * 4.0;
-            let space = Space::around(center, Vec3::splat(0.1));
+            let space = Bounds::about(center, Vec3::splat(0.1));
             let is_beside = is_beside(&space, apex, (Vec3::Z, cosine), 0.0);
             assert_eq!(is_beside, is_outside, "{degrees}°");
         }
@@ -263,7 +263,7 @@ mod tests {
     #[test]
     fn the_narrowest_cone_has_an_angle_that_its_cosine_can_not_tell() {
         for (angle, is_outside) in [(1e-7, false), (1e-5, true)] {
-            let space = Space::around(Vec3::new(4.0 * angle, 0.0, 4.0), Vec3::splat(1e-12));
+            let space = Bounds::about(Vec3::new(4.0 * angle, 0.0, 4.0), Vec3::splat(1e-12));
             let is_beside = is_beside(&space, Vec3::ZERO, (Vec3::Z, 1.0), 0.0);
             assert_eq!(is_beside, is_outside, "{angle}");
         }
@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn a_box_beside_a_cone_keeps_a_margin_from_it() {
         // A half space, half a unit before a box that lies in a ball of an eighth.
-        let space = Space::around(Vec3::new(0.0, 0.0, -0.5), Vec3::X * 0.125);
+        let space = Bounds::about(Vec3::new(0.0, 0.0, -0.5), Vec3::X * 0.125);
         let is_beside = |margin| is_beside(&space, Vec3::ZERO, (Vec3::Z, SLACK), margin);
         assert!(!is_beside(0.375) && is_beside(0.3749));
     }
@@ -280,7 +280,7 @@ mod tests {
     #[test]
     fn a_range_ends_before_a_box_by_a_margin_that_grows_with_both_coordinates() {
         let body = Body {
-            extent: Extent::Within(Space {
+            extent: Extent::Within(Bounds {
                 min: Vec3::new(0.0625, -0.125, -0.125),
                 max: Vec3::splat(0.125),
             }),

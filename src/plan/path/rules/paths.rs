@@ -2,12 +2,12 @@
 
 use super::PathRule;
 use crate::ir::{Field, Noun, Place};
-use crate::math::Vec3;
+use crate::math::{Bounds, Vec3};
 use crate::plan::MAX_PAIRS;
 use crate::plan::effect::Effect;
 use crate::plan::path::draft::{Draft, LightLeft};
 use crate::plan::rules::Rule;
-use crate::plan::space::Space;
+use crate::plan::space::Margins;
 use crate::plan::window::Shown;
 use crate::valid::{Falloff, Punctual, Standard};
 
@@ -119,8 +119,8 @@ fn unmet_by_shadow_rays(draft: &Draft<'_>) -> Option<Vec<usize>> {
     }
     let space = |surface: &usize| draft.bodies[*surface].space().copied();
     let starts = seen.iter().map(space).collect::<Option<Vec<_>>>()?;
-    let is_met = |other: &Space| {
-        let meets = |start: &Space| {
+    let is_met = |other: &Bounds| {
+        let meets = |start: &Bounds| {
             lights().any(|(light, _)| start.may_see_through(&end(light, start, other), other))
         };
         starts.iter().any(meets)
@@ -130,17 +130,17 @@ fn unmet_by_shadow_rays(draft: &Draft<'_>) -> Option<Vec<usize>> {
 }
 
 /// Where the rays to a light that start in a box end; for a sun, beyond another box.
-fn end(light: &Punctual, start: &Space, other: &Space) -> Space {
+fn end(light: &Punctual, start: &Bounds, other: &Bounds) -> Bounds {
     match light {
         Punctual::Directional(sun) => {
             // Points of the two are at most √3 times the sum of their sizes apart.
-            let step = sun.direction * (2.0 * (start.size() + other.size()));
-            Space {
+            let step = sun.direction * (2.0 * (start.reach() + other.reach()));
+            Bounds {
                 min: start.min + step,
                 max: start.max + step,
             }
         }
-        Punctual::Point(light) => Space::around(light.position, Vec3::ZERO),
+        Punctual::Point(light) => Bounds::about(light.position, Vec3::ZERO),
     }
 }
 
@@ -181,10 +181,10 @@ mod tests {
             direction: Vec3::X,
             irradiance: Vec3::ONE,
         });
-        let start = Space::around(Vec3::new(1.0, 0.5, 0.0), Vec3::splat(0.5));
-        let other = Space::around(Vec3::new(3.0, 0.5, 0.0), Vec3::splat(0.25));
+        let start = Bounds::about(Vec3::new(1.0, 0.5, 0.0), Vec3::splat(0.5));
+        let other = Bounds::about(Vec3::new(3.0, 0.5, 0.0), Vec3::splat(0.25));
         // Twice the largest coordinates of both, 1.5 and 3.25.
-        let beyond = Space::around(Vec3::new(10.5, 0.5, 0.0), Vec3::splat(0.5));
+        let beyond = Bounds::about(Vec3::new(10.5, 0.5, 0.0), Vec3::splat(0.5));
         assert_eq!(end(&sun, &start, &other), beyond);
     }
 }

@@ -6,9 +6,8 @@
 
 use super::split::{BoxedItem, Part};
 use super::{LEAF, NONE, Wide};
-use crate::math::Vec3;
+use crate::math::{Bounds, Vec3};
 use crate::render::accel::beam::QuantizationFrame;
-use crate::render::accel::bounds::Bounds;
 use crate::render::accel::lanes::{ITEMS, LINKS, TRIANGLES, WIDTH, WideLeaf, WideNode, place};
 use crate::render::accel::pages::Pages;
 use crate::render::accel::simd::SimdLevel;
@@ -41,7 +40,7 @@ impl Wide {
         if count == 0 {
             return None;
         }
-        let bounds = |item| Bounds::of(&corners(item)).grown(error_bound);
+        let bounds = |item| Bounds::of(corners(item)).grown(error_bound);
         let all = || (0..count).into_par_iter();
         let whole = match builders {
             Builders::One => (0..count).map(bounds).fold(Bounds::EMPTY, Bounds::union),

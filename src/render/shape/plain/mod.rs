@@ -9,8 +9,8 @@ pub(in crate::render) mod ray;
 pub(in crate::render) mod real;
 pub(in crate::render) mod roots;
 
-use crate::math::Vec3;
-use crate::render::accel::bounds::{Ball, Bounds};
+use crate::math::{Bounds, Vec3};
+use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::Shape;
 use crate::render::shape::geometry::{Asked, Details, Geometry};
