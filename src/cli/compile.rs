@@ -8,14 +8,11 @@ use super::output::{self, Companions, Output};
 use super::report::PlanReport;
 use super::simd;
 use super::talk::Talk;
-use crate::codec::{self, Encoded, Form};
+use crate::codec::{self, Form};
 use crate::emit;
 use crate::emit::course::WrittenScene;
-use crate::emit::gltf::GltfAsset;
 use crate::image::BackgroundFill;
-use crate::ir::Scene;
 use crate::pipeline::{Input, Observer, OutputFormat, OutputLook, PictureSetup, Proven};
-use std::io::{self, Write};
 use std::path::Path;
 
 /// Compiles the scene and writes it.
@@ -25,8 +22,8 @@ pub(super) fn run(args: &Compile) -> Result<(), Failure> {
     if matches!(emit, Emit::IrBin | Emit::Glb) {
         output::refuse_terminal(target)?;
     }
-    if emit != Emit::Glb && args.tolerance.is_some() {
-        let words = "`--tolerance` is about the meshes of glTF; name the output .glb";
+    if !matches!(emit, Emit::Glb | Emit::Gltf) && args.tolerance.is_some() {
+        let words = "`--tolerance` is about the meshes of glTF; name the output .glb or .gltf";
         return Err(Failure::Trouble(words.to_owned()));
     }
     let mut talk = Talk::beside_result(&args.talk);
@@ -46,20 +43,45 @@ fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure>
         return Ok(());
     };
     let scene = &proven.lowered.scene;
-    let written = match emit {
-        Emit::Ir | Emit::Yaml => ir(Form::Text, scene),
-        Emit::IrBin => ir(Form::Binary, scene),
-        Emit::Glb => {
-            let asset = input.gltf(&proven.lowered, args.tolerance);
-            Ok(Written::Gltf(input::unless_refused(
-                asset, &mut input, talk,
-            )?))
-        }
+    let form = match emit {
+        Emit::Ir | Emit::Yaml => Form::Text,
+        Emit::IrBin => Form::Binary,
+        Emit::Glb | Emit::Gltf => return write_gltf(args, emit, target, &proven, (input, talk)),
     };
-    let written = written.map_err(|reason| cannot(&input, &reason))?;
+    let encoded = codec::prepare(form, scene);
+    let encoded = encoded.map_err(|codec::NotFinite| cannot(&input, "a number is not finite"))?;
     let interrupt = Interrupt::listen()?;
-    Output::open(target, &input)?.commit_by(&|out| written.write(out), &interrupt)
+    Output::open(target, &input)?.commit_by(&|out| encoded.write(out), &interrupt)
 }
+
+/// Writes the scene as glTF, and beside a text the files that it names.
+fn write_gltf(
+    args: &Compile,
+    emit: Emit,
+    target: &Path,
+    proven: &Proven,
+    (mut input, talk): (Input, &mut Talk),
+) -> Result<(), Failure> {
+    let output = Output::open(target, &input)?;
+    let folder = (emit == Emit::Gltf).then(|| {
+        let refuse = || cannot(&input, NO_FOLDER);
+        output.folder_beside(target).ok_or_else(refuse)
+    });
+    let folder = folder.transpose()?;
+    let asset = input.gltf(&proven.lowered, args.tolerance, folder.as_deref());
+    let asset = input::unless_refused(asset, &mut input, talk)?;
+    let interrupt = Interrupt::listen()?;
+    let mut companions = Companions::beside(target);
+    for (name, bytes) in asset.files() {
+        companions.put(name, bytes, &interrupt)?;
+    }
+    output.commit_by(&|out| asset.write(out), &interrupt)?;
+    companions.keep();
+    Ok(())
+}
+
+/// Why a text of glTF is not written to standard output.
+const NO_FOLDER: &str = "its vertices and pictures are to be files beside the text: give `-o FILE`";
 
 /// The same for the canonical spelling, which says how a picture is shown too.
 fn carry_out_text(args: &Compile, mut input: Input, talk: &mut Talk) -> Result<(), Failure> {
@@ -149,31 +171,10 @@ fn by_extension(output: &Path) -> Result<Emit, Failure> {
         Some("rtir") => Ok(Emit::IrBin),
         Some("yaml" | "yml") => Ok(Emit::Yaml),
         Some("glb") => Ok(Emit::Glb),
+        Some("gltf") => Ok(Emit::Gltf),
         _ => Err(Failure::Trouble(format!(
-            "can't tell from `{}` what to write; name it .json, .rtir, .yaml or .glb, or give `--emit`",
+            "can't tell from `{}` what to write; name it .json, .rtir, .yaml, .glb or .gltf, or give `--emit`",
             output.display()
         ))),
     }
-}
-
-/// A scene in the form that is written.
-enum Written<'s> {
-    Ir(Encoded<'s>),
-    Gltf(GltfAsset),
-}
-
-impl Written<'_> {
-    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        match self {
-            Self::Ir(encoded) => encoded.write(out),
-            Self::Gltf(asset) => asset.write(out),
-        }
-    }
-}
-
-fn ir(form: Form, scene: &Scene) -> Result<Written<'_>, String> {
-    let encoded = codec::prepare(form, scene);
-    encoded
-        .map(Written::Ir)
-        .map_err(|codec::NotFinite| "a number is not finite".to_owned())
 }

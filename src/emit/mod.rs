@@ -1,4 +1,5 @@
 //! The IR back to what people and other tools read. One folder a language.
 
+mod beside;
 pub mod course;
 pub mod gltf;

@@ -232,10 +232,16 @@ impl Input {
         provenance
     }
 
-    /// The scene as glTF; `None` if that is not possible, with a finding that says why.
-    pub fn gltf(&mut self, lowered: &Lowered, tolerance: Option<f64>) -> Option<GltfAsset> {
-        let Lowered { scene, origins } = lowered;
-        emit::gltf::emit(scene, origins, tolerance, self.map.budget(), &mut self.sink)
+    /// The scene as glTF, in one file or with others in a folder; `None` if that is not possible, with
+    /// a finding that says why.
+    pub fn gltf(
+        &mut self,
+        lowered: &Lowered,
+        tolerance: Option<f64>,
+        folder: Option<&str>,
+    ) -> Option<GltfAsset> {
+        let (Lowered { scene, origins }, budget) = (lowered, self.map.budget());
+        emit::gltf::emit(scene, origins, tolerance, folder, budget, &mut self.sink)
     }
 
     /// What was found since the last time.

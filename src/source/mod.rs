@@ -2,6 +2,7 @@
 //! place.
 
 pub mod budget;
+mod escape;
 mod loader;
 mod map;
 mod memory;
@@ -9,6 +10,7 @@ mod search;
 pub mod tree;
 
 pub use budget::{Budget, Exceeded, Limits, Resource};
+pub use escape::uri_path;
 pub use loader::{Identity, LoadError, Loader};
 pub use map::{FileId, LineColumn, SourceMap, Span};
 pub use memory::MemoryFiles;

@@ -49,3 +49,23 @@ fn a_finer_tolerance_takes_more_triangles_and_is_about_meshes_alone() {
     }
     assert!(!folder.path().join("x.glb").exists());
 }
+
+#[test]
+fn a_text_has_its_vertices_beside_it_and_says_the_same() {
+    let folder = folder();
+    for target in ["ball.glb", "ball.gltf"] {
+        let written = rtc(&folder, &["compile", "ball.json", "-q", "-o", target]);
+        assert_eq!(code(&written), 0, "{}", stderr(&written));
+    }
+    let ir = |name: &str| rtc(&folder, &["compile", name, "-q", "-o", "-"]).stdout;
+    assert!(!ir("ball.gltf").is_empty() && ir("ball.gltf") == ir("ball.glb"));
+    let beside = fs::read_dir(folder.path().join("ball.files")).unwrap();
+    assert_eq!(beside.count(), 1, "the buffer");
+    let nowhere = rtc(&folder, &["compile", "ball.json", "-q", "--emit", "gltf"]);
+    assert_eq!((code(&nowhere), nowhere.stdout.len()), (1, 0));
+    assert!(
+        stderr(&nowhere).contains("give `-o FILE`"),
+        "{}",
+        stderr(&nowhere)
+    );
+}

@@ -1,18 +1,21 @@
 //! Scenes written as .glb and read back.
 
 use super::suite::{absent, files, name, root, shared, trial, trial_if};
-use super::{is_near, open, read, scene, write};
+use super::{emitted, is_near, open, read, read_text, scene, with_files, write};
 use libtest_mimic::Trial;
-use rtc::internals::diag::Severity;
+use rtc::internals::diag::{Severity, Sink};
 use rtc::internals::ir::{
-    Camera, Column, Emitter, Light, Lowered, Material, Mesh, Punctual, Scene, Shape, Surface,
+    Camera, Column, Emitter, Environment, Image, Light, Lowered, Material, Mesh, Pixels, Punctual,
+    Scene, Shape, Surface,
 };
+use rtc::internals::pipeline::{self, Options};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 pub(crate) fn trials() -> Vec<Trial> {
     let own = files(&root("scenes"), &["yaml", "glb"]);
-    let mut trials = of_files("scenes", &root("scenes"), own);
+    let mut trials: Vec<Trial> = own.iter().map(|path| text_of(path)).collect();
+    trials.extend(of_files("scenes", &root("scenes"), own));
     let assets = files(&root("tests/gltf/assets"), &["glb"]);
     trials.extend(of_files("assets", &root("tests/gltf/assets"), assets));
     for (folder, extensions) in [
@@ -32,12 +35,23 @@ pub(crate) fn trials() -> Vec<Trial> {
             "to glTF: what is left out is told",
             what_is_left_out_is_told,
         ),
+        trial("to glTF: surroundings come back", surroundings_come_back),
+        trial(
+            "to glTF: pixels that are no rows are refused",
+            odd_pixels_are_refused,
+        ),
         trial(
             "to glTF: settings and shadows come back",
             settings_come_back,
         ),
     ]);
     trials
+}
+
+fn text_of(path: &Path) -> Trial {
+    let path = path.to_owned();
+    let name = format!("to glTF: text/{}", name(&path, &root("scenes")));
+    trial(name, move || comes_back_from_text(&open(&path).unwrap()))
 }
 
 fn of_files(what: &str, folder: &Path, paths: Vec<PathBuf>) -> Vec<Trial> {
@@ -62,6 +76,7 @@ fn comes_back(lowered: &Lowered) {
     let bytes = bytes.unwrap_or_else(|| panic!("{told:#?}"));
     assert_eq!(Some(&bytes), write(lowered, None).0.as_ref(), "same bytes");
     let (before, after) = (&lowered.scene, &read(&bytes).scene);
+    same_surroundings(before, after);
     assert_eq!(before.settings, after.settings);
     assert_eq!(before.display, after.display);
     same_camera(&before.camera, &after.camera);
@@ -70,6 +85,33 @@ fn comes_back(lowered: &Lowered) {
         same_light(before, after);
     }
     same_surfaces(before, after);
+}
+
+/// As a text with files beside it a scene is what it is as one file.
+fn comes_back_from_text(lowered: &Lowered) {
+    let asset = emitted(lowered, None, Some(FOLDER)).0.unwrap();
+    let from_text = read_text(&super::bytes(&asset), &asset).scene;
+    let from_one = read(&write(lowered, None).0.unwrap()).scene;
+    assert!(from_text == from_one, "with files beside it");
+}
+
+/// A name that a URI escapes.
+const FOLDER: &str = "a scene.files";
+
+fn same_surroundings(before: &Scene, after: &Scene) {
+    let parts = |scene: &Scene| {
+        let own = scene.environment.as_ref()?;
+        let image = own
+            .image
+            .map(|image| scene.images[image.0 as usize].clone());
+        Some((own.radiance, own.image_from_world, image))
+    };
+    assert!(
+        parts(before) == parts(after),
+        "{:?} {:?}",
+        before.environment,
+        after.environment
+    );
 }
 
 fn same_camera(before: &Camera, after: &Camera) {
@@ -237,6 +279,59 @@ fn cameras_come_back() {
     ] {
         comes_back(&with(camera));
     }
+}
+
+/// A scene in a picture of 4 × 2 pixels, each with a value of its own.
+fn surrounded(kind: Pixels) -> Lowered {
+    let mut lowered = with(&format!("{EYE}\nRenderMode: path"));
+    let pixels: Vec<u8> = match kind {
+        Pixels::Rgb8 | Pixels::Rgba8 => (0..8 * kind.bytes())
+            .map(|k| u8::try_from(k).unwrap())
+            .collect(),
+        Pixels::Rgb32f => (0_u8..24)
+            .flat_map(|k| (f32::from(k) * 0.1).to_le_bytes())
+            .collect(),
+    };
+    let image = lowered.scene.add_image(Image {
+        name: "sky".to_owned(),
+        width: 4,
+        height: 2,
+        kind,
+        pixels: pixels.into(),
+    });
+    lowered.scene.environment = Some(Environment {
+        radiance: [0.1, 2.0, 3.5],
+        image: Some(image),
+        image_from_world: Some([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
+    });
+    lowered
+}
+
+fn surroundings_come_back() {
+    for kind in [Pixels::Rgb8, Pixels::Rgba8, Pixels::Rgb32f] {
+        let mut lowered = surrounded(kind);
+        comes_back(&lowered);
+        comes_back_from_text(&lowered);
+        let own = lowered.scene.environment.as_mut().unwrap();
+        own.image_from_world = None;
+        comes_back(&lowered);
+        lowered.scene.environment.as_mut().unwrap().image = None;
+        comes_back(&lowered);
+    }
+}
+
+fn odd_pixels_are_refused() {
+    let asset = emitted(&surrounded(Pixels::Rgb32f), None, Some(FOLDER))
+        .0
+        .unwrap();
+    let text = String::from_utf8(super::bytes(&asset)).unwrap();
+    let wrong = text.replace("\"width\": 4", "\"width\": 3");
+    assert_ne!(text, wrong);
+    let (mut map, file) = with_files(wrong.as_bytes(), &asset);
+    let (options, mut sink) = (Options::default(), Sink::default());
+    pipeline::load(file, &mut map, &options, &mut sink);
+    let codes: Vec<_> = sink.kept().iter().map(|finding| finding.code.id).collect();
+    assert!(codes.contains(&"GL026"), "{codes:?}");
 }
 
 fn settings_come_back() {

@@ -91,7 +91,7 @@ pub(super) struct Compile {
     /// Say which effects the picture needs, and why it does without the others
     #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true, default_missing_value = "human")]
     pub(super) explain: Option<Explanation>,
-    /// What to write [default: by the extension of the output (.json, .rtir, .yaml, .glb), or `ir`]
+    /// What to write [default: by the extension of the output (.json, .rtir, .yaml, .glb, .gltf), or `ir`]
     #[arg(long, value_enum)]
     pub(super) emit: Option<Emit>,
     /// How far a mesh of the glTF may be from the curved shape it stands for, in scene units
@@ -153,6 +153,8 @@ pub(super) enum Emit {
     Yaml,
     /// A binary glTF 2.0 asset: shapes become meshes
     Glb,
+    /// The same as text, with its vertices and pictures in a folder beside it
+    Gltf,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -226,10 +226,10 @@ super::codes! { GL:
          from its shape.";
     GLTF_OWN_WORDS = "GL051", Note, "glTF has no words for a value, so it stands in `extras.rtc`",
         "glTF says nothing of lenses, of cameras that look past the middle of their picture, of lights without falloff, of \
-         Phong's weights, or of how a picture is made. `rtc compile -o scene.glb` writes such values into `extras.rtc` of \
-         the part they belong to. rtc reads them back; other programs show the scene without them.";
+         Phong's weights, of what surrounds a scene, or of how a picture is made. `rtc compile -o scene.glb` writes such \
+         values into `extras.rtc` of the part they belong to, the picture of the surroundings among images or accessors. rtc \
+         reads them back; other programs show the scene without them.";
     GLTF_UNSAID = "GL052", Warning, "glTF has no words for a value, and it is left out",
-        "`rtc compile -o scene.glb` has no place for the value, not even in `extras.rtc`: the picture of an environment, \
-         a texture that is sheared, numbers beyond the range of 32-bit floats. Without a place for its geometry a scene is \
-         not written at all.";
+        "`rtc compile -o scene.glb` has no place for the value, not even in `extras.rtc`: a texture that is sheared, \
+         numbers beyond the range of 32-bit floats. Without a place for its geometry a scene is not written at all.";
 }

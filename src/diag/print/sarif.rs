@@ -3,8 +3,7 @@
 use super::place::FilePlace;
 use super::text;
 use crate::diag::{Diagnostic, Label, Severity, codes};
-use crate::source::{SourceMap, Span};
-use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
+use crate::source::{SourceMap, Span, uri_path};
 use serde_json::{Value, json};
 
 /// The whole log, of the results given; `omitted` findings were left out.
@@ -121,17 +120,8 @@ fn fixes(diagnostic: &Diagnostic, map: &SourceMap) -> Vec<Value> {
     changes.map(fix).collect()
 }
 
-/// What is escaped in the path of a URI: all but the unreserved characters (RFC 3986, section 2.3)
-/// and the slash.
-const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC
-    .remove(b'-')
-    .remove(b'.')
-    .remove(b'_')
-    .remove(b'~')
-    .remove(b'/');
-
 /// The path as a URI reference: relative as the user gave it, or with the scheme `file`.
 fn uri(path: &str) -> String {
     let scheme = if path.starts_with('/') { "file://" } else { "" };
-    format!("{scheme}{}", utf8_percent_encode(path, ESCAPED))
+    format!("{scheme}{}", uri_path(path))
 }

@@ -1,9 +1,7 @@
 //! The files that a text names: those that images and meshes came from, or new ones beside the text.
-//!
-//! The name of a new file holds the hash of its content: no file is ever written over by another, and
-//! what is the same is one file.
 
 use super::{ply, quoted};
+use crate::emit::beside;
 use crate::image::{FileFormat, Image as Radiances, Origin, Picture, png_bytes};
 use crate::ir::{Image, ImageId, Material, Mesh, MeshId, Pixels, Scene};
 use std::collections::BTreeMap;
@@ -11,9 +9,6 @@ use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
 /// The word that stands for the uv of the surface in place of a file.
 const UV: &str = "UV";
-
-/// The longest part of a name that says what a file is of, in bytes.
-const MAX_NAME: usize = 40;
 
 /// A file that a text names.
 #[derive(Debug)]
@@ -134,9 +129,7 @@ impl<'s> FileNames<'s> {
             Content::Mesh(mesh) => ("mesh", "ply", xxh3_64(&ply::encode(mesh))),
             Content::Image(image) => ("image", extension(image), hash(image)),
         };
-        let stem = plain(known);
-        let stem = if stem.is_empty() { word } else { &stem };
-        let name = format!("{folder}/{stem}-{hash:016x}.{extension}");
+        let name = beside::path(folder, known, word, hash, extension);
         let quoted = quoted(&name);
         self.new
             .entry(name.clone())
@@ -154,14 +147,6 @@ pub(super) fn file_name(name: &str) -> Result<String, String> {
         ));
     }
     Ok(quoted(name))
-}
-
-/// The end of a path, without an extension and without characters that mean something to a system.
-fn plain(name: &str) -> String {
-    let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
-    let stem = last.rsplit_once('.').map_or(last, |(stem, _)| stem);
-    let allowed = |letter: &char| letter.is_ascii_alphanumeric() || matches!(letter, '-' | '_');
-    stem.chars().filter(allowed).take(MAX_NAME).collect()
 }
 
 fn extension(image: &Image) -> &'static str {

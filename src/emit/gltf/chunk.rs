@@ -1,6 +1,7 @@
-//! The binary chunk: buffer views and accessors, each written once.
+//! The one buffer: buffer views and accessors, each written once.
 
 use super::writer::GltfWriter;
+use crate::ir::Image;
 use gltf::json;
 use json::accessor::{ComponentType, GenericComponentType, Type};
 use json::buffer::Target;
@@ -55,6 +56,17 @@ impl GltfWriter<'_> {
             min: bound(0),
             max: bound(1),
             ..accessor(view, vectors.len(), ComponentType::F32, type_)
+        };
+        self.root.push(accessor)
+    }
+
+    /// Adds the pixels of an image of floats, in rows from the top.
+    pub(super) fn pixels(&mut self, image: &Image) -> Index<Accessor> {
+        let view = self.view(&image.pixels, None);
+        let count = image.pixels.len() / image.kind.bytes();
+        let accessor = Accessor {
+            name: Some(image.name.clone()).filter(|name| !name.is_empty()),
+            ..accessor(view, count, ComponentType::F32, Type::Vec3)
         };
         self.root.push(accessor)
     }

@@ -1,4 +1,4 @@
-//! The IR to binary glTF 2.0, in the types of `gltf::json`.
+//! The IR to glTF 2.0, as one binary file or as several, in the types of `gltf::json`.
 //!
 //! Shapes become meshes, Phong's model the nearest metallic-roughness material. What glTF has no
 //! words for goes into `extras.rtc`, value by value; each such place is told.
@@ -22,6 +22,7 @@ use gltf::binary::{Glb, Header};
 use gltf::json;
 use json::validation::USize64;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 use told::Told;
 use writer::GltfWriter;
@@ -30,12 +31,17 @@ use writer::GltfWriter;
 pub struct GltfAsset {
     /// The document, as JSON.
     json: Vec<u8>,
-    /// The vertices and pictures.
+    /// The vertices and pictures in the same file; empty if they are in others, or there are none.
     bin: Vec<u8>,
+    /// The vertices and pictures in files of their own, by their paths from the folder of the asset.
+    files: BTreeMap<String, Vec<u8>>,
+    is_binary: bool,
 }
 
 /// Makes an asset of a proven scene. `tolerance` is the farthest that a mesh may be from the shape
-/// it stands for, in scene units; without one it is a thousandth of the radius of each shape.
+/// it stands for, in scene units; without one it is a thousandth of the radius of each shape. With a
+/// folder, named as the asset is to name it, vertices and pictures become files there, and the asset
+/// a text.
 ///
 /// `None` if the scene can't be written; the sink says why. It also has a note for each value that
 /// is written nearly, or in words that only rtc reads, and a warning for each that is left out.
@@ -43,13 +49,14 @@ pub fn emit(
     scene: &Scene,
     origins: &Origins,
     tolerance: Option<f64>,
+    folder: Option<&str>,
     budget: &Budget,
     sink: &mut Sink,
 ) -> Option<GltfAsset> {
     let mut told = Told::new(origins, sink);
     let scene = form::only_meshes(scene, tolerance, budget, &mut told)?;
     charge_pictures(&scene, budget, &mut told)?;
-    let mut writer = GltfWriter::new(&scene, budget, told);
+    let mut writer = GltfWriter::new(&scene, folder, budget, told);
     for index in 0..scene.surfaces.len() {
         writer.surface(index)?;
     }
@@ -86,10 +93,15 @@ impl GltfWriter<'_> {
         self.root.asset.generator = Some(concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned());
         self.root.extensions_used = self.used.iter().map(|name| (*name).to_owned()).collect();
         if !self.bin.is_empty() {
+            let byte_length = USize64::from(self.bin.len());
+            let uri = self.folder.map(|folder| {
+                let bytes = std::mem::take(&mut self.bin);
+                self.file(folder, ("", "buffer", "bin"), bytes)
+            });
             self.root.push(json::Buffer {
-                byte_length: USize64::from(self.bin.len()),
+                byte_length,
                 name: None,
-                uri: None,
+                uri,
                 extensions: None,
                 extras: None,
             });
@@ -100,7 +112,10 @@ impl GltfWriter<'_> {
                     *place = number;
                 }
             }
-            serde_json::to_vec(&document)
+            match self.folder {
+                Some(_) => serde_json::to_vec_pretty(&document),
+                None => serde_json::to_vec(&document),
+            }
         });
         let Ok(json) = text else {
             unreachable!("a proven scene holds finite numbers, which JSON can say");
@@ -114,6 +129,8 @@ impl GltfWriter<'_> {
         Some(GltfAsset {
             json,
             bin: self.bin,
+            files: self.files,
+            is_binary: self.folder.is_none(),
         })
     }
 }
@@ -122,11 +139,21 @@ impl GltfWriter<'_> {
 const HEADS: usize = 12 + 8 + 8 + 6;
 
 impl GltfAsset {
-    /// Writes it as a .glb.
+    /// The files that it names, by their paths from its folder, with `/`.
+    pub fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
+        let files = self.files.iter();
+        files.map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
+    }
+
+    /// Writes it, but for those files.
     ///
     /// # Errors
     /// Those of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        if !self.is_binary {
+            out.write_all(&self.json)?;
+            return out.write_all(b"\n");
+        }
         let glb = Glb {
             header: Header {
                 magic: *b"glTF",

@@ -1,10 +1,9 @@
 //! How the picture is made, and what surrounds the scene, in `extras.rtc` of the asset.
 
-use super::writer::{GltfWriter, extras};
+use super::writer::{GltfWriter, extras, number};
 use crate::color::Tone;
-use crate::diag::codes;
 use crate::ir::{
-    Display, Environment, Field, Gooch, Mode, Noun, PathSettings, Pattern, Place, Settings,
+    Display, Environment, Field, Gooch, Mode, Noun, PathSettings, Pattern, Pixels, Place, Settings,
 };
 use serde_json::{Map as Block, Value, json};
 
@@ -38,15 +37,27 @@ impl GltfWriter<'_> {
         let Environment {
             radiance,
             image,
-            image_from_world: _,
+            image_from_world,
         } = environment;
         let place = Place::new(Noun::Environment, 0, Field::Whole);
-        if image.is_some() {
-            let message = "the picture of what surrounds the scene is left out";
-            return self.told.tell(&codes::GLTF_UNSAID, message, place);
-        }
         self.told.own_words("what surrounds the scene", place);
-        own.insert("environment".to_owned(), json!({ "radiance": radiance }));
+        let mut words = json!({ "radiance": radiance });
+        if let Some(id) = image {
+            let image = &self.scene.images[id.0 as usize];
+            match image.kind {
+                Pixels::Rgb8 | Pixels::Rgba8 => {
+                    words["image"] = self.image(number(*id)).value().into();
+                }
+                Pixels::Rgb32f => {
+                    words["pixels"] = self.pixels(image).value().into();
+                    words["width"] = image.width.into();
+                }
+            }
+        }
+        if let Some(rows) = image_from_world {
+            words["rotation"] = rows.as_flattened().into();
+        }
+        own.insert("environment".to_owned(), words);
     }
 }
 

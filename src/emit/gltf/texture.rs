@@ -1,4 +1,4 @@
-//! Textures: images as PNG in the binary chunk, samplers, and how the materials look them up.
+//! Textures: images as PNG, samplers, and how the materials look them up.
 
 use super::writer::{GltfWriter, number};
 use crate::diag::codes;
@@ -107,7 +107,8 @@ impl GltfWriter<'_> {
         sampler
     }
 
-    fn image(&mut self, id: u32) -> Index<json::Image> {
+    /// An image of the scene, with 8 bits a channel.
+    pub(super) fn image(&mut self, id: u32) -> Index<json::Image> {
         if let Some(known) = self.images.get(&id) {
             return *known;
         }
@@ -128,7 +129,7 @@ impl GltfWriter<'_> {
             }
         };
         let png = png_bytes([*width, *height], *kind == Pixels::Rgba8, &bytes);
-        let image = self.png(&png, name);
+        let image = self.png(png, name);
         self.images.insert(id, image);
         image
     }
@@ -143,18 +144,21 @@ impl GltfWriter<'_> {
             .flat_map(|y| (0..UV_SIDE).flat_map(move |x| [byte(x), 0, byte(UV_SIDE - 1 - y)]))
             .collect();
         let png = png_bytes([UV_SIDE; 2], false, &pixels);
-        let image = self.png(&png, "UV");
+        let image = self.png(png, "UV");
         self.uv_image = Some(image);
         image
     }
 
-    fn png(&mut self, png: &[u8], name: &str) -> Index<json::Image> {
-        let view = self.view(png, None);
+    fn png(&mut self, png: Vec<u8>, name: &str) -> Index<json::Image> {
+        let (uri, buffer_view) = match self.folder {
+            Some(folder) => (Some(self.file(folder, (name, "image", "png"), png)), None),
+            None => (None, Some(self.view(&png, None))),
+        };
         self.root.push(json::Image {
-            buffer_view: Some(view),
+            buffer_view,
             mime_type: Some(MimeType("image/png".to_owned())),
             name: Some(name.to_owned()).filter(|name| !name.is_empty()),
-            uri: None,
+            uri,
             extensions: None,
             extras: None,
         })

@@ -4,13 +4,15 @@
 use super::material::MaterialKey;
 use super::mesh::MeshAccessors;
 use super::told::Told;
+use crate::emit::beside;
 use crate::ir::{ImageId, Scene};
-use crate::source::Budget;
+use crate::source::{Budget, uri_path};
 use gltf::json;
 use json::extensions::scene::Node as NodeExtensions;
 use json::{Index, Node, Root, Value};
 use serde_json::value::to_raw_value;
 use std::collections::{BTreeMap, BTreeSet};
+use xxhash_rust::xxh3::xxh3_64;
 
 /// Writes a scene of meshes.
 pub(super) struct GltfWriter<'w> {
@@ -19,6 +21,9 @@ pub(super) struct GltfWriter<'w> {
     pub(super) bin: Vec<u8>,
     pub(super) budget: &'w Budget,
     pub(super) told: Told<'w>,
+    /// The folder of files beside the asset, and what they hold; none if all is in one file.
+    pub(super) folder: Option<&'w str>,
+    pub(super) files: BTreeMap<String, Vec<u8>>,
     /// Numbers that `gltf::json` rounds to 32 bits, as they are, by JSON pointers to where they
     /// stand.
     pub(super) exact: Vec<(String, Value)>,
@@ -38,13 +43,20 @@ pub(super) struct GltfWriter<'w> {
 }
 
 impl<'w> GltfWriter<'w> {
-    pub(super) fn new(scene: &'w Scene, budget: &'w Budget, told: Told<'w>) -> Self {
+    pub(super) fn new(
+        scene: &'w Scene,
+        folder: Option<&'w str>,
+        budget: &'w Budget,
+        told: Told<'w>,
+    ) -> Self {
         Self {
             scene,
             root: Root::default(),
             bin: Vec::new(),
             budget,
             told,
+            folder,
+            files: BTreeMap::new(),
             exact: Vec::new(),
             used: BTreeSet::new(),
             nodes: Vec::new(),
@@ -56,6 +68,20 @@ impl<'w> GltfWriter<'w> {
             meshes: BTreeMap::new(),
             uv_image: None,
         }
+    }
+
+    /// Adds a file in `folder`; its URI. The words are what it is of, what stands for that where it has
+    /// no name, and the extension.
+    pub(super) fn file(
+        &mut self,
+        folder: &str,
+        (of, word, extension): (&str, &str, &str),
+        bytes: Vec<u8>,
+    ) -> String {
+        let path = beside::path(folder, of, word, xxh3_64(&bytes), extension);
+        let uri = uri_path(&path).to_string();
+        self.files.insert(path, bytes);
+        uri
     }
 
     /// Adds a node that the scene shows; `columns` are those of the map from it to the world.

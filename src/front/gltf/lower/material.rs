@@ -90,6 +90,18 @@ impl Materials {
         (id, loses_light)
     }
 
+    /// An image of the document that need not be one of a texture; none if it can't be read.
+    pub(super) fn image(
+        &mut self,
+        doc: &Document<'_>,
+        index: usize,
+        scene: &mut Scene,
+        origins: &mut Origins,
+        report: &AssetReport<'_, '_>,
+    ) -> Option<ir::ImageId> {
+        self.textures.image(doc, index, scene, origins, report)
+    }
+
     /// True if the material looks at tangents.
     #[expect(clippy::unused_self, reason = "materials answer for what they need")]
     pub(super) fn needs_tangents(&self, material: MaterialId, scene: &Scene) -> bool {

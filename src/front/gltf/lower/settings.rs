@@ -1,11 +1,16 @@
 //! How the picture is made, and what surrounds the scene, as `extras.rtc` of the asset says it.
 
+use super::super::elements::Elements;
 use super::super::field::Fields;
+use super::super::layout::Component;
 use super::Lowering;
 use crate::color::Tone;
+use crate::diag::codes;
 use crate::ir::{
-    Display, Environment, Field, Gooch, Mode, Noun, PathSettings, Pattern, Place, Settings,
+    Display, Environment, Field, Gooch, Image, ImageId, Mode, Noun, PathSettings, Pattern, Pixels,
+    Place, Settings,
 };
+use crate::source::Resource;
 
 impl Lowering<'_, '_, '_> {
     /// Takes over what the asset says of the settings and of the environment.
@@ -27,15 +32,82 @@ impl Lowering<'_, '_, '_> {
             };
         }
         if let Some(environment) = own.object("environment") {
-            let place = Place::new(Noun::Environment, 0, Field::Whole);
-            self.origins
-                .record(place, self.report.json.span(environment.at));
-            self.scene.environment = Some(Environment {
-                radiance: environment.vector_or("radiance", [0.0; 3]),
-                image: None,
-                image_from_world: None,
-            });
+            self.environment(environment);
         }
+    }
+
+    fn environment(&mut self, own: Fields<'_, '_>) {
+        let place = Place::new(Noun::Environment, 0, Field::Whole);
+        self.origins.record(place, self.report.json.span(own.at));
+        let image = match (own.index("image"), own.index("pixels")) {
+            (Some(image), _) => {
+                let Self {
+                    doc,
+                    scene,
+                    origins,
+                    report,
+                    ..
+                } = self;
+                self.materials.image(doc, image, scene, origins, report)
+            }
+            (None, Some(pixels)) => self.pixels(own, pixels),
+            (None, None) => None,
+        };
+        let rotation = own.vector::<9>("rotation");
+        self.scene.environment = Some(Environment {
+            radiance: own.vector_or("radiance", [0.0; 3]),
+            image,
+            image_from_world: rotation
+                .map(|[a, b, c, d, e, f, g, h, i]| [[a, b, c], [d, e, f], [g, h, i]]),
+        });
+    }
+
+    /// The image whose pixels are the elements of an accessor.
+    fn pixels(&mut self, own: Fields<'_, '_>, accessor: usize) -> Option<ImageId> {
+        let doc = self.doc;
+        let accessor = doc.accessors.get(accessor)?;
+        let elements = Elements::of(doc, accessor)?;
+        let count = elements.count as u64;
+        let size = own.whole("width").and_then(|width| {
+            let height = count
+                .checked_div(width)
+                .filter(|height| height * width == count)?;
+            Some([u32::try_from(width).ok()?, u32::try_from(height).ok()?])
+        });
+        let is_color = elements.layout.component == Component::F32
+            && (elements.layout.columns, elements.layout.rows) == (1, 3);
+        let Some([width, height]) = size.filter(|_| is_color) else {
+            let message = "the pixels are not whole rows of `width` vectors of three floats";
+            self.report
+                .say(&codes::GLTF_ACCESSOR, "", own.at, message.to_owned());
+            return None;
+        };
+        let kind = Pixels::Rgb32f;
+        let bytes = count.saturating_mul(kind.bytes() as u64);
+        if !self
+            .report
+            .charge(Resource::Memory, bytes, own.at, "the picture")
+        {
+            return None;
+        }
+        let place = Place::new(Noun::Image, self.scene.images.len(), Field::Whole);
+        self.origins.record(place, self.report.json.span(own.at));
+        let mut pixels = Vec::with_capacity(elements.count * kind.bytes());
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "the channels are 32-bit floats"
+        )]
+        elements.each(|_, pixel| {
+            let channels = pixel.iter().map(|channel| *channel as f32);
+            pixels.extend(channels.flat_map(f32::to_le_bytes));
+        });
+        Some(self.scene.add_image(Image {
+            name: Fields::new(self.report.json, accessor.at).name(),
+            width,
+            height,
+            kind,
+            pixels: pixels.into(),
+        }))
     }
 }
 

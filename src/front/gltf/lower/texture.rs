@@ -135,7 +135,8 @@ impl LoweredTextures {
         id
     }
 
-    fn image(
+    /// An image of the document; none if it can't be read.
+    pub(super) fn image(
         &mut self,
         doc: &Document<'_>,
         index: usize,

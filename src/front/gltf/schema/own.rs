@@ -63,7 +63,15 @@ static DISPLAY: Object = own(&[
         Word(&["mode", "none", "srgb", "agx", "pbr-neutral"]),
     ),
 ]);
-static ENVIRONMENT: Object = own(&[required("radiance", Numbers(&[3], FACTOR))]);
+/// Its radiance; a picture of all directions, an image or rows of so many floating-point pixels; the
+/// rows of the rotation from the world to the picture.
+static ENVIRONMENT: Object = own(&[
+    required("radiance", Numbers(&[3], FACTOR)),
+    optional("image", Index(Pool::Images)),
+    optional("pixels", Index(Pool::Accessors)),
+    optional("width", Whole(1, MANY)),
+    optional("rotation", Numbers(&[9], FREE)),
+]);
 
 /// The size of the picture, the plane of focus, the middle in halves of the picture, the lens.
 static CAMERA: Object = own(&[
