@@ -13,6 +13,8 @@
 mod corpora;
 mod diagnostics;
 mod gltf;
+#[path = "../hashed/mod.rs"]
+mod hashed;
 mod hashes;
 mod ir;
 mod permissions;
