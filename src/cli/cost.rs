@@ -4,16 +4,22 @@ use super::Failure;
 use super::args::{self, StudyFormat};
 use super::input;
 use super::interrupt::Interrupt;
+use super::merge::unfit;
 use super::output::Output;
+use super::render::{or_restart, say_saved, try_save};
 use super::simd;
 use super::talk::Talk;
 use crate::ir::Scene;
 use crate::pipeline::{self, Input};
 use crate::source::{Loader, SourceMap};
-use crate::study::{self, About, Bench, Clock, Stopped, Study};
+use crate::study::{self, About, Bench, Clock, Journal, Stopped, Study};
 use cpu_time::ThreadTime;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::{Duration, Instant};
+
+/// The most bytes that are read of what was rendered.
+const MAX_BYTES: u64 = 1 << 36;
 
 /// Studies the scene and writes the report.
 pub(super) fn run(args: &args::Cost) -> Result<(), Failure> {
@@ -38,7 +44,8 @@ fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<()
         .map(|path| Output::open(path, input))
         .transpose()?;
     let about = about(input.name(), &proven.lowered.scene);
-    let study = measure(args, about, &proven.lowered.scene, &interrupt)?;
+    let journal = journal(args, &about, input)?;
+    let study = measure(args, (about, journal), &proven.lowered.scene, &interrupt)?;
     let report = match args.format {
         StudyFormat::Table => study::table(&study),
         StudyFormat::Csv => study::csv(&study),
@@ -61,7 +68,7 @@ fn threads(args: &args::Cost) -> usize {
 )]
 fn measure(
     args: &args::Cost,
-    about: About,
+    (about, journal): (About, Option<Journal>),
     scene: &Scene,
     interrupt: &Interrupt,
 ) -> Result<Study, Failure> {
@@ -78,9 +85,40 @@ fn measure(
         &on_pixel,
     );
     let bench = bench.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
-    let bench = bench.at_level(simd);
-    study::study(scene, about, args.effort.into(), args.seed, &bench)
-        .map_err(|Stopped| Failure::Interrupted)
+    let file = args.checkpoint.clone().unwrap_or_default();
+    let is_saved = AtomicBool::new(false);
+    let save = |journal: &Journal| is_saved.store(try_save(&file, &journal.save()), Relaxed);
+    let bench = match journal {
+        Some(journal) => bench.at_level(simd).keeping(journal, args.every, &save),
+        None => bench.at_level(simd),
+    };
+    let study = study::study(scene, about, args.effort.into(), args.seed, &bench);
+    bench.save();
+    study.map_err(|Stopped| {
+        if is_saved.load(Relaxed) {
+            say_saved(&file, "what is rendered");
+        }
+        Failure::Interrupted
+    })
+}
+
+/// What is rendered of the study, if that is kept.
+fn journal(args: &args::Cost, about: &About, input: &Input) -> Result<Option<Journal>, Failure> {
+    let Some(file) = &args.checkpoint else {
+        return Ok(None);
+    };
+    Output::open(file, input)?;
+    let journal = Journal::new(about, args.effort.into(), args.seed);
+    if args.restart || !file.exists() {
+        return Ok(Some(journal));
+    }
+    // Noted in no map that matters: the file is written again.
+    let bytes = Loader.bytes(file, MAX_BYTES, &SourceMap::default());
+    let bytes =
+        bytes.map_err(|error| Failure::Trouble(format!("`{}`: {error}", file.display())))?;
+    let journal = journal.load(&bytes);
+    let journal = journal.map_err(|error| or_restart(unfit(file, &error)))?;
+    Ok(Some(journal))
 }
 
 fn about(name: &str, scene: &Scene) -> About {

@@ -5,6 +5,7 @@ mod file;
 mod render;
 mod resume;
 
+pub(super) use file::mended;
 pub use file::{MOST, hash_of_file};
 
 use super::{SettledLook, SharedBy, Shares, findings};
@@ -44,13 +45,8 @@ struct PartHead {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     finished: Vec<String>,
     /// How many bytes say how far it has grown, of one that grows as a whole.
-    #[serde(default, skip_serializing_if = "is_none")]
-    growth: u64,
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-fn is_none(count: &u64) -> bool {
-    *count == 0
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    growth: Option<u64>,
 }
 
 /// What a part was made by.
@@ -171,7 +167,7 @@ impl PicturePart {
             shares: (shares.first..=shares.last).collect(),
             command: Vec::new(),
             finished: Vec::new(),
-            growth: 0,
+            growth: None,
         };
         let values = |area| {
             let rows = head.rows(area);

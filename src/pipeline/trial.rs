@@ -3,14 +3,16 @@
 //!
 //! None may panic, whatever the bytes are. What a stage promises beyond that is asserted here.
 
-use super::{Options, load, prove, render};
+use super::{Options, PicturePart, load, prove, render};
 use crate::codec::{self, Form};
+use crate::color::Tone;
 use crate::diag::{self, Format, Printer, Severity, Sink};
 use crate::front::course;
 use crate::ir::{Lowered, Material, Mode, Origins, Scene};
 use crate::plan::{Plan, Rules};
-use crate::render::Job;
+use crate::render::{Background, Job, Values};
 use crate::source::{FileId, Loader, SourceMap};
+use crate::study::{Goal, Growth, Order};
 use crate::valid;
 use arbitrary::{Arbitrary, Unstructured};
 use std::path::Path;
@@ -110,6 +112,43 @@ fn is_proven_or_refused(file: FileId, map: &mut SourceMap) -> (Sink, Option<Scen
         .map(|lowered| lowered.scene);
     scene.iter().for_each(round_trips);
     (sink, scene)
+}
+
+/// Reads a part of a picture, as it is and with checksums that fit.
+///
+/// # Panics
+/// If one that is read is another one after it was saved, or has grown to something else.
+pub fn part(bytes: &[u8]) {
+    /// Larger pictures take longer than a trial may.
+    const MOST: u64 = 1 << 12;
+    for bytes in [bytes.to_vec(), super::part::mended(bytes)] {
+        let Ok(part) = PicturePart::load(&bytes, MOST) else {
+            continue;
+        };
+        let saved = part.save();
+        let again = PicturePart::load(&saved, MOST).map(|part| part.save());
+        assert!(again.as_ref() == Ok(&saved), "what is saved can be read");
+        let _ = part.develop();
+        let _ = part.command(1);
+        has_grown(part);
+    }
+}
+
+/// Reads how far a picture has grown.
+fn has_grown(mut part: PicturePart) {
+    let order = Order {
+        goal: Goal::default(),
+        crop: part.window(),
+        background: Background::default(),
+        values: Values::default(),
+        display: (Tone::Srgb, 1.0),
+        keep_lights: false,
+        seed: 0,
+    };
+    let growth = part.take_growth();
+    if let Ok(grown) = Growth::load(&growth, &order) {
+        assert!(grown.save() == growth, "it has grown as far as it had");
+    }
 }
 
 /// Decodes bytes in both forms of the IR.

@@ -1,9 +1,11 @@
 //! The environment of a study: threads, a clock, and an observer who may say stop.
 
+use super::journal::{Entry, Journal};
 use crate::plan::Plan;
 use crate::render::{AnyWorld, Film, Job, OnPixel, SimdLevel};
 use crate::valid::Proof;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// A clock, read before and after a piece of work. Its origin does not matter.
@@ -65,6 +67,18 @@ pub struct Bench<'a> {
     narrow: ThreadPool,
     /// The vector instructions that scenes are rendered with.
     simd: SimdLevel,
+    /// What was rendered, if that is kept.
+    memory: Option<Mutex<Memory>>,
+    /// Who saves it.
+    save: &'a (dyn Fn(&Journal) + Sync),
+}
+
+/// What was rendered, and how it is kept.
+struct Memory {
+    journal: Journal,
+    every: Duration,
+    /// When it was kept last.
+    saved: Duration,
 }
 
 impl<'a> Bench<'a> {
@@ -85,6 +99,8 @@ impl<'a> Bench<'a> {
             wide: pool(threads)?,
             narrow: pool(1)?,
             simd: SimdLevel::best(),
+            memory: None,
+            save: &|_| (),
         })
     }
 
@@ -93,6 +109,54 @@ impl<'a> Bench<'a> {
     #[must_use]
     pub fn at_level(self, simd: SimdLevel) -> Self {
         Self { simd, ..self }
+    }
+
+    /// The same bench, which renders nothing that is in the journal, and hands it to `save` with all renders that
+    /// are done after so much time.
+    #[must_use]
+    pub fn keeping(
+        mut self,
+        journal: Journal,
+        every: Duration,
+        save: &'a (dyn Fn(&Journal) + Sync),
+    ) -> Self {
+        self.memory = Some(Mutex::new(Memory {
+            journal,
+            every,
+            saved: (self.clock.wall)(),
+        }));
+        self.save = save;
+        self
+    }
+
+    /// Hands the journal to whoever saves it.
+    pub fn save(&self) {
+        if let Some(memory) = self.memory() {
+            (self.save)(&memory.journal);
+        }
+    }
+
+    fn memory(&self) -> Option<MutexGuard<'_, Memory>> {
+        let memory = self.memory.as_ref()?;
+        Some(memory.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// The next render, if it was done before.
+    pub(super) fn recall(&self, key: u64) -> Option<Entry> {
+        self.memory()?.journal.recall(key)
+    }
+
+    /// Takes down a render, if that is to be kept.
+    pub(super) fn note(&self, entry: impl FnOnce() -> Entry) {
+        let Some(mut memory) = self.memory() else {
+            return;
+        };
+        memory.journal.note(entry());
+        let now = (self.clock.wall)();
+        if now.saturating_sub(memory.saved) >= memory.every {
+            (self.save)(&memory.journal);
+            memory.saved = (self.clock.wall)();
+        }
     }
 
     /// Renders a scene as planned; `None` if the observer said stop.

@@ -1,7 +1,7 @@
 //! A picture on its way to its goal, which can be saved between two stretches of a round and goes on from
 //! there to the same bytes: a round takes the samples that are missing, whoever took the others.
 
-use super::stretch::Stretch;
+use super::stretch::WorkStretch;
 use super::target::{Order, Reached, Samples};
 use crate::render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
 use std::time::Duration;
@@ -36,14 +36,14 @@ pub struct Keep<'a> {
 /// Keeps what grows now and then.
 pub(super) struct Keeper<'a> {
     keep: Keep<'a>,
-    stretch: Stretch,
+    stretch: WorkStretch,
     saved: Duration,
 }
 
 impl<'a> Keeper<'a> {
     pub(super) fn new(keep: Keep<'a>) -> Self {
         Self {
-            stretch: Stretch::new(keep.every, keep.threads),
+            stretch: WorkStretch::new(keep.every, keep.threads),
             saved: (keep.elapsed)(),
             keep,
         }
@@ -127,7 +127,8 @@ impl Growth {
     }
 
     /// Rounds, points of lights and whether those were asked for, the samples wanted, and the film, as bytes.
-    fn save(&self) -> Vec<u8> {
+    #[must_use]
+    pub fn save(&self) -> Vec<u8> {
         let wanted = self.wanted.iter().flatten();
         let keeps = u32::from(self.keeps_lights);
         let numbers = [self.rounds, self.light_samples, keeps, 0].into_iter();

@@ -10,6 +10,7 @@ mod bench;
 mod effects;
 mod flip;
 mod growth;
+mod journal;
 mod knob;
 mod metrics;
 mod noise;
@@ -31,6 +32,7 @@ pub use bench::{Bench, Clock};
 pub use effects::EffectCost;
 pub use flip::{PIXELS_PER_DEGREE, flip};
 pub use growth::{Growth, Keep};
+pub use journal::Journal;
 pub use knob::{Knob, idle};
 pub use metrics::{Errors, LEVELS, rmse};
 pub use outcome::{About, KnobReport, Rays, ReferenceReport, Row, Study, StudyArea};
@@ -40,7 +42,7 @@ pub use reference::{DepthEnd, Level};
 pub use report::{csv, html, json, table};
 pub use setting::Setting;
 pub use statistics::{Estimate, PowerLaw, Rng, median};
-pub use stretch::Stretch;
+pub use stretch::WorkStretch;
 pub use subject::Stopped;
 pub use target::{Goal, Order, Progress, Reached, Samples, Watch, approach, approach_keeping};
 
@@ -308,6 +310,7 @@ impl Scope {
                 ratio: run.ratio,
                 judged: reference.floor <= JUDGE * errors.rmse || reference.floor == 0.0,
                 errors,
+                resumed: run.is_resumed,
                 model: model.error(runner.setting),
                 tiles: run.shot.tiles,
             }

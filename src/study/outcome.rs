@@ -129,6 +129,9 @@ pub struct Row {
     pub errors: Errors,
     /// Whether the reference is accurate enough: if not, the errors are upper limits.
     pub judged: bool,
+    /// Whether some of its seconds were measured before the study was interrupted.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub resumed: bool,
     /// The `errors.rmse` that the model predicted.
     pub model: f64,
     /// The pixels.

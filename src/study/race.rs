@@ -5,7 +5,7 @@
 use super::bench::Time;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng, median};
-use super::subject::{RenderedTiles, Stopped, Subject};
+use super::subject::{RenderedTiles, Stopped, Subject, Timed};
 
 /// A runner.
 pub(super) struct Runner<'a> {
@@ -20,6 +20,8 @@ pub(super) struct TimedRun {
     pub(super) seconds: Estimate,
     /// Seconds over those of the first runner.
     pub(super) ratio: Estimate,
+    /// Whether some of its renders were done before the study was interrupted.
+    pub(super) is_resumed: bool,
 }
 
 /// The results of all runners.
@@ -41,6 +43,7 @@ const MOST_REPEATS: u64 = 8;
 pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result<Race, Stopped> {
     let mut shots: Vec<Option<RenderedTiles>> = runners.iter().map(|_| None).collect();
     let mut times: Vec<Vec<Option<Time>>> = vec![Vec::new(); runners.len()];
+    let mut resumed = vec![false; runners.len()];
     let (mut rounds, mut repeats) = (vec![FEWEST_ROUNDS; runners.len()], vec![1; runners.len()]);
     for round in 0..MOST_ROUNDS {
         let mut order: Vec<_> = (0..runners.len())
@@ -53,14 +56,21 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result
         times.iter_mut().for_each(|times| times.push(None));
         for index in order {
             let Runner { subject, setting } = &runners[index];
-            let (shot, time) = subject.time(*setting, |shot| {
-                if shots[index].is_none() {
+            let is_first = shots[index].is_none();
+            let timed = subject.time(*setting, is_first, |shot| {
+                if is_first {
                     let fair = budget / runners.len() as u64 / shot.counts.rays().max(1);
                     repeats[index] = (fair / MOST_ROUNDS).clamp(1, MOST_REPEATS);
                     rounds[index] = (fair / repeats[index]).clamp(FEWEST_ROUNDS, MOST_ROUNDS);
                 }
                 repeats[index]
             })?;
+            let Timed {
+                shot,
+                time,
+                is_resumed,
+            } = timed;
+            resumed[index] |= is_resumed;
             shots[index].get_or_insert(shot);
             if let Some(place) = times[index].last_mut() {
                 *place = Some(time);
@@ -72,11 +82,8 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result
         .zip(&times)
         .map(|(runner, times)| whole_picture(runner, times, rng))
         .collect();
-    let runs = shots
-        .into_iter()
-        .flatten()
-        .zip(&wholes)
-        .map(|(shot, seconds)| {
+    let runs = shots.into_iter().flatten().zip(&wholes).zip(resumed).map(
+        |((shot, seconds), is_resumed)| {
             let ratios: Vec<_> = seconds
                 .iter()
                 .zip(&wholes[0])
@@ -87,8 +94,10 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result
                 shot,
                 seconds: median(&seconds, rng),
                 ratio: median(&ratios, rng),
+                is_resumed,
             }
-        });
+        },
+    );
     let runs = runs.collect();
     let total = |of: fn(&Time) -> f64| times.iter().flatten().flatten().map(of).sum::<f64>();
     Ok(Race {

@@ -5,14 +5,14 @@ use std::time::Duration;
 /// How many shares of a picture are rendered at once: as many as take a part of the time between two
 /// saves.
 #[derive(Clone, Copy, Debug)]
-pub struct Stretch {
+pub struct WorkStretch {
     shares: u32,
     /// With fewer, threads would have no work.
     least: u32,
     time: Duration,
 }
 
-impl Stretch {
+impl WorkStretch {
     /// Longer ones save no more work, and lose more of it.
     const LONGEST: Duration = Duration::from_secs(10);
 

@@ -2,12 +2,14 @@
 //! and counts their rays.
 
 use super::bench::{Bench, Time};
+use super::journal::Entry;
 use super::setting::Setting;
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
 use crate::plan::{Arithmetic, Plan, Rules};
 use crate::render::{Counts, Crop, Job, Seeds, Tiles};
 use crate::valid::{Proof, revalidate};
+use xxhash_rust::xxh3::xxh3_64;
 
 /// A scene, and the part of its picture that is rendered.
 #[derive(Clone)]
@@ -24,6 +26,14 @@ pub(super) struct Subject<'bench> {
 pub(super) struct RenderedTiles {
     pub(super) tiles: Vec<Image>,
     pub(super) counts: Counts,
+}
+
+/// A render of some tiles, and how long it took.
+pub(super) struct Timed {
+    pub(super) shot: RenderedTiles,
+    pub(super) time: Time,
+    /// Whether it was rendered before the study was interrupted.
+    pub(super) is_resumed: bool,
 }
 
 /// The observer said stop.
@@ -89,18 +99,47 @@ impl<'bench> Subject<'bench> {
     /// Renders in a setting on all threads. A seed other than 0 makes that sampling independent of
     /// all other seeds.
     pub(super) fn shoot(&self, setting: Setting, seeds: Seeds) -> Result<RenderedTiles, Stopped> {
+        let key = self.key("picture", setting, seeds);
+        if let Some(entry) = self.bench.recall(key) {
+            return Ok(entry.shot);
+        }
         let scene = self.prove(setting, seeds);
-        self.bench
-            .work(|| self.render(&scene, setting.precision, seeds))
+        let shot = self
+            .bench
+            .work(|| self.render(&scene, setting.precision, seeds))?;
+        self.bench.note(|| Entry {
+            key,
+            shot: shot.clone(),
+            seconds: Vec::new(),
+        });
+        Ok(shot)
     }
 
-    /// Renders in a setting on one thread, `repeats` times as decided from the first result.
-    /// Returns the mean time, too.
+    /// Tells renders of a study apart.
+    fn key(&self, kind: &str, setting: Setting, seeds: Seeds) -> u64 {
+        let tiles = self.tiles.len();
+        xxh3_64(format!("{kind} {setting:?} {seeds:?} {tiles}").as_bytes())
+    }
+
+    /// Renders in a setting on one thread, `repeats` times as decided from the first result. If its
+    /// picture is not wanted, it may be missing.
     pub(super) fn time(
         &self,
         setting: Setting,
+        is_wanted: bool,
         repeats: impl FnOnce(&RenderedTiles) -> u64,
-    ) -> Result<(RenderedTiles, Time), Stopped> {
+    ) -> Result<Timed, Stopped> {
+        let key = self.key("time", setting, Seeds::NONE);
+        if let Some(Entry { shot, seconds, .. }) = self.bench.recall(key)
+            && let [cpu, wall] = seconds[..]
+        {
+            repeats(&shot);
+            return Ok(Timed {
+                shot,
+                time: Time { cpu, wall },
+                is_resumed: true,
+            });
+        }
         let scene = self.prove(setting, Seeds::NONE);
         let render = || {
             self.bench
@@ -114,11 +153,32 @@ impl<'bench> Subject<'bench> {
             again?;
             time = time.plus(more);
         }
-        Ok((shot, time.over(count as f64)))
+        let time = time.over(count as f64);
+        self.bench.note(|| Entry {
+            key,
+            shot: RenderedTiles {
+                tiles: match is_wanted {
+                    true => shot.tiles.clone(),
+                    false => Vec::new(),
+                },
+                counts: shot.counts,
+            },
+            seconds: vec![time.cpu, time.wall],
+        });
+        Ok(Timed {
+            shot,
+            time,
+            is_resumed: false,
+        })
     }
 
     /// The seconds for preparing the scene and for skipping all pixels, in each of `rounds`.
     pub(super) fn time_overhead(&self, setting: Setting, rounds: usize) -> Vec<[f64; 2]> {
+        let key = self.key("overhead", setting, Seeds::NONE);
+        if let Some(entry) = self.bench.recall(key) {
+            let (pairs, _) = entry.seconds.as_chunks();
+            return pairs.to_vec();
+        }
         let scene = self.prove(setting, Seeds::NONE);
         let nowhere = Crop {
             x: 0,
@@ -147,7 +207,16 @@ impl<'bench> Subject<'bench> {
             let prepare = seconds(&without_pixels);
             [prepare, (seconds(&without_tiles) - prepare).max(0.0)]
         };
-        (0..rounds).map(round).collect()
+        let seconds: Vec<[f64; 2]> = (0..rounds).map(round).collect();
+        self.bench.note(|| Entry {
+            key,
+            shot: RenderedTiles {
+                tiles: Vec::new(),
+                counts: Counts::default(),
+            },
+            seconds: seconds.iter().flatten().copied().collect(),
+        });
+        seconds
     }
 
     fn prove(&self, setting: Setting, seeds: Seeds) -> Proof {

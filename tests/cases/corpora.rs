@@ -35,6 +35,7 @@ const TARGETS: &[Target] = &[
     ("mesh", inputs::mesh),
     ("image", inputs::image),
     ("folder", inputs::folder),
+    ("part", run::part),
     ("arguments", cli::trial::arguments),
 ];
 

@@ -311,3 +311,32 @@ fn a_turntable_keeps_its_finished_frames_and_goes_on() {
     assert_eq!(code(&output), 1, "{}", stderr(&output));
     assert!(stderr(&output).contains("more than 3 frames; `--restart`"));
 }
+
+#[test]
+fn a_study_goes_on_from_its_renders_with_the_seconds_measured() {
+    let folder = scenes();
+    let cost = ["cost", "depth.json", "--effort", "quick"];
+    let keeping = ["--checkpoint", "c.rtc", "--every", "0.001s"];
+    let cost = [&cost[..], &keeping, &["--format", "json"]].concat();
+    let rows = |args: &[&str]| {
+        let output = rtc(&folder, args);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let study: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        study["rows"].as_array().unwrap().clone()
+    };
+    let (first, again) = (rows(&cost), rows(&cost));
+    let is_marked = |row: &serde_json::Value| row["resumed"] == true;
+    assert!(!first.is_empty() && !first.iter().any(is_marked));
+    assert!(again.iter().all(is_marked));
+    for (first, again) in first.iter().zip(&again) {
+        for key in ["setting", "errors", "rays", "seconds"] {
+            assert_eq!(first[key], again[key], "{key}");
+        }
+    }
+    let anew = rows(&[&cost[..], &["--restart"]].concat());
+    assert!(!anew.iter().any(is_marked));
+    let other = rtc(&folder, &[&cost[..], &["--seed", "2"]].concat());
+    assert_eq!(code(&other), 1);
+    let words = "`c.rtc`: it is of another study: seed: 1 here, 2 there; `--restart` begins anew";
+    assert!(stderr(&other).contains(words), "{}", stderr(&other));
+}

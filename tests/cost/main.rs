@@ -6,6 +6,7 @@
 mod error;
 mod knob;
 mod report;
+mod resume;
 
 use rtc::internals::codec;
 use rtc::internals::diag::Sink;

@@ -8,5 +8,6 @@
 )]
 
 mod make;
+mod parts;
 mod prison;
 mod texts;

@@ -1,9 +1,11 @@
 //! What `rtc cost` is told.
 
+use super::super::parse::interval;
 use super::{Reading, StageArgs, TalkArgs};
 use crate::study;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
+use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Cost {
@@ -25,6 +27,16 @@ pub(in crate::cli) struct Cost {
     /// Which tiles of the picture are looked at, and in which order settings are timed
     #[arg(long, value_name = "N", default_value = "1")]
     pub(in crate::cli) seed: u64,
+    /// Keep what is rendered in this file, now and then and when told to end; the same command goes on from
+    /// there, with the seconds measured before
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) checkpoint: Option<PathBuf>,
+    /// How often to save, in seconds
+    #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = interval, requires = "checkpoint")]
+    pub(in crate::cli) every: Duration,
+    /// Begin anew, whatever was saved
+    #[arg(long, requires = "checkpoint")]
+    pub(in crate::cli) restart: bool,
     /// Threads for what is not timed [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(in crate::cli) threads: Option<u16>,

@@ -5,7 +5,7 @@ use super::super::merge::{read_part, unfit};
 use super::super::output::Output;
 use super::super::progress::RenderProgress;
 use super::super::{Failure, args, input, interrupt::Interrupt, talk, talk::Talk};
-use super::shot::{Kept, summary, workers};
+use super::shot::{KeptGrowth, summary, workers};
 use super::{RenderSetup, halted};
 use crate::image::Picture;
 use crate::pipeline::{
@@ -14,7 +14,7 @@ use crate::pipeline::{
 };
 use crate::render::{Crop, Tiles};
 use crate::source::{Resource, SourceMap};
-use crate::study::{Goal, Stretch};
+use crate::study::{Goal, WorkStretch};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -28,7 +28,7 @@ pub(super) struct Checkpoint {
 }
 
 /// What to do about a file that can't be gone on from.
-pub(super) fn or_restart(failure: Failure) -> Failure {
+pub(in crate::cli) fn or_restart(failure: Failure) -> Failure {
     match failure {
         Failure::Input(words) => Failure::Input(format!("{words}; `--restart` begins anew")),
         other @ (Failure::Findings
@@ -101,14 +101,7 @@ impl Checkpoint {
 
     /// Saves what is done, whole or not at all, and says so if that fails: the render goes on.
     fn try_save(&self, part: &PicturePart) -> bool {
-        let saved = NewFile::save(&self.file, &part.save());
-        if let Err(error) = &saved {
-            let file = self.file.display();
-            talk::say(&format!(
-                "warning: `{file}` can't be written: {error}; the render goes on, what was saved before stays"
-            ));
-        }
-        saved.is_ok()
+        try_save(&self.file, &part.save())
     }
 }
 
@@ -209,7 +202,7 @@ impl RenderSetup {
             part.grow(growth);
             is_saved.store(checkpoint.try_save(&part), Ordering::Relaxed);
         };
-        let kept = Kept {
+        let kept = KeptGrowth {
             begun: &begun,
             every: checkpoint.every,
             save: &save,
@@ -248,7 +241,7 @@ impl RenderSetup {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
         };
-        let mut stretch = Stretch::new(checkpoint.every, workers(self.picture.threads));
+        let mut stretch = WorkStretch::new(checkpoint.every, workers(self.picture.threads));
         let mut saved = progress.elapsed();
         while let Some(next) = next(done, stretch.shares()) {
             let begun = progress.elapsed();
@@ -310,11 +303,28 @@ impl Checkpoint {
 
     /// Says how to go on.
     fn tell(&self, what: &str) {
-        let file = self.file.display();
+        say_saved(&self.file, what);
+    }
+}
+
+/// Says what was saved, and how to go on.
+pub(in crate::cli) fn say_saved(file: &Path, what: &str) {
+    let file = file.display();
+    talk::say(&format!(
+        "saved {what} in `{file}`; the same command goes on from there"
+    ));
+}
+
+/// Saves what is done, whole or not at all, and says so if that fails: the work goes on.
+pub(in crate::cli) fn try_save(file: &Path, bytes: &[u8]) -> bool {
+    let saved = NewFile::save(file, bytes);
+    if let Err(error) = &saved {
+        let file = file.display();
         talk::say(&format!(
-            "saved {what} in `{file}`; the same command goes on from there"
+            "warning: `{file}` can't be written: {error}; the render goes on, what was saved before stays"
         ));
     }
+    saved.is_ok()
 }
 
 /// The first shares that are missing, side by side, at most so many: the first and the last of them.

@@ -22,6 +22,7 @@ use crate::plan::{Rule, Rules};
 use crate::render::{Aov, Crop};
 use crate::study::Goal;
 use checkpoint::{Checkpoint, Saving};
+pub(super) use checkpoint::{or_restart, say_saved, try_save};
 use part::PartSetup;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

@@ -62,14 +62,14 @@ fn simulated(counts: &Counts) -> String {
 }
 
 /// What was kept of a picture that grows, and who keeps it on its way.
-pub(super) struct Kept<'a> {
+pub(super) struct KeptGrowth<'a> {
     /// None, if nothing was.
     pub(super) begun: &'a [u8],
     pub(super) every: Duration,
     pub(super) save: &'a (dyn Fn(Vec<u8>) + Sync),
 }
 
-impl<'a> Kept<'a> {
+impl<'a> KeptGrowth<'a> {
     fn into_keep(
         self,
         order: &Order,
@@ -152,7 +152,7 @@ impl RenderSetup {
         (window, rays): (Crop, u64),
         interrupt: &Interrupt,
         quiet: bool,
-        kept: Option<Kept<'_>>,
+        kept: Option<KeptGrowth<'_>>,
     ) -> Result<Rendered, RenderError> {
         let setup = &self.picture;
         let order = self.order(subject, window);

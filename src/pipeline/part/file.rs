@@ -3,7 +3,7 @@
 //! the xxh3 of all before. Numbers are little-endian.
 
 use super::{PartError, PartHead, PicturePart};
-use crate::render::PartialFilm;
+use crate::render::{Crop, PartialFilm};
 use std::collections::BTreeMap;
 use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
 
@@ -68,7 +68,8 @@ impl PicturePart {
             .map_err(|_| PartError::Damaged("its header is not as it should be"))?;
         head.check(max_pixels)?;
         let film = PartialFilm::load(film, max_pixels).map_err(PartError::Film)?;
-        let growth = usize::try_from(head.growth).map_err(|_| SHORT)?;
+        head.check_pixels(film.crop())?;
+        let growth = usize::try_from(head.growth.unwrap_or(0)).map_err(|_| SHORT)?;
         let border = layers.len().checked_sub(growth).ok_or(SHORT)?;
         let (layers, growth) = layers.split_at(border);
         let layers = head.layers(layers)?;
@@ -85,6 +86,28 @@ impl PicturePart {
 #[must_use]
 pub fn hash_of_file(bytes: &[u8]) -> String {
     format!("xxh3:{:032x}", xxh3_128(bytes))
+}
+
+/// The same bytes with checksums that fit, where they are long enough to have some: so that a trial comes to
+/// what lies behind them.
+pub(in crate::pipeline) fn mended(bytes: &[u8]) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    let film = |bytes: &[u8]| {
+        let length = number(bytes, 12).ok()? as usize;
+        let film = bytes.get(16..PREAMBLE)?.try_into().ok()?;
+        let film = usize::try_from(u64::from_le_bytes(film)).ok()?;
+        let start = PREAMBLE.checked_add(length)?;
+        Some(start..start.checked_add(film)?)
+    };
+    if let Some(film) = film(&bytes).and_then(|film| bytes.get_mut(film))
+        && let Some((film, sum)) = film.split_last_chunk_mut()
+    {
+        *sum = crc32fast::hash(film).to_le_bytes();
+    }
+    if let Some((rest, sum)) = bytes.split_last_chunk_mut() {
+        *sum = xxh3_64(rest).to_le_bytes();
+    }
+    bytes
 }
 
 /// The most shares of a picture.
@@ -114,11 +137,22 @@ impl PartHead {
             .all(|share| (1..=self.count).contains(share));
         let are_once =
             (1..self.layers.len()).all(|at| !self.layers[..at].contains(&self.layers[at]));
-        let is_begun = !self.shares.is_empty() || !self.finished.is_empty() || self.growth > 0;
-        let is_count = self.count <= MOST && is_begun;
+        let is_begun =
+            !self.shares.is_empty() || !self.finished.is_empty() || self.growth.is_some();
+        let is_count = (1..=MOST).contains(&self.count) && is_begun;
         (is_window && is_count && ascend && are_in_range && are_once)
             .then_some(())
             .ok_or(PartError::Damaged("its shares can't be those of a picture"))
+    }
+
+    /// Refuses a film of other pixels than those wanted.
+    fn check_pixels(&self, film: Crop) -> Result<(), PartError> {
+        let window = self.crop();
+        let is_whole = (film.x, film.y) == (0, 0);
+        let is_inside = window.within(film.width, film.height) == window;
+        (film == window || (is_whole && is_inside))
+            .then_some(())
+            .ok_or(PartError::Damaged("its film has other pixels"))
     }
 
     /// The numbers of the layers, tile by tile.

@@ -61,7 +61,7 @@ impl PartialFilm {
     /// If the bytes are of something else, of another version, or damaged, or the picture is
     /// larger.
     pub fn load(bytes: &[u8], max_pixels: u64) -> Result<Self, FilmError> {
-        let mut bytes = Unread(bytes);
+        let mut bytes = FilmBytes(bytes);
         if bytes.array().ok() != Some(MAGIC) {
             return Err(FilmError::NotAFilm);
         }
@@ -116,9 +116,9 @@ fn length(count: usize) -> [u8; 4] {
 }
 
 /// The bytes that are still to be read.
-pub(super) struct Unread<'a>(pub(super) &'a [u8]);
+pub(super) struct FilmBytes<'a>(pub(super) &'a [u8]);
 
-impl Unread<'_> {
+impl FilmBytes<'_> {
     /// The next bytes.
     fn take(&mut self, count: usize) -> Result<&[u8], FilmError> {
         let (taken, rest) = self
@@ -225,7 +225,7 @@ impl Unread<'_> {
         let sums: Result<_, _> = self
             .take(pixels * PIXEL)?
             .chunks_exact(PIXEL)
-            .map(|chunk| Unread(chunk).sum(most))
+            .map(|chunk| FilmBytes(chunk).sum(most))
             .collect();
         sums.map(|sums| SumNode { blocks, sums })
     }

@@ -2,7 +2,7 @@
 //! means are shown by a tone map, its counts, and the samples of its pixels, tile by tile. Numbers
 //! are little-endian, floating-point numbers keep every bit.
 
-use super::bytes::Unread;
+use super::bytes::FilmBytes;
 use super::partial::FilmError;
 use super::progressive::{ProgressiveFilm, Replicates};
 use super::{Crop, Tiles};
@@ -17,18 +17,18 @@ const VERSION: u32 = 1;
 const LONGEST: u32 = 1 << 24;
 
 /// What a film held of the pixels of some tiles.
-pub struct Before(Vec<Vec<Replicates>>);
+pub struct TilesBefore(Vec<Vec<Replicates>>);
 
 impl ProgressiveFilm {
     /// What the pixels of the selected tiles are before they grow.
     #[must_use]
-    pub fn before(&mut self) -> Before {
+    pub fn before(&mut self) -> TilesBefore {
         let tiles = self.selected();
-        Before(tiles.into_iter().map(|pixels| pixels.to_vec()).collect())
+        TilesBefore(tiles.into_iter().map(|pixels| pixels.to_vec()).collect())
     }
 
     /// Makes the pixels of the selected tiles what they were.
-    pub fn restore(&mut self, before: &Before) {
+    pub fn restore(&mut self, before: &TilesBefore) {
         let both = self.selected().into_iter().zip(&before.0);
         both.for_each(|(pixels, before)| pixels.copy_from_slice(before));
     }
@@ -70,7 +70,7 @@ impl ProgressiveFilm {
     /// # Errors
     /// If the bytes are of something else or of another version, or damaged.
     pub fn load(mut self, bytes: &[u8]) -> Result<Self, FilmError> {
-        let mut bytes = Unread(bytes);
+        let mut bytes = FilmBytes(bytes);
         if bytes.array().ok() != Some(MAGIC) {
             return Err(FilmError::NotAFilm);
         }
@@ -119,7 +119,7 @@ impl Replicates {
         bytes.extend(hits.into_iter().flat_map(u64::to_le_bytes));
     }
 
-    fn load(bytes: &mut Unread<'_>) -> Result<Self, FilmError> {
+    fn load(bytes: &mut FilmBytes<'_>) -> Result<Self, FilmError> {
         let mut numbers = [0.0; 20];
         for number in &mut numbers {
             *number = f64::from_le_bytes(bytes.array()?);

@@ -235,6 +235,12 @@ impl PartialFilm {
         self.counts
     }
 
+    /// The pixels that it develops to: of distances all of the picture, else those wanted.
+    #[must_use]
+    pub fn crop(&self) -> Crop {
+        self.layout.crop
+    }
+
     /// A film without samples.
     pub(in crate::render) fn new(layout: FilmLayout) -> Self {
         Self {

@@ -28,6 +28,7 @@ fn line(row: &Row) -> String {
         ratio,
         errors,
         judged,
+        resumed: _,
         model,
         tiles: _,
     } = row;

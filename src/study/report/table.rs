@@ -24,6 +24,9 @@ pub fn table(study: &Study) -> String {
         .rows
         .iter()
         .for_each(|row| text += &format!("{}\n", line(row, &used, study.part.fraction)));
+    if study.rows.iter().any(|row| row.resumed) {
+        text += "† timed, in part at least, before the study was interrupted\n";
+    }
     text += "\n";
     study
         .knobs
@@ -97,7 +100,11 @@ fn line(row: &Row, used: &[Knob], fraction: f64) -> String {
     let limit = if row.judged { "" } else { "≤" };
     let cells = [
         count(row.rays.all() as f64 / fraction),
-        seconds(row.seconds.value),
+        format!(
+            "{}{}",
+            seconds(row.seconds.value),
+            if row.resumed { "†" } else { "" }
+        ),
         format!("{:.1}", 100.0 * row.ratio.relative()),
         if row.own {
             "own".to_owned()

@@ -1,0 +1,246 @@
+//! What a study has rendered so far, in its order: one that is interrupted goes on from there. Which settings are
+//! rendered depends on rays alone, so that the same study asks for the same renders again.
+//!
+//! As bytes: magic, version and length of the header (u32 each), the header in JSON, which says what was
+//! studied; for each render its key (u64), six counts of rays (u64), how many pictures and numbers there are
+//! (u32 each), the pictures with width and height (u32) before their pixels, the numbers; and the xxh3 of
+//! all before. Numbers are little-endian.
+
+use super::Effort;
+use super::outcome::About;
+use super::subject::RenderedTiles;
+use crate::image::Image;
+use crate::render::Counts;
+use serde::{Deserialize, Serialize};
+use std::fmt::Display;
+use xxhash_rust::xxh3::xxh3_64;
+
+/// What the bytes begin with.
+const MAGIC: [u8; 8] = *b"rtc cost";
+
+const VERSION: u32 = 1;
+
+/// The study that renders are of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+struct JournalHead {
+    about: About,
+    effort: Effort,
+    seed: u64,
+}
+
+/// One render: what it showed, if that is still wanted, and the seconds it took.
+#[derive(Clone)]
+pub(super) struct Entry {
+    pub(super) key: u64,
+    pub(super) shot: RenderedTiles,
+    pub(super) seconds: Vec<f64>,
+}
+
+/// The renders of a study.
+pub struct Journal {
+    head: JournalHead,
+    entries: Vec<Entry>,
+    /// How many of them this run has asked for.
+    next: usize,
+}
+
+impl Journal {
+    /// Of a study of which nothing was rendered.
+    #[must_use]
+    pub fn new(about: &About, effort: Effort, seed: u64) -> Self {
+        let head = JournalHead {
+            about: about.clone(),
+            effort,
+            seed,
+        };
+        Self {
+            head,
+            entries: Vec::new(),
+            next: 0,
+        }
+    }
+
+    /// How many renders it holds.
+    #[must_use]
+    #[expect(clippy::len_without_is_empty, reason = "nobody asks")]
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// The next render, if it was done before.
+    pub(super) fn recall(&mut self, key: u64) -> Option<Entry> {
+        let entry = self.entries.get(self.next);
+        let Some(entry) = entry.filter(|entry| entry.key == key).cloned() else {
+            // Whatever follows is of another study.
+            self.entries.truncate(self.next);
+            return None;
+        };
+        self.next += 1;
+        Some(entry)
+    }
+
+    /// Takes down a render.
+    pub(super) fn note(&mut self, entry: Entry) {
+        self.entries.push(entry);
+        self.next = self.entries.len();
+    }
+
+    /// All renders as bytes.
+    #[must_use]
+    pub fn save(&self) -> Vec<u8> {
+        let head = serde_json::to_vec(&self.head).unwrap_or_default();
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend(VERSION.to_le_bytes());
+        bytes.extend(count(head.len()));
+        bytes.extend(head);
+        self.entries.iter().for_each(|entry| entry.save(&mut bytes));
+        bytes.extend(xxh3_64(&bytes).to_le_bytes());
+        bytes
+    }
+
+    /// Takes over the renders of such bytes. Without renders of its own.
+    ///
+    /// # Errors
+    /// If the bytes are of something else, of another study, of another version, or damaged.
+    pub fn load(mut self, bytes: &[u8]) -> Result<Self, String> {
+        const SHORT: &str = "it is damaged: its end is missing";
+        if !bytes.starts_with(&MAGIC) {
+            return Err("it holds no renders of a study".to_owned());
+        }
+        let (bytes, sum) = bytes.split_last_chunk().ok_or(SHORT)?;
+        let mut rest = Rest(bytes.get(MAGIC.len()..).ok_or(SHORT)?);
+        let version = rest.number().ok_or(SHORT)?;
+        if version != VERSION {
+            return Err(format!("version {version} of its format is unknown"));
+        }
+        if xxh3_64(bytes) != u64::from_le_bytes(*sum) {
+            return Err("it is damaged: its checksum does not fit".to_owned());
+        }
+        let length = rest.number().ok_or(SHORT)? as usize;
+        let head: Option<JournalHead> = rest
+            .take(length)
+            .and_then(|head| serde_json::from_slice(head).ok());
+        let head = head.ok_or("it is damaged: its header is not as it should be")?;
+        if let Some(what) = self.head.difference(&head) {
+            return Err(format!("it is of another study: {what}"));
+        }
+        while !rest.0.is_empty() {
+            self.entries.push(rest.entry().ok_or(SHORT)?);
+        }
+        Ok(self)
+    }
+}
+
+impl JournalHead {
+    /// The first thing in which two studies differ, in words.
+    fn difference(&self, other: &Self) -> Option<String> {
+        let (here, there) = (&other.about, &self.about);
+        let pairs: [(&str, &dyn Display, &dyn Display); 5] = [
+            ("program", &here.software, &there.software),
+            ("scene", &here.hash, &there.hash),
+            ("processor", &here.processor, &there.processor),
+            ("effort", &other.effort.0, &self.effort.0),
+            ("seed", &other.seed, &self.seed),
+        ];
+        let words = pairs.map(|(name, here, there)| (name, here.to_string(), there.to_string()));
+        let differing = words.iter().find(|(_, here, there)| here != there);
+        differing.map(|(name, here, there)| format!("{name}: {here} here, {there} there"))
+    }
+}
+
+impl Entry {
+    fn save(&self, bytes: &mut Vec<u8>) {
+        let Counts {
+            camera,
+            shadow,
+            mirror,
+            refracted,
+            hits,
+            unnumbered,
+            ..
+        } = self.shot.counts;
+        let numbers = [
+            self.key, camera, shadow, mirror, refracted, hits, unnumbered,
+        ];
+        bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
+        bytes.extend(count(self.shot.tiles.len()));
+        bytes.extend(count(self.seconds.len()));
+        for Image {
+            width,
+            height,
+            pixels,
+        } in &self.shot.tiles
+        {
+            bytes.extend(width.to_le_bytes());
+            bytes.extend(height.to_le_bytes());
+            bytes.extend(pixels.iter().flatten().flat_map(|it| it.to_le_bytes()));
+        }
+        bytes.extend(self.seconds.iter().flat_map(|it| it.to_le_bytes()));
+    }
+}
+
+fn count(count: usize) -> [u8; 4] {
+    u32::try_from(count).unwrap_or(u32::MAX).to_le_bytes()
+}
+
+/// Bytes that are still to be read; no memory is taken that they do not fill.
+struct Rest<'a>(&'a [u8]);
+
+impl<'a> Rest<'a> {
+    fn take(&mut self, count: usize) -> Option<&'a [u8]> {
+        let (taken, rest) = self.0.split_at_checked(count)?;
+        self.0 = rest;
+        Some(taken)
+    }
+
+    fn number(&mut self) -> Option<u32> {
+        let bytes = self.take(4)?.try_into().ok()?;
+        Some(u32::from_le_bytes(bytes))
+    }
+
+    fn long(&mut self) -> Option<u64> {
+        let bytes = self.take(8)?.try_into().ok()?;
+        Some(u64::from_le_bytes(bytes))
+    }
+
+    fn floats(&mut self, count: usize) -> Option<Vec<f64>> {
+        let (chunks, _) = self.take(count.checked_mul(8)?)?.as_chunks();
+        Some(chunks.iter().copied().map(f64::from_le_bytes).collect())
+    }
+
+    fn image(&mut self) -> Option<Image> {
+        let (width, height) = (self.number()?, self.number()?);
+        let pixels = (width as usize).checked_mul(height as usize)?;
+        let numbers = self.floats(pixels.checked_mul(3)?)?;
+        let (pixels, _) = numbers.as_chunks();
+        Some(Image {
+            width,
+            height,
+            pixels: pixels.to_vec(),
+        })
+    }
+
+    fn entry(&mut self) -> Option<Entry> {
+        let key = self.long()?;
+        let mut counts = Counts::default();
+        for count in [
+            &mut counts.camera,
+            &mut counts.shadow,
+            &mut counts.mirror,
+            &mut counts.refracted,
+            &mut counts.hits,
+            &mut counts.unnumbered,
+        ] {
+            *count = self.long()?;
+        }
+        let (images, seconds) = (self.number()?, self.number()?);
+        let mut tiles = Vec::new();
+        for _ in 0..images {
+            tiles.push(self.image()?);
+        }
+        let seconds = self.floats(seconds as usize)?;
+        let shot = RenderedTiles { tiles, counts };
+        Some(Entry { key, shot, seconds })
+    }
+}
