@@ -7,7 +7,7 @@
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{Field, Light, Lowered, Material, Mode, Noun, Place};
 use crate::render::{Crop, Step};
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering};
 
 /// Branches that a path may put off: so many of them never end within a limit, and each takes
 /// memory.
@@ -24,7 +24,7 @@ pub struct Meter {
     /// The pixel was come to at which they run out: all threads stop.
     has_run_out: AtomicBool,
     rows: Vec<Row>,
-    /// The rays of each pixel, row by row.
+    /// The rays of each pixel, row by row, and [`DONE`].
     pixels: Vec<AtomicU64>,
     /// How many pixels are done of all renders.
     done: AtomicUsize,
@@ -32,10 +32,14 @@ pub struct Meter {
     renders: usize,
 }
 
+/// Marks the rays of a pixel that is done.
+const DONE: u64 = 1 << 63;
+
 #[derive(Default)]
 struct Row {
     rays: AtomicU64,
-    is_done: AtomicBool,
+    /// How many of its pixels are done.
+    done: AtomicU32,
 }
 
 impl Meter {
@@ -80,15 +84,24 @@ impl Meter {
         self.clear();
     }
 
+    /// Goes on to the next strip of the picture, whose rays come on top of those before: it is as wide as
+    /// the part that this meter was made for, and no higher.
+    pub fn go_on(&mut self, strip: Crop) {
+        self.begin_round();
+        if !self.rows.is_empty() {
+            self.crop = strip;
+        }
+    }
+
     /// Forgets the rays of this round.
     fn clear(&self) {
         self.total.store(0, Ordering::Relaxed);
         self.pixels
             .iter()
             .for_each(|rays| rays.store(0, Ordering::Relaxed));
-        for Row { rays, is_done } in &self.rows {
+        for Row { rays, done } in &self.rows {
             rays.store(0, Ordering::Relaxed);
-            is_done.store(false, Ordering::Relaxed);
+            done.store(0, Ordering::Relaxed);
         }
     }
 
@@ -117,14 +130,13 @@ impl Meter {
             y as usize * self.crop.width as usize + x as usize,
         );
         self.pixels[at].fetch_add(rays, Ordering::Relaxed);
-        let in_row = row.rays.fetch_add(rays, Ordering::Relaxed) + rays;
-        if is_done && x + 1 == self.crop.width {
-            row.is_done.store(true, Ordering::Release);
+        row.rays.fetch_add(rays, Ordering::Relaxed);
+        if is_done {
+            self.pixels[at].fetch_or(DONE, Ordering::Release);
+            row.done.fetch_add(1, Ordering::AcqRel);
         }
         let total = self.total.fetch_add(rays, Ordering::Relaxed) + rays;
-        let before = self.before.load(Ordering::Relaxed);
-        let is_over = |above: u64| before + above + in_row > self.limit;
-        if before + total > self.limit && self.above(y).is_some_and(is_over) {
+        if self.before.load(Ordering::Relaxed) + total > self.limit && self.is_certain() {
             self.has_run_out.store(true, Ordering::Relaxed);
         }
         if is_done && self.renders > 1 {
@@ -147,15 +159,23 @@ impl Meter {
         }
     }
 
-    /// The rays of all rows above one, if these are done.
-    fn above(&self, y: u32) -> Option<u64> {
-        let rows = self.rows[..y as usize].iter();
-        rows.map(|row| {
-            row.is_done
-                .load(Ordering::Acquire)
-                .then(|| row.rays.load(Ordering::Relaxed))
-        })
-        .sum()
+    /// Whether it is known at which pixel the rays run out: all before it are done.
+    fn is_certain(&self) -> bool {
+        let width = self.crop.width;
+        let mut sum = self.before.load(Ordering::Relaxed);
+        let is_whole = |row: &&Row| row.done.load(Ordering::Acquire) >= width;
+        let whole = self.rows.iter().take_while(is_whole);
+        let first = whole
+            .map(|row| sum = sum.saturating_add(row.rays.load(Ordering::Relaxed)))
+            .count();
+        for pixel in self.pixels.iter().skip(first * width as usize) {
+            let rays = pixel.load(Ordering::Acquire);
+            sum = sum.saturating_add(rays & !DONE);
+            if sum > self.limit || rays & DONE == 0 {
+                break;
+            }
+        }
+        sum > self.limit
     }
 
     /// The pixel at which the rays ran out, if they did; to be asked when the render has ended.
@@ -163,7 +183,7 @@ impl Meter {
     pub fn ran_out(&self) -> Option<[u32; 2]> {
         let mut sum = self.before.load(Ordering::Relaxed);
         let at = self.pixels.iter().position(|rays| {
-            sum = sum.saturating_add(rays.load(Ordering::Relaxed));
+            sum = sum.saturating_add(rays.load(Ordering::Relaxed) & !DONE);
             sum > self.limit
         })?;
         let at = u32::try_from(at).unwrap_or(u32::MAX);
@@ -291,12 +311,15 @@ mod tests {
         };
         assert_eq!(run(&[first, second].concat()), (Some(3), Some([5, 8])));
         // The second row goes on until the first is done.
-        assert_eq!(run(&[second, first].concat()), (None, Some([5, 8])));
+        assert_eq!(run(&[second, first].concat()), (Some(5), Some([5, 8])));
         // What the first row finds out stops the second.
         assert_eq!(
             run(&[step(5, 8, 9), step(5, 7, 8), step(6, 8, 1)]),
             (Some(1), Some([5, 7]))
         );
+        // A row whose last pixel is done need not be.
+        let late = [first[2], second[0], second[1], first[0], first[1]];
+        assert_eq!(run(&late), (Some(4), Some([5, 8])));
         assert_eq!(run(&first), (None, None));
     }
 
@@ -308,6 +331,26 @@ mod tests {
         assert!(meter.step(step(5, 7, 3)) && meter.ran_out().is_none());
         assert!(!meter.step(step(6, 7, 1)));
         assert_eq!(meter.ran_out(), Some([6, 7]));
+    }
+
+    #[test]
+    fn strips_run_out_where_the_whole_does() {
+        let whole = Meter::new(7, CROP);
+        let rows = [[2, 2, 2], [0, 3, 1]];
+        let mut strips = Meter::new(7, Crop { height: 1, ..CROP });
+        for (y, row) in (7..).zip(rows) {
+            strips.go_on(Crop {
+                y,
+                height: 1,
+                ..CROP
+            });
+            for (x, rays) in (5..).zip(row) {
+                let goes_on = whole.step(step(x, y, rays));
+                assert_eq!(strips.step(step(x, y, rays)), goes_on, "{x}, {y}");
+            }
+        }
+        assert_eq!(whole.ran_out(), Some([6, 8]));
+        assert_eq!(strips.ran_out(), whole.ran_out());
     }
 
     #[test]
