@@ -4,73 +4,133 @@
 //! The encoder keeps free attributes in hashed maps, whose order changes from run to run; each map
 //! here holds one.
 
+use super::file::{BLOCK_ROWS, PictureHead, StripSource};
 use super::range::narrow;
-use super::{EncodeError, Origin, Picture};
-use ::exr::meta::attribute::{AttributeValue, Text};
-use ::exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, LayerAttributes, SmallVec, WritableImage,
-};
-use std::io::Cursor;
+use super::{Origin, Picture};
+use ::exr::block::UncompressedBlock;
+use ::exr::block::lines::LineRefMut;
+use ::exr::block::writer::ChunksWriter;
+use ::exr::error::{Error, UnitResult};
+use ::exr::meta::attribute::{AttributeValue, ChannelDescription, SampleType, Text};
+use ::exr::meta::header::{Header, ImageAttributes, LayerAttributes};
+use ::exr::meta::{BlockDescription, attribute::LineOrder};
+use ::exr::prelude::Compression;
+use std::borrow::Cow;
+use std::io::{self, Seek, Write};
 
-/// The picture as EXR.
-pub(super) fn encode(picture: &Picture, origin: &Origin) -> Result<Vec<u8>, EncodeError> {
+/// Which number of a pixel a channel holds.
+#[derive(Clone, Copy)]
+enum ChannelSource {
+    /// A colour, by its place in the pixel.
+    Color(usize),
+    /// The opacity.
+    Alpha,
+    /// A number of the layers, by its place among those of the pixel.
+    Layer(usize),
+}
+
+/// Writes a picture as EXR, block after block, as its strips come.
+pub(super) fn write(
+    head: &PictureHead,
+    origin: &Origin,
+    out: impl Write + Seek,
+    strips: &mut StripSource<'_>,
+) -> io::Result<()> {
+    let sources = channels(head);
+    let header = header(head, origin, &sources);
+    let written = ::exr::block::write(out, [header].into_iter().collect(), true, |meta, chunks| {
+        let mut compressor = chunks.sequential_blocks_compressor(&meta);
+        // The strip under way, and the rows it has.
+        let (mut strip, mut rows) = (Cow::Owned(Picture::default()), 0..0);
+        for (index, block) in meta.enumerate_ordered_header_block_indices() {
+            while block.pixel_position.y() >= rows.end {
+                // Two strips are not held at once.
+                drop(strip);
+                strip = strips.next_strip()?;
+                rows = rows.end..rows.end + strip.image.height as usize;
+            }
+            let mut filled = Ok(());
+            let channels = &meta.headers[0].channels;
+            let fill = |line: LineRefMut<'_>| {
+                let source = sources[line.location.channel].1;
+                let result = fill(&strip, rows.start, source, line);
+                filled = std::mem::replace(&mut filled, Ok(())).and(result);
+            };
+            let data = UncompressedBlock::collect_block_data_from_lines(channels, block, fill);
+            filled?;
+            compressor.compress_block(index, UncompressedBlock { index: block, data })?;
+        }
+        Ok(())
+    });
+    written.map_err(|error| match error {
+        Error::Io(error) => error,
+        other @ (Error::Aborted | Error::NotSupported(_) | Error::Invalid(_)) => {
+            io::Error::other(other.to_string())
+        }
+    })
+}
+
+/// Where the picture comes from, and its channels in blocks of so many rows.
+fn header(head: &PictureHead, origin: &Origin, sources: &[(&str, ChannelSource)]) -> Header {
+    const COMPRESSION: Compression = Compression::ZIP16;
+    const _: () = assert!(BLOCK_ROWS == 16, "as many rows as ZIP16 has in a block");
     let Origin {
         software,
         scene,
         settings,
     } = origin;
-    let size = (picture.image.width as usize, picture.image.height as usize);
+    let [width, height] = head.size.map(|side| side as usize);
+    let size = (width, height);
     let attributes = LayerAttributes {
         software_name: Some(text(software)),
         other: [(text("rtc:settings"), AttributeValue::Text(text(settings)))].into(),
         ..LayerAttributes::default()
     };
-    let layer = Layer::new(
-        size,
-        attributes,
-        Encoding::SMALL_LOSSLESS,
-        channels(picture),
-    );
-    let mut file = ::exr::prelude::Image::from_layer(layer);
-    file.attributes.other = [(text("rtc:scene"), AttributeValue::Text(text(scene)))].into();
-    let mut bytes = Cursor::new(Vec::new());
-    file.write()
-        .non_parallel()
-        .to_buffered(&mut bytes)
-        .map_err(|error| EncodeError(error.to_string()))?;
-    Ok(bytes.into_inner())
+    let shared = ImageAttributes {
+        other: [(text("rtc:scene"), AttributeValue::Text(text(scene)))].into(),
+        ..ImageAttributes::with_size(size)
+    };
+    let channels = sources
+        .iter()
+        .map(|(name, _)| ChannelDescription::named(*name, SampleType::F32));
+    Header::new(Text::default(), size, channels.collect())
+        .with_encoding(
+            COMPRESSION,
+            BlockDescription::ScanLines,
+            LineOrder::Increasing,
+        )
+        .with_attributes(attributes)
+        .with_shared_attributes(shared)
 }
 
 /// All channels, in the order of their names, as the format wants them.
-fn channels(picture: &Picture) -> AnyChannels<FlatSamples> {
-    let Picture {
-        image,
-        alpha,
-        layers,
-    } = picture;
-    let color =
-        |k: usize| FlatSamples::F32(image.pixels.iter().map(|pixel| narrow(pixel[k])).collect());
-    let mut list: SmallVec<[_; 4]> = [("R", 0), ("G", 1), ("B", 2)]
-        .into_iter()
-        .map(|(name, k)| (name, color(k)))
-        .collect();
-    list.extend(
-        alpha
-            .iter()
-            .map(|alpha| ("A", FlatSamples::F32(alpha.clone()))),
-    );
-    list.extend(layers.names.iter().enumerate().map(|(k, name)| {
-        let values = layers.values.iter().skip(k).step_by(layers.names.len());
-        (
-            *name,
-            FlatSamples::F32(values.map(|value| narrow(f64::from(*value))).collect()),
-        )
-    }));
-    AnyChannels::sort(
-        list.into_iter()
-            .map(|(name, samples)| AnyChannel::new(name, samples))
-            .collect(),
-    )
+fn channels(head: &PictureHead) -> Vec<(&'static str, ChannelSource)> {
+    let colors = ["R", "G", "B"].into_iter().enumerate();
+    let colors = colors.map(|(k, name)| (name, ChannelSource::Color(k)));
+    let alpha = head.has_alpha.then_some(("A", ChannelSource::Alpha));
+    let layers = head.layers.iter().enumerate();
+    let layers = layers.map(|(k, name)| (*name, ChannelSource::Layer(k)));
+    let mut all: Vec<_> = colors.chain(alpha).chain(layers).collect();
+    all.sort_by_key(|(name, _)| *name);
+    all
+}
+
+/// Fills a row of one channel from the strip whose first row is given.
+fn fill(strip: &Picture, top: usize, source: ChannelSource, line: LineRefMut<'_>) -> UnitResult {
+    let row = line.location.position.y() - top;
+    if row >= strip.image.height as usize {
+        return Err(Error::Invalid("a strip ends within a block".into()));
+    }
+    let first = row * strip.image.width as usize;
+    let width = strip.layers.names.len();
+    line.write_samples(|column| {
+        let pixel = first + column;
+        match source {
+            ChannelSource::Color(k) => narrow(strip.image.pixels[pixel][k]),
+            ChannelSource::Alpha => strip.alpha.as_ref().map_or(1.0, |alpha| alpha[pixel]),
+            ChannelSource::Layer(k) => narrow(f64::from(strip.layers.values[pixel * width + k])),
+        }
+    })
 }
 
 /// EXR text is Latin-1; what is not becomes a question mark.
@@ -88,6 +148,7 @@ mod tests {
     use super::super::{FileFormat, Image, Layers};
     use super::*;
     use ::exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
+    use std::io::Cursor;
 
     fn bright() -> (Picture, FileFormat) {
         let pixels = vec![

@@ -4,6 +4,7 @@
 
 mod decode;
 mod exr;
+mod file;
 mod look;
 mod png;
 mod radiance;
@@ -11,8 +12,9 @@ mod range;
 mod texels;
 
 pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
+pub use file::{BLOCK_ROWS, PictureHead, StripSource};
 pub use look::{Association, BackgroundFill, Look, exposure};
-pub use png::{commented, png_bytes};
+pub use png::png_bytes;
 pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::Lost;
 pub use texels::{Texel, Texels};
@@ -20,7 +22,7 @@ pub use texels::{Texel, Texels};
 use std::fmt;
 
 /// A picture: rows from the top, each from the left; red, green, blue.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Image {
     /// Width in pixels.
     pub width: u32,
@@ -31,7 +33,7 @@ pub struct Image {
 }
 
 /// A picture as a file holds it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
     /// The colours.
     pub image: Image,
@@ -100,17 +102,7 @@ impl Picture {
     /// # Errors
     /// If the picture is empty or larger than the format can hold.
     pub fn encode(&self, form: &FileFormat) -> Result<Vec<u8>, EncodeError> {
-        let Image { width, height, .. } = self.image;
-        if width == 0 || height == 0 {
-            return Err(EncodeError(format!(
-                "a picture of {width}×{height} pixels has no file"
-            )));
-        }
-        match form {
-            FileFormat::Png8 => png::eight_bit(self),
-            FileFormat::Png16 => png::sixteen_bit(self),
-            FileFormat::Exr(origin) => exr::encode(self, origin),
-        }
+        PictureHead::of(self, form.clone()).encode(self)
     }
 }
 

@@ -1,57 +1,51 @@
 //! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. It carries
 //! no colour profile, no gamma and no time; a comment if there is one to make.
 
-use super::{EncodeError, Picture};
+use super::Picture;
+use super::file::{PictureHead, StripSource};
 use crate::color;
-use ::image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use ::image::{ExtendedColorType, ImageEncoder};
+use ::png::{BitDepth, ColorType, Encoder};
+use std::io::{self, Write};
 
-/// The picture in 8 bits per channel.
-pub(super) fn eight_bit(picture: &Picture) -> Result<Vec<u8>, EncodeError> {
-    let mut bytes = Vec::with_capacity(channels(picture));
-    bytes.extend(samples(picture).map(color::quantize8));
-    encode(
-        picture,
-        &bytes,
-        [ExtendedColorType::Rgb8, ExtendedColorType::Rgba8],
-    )
+/// Bytes of a chunk of pixels, compressed: so much is held before it is written.
+const CHUNK: usize = 1 << 16;
+
+/// Writes a picture in so many bits per channel, row after row, as its strips come.
+pub(super) fn write(
+    head: &PictureHead,
+    depth: BitDepth,
+    out: impl Write,
+    strips: &mut StripSource<'_>,
+) -> io::Result<()> {
+    let kind = (depth, head.has_alpha);
+    png(head.size, kind, head.comment.as_deref(), out, |rows| {
+        let mut bytes = Vec::new();
+        let mut left = head.size[1];
+        while left > 0 {
+            let strip = strips.next_strip()?;
+            left = left.saturating_sub(strip.image.height);
+            for row in 0..strip.image.height as usize {
+                pack(&strip, row, depth, &mut bytes);
+                rows.write_all(&bytes)?;
+            }
+        }
+        Ok(())
+    })
 }
 
-/// The picture in 16 bits per channel.
-pub(super) fn sixteen_bit(picture: &Picture) -> Result<Vec<u8>, EncodeError> {
-    // The encoder takes 16-bit samples in the order of the machine and turns them round itself.
-    let mut bytes = Vec::with_capacity(2 * channels(picture));
-    bytes.extend(samples(picture).flat_map(|v| color::quantize16(v).to_ne_bytes()));
-    encode(
-        picture,
-        &bytes,
-        [ExtendedColorType::Rgb16, ExtendedColorType::Rgba16],
-    )
-}
-
-/// How many channels all pixels have.
-fn channels(picture: &Picture) -> usize {
-    picture.image.pixels.len() * if picture.alpha.is_some() { 4 } else { 3 }
-}
-
-/// The channels of all pixels.
-fn samples(picture: &Picture) -> impl Iterator<Item = f64> {
-    let alpha = |index: usize| picture.alpha.as_ref().map(|alpha| f64::from(alpha[index]));
-    picture
-        .image
-        .pixels
-        .iter()
-        .enumerate()
-        .flat_map(move |(index, pixel)| pixel.iter().copied().chain(alpha(index)))
-}
-
-fn encode(
-    picture: &Picture,
-    samples: &[u8],
-    kinds: [ExtendedColorType; 2],
-) -> Result<Vec<u8>, EncodeError> {
-    let kind = kinds[usize::from(picture.alpha.is_some())];
-    png([picture.image.width, picture.image.height], samples, kind)
+/// The samples of a row, as the format has them.
+fn pack(strip: &Picture, row: usize, depth: BitDepth, bytes: &mut Vec<u8>) {
+    let width = strip.image.width as usize;
+    bytes.clear();
+    for index in row * width..(row + 1) * width {
+        let alpha = strip.alpha.as_ref().map(|alpha| f64::from(alpha[index]));
+        let samples = strip.image.pixels[index].iter().copied().chain(alpha);
+        if depth == BitDepth::Sixteen {
+            bytes.extend(samples.flat_map(|v| color::quantize16(v).to_be_bytes()));
+        } else {
+            bytes.extend(samples.map(color::quantize8));
+        }
+    }
 }
 
 /// Pixels of 8 bits a channel, in rows from the top, as they are: red, green, blue, and opacity if
@@ -61,32 +55,74 @@ fn encode(
 /// If there are not as many as width and height say.
 #[must_use]
 pub fn png_bytes(size: [u32; 2], has_alpha: bool, pixels: &[u8]) -> Vec<u8> {
-    let kind = [ExtendedColorType::Rgb8, ExtendedColorType::Rgba8][usize::from(has_alpha)];
-    png(size, pixels, kind).expect("the pixels are as many as the size says")
-}
-
-fn png(
-    [width, height]: [u32; 2],
-    samples: &[u8],
-    kind: ExtendedColorType,
-) -> Result<Vec<u8>, EncodeError> {
     let mut bytes = Vec::new();
-    PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive)
-        .write_image(samples, width, height, kind)
-        .map_err(|error| EncodeError(error.to_string()))?;
-    Ok(bytes)
+    let kind = (BitDepth::Eight, has_alpha);
+    png(size, kind, None, &mut bytes, |rows| rows.write_all(pixels))
+        .expect("the pixels are as many as the size says");
+    bytes
 }
 
-/// A PNG with a comment, in Latin-1 without control characters (PNG, third edition, section 11.3.3.2).
-#[must_use]
-pub fn commented(png: &[u8], comment: &str) -> Vec<u8> {
-    /// The signature, and the header: length, type, 13 bytes, checksum.
-    const HEAD: usize = 8 + 4 + 4 + 13 + 4;
-    let body = [b"tEXtComment\0", comment.as_bytes()].concat();
-    let length = u32::try_from(body.len() - 4).unwrap_or_default();
-    let (head, rest) = png.split_at(HEAD);
-    let checksum = crc32fast::hash(&body).to_be_bytes();
-    [head, &length.to_be_bytes(), &body, &checksum, rest].concat()
+/// A PNG of the rows that are written, with a comment if there is one to make, in Latin-1 without
+/// control characters (PNG, third edition, section 11.3.3.2).
+fn png(
+    size: [u32; 2],
+    kind: (BitDepth, bool),
+    comment: Option<&str>,
+    out: impl Write,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut out = CheckedWriter { out, fault: None };
+    let written = encode(&mut out, size, kind, comment, write);
+    out.fault.map_or(written, Err)
+}
+
+fn encode(
+    out: impl Write,
+    [width, height]: [u32; 2],
+    (depth, has_alpha): (BitDepth, bool),
+    comment: Option<&str>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut encoder = Encoder::new(out, width, height);
+    encoder.set_color(if has_alpha {
+        ColorType::Rgba
+    } else {
+        ColorType::Rgb
+    });
+    encoder.set_depth(depth);
+    if let Some(comment) = comment {
+        encoder.add_text_chunk("Comment".to_owned(), comment.to_owned())?;
+    }
+    let mut writer = encoder.write_header()?;
+    let mut rows = writer.stream_writer_with_size(CHUNK)?;
+    write(&mut rows)?;
+    rows.finish()?;
+    writer.finish()?;
+    Ok(())
+}
+
+/// Remembers the first fault, for the encoder writes its last bytes where it can't tell of one.
+struct CheckedWriter<W> {
+    out: W,
+    fault: Option<io::Error>,
+}
+
+impl<W: Write> Write for CheckedWriter<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.out.write(bytes);
+        if let Err(fault) = &written
+            && fault.kind() != io::ErrorKind::Interrupted
+            && self.fault.is_none()
+        {
+            let own = fault.raw_os_error().map(io::Error::from_raw_os_error);
+            self.fault = Some(own.unwrap_or_else(|| fault.kind().into()));
+        }
+        written
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
 }
 
 #[cfg(test)]
@@ -107,8 +143,14 @@ mod tests {
 
     #[test]
     fn a_comment_is_read_and_changes_no_pixel() {
-        let plain = ramp().encode(&FileFormat::Png8).unwrap();
-        let commented = commented(&plain, "exposure -3.3333 stops");
+        let encode = |comment: Option<&str>| {
+            let head = PictureHead {
+                comment: comment.map(str::to_owned),
+                ..PictureHead::of(&ramp(), FileFormat::Png8)
+            };
+            head.encode(&ramp()).unwrap()
+        };
+        let (plain, commented) = (encode(None), encode(Some("exposure -3.3333 stops")));
         let read = |bytes: &[u8]| {
             let mut reader = ::png::Decoder::new(std::io::Cursor::new(bytes.to_vec()))
                 .read_info()

@@ -4,7 +4,8 @@ use super::findings;
 use crate::color::Tone;
 use crate::diag::Diagnostic;
 use crate::image::{
-    self, Association, BackgroundFill, EncodeError, Image, Layers, Lost, Origin, Picture,
+    self, Association, BackgroundFill, EncodeError, FileFormat, Image, Layers, Lost, Origin,
+    Picture, PictureHead,
 };
 use crate::ir::Display;
 use crate::plan::Arithmetic;
@@ -252,17 +253,31 @@ impl SettledLook {
         layers: Layers,
         arithmetic: Arithmetic,
     ) -> (Picture, Vec<Diagnostic>) {
-        // Where samples are clamped, and where a tone map follows, no more is seen of what is no
-        // number.
-        let unnumbered = image.unnumbered().max(unnumbered);
+        let mut losses = Losses::default();
+        let picture = self.show(image, coverage, layers, &mut losses);
+        (picture, losses.findings(unnumbered, arithmetic))
+    }
+
+    /// The picture of a film or of some rows of one, with its coverage and layers; what its file can't
+    /// hold is counted.
+    pub(super) fn show(
+        &self,
+        image: Image,
+        coverage: Vec<f32>,
+        layers: Layers,
+        losses: &mut Losses,
+    ) -> Picture {
+        losses.film += image.unnumbered();
         let mut picture = self.develop(image, coverage);
         picture.layers = layers;
-        let lost = self.lost(&picture);
-        let lost = Lost {
-            unnumbered: lost.unnumbered.max(unnumbered),
-            ..lost
-        };
-        (picture, findings::unholdable(&lost, arithmetic))
+        let Lost { unnumbered, beyond } = self.lost(&picture);
+        losses.shown.unnumbered += unnumbered;
+        let known = std::mem::take(&mut losses.shown.beyond);
+        let names = ["R", "G", "B"].into_iter();
+        let names = names.chain(picture.layers.names.iter().copied());
+        let is_beyond = |name: &&'static str| known.contains(name) || beyond.contains(name);
+        losses.shown.beyond = names.filter(is_beyond).collect();
+        picture
     }
 
     /// What the file can't hold; a PNG clamps all colours alike.
@@ -287,15 +302,65 @@ impl SettledLook {
         picture: &Picture,
         origin: impl FnOnce() -> Origin,
     ) -> Result<Vec<u8>, EncodeError> {
-        let form = match self.kind {
-            OutputFormat::Png8 => image::FileFormat::Png8,
-            OutputFormat::Png16 => image::FileFormat::Png16,
-            OutputFormat::Exr => image::FileFormat::Exr(origin()),
+        let head = PictureHead {
+            comment: self.comment(),
+            ..PictureHead::of(picture, self.form(origin))
         };
-        let bytes = picture.encode(&form)?;
-        Ok(match self.found {
-            Some(stops) => image::commented(&bytes, &format!("exposure {stops:.4} stops")),
-            None => bytes,
-        })
+        head.encode(picture)
+    }
+
+    /// What is known of the file before any pixel is, given its size and the layers wanted.
+    pub(super) fn head(
+        &self,
+        size: [u32; 2],
+        aovs: &[Aov],
+        origin: impl FnOnce() -> Origin,
+    ) -> PictureHead {
+        PictureHead {
+            size,
+            has_alpha: self.background == BackgroundFill::Transparent,
+            layers: aovs
+                .iter()
+                .flat_map(|aov| aov.channels())
+                .copied()
+                .collect(),
+            form: self.form(origin),
+            comment: self.comment(),
+        }
+    }
+
+    fn form(&self, origin: impl FnOnce() -> Origin) -> FileFormat {
+        match self.kind {
+            OutputFormat::Png8 => FileFormat::Png8,
+            OutputFormat::Png16 => FileFormat::Png16,
+            OutputFormat::Exr => FileFormat::Exr(origin()),
+        }
+    }
+
+    /// What a PNG says of its exposure, if that was found.
+    fn comment(&self) -> Option<String> {
+        self.found.map(|stops| format!("exposure {stops:.4} stops"))
+    }
+}
+
+/// What files of a picture don't show as it is, counted strip by strip.
+#[derive(Default)]
+pub(super) struct Losses {
+    /// Pixels of the film that are no number.
+    film: u64,
+    /// What is lost of the picture.
+    shown: Lost,
+}
+
+impl Losses {
+    /// What to say of it, given how many values of rays are no number.
+    pub(super) fn findings(self, unnumbered: u64, arithmetic: Arithmetic) -> Vec<Diagnostic> {
+        // Where samples are clamped, and where a tone map follows, no more is seen of what is no
+        // number.
+        let lost = Lost {
+            unnumbered: self.shown.unnumbered.max(self.film).max(unnumbered),
+            ..self.shown
+        };
+        findings::unholdable(&lost, arithmetic)
     }
 }

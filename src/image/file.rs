@@ -1,0 +1,224 @@
+//! A pixel file, written as the strips of its picture come, each a few whole rows from the top: what is
+//! written is let go. A picture as a whole is one strip, so that the bytes are the same.
+
+use super::{EncodeError, FileFormat, Image, Layers, Picture, exr, png};
+use ::png::BitDepth;
+use std::borrow::Cow;
+use std::io::{self, Cursor, Seek, Write};
+
+/// Strips have a multiple of so many rows, but for the last: those of a block of an EXR.
+pub const BLOCK_ROWS: u32 = 16;
+
+/// What is known of a picture before any pixel is.
+#[derive(Clone, Debug)]
+pub struct PictureHead {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Whether it has opacities.
+    pub has_alpha: bool,
+    /// The names of the channels of its layers.
+    pub layers: Vec<&'static str>,
+    /// The form of the file.
+    pub form: FileFormat,
+    /// What a PNG says beside its pixels, in Latin-1 without control characters.
+    pub comment: Option<String>,
+}
+
+/// Where the strips of a picture come from, from the top. Each has the width and the channels of its
+/// picture.
+pub struct StripSource<'s>(&'s mut dyn FnMut() -> io::Result<Cow<'s, Picture>>);
+
+impl<'s> StripSource<'s> {
+    /// The strips that a closure makes, one at each call.
+    pub fn new(next: &'s mut dyn FnMut() -> io::Result<Cow<'s, Picture>>) -> Self {
+        Self(next)
+    }
+
+    /// The next strip; to be asked for while there are rows left.
+    pub(super) fn next_strip(&mut self) -> io::Result<Cow<'s, Picture>> {
+        let strip = (self.0)()?;
+        if strip.image.height == 0 {
+            return Err(io::Error::other("a strip has no rows"));
+        }
+        Ok(strip)
+    }
+}
+
+impl PictureHead {
+    /// That of a picture, in a form.
+    #[must_use]
+    pub fn of(picture: &Picture, form: FileFormat) -> Self {
+        let Picture {
+            image: Image { width, height, .. },
+            alpha,
+            layers: Layers { names, .. },
+        } = picture;
+        Self {
+            size: [*width, *height],
+            has_alpha: alpha.is_some(),
+            layers: names.clone(),
+            form,
+            comment: None,
+        }
+    }
+
+    /// Writes the file as its strips come.
+    ///
+    /// # Errors
+    /// If it can't be written, the picture is empty or larger than the format can hold, or there
+    /// is no next strip.
+    pub fn write(&self, out: impl Write + Seek, mut strips: StripSource<'_>) -> io::Result<()> {
+        let [width, height] = self.size;
+        if width == 0 || height == 0 {
+            let words = format!("a picture of {width}×{height} pixels has no file");
+            return Err(io::Error::other(words));
+        }
+        match &self.form {
+            FileFormat::Png8 => png::write(self, BitDepth::Eight, out, &mut strips),
+            FileFormat::Png16 => png::write(self, BitDepth::Sixteen, out, &mut strips),
+            FileFormat::Exr(origin) => exr::write(self, origin, out, &mut strips),
+        }
+    }
+
+    /// The bytes of the file of a whole picture.
+    ///
+    /// # Errors
+    /// If the picture is empty or larger than the format can hold.
+    pub fn encode(&self, picture: &Picture) -> Result<Vec<u8>, EncodeError> {
+        let mut bytes = Cursor::new(Vec::new());
+        let mut whole = || Ok(Cow::Borrowed(picture));
+        self.write(&mut bytes, StripSource::new(&mut whole))
+            .map_err(|error| EncodeError(error.to_string()))?;
+        Ok(bytes.into_inner())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Origin;
+    use super::*;
+
+    /// A picture with opacities and layers, of which no two rows are alike.
+    fn picture([width, height]: [u32; 2]) -> Picture {
+        let pixels = u16::try_from(width * height).unwrap();
+        let color = |at: u16| [f64::from(at) / 999.0, f64::from(at * 7 % 64) / 63.0, 0.5];
+        Picture {
+            image: Image {
+                width,
+                height,
+                pixels: (0..pixels).map(color).collect(),
+            },
+            alpha: Some((0..pixels).map(|at| f32::from(at % 11) / 10.0).collect()),
+            layers: Layers {
+                names: vec!["uv.U", "depth.Z"],
+                values: (0..2 * pixels).map(f32::from).collect(),
+            },
+        }
+    }
+
+    /// Some rows of a picture.
+    fn strip(picture: &Picture, rows: std::ops::Range<u32>) -> Picture {
+        let width = picture.image.width as usize;
+        let own = rows.start as usize * width..rows.end as usize * width;
+        Picture {
+            image: Image {
+                width: picture.image.width,
+                height: rows.end - rows.start,
+                pixels: picture.image.pixels[own.clone()].to_vec(),
+            },
+            alpha: picture
+                .alpha
+                .as_ref()
+                .map(|alpha| alpha[own.clone()].to_vec()),
+            layers: Layers {
+                names: picture.layers.names.clone(),
+                values: picture.layers.values[2 * own.start..2 * own.end].to_vec(),
+            },
+        }
+    }
+
+    fn forms() -> [FileFormat; 3] {
+        [
+            FileFormat::Png8,
+            FileFormat::Png16,
+            FileFormat::Exr(Origin::default()),
+        ]
+    }
+
+    #[test]
+    fn strips_make_the_bytes_of_the_whole() {
+        for (size, form) in [[31, 70], [1, 16], [90, 17]]
+            .into_iter()
+            .zip(forms().iter().cycle())
+        {
+            let whole = picture(size);
+            let head = PictureHead::of(&whole, form.clone());
+            for rows in [16, 32, 64, 80] {
+                let mut top = 0;
+                let mut next = || {
+                    let end = (top + rows).min(size[1]);
+                    let strip = strip(&whole, top..end);
+                    top = end;
+                    Ok(Cow::Owned(strip))
+                };
+                let mut bytes = Cursor::new(Vec::new());
+                head.write(&mut bytes, StripSource::new(&mut next)).unwrap();
+                assert!(
+                    bytes.into_inner() == head.encode(&whole).unwrap(),
+                    "{form:?}, {rows}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_fault_of_a_strip_or_of_the_disk_is_told() {
+        /// Takes so many bytes.
+        struct Full(usize);
+
+        impl Write for Full {
+            fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+                self.0 = self
+                    .0
+                    .checked_sub(bytes.len())
+                    .ok_or(io::ErrorKind::StorageFull)?;
+                Ok(bytes.len())
+            }
+
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+
+        impl Seek for Full {
+            fn seek(&mut self, _: io::SeekFrom) -> io::Result<u64> {
+                Ok(0)
+            }
+        }
+
+        let whole = picture([31, 70]);
+        for form in forms() {
+            let head = PictureHead::of(&whole, form);
+            let length = head.encode(&whole).unwrap().len();
+            for room in [0, 40, length / 2, length - 30, length - 13, length - 1] {
+                let mut one = || Ok(Cow::Borrowed(&whole));
+                let full = head.write(Full(room), StripSource::new(&mut one));
+                assert_eq!(
+                    full.unwrap_err().kind(),
+                    io::ErrorKind::StorageFull,
+                    "{room}"
+                );
+            }
+            let mut first = true;
+            let mut next = || {
+                let strip = strip(&whole, 0..16);
+                let fault = || io::Error::from(io::ErrorKind::Interrupted);
+                std::mem::take(&mut first)
+                    .then_some(Cow::Owned(strip))
+                    .ok_or_else(fault)
+            };
+            let stopped = head.write(Cursor::new(Vec::new()), StripSource::new(&mut next));
+            assert_eq!(stopped.unwrap_err().kind(), io::ErrorKind::Interrupted);
+        }
+    }
+}
