@@ -12,6 +12,7 @@ mod meter;
 mod part;
 mod setup;
 mod share;
+mod strips;
 pub mod trial;
 
 pub use exposure::OwnLight;

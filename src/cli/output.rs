@@ -73,6 +73,21 @@ impl Output {
         self.commit_by(&|out| out.write_all(bytes), interrupt)
     }
 
+    /// The same with a file that is written while work goes on; nothing else can be.
+    pub(super) fn commit_slowly(
+        self,
+        write: &mut dyn FnMut(&mut File) -> io::Result<()>,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let written = match &self.place {
+            Place::Stdout | Place::Stream(_) => Err(io::Error::other(
+                "strips need a file to be put together in; give `-o FILE`",
+            )),
+            Place::File(file) => file.write_slowly(write, interrupt),
+        };
+        self.told(written, interrupt)
+    }
+
     /// The same with a result that is written part by part.
     pub(super) fn commit_by(self, write: Writer<'_>, interrupt: &Interrupt) -> Result<(), Failure> {
         let written = match &self.place {
@@ -85,6 +100,11 @@ impl Output {
             }
             Place::File(file) => file.write(write, interrupt),
         };
+        self.told(written, interrupt)
+    }
+
+    /// How the writing ended, in words.
+    fn told(&self, written: io::Result<()>, interrupt: &Interrupt) -> Result<(), Failure> {
         written.map_err(|error| match interrupt.is_raised() {
             true => Failure::Interrupted,
             false => failure(&self.name, &error),

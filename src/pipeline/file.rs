@@ -3,7 +3,7 @@
 //! It is written beside its target under another name, synced and renamed. What is unfinished is
 //! removed.
 
-use std::fs::{self, Permissions};
+use std::fs::{self, File, Permissions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{NamedTempFile, TempDir};
@@ -88,6 +88,18 @@ impl NewFile {
         write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
         observer: &dyn WriteObserver,
     ) -> io::Result<()> {
+        self.write_slowly(&mut |file| write(file), observer)
+    }
+
+    /// The same with a file that is written while work goes on, and not from its beginning to its end.
+    ///
+    /// # Errors
+    /// What the system says, or that someone said stop.
+    pub fn write_slowly(
+        &self,
+        write: &mut dyn FnMut(&mut File) -> io::Result<()>,
+        observer: &dyn WriteObserver,
+    ) -> io::Result<()> {
         let draft =
             draft(folder_of(&self.target)).map_err(|error| io::Error::from(error.kind()))?;
         observer.draft(Some(draft.path()));
@@ -99,7 +111,7 @@ impl NewFile {
     fn finish(
         &self,
         mut draft: NamedTempFile,
-        write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
+        write: &mut dyn FnMut(&mut File) -> io::Result<()>,
         observer: &dyn WriteObserver,
     ) -> io::Result<()> {
         if let Some(permissions) = &self.permissions {

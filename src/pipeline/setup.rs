@@ -175,7 +175,8 @@ impl PictureSetup {
         }
         let size = bytes.div_ceil(1 << 20);
         Err(RenderError::Refused(format!(
-            "there is no memory for a picture of {width}×{height} pixels: it takes up to {size} MiB"
+            "there is no memory for a picture of {width}×{height} pixels: it takes up to {size} MiB; \
+             `--strips=16` holds 16 rows at a time"
         )))
     }
 
@@ -226,11 +227,7 @@ impl PictureSetup {
         input: &mut Input,
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Picture, RenderError> {
-        if self.crop.is_none() && counts.hits == 0 {
-            let camera = Place::new(Noun::Camera, 0, Field::Whole);
-            let camera = subject.proven.lowered.origins.span(camera);
-            input.push(findings::nothing_in_view(camera));
-        }
+        self.look_for_hits(subject, counts, input);
         let job = Job {
             crop: Some(self.window(&subject.proven.lowered.scene)?),
             ..Job::default()
@@ -241,6 +238,20 @@ impl PictureSetup {
         let (picture, found) = look.finish(film, layers, self.arithmetic);
         found.into_iter().for_each(|finding| input.push(finding));
         Ok(picture)
+    }
+
+    /// Remarks that the picture is empty, if it is.
+    pub(super) fn look_for_hits(
+        &self,
+        subject: &RenderSubject,
+        counts: &Counts,
+        input: &mut Input,
+    ) {
+        if self.crop.is_none() && counts.hits == 0 {
+            let camera = Place::new(Noun::Camera, 0, Field::Whole);
+            let camera = subject.proven.lowered.origins.span(camera);
+            input.push(findings::nothing_in_view(camera));
+        }
     }
 
     /// The layers asked for, of the pixels of a job.

@@ -24,6 +24,7 @@ mod render;
 mod reports;
 mod set;
 mod stage;
+mod strips;
 mod studio;
 mod texts;
 mod to_gltf;

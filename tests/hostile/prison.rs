@@ -123,6 +123,42 @@ fn pictures_that_there_is_no_memory_for_are_refused_in_words() {
 
 #[test]
 #[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
+fn a_picture_that_there_is_no_memory_for_is_rendered_in_strips() {
+    let scene = b"Camera: {eye: [0, 0, 90], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8]}\n\
+        Objects:\n- type: sphere\n  position: [0, 0, 0]\n  radius: 1\n\
+        \x20 material: {color: [1, 0, 0], ka: 0.2, kd: 0.7, ks: 0, n: 1}\n";
+    let folder = folder(&[("scene.yaml".to_owned(), scene.to_vec())]);
+    let words = ["render", "scene.yaml", "-q"];
+    let path = [
+        "--size",
+        "1100x999",
+        "--integrator",
+        "path",
+        "--spp",
+        "1",
+        "--env-color",
+        "1,1,1",
+    ];
+    for (more, output) in [
+        (&["--size", "1500x1333"][..], "out.png"),
+        (&path[..], "out.exr"),
+    ] {
+        let words = [&words[..], more, &["-o", output]].concat();
+        let words: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
+        let outcome = run(folder.path(), &words);
+        let is_told = outcome.words.contains("`--strips=16` holds 16 rows");
+        assert!(outcome.code == Some(2) && is_told, "{output}: {outcome:?}");
+        assert!(!folder.path().join(output).exists());
+        let outcome = run(
+            folder.path(),
+            &[&words[..], &["--strips=64".to_owned()]].concat(),
+        );
+        assert_eq!(outcome.code, Some(0), "{output}: {outcome:?}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
 fn hostile_images_meshes_and_scenes_are_refused_or_harmless() {
     try_all(make::media::all());
 }

@@ -59,6 +59,10 @@ pub(in crate::cli) struct Render {
     /// Begin anew, whatever was saved
     #[arg(long, requires = "checkpoint")]
     pub(in crate::cli) restart: bool,
+    /// Render and write some rows at a time, so that a picture may be larger than memory; so many,
+    /// in sixteens [default: about a million pixels]
+    #[arg(long, value_name = "ROWS", num_args = 0..=1, require_equals = true, value_parser = clap::value_parser!(u32).range(1..), conflicts_with_all = ["part", "checkpoint"])]
+    pub(in crate::cli) strips: Option<Option<u32>>,
     /// Threads to work on [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(in crate::cli) threads: Option<u16>,

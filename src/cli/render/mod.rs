@@ -3,6 +3,7 @@
 mod checkpoint;
 mod part;
 mod shot;
+mod strips;
 mod turning;
 
 use super::Failure;
@@ -38,6 +39,8 @@ struct RenderSetup {
     part: Option<PartSetup>,
     /// Where it is saved on its way.
     checkpoint: Option<Checkpoint>,
+    /// Whether it is rendered in strips, and of how many rows.
+    strips: Option<Option<u32>>,
 }
 
 impl From<RenderError> for Failure {
@@ -96,6 +99,7 @@ impl RenderSetup {
             up: args.stage.up,
             part,
             checkpoint: Checkpoint::new(args),
+            strips: args.strips,
         })
     }
 
@@ -119,19 +123,19 @@ impl RenderSetup {
         };
         self.picture.light(&mut subject, input, &observer)?;
         input::tell(input, talk)?;
+        if let Some(checkpoint) = &self.checkpoint {
+            let mut saving = Saving::begin(checkpoint, &self.output, input)?;
+            let desk = (input, talk, &interrupt);
+            return match &self.turntable {
+                None => self.shoot_saving(&mut saving, &mut subject, desk),
+                Some(views) => self.turn_saving(views, saving, &mut subject, desk),
+            };
+        }
         if let Some(views) = &self.turntable {
             return self.shoot_around(views, &mut subject, input, talk, &interrupt);
         }
         if let Some(part) = &self.part {
             return self.shoot_part(part, &mut subject, input, talk, &interrupt);
-        }
-        if let Some(checkpoint) = &self.checkpoint {
-            let mut saving = Saving::begin(checkpoint, &self.output, input)?;
-            let desk = (input, talk, &interrupt);
-            return match self.turntable {
-                None => self.shoot_saving(&mut saving, &mut subject, desk),
-                Some(count) => self.turn_saving(count, saving, &mut subject, desk),
-            };
         }
         self.shoot(&mut subject, &self.output, input, talk, &interrupt)
     }
@@ -184,6 +188,9 @@ impl RenderSetup {
         talk: &mut Talk,
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
+        if let Some(rows) = self.strips {
+            return self.shoot_strips(rows, (subject, path), input, talk, interrupt);
+        }
         let (window, output) = self.ready(subject, path, input)?;
         let (quiet, verbose) = (talk.is_quiet(), talk.is_verbose());
         let shot = match self.picture.goal {

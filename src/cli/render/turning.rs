@@ -2,11 +2,12 @@
 
 use super::super::Failure;
 use super::super::output::Output;
-use super::super::turntable::{self, Turntable};
+use super::super::turntable::{self, Turntable, Views};
 use super::RenderSetup;
 use super::checkpoint::{Desk, Saving};
 use crate::pipeline::{RenderSubject, hash_of_file};
 use crate::source::{Loader, SourceMap};
+use std::ops::Range;
 use std::path::Path;
 
 /// The largest picture that is looked at again, in bytes.
@@ -16,14 +17,16 @@ impl RenderSetup {
     /// Renders the frames that are missing, and writes them.
     pub(super) fn turn_saving(
         &self,
-        count: u32,
+        views: &Views,
         mut saving: Saving<'_>,
         subject: &mut RenderSubject,
         (input, talk, interrupt): Desk<'_>,
     ) -> Result<(), Failure> {
-        let table = Turntable::new(&subject.proven.lowered.scene, self.up, count);
+        let table = Turntable::new(&subject.proven.lowered.scene, self.up, views.count);
         let path = |frame| turntable::name(&self.output, frame);
-        (0..count).try_for_each(|frame| Output::open(&path(frame), input).map(drop))?;
+        let mut frames = views.shown.clone();
+        let Range { start, end } = frames;
+        frames.try_for_each(|frame| Output::open(&path(frame), input).map(drop))?;
         let turn = |subject: &mut RenderSubject, frame| {
             table.turn(&mut subject.proven, frame)?;
             subject.turn();
@@ -31,7 +34,9 @@ impl RenderSetup {
         };
         let finished = saving.finished.clone();
         let begun = u32::try_from(finished.len()).unwrap_or(u32::MAX);
-        if begun >= count {
+        let begun = start.saturating_add(begun);
+        if begun >= end {
+            let count = end - start;
             return Err(saving.refused(&format!("it is of more than {count} frames")));
         }
         if saving.saved.is_some() {
@@ -41,7 +46,7 @@ impl RenderSetup {
             saving.saved = Some(self.begun(&mut saving, subject, window)?);
         }
         for (frame, hash) in
-            (0..count).zip(finished.iter().map(Some).chain(std::iter::repeat(None)))
+            (start..end).zip(finished.iter().map(Some).chain(std::iter::repeat(None)))
         {
             let output = path(frame);
             if hash.is_some_and(|hash| is_there(&output, hash)) {

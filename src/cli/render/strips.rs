@@ -1,0 +1,57 @@
+//! A picture in strips: each is rendered, written and let go before the next.
+
+use super::super::progress::RenderProgress;
+use super::super::{Failure, input, interrupt::Interrupt, output::Output, talk, talk::Talk};
+use super::shot::summary;
+use super::{RenderSetup, halted};
+use crate::pipeline::{Input, Observer, PictureSetup, RenderSubject};
+use std::fs::File;
+use std::io::ErrorKind;
+use std::path::Path;
+
+impl RenderSetup {
+    /// Renders one picture in strips of about so many rows, and writes it.
+    pub(super) fn shoot_strips(
+        &self,
+        rows: Option<u32>,
+        (subject, path): (&mut RenderSubject, &Path),
+        input: &mut Input,
+        talk: &mut Talk,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let setup = &self.picture;
+        setup.refuse_strips(subject)?;
+        let window = setup.window(&subject.proven.lowered.scene)?;
+        let strip = PictureSetup::first_strip(window, rows);
+        setup.find_room(subject, strip)?;
+        let output = Output::open(path, input)?;
+        let progress = RenderProgress::start(window.pixels() as u64, talk.is_quiet());
+        let observer = Observer {
+            on_step: &|step| progress.step(step),
+            is_stopped: &|| interrupt.is_raised(),
+        };
+        let order = (window, strip, input.rays());
+        let mut rendered = None;
+        let mut write = |file: &mut File| {
+            let done = setup.render_strips(subject, order, input, &observer, file)?;
+            let is_done = done.is_ok();
+            rendered = Some(done);
+            is_done.then_some(()).ok_or(ErrorKind::Other.into())
+        };
+        let written = output.commit_slowly(&mut write, interrupt);
+        let elapsed = progress.finish();
+        let counts = match rendered {
+            Some(Ok(counts)) => counts,
+            Some(Err(error)) => return halted(error, input, talk),
+            None => return written,
+        };
+        written?;
+        input::tell(input, talk)?;
+        if !talk.is_quiet() {
+            let size = [window.width, window.height];
+            let (light, work) = (setup.light_told(), (&counts, elapsed));
+            talk::say(&summary(path, size, &light, work, talk.is_verbose()));
+        }
+        Ok(())
+    }
+}

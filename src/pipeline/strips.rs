@@ -1,0 +1,189 @@
+//! A picture rendered strip by strip, each some rows from the top, written and let go before the next:
+//! it takes the memory of a strip, and its file is that of the whole, byte for byte.
+
+use super::look::{Losses, SettledLook};
+use super::{Input, Meter, Observer, PictureSetup, RenderError, RenderSubject};
+use crate::image::{BLOCK_ROWS, Picture, StripSource};
+use crate::render::{Counts, Crop, Film, Job};
+use crate::study::Goal;
+use crate::valid::Mode;
+use std::borrow::Cow;
+use std::io::{self, BufWriter, Seek, Write};
+
+/// The pixels of a strip, unless its rows are given: a film of 60 MiB.
+const PIXELS: u32 = 1 << 20;
+
+/// What is written at once.
+const BUFFER: usize = 1 << 20;
+
+/// Why a picture can't be rendered in strips.
+const GOAL: &str = "what is left of an error is known of a whole picture alone, so `--target-error` and \
+     `--time-budget` have no strips; give the samples, by `--spp` or `--supersampling`";
+const DISTANCES: &str = "the brightness of a distance depends on all others, so a depth buffer has no \
+     strips; `--aov depth` of another mode holds distances as they are";
+const VERIFY: &str = "`--verify-effects` compares whole pictures, and has no strips; verify a smaller \
+     picture, by `--size` or `--crop`";
+
+/// A render in strips under way.
+struct StripRender<'r> {
+    setup: &'r PictureSetup,
+    subject: &'r mut RenderSubject,
+    observer: &'r Observer<'r>,
+    look: &'r SettledLook,
+    meter: Meter,
+    /// The strip to be rendered next; of no height after the last.
+    next: Crop,
+    /// The row after the last.
+    end: u32,
+    counts: Counts,
+    losses: Losses,
+}
+
+impl PictureSetup {
+    /// The first of the strips of a part of the picture, of about so many rows; without, of those
+    /// that take little memory.
+    #[must_use]
+    pub fn first_strip(window: Crop, rows: Option<u32>) -> Crop {
+        let rows = rows.unwrap_or_else(|| PIXELS / window.width.max(1) / BLOCK_ROWS * BLOCK_ROWS);
+        let rows = rows.max(1).checked_next_multiple_of(BLOCK_ROWS);
+        Crop {
+            height: rows.unwrap_or(u32::MAX).min(window.height),
+            ..window
+        }
+    }
+
+    /// Refuses to render in strips what must be known as a whole.
+    ///
+    /// # Errors
+    /// If it is such a picture.
+    pub fn refuse_strips(&self, subject: &RenderSubject) -> Result<(), RenderError> {
+        let is_distances = matches!(subject.proven.scene.settings().mode, Mode::Zbuffer);
+        let reasons = [
+            (self.goal != Goal::default(), GOAL),
+            (is_distances, DISTANCES),
+            (self.verify, VERIFY),
+        ];
+        match reasons.iter().find(|(is_so, _)| *is_so) {
+            Some((_, reason)) => Err(RenderError::Refused((*reason).to_owned())),
+            None => Ok(()),
+        }
+    }
+
+    /// Renders a part of the picture in strips as high as the first, with so many rays at most, and
+    /// writes its file as they come; what is found in it, and the rays it took.
+    ///
+    /// # Errors
+    /// If the file can't be written; within, if there is no picture.
+    pub fn render_strips(
+        &self,
+        subject: &mut RenderSubject,
+        (window, first, rays): (Crop, Crop, u64),
+        input: &mut Input,
+        observer: &Observer<'_>,
+        out: impl Write + Seek,
+    ) -> io::Result<Result<Counts, RenderError>> {
+        let look = self.look.settled(&subject.proven.scene.settings().mode);
+        let origin = || self.origin(&subject.proven.lowered.scene);
+        let head = look.head([window.width, window.height], &self.look.aovs, origin);
+        let mut render = StripRender {
+            setup: self,
+            subject,
+            observer,
+            look: &look,
+            meter: Meter::new(rays, first),
+            next: first,
+            end: window.y + window.height,
+            counts: Counts::default(),
+            losses: Losses::default(),
+        };
+        let mut fault = None;
+        let mut next = || match render.next_strip() {
+            Ok(strip) => Ok(Cow::Owned(strip)),
+            Err(error) => {
+                fault = Some(error);
+                Err(io::ErrorKind::Other.into())
+            }
+        };
+        let mut out = BufWriter::with_capacity(BUFFER, out);
+        let written = head.write(&mut out, StripSource::new(&mut next));
+        let written = written.and_then(|()| out.flush());
+        if let Some(fault) = fault {
+            return Ok(Err(fault));
+        }
+        written?;
+        let StripRender { counts, losses, .. } = render;
+        self.look_for_hits(subject, &counts, input);
+        let found = losses.findings(counts.unnumbered, self.arithmetic);
+        found.into_iter().for_each(|finding| input.push(finding));
+        Ok(Ok(counts))
+    }
+}
+
+impl StripRender<'_> {
+    /// The next strip of the picture.
+    fn next_strip(&mut self) -> Result<Picture, RenderError> {
+        let Self {
+            setup,
+            subject,
+            observer,
+            look,
+            meter,
+            ..
+        } = self;
+        let job = Job {
+            crop: Some(self.next),
+            values: setup.look.values(&subject.proven.scene.settings().mode),
+            background: setup.look.background(),
+            ..Job::default()
+        };
+        meter.go_on(self.next);
+        let on_pixel = |step| {
+            (observer.on_step)(step);
+            !(observer.is_stopped)() && meter.step(step)
+        };
+        let film = setup.renderer(subject)?.1.render(&job, &on_pixel);
+        if let Some(finding) = subject.ran_out(meter, observer) {
+            return Err(RenderError::RanOut(finding));
+        }
+        let Film {
+            image,
+            coverage,
+            counts,
+        } = film.ok_or(RenderError::Stopped)?;
+        self.counts = self.counts.plus(counts);
+        let layers = setup.layers(subject, &job, observer.is_stopped)?;
+        let top = self.next.y + self.next.height;
+        self.next = Crop {
+            y: top,
+            height: self.next.height.min(self.end - top),
+            ..self.next
+        };
+        Ok(look.show(image, coverage, layers, &mut self.losses))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_are_whole_blocks_and_no_higher_than_the_picture() {
+        let window = |width, height| Crop {
+            x: 3,
+            y: 5,
+            width,
+            height,
+        };
+        let rows = |width, height, rows| {
+            let strip = PictureSetup::first_strip(window(width, height), rows);
+            assert_eq!((strip.x, strip.y, strip.width), (3, 5, width));
+            strip.height
+        };
+        assert_eq!(rows(40, 70, Some(1)), 16);
+        assert_eq!(rows(40, 70, Some(17)), 32);
+        assert_eq!(rows(40, 70, Some(u32::MAX)), 70);
+        assert_eq!(rows(32_768, 32_768, None), 32);
+        assert_eq!(rows(u32::MAX, 70, None), 16);
+        assert_eq!(rows(1, 70, None), 70);
+    }
+}
