@@ -37,14 +37,15 @@ impl Slabs {
 
     /// Whether the ray may meet the box before `t_max`, a root that may itself be rounded.
     ///
-    /// Conservative as in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end grows by 2γ₃,
-    /// and comparisons are written so that the NaN of a ray inside a slab's plane leaves the
-    /// interval as it is. `t_max` grows by more, as a root may be known less well than the ends
-    /// of a slab: of surfaces at the same t none is passed over.
+    /// Conservative as in Ize, "Robust BVH ray traversal" (JCGT 2, 2013), but the far end grows by
+    /// 2γ₄, as its growing is rounded too: `docs/proofs/slabs.g`. Comparisons are written so that the
+    /// NaN of a ray inside a slab's plane leaves the interval as it is. `t_max` grows by more, as a
+    /// root may be known less well than the ends of a slab: of surfaces at the same t none is passed
+    /// over.
     #[must_use]
     #[inline]
     pub(in crate::render) fn meet(&self, bounds: &Bounds, t_max: f64) -> bool {
-        const GROWN: f64 = 1.0 + 2.0 * (3.0 * U / (1.0 - 3.0 * U));
+        const GROWN: f64 = 1.0 + 2.0 * (4.0 * U / (1.0 - 4.0 * U));
         const ROUNDED: f64 = 1.0 + 1.0 / 1_048_576.0;
         let (mut near, mut far) = (0.0, t_max * ROUNDED);
         for axis in 0..3 {
