@@ -5,7 +5,7 @@
 use super::bench::Time;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng, median};
-use super::subject::{RenderedTiles, Stopped, Subject, Timed};
+use super::subject::{RenderedTiles, Stopped, Subject};
 
 /// A runner.
 pub(super) struct Runner<'a> {
@@ -65,15 +65,10 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result
                 }
                 repeats[index]
             })?;
-            let Timed {
-                shot,
-                time,
-                is_resumed,
-            } = timed;
-            resumed[index] |= is_resumed;
-            shots[index].get_or_insert(shot);
+            resumed[index] |= timed.is_resumed;
+            shots[index].get_or_insert(timed.shot);
             if let Some(place) = times[index].last_mut() {
-                *place = Some(time);
+                *place = Some(timed.time);
             }
         }
     }
