@@ -160,6 +160,14 @@ fn run_dask(folder: &TempDir) {
     }
 }
 
+/// The command of one process, as the README tells it.
+fn whole_command(folder: &TempDir) -> Vec<String> {
+    let readme = String::from_utf8(bytes(folder, "job/README")).unwrap();
+    let (_, command) = readme.split_once("is that of `rtc ").unwrap();
+    let (command, _) = command.split_once('`').unwrap();
+    command.split(' ').map(str::to_owned).collect()
+}
+
 #[test]
 fn the_commands_of_a_job_give_the_bytes_of_one_process() {
     for (at, (picture, words)) in JOBS.into_iter().enumerate() {
@@ -171,11 +179,13 @@ fn the_commands_of_a_job_give_the_bytes_of_one_process() {
         farm(&folder, "openjd", picture, &[words, &share].concat());
         // The scene is in the job.
         fs::remove_file(folder.path().join(words[0])).unwrap();
+        let made = format!("job/{picture}");
+        let whole = bytes(&folder, picture);
+        run(&folder, &whole_command(&folder));
+        assert!(bytes(&folder, &made) == whole, "{words:?}");
+        fs::remove_file(folder.path().join(&made)).unwrap();
         run_openjd(&folder);
-        assert!(
-            bytes(&folder, picture) == bytes(&folder, &format!("job/{picture}")),
-            "{words:?}"
-        );
+        assert!(bytes(&folder, &made) == whole, "{words:?}");
     }
 }
 

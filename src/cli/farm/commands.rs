@@ -45,7 +45,12 @@ impl<'a> Commands<'a> {
 
     /// The command that renders the picture of a frame in one process.
     pub(super) fn whole(&self, frame: &str) -> Vec<String> {
-        let output = ["-o".to_owned(), self.picture.clone()];
+        // A turntable numbers its views by itself.
+        let output = match self.frames {
+            Frames::Turntable(..) => self.picture.clone(),
+            Frames::One | Frames::Animation(..) => self.output(frame),
+        };
+        let output = ["-o".to_owned(), output];
         [self.render("", frame), output.to_vec()].concat()
     }
 

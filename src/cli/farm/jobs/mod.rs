@@ -86,7 +86,7 @@ impl<'a> FarmJob<'a> {
         format!(
             "{title}, which all workers need: on their path, or where `RTC` points (OpenJD: the parameter `Rtc`).\n\
              To run: {run}.\n\
-             It gives the bytes of `rtc {whole}`; parts that failed can be run again, one by one.\n"
+             The first picture is that of `rtc {whole}`, byte for byte; parts that failed can be run again, one by one.\n"
         )
     }
 }
