@@ -1,6 +1,10 @@
 //! The proofs of the filters (`docs/proofs`) are about the numbers of the code.
 
-#![expect(clippy::disallowed_methods, reason = "reads what it checks")]
+#![expect(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test stops at the first surprise and reads what it checks"
+)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
