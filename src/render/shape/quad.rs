@@ -117,13 +117,15 @@ impl Quad {
     /// A box around it.
     pub(in crate::render) fn bounds(&self) -> Bounds {
         match self {
-            Self::Flat { halves, .. } => halves
-                .iter()
-                .flatten()
-                .fold(Bounds::EMPTY, |bounds, (triangle, _)| {
-                    bounds.union(Bounds::of(*triangle.vertices()))
-                }),
-            Self::Patch(patch) => Bounds::of(patch.vertices),
+            Self::Flat { halves, .. } => {
+                halves
+                    .iter()
+                    .flatten()
+                    .fold(Bounds::EMPTY, |bounds, (triangle, _)| {
+                        bounds.union(Bounds::of(triangle.vertices().iter().copied()))
+                    })
+            }
+            Self::Patch(patch) => Bounds::of(patch.vertices.iter().copied()),
         }
     }
 }

@@ -247,7 +247,7 @@ impl Geometry for TexturedTriangle {
     }
 
     fn bounds(&self) -> Option<Bounds> {
-        Some(Bounds::of(*self.triangle.vertices()))
+        Some(Bounds::of(self.triangle.vertices().iter().copied()))
     }
 }
 

@@ -40,7 +40,7 @@ impl Wide {
         if count == 0 {
             return None;
         }
-        let bounds = |item| Bounds::of(corners(item)).grown(error_bound);
+        let bounds = |item| Bounds::of(corners(item).iter().copied()).grown(error_bound);
         let all = || (0..count).into_par_iter();
         let whole = match builders {
             Builders::One => (0..count).map(bounds).fold(Bounds::EMPTY, Bounds::union),
