@@ -61,14 +61,7 @@ impl PartialFilm {
     /// If the bytes are of something else, of another version, or damaged, or the picture is
     /// larger.
     pub fn load(bytes: &[u8], max_pixels: u64) -> Result<Self, FilmError> {
-        let mut bytes = FilmBytes(bytes);
-        if bytes.array().ok() != Some(MAGIC) {
-            return Err(FilmError::NotAFilm);
-        }
-        let version = bytes.number()?;
-        if version != VERSION {
-            return Err(FilmError::Version(version));
-        }
+        let mut bytes = FilmBytes::of(bytes, MAGIC, VERSION)?;
         bytes.check(&[&MAGIC[..], &VERSION.to_le_bytes()].concat())?;
         let layout = bytes.layout(max_pixels)?;
         let mut film = Self::new(layout);
@@ -118,7 +111,19 @@ fn length(count: usize) -> [u8; 4] {
 /// The bytes that are still to be read.
 pub(super) struct FilmBytes<'a>(pub(super) &'a [u8]);
 
-impl FilmBytes<'_> {
+impl<'bytes> FilmBytes<'bytes> {
+    /// What follows the magic and the version.
+    pub(super) fn of(bytes: &'bytes [u8], magic: [u8; 8], version: u32) -> Result<Self, FilmError> {
+        let mut bytes = Self(bytes);
+        if bytes.array().ok() != Some(magic) {
+            return Err(FilmError::NotAFilm);
+        }
+        match bytes.number()? {
+            found if found == version => Ok(bytes),
+            other => Err(FilmError::Version(other)),
+        }
+    }
+
     /// The next bytes.
     fn take(&mut self, count: usize) -> Result<&[u8], FilmError> {
         let (taken, rest) = self

@@ -70,14 +70,7 @@ impl ProgressiveFilm {
     /// # Errors
     /// If the bytes are of something else or of another version, or damaged.
     pub fn load(mut self, bytes: &[u8]) -> Result<Self, FilmError> {
-        let mut bytes = FilmBytes(bytes);
-        if bytes.array().ok() != Some(MAGIC) {
-            return Err(FilmError::NotAFilm);
-        }
-        let version = bytes.number()?;
-        if version != VERSION {
-            return Err(FilmError::Version(version));
-        }
+        let mut bytes = FilmBytes::of(bytes, MAGIC, VERSION)?;
         let seed = u64::from_le_bytes(bytes.array()?);
         let mut crop = [0; 4];
         for number in &mut crop {
