@@ -4,11 +4,11 @@
 //! reported as ours.
 
 mod args;
+mod batch;
 mod check;
 mod compile;
 mod cost;
 mod explain;
-mod farm;
 mod input;
 mod interrupt;
 mod merge;
@@ -93,7 +93,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Compile(args) => compile::run(&args),
         Command::Render(args) => render::run(&args, &typed),
         Command::Merge(args) => merge::run(&args),
-        Command::Farm(args) => farm::run(&args),
+        Command::Farm(args) => batch::run(&args),
         Command::Cost(args) => cost::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Schema(args) => tell::schema(&args),
