@@ -13,6 +13,7 @@ mod checkpoints;
 mod exposure;
 mod farm;
 mod framing;
+mod interplay;
 mod looks;
 mod mesh;
 mod numbers;

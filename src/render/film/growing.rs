@@ -37,7 +37,7 @@ impl ProgressiveFilm {
         let selected: Option<Tiles> = self.tiles;
         let is_selected =
             |area: &Crop| selected.is_none_or(|tiles| tiles.contain([area.x, area.y]));
-        let tiles = self.pixels.tiles_mut().into_iter();
+        let tiles = self.pixels.tiles_mut();
         let tiles = tiles.filter(|(area, _)| is_selected(area));
         tiles.map(|(_, pixels)| pixels).collect()
     }
@@ -55,13 +55,13 @@ impl ProgressiveFilm {
         bytes.extend(VERSION.to_le_bytes());
         bytes.extend(self.seed().to_le_bytes());
         bytes.extend([x, y, width, height].into_iter().flat_map(u32::to_le_bytes));
-        let is_toned = self.pixels.values().iter().any(Replicates::is_toned);
+        let is_toned = self.pixels.values().any(Replicates::is_toned);
         bytes.push(u8::from(is_toned));
         let counts = self.counts.to_array();
         bytes.extend(counts.into_iter().flat_map(u64::to_le_bytes));
         bytes.reserve(self.len() * Replicates::BYTES);
         let pixels = self.pixels.values();
-        pixels.iter().for_each(|pixel| pixel.save(&mut bytes));
+        pixels.for_each(|pixel| pixel.save(&mut bytes));
         bytes
     }
 

@@ -4,7 +4,7 @@
 
 use super::pixel::{BLOCK, PixelSum};
 use super::tiled::{Tiled, tiles_of};
-use super::{Counts, Crop, DISPLAY, Film, Tiles, Values};
+use super::{Counts, Crop, DISPLAY, Film, Values};
 use crate::image::Image;
 use std::fmt;
 use std::ops::Range;
@@ -250,23 +250,22 @@ impl PartialFilm {
         }
     }
 
-    /// A node of the tiles selected, as rendered.
+    /// A node of the tiles that a film holds, as rendered.
     pub(in crate::render) fn of(
         layout: FilmLayout,
         blocks: &Range<u32>,
-        mut film: Tiled<PixelSum>,
-        tiles: Option<Tiles>,
+        film: Tiled<PixelSum>,
         counts: Counts,
     ) -> Self {
-        let mut part = Self::new(layout);
-        part.counts = counts;
-        for ((area, sums), nodes) in film.tiles_mut().into_iter().zip(&mut part.tiles) {
-            if tiles.is_none_or(|tiles| tiles.contain([area.x, area.y])) {
-                let (blocks, sums) = (blocks.clone(), sums.to_vec());
-                nodes.push(SumNode { blocks, sums });
-            }
+        let node = |sums: Vec<PixelSum>| {
+            let blocks = blocks.clone();
+            Vec::from_iter((!sums.is_empty()).then_some(SumNode { blocks, sums }))
+        };
+        Self {
+            layout,
+            counts,
+            tiles: film.into_tiles().into_iter().map(node).collect(),
         }
-        part
     }
 
     /// Adds the samples and the rays of another part.
@@ -305,8 +304,8 @@ impl PartialFilm {
         if let Some(area) = missing.and_then(|tile| tiles_of(self.layout.crop).nth(tile)) {
             return Err(FilmError::Missing([area.x, area.y]));
         }
-        let mut film = Tiled::new(self.layout.crop, PixelSum::default());
-        for ((_, sums), nodes) in film.tiles_mut().into_iter().zip(&self.tiles) {
+        let mut film = Tiled::new(self.layout.crop, None, PixelSum::default());
+        for ((_, sums), nodes) in film.tiles_mut().zip(&self.tiles) {
             nodes
                 .iter()
                 .for_each(|node| sums.copy_from_slice(&node.sums));

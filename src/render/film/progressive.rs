@@ -55,7 +55,7 @@ impl ProgressiveFilm {
             background: Background::default(),
             display: (DISPLAY, 1.0),
             tiles: None,
-            pixels: Tiled::new(crop, Replicates::default()),
+            pixels: Tiled::new(crop, None, Replicates::default()),
             counts: Counts::default(),
         }
     }

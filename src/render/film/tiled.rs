@@ -1,57 +1,69 @@
 //! Values of the pixels of a part of the picture, tile by tile, so that threads work on tiles that
-//! are their own. Tiles are cut from the picture at multiples of [`Tiles::SIDE`], whatever part of
-//! it is held.
+//! are their own, and a film of some tiles takes no memory for the others. Tiles are cut from the
+//! picture at multiples of [`Tiles::SIDE`], whatever part of it is held.
 
 use super::{Crop, Tiles};
 use std::ops::Range;
 
-/// One value a pixel, the pixels of a tile side by side in rows.
+/// One value a pixel of the tiles held, and one value for all pixels of the other tiles.
 #[derive(Clone, Debug)]
 pub(in crate::render) struct Tiled<K> {
     crop: Crop,
-    pixels: Vec<K>,
+    /// Of each tile the values in rows; none where the tile is not held.
+    tiles: Vec<Vec<K>>,
+    elsewhere: K,
 }
 
 impl<K: Clone> Tiled<K> {
-    /// The same value in all pixels.
+    /// The same value in all pixels. Only the tiles given are held, all of them without.
     #[must_use]
-    pub(in crate::render) fn new(crop: Crop, value: K) -> Self {
+    pub(in crate::render) fn new(crop: Crop, held: Option<Tiles>, value: K) -> Self {
+        let is_held = |area: &Crop| held.is_none_or(|tiles| tiles.contain([area.x, area.y]));
+        let tile = |area: Crop| {
+            let pixels = if is_held(&area) { area.pixels() } else { 0 };
+            vec![value.clone(); pixels]
+        };
         Self {
             crop,
-            pixels: vec![value; crop.width as usize * crop.height as usize],
+            tiles: tiles_of(crop).map(tile).collect(),
+            elsewhere: value,
         }
     }
 }
 
 impl<K> Tiled<K> {
-    /// The part of the picture that is held.
+    /// The part of the picture.
     #[must_use]
     pub(in crate::render) fn crop(&self) -> Crop {
         self.crop
     }
 
-    /// How many pixels there are.
+    /// How many pixels the part has.
     #[must_use]
     pub(in crate::render) fn len(&self) -> usize {
-        self.pixels.len()
+        self.crop.pixels()
     }
 
     /// The value of a pixel, counted row by row.
     #[must_use]
     pub(in crate::render) fn at(&self, index: usize) -> &K {
         let width = self.crop.width as usize;
-        &self.pixels[self.place(index % width, index / width)]
+        let (column, row) = (index % width, index / width);
+        let (tile_row, top, _) = tile_around(self.crop.y, row, self.crop.height as usize);
+        let (tile_column, left, tile_width) = tile_around(self.crop.x, column, width);
+        let tile = &self.tiles[tile_row * tiles_across(self.crop.x, self.crop.width) + tile_column];
+        tile.get((row - top) * tile_width + (column - left))
+            .unwrap_or(&self.elsewhere)
     }
 
-    /// The values tile by tile.
-    #[must_use]
-    pub(in crate::render) fn values(&self) -> &[K] {
-        &self.pixels
+    /// The values held, tile by tile.
+    pub(in crate::render) fn values(&self) -> impl Iterator<Item = &K> {
+        self.tiles.iter().flatten()
     }
 
     /// The same, to be changed.
-    pub(in crate::render) fn values_mut(&mut self) -> &mut [K] {
-        &mut self.pixels
+    pub(in crate::render) fn values_mut(&mut self) -> impl Iterator<Item = &mut K> {
+        self.tiles.iter_mut().flatten()
     }
 
     /// The values row by row.
@@ -59,38 +71,31 @@ impl<K> Tiled<K> {
         (0..self.crop.height).flat_map(|row| self.row(row))
     }
 
-    /// The values of a row of the part held: its pieces of one row of tiles.
+    /// The values of a row: its pieces of one row of tiles.
     fn row(&self, row: u32) -> impl Iterator<Item = &K> {
         let Crop {
             x, width, height, ..
         } = self.crop;
-        let (row, height) = (row as usize, height as usize);
-        let (top, tile_height) = tile_around(self.crop.y, row, height);
-        cuts(x, width).flat_map(move |columns| {
-            let (left, piece) = ((columns.start - x) as usize, columns.len());
-            let start = top * width as usize + left * tile_height + (row - top) * piece;
-            &self.pixels[start..start + piece]
+        let (tile_row, top, _) = tile_around(self.crop.y, row as usize, height as usize);
+        let first = tile_row * tiles_across(x, width);
+        let tiles = self.tiles[first..].iter().zip(cuts(x, width));
+        tiles.flat_map(move |(tile, columns)| {
+            let start = (row as usize - top) * columns.len();
+            let place = move |column: usize| tile.get(start + column);
+            (0..columns.len()).map(move |column| place(column).unwrap_or(&self.elsewhere))
         })
     }
 
-    /// All tiles, each with its rectangle of the picture and its values in rows.
-    pub(in crate::render) fn tiles_mut(&mut self) -> Vec<(Crop, &mut [K])> {
-        let mut rest = self.pixels.as_mut_slice();
-        let cut = |area: Crop| {
-            let length = area.width as usize * area.height as usize;
-            let (tile, after) = std::mem::take(&mut rest).split_at_mut(length);
-            rest = after;
-            (area, tile)
-        };
-        tiles_of(self.crop).map(cut).collect()
+    /// The tiles held, each with its rectangle of the picture and its values in rows.
+    pub(in crate::render) fn tiles_mut(&mut self) -> impl Iterator<Item = (Crop, &mut [K])> {
+        let tiles = tiles_of(self.crop).zip(&mut self.tiles);
+        let held = tiles.filter(|(_, tile)| !tile.is_empty());
+        held.map(|(area, tile)| (area, tile.as_mut_slice()))
     }
 
-    /// Where the value of a pixel stands, given by its column and row in the part held.
-    fn place(&self, column: usize, row: usize) -> usize {
-        let (width, height) = (self.crop.width as usize, self.crop.height as usize);
-        let (left, tile_width) = tile_around(self.crop.x, column, width);
-        let (top, tile_height) = tile_around(self.crop.y, row, height);
-        top * width + left * tile_height + (row - top) * tile_width + (column - left)
+    /// The values of each tile in rows, tile by tile; none where the tile is not held.
+    pub(in crate::render) fn into_tiles(self) -> Vec<Vec<K>> {
+        self.tiles
     }
 }
 
@@ -107,13 +112,18 @@ pub(in crate::render) fn tiles_of(crop: Crop) -> impl Iterator<Item = Crop> {
     cuts(crop.y, crop.height).flat_map(row)
 }
 
-/// The start and the length of the tile around a place, both counted from `first`.
-fn tile_around(first: u32, at: usize, count: usize) -> (usize, usize) {
+/// The number of the tile around a place, its start and its length, all counted from `first`.
+fn tile_around(first: u32, at: usize, count: usize) -> (usize, usize, usize) {
     let (first, side) = (first as usize, Tiles::SIDE as usize);
-    let start = (first + at) / side * side;
-    let end = (start + side).min(first + count) - first;
-    let start = start.saturating_sub(first);
-    (start, end - start)
+    let tile = (first + at) / side;
+    let end = ((tile + 1) * side).min(first + count) - first;
+    let start = (tile * side).saturating_sub(first);
+    (tile - first / side, start, end - start)
+}
+
+/// How many tiles stand side by side.
+fn tiles_across(first: u32, count: u32) -> usize {
+    (first.saturating_add(count).div_ceil(Tiles::SIDE) - first / Tiles::SIDE) as usize
 }
 
 /// The stretches into which tiles cut `count` rows or columns from `first` on.
@@ -145,7 +155,7 @@ mod tests {
                 width,
                 height,
             };
-            let mut tiled = Tiled::new(crop, [0, 0]);
+            let mut tiled = Tiled::new(crop, None, [0, 0]);
             for (area, pixels) in tiled.tiles_mut() {
                 assert_eq!(
                     area.x / Tiles::SIDE,
@@ -172,6 +182,29 @@ mod tests {
             width: 0,
             height: 9,
         };
-        assert!(Tiled::new(crop, 0).tiles_mut().is_empty());
+        assert_eq!(Tiled::new(crop, None, 0).tiles_mut().count(), 0);
+    }
+
+    #[test]
+    fn a_tile_that_is_not_held_takes_no_memory_and_shows_the_value_of_all() {
+        let crop = Crop {
+            x: 5,
+            y: 3,
+            width: 100,
+            height: 70,
+        };
+        let held = Tiles::shares([2, 3], 7);
+        let mut tiled = Tiled::new(crop, Some(held), 0);
+        assert!(tiled.values().count() < crop.pixels() / 2);
+        tiled.values_mut().for_each(|value| *value = 1);
+        let pixels = (0..crop.height).flat_map(|y| (0..crop.width).map(move |x| [x, y]));
+        let expected = pixels.map(|[x, y]| i32::from(held.contain([crop.x + x, crop.y + y])));
+        assert!(tiled.iter().copied().eq(expected.clone()));
+        assert!((0..tiled.len()).map(|index| *tiled.at(index)).eq(expected));
+        assert!(
+            tiled
+                .tiles_mut()
+                .all(|(area, _)| held.contain([area.x, area.y]))
+        );
     }
 }

@@ -54,7 +54,8 @@ impl<S: Geometry> World<S> {
         let open = |_: [u32; 2], _: usize, _: &<LayerSums<'_> as Accumulator>::Kept| {
             (LayerSums::new(wanted, camera), asked(job, 0..samples))
         };
-        let mut film = Tiled::new(self.crop(job), <LayerSums<'_> as Accumulator>::Kept::new());
+        let blank = <LayerSums<'_> as Accumulator>::Kept::new();
+        let mut film = Tiled::new(self.crop(job), job.tiles, blank);
         run(&mut film, Selection::of(job), || FirstHits(worker()), &open)?;
         let names: Vec<_> = wanted.iter().flat_map(|aov| aov.channels()).collect();
         // A pixel that nobody asked for has no numbers.

@@ -35,9 +35,11 @@ where
     A: Accumulator<Sample = I::Sample>,
 {
     let crop = film.crop();
-    let mut tiles = film.tiles_mut();
     let is_wanted = |[x, y]: [u32; 2]| selection.tiles.is_none_or(|tiles| tiles.contain([x, y]));
-    tiles.retain(|(area, _)| is_wanted([area.x, area.y]));
+    let tiles = film.tiles_mut();
+    let tiles: Vec<_> = tiles
+        .filter(|(area, _)| is_wanted([area.x, area.y]))
+        .collect();
     let render = |integrator: &mut I, (area, kept)| {
         let before = *integrator.counts();
         let mut tile = Tile::new([area, crop], selection.stride, kept, open);

@@ -43,7 +43,7 @@ impl<S: Geometry> World<S> {
             )
         };
         let worker = || Tracer::<S, F>::new(self, on_pixel);
-        let mut film = Tiled::new(self.layout(job).crop, PixelSum::default());
+        let mut film = self.film(job);
         let counts = run(&mut film, Selection::of(job), worker, &open)?;
         Some((film, counts))
     }
@@ -63,7 +63,7 @@ impl<S: Geometry> World<S> {
         };
         let worker =
             || PathTracer::<S, F>::new(self, &lights, strategy, on_pixel).before(job.background);
-        let mut film = Tiled::new(self.layout(job).crop, PixelSum::default());
+        let mut film = self.film(job);
         let counts = run(&mut film, Selection::of(job), worker, &open)?;
         Some((film, counts))
     }
@@ -74,7 +74,7 @@ impl<S: Geometry> World<S> {
             let is_blank = self.plan.region.class_of(pixel) == PixelClass::Nothing;
             (Distance::default(), asked(job, 0..u32::from(!is_blank)))
         };
-        let mut film = Tiled::new(self.layout(job).crop, PixelSum::default());
+        let mut film = self.film(job);
         let counts = run(
             &mut film,
             Selection::of(job),
@@ -114,9 +114,14 @@ impl<S: Geometry> World<S> {
             let Some((film, counts)) = sum(&layout.samples_of(&blocks), job) else {
                 return Ok(None);
             };
-            part.add(PartialFilm::of(layout, &blocks, film, job.tiles, counts))?;
+            part.add(PartialFilm::of(layout, &blocks, film, counts))?;
         }
         Ok(Some(part))
+    }
+
+    /// A film of the tiles that a job asks for, without samples.
+    fn film(&self, job: &Job) -> Tiled<PixelSum> {
+        Tiled::new(self.layout(job).crop, job.tiles, PixelSum::default())
     }
 
     /// Which pixels a job asks for, and how their samples are summed.
