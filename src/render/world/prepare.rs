@@ -126,7 +126,8 @@ impl Lookup {
         let casts = |surface: &Surface<S>| is_path || scene.surfaces()[surface.index].casts_shadow;
         // Shadow rays meet all flattened surfaces, so one without a shadow stays apart.
         let is_flattened = |surface: &Surface<S>| {
-            flattens[surface.index] && surface.shape.triangles() > 0 && casts(surface)
+            let is_mesh = S::FLATTENS && surface.shape.triangles() > 0;
+            is_mesh && flattens[surface.index] && casts(surface)
         };
         let (flattened, apart): (Vec<u32>, Vec<u32>) = (0_u32..)
             .take(surfaces.len())

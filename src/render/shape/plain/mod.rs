@@ -139,6 +139,15 @@ impl<R: Real> Geometry for PlainShape<R> {
         self.robust.details(ray, at, prim_id, asked)
     }
 
+    /// The lights are those of the robust shape: light is sampled in the same way by each arithmetic.
+    fn triangles(&self) -> usize {
+        self.robust.triangles()
+    }
+
+    fn corners(&self, prim_id: u32) -> Option<[Vec3; 3]> {
+        self.robust.corners(prim_id)
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         self.robust.bounds()
     }
