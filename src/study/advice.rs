@@ -1,7 +1,7 @@
 //! The advice that follows from a study, in plain words.
 
-use super::outcome::{Row, Study};
-use super::reference::DepthEnd;
+use super::metrics::Errors;
+use super::outcome::{MoreBounces, Row, Study};
 use super::setting::Setting;
 use crate::plan::Arithmetic;
 
@@ -18,23 +18,32 @@ pub(super) fn advice(study: &Study) -> Vec<String> {
         .collect();
     let Some(chosen) = front
         .iter()
-        .position(|row| row.errors.rmse <= ENOUGH)
+        .position(|row| row.errors.rmse_high <= ENOUGH)
         .or(front.len().checked_sub(1))
     else {
         return Vec::new();
     };
     let mut lines = vec![best(study, &front[chosen..])];
     lines.extend(study.own().map(|own| about_own(study, own, &front)));
-    if study.reference.depth == Some(DepthEnd::Open) {
-        lines.push(
-            "Paths go deeper than this study could follow: errors hold for the depth of the reference.".to_owned(),
-        );
-    }
+    lines.extend(study.bounces.as_ref().and_then(about_more));
     if study.rows.iter().any(|row| !row.judged) {
         lines
             .push("Rows with ≤ are as good as the reference, which can't tell them apart; more effort can.".to_owned());
     }
     lines
+}
+
+/// What more bounces would show, if that is visible.
+fn about_more(bounces: &MoreBounces) -> Option<String> {
+    let most = bounces.deeper.last()?;
+    let (own, depth) = (bounces.own, most.depth);
+    (most.difference > ENOUGH).then(|| {
+        let (times, difference) = (most.ray_ratio, digits(most.difference));
+        format!(
+            "Errors are of the scene's own depth, {own}; depth {depth} shows another picture, {difference} grey levels \
+             away, for {times:.2}× the rays."
+        )
+    })
 }
 
 /// The row, or the same row by the robust arithmetic if the row is not clearly cheaper: the
@@ -125,11 +134,24 @@ fn error(row: &Row) -> String {
     match row.errors.rmse {
         0.0 => "no error".to_owned(),
         rmse => format!(
-            "error {}{} grey levels",
+            "error {}{}{} grey levels",
             if row.judged { "" } else { "≤ " },
-            digits(rmse)
+            digits(rmse),
+            interval(&row.errors)
         ),
     }
+}
+
+/// The interval of an error for the whole picture, where only a part was looked at: " (0.3 … 0.6)".
+pub(super) fn interval(errors: &Errors) -> String {
+    if errors.rmse_low == errors.rmse_high {
+        return String::new();
+    }
+    format!(
+        " ({} … {})",
+        digits(errors.rmse_low),
+        digits(errors.rmse_high)
+    )
 }
 
 /// A number with its significant digits.

@@ -21,6 +21,7 @@ mod race;
 mod reference;
 #[cfg(feature = "cli")]
 mod report;
+mod sample;
 mod setting;
 mod statistics;
 mod stretch;
@@ -35,7 +36,9 @@ pub use growth::{Growth, Keep};
 pub use journal::Journal;
 pub use knob::{Knob, idle};
 pub use metrics::{Errors, LEVELS, rmse};
-pub use outcome::{About, KnobReport, Rays, ReferenceReport, Row, Study, StudyArea};
+pub use outcome::{
+    About, BounceCost, KnobReport, MoreBounces, Rays, ReferenceReport, Row, Study, StudyArea,
+};
 pub use precision::PrecisionCost;
 pub use reference::{DepthEnd, Level};
 #[cfg(feature = "cli")]
@@ -50,6 +53,7 @@ use crate::ir::Scene;
 use crate::render::Seeds;
 use race::{Runner, race};
 use reference::{Depths, Reference};
+use sample::TileErrors;
 use serde::{Deserialize, Serialize};
 use subject::Subject;
 use sweep::{Model, sweep};
@@ -106,24 +110,16 @@ pub fn study(
     let (rows, wall_over_cpu) = scope.rows(&subject, &context, &mut rng)?;
     let effects = effects::costs(&subject, scope.own, scope.hundredths(FOR_EFFECTS), &mut rng)?;
     let mut study = Study {
-        schema: "rtc-cost/1".to_owned(),
+        schema: "rtc-cost/2".to_owned(),
         about,
         effort,
         seed,
-        part: StudyArea {
-            size: scene.camera.size,
-            tiles: if subject.is_whole() {
-                0
-            } else {
-                subject.count()
-            },
-            pixels: subject.pixels(),
-            fraction: subject.fraction(),
-        },
+        part: subject.area(),
         reference: context.report(),
         knobs: Knob::ALL
             .map(|knob| context.model.report(knob, idle(knob, scene)))
             .to_vec(),
+        bounces: context.depths.map(|depths| depths.more),
         rows,
         effects,
         precision,
@@ -185,7 +181,9 @@ impl Scope {
     fn part<'a>(&self, subject: &Subject<'a>) -> Result<Subject<'a>, Stopped> {
         /// The samples per pixel of a good reference.
         const GOOD: [f64; 2] = [1024.0, 4e8];
-        /// Fewer tiles do not represent a picture.
+        /// Fewer tiles do not represent a picture: of those that are afforded in the scene's own
+        /// setting, as many are taken at the cost of the reference.
+        const ENOUGH: usize = 32;
         const FEWEST: usize = 4;
         if self.sampling.is_empty() {
             return Ok(subject.clone());
@@ -197,8 +195,8 @@ impl Scope {
         let samples = GOOD[0] * (self.effort.0 as f64 / GOOD[1]).sqrt();
         let of_reference = self.hundredths(FOR_REFERENCE) as f64 / (3.0 * samples * rays);
         let of_own = self.hundredths(FOR_ROWS) as f64 / (6.0 * self.own.camera_rays() * rays);
-        let pixels = of_reference.min(of_own);
-        let fraction = pixels / pilot.pixels() as f64 * pilot.count() as f64;
+        let tiles = |pixels: f64| pixels / pilot.pixels() as f64 * pilot.count() as f64;
+        let fraction = tiles(of_reference).max(ENOUGH as f64).min(tiles(of_own));
         let enough = (0..subject.count())
             .take_while(|count| (*count as f64) < fraction)
             .count();
@@ -229,10 +227,7 @@ impl Scope {
             )?),
             false => None,
         };
-        let enough = depths
-            .as_ref()
-            .map_or(self.own.depth, |depths| depths.enough);
-        let start = self.at(4).with(Knob::Depth, enough);
+        let start = self.at(4);
         let budget = self.hundredths(FOR_REFERENCE);
         let reference = reference::reference(subject, start, &self.sampling, budget)?;
         let has_grid = self.used.contains(&Knob::Supersampling);
@@ -316,17 +311,29 @@ impl Scope {
             }
         };
         let rows: Vec<_> = runners.iter().zip(race.runs).map(row).collect();
-        let points: Vec<_> = rows.iter().map(Row::point).collect();
-        let mut rows: Vec<_> = rows.into_iter().map(Some).collect();
-        let ranked = pareto::ranking(&points).into_iter();
-        let ranked = ranked.filter_map(|(place, front)| {
-            Some(Row {
-                front,
-                ..rows[place].take()?
-            })
-        });
-        Ok((ranked.collect(), race.wall_over_cpu))
+        Ok((
+            ranked(rows, reference, subject.fraction()),
+            race.wall_over_cpu,
+        ))
     }
+}
+
+/// The rows in ascending order of cost, those on the front marked: of a `fraction` of the picture, those
+/// that surely have less error than what is there and costs less.
+fn ranked(rows: Vec<Row>, reference: &Reference, fraction: f64) -> Vec<Row> {
+    let points: Vec<_> = rows.iter().map(Row::point).collect();
+    let errors = |row: &Row| TileErrors::of(&row.tiles, &reference.tiles, fraction);
+    let errors: Vec<_> = rows.iter().map(errors).collect();
+    let is_better = |a: usize, b: usize| errors[a].is_clearly_below(&errors[b], pareto::SAME);
+    let mut rows: Vec<_> = rows.into_iter().map(Some).collect();
+    let ranked = pareto::ranking(&points, is_better).into_iter();
+    let ranked = ranked.filter_map(|(place, front)| {
+        Some(Row {
+            front,
+            ..rows[place].take()?
+        })
+    });
+    ranked.collect()
 }
 
 impl Context {
@@ -334,7 +341,6 @@ impl Context {
         ReferenceReport {
             setting: self.reference.setting,
             floor: self.reference.floor,
-            depth: self.depths.as_ref().map(|depths| depths.end),
         }
     }
 }
@@ -344,7 +350,6 @@ impl Row {
         pareto::Point {
             seconds: [self.seconds.low, self.seconds.high],
             rays: self.rays.all(),
-            error: self.errors.rmse,
         }
     }
 }

@@ -49,8 +49,31 @@ pub struct ReferenceReport {
     pub setting: Setting,
     /// Its own error, in grey levels: half the difference of the halves.
     pub floor: f64,
-    /// How the search for enough depth ended; none if depth changes nothing.
-    pub depth: Option<DepthEnd>,
+}
+
+/// What more bounces than the scene's own would add to its picture. That is no error: the scene
+/// asks for its own depth, and all errors are against the picture of that depth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct MoreBounces {
+    /// The scene's own depth.
+    pub own: u32,
+    /// How the search for deeper paths ended.
+    pub end: DepthEnd,
+    /// Each greater depth that was tried.
+    pub deeper: Vec<BounceCost>,
+}
+
+/// A depth greater than the scene's own.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct BounceCost {
+    /// The depth.
+    pub depth: u32,
+    /// The ratio of rays to those of the scene's own depth.
+    pub ray_ratio: f64,
+    /// The difference of the picture from that of the scene's own depth, in grey levels.
+    pub difference: f64,
 }
 
 /// A knob alone.
@@ -117,7 +140,7 @@ pub struct Row {
     pub setting: Setting,
     /// Whether it is that of the scene.
     pub own: bool,
-    /// Whether no other row has less error in the same time.
+    /// Whether it is on the front: it surely has less error than whatever is there and costs less.
     pub front: bool,
     /// The rays of the part rendered.
     pub rays: Rays,
@@ -143,7 +166,7 @@ pub struct Row {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Study {
-    /// The form of this report: `rtc-cost/1`.
+    /// The form of this report: `rtc-cost/2`.
     pub schema: String,
     /// The subject, and the machine.
     pub about: About,
@@ -157,6 +180,8 @@ pub struct Study {
     pub reference: ReferenceReport,
     /// Each knob alone.
     pub knobs: Vec<KnobReport>,
+    /// What more bounces would add; none if depth changes nothing.
+    pub bounces: Option<MoreBounces>,
     /// The measured settings in ascending order of cost: by seconds where those differ clearly, else by rays.
     pub rows: Vec<Row>,
     /// The cost of each effect.

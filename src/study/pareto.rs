@@ -9,7 +9,7 @@ use crate::math::ln;
 const WORTH: f64 = 0.99;
 
 /// Errors within a thousandth count as equal: rounding of hits at edges causes as much.
-const SAME: f64 = 1.001;
+pub(super) const SAME: f64 = 1.001;
 
 /// Ray counts within this factor count as equal, unless the times differ clearly.
 const SAME_COST: f64 = 1.02;
@@ -56,15 +56,13 @@ pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
     enough.filter(|other| *other != setting)
 }
 
-/// The cost and the error of a row.
+/// The cost of a row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
     /// The time in seconds, as an interval.
     pub(super) seconds: [f64; 2],
     /// The rays, which decide where times do not differ clearly.
     pub(super) rays: u64,
-    /// The error.
-    pub(super) error: f64,
 }
 
 impl Point {
@@ -79,16 +77,16 @@ impl Point {
 }
 
 /// The points in ascending order of cost, each with whether it is on the front: on the front a
-/// higher cost has a lower error.
-pub(super) fn ranking(points: &[Point]) -> Vec<(usize, bool)> {
+/// higher cost has a lower error. `is_better` says whether the first of two surely has.
+pub(super) fn ranking(
+    points: &[Point],
+    is_better: impl Fn(usize, usize) -> bool,
+) -> Vec<(usize, bool)> {
     let (mut order, mut front) = (Vec::new(), Vec::<usize>::new());
     for place in by_cost(points) {
         let point = &points[place];
         order.push(place);
-        if front
-            .last()
-            .is_none_or(|last| SAME * point.error < points[*last].error)
-        {
+        if front.last().is_none_or(|last| is_better(place, *last)) {
             front.pop_if(|last| point.costs_the_same(&points[*last]));
             front.push(place);
         }
@@ -119,18 +117,17 @@ fn by_cost(points: &[Point]) -> impl Iterator<Item = usize> {
 mod tests {
     use super::*;
 
-    fn point(seconds: f64, rays: u64, error: f64) -> Point {
-        Point {
-            seconds: [0.99 * seconds, 1.01 * seconds],
-            rays,
-            error,
-        }
+    /// A point with its error.
+    fn point(seconds: f64, rays: u64, error: f64) -> (Point, f64) {
+        let seconds = [0.99 * seconds, 1.01 * seconds];
+        (Point { seconds, rays }, error)
     }
 
     /// The places of the points from the cheapest up, those of the front as they are, all others
     /// below 0.
-    fn ranked(points: &[Point]) -> Vec<isize> {
-        ranking(points)
+    fn ranked(rows: &[(Point, f64)]) -> Vec<isize> {
+        let points: Vec<_> = rows.iter().map(|row| row.0).collect();
+        ranking(&points, |a, b| SAME * rows[a].1 < rows[b].1)
             .into_iter()
             .map(|(place, front)| {
                 if front {

@@ -4,6 +4,7 @@
 
 use super::knob::{Knob, MAX_DEPTH};
 use super::metrics::{LEVELS, mean, mean_product, rmse};
+use super::outcome::{BounceCost, MoreBounces};
 use super::setting::Setting;
 use super::subject::{RenderedTiles, Stopped, Subject};
 use crate::image::Image;
@@ -37,17 +38,15 @@ pub(super) struct Reference {
     pub(super) floor: f64,
 }
 
-/// The depth of paths, and the error of less depth.
+/// The depths of paths, against the scene's own.
 pub(super) struct Depths {
-    /// The least depth of the final picture.
-    pub(super) enough: u32,
-    /// The error of each depth up to there.
+    /// The error of each depth up to the scene's own, or to where no more shows.
     pub(super) levels: Vec<Level>,
-    /// How the search ended.
-    pub(super) end: DepthEnd,
+    /// What more bounces add.
+    pub(super) more: MoreBounces,
 }
 
-/// How the search for enough depth ended.
+/// How the search for deeper paths ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum DepthEnd {
@@ -88,8 +87,8 @@ impl DepthProbe {
     }
 }
 
-/// Finds the depth of paths. All depths have the same sampling, by each of the seeds, so that only
-/// the depth differs.
+/// Compares the depths of paths with that of `start`, up to where no more shows. All depths have the
+/// same sampling, by each of the seeds, so that only the depth differs.
 pub(super) fn depths(
     subject: &Subject<'_>,
     start: Setting,
@@ -102,6 +101,47 @@ pub(super) fn depths(
             .map(|seeds| subject.shoot(start.with(Knob::Depth, depth), *seeds));
         shots.collect::<Result<_, _>>().map(DepthProbe)
     };
+    let (mut shots, end) = climb(shoot, budget)?;
+    // A search that ended for its budget still asks for the scene's own depth.
+    let last = shots.len() - 1;
+    if end == DepthEnd::Open && last < start.depth as usize {
+        shots.push(shoot(start.depth)?);
+    }
+    let depth = |place: usize| match u32::try_from(place) {
+        Ok(depth) if place <= last => depth,
+        _ => start.depth,
+    };
+    let own = (shots.len() - 1).min(start.depth as usize);
+    let level = |(place, shot): (usize, &DepthProbe)| {
+        let error = shot.error(&shots[own]);
+        Level {
+            value: depth(place),
+            error,
+            resolved: error > 0.0,
+            rays: shot.rays(),
+        }
+    };
+    let mut levels: Vec<_> = shots.iter().enumerate().map(level).collect();
+    let own_rays = shots[own].rays().max(1) as f64;
+    let deeper = levels.split_off(own + 1).into_iter();
+    let cost = |level: Level| BounceCost {
+        depth: level.value,
+        ray_ratio: level.rays as f64 / own_rays,
+        difference: level.error,
+    };
+    let more = MoreBounces {
+        own: start.depth,
+        end,
+        deeper: deeper.map(cost).collect(),
+    };
+    Ok(Depths { levels, more })
+}
+
+/// The depths from 0 up, until the picture no longer changes or the budget ends.
+fn climb(
+    shoot: impl Fn(u32) -> Result<DepthProbe, Stopped>,
+    budget: u64,
+) -> Result<(Vec<DepthProbe>, DepthEnd), Stopped> {
     let mut shots = vec![shoot(0)?];
     let mut spent = shots[0].rays();
     let end = loop {
@@ -124,22 +164,7 @@ pub(super) fn depths(
         shots.push(shoot(depth)?);
         spent += shots[shots.len() - 1].rays();
     };
-    let last = &shots[shots.len() - 1];
-    let level = |(value, shot): (u32, &DepthProbe)| {
-        let error = shot.error(last);
-        Level {
-            value,
-            error,
-            resolved: error > 0.0,
-            rays: shot.rays(),
-        }
-    };
-    let levels: Vec<_> = (0..).zip(&shots).map(level).collect();
-    Ok(Depths {
-        enough: levels.last().map_or(0, |level| level.value),
-        levels,
-        end,
-    })
+    Ok((shots, end))
 }
 
 /// Renders the reference with about `budget` rays: raises one of the knobs that sample after the

@@ -124,23 +124,6 @@ fn middle(values: &mut [f64]) -> f64 {
     }
 }
 
-/// The relative uncertainty of a mean over `fraction` of a population, with 95 % confidence.
-///
-/// The population is finite: the mean over all of it is exact.
-#[must_use]
-pub(super) fn relative_error_of_mean(values: &[f64], fraction: f64) -> f64 {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    if mean == 0.0 || fraction >= 1.0 {
-        return 0.0;
-    }
-    if values.len() < 2 {
-        return f64::INFINITY;
-    }
-    let variance = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0);
-    student(values.len() - 1) * (variance / n * (1.0 - fraction)).sqrt() / mean
-}
-
 /// A law of the form `y = c·x^−p`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PowerLaw {
@@ -190,7 +173,7 @@ impl PowerLaw {
 }
 
 /// Student's t for a two-sided interval of 95 %.
-fn student(degrees: usize) -> f64 {
+pub(super) fn student(degrees: usize) -> f64 {
     const TABLE: [f64; 15] = [
         12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160,
         2.145, 2.131,
@@ -301,16 +284,6 @@ mod tests {
                 low: 1.0,
                 high: 4.0
             }
-        );
-    }
-
-    #[test]
-    fn the_mean_of_all_is_exact_and_of_one_is_unknown() {
-        assert_eq!(relative_error_of_mean(&[1.0, 5.0], 1.0), 0.0);
-        assert_eq!(relative_error_of_mean(&[1.0], 0.5), f64::INFINITY);
-        let of = |fraction| relative_error_of_mean(&[1.0, 2.0, 3.0], fraction);
-        assert!(
-            (of(0.0) - 4.303 / 3.0_f64.sqrt() / 2.0).abs() < 1e-12 && of(0.75) < 0.51 * of(0.0)
         );
     }
 

@@ -3,6 +3,7 @@
 
 use super::bench::{Bench, Time};
 use super::journal::Entry;
+use super::outcome::StudyArea;
 use super::setting::Setting;
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
@@ -94,6 +95,16 @@ impl<'bench> Subject<'bench> {
     pub(super) fn fraction(&self) -> f64 {
         let [width, height] = self.scene.camera.size;
         self.pixels() as f64 / (f64::from(width) * f64::from(height))
+    }
+
+    /// The part, to be told.
+    pub(super) fn area(&self) -> StudyArea {
+        StudyArea {
+            size: self.scene.camera.size,
+            tiles: if self.is_whole() { 0 } else { self.count() },
+            pixels: self.pixels(),
+            fraction: self.fraction(),
+        }
     }
 
     /// Renders in a setting on all threads. A seed other than 0 makes that sampling independent of

@@ -228,6 +228,13 @@ impl Levels {
             .position(|level| level.value > value)
             .filter(|above| *above > 0);
         match above {
+            // Between the depths tried and the scene's own, which has no error.
+            Some(above) if self.knob == Knob::Depth => {
+                let (below, above) = (clear[above - 1], clear[above]);
+                let fraction =
+                    f64::from(value - below.value) / f64::from(above.value - below.value);
+                below.error + fraction * (above.error - below.error)
+            }
             Some(above) => self.between([clear[above - 1], clear[above]], x, |level| level.error),
             // Beyond the last value: no more gain in depth, the power law otherwise.
             None if self.knob == Knob::Depth => last.error,

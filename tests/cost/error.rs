@@ -70,7 +70,7 @@ fn rows_that_the_reference_cannot_judge_say_so() {
 fn the_error_told_is_the_distance_to_a_finer_render() {
     let scene = scene(&[]);
     let own = Setting::of(&scene);
-    let fine = own.with(Knob::Supersampling, 32).with(Knob::Depth, 8);
+    let fine = own.with(Knob::Supersampling, 32);
     let (coarse, fine) = (picture(&scene, own), picture(&scene, fine));
     let told = WHOLE.own().unwrap().errors.rmse;
     let error = study::rmse(&[coarse], &[fine]);
@@ -135,7 +135,7 @@ fn a_planted_defect_shows_as_a_floor() {
 }
 
 #[test]
-fn what_is_left_out_of_the_depth_ends_where_paths_do() {
+fn what_is_left_out_of_the_depth_ends_at_the_scenes_own() {
     let depth = WHOLE
         .knobs
         .iter()
@@ -143,21 +143,110 @@ fn what_is_left_out_of_the_depth_ends_where_paths_do() {
         .unwrap();
     let errors: Vec<_> = depth.levels.iter().map(|level| level.error).collect();
     assert!(
-        errors.len() > 2 && errors.is_sorted_by(|a, b| a > b) && errors.last() == Some(&0.0),
+        errors.len() == 2 && errors[0] > 1.0 && errors[1] == 0.0,
         "{errors:?}"
     );
+}
+
+/// A scene that wants no bounce is not told that it is wrong: what bounces would add is told apart,
+/// as it is.
+#[test]
+fn the_scenes_own_depth_is_no_error() {
+    let flat = scene(&[("\"maxDepth\": 1", "\"maxDepth\": 0")]);
+    let study = study_of(&flat, 2_000_000, 0);
+    let table = study::table(&study);
+    let own = Setting::of(&flat);
+    let fine = own.with(Knob::Supersampling, 16);
+    let error = study::rmse(&[picture(&flat, own)], &[picture(&flat, fine)]);
+    let told = study.own().unwrap().errors.rmse;
+    assert!((told / error - 1.0).abs() < 0.05, "{told} for {error}");
+    assert!(
+        study.rows.iter().all(|row| row.setting.depth == 0),
+        "{table}"
+    );
+    for study in [&study, &*WHOLE] {
+        let bounces = study.bounces.as_ref().unwrap();
+        let most = bounces.deeper.last().unwrap();
+        let at = |depth| [picture(&flat, fine.with(Knob::Depth, depth))];
+        let difference = study::rmse(&at(bounces.own), &at(most.depth));
+        assert!(
+            bounces.end == DepthEnd::Exact && (most.difference / difference - 1.0).abs() < 0.2,
+            "{bounces:?}, but {difference}"
+        );
+        assert!(study::table(study).contains("more bounces"), "{table}");
+        assert!(study::html(study).contains("What more bounces would add"));
+    }
+    assert!(
+        study
+            .advice
+            .iter()
+            .any(|line| line.contains("another picture")),
+        "{:?}",
+        study.advice
+    );
+}
+
+/// Forty looks at some tiles of a picture that has its errors at a few outlines: the true error lies in
+/// the interval told nine times out of ten at least.
+#[test]
+fn the_interval_of_a_part_holds_the_error_of_the_whole() {
+    const SIZE: [u32; 2] = [240, 160];
+    const LOOKS: u64 = 40;
+    let wide = scene(&[
+        ("\"size\": [48, 32]", "\"size\": [240, 160]"),
+        ("0.8", "0.32"),
+    ]);
+    let own = Setting::of(&wide).with(Knob::Supersampling, 1);
+    let pictures = [1, 4].map(|factor| picture(&wide, own.with(Knob::Supersampling, factor)));
+    let [columns, rows] = SIZE.map(|side| side / Tiles::SIDE);
+    let places = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y]));
+    let places: Vec<_> = places.collect();
+    let whole = study::rmse(&pictures[..1], &pictures[1..]);
+    let errors = |places: &[[u32; 2]]| {
+        let of = |image: &Image| places.iter().map(|place| tile(image, *place)).collect();
+        let [test, truth]: [Vec<Image>; 2] = pictures.each_ref().map(of);
+        Errors::of(
+            &test,
+            &truth,
+            places.len() as f64 / f64::from(columns * rows),
+        )
+    };
+    let each = places.iter().map(|place| errors(&[*place]).rmse);
+    let clean = each.filter(|error| *error < 0.1 * whole).count();
+    assert!(
+        4 * clean > 3 * places.len(),
+        "unevenly: {clean} without error"
+    );
+    for count in [24, 40] {
+        let held = (0..LOOKS).filter(|seed| {
+            let mut order = places.clone();
+            order.sort_by_key(|place| Tiles::rank(*seed, *place));
+            let errors = errors(&order[..count]);
+            errors.rmse_low <= whole && whole <= errors.rmse_high
+        });
+        let held = held.count() as u64;
+        println!("{held} of {LOOKS} looks at {count} tiles");
+        assert!(10 * held >= 9 * LOOKS, "{held} of {LOOKS} at {count} tiles");
+    }
+    assert_eq!(errors(&places).rmse_high, errors(&places).rmse);
+}
+
+/// The tile at a column and row of tiles.
+fn tile(image: &Image, [x, y]: [u32; 2]) -> Image {
+    let side = Tiles::SIDE as usize;
+    let row = |row: usize| &image.pixels[row * image.width as usize + x as usize * side..][..side];
+    let top = y as usize * side;
+    Image {
+        width: Tiles::SIDE,
+        height: Tiles::SIDE,
+        pixels: (top..top + side).flat_map(row).copied().collect(),
+    }
 }
 
 /// Two balls under a disc that shines and a sky, by paths.
 #[test]
 fn paths_have_a_ladder_and_a_law_of_their_own() {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
-    let file = map.add(
-        "paths.json",
-        include_bytes!("../honest/paths.json").to_vec(),
-    );
-    let scene = codec::decode(codec::Form::Text, file, &map, &mut sink)
-        .unwrap_or_else(|| panic!("{:?}", sink.kept()));
+    let scene = decoded(include_str!("../honest/paths.json").to_owned());
     let study = study_of(&scene, 3_000_000, 0);
     let table = study::table(&study);
     assert_eq!(

@@ -117,6 +117,25 @@ fn precision_is_told_against_the_robust_arithmetic() {
     assert_eq!(WHOLE.precision[0].ratio.value, 1.0);
 }
 
+/// Each arithmetic follows the same paths to the same lights, shining triangles among them: what
+/// differs is the arithmetic, not the noise.
+#[test]
+fn precision_is_told_without_noise() {
+    let disc = "{\"disc\": {\"center\": [1, 5, 1], \"normal\": [0, -1, 0], \"radius\": 2}}";
+    let triangle = "{\"triangle\": {\"vertices\": [[-1, 5, 3], [1, 5, -2], [3, 5, 3]]}}";
+    let text = include_str!("../honest/paths.json");
+    assert!(text.contains(disc));
+    let scene = decoded(text.replace(disc, triangle));
+    let study = study_of(&scene, 300_000, 0);
+    let plain = study.precision[1].difference;
+    println!("plain differs by {plain:?}");
+    assert!(
+        study.own().unwrap().errors.rmse > 1.0 && plain.rmse < 0.05,
+        "{}",
+        study::table(&study)
+    );
+}
+
 /// Rows are by a plainer arithmetic only where the plan expects nothing to show, and the error
 /// stays what it was.
 #[test]

@@ -8,6 +8,11 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Errors are against the picture of the scene's own depth; what more bounces would add is told apart. Of a large \
+picture some random tiles are looked at: `tiles%` is how much less or more the error of the whole may be, and a row is on the \
+front only if these tiles show that it has less error than cheaper ones."
+)]
 pub(in crate::cli) struct Cost {
     /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]

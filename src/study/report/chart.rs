@@ -74,9 +74,9 @@ fn front_steps(rows: &[&Row], end: f64) -> Vec<(f64, f64)> {
 fn draw_row(chart: &mut Chart<'_, '_>, row: &Row, used: &[Knob]) -> Outcome {
     let (x, y) = (row.seconds.value, row.errors.rmse);
     let color = if row.front { ACCENT } else { MUTED };
-    let off = row.errors.rmse_uncertainty.min(0.9);
+    let errors = &row.errors;
     let across = [(row.seconds.low.max(x * 0.1), y), (row.seconds.high, y)];
-    let along = [(x, y * (1.0 - off)), (x, y * (1.0 + off))];
+    let along = [(x, errors.rmse_low.max(y * 0.1)), (x, errors.rmse_high)];
     for bar in [across, along] {
         chart.draw_series([PathElement::new(bar, color.mix(0.5).stroke_width(1))])?;
     }

@@ -5,8 +5,8 @@ use super::super::knob::Knob;
 use super::super::outcome::{Row, Study};
 
 const NAMES: &str = "supersampling,aperture,lights,glossy,paths,depth,precision,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
-refracted_rays,seconds,seconds_low,seconds_high,ratio,ratio_low,ratio_high,rmse,rmse_uncertainty,relative_mse,max,\
-visible,flip,model";
+refracted_rays,seconds,seconds_low,seconds_high,ratio,ratio_low,ratio_high,rmse,rmse_low,rmse_high,relative_mse,\
+max,visible,flip,model";
 
 /// All rows.
 #[must_use]
@@ -41,7 +41,8 @@ fn line(row: &Row) -> String {
         .flat_map(|estimate| [estimate.value, estimate.low, estimate.high]);
     let errors = [
         errors.rmse,
-        errors.rmse_uncertainty,
+        errors.rmse_low,
+        errors.rmse_high,
         errors.relative_mse,
         errors.max,
         errors.visible,

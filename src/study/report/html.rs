@@ -1,9 +1,9 @@
 //! The page: one file that needs no network and no script, for wide screens and narrow ones, light
 //! and dark.
 
-use super::super::advice::{digits, seconds};
+use super::super::advice::{digits, interval, seconds};
 use super::super::knob::Knob;
-use super::super::outcome::{Row, Study};
+use super::super::outcome::{BounceCost, Row, Study};
 use super::{chart, picture, table};
 use std::fmt::Write;
 
@@ -19,6 +19,7 @@ pub fn html(study: &Study) -> String {
     let sections = [
         front(study),
         knobs(study),
+        bounces(study),
         effects(study),
         precision(study),
         pictures(study),
@@ -89,7 +90,11 @@ fn cells(row: &Row, used: &[Knob], fraction: f64) -> Vec<String> {
             digits(row.ratio.value),
             100.0 * row.ratio.relative()
         ),
-        format!("{limit}{}", digits(row.errors.rmse)),
+        format!(
+            "{limit}{}{}",
+            digits(row.errors.rmse),
+            interval(&row.errors)
+        ),
         digits(row.model),
         digits(row.errors.max),
         format!("{} %", digits(100.0 * row.errors.visible)),
@@ -105,7 +110,7 @@ fn knobs(study: &Study) -> String {
     let mut figures = String::new();
     let mut idle = String::new();
     for report in &study.knobs {
-        let words = escaped(&table::knob_line(report, study.reference.depth));
+        let words = escaped(&table::knob_line(report, study.bounces.as_ref()));
         if report.idle.is_some() || report.knob == Knob::Precision {
             let _ = writeln!(idle, "<li>{words}</li>");
         } else {
@@ -119,6 +124,31 @@ fn knobs(study: &Study) -> String {
     let note = "The error that each knob leaves if all others leave none; hollow points do not stand out from the noise.";
     format!(
         "<h2>Each knob alone</h2>\n<p>{note}</p>\n<div class=\"grid\">\n{figures}</div>\n<ul>\n{idle}</ul>\n"
+    )
+}
+
+fn bounces(study: &Study) -> String {
+    let costs = study.bounces.as_ref().map(table::steps).unwrap_or_default();
+    if costs.is_empty() {
+        return String::new();
+    }
+    let mut rows = String::new();
+    for BounceCost {
+        depth,
+        ray_ratio,
+        difference,
+    } in costs
+    {
+        let difference = digits(difference);
+        let _ = writeln!(
+            rows,
+            "<tr><td>{depth}</td><td>{ray_ratio:.2}</td><td>{difference}</td></tr>"
+        );
+    }
+    format!(
+        "<h2>What more bounces would add</h2>\n<p>Deeper paths than the scene asks for, against its own depth. This is no \
+         error of any row.</p>\n<div class=\"wide\"><table><thead><tr><th>depth</th><th>rays</th>\
+         <th>picture differs by (grey levels)</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     )
 }
 
@@ -186,9 +216,10 @@ fn pictures(study: &Study) -> String {
     for row in shown.into_iter().step_by(step) {
         let own = if row.own { ", the scene's own" } else { "" };
         let words = format!(
-            "{}{own}: error {}",
+            "{}{own}: error {}{}",
             row.setting.words(&study.used()),
-            digits(row.errors.rmse)
+            digits(row.errors.rmse),
+            interval(&row.errors)
         );
         figures += &figure(
             &[

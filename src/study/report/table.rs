@@ -2,7 +2,7 @@
 
 use super::super::advice::{digits, seconds};
 use super::super::knob::Knob;
-use super::super::outcome::{KnobReport, Row, Study};
+use super::super::outcome::{BounceCost, KnobReport, MoreBounces, Row, Study};
 use super::super::reference::DepthEnd;
 use std::fmt::Write;
 
@@ -16,14 +16,15 @@ pub fn table(study: &Study) -> String {
     let mut names = String::from(" ");
     used.iter()
         .for_each(|knob| write_cell(&mut names, knob.short(), width(*knob)));
-    for (name, width) in COLUMNS {
+    let columns = columns(study, &used);
+    for column in &columns {
+        let (name, width) = COLUMNS[*column];
         write_cell(&mut names, name, width);
     }
     text += &format!("{names}\n");
-    study
-        .rows
-        .iter()
-        .for_each(|row| text += &format!("{}\n", line(row, &used, study.part.fraction)));
+    study.rows.iter().for_each(|row| {
+        text += &format!("{}\n", line(row, &used, (&columns, study.part.fraction)))
+    });
     if study.rows.iter().any(|row| row.resumed) {
         text += "† timed, in part at least, before the study was interrupted\n";
     }
@@ -31,7 +32,8 @@ pub fn table(study: &Study) -> String {
     study
         .knobs
         .iter()
-        .for_each(|knob| text += &wrapped(&knob_line(knob, study.reference.depth)));
+        .for_each(|knob| text += &wrapped(&knob_line(knob, study.bounces.as_ref())));
+    text += &more_bounces(study.bounces.as_ref());
     text += &effects(study);
     text += "\n";
     study
@@ -46,6 +48,30 @@ pub fn table(study: &Study) -> String {
         text += &wrapped(&note);
     }
     text
+}
+
+/// What more bounces than the scene's own would add.
+fn more_bounces(bounces: Option<&MoreBounces>) -> String {
+    let costs = bounces.map(steps).unwrap_or_default();
+    let line = |cost: &BounceCost| {
+        let (depth, rays, difference) = (cost.depth, cost.ray_ratio, digits(cost.difference));
+        format!("depth {depth:<26}{rays:5.2}×  {difference} grey levels\n")
+    };
+    match costs.as_slice() {
+        [] => String::new(),
+        costs => {
+            let lines: String = costs.iter().map(line).collect();
+            format!("\nmore bounces                      rays  picture differs by\n{lines}")
+        }
+    }
+}
+
+/// The deeper depths worth a line: one bounce more, then twice as many each time, and all.
+pub(super) fn steps(bounces: &MoreBounces) -> Vec<BounceCost> {
+    let last = bounces.deeper.len().saturating_sub(1);
+    let all = bounces.deeper.iter().enumerate();
+    let kept = all.filter(|(place, _)| (place + 1).is_power_of_two() || *place == last);
+    kept.map(|(_, cost)| *cost).collect()
 }
 
 /// The cost of effects and arithmetics.
@@ -77,7 +103,7 @@ fn effects(study: &Study) -> String {
 }
 
 /// The columns after those of the knobs, with their widths.
-const COLUMNS: [(&str, usize); 8] = [
+const COLUMNS: [(&str, usize); 9] = [
     ("rays", 8),
     ("time", 8),
     ("±%", 5),
@@ -86,14 +112,31 @@ const COLUMNS: [(&str, usize); 8] = [
     ("model", 6),
     (">1lv%", 6),
     ("FLIP", 6),
+    ("tiles%", 8),
 ];
+
+/// The place of the model in them.
+const MODEL: usize = 5;
+
+/// The places of the columns that are shown. Of a part of the picture that is also what the tiles leave
+/// open of the error; the model makes room for it.
+fn columns(study: &Study, used: &[Knob]) -> Vec<usize> {
+    if study.part.tiles == 0 {
+        return (0..COLUMNS.len() - 1).collect();
+    }
+    let knobs = used.iter().map(|knob| width(*knob)).sum::<usize>();
+    let taken = 1 + knobs + COLUMNS.iter().map(|column| column.1).sum::<usize>();
+    (0..COLUMNS.len())
+        .filter(|column| *column != MODEL || taken <= WIDTH)
+        .collect()
+}
 
 /// The width of the column of a knob.
 fn width(knob: Knob) -> usize {
     if knob == Knob::Precision { 7 } else { 6 }
 }
 
-fn line(row: &Row, used: &[Knob], fraction: f64) -> String {
+fn line(row: &Row, used: &[Knob], (columns, fraction): (&[usize], f64)) -> String {
     let mut line = String::from(if row.front { "*" } else { " " });
     used.iter()
         .for_each(|knob| write_cell(&mut line, &knob.cell(row.setting.get(*knob)), width(*knob)));
@@ -115,11 +158,22 @@ fn line(row: &Row, used: &[Knob], fraction: f64) -> String {
         digits(row.model),
         digits(100.0 * row.errors.visible),
         digits(row.errors.flip),
+        off(row),
     ];
-    for (cell, (_, width)) in cells.iter().zip(COLUMNS) {
-        write_cell(&mut line, cell, width);
+    for column in columns {
+        write_cell(&mut line, &cells[*column], COLUMNS[*column].1);
     }
     line
+}
+
+/// By how many hundredths the error of the whole picture may be less and more: "-25+70".
+fn off(row: &Row) -> String {
+    let errors = &row.errors;
+    let off = |end: f64| match errors.rmse {
+        0.0 => 0.0,
+        rmse => 100.0 * (end / rmse - 1.0).abs(),
+    };
+    format!("-{:.0}+{:.0}", off(errors.rmse_low), off(errors.rmse_high))
 }
 
 /// Right-aligned, with a blank before it at least.
@@ -141,13 +195,10 @@ pub(super) fn part(study: &Study) -> String {
     match study.part.tiles {
         0 => format!("All of the picture of {width}×{height} pixels was looked at."),
         tiles => {
-            let uncertainty = study
-                .own()
-                .map_or(0.0, |row| 100.0 * row.errors.rmse_uncertainty);
             let fraction = 100.0 * study.part.fraction;
             format!(
-                "{tiles} random tiles, {fraction:.1} % of the picture of {width}×{height} pixels, were looked at: all errors \
-                 together may be {uncertainty:.0} % less or more for the whole."
+                "{tiles} random tiles, {fraction:.1} % of the picture of {width}×{height} pixels, were looked at: what \
+                 the spread between tiles leaves open for the whole stands beside each error (tiles%: how much less and more)."
             )
         }
     }
@@ -164,13 +215,13 @@ pub(super) fn reference(study: &Study) -> String {
 }
 
 /// The result for a knob, in one sentence.
-pub(super) fn knob_line(report: &KnobReport, end: Option<DepthEnd>) -> String {
+pub(super) fn knob_line(report: &KnobReport, bounces: Option<&MoreBounces>) -> String {
     let name = report.knob.name();
     let last = report.levels.last().map_or(0, |level| level.value);
     if let Some(reason) = &report.idle {
         return format!("{name}: not used by this scene: {reason}");
     }
-    match (&report.law, report.knob, end) {
+    match (&report.law, report.knob, bounces) {
         (Some(law), knob, _) => {
             let samples = if knob == Knob::Supersampling {
                 "samples"
@@ -180,15 +231,7 @@ pub(super) fn knob_line(report: &KnobReport, end: Option<DepthEnd>) -> String {
             let (p, half) = (law.p.value, 0.5 * (law.p.high - law.p.low));
             format!("{name}: error ∝ {samples}^−{p:.3} ± {half:.3}")
         }
-        (None, Knob::Depth, Some(DepthEnd::Exact)) => {
-            format!("{name}: no path goes deeper than {last}")
-        }
-        (None, Knob::Depth, Some(DepthEnd::Still)) => {
-            format!("{name}: nothing shows from {last} on")
-        }
-        (None, Knob::Depth, _) => {
-            format!("{name}: paths go deeper than {last}, which was as far as the study went")
-        }
+        (None, Knob::Depth, Some(bounces)) => depth_line(bounces, last),
         (None, Knob::Precision, _) => {
             let robust = report.levels.len().saturating_sub(1);
             let words: Vec<_> = report.levels[..robust]
@@ -202,6 +245,26 @@ pub(super) fn knob_line(report: &KnobReport, end: Option<DepthEnd>) -> String {
         }
         (None, _, _) => format!("{name}: no law: too few values stand out from the noise"),
     }
+}
+
+/// The scene's own depth, and what lies beyond. The search went to `last` if it did not go beyond.
+fn depth_line(bounces: &MoreBounces, last: u32) -> String {
+    let MoreBounces { own, end, deeper } = bounces;
+    let words = match deeper.last() {
+        Some(most) => format!(
+            "depth {} would change the picture by {} grey levels, ",
+            most.depth,
+            digits(most.difference)
+        ),
+        None => String::new(),
+    };
+    let last = deeper.last().map_or(last, |most| most.depth);
+    let words = match end {
+        DepthEnd::Exact => format!("{words}no path goes deeper than {last}"),
+        DepthEnd::Still => format!("{words}nothing shows from {last} on"),
+        DepthEnd::Open => format!("{words}paths go deeper than {last}, as far as the study went"),
+    };
+    format!("depth: errors are against the scene's own, {own}; {words}")
 }
 
 /// A number of rays, as 1.23 M.
