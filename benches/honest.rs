@@ -1,40 +1,121 @@
-//! Renders 50 made-up scenes to an error, a few times each, and prints how many pictures keep what
-//! they promise: lines of scene, seed, promised and true error in grey levels, samples a pixel.
-//! `benches/honest.sh` runs it.
+//! Renders families of scenes to an error, many times each, and prints how many pictures keep what
+//! is said of them, as tables in Markdown. Arguments are how many pictures a family has at least,
+//! and the families, all without. `benches/honest.sh` runs it.
 
 #![expect(clippy::print_stdout, reason = "it prints what it measured")]
 
+#[path = "honest/families.rs"]
+mod families;
+#[path = "honest/limits.rs"]
+mod limits;
+#[path = "../tests/honest/patterns.rs"]
+mod patterns;
 #[path = "../tests/honest/scenes.rs"]
 mod scenes;
 
-const SCENES: u64 = 50;
-const SEEDS: u64 = 3;
-const SIZE: [u32; 2] = [48, 36];
+use families::{Family, Truth};
+
+/// The share of pictures that keep what is said of them.
+const PROMISE: f64 = 0.9;
+
+/// What became of the pictures of a scene.
+#[derive(Default)]
+struct Tally {
+    pictures: u64,
+    /// So many have an error within the one said.
+    kept: u64,
+    /// So many have an error within the target.
+    under: u64,
+    /// The sums of the true and of the said errors, squared.
+    squares: [f64; 2],
+    /// The largest error over the one said.
+    worst: f64,
+    /// The sum of the samples a pixel.
+    samples: f64,
+}
+
+impl Tally {
+    fn add(&mut self, other: &Self) {
+        self.pictures += other.pictures;
+        self.kept += other.kept;
+        self.under += other.under;
+        (0..2).for_each(|i| self.squares[i] += other.squares[i]);
+        self.worst = self.worst.max(other.worst);
+        self.samples += other.samples;
+    }
+
+    /// Of the pictures of a scene, one for each seed.
+    fn of(scene: &families::Case, target: f64, seeds: u64) -> Self {
+        let references = match scene.truth {
+            Truth::Known(_) => None,
+            Truth::Rendered(_) => Some(scenes::references(scene.scene(), target)),
+        };
+        let mut tally = Self::default();
+        for seed in 1..=seeds {
+            let reached = scenes::render(scene.scene(), target, seed);
+            let error = match (&scene.truth, &references) {
+                (Truth::Known(pattern), _) => pattern.error(&reached),
+                (Truth::Rendered(_), Some(references)) => scenes::error(&reached, references),
+                (Truth::Rendered(_), None) => f64::NAN,
+            };
+            tally.add(&Self {
+                pictures: 1,
+                kept: u64::from(error <= reached.error),
+                under: u64::from(error <= target),
+                squares: [error * error, reached.error * reached.error],
+                worst: if error == 0.0 {
+                    0.0
+                } else {
+                    error / reached.error
+                },
+                samples: reached.samples.mean,
+            });
+        }
+        tally
+    }
+
+    fn print(&self, name: &str, last: &str) {
+        let limit = limits::lower(self.kept, self.pictures);
+        println!(
+            "| {name} | {} | {} | {limit:.3} | {} | {:.2} | {:.2} | {:.0} | {last} |",
+            self.pictures,
+            self.kept,
+            self.under,
+            (self.squares[0] / self.squares[1]).sqrt(),
+            self.worst,
+            self.samples / self.pictures as f64
+        );
+    }
+}
 
 fn main() {
-    let target = std::env::args()
-        .nth(1)
-        .and_then(|target| target.parse().ok())
-        .unwrap_or(2.0);
-    let (mut kept, mut under, mut sum) = (0, 0, 0.0);
-    for number in 0..SCENES {
-        let scene = scenes::scene(number, SIZE);
-        let references = scenes::references(&scene, target);
-        for seed in 1..=SEEDS {
-            let reached = scenes::render(&scene, target, seed);
-            let error = scenes::error(&reached, &references);
-            println!(
-                "{number} {seed} {:.3} {error:.3} {:.1}",
-                reached.error, reached.samples.mean
-            );
-            kept += u32::from(error <= reached.error);
-            under += u32::from(error <= target);
-            sum += error / reached.error;
+    let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
+    let least = words.next().and_then(|word| word.parse().ok());
+    let least: u64 = least.unwrap_or(200);
+    let names: Vec<String> = words.collect();
+    let is_asked = |family: &Family| names.is_empty() || names.iter().any(|n| n == family.name);
+    println!(
+        "| family | pictures | within the error said | 95 % limit | within the target | true over said | worst | samples a pixel | scenes below 0.9 |"
+    );
+    println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    for family in families::all().into_iter().filter(is_asked) {
+        let count = family.cases.len() as u64;
+        let seeds = least.div_ceil(count).max(8);
+        let tallies: Vec<_> = family
+            .cases
+            .iter()
+            .map(|case| Tally::of(case, family.target, seeds))
+            .collect();
+        let of = |tally: &Tally| limits::at_most(tally.kept, tally.pictures, PROMISE);
+        let below = limits::holm(tallies.iter().map(of).collect());
+        let mut sum = Tally::default();
+        tallies.iter().for_each(|tally| sum.add(tally));
+        let name = format!("{}, to {}", family.name, family.target);
+        sum.print(&name, &format!("{below} of {count}"));
+        for (case, tally) in family.cases.iter().zip(&tallies) {
+            if of(tally) < 0.05 {
+                tally.print(&format!("— {}", case.name), "");
+            }
         }
     }
-    let all = SCENES * SEEDS;
-    println!(
-        "{kept} of {all} within the error said, {under} within {target}; true over said {:.3}",
-        sum / all as f64
-    );
 }

@@ -9,7 +9,8 @@ use std::time::Duration;
 /// What is known of a picture that grows.
 pub struct Growth {
     pub(super) film: ProgressiveFilm,
-    /// How many samples each replicate is to have after the round under way.
+    /// How many samples each replicate, and the pilot, of the pixels is to have after the round under
+    /// way.
     pub(super) wanted: Vec<[u32; 2]>,
     /// The rounds that are done.
     pub(super) rounds: u32,
@@ -162,8 +163,8 @@ impl Growth {
         }
         let wanted: Vec<[u32; 2]> = pairs.collect();
         let is_grown = |(wanted, index): (&[u32; 2], usize)| {
-            [0, 1].into_iter().all(|half| {
-                let (count, wanted) = (film.pixel(index).count(half), wanted[half]);
+            let counts = film.pixel(index).counts().into_iter().zip(wanted);
+            counts.into_iter().all(|(count, &wanted)| {
                 // A round doubles what is there; the first begins with none.
                 let is_taken = count == wanted || 2 * count == wanted;
                 (is_taken || (rounds == 0 && count == 0))

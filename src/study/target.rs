@@ -107,7 +107,10 @@ const FIRST: usize = 1024;
 
 /// The least samples of a replicate in the first round where paths are traced: sRGB coding of a
 /// mean of very few samples does not represent that of many.
-const FIRST_PATHS: usize = 4;
+const FIRST_PATHS: usize = 8;
+
+/// The least samples of a pilot: their variance is known.
+const FIRST_PILOT: u32 = 2;
 
 /// Renders a proven scene in its world until the goal is reached, on the threads of the current
 /// pool.
@@ -213,7 +216,7 @@ fn begin(
         .next_power_of_two();
     let first = u32::try_from(first).unwrap_or(1);
     Ok(Growth {
-        wanted: vec![[first; 2]; film.len()],
+        wanted: vec![[first, (first / 2).max(FIRST_PILOT)]; film.len()],
         film,
         rounds: 0,
         light_samples,
@@ -278,7 +281,7 @@ fn light_samples(
 ) -> Result<(u32, Counts), Stopped> {
     /// Tiles, and samples of a replicate in them.
     const TILES: usize = 4;
-    const LENGTH: u32 = 2;
+    const LENGTH: u32 = 4;
     let own = scene.settings.light_samples;
     let (mut best, mut tried) = ((own, f64::INFINITY), Counts::default());
     if order.keep_lights || own == 1 || idle(Knob::Lights, scene).is_some() {
@@ -307,7 +310,7 @@ fn light_samples(
     };
     let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
     let wanted: Vec<_> = pixels
-        .map(|pixel| [if some.contain(pixel) { LENGTH } else { 0 }; 2])
+        .map(|pixel| [if some.contain(pixel) { LENGTH } else { 0 }, 0])
         .collect();
     for count in [2, 4, 8, 16, 32] {
         let mut film = ProgressiveFilm::new(order.crop, order.seed);
@@ -352,14 +355,11 @@ fn next_round(
     let samples = film.samples() as f64;
     let most = samples * left.as_secs_f64() / elapsed.as_secs_f64().max(1e-9);
     let round = |square: f64| {
-        let wanted: Vec<_> = (0..film.len())
-            .map(|index| allotment.wanted(film, index, square))
-            .collect();
-        let more = wanted
+        let wanted = allotment.wanted(film, square);
+        let all = wanted
             .iter()
-            .map(|[a, b]| 2.0 * (f64::from(*a) + f64::from(*b)))
-            .sum::<f64>()
-            - samples;
+            .map(|[shown, pilot]| 2.0 * f64::from(*shown) + f64::from(*pilot));
+        let more = all.sum::<f64>() - samples;
         (wanted, more)
     };
     let mut square = match goal.error {

@@ -2,7 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
+mod grids;
 mod paths;
+mod patterns;
 mod scenes;
 
 use rtc::internals::ir::Scene;

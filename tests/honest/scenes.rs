@@ -16,15 +16,20 @@ use std::time::Duration;
 
 /// The scene of a number: balls and boxes on a floor, each with a lens, soft lights, glossy balls,
 /// textures and crowds of small things or without, by the bits of the number.
-pub(crate) fn scene(number: u64, [width, height]: [u32; 2]) -> Scene {
+pub(crate) fn scene(number: u64, size: [u32; 2]) -> Scene {
+    lowered(&format!("scene {number}"), text(number, size))
+}
+
+/// The scene of a sound text.
+pub(crate) fn lowered(name: &str, text: String) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     // Textures are those of the scenes of the repo.
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("scenes")
         .join("made-up.yaml");
-    let file = map.add_from(&path, text(number, [width, height]).into_bytes());
+    let file = map.add_from(&path, text.into_bytes());
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
-    let lowered = lowered.unwrap_or_else(|| panic!("scene {number}: {:?}", sink.kept()));
+    let lowered = lowered.unwrap_or_else(|| panic!("{name}: {:?}", sink.kept()));
     pipeline::prove(&lowered, &Options::default(), &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()));
     lowered.scene

@@ -4,14 +4,14 @@
 
 use super::bytes::FilmBytes;
 use super::partial::FilmError;
-use super::progressive::{ProgressiveFilm, Replicates};
+use super::progressive::{NUMBERS, ProgressiveFilm, Replicates, SHOWN};
 use super::{Crop, Tiles};
 
 /// What the bytes begin with.
 const MAGIC: [u8; 8] = *b"rtc grow";
 
 /// The version of the format, and of what is known of a pixel.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The most samples of a replicate.
 const LONGEST: u32 = 1 << 24;
@@ -103,29 +103,25 @@ impl ProgressiveFilm {
 
 impl Replicates {
     /// The bytes of a pixel.
-    const BYTES: usize = 20 * 8 + 2 * 4 + 2 * 8;
+    const BYTES: usize = NUMBERS * 8 + 2 * 4 + 8;
 
     fn save(&self, bytes: &mut Vec<u8>) {
         let (numbers, counts, hits) = self.to_numbers();
         bytes.extend(numbers.into_iter().flat_map(f64::to_le_bytes));
         bytes.extend(counts.into_iter().flat_map(u32::to_le_bytes));
-        bytes.extend(hits.into_iter().flat_map(u64::to_le_bytes));
+        bytes.extend(hits.to_le_bytes());
     }
 
     fn load(bytes: &mut FilmBytes<'_>) -> Result<Self, FilmError> {
-        let mut numbers = [0.0; 20];
+        let mut numbers = [0.0; NUMBERS];
         for number in &mut numbers {
             *number = f64::from_le_bytes(bytes.array()?);
         }
         let counts = [bytes.number()?, bytes.number()?];
-        let mut hits = [0; 2];
-        for hits in &mut hits {
-            *hits = u64::from_le_bytes(bytes.array()?);
-        }
-        let are_some = [0, 1].map(|half: usize| {
-            counts[half] <= LONGEST && hits[half] <= 2 * u64::from(counts[half])
-        });
-        if are_some != [true; 2] || !numbers.iter().all(|number| number.is_finite()) {
+        let hits = u64::from_le_bytes(bytes.array()?);
+        let are_some =
+            counts.iter().all(|count| *count <= LONGEST) && hits <= 2 * u64::from(counts[SHOWN]);
+        if !are_some || !numbers.iter().all(|number| number.is_finite()) {
             return Err(FilmError::Corrupt("a pixel has samples that can't be"));
         }
         Ok(Self::from_numbers(&numbers, counts, hits))

@@ -23,10 +23,10 @@ pub(in crate::render) struct SampleId {
 pub(in crate::render) enum Stream {
     /// The samples that the scene asks for.
     Picture(Seeds),
-    /// One of four sequences without end that are independent of each other; replicates of other
-    /// numbers are independent too.
+    /// One of three sequences without end that are independent of each other: two replicates and
+    /// a pilot. Those of other numbers are independent too.
     Replicate {
-        /// Which of the four.
+        /// Which of the three.
         replicate: usize,
         /// The number that its samples are keyed by.
         number: u64,
@@ -62,7 +62,7 @@ pub(in crate::render) trait Accumulator {
 pub(in crate::render) enum SampleRanges {
     /// A range of those that the scene asks for.
     Picture(Seeds, Range<u32>),
-    /// A range of each of the four replicates, one for those of each half; keyed by a seed.
+    /// A range for each of the two replicates, and one for the pilot; keyed by a seed.
     Replicates(u64, [Range<u32>; 2]),
 }
 
@@ -74,13 +74,14 @@ impl SampleRanges {
             Self::Picture(seeds, samples) => {
                 (k == 0).then(|| (Stream::Picture(*seeds), samples.clone()))
             }
-            Self::Replicates(seed, halves) => {
+            Self::Replicates(seed, [shown, pilot]) => {
                 let number = (seed << 2 | k as u64).wrapping_add(1);
                 let stream = Stream::Replicate {
                     replicate: k,
                     number,
                 };
-                halves.get(k / 2).map(|samples| (stream, samples.clone()))
+                let ranges = [shown, shown, pilot];
+                ranges.get(k).map(|samples| (stream, (*samples).clone()))
             }
         }
     }

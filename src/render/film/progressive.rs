@@ -1,8 +1,11 @@
-//! A progressive film: each pixel has four independent replicates of samples, two in each half.
+//! A progressive film: each pixel has three independent sequences of samples, two replicates and
+//! a pilot.
 //!
-//! The picture is the mean of the halves; the variance between the replicates of a half estimates
-//! its error. The number of samples of one half may depend only on the values of the other half, so
-//! that the stopping rule adds no bias.
+//! The picture is the mean of the replicates, and their difference estimates its error. How many
+//! samples the replicates take may depend on the values of the pilots, and else on what is known
+//! of the whole film alone; all pilots are of one length. So, given the pilots, a picture has no
+//! bias of its own choice of samples, and neither has the estimate of its variance. Two halves that choose for each other have both: where
+//! neither has met a feature both stay short, and neither shows that it is missing.
 
 use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;
@@ -17,20 +20,25 @@ pub struct Replicates {
     /// The tone map of the mean, and what the mean is multiplied by before; `None` where each sample
     /// is clamped to [0, 1].
     tone: Option<(Tone, f64)>,
-    /// Per replicate, the sum of its samples, clamped if `tone` is `None`. Replicates 0 and 1 are
-    /// the first half.
-    sums: [Vec3; 4],
-    /// Per half, the sum of the squared lengths of the same.
-    squares: [f64; 2],
-    /// Per half, the sum of its unclamped samples.
-    linear: [Vec3; 2],
-    /// Per half, the number of samples of each replicate.
+    /// Of each replicate and of the pilot, the sum of its samples, clamped if `tone` is `None`.
+    sums: [Vec3; 3],
+    /// The sum of the squared lengths of those of the pilot.
+    square: f64,
+    /// The sum of the unclamped samples of the replicates.
+    linear: Vec3,
+    /// The number of samples of each replicate, and of the pilot.
     counts: [u32; 2],
-    /// Per half, the number of samples that met a surface.
-    hits: [u64; 2],
+    /// The number of samples of the replicates that met a surface.
+    hits: u64,
 }
 
-/// A part of a growing picture, with 200 bytes per pixel.
+/// The index of the replicates among counts.
+pub(super) const SHOWN: usize = 0;
+
+/// The index of the pilot among counts, and its place among the sequences.
+const PILOT: (usize, usize) = (1, 2);
+
+/// A part of a growing picture, with 136 bytes per pixel.
 #[derive(Clone, Debug)]
 pub struct ProgressiveFilm {
     seed: u64,
@@ -85,13 +93,13 @@ impl ProgressiveFilm {
     }
 
     /// The missing samples of a pixel. `wanted` is the least number of samples of each replicate,
-    /// per half.
+    /// and of the pilot.
     pub(in crate::render) fn lacking(
         seed: u64,
         pixel: &Replicates,
         wanted: [u32; 2],
     ) -> SampleRanges {
-        let samples = |half: usize| pixel.counts[half]..wanted[half];
+        let samples = |part: usize| pixel.counts[part]..wanted[part];
         SampleRanges::Replicates(seed, [0, 1].map(samples))
     }
 
@@ -126,27 +134,28 @@ impl ProgressiveFilm {
     }
 }
 
+/// The sums of a pixel.
+pub(super) const NUMBERS: usize = 13;
+
 impl Replicates {
     /// All samples.
     #[must_use]
     pub fn samples(&self) -> u64 {
-        2 * (u64::from(self.counts[0]) + u64::from(self.counts[1]))
+        let [shown, pilot] = self.counts.map(u64::from);
+        2 * shown + pilot
     }
 
-    /// The number of samples of each replicate of a half.
+    /// The number of samples of each replicate, and of the pilot.
     #[must_use]
-    pub fn count(&self, half: usize) -> u32 {
-        self.counts[half]
+    pub fn counts(&self) -> [u32; 2] {
+        self.counts
     }
 
-    /// The variance of the mean of a half, from the difference of its replicates: the mean over the
+    /// The variance of the mean of the replicates, from their difference: the mean over the
     /// channels.
     #[must_use]
-    pub fn variance_of_half(&self, half: usize) -> f64 {
-        let (n, [a, b]) = (
-            f64::from(self.counts[half].max(1)),
-            [self.sums[2 * half], self.sums[2 * half + 1]],
-        );
+    pub fn variance(&self) -> f64 {
+        let (n, [a, b, _]) = (f64::from(self.counts[SHOWN].max(1)), self.sums);
         let apart = match self.tone {
             None => (a - b) / n,
             Some(tone) => shown(tone, a / n) - shown(tone, b / n),
@@ -154,12 +163,11 @@ impl Replicates {
         apart.length_squared() / 12.0
     }
 
-    /// The variance of the samples of a half: the mean over the channels.
+    /// The variance of the samples of the pilot: the mean over the channels.
     #[must_use]
-    pub fn variance_of_samples(&self, half: usize) -> f64 {
-        let n = 2.0 * f64::from(self.counts[half]);
-        let sum = self.sums[2 * half] + self.sums[2 * half + 1];
-        let square = self.squares[half] - sum.length_squared() / n.max(1.0);
+    pub fn variance_of_samples(&self) -> f64 {
+        let (n, sum) = (f64::from(self.counts[PILOT.0]), self.sums[PILOT.1]);
+        let square = self.square - sum.length_squared() / n.max(1.0);
         let variance = square.max(0.0) / (3.0 * (n - 1.0).max(1.0));
         match self.tone {
             None => variance,
@@ -173,22 +181,18 @@ impl Replicates {
         }
     }
 
-    /// The fraction of the samples that met a surface: the mean of the halves.
+    /// The fraction of the samples of the replicates that met a surface.
     fn coverage(&self) -> f32 {
-        let of = |half: usize| coverage(self.hits[half], 2 * u64::from(self.counts[half]));
-        (of(0) + of(1)) * 0.5
+        coverage(self.hits, 2 * u64::from(self.counts[SHOWN]))
     }
 
-    /// The mean of the halves, whatever the samples of each.
+    /// The mean of the replicates.
     fn mean(&self, values: Values) -> Vec3 {
-        let of = |half: usize| {
-            let sum = match values {
-                Values::Display => self.sums[2 * half] + self.sums[2 * half + 1],
-                Values::Linear => self.linear[half],
-            };
-            sum / (2.0 * f64::from(self.counts[half].max(1)))
+        let sum = match values {
+            Values::Display => self.sums[0] + self.sums[1],
+            Values::Linear => self.linear,
         };
-        let mean = (of(0) + of(1)) * 0.5;
+        let mean = sum / (2.0 * f64::from(self.counts[SHOWN].max(1)));
         match (values, self.tone) {
             (Values::Display, Some(tone)) => shown(tone, mean),
             (Values::Display | Values::Linear, _) => mean,
@@ -200,25 +204,24 @@ impl Replicates {
         self.tone.is_some()
     }
 
-    /// All sums, and the numbers of samples and of hits per half.
-    pub(super) fn to_numbers(self) -> ([f64; 20], [u32; 2], [u64; 2]) {
-        let mut numbers = [0.0; 20];
-        let sums = self.sums.iter().chain(&self.linear);
+    /// All sums, and the numbers of samples and of hits.
+    pub(super) fn to_numbers(self) -> ([f64; NUMBERS], [u32; 2], u64) {
+        let mut numbers = [self.square; NUMBERS];
+        let sums = self.sums.iter().chain([&self.linear]);
         for (numbers, sum) in numbers.chunks_exact_mut(3).zip(sums) {
             numbers.copy_from_slice(&sum.to_array());
         }
-        numbers[18..].copy_from_slice(&self.squares);
         (numbers, self.counts, self.hits)
     }
 
     /// The pixel of [`Self::to_numbers`], without a tone map.
-    pub(super) fn from_numbers(numbers: &[f64; 20], counts: [u32; 2], hits: [u64; 2]) -> Self {
+    pub(super) fn from_numbers(numbers: &[f64; NUMBERS], counts: [u32; 2], hits: u64) -> Self {
         let sum = |at: usize| Vec3::new(numbers[at], numbers[at + 1], numbers[at + 2]);
         Self {
             tone: None,
-            sums: [sum(0), sum(3), sum(6), sum(9)],
-            squares: [numbers[18], numbers[19]],
-            linear: [sum(12), sum(15)],
+            sums: [sum(0), sum(3), sum(6)],
+            square: numbers[NUMBERS - 1],
+            linear: sum(9),
             counts,
             hits,
         }
@@ -242,12 +245,16 @@ impl Accumulator for Replicates {
             None => radiance.clamp(Vec3::ZERO, Vec3::ONE),
             Some(_) => radiance,
         };
-        let half = replicate / 2;
         self.sums[replicate] += shown;
-        self.squares[half] += shown.length_squared();
-        self.linear[half] += radiance;
-        self.hits[half] += u64::from(hit);
-        self.counts[half] = self.counts[half].max(id.index + 1);
+        let part = if replicate == PILOT.1 {
+            self.square += shown.length_squared();
+            PILOT.0
+        } else {
+            self.linear += radiance;
+            self.hits += u64::from(hit);
+            SHOWN
+        };
+        self.counts[part] = self.counts[part].max(id.index + 1);
     }
 
     fn close(self) -> Self {

@@ -14,7 +14,7 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
 use crate::render::world::settings::Mode;
 
-/// For each pixel, counted row by row, the number of samples wanted of each replicate, per half.
+/// For each pixel, counted row by row, the samples wanted of each replicate, and of the pilot.
 type Wanted<'run> = dyn Fn(usize) -> [u32; 2] + Sync + 'run;
 
 impl<S: Geometry> World<S> {

@@ -1,0 +1,248 @@
+//! The families of scenes: ordinary ones, patterns as fine as pixels, and light that few samples meet.
+
+use super::patterns::{Pattern, WHITE, grid, quad};
+use super::scenes::scene;
+use rtc::internals::codec::{self, Form};
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::Scene;
+use rtc::internals::source::SourceMap;
+use rtc::internals::study::Rng;
+use std::fmt::Write as _;
+
+/// Scenes of one kind, and to which error in grey levels they are rendered.
+pub(crate) struct Family {
+    pub(crate) name: &'static str,
+    pub(crate) target: f64,
+    pub(crate) cases: Vec<Case>,
+}
+
+/// A scene with a name.
+pub(crate) struct Case {
+    pub(crate) name: String,
+    pub(crate) truth: Truth,
+}
+
+/// What a scene is compared with.
+pub(crate) enum Truth {
+    Known(Box<Pattern>),
+    /// References of a quarter of the error.
+    Rendered(Box<Scene>),
+}
+
+impl Case {
+    fn known(name: String, pattern: Pattern) -> Self {
+        let truth = Truth::Known(Box::new(pattern));
+        Self { name, truth }
+    }
+
+    fn rendered(name: String, scene: Scene) -> Self {
+        let truth = Truth::Rendered(Box::new(scene));
+        Self { name, truth }
+    }
+
+    pub(crate) fn scene(&self) -> &Scene {
+        match &self.truth {
+            Truth::Known(pattern) => &pattern.scene,
+            Truth::Rendered(scene) => scene,
+        }
+    }
+}
+
+pub(crate) fn all() -> Vec<Family> {
+    let family = |name, target, cases| Family {
+        name,
+        target,
+        cases,
+    };
+    vec![
+        family("ordinary", 3.0, ordinary()),
+        family("grids", 2.0, grids()),
+        family("wires", 3.0, wires()),
+        family("dust", 3.0, dust()),
+        family("checkers", 4.0, checkers()),
+        family("rare-light", 1.0, rare()),
+        family("caustics", 8.0, caustics()),
+    ]
+}
+
+fn ordinary() -> Vec<Case> {
+    let numbers = [1, 5, 10, 16, 19, 22, 26, 31];
+    let case = |number| Case::rendered(format!("scene {number}"), scene(number, [40, 40]));
+    numbers.into_iter().map(case).collect()
+}
+
+fn grids() -> Vec<Case> {
+    let widths = [
+        (0.03, 0.1),
+        (0.05, 0.0),
+        (0.11, 0.13),
+        (0.2, 0.3),
+        (0.34, 0.21),
+        (0.5, 0.25),
+        (0.77, 0.1),
+        (0.95, 0.0),
+    ];
+    let case = |(width, offset)| Case::known(format!("width {width}"), grid(60, width, offset));
+    widths.into_iter().map(case).collect()
+}
+
+/// Straight wires thinner than a pixel, at an angle.
+fn wires() -> Vec<Case> {
+    let wires = [
+        (0.02, 1.5, [0.6, 0.8]),
+        (0.07, 2.2, [0.8, 0.6]),
+        (0.12, 2.9, [5.0 / 13.0, 12.0 / 13.0]),
+        (0.17, 3.6, [15.0 / 17.0, 8.0 / 17.0]),
+        (0.05, 7.3, [12.0 / 13.0, 5.0 / 13.0]),
+        (0.3, 5.0, [24.0 / 25.0, 7.0 / 25.0]),
+    ];
+    let case = |(width, pitch, normal)| {
+        let pattern = wire(40, width, pitch, normal);
+        Case::known(format!("width {width}, {pitch} apart"), pattern)
+    };
+    wires.into_iter().map(case).collect()
+}
+
+/// Wires of a width at a distance from one another, with a unit vector across them.
+fn wire(side: u32, width: f64, pitch: f64, [a, b]: [f64; 2]) -> Pattern {
+    /// Points along a side of a pixel that its coverage is counted by.
+    const POINTS: u32 = 256;
+    let (mut text, half) = (String::new(), f64::from(side) / 2.0);
+    let count = (1.5 * half / pitch) as i32 + 1;
+    for k in -count..=count {
+        let from = f64::from(k) * pitch;
+        let corner = [a * from + b * 2.0 * half, b * from - a * 2.0 * half];
+        let along = [-b * 4.0 * half, a * 4.0 * half];
+        quad(&mut text, corner, [a * width, b * width], along);
+    }
+    let is_white = |x: f64, y: f64| (a * x + b * y).rem_euclid(pitch) < width;
+    Pattern::new(side, &text, |x, y| {
+        let place = |k: u32| (f64::from(k) + 0.5) / f64::from(POINTS);
+        let points = (0..POINTS * POINTS).map(|k| [place(k % POINTS), place(k / POINTS)]);
+        let white =
+            points.filter(|[u, v]| is_white(f64::from(x) + u - half, half - f64::from(y) - v));
+        white.count() as f64 / f64::from(POINTS * POINTS)
+    })
+}
+
+/// Discs smaller than a pixel, each within one.
+fn dust() -> Vec<Case> {
+    let dust = [
+        (0.06, 0.1),
+        (0.1, 0.25),
+        (0.15, 0.4),
+        (0.2, 0.55),
+        (0.25, 0.7),
+        (0.3, 0.85),
+    ];
+    let case = |(radius, share)| {
+        let name = format!("radius {radius} in {share} of the pixels");
+        Case::known(name, grains(40, radius, share))
+    };
+    dust.into_iter().map(case).collect()
+}
+
+/// Few and tiny discs: most are met by no sample of a picture of few samples.
+fn rare() -> Vec<Case> {
+    let rare = [(0.03, 0.2), (0.05, 0.05), (0.1, 0.02), (0.2, 0.01)];
+    let case = |(radius, share)| {
+        let name = format!("radius {radius} in {share} of the pixels");
+        Case::known(name, grains(40, radius, share))
+    };
+    rare.into_iter().map(case).collect()
+}
+
+/// White discs of a radius, each somewhere within a pixel, in a share of the pixels.
+fn grains(side: u32, radius: f64, share: f64) -> Pattern {
+    let mut rng = Rng::new(7);
+    let mut uniform = || rng.below(1 << 20) as f64 / f64::from(1 << 20);
+    let (mut text, half) = (String::new(), f64::from(side) / 2.0);
+    let mut has = Vec::new();
+    for index in 0..side * side {
+        let [u, v] = [uniform(), uniform()].map(|place| radius + (1.0 - 2.0 * radius) * place);
+        has.push(uniform() < share);
+        if has.last() == Some(&true) {
+            let (x, y) = (f64::from(index % side), f64::from(index / side));
+            let _ = writeln!(
+                text,
+                "- {{type: disc, position: [{}, {}, 0], normal: [0, 0, 1], radius: {radius}, {WHITE}}}",
+                x + u - half,
+                half - y - v
+            );
+        }
+    }
+    let area = std::f64::consts::PI * radius * radius;
+    let white = |x: u32, y: u32| has[(y * side + x) as usize];
+    Pattern::new(side, &text, |x, y| if white(x, y) { area } else { 0.0 })
+}
+
+/// Checkers with squares of about a pixel.
+fn checkers() -> Vec<Case> {
+    let squares = [
+        (1.0, [0.5, 0.5]),
+        (1.0, [0.25, 0.4]),
+        (1.01, [0.0, 0.0]),
+        (0.99, [0.0, 0.0]),
+        (1.5, [0.3, 0.2]),
+        (2.0, [0.5, 0.35]),
+    ];
+    let case = |(square, shift)| {
+        let name = format!("squares of {square} from {shift:?}");
+        Case::known(name, checker(40, square, shift))
+    };
+    squares.into_iter().map(case).collect()
+}
+
+/// A checker with squares of a side, one corner shifted off the middle.
+fn checker(side: u32, square: f64, shift: [f64; 2]) -> Pattern {
+    let (mut text, half) = (String::new(), f64::from(side) / 2.0);
+    let count = (half / square) as i32 + 3;
+    for (i, j) in (-count..count).flat_map(|j| (-count..count).map(move |i| (i, j))) {
+        if (i + j) % 2 == 0 {
+            let corner = [(i, shift[0]), (j, shift[1])]
+                .map(|(k, shift): (i32, f64)| f64::from(k) * square + shift);
+            quad(&mut text, corner, [square, 0.0], [0.0, square]);
+        }
+    }
+    // The integral of the square wave +1, −1, … from 0 on.
+    let wave = |x: f64| {
+        let phase = x.rem_euclid(2.0 * square);
+        phase.min(2.0 * square - phase)
+    };
+    let mean = |from: f64| wave(from + 1.0) - wave(from);
+    Pattern::new(side, &text, |x, y| {
+        let left = f64::from(x) - half - shift[0];
+        let low = half - f64::from(y) - 1.0 - shift[1];
+        0.5 + 0.5 * mean(left) * mean(low)
+    })
+}
+
+/// Paths: two balls, of plastic or metal, under a shining disc, large or small.
+fn caustics() -> Vec<Case> {
+    let caustics = [
+        (0.5, 2.0, 1.0),
+        (0.2, 2.0, 1.0),
+        (0.1, 1.0, 4.0),
+        (0.3, 0.5, 12.0),
+    ];
+    let case = |(roughness, radius, light)| {
+        let name = format!("roughness {roughness}, a light of radius {radius}");
+        Case::rendered(name, balls(roughness, radius, light))
+    };
+    caustics.into_iter().map(case).collect()
+}
+
+fn balls(roughness: f64, radius: f64, light: f64) -> Scene {
+    let text = include_str!("../../tests/honest/paths.json");
+    let metal = format!("\"metallic\": 1, \"roughness\": {roughness}");
+    let text = text
+        .replace("\"metallic\": 0, \"roughness\": 0.5", &metal)
+        .replace("\"radius\": 2}", &format!("\"radius\": {radius}}}"))
+        .replace(
+            "[1.6, 1.4, 1.2]",
+            &format!("[{}, {}, {}]", 1.6 * light, 1.4 * light, 1.2 * light),
+        );
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = map.add("paths.json", text.into_bytes());
+    codec::decode(Form::Text, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+}

@@ -1,0 +1,62 @@
+//! Patterns of white on black in the plane of the image, as fine as its pixels: what each pixel is to
+//! show is known.
+
+use super::scenes::lowered;
+use rtc::internals::image::Image;
+use rtc::internals::ir::Scene;
+use rtc::internals::study::{LEVELS, Reached};
+use std::fmt::Write as _;
+
+/// A scene, and its picture without noise.
+pub(crate) struct Pattern {
+    pub(crate) scene: Scene,
+    /// The grey of each pixel, row by row.
+    truth: Vec<f64>,
+}
+
+impl Pattern {
+    /// The error of a picture of it in grey levels.
+    pub(crate) fn error(&self, reached: &Reached) -> f64 {
+        let Image { pixels, .. } = &reached.image;
+        let squares = pixels.iter().zip(&self.truth);
+        let sum =
+            squares.flat_map(|(pixel, truth)| pixel.map(|value| (value - truth) * (value - truth)));
+        (sum.sum::<f64>() / (3 * pixels.len()) as f64).sqrt() * LEVELS
+    }
+
+    /// Objects in the plane of the image, where a pixel has the side 1 and the middle is the origin.
+    pub(crate) fn new(side: u32, objects: &str, truth: impl Fn(u32, u32) -> f64) -> Self {
+        let text = format!(
+            "Camera: {{eye: [0, 0, 100], center: [0, 0, 0], up: [0, 1, 0], viewSize: [{side}, {side}]}}\n\
+             Lights:\n- {{position: [0, 0, 50], color: [1, 1, 1]}}\nObjects:\n{objects}"
+        );
+        let pixels = (0..side).flat_map(|y| (0..side).map(move |x| (x, y)));
+        Self {
+            scene: lowered("pattern", text),
+            truth: pixels.map(|(x, y)| truth(x, y)).collect(),
+        }
+    }
+}
+
+/// A white quad from a corner along two edges, as a line of a scene.
+pub(crate) fn quad(text: &mut String, corner: [f64; 2], across: [f64; 2], along: [f64; 2]) {
+    let ([x, y], [a, b], [c, d]) = (corner, across, along);
+    let _ = writeln!(
+        text,
+        "- {{type: quad, position: [{x}, {y}, 0], side: [{a}, {b}, 0], up: [{c}, {d}, 0], {WHITE}}}"
+    );
+}
+
+/// A material that is white from all sides.
+pub(crate) const WHITE: &str = "material: {color: [1, 1, 1], ka: 1, kd: 0, ks: 0, n: 1}";
+
+/// In each column of pixels a quad of the same width, so far from the left edge.
+pub(crate) fn grid(side: u32, width: f64, offset: f64) -> Pattern {
+    let (mut text, half) = (String::new(), f64::from(side) / 2.0);
+    for column in 0..side {
+        let corner = [f64::from(column) - half + offset, -half - 1.0];
+        let along = [0.0, 2.0 * half + 2.0];
+        quad(&mut text, corner, [width, 0.0], along);
+    }
+    Pattern::new(side, &text, |_, _| width)
+}
