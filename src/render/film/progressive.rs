@@ -3,9 +3,10 @@
 //!
 //! The picture is the mean of the replicates, and their difference estimates its error. How many
 //! samples the replicates take may depend on the values of the pilots, and else on what is known
-//! of the whole film alone; all pilots are of one length. So, given the pilots, a picture has no
-//! bias of its own choice of samples, and neither has the estimate of its variance. Two halves that choose for each other have both: where
-//! neither has met a feature both stay short, and neither shows that it is missing.
+//! of the whole film alone; all pilots are of one length. So, given the pilots, the choice of
+//! samples adds no bias to a picture, nor to the estimate of its variance. Two halves that choose
+//! for each other add both: where neither has met a feature both stay short, and neither shows that
+//! it is missing.
 
 use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;
