@@ -1,13 +1,11 @@
 //! The families of scenes: ordinary ones, patterns as fine as pixels, and light that few samples meet.
 
-use super::patterns::{Pattern, WHITE, grid, quad};
+use super::patterns::{Pattern, grains, grid, quad};
 use super::scenes::scene;
 use rtc::internals::codec::{self, Form};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::Scene;
 use rtc::internals::source::SourceMap;
-use rtc::internals::study::Rng;
-use std::fmt::Write as _;
 
 /// Scenes of one kind, and to which error in grey levels they are rendered.
 pub(crate) struct Family {
@@ -150,30 +148,6 @@ fn rare() -> Vec<Case> {
         Case::known(name, grains(40, radius, share))
     };
     rare.into_iter().map(case).collect()
-}
-
-/// White discs of a radius, each somewhere within a pixel, in a share of the pixels.
-fn grains(side: u32, radius: f64, share: f64) -> Pattern {
-    let mut rng = Rng::new(7);
-    let mut uniform = || rng.below(1 << 20) as f64 / f64::from(1 << 20);
-    let (mut text, half) = (String::new(), f64::from(side) / 2.0);
-    let mut has = Vec::new();
-    for index in 0..side * side {
-        let [u, v] = [uniform(), uniform()].map(|place| radius + (1.0 - 2.0 * radius) * place);
-        has.push(uniform() < share);
-        if has.last() == Some(&true) {
-            let (x, y) = (f64::from(index % side), f64::from(index / side));
-            let _ = writeln!(
-                text,
-                "- {{type: disc, position: [{}, {}, 0], normal: [0, 0, 1], radius: {radius}, {WHITE}}}",
-                x + u - half,
-                half - y - v
-            );
-        }
-    }
-    let area = std::f64::consts::PI * radius * radius;
-    let white = |x: u32, y: u32| has[(y * side + x) as usize];
-    Pattern::new(side, &text, |x, y| if white(x, y) { area } else { 0.0 })
 }
 
 /// Checkers with squares of about a pixel.

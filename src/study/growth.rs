@@ -1,6 +1,7 @@
 //! A picture on its way to its goal, which can be saved between two stretches of a round and goes on from
 //! there to the same bytes: a round takes the samples that are missing, whoever took the others.
 
+use super::noise::Bound;
 use super::stretch::WorkStretch;
 use super::target::{Order, Reached, Samples};
 use crate::render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
@@ -116,12 +117,13 @@ impl Growth {
     }
 
     /// The picture as far as it is, of a bound on its error.
-    pub(super) fn reached(&self, error: f64, values: Values) -> Reached {
+    pub(super) fn reached(&self, bound: Bound, values: Values) -> Reached {
         Reached {
             image: self.film.image(values),
             coverage: self.film.coverage(),
             counts: self.film.counts,
-            error,
+            error: bound.error,
+            unmet: bound.unmet,
             samples: samples_of(&self.film),
             light_samples: self.light_samples,
         }

@@ -28,6 +28,7 @@ mod stretch;
 mod subject;
 mod sweep;
 mod target;
+mod unmet;
 
 pub use bench::{Bench, Clock};
 pub use effects::EffectCost;

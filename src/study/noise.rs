@@ -2,6 +2,7 @@
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
+use super::unmet::{Unmet, UnmetError};
 use crate::render::{ProgressiveFilm, Replicates};
 
 /// The noise of a whole film.
@@ -11,11 +12,13 @@ pub(super) struct Noise {
     pub(super) square: f64,
     /// The degrees of freedom of the error itself, and of `square`.
     freedom: f64,
+    /// What no sample may have met.
+    unmet: UnmetError,
 }
 
 impl Noise {
-    /// The noise of a film with samples everywhere.
-    pub(super) fn of(film: &ProgressiveFilm) -> Self {
+    /// The noise of a film with samples everywhere, each of at most a value.
+    pub(super) fn of(film: &ProgressiveFilm, unmet: &Unmet) -> Self {
         let (mut sum, mut squares) = (0.0, 0.0);
         for variance in film.pixels().map(Replicates::variance) {
             sum += variance;
@@ -36,6 +39,7 @@ impl Noise {
         Self {
             square: sum / film.len().max(1) as f64,
             freedom,
+            unmet: unmet.of(film),
         }
     }
 
@@ -48,14 +52,38 @@ impl Noise {
         }
     }
 
-    /// The root mean square error in grey levels that is exceeded with the probability `tail` only.
-    pub(super) fn bound(&self, tail: f64) -> f64 {
-        if self.square == 0.0 {
+    /// The error that is exceeded with the probability `tail` by what samples met, and with 5 % by what
+    /// they did not. A target, in grey levels, says how much of that is too much.
+    pub(super) fn bound(&self, tail: f64, target: Option<f64>) -> Bound {
+        let met = if self.square == 0.0 {
             0.0
         } else {
-            (self.square * self.caution(tail)).sqrt() * LEVELS
+            self.square * self.caution(tail)
+        };
+        let is_whole = self.unmet.is_told(met, target);
+        let all = met + if is_whole { self.unmet.square } else { 0.0 };
+        Bound {
+            error: all.sqrt() * LEVELS,
+            unmet: (!is_whole).then_some(self.unmet.brightest),
         }
     }
+
+    /// The mean square error, for a white of 1, that a target in grey levels leaves to what samples met.
+    pub(super) fn left(&self, tail: f64, target: f64) -> f64 {
+        let square = target * target / (LEVELS * LEVELS);
+        let unmet = Some(self.unmet.square).filter(|unmet| *unmet < square);
+        (square - unmet.unwrap_or(0.0)) / self.caution(tail)
+    }
+}
+
+/// How far a picture is from the true one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Bound {
+    /// The root mean square error in grey levels.
+    pub(super) error: f64,
+    /// Without a bound: how bright, in multiples of white, light may be that no sample met. The error is
+    /// that of what was met, then.
+    pub(super) unmet: Option<f64>,
 }
 
 /// The maximum length of a replicate.

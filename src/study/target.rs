@@ -8,9 +8,9 @@
 
 use super::growth::{Growth, Keep, Keeper};
 use super::knob::{Knob, idle};
-use super::metrics::LEVELS;
 use super::noise::{Allotment, Noise};
 use super::subject::Stopped;
+use super::unmet::Unmet;
 use crate::color::Tone;
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
@@ -89,9 +89,11 @@ pub struct Reached {
     pub coverage: Vec<f32>,
     /// Its rays, including those for the choice of the setting, without those of an unfinished round.
     pub counts: Counts,
-    /// The root mean square error in grey levels: computed for 95 % confidence, stated for 90 %, as
-    /// `benches/honest.sh` counts.
+    /// The root mean square error in grey levels, kept in 90 % of all renders, as `benches/honest.sh`
+    /// counts; of what samples met alone, if there is no bound.
     pub error: f64,
+    /// If there is no bound: how bright, in multiples of white, light may be that no sample met.
+    pub unmet: Option<f64>,
     /// Its samples.
     pub samples: Samples,
     /// Points of each soft light at a hit.
@@ -160,6 +162,7 @@ fn in_rounds(
         None => begin(world, scene, order, watch)?,
     };
     spread(world, scene, growth.light_samples);
+    let unmet = order.unmet(world);
     let mut before: Option<Reached> = None;
     loop {
         (watch.round)(Progress {
@@ -178,14 +181,14 @@ fn in_rounds(
             };
         }
         let round = f64::from(growth.rounds + 1);
-        let noise = Noise::of(&growth.film);
+        let noise = Noise::of(&growth.film, &unmet);
         // A stop at any round is one of many looks: the tails of all rounds, 1/(r(r + 1)), sum to
         // the one allowed.
         let tail = TAIL / (round * (round + 1.0));
-        let error = noise.bound(tail);
+        let bound = noise.bound(tail, order.goal.error);
         let elapsed = (watch.elapsed)();
         let wanted = next_round(&growth.film, &noise, tail, &order.goal, elapsed);
-        let reached = growth.reached(error, order.values);
+        let reached = growth.reached(bound, order.values);
         let Some(wanted) = wanted else {
             keeper.iter().for_each(|keeper| keeper.save(&growth));
             return Ok(reached);
@@ -214,7 +217,9 @@ fn begin(
         .div_ceil(film.len().max(1))
         .max(min)
         .next_power_of_two();
-    let first = u32::try_from(first).unwrap_or(1);
+    let goal = order.goal.error;
+    let least = goal.map_or(1, |error| order.unmet(world).least(error));
+    let first = u32::try_from(first).unwrap_or(1).max(least);
     Ok(Growth {
         wanted: vec![[first, (first / 2).max(FIRST_PILOT)]; film.len()],
         film,
@@ -230,6 +235,15 @@ impl Order {
         let mut film = ProgressiveFilm::new(self.crop, self.seed);
         (film.background, film.display) = (self.background, self.display);
         film
+    }
+
+    /// What samples of a world may show.
+    fn unmet(&self, world: &AnyWorld) -> Unmet {
+        let (_, exposure) = self.display;
+        Unmet {
+            brightest: (world.brightest() * exposure).max(1.0),
+            pixels: self.crop.pixels(),
+        }
     }
 }
 
@@ -257,6 +271,7 @@ fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<Reached
         coverage,
         counts,
         error: 0.0,
+        unmet: None,
         samples,
         light_samples: 1,
     })
@@ -323,7 +338,7 @@ fn light_samples(
             return Err(Stopped);
         }
         tried = tried.plus(film.counts);
-        let price = Noise::of(&film).square * film.counts.rays() as f64;
+        let price = Noise::of(&film, &order.unmet(world)).square * film.counts.rays() as f64;
         if price >= best.1 {
             break;
         }
@@ -344,7 +359,7 @@ fn next_round(
     /// The step in noise if a round would change nothing, or would not fit.
     const LESS: f64 = 0.8;
     const MORE: f64 = 1.5;
-    let is_met = |error: f64| noise.bound(tail) <= error;
+    let is_met = |error: f64| noise.bound(tail, goal.error).error <= error;
     let left = goal
         .time
         .map_or(Some(Duration::MAX), |time| time.checked_sub(elapsed))?;
@@ -363,7 +378,7 @@ fn next_round(
         (wanted, more)
     };
     let mut square = match goal.error {
-        Some(error) => error * error / (LEVELS * LEVELS * noise.caution(tail)),
+        Some(error) => noise.left(tail, error),
         None => noise.square / 4.0,
     };
     let (mut wanted, mut more) = round(square);

@@ -9,7 +9,7 @@ use rtc::internals::ir::Scene;
 use rtc::internals::source::SourceMap;
 
 /// Two balls on a floor, under a disc that shines and a sky.
-fn balls() -> Scene {
+pub(super) fn balls() -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("paths.json", include_bytes!("paths.json").to_vec());
     codec::decode(Form::Text, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))

@@ -4,7 +4,7 @@
 use super::scenes::lowered;
 use rtc::internals::image::Image;
 use rtc::internals::ir::Scene;
-use rtc::internals::study::{LEVELS, Reached};
+use rtc::internals::study::{LEVELS, Reached, Rng};
 use std::fmt::Write as _;
 
 /// A scene, and its picture without noise.
@@ -48,7 +48,7 @@ pub(crate) fn quad(text: &mut String, corner: [f64; 2], across: [f64; 2], along:
 }
 
 /// A material that is white from all sides.
-pub(crate) const WHITE: &str = "material: {color: [1, 1, 1], ka: 1, kd: 0, ks: 0, n: 1}";
+const WHITE: &str = "material: {color: [1, 1, 1], ka: 1, kd: 0, ks: 0, n: 1}";
 
 /// In each column of pixels a quad of the same width, so far from the left edge.
 pub(crate) fn grid(side: u32, width: f64, offset: f64) -> Pattern {
@@ -59,4 +59,28 @@ pub(crate) fn grid(side: u32, width: f64, offset: f64) -> Pattern {
         quad(&mut text, corner, [width, 0.0], along);
     }
     Pattern::new(side, &text, |_, _| width)
+}
+
+/// White discs of a radius, each somewhere within a pixel, in a share of the pixels.
+pub(crate) fn grains(side: u32, radius: f64, share: f64) -> Pattern {
+    let mut rng = Rng::new(7);
+    let mut uniform = || rng.below(1 << 20) as f64 / f64::from(1 << 20);
+    let (mut text, half) = (String::new(), f64::from(side) / 2.0);
+    let mut has = Vec::new();
+    for index in 0..side * side {
+        let [u, v] = [uniform(), uniform()].map(|place| radius + (1.0 - 2.0 * radius) * place);
+        has.push(uniform() < share);
+        if has.last() == Some(&true) {
+            let (x, y) = (f64::from(index % side), f64::from(index / side));
+            let _ = writeln!(
+                text,
+                "- {{type: disc, position: [{}, {}, 0], normal: [0, 0, 1], radius: {radius}, {WHITE}}}",
+                x + u - half,
+                half - y - v
+            );
+        }
+    }
+    let area = std::f64::consts::PI * radius * radius;
+    let white = |x: u32, y: u32| has[(y * side + x) as usize];
+    Pattern::new(side, &text, |x, y| if white(x, y) { area } else { 0.0 })
 }

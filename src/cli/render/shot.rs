@@ -196,11 +196,13 @@ impl RenderSetup {
             coverage,
             counts,
             samples: Samples { min, mean, most },
+            error,
+            unmet,
             ..
         } = reached;
         let quality = format!(
-            "{} (90 %), {mean:.0} samples a pixel on the mean, {min} … {most}{end}",
-            error(reached.error)
+            "{}, {mean:.0} samples a pixel on the mean, {min} … {most}{end}",
+            bound(error, unmet)
         );
         Ok(Rendered {
             image,
@@ -209,6 +211,22 @@ impl RenderSetup {
             elapsed,
             quality: Some(quality),
         })
+    }
+}
+
+/// A bound on the error in grey levels, in words; or how bright light may be, in multiples of white, that
+/// leaves none.
+fn bound(levels: f64, unmet: Option<f64>) -> String {
+    match unmet {
+        None => format!("{} (90 %)", error(levels)),
+        Some(white) if white <= 1.0 => format!(
+            "no bound: what few samples show may be unmet; {} (90 %) of what was met",
+            error(levels)
+        ),
+        Some(white) => format!(
+            "no bound: light {white:.0} times as bright as white may be unmet; {} (90 %) of what was met",
+            error(levels)
+        ),
     }
 }
 

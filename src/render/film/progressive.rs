@@ -2,11 +2,9 @@
 //! a pilot.
 //!
 //! The picture is the mean of the replicates, and their difference estimates its error. How many
-//! samples the replicates take may depend on the values of the pilots, and else on what is known
-//! of the whole film alone; all pilots are of one length. So, given the pilots, the choice of
-//! samples adds no bias to a picture, nor to the estimate of its variance. Two halves that choose
-//! for each other add both: where neither has met a feature both stay short, and neither shows that
-//! it is missing.
+//! samples they take depends on the values of the pilots, and else on the whole film alone: given the
+//! pilots, the choice adds no bias to the picture, nor to the estimate of its variance. Two halves
+//! that choose for each other add both (`docs/decisions/0013-pilots.md`).
 
 use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;

@@ -5,6 +5,7 @@ use crate::render::bsdf::direction_turned;
 use crate::render::sampler::discrete::Distribution2D;
 use crate::render::texture::sampled::{ColorSpace, sample};
 use crate::render::texture::{Filter, Image, Wrap};
+use std::cell::Cell;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -21,6 +22,8 @@ struct EnvironmentMap {
     constant: Option<Vec3>,
     /// The distribution of the pixels by radiance and solid angle.
     table: Distribution2D,
+    /// The strongest channel of all pixels.
+    peak: f64,
     image_from_world: [Vec3; 3],
 }
 
@@ -44,11 +47,15 @@ impl Environment {
         image_from_world: [Vec3; 3],
         is_constant: bool,
     ) -> Self {
-        let map = image.map(|image| EnvironmentMap {
-            constant: is_constant.then(|| look_up(&image, [0.5; 2])),
-            table: table(&image),
-            image,
-            image_from_world,
+        let map = image.map(|image| {
+            let (table, peak) = table(&image);
+            EnvironmentMap {
+                constant: is_constant.then(|| look_up(&image, [0.5; 2])),
+                table,
+                peak,
+                image,
+                image_from_world,
+            }
         });
         Self { radiance, map }
     }
@@ -72,6 +79,11 @@ impl Environment {
             .as_ref()
             .map_or(1.0, |map| map.table.mean() * PI / 2.0);
         self.radiance.max_element() * mean
+    }
+
+    /// A radiance that no direction exceeds, in the strongest channel.
+    pub(in crate::render) fn brightest(&self) -> f64 {
+        self.radiance.max_element() * self.map.as_ref().map_or(1.0, |map| map.peak)
     }
 
     /// The radiance from a direction, a unit vector, and its point of the image if that was found.
@@ -150,9 +162,11 @@ fn look_up(image: &Image, place: [f64; 2]) -> Vec3 {
     Vec3::new(r, g, b)
 }
 
-/// The distribution of pixels by their strongest channel and their solid angle.
-fn table(image: &Image) -> Distribution2D {
+/// The distribution of pixels by their strongest channel and their solid angle, and the strongest of
+/// all.
+fn table(image: &Image) -> (Distribution2D, f64) {
     let [width, height] = [image.width, image.height];
+    let peak = Cell::new(0.0_f64);
     let weight = |x: u32, y: u32| {
         let v = (f64::from(y) + 0.5) / f64::from(height);
         let uv = [(f64::from(x) + 0.5) / f64::from(width), v];
@@ -163,7 +177,10 @@ fn table(image: &Image) -> Distribution2D {
             Filter::Nearest,
             ColorSpace::Srgb,
         );
-        r.max(g).max(b) * sin(v * PI)
+        let value = r.max(g).max(b);
+        peak.set(peak.get().max(value));
+        value * sin(v * PI)
     };
-    Distribution2D::new([width, height], weight)
+    let table = Distribution2D::new([width, height], weight);
+    (table, peak.get())
 }

@@ -82,6 +82,13 @@ impl AnyWorld {
         }
     }
 
+    /// The greatest radiance that a path may meet at its end, on a surface or where it leaves the
+    /// scene, in the strongest channel; 0 where no paths are traced.
+    #[must_use]
+    pub fn brightest(&self) -> f64 {
+        each!(self, world => world.brightest())
+    }
+
     /// Renders a picture; `None` if `on_pixel` said stop.
     ///
     /// `on_pixel` is called from all threads, after each pixel and within long ones.

@@ -1,5 +1,6 @@
 //! The lights of a world, as its integrator sees them.
 
+use super::World;
 use super::texture::Textures;
 use crate::plan::{EnvironmentLeft, Plan, facts};
 use crate::render::light::course::CourseLight;
@@ -16,6 +17,16 @@ pub(in crate::render) struct LightList {
     pub(in crate::render) punctual: Vec<Punctual>,
     /// The environment of paths.
     pub(in crate::render) environment: Environment,
+}
+
+impl<S> World<S> {
+    /// See [`AnyWorld::brightest`](super::any::AnyWorld::brightest).
+    pub(super) fn brightest(&self) -> f64 {
+        let surfaces = self.surfaces.iter();
+        let materials = surfaces.filter_map(|surface| self.standards.get(surface.material));
+        let emitted = materials.map(|material| material.emission.factor.max_element());
+        emitted.fold(self.lights.environment.brightest(), f64::max)
+    }
 }
 
 pub(super) fn lights_for(scene: &Proof, plan: &Plan, textures: &Textures) -> LightList {
