@@ -22,7 +22,6 @@ pub use bsdf::optics::{highlight, reflect, refract};
 pub use bsdf::standard::*;
 pub use bsdf::{Bsdf, BsdfSample, Evaluation, Lobes, dispersed};
 pub use camera::{Camera, Projection, camera_ray, image_point, vogel};
-pub use film::growing::TilesBefore;
 pub use film::heartbeat::{OnPixel, Step};
 pub use film::partial::{FilmError, PartialFilm};
 pub use film::pixel::BLOCK as SAMPLES_OF_BLOCK;

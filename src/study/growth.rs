@@ -98,13 +98,8 @@ impl Growth {
             let last = count.min(done.saturating_add(keeper.stretch.shares()));
             let begun = (keeper.keep.elapsed)();
             self.film.tiles = Some(Tiles::shares([done + 1, last], count));
-            let before = self.film.before();
             let wanted = |index: usize| self.wanted[index];
             let is_done = world.grow(&mut self.film, &wanted, on_pixel);
-            if !is_done {
-                // A pixel that was cut short is wrong.
-                self.film.restore(&before);
-            }
             self.film.tiles = None;
             if !is_done {
                 keeper.save(self);
@@ -124,6 +119,7 @@ impl Growth {
             counts: self.film.counts,
             error: bound.error,
             unmet: bound.unmet,
+            crude: None,
             samples: samples_of(&self.film),
             light_samples: self.light_samples,
         }

@@ -7,6 +7,7 @@
 
 mod advice;
 mod bench;
+mod budget;
 mod effects;
 mod flip;
 mod growth;
@@ -31,6 +32,7 @@ mod target;
 mod unmet;
 
 pub use bench::{Bench, Clock};
+pub use budget::CrudePicture;
 pub use effects::EffectCost;
 pub use flip::{PIXELS_PER_DEGREE, flip};
 pub use growth::{Growth, Keep};

@@ -1,11 +1,11 @@
-//! Rendering to a target: rounds of samples where they are needed, until an error or a time is
-//! reached.
+//! Rendering to a target: rounds of samples where they are needed, until an error is reached.
 //!
 //! The true picture is the limit of many sub-samples, lens points and points of soft lights, or of
 //! many paths, at the scene's own depth and with its own lobes; a light sampled at its centre alone
-//! stays so. An estimate does not know features that no sample has met. Rounds are decided by the
+//! stays so. Rounds are decided by the
 //! whole film: a target error alone gives the same picture on any number of threads.
 
+use super::budget::{self, CrudePicture};
 use super::growth::{Growth, Keep, Keeper};
 use super::knob::{Knob, idle};
 use super::noise::{Allotment, Noise};
@@ -25,7 +25,8 @@ use std::time::Duration;
 pub struct Goal {
     /// The root mean square error in grey levels of 8 bits, of display values.
     pub error: Option<f64>,
-    /// The wall time for the render. There is at least one round, and only whole rounds count.
+    /// When the picture is to be ready, by the clock of [`Watch::elapsed`]. There is at least one sample
+    /// of each replicate in one pixel of 8 × 8.
     pub time: Option<Duration>,
 }
 
@@ -54,7 +55,7 @@ pub struct Watch<'a> {
     pub on_pixel: &'a OnPixel<'a>,
     /// Whether the user said stop, rather than the time ran out.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
-    /// The time since the start.
+    /// The time since the start, from which a time allowed counts.
     pub elapsed: &'a (dyn Fn() -> Duration + Sync),
     /// Called before each round, also while the setting is chosen.
     pub round: &'a (dyn Fn(Progress) + Sync),
@@ -94,6 +95,8 @@ pub struct Reached {
     pub error: f64,
     /// If there is no bound: how bright, in multiples of white, light may be that no sample met.
     pub unmet: Option<f64>,
+    /// If the time ended before each pixel had a sample; there is no bound on its error then.
+    pub crude: Option<CrudePicture>,
     /// Its samples.
     pub samples: Samples,
     /// Points of each soft light at a hit.
@@ -101,7 +104,7 @@ pub struct Reached {
 }
 
 /// The fraction of pictures that may be worse than promised.
-const TAIL: f64 = 0.05;
+pub(super) const TAIL: f64 = 0.05;
 
 /// The samples of all pixels together in the first round, per replicate: enough also for pictures
 /// of few pixels.
@@ -144,7 +147,10 @@ pub fn approach_keeping(
         return exactly(world, order, watch);
     }
     let own = world.scene().clone();
-    let reached = in_rounds(world, scene, order, watch, keep.map(Keeper::new));
+    let reached = match order.goal.time {
+        Some(time) => budget::within(world, scene, order, watch, time),
+        None => in_rounds(world, scene, order, watch, keep.map(Keeper::new)),
+    };
     world.change(own);
     reached
 }
@@ -159,74 +165,68 @@ fn in_rounds(
 ) -> Result<Reached, Stopped> {
     let mut growth = match keeper.as_mut().and_then(Keeper::begun) {
         Some(begun) => begun,
-        None => begin(world, scene, order, watch)?,
+        None => {
+            let (light_samples, tried) = light_samples(world, scene, order, watch)?;
+            let mut growth = begin(light_samples, order);
+            growth.film.counts = tried;
+            growth.wanted = vec![first_round(scene, order, world); growth.film.len()];
+            growth
+        }
     };
     spread(world, scene, growth.light_samples);
     let unmet = order.unmet(world);
-    let mut before: Option<Reached> = None;
+    let mut error = None;
     loop {
-        (watch.round)(Progress {
-            pixels: growth.film.len() as u64,
-            error: before.as_ref().map(|reached| reached.error),
-        });
-        let time = order.goal.time.filter(|_| before.is_some());
-        let is_late = || time.is_some_and(|time| (watch.elapsed)() > time);
-        let on_pixel = |step| (watch.on_pixel)(step) && !is_late();
-        if !growth.grow(world, &on_pixel, keeper.as_mut()) {
-            // A round cut short has favoured pixels at the top: the picture before it stands, where
-            // it was to be as good as can be.
-            return match before {
-                Some(reached) if order.goal.time.is_some() && !(watch.is_stopped)() => Ok(reached),
-                Some(_) | None => Err(Stopped),
-            };
+        let pixels = growth.film.len() as u64;
+        (watch.round)(Progress { pixels, error });
+        if !growth.grow(world, watch.on_pixel, keeper.as_mut()) {
+            return Err(Stopped);
         }
-        let round = f64::from(growth.rounds + 1);
         let noise = Noise::of(&growth.film, &unmet);
-        // A stop at any round is one of many looks: the tails of all rounds, 1/(r(r + 1)), sum to
-        // the one allowed.
-        let tail = TAIL / (round * (round + 1.0));
+        let tail = tail_of(growth.rounds + 1);
         let bound = noise.bound(tail, order.goal.error);
-        let elapsed = (watch.elapsed)();
-        let wanted = next_round(&growth.film, &noise, tail, &order.goal, elapsed);
-        let reached = growth.reached(bound, order.values);
-        let Some(wanted) = wanted else {
+        let goal = order.goal.error;
+        let Some(wanted) = next_round(&growth.film, &noise, tail, goal, f64::INFINITY) else {
             keeper.iter().for_each(|keeper| keeper.save(&growth));
-            return Ok(reached);
+            return Ok(growth.reached(bound, order.values));
         };
-        (growth.wanted, before) = (wanted, Some(reached));
+        (growth.wanted, error) = (wanted, Some(bound.error));
         growth.rounds += 1;
     }
 }
 
-/// A picture without samples, and how many each pixel is to have after the first round.
-fn begin(
-    world: &mut AnyWorld,
-    scene: &Scene,
-    order: &Order,
-    watch: &Watch<'_>,
-) -> Result<Growth, Stopped> {
-    let (light_samples, tried) = light_samples(world, scene, order, watch)?;
-    let mut film = order.film();
-    film.counts = tried;
+/// The probability of a larger error than is said after so many rounds. A stop at any round is one
+/// of many looks: the tails of all rounds, 1/(r(r + 1)), sum to the one allowed.
+pub(super) fn tail_of(rounds: u32) -> f64 {
+    let round = f64::from(rounds);
+    TAIL / (round * (round + 1.0))
+}
+
+/// A picture without samples, of so many points of each soft light.
+pub(super) fn begin(light_samples: u32, order: &Order) -> Growth {
+    Growth {
+        film: order.film(),
+        wanted: Vec::new(),
+        rounds: 0,
+        light_samples,
+        keeps_lights: order.keep_lights,
+    }
+}
+
+/// The samples of each replicate, and of the pilot, that all pixels are to have before it is decided
+/// which have more.
+pub(super) fn first_round(scene: &Scene, order: &Order, world: &AnyWorld) -> [u32; 2] {
     let min = if idle(Knob::Paths, scene).is_none() {
         FIRST_PATHS
     } else {
         1
     };
-    let first = FIRST
-        .div_ceil(film.len().max(1))
-        .max(min)
-        .next_power_of_two();
+    let pixels = order.crop.pixels().max(1);
+    let first = FIRST.div_ceil(pixels).max(min).next_power_of_two();
     let goal = order.goal.error;
     let least = goal.map_or(1, |error| order.unmet(world).least(error));
     let first = u32::try_from(first).unwrap_or(1).max(least);
-    Ok(Growth {
-        wanted: vec![[first, (first / 2).max(FIRST_PILOT)]; film.len()],
-        film,
-        rounds: 0,
-        light_samples,
-        keeps_lights: order.keep_lights,
-    })
+    [first, (first / 2).max(FIRST_PILOT)]
 }
 
 impl Order {
@@ -238,7 +238,7 @@ impl Order {
     }
 
     /// What samples of a world may show.
-    fn unmet(&self, world: &AnyWorld) -> Unmet {
+    pub(super) fn unmet(&self, world: &AnyWorld) -> Unmet {
         let (_, exposure) = self.display;
         Unmet {
             brightest: (world.brightest() * exposure).max(1.0),
@@ -272,13 +272,14 @@ fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<Reached
         counts,
         error: 0.0,
         unmet: None,
+        crude: None,
         samples,
         light_samples: 1,
     })
 }
 
 /// Sets random sub-samples in the pixels, and the number of points of soft lights.
-fn spread(world: &mut AnyWorld, scene: &Scene, light_samples: u32) {
+pub(super) fn spread(world: &mut AnyWorld, scene: &Scene, light_samples: u32) {
     let mut scene = scene.clone();
     scene.settings.pattern = Pattern::Jitter;
     scene.settings.light_samples = light_samples;
@@ -288,7 +289,7 @@ fn spread(world: &mut AnyWorld, scene: &Scene, light_samples: u32) {
 /// The best number of points of each soft light, and the rays for finding it. Larger numbers are
 /// tried on some tiles as long as noise times rays falls: that product is the cost of a picture of
 /// given error.
-fn light_samples(
+pub(super) fn light_samples(
     world: &mut AnyWorld,
     scene: &Scene,
     order: &Order,
@@ -347,28 +348,24 @@ fn light_samples(
     Ok((best.0, tried))
 }
 
-/// The length of all replicates after the next round; `None` if the goal is reached or the time
-/// does not suffice.
-fn next_round(
+/// The length of all replicates after the next round, of at most so many samples more; `None` if the
+/// goal, in grey levels, is reached or nothing fits.
+pub(super) fn next_round(
     film: &ProgressiveFilm,
     noise: &Noise,
     tail: f64,
-    goal: &Goal,
-    elapsed: Duration,
+    goal: Option<f64>,
+    most: f64,
 ) -> Option<Vec<[u32; 2]>> {
     /// The step in noise if a round would change nothing, or would not fit.
     const LESS: f64 = 0.8;
     const MORE: f64 = 1.5;
-    let is_met = |error: f64| noise.bound(tail, goal.error).error <= error;
-    let left = goal
-        .time
-        .map_or(Some(Duration::MAX), |time| time.checked_sub(elapsed))?;
-    if noise.square == 0.0 || goal.error.is_some_and(is_met) {
+    let is_met = |error: f64| noise.bound(tail, goal).error <= error;
+    if noise.square == 0.0 || goal.is_some_and(is_met) {
         return None;
     }
     let allotment = Allotment::of(film, noise);
     let samples = film.samples() as f64;
-    let most = samples * left.as_secs_f64() / elapsed.as_secs_f64().max(1e-9);
     let round = |square: f64| {
         let wanted = allotment.wanted(film, square);
         let all = wanted
@@ -377,7 +374,7 @@ fn next_round(
         let more = all.sum::<f64>() - samples;
         (wanted, more)
     };
-    let mut square = match goal.error {
+    let mut square = match goal {
         Some(error) => noise.left(tail, error),
         None => noise.square / 4.0,
     };

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
+mod budget;
 mod grids;
 mod paths;
 mod patterns;
@@ -32,23 +33,6 @@ fn on(threads: usize, work: impl FnOnce() -> Reached + Send) -> Reached {
         .build()
         .unwrap()
         .install(work)
-}
-
-/// With a clock that a ray advances by a microsecond.
-fn with_clock(scene: &Scene, goal: Goal) -> Reached {
-    let rays = AtomicU64::new(0);
-    let watch = Watch {
-        on_pixel: &|step| {
-            rays.fetch_add(step.rays, Relaxed);
-            true
-        },
-        is_stopped: &|| false,
-        elapsed: &|| Duration::from_micros(rays.load(Relaxed)),
-        round: &|_| {},
-    };
-    on(1, || {
-        approach(&mut world(scene), scene, &order(scene, goal, 0), &watch).unwrap()
-    })
 }
 
 /// The promise is 19 of 20; of 24 pictures fewer than 20 keep it by chance once in 3000.
@@ -137,43 +121,6 @@ fn a_crop_of_a_first_round_is_a_part_of_the_whole() {
         .copied()
         .collect();
     assert!(part.pixels == wanted);
-}
-
-#[test]
-fn a_time_is_kept_and_more_of_it_is_less_error() {
-    let scene = scene(1, SIZE);
-    let within = |millis| {
-        with_clock(
-            &scene,
-            Goal {
-                error: None,
-                time: Some(Duration::from_millis(millis)),
-            },
-        )
-    };
-    let (short, long) = (within(100), within(1000));
-    assert!(
-        long.error < 0.5 * short.error,
-        "{} and {}",
-        short.error,
-        long.error
-    );
-    let rays = [short.counts.rays(), long.counts.rays()];
-    assert!(
-        rays[0] <= 100_000 && (500_000..=1_000_000).contains(&rays[1]),
-        "{rays:?}"
-    );
-    let both = with_clock(
-        &scene,
-        Goal {
-            error: Some(5.0),
-            time: Some(Duration::from_secs(1000)),
-        },
-    );
-    assert!(
-        both.error <= 5.0 && both.counts.rays() < 1_000_000,
-        "{both:?}"
-    );
 }
 
 #[test]

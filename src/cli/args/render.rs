@@ -23,8 +23,8 @@ pub(in crate::cli) struct Render {
     /// pictures), to what ever more samples at this depth would show
     #[arg(long, value_name = "LEVELS", value_parser = levels, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
     pub(in crate::cli) target_error: Option<f64>,
-    /// Sample for this long, in seconds of the clock, where it helps most; the picture then
-    /// depends on the machine
+    /// Have the picture ready in this time, in seconds of the clock from the start of the program:
+    /// crude first, then samples where they help most; it depends on the machine
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
     pub(in crate::cli) time_budget: Option<Duration>,
     /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with

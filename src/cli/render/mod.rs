@@ -1,5 +1,6 @@
 //! `rtc render`: a scene to a picture. What was typed becomes a [`RenderSetup`] before anything is read.
 
+mod budget;
 mod checkpoint;
 mod part;
 mod shot;
@@ -22,6 +23,7 @@ use crate::pipeline::{
 use crate::plan::{Rule, Rules};
 use crate::render::{Aov, Crop};
 use crate::study::Goal;
+use budget::PictureClock;
 use checkpoint::{Checkpoint, Saving};
 pub(super) use checkpoint::{or_restart, say_saved, try_save};
 use part::PartSetup;
@@ -41,6 +43,7 @@ struct RenderSetup {
     checkpoint: Option<Checkpoint>,
     /// Whether it is rendered in strips, and of how many rows.
     strips: Option<Option<u32>>,
+    clock: PictureClock,
 }
 
 impl From<RenderError> for Failure {
@@ -100,6 +103,7 @@ impl RenderSetup {
             part,
             checkpoint: Checkpoint::new(args),
             strips: args.strips,
+            clock: PictureClock::start(),
         })
     }
 
@@ -210,8 +214,11 @@ impl RenderSetup {
         let film = (shot.image, shot.coverage, &shot.counts);
         let is_stopped = || interrupt.is_raised();
         let picture = self.picture.develop(subject, film, input, &is_stopped)?;
-        input::tell(input, talk)?;
         let bytes = self.picture.encode(&picture, subject)?;
+        let time = self.picture.goal.time;
+        let found = self.clock.stop(time, (shot.crude, window));
+        found.into_iter().for_each(|finding| input.push(finding));
+        input::tell(input, talk)?;
         output.commit(&bytes, interrupt)?;
         if !quiet {
             talk::say(&summary);

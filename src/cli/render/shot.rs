@@ -4,11 +4,12 @@
 use super::super::interrupt::Interrupt;
 use super::super::progress::{self, RenderProgress};
 use super::RenderSetup;
+use super::budget::PictureClock;
 use crate::image::Image;
 use crate::pipeline::{Meter, Observer, RenderError, RenderSubject};
 use crate::plan::Effect;
 use crate::render::{Counts, Crop, Film};
-use crate::study::{Growth, Keep, Order, Reached, Samples, Stopped, Watch};
+use crate::study::{CrudePicture, Goal, Growth, Keep, Order, Reached, Samples, Stopped, Watch};
 use indicatif::HumanCount;
 use std::path::Path;
 use std::time::Duration;
@@ -21,6 +22,8 @@ pub(super) struct Rendered {
     pub(super) elapsed: Duration,
     /// How good it is, if that was asked.
     pub(super) quality: Option<String>,
+    /// If the time was too short for it.
+    pub(super) crude: Option<CrudePicture>,
 }
 
 impl Rendered {
@@ -126,6 +129,7 @@ impl RenderSetup {
             counts,
             elapsed,
             quality: None,
+            crude: None,
         })
     }
 
@@ -134,7 +138,13 @@ impl RenderSetup {
         let setup = &self.picture;
         let mode = &subject.proven.scene.settings().mode;
         Order {
-            goal: setup.goal,
+            goal: Goal {
+                time: setup
+                    .goal
+                    .time
+                    .map(|time| PictureClock::sampling(time, crop)),
+                ..setup.goal
+            },
             crop,
             background: setup.look.background(),
             values: setup.look.values(mode),
@@ -157,7 +167,8 @@ impl RenderSetup {
         let setup = &self.picture;
         let order = self.order(subject, window);
         let progress = RenderProgress::start(0, quiet);
-        let elapsed = || progress.elapsed();
+        let begun = self.clock.begun();
+        let elapsed = || begun.elapsed();
         let keep = kept.map(|kept| kept.into_keep(&order, setup.threads, &elapsed));
         let keep = keep.transpose()?;
         let begun = keep.as_ref().and_then(|keep| keep.begun.as_ref());
@@ -198,20 +209,25 @@ impl RenderSetup {
             samples: Samples { min, mean, most },
             error,
             unmet,
-            ..
+            crude,
+            light_samples: _,
         } = reached;
-        let quality = format!(
-            "{}, {mean:.0} samples a pixel on the mean, {min} … {most}{end}",
-            bound(error, unmet)
-        );
+        let told = crude.map_or_else(|| bound(error, unmet), crude_told);
+        let quality = format!("{told}, {mean:.0} samples a pixel on the mean, {min} … {most}{end}");
         Ok(Rendered {
             image,
             coverage,
             counts,
             elapsed,
             quality: Some(quality),
+            crude,
         })
     }
+}
+
+/// What is said of a crude picture.
+fn crude_told(CrudePicture { block, .. }: CrudePicture) -> String {
+    format!("no bound: of some blocks of {block} × {block} pixels one was sampled")
 }
 
 /// A bound on the error in grey levels, in words; or how bright light may be, in multiples of white, that

@@ -28,8 +28,8 @@ super::codes! { RD:
          a ray branches at each bounce, as in glass, or into a lobe, their number grows as a power of the bounces, and \
          nobody can tell before how far. The finding names the first pixel, in the order of rows, up to which the \
          picture takes more than `--limit rays`, 2^32 unless another limit is set, and the key that makes them so many. \
-         With `--verify-effects` each of the two renders has that limit; with `--time-budget` rounds of samples end \
-         there, and it is found only if not even the first is done. `rtc cost` and `--allow-huge` have none.";
+         With `--verify-effects` each of the two renders has that limit; with `--time-budget` samples end there, and it \
+         is found only if not even the crudest picture is done. `rtc cost` and `--allow-huge` have none.";
     EXPOSED = "RD007", Note, "the picture is shown brighter or darker than its values",
         "The lights of a glTF asset are in lux and candela: a sun has 100 000 lux, a white page in it a radiance of 30 000, \
          and 1 is white. So the PNG of an asset with lights of its own is exposed as a camera would: by whole thirds of a \
@@ -51,4 +51,10 @@ super::codes! { RD:
     FITTED = "RD010", Note, "the picture shows more than the camera of the asset sees",
         "A camera of glTF sees a picture of a certain shape. With `--size` of another shape the picture is fitted around what \
          the camera sees: nothing of that is cut off, and there is more of the scene at two sides.";
+    TOO_SHORT = "RD011", Warning, "the time budget is too short",
+        "`--time-budget` counts from the start of the program: reading and checking the scene, preparing it, sampling and \
+         encoding the picture. If each pixel can't have a sample in that time, one pixel of a block of 8 × 8, 4 × 4 or 2 × 2 \
+         is sampled and all of the block show it; no error is known of such a picture. The crudest picture is made in any \
+         case, and a mode that takes one ray a pixel makes its picture to the end; where that is later than 5 % of the \
+         budget and than 20 ms, the warning says how long it took.";
 }

@@ -2,10 +2,10 @@
 //! means are shown by a tone map, its counts, and the samples of its pixels, tile by tile. Numbers
 //! are little-endian, floating-point numbers keep every bit.
 
+use super::Crop;
 use super::bytes::FilmBytes;
 use super::partial::FilmError;
 use super::progressive::{NUMBERS, ProgressiveFilm, Replicates, SHOWN};
-use super::{Crop, Tiles};
 
 /// What the bytes begin with.
 const MAGIC: [u8; 8] = *b"rtc grow";
@@ -16,32 +16,7 @@ const VERSION: u32 = 2;
 /// The most samples of a replicate.
 const LONGEST: u32 = 1 << 24;
 
-/// What a film held of the pixels of some tiles.
-pub struct TilesBefore(Vec<Vec<Replicates>>);
-
 impl ProgressiveFilm {
-    /// What the pixels of the selected tiles are before they grow.
-    #[must_use]
-    pub fn before(&mut self) -> TilesBefore {
-        let tiles = self.selected();
-        TilesBefore(tiles.into_iter().map(|pixels| pixels.to_vec()).collect())
-    }
-
-    /// Makes the pixels of the selected tiles what they were.
-    pub fn restore(&mut self, before: &TilesBefore) {
-        let both = self.selected().into_iter().zip(&before.0);
-        both.for_each(|(pixels, before)| pixels.copy_from_slice(before));
-    }
-
-    fn selected(&mut self) -> Vec<&mut [Replicates]> {
-        let selected: Option<Tiles> = self.tiles;
-        let is_selected =
-            |area: &Crop| selected.is_none_or(|tiles| tiles.contain([area.x, area.y]));
-        let tiles = self.pixels.tiles_mut();
-        let tiles = tiles.filter(|(area, _)| is_selected(area));
-        tiles.map(|(_, pixels)| pixels).collect()
-    }
-
     /// The film as bytes; equal films are equal bytes.
     #[must_use]
     pub fn save(&self) -> Vec<u8> {

@@ -1,6 +1,6 @@
 //! Growing pictures: each pixel takes the samples wanted that its replicates do not have yet.
 
-use super::{Selection, run};
+use super::{Selection, run_tiles};
 use crate::color::Tone;
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::Sample;
@@ -76,7 +76,7 @@ fn add_samples<'run, I: Integrator<'run, Sample = Sample>>(
             ProgressiveFilm::lacking(seed, pixel, wanted(index)),
         )
     };
-    let counts = run(&mut film.pixels, selection, worker, &open);
-    film.counts = film.counts.plus(counts.unwrap_or_default());
-    counts.is_some()
+    let (counts, is_done) = run_tiles(&mut film.pixels, selection, worker, &open);
+    film.counts = film.counts.plus(counts);
+    is_done
 }

@@ -129,9 +129,9 @@ impl AnyWorld {
             .layers(wanted, job, on_pixel)
     }
 
-    /// Takes samples until both halves of each pixel have those wanted: `wanted(i)` is how many
-    /// each replicate of the halves of pixel i is to have at least. False if `on_pixel` said stop;
-    /// the film is then of no use.
+    /// Takes samples until each pixel has those wanted: `wanted(i)` is how many each replicate of
+    /// pixel i, and its pilot, are to have at least. False if `on_pixel` said stop; tiles that were not
+    /// done are then as before.
     ///
     /// `on_pixel` is called from all threads, after each pixel and within long ones.
     pub fn grow(

@@ -1,0 +1,84 @@
+//! The time that a picture may take, from the start of the command to its file.
+
+use crate::diag::{Diagnostic, codes};
+use crate::render::Crop;
+use crate::study::CrudePicture;
+use std::cell::Cell;
+use std::time::{Duration, Instant};
+
+/// When the picture was begun: the first with the command, each other after the one before.
+pub(super) struct PictureClock(Cell<Instant>);
+
+/// The time that a pixel takes from its samples to the file, about.
+const WRITING: Duration = Duration::from_nanos(200);
+
+/// What the end of the program takes after the picture is encoded.
+const ENDING: Duration = Duration::from_millis(10);
+
+/// The time taken for a picture may be more than its budget by so much, or by this part of it.
+const LATE: Duration = Duration::from_millis(20);
+const LATE_PART: f64 = 0.05;
+
+#[expect(
+    clippy::disallowed_methods,
+    reason = "a budget is of the clock, and says so"
+)]
+impl PictureClock {
+    /// Begins now.
+    pub(super) fn start() -> Self {
+        Self(Cell::new(Instant::now()))
+    }
+
+    /// When the picture was begun.
+    pub(super) fn begun(&self) -> Instant {
+        self.0.get()
+    }
+
+    /// The time until samples end for the picture to be ready in a time, on a machine that is not quite
+    /// idle.
+    pub(super) fn sampling(time: Duration, crop: Crop) -> Duration {
+        const BUSY: f64 = 0.98;
+        time.saturating_sub(writing(crop)).mul_f64(BUSY)
+    }
+
+    /// The picture is ready: what is to be said of its time and of what it lacks.
+    pub(super) fn stop(
+        &self,
+        time: Option<Duration>,
+        (crude, crop): (Option<CrudePicture>, Crop),
+    ) -> Option<Diagnostic> {
+        let took = self.begun().elapsed() + ENDING;
+        self.0.set(Instant::now());
+        let time = time?;
+        let is_late = took > time + LATE.max(time.mul_f64(LATE_PART));
+        let words = match (is_late, crude) {
+            (false, None) => return None,
+            (true, None) => late(took, time),
+            (true, Some(crude)) => format!("{}, and {}", late(took, time), lacking(crude)),
+            (false, Some(crude)) => lacking(crude),
+        };
+        let finding = Diagnostic::new(&codes::TOO_SHORT, words);
+        Some(match crude {
+            Some(CrudePicture { whole, .. }) => finding.hint(format!(
+                "a sample for each pixel takes about `--time-budget {:.2}`",
+                (whole + writing(crop)).as_secs_f64()
+            )),
+            None => finding.hint(
+                "reading, preparing and writing take time, too: a smaller `--size` takes less",
+            ),
+        })
+    }
+}
+
+fn writing(crop: Crop) -> Duration {
+    WRITING.mul_f64(crop.pixels() as f64) + ENDING
+}
+
+fn late(took: Duration, time: Duration) -> String {
+    let [took, time] = [took, time].map(|time| time.as_secs_f64());
+    format!("the picture took {took:.2} s, and was to take {time:.2} s")
+}
+
+fn lacking(CrudePicture { block, .. }: CrudePicture) -> String {
+    format!("the picture is crude: blocks of up to {block} × {block} pixels show one of them")
+}
