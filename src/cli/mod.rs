@@ -8,7 +8,9 @@ mod batch;
 mod check;
 mod compile;
 mod cost;
+mod diff;
 mod explain;
+mod gate;
 mod input;
 mod interrupt;
 mod merge;
@@ -95,6 +97,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Merge(args) => merge::run(&args),
         Command::Farm(args) => batch::run(&args),
         Command::Cost(args) => cost::run(&args),
+        Command::Diff(args) => diff::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Schema(args) => tell::schema(&args),
         Command::Completions(args) => tell::completions(&args),

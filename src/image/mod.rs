@@ -9,6 +9,7 @@ mod look;
 mod png;
 mod radiance;
 mod range;
+mod shown;
 mod texels;
 
 pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
@@ -17,6 +18,7 @@ pub use look::{Association, BackgroundFill, Look, exposure};
 pub use png::png_bytes;
 pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::Lost;
+pub use shown::ShownPicture;
 pub use texels::{Texel, Texels};
 
 use std::fmt;

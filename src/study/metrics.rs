@@ -45,7 +45,6 @@ impl Errors {
             [rmse; 2]
         };
         let channels = || pairs().flat_map(|(test, reference)| channels(test, reference));
-        let relative = |(x, r): (f64, f64)| (x - r) * (x - r) / (r * r + 0.01);
         let pixels = pairs().map(|(test, _)| test.pixels.len()).sum::<usize>() as f64;
         let is_off = |(test, reference): (&[f64; 3], &[f64; 3])| {
             test.iter()
@@ -66,6 +65,16 @@ impl Errors {
             flip: flips.sum::<f64>() / pixels,
         }
     }
+}
+
+/// The mean of `(x − r)²/(r² + 0.01)` over all channels.
+#[must_use]
+pub(super) fn relative_mse(test: &Image, reference: &Image) -> f64 {
+    channels(test, reference).map(relative).sum::<f64>() / (3 * test.pixels.len()).max(1) as f64
+}
+
+fn relative((x, r): (f64, f64)) -> f64 {
+    (x - r) * (x - r) / (r * r + 0.01)
 }
 
 /// The root of the mean square difference, in grey levels.

@@ -8,6 +8,7 @@
 mod advice;
 mod bench;
 mod budget;
+mod difference;
 mod effects;
 mod flip;
 mod growth;
@@ -33,6 +34,7 @@ mod unmet;
 
 pub use bench::{Bench, Clock};
 pub use budget::CrudePicture;
+pub use difference::{Difference, heat_map};
 pub use effects::EffectCost;
 pub use flip::{PIXELS_PER_DEGREE, flip};
 pub use growth::{Growth, Keep};

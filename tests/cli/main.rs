@@ -10,6 +10,7 @@
     reason = "a test stops at the first surprise, and makes the files it needs"
 )]
 mod checkpoints;
+mod diff;
 mod exposure;
 mod farm;
 mod framing;

@@ -2,6 +2,7 @@
 
 mod common;
 mod cost;
+mod diff;
 mod farm;
 mod look;
 mod merge;
@@ -11,6 +12,7 @@ mod wanted;
 
 pub(super) use common::{Color, MessageFormat, Reading, TalkArgs};
 pub(super) use cost::{Cost, StudyFormat};
+pub(super) use diff::Diff;
 pub(super) use farm::{Engine, Farm};
 pub(super) use look::{BitDepth, LookArgs};
 pub(super) use merge::Merge;
@@ -38,7 +40,7 @@ static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
 #[derive(Debug, Parser)]
 #[command(name = "rtc", version = LONG_VERSION.as_str(), max_term_width = 100, arg_required_else_help = true)]
 #[command(
-    after_help = "Exit codes: 0 fine, 1 the input has errors, 2 usage, files or internal, 130 interrupted, 143 terminated."
+    after_help = "Exit codes: 0 fine, 1 the input has errors or a gate is not met, 2 usage, files or internal, 130 interrupted, 143 terminated."
 )]
 pub(super) struct Cli {
     #[command(subcommand)]
@@ -59,6 +61,8 @@ pub(super) enum Command {
     Farm(Box<Farm>),
     /// Show what accuracy costs in a scene, and which settings are worth it
     Cost(Cost),
+    /// Compare two pictures, and hold the difference to gates
+    Diff(Diff),
     /// Explain a code of a diagnostic
     Explain(Explain),
     /// Print the JSON Schema of a format

@@ -53,17 +53,36 @@ impl PixelLayout {
                 coded[k]
             }
         };
-        let opacity = |k: usize| {
-            if self.has_alpha() {
-                channel(k)
+        self.colored(channel, u8::MAX)
+    }
+
+    /// Red, green, blue and opacity of a coded pixel, from 0 to 1.
+    pub(super) fn values(self, coded: &[u8]) -> [f64; 4] {
+        let channel = |k: usize| {
+            if self.is_wide {
+                f64::from(u16::from_be_bytes([coded[2 * k], coded[2 * k + 1]])) / 65535.0
             } else {
-                u8::MAX
+                f64::from(coded[k]) / 255.0
             }
         };
-        match self.channels {
-            1 | 2 => [channel(0), channel(0), channel(0), opacity(1)],
-            _ => [channel(0), channel(1), channel(2), opacity(3)],
-        }
+        self.colored(channel, 1.0)
+    }
+
+    /// Red, green, blue and opacity by the channels of a pixel.
+    #[inline]
+    fn colored<T>(self, channel: impl Fn(usize) -> T, opaque: T) -> [T; 4] {
+        let color = if self.channels < 3 {
+            [channel(0), channel(0), channel(0)]
+        } else {
+            [channel(0), channel(1), channel(2)]
+        };
+        let [r, g, b] = color;
+        let opacity = if self.has_alpha() {
+            channel(self.channels - 1)
+        } else {
+            opaque
+        };
+        [r, g, b, opacity]
     }
 }
 
@@ -102,6 +121,17 @@ mod tests {
             assert_eq!(converted(4, is_wide, 3), [0, 10, 20, 40, 50, 60]);
             assert_eq!(converted(4, is_wide, 4), [0, 10, 20, 30, 40, 50, 60, 70]);
         }
+    }
+
+    #[test]
+    fn values_are_not_rounded() {
+        let layout = |channels, is_wide| PixelLayout { channels, is_wide };
+        let grey = 256.0 / 65535.0;
+        assert_eq!(layout(1, true).values(&[1, 0]), [grey, grey, grey, 1.0]);
+        assert_eq!(
+            layout(4, false).values(&[0, 51, 255, 102]),
+            [0.0, 0.2, 1.0, 0.4]
+        );
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod layout;
 mod png;
 mod webp;
 
+use super::Image;
 use ::image::ImageFormat;
 use layout::PixelLayout;
 use std::fmt;
@@ -218,6 +219,34 @@ impl<'a> PixelFile<'a> {
             has_alpha: channels == 4,
             bytes,
         })
+    }
+
+    /// Decodes it to values from 0 to 1, 16 bits where it has them, multiplied with the opacity; and the
+    /// opacity, if there is one.
+    ///
+    /// # Errors
+    /// As of [`Self::decode`].
+    pub fn decode_wide(self) -> Result<(Image, Option<Vec<f64>>), DecodeError> {
+        let (layout, size) = (self.layout(), self.size);
+        let mut bytes = size.buffer(layout.bytes())?;
+        match self.decoder {
+            Decoder::Png(png) => png.decode(&mut bytes)?,
+            Decoder::Jpeg(jpeg) => jpeg.decode(&mut bytes)?,
+            Decoder::WebP(webp) => webp.decode(&mut bytes)?,
+        }
+        let coded = || bytes.chunks_exact(layout.bytes());
+        let shown = |pixel: &[u8]| {
+            let [r, g, b, opacity] = layout.values(pixel);
+            [r, g, b].map(|value| value * opacity)
+        };
+        let image = Image {
+            width: size.width,
+            height: size.height,
+            pixels: coded().map(shown).collect(),
+        };
+        let opacity = |pixel: &[u8]| layout.values(pixel)[3];
+        let alpha = layout.has_alpha().then(|| coded().map(opacity).collect());
+        Ok((image, alpha))
     }
 
     /// How the decoder lays out pixels.

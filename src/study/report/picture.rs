@@ -1,6 +1,7 @@
 //! Pictures for the page: the rendered tiles side by side, and the perceived difference at each
 //! place, as data URIs.
 
+use super::super::difference::heat_map;
 use super::super::flip::{PIXELS_PER_DEGREE, flip};
 use crate::image::{FileFormat, Image, Picture};
 use ::image::imageops::thumbnail;
@@ -19,32 +20,10 @@ pub(super) fn tiles(tiles: &[Image]) -> String {
 /// FLIP of each place, from black for no difference to white for the largest.
 pub(super) fn heat(test: &[Image], reference: &[Image]) -> String {
     let map = |(test, reference): (&Image, &Image)| {
-        let pixels = flip(reference, test, PIXELS_PER_DEGREE)
-            .into_iter()
-            .map(glow)
-            .collect();
-        Image { pixels, ..*test }
+        let flips = flip(reference, test, PIXELS_PER_DEGREE);
+        heat_map([test.width, test.height], &flips)
     };
     tiles(&test.iter().zip(reference).map(map).collect::<Vec<_>>())
-}
-
-/// A colour that grows brighter from 0 to 1.
-fn glow(value: f64) -> [f64; 3] {
-    const STOPS: [[f64; 3]; 5] = [
-        [0.0, 0.0, 0.02],
-        [0.32, 0.07, 0.48],
-        [0.72, 0.21, 0.47],
-        [0.99, 0.55, 0.38],
-        [1.0, 1.0, 0.9],
-    ];
-    let place = value.clamp(0.0, 1.0) * 4.0;
-    let below = (0..4)
-        .rev()
-        .find(|stop| f64::from(*stop) <= place)
-        .unwrap_or(0);
-    let fraction = place - f64::from(below);
-    let (from, to) = (STOPS[below as usize], STOPS[below as usize + 1]);
-    [0, 1, 2].map(|c| from[c] * (1.0 - fraction) + to[c] * fraction)
 }
 
 /// Tiles in rows of about as many as there are rows; black where there is none.

@@ -1,0 +1,47 @@
+//! What `rtc diff` is told.
+
+use super::super::gate::{Gates, gates};
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Values of pixel files are compared as they are stored, up to 16 bits; those of EXR and HDR by the code of sRGB, cut off \
+at 1, and `relmse` by what they hold. Colours count as on black, and opacity as a fourth channel.\n\n\
+Examples:\n  rtc diff new.png golden.png\n  rtc diff new.png golden.png --gate 'rmse<=1,share<=0.1%' -o map.png"
+)]
+pub(in crate::cli) struct Diff {
+    /// The picture: PNG, JPEG, WebP, EXR or HDR
+    #[arg(value_name = "PICTURE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) picture: PathBuf,
+    /// What it is compared with, of the same size
+    #[arg(value_name = "REFERENCE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) reference: PathBuf,
+    /// Pixels count as different if a channel is off by more than so many grey levels of 8 bits
+    #[arg(long, value_name = "LEVELS", default_value = "1", value_parser = levels)]
+    pub(in crate::cli) levels: f64,
+    /// What must hold, or the exit code is 1: `MEASURE<=VALUE`, several with commas between; measures are rmse, max, relmse, flip
+    /// and share (as `0.5%` or 0.005)
+    #[arg(long, value_name = "GATES", value_parser = gates)]
+    pub(in crate::cli) gate: Option<Gates>,
+    /// Write where they differ, as perceived (FLIP), from black to white: a PNG
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) output: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(in crate::cli) json: bool,
+    /// Take pictures of any size
+    #[arg(long)]
+    pub(in crate::cli) allow_huge: bool,
+    /// Say nothing but that a gate is not met
+    #[arg(short, long)]
+    pub(in crate::cli) quiet: bool,
+}
+
+fn levels(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    match (0.0..=255.0).contains(&value) {
+        true => Ok(value),
+        false => Err("grey levels are from 0 to 255".to_owned()),
+    }
+}
