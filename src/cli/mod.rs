@@ -13,6 +13,7 @@ mod explain;
 mod gate;
 mod input;
 mod interrupt;
+mod lead;
 mod merge;
 mod output;
 mod parse;
@@ -78,7 +79,8 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let typed: Vec<OsString> = arguments.into_iter().collect();
     let cli = match Cli::try_parse_from(&typed) {
         Ok(cli) => cli,
-        Err(error) => {
+        Err(mut error) => {
+            lead::lead(&mut error, &typed);
             // Help and version come this way too. That nobody reads them is no failure.
             let text = error.render().to_string();
             if text.lines().any(|line| line.len() > LONG_LINE) {

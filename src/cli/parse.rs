@@ -10,13 +10,14 @@ use crate::valid;
 use std::path::PathBuf;
 use std::time::Duration;
 
+/// Width and height; one number is both.
 pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
-    let sides = text
-        .split_once(['x', 'X', '×'])
-        .and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    let (width, height) = text.split_once(['x', 'X', '×']).unwrap_or((text, text));
+    let sides = width.parse().ok().zip(height.parse().ok());
     sides
+        .map(|(width, height)| [width, height])
         .filter(|sides| !sides.contains(&0))
-        .ok_or_else(|| "expected width and height above 0, as 640x480".to_owned())
+        .ok_or_else(|| "expected width and height above 0, as 640x480 or 512".to_owned())
 }
 
 /// Which share, and of how many.
@@ -275,7 +276,11 @@ mod tests {
     #[test]
     fn sizes_and_crops_have_pixels() {
         assert_eq!((size("640x480"), size("3×2")), (Ok([640, 480]), Ok([3, 2])));
-        assert!(are_refused(size, &["640", "0x4", "4x", "-1x2", "1x2x3"]));
+        assert_eq!(size("512"), Ok([512, 512]));
+        assert!(are_refused(
+            size,
+            &["", "0", "1.5", "0x4", "4x", "-1x2", "1x2x3"]
+        ));
         let [x, y, width, height] = [1, 2, 3, 4];
         let wanted = Crop {
             x,

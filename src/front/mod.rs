@@ -38,6 +38,17 @@ pub struct FrontOptions {
     pub threads: usize,
 }
 
+/// Whether a file of this name is taken for a scene where files are looked for: by its extension.
+#[must_use]
+pub fn is_scene_name(name: &str) -> bool {
+    const OTHERS: [&str; 6] = ["yaml", "yml", "json", "gltf", "glb", "rtir"];
+    let extension = name.rsplit_once('.').map(|(_, last)| last.to_lowercase());
+    extension.is_some_and(|extension| {
+        let is = |known: &&str| *known == extension;
+        OTHERS.iter().any(is) || mesh::EXTENSIONS.iter().any(is)
+    })
+}
+
 /// A file asks for more than the budget has.
 fn over_limit(what: &str, fault: &Exceeded) -> Diagnostic {
     Diagnostic::new(

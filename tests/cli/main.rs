@@ -15,6 +15,7 @@ mod exposure;
 mod farm;
 mod framing;
 mod interplay;
+mod leads;
 mod looks;
 mod mesh;
 mod numbers;

@@ -10,8 +10,8 @@ use clap::{Args, ValueEnum};
 #[derive(Debug, Args)]
 #[command(next_help_heading = None::<&str>)]
 pub(in crate::cli) struct WantedArgs {
-    /// Width and height in pixels; the picture keeps its height in the scene
-    #[arg(long, value_name = "WxH", value_parser = size)]
+    /// Width and height in pixels, one number being both; the picture keeps its height in the scene
+    #[arg(long, value_name = "WxH|N", value_parser = size)]
     pub(in crate::cli) size: Option<[u32; 2]>,
     /// Sub-samples along each side of a pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]

@@ -11,6 +11,7 @@ use super::Failure;
 use super::args::{self, BitDepth};
 use super::input;
 use super::interrupt::Interrupt;
+use super::lead;
 use super::output::{self, Output};
 use super::simd;
 use super::talk::{self, Talk};
@@ -119,7 +120,12 @@ impl RenderSetup {
                 return Err(error.into());
             }
         };
-        self.picture.window(&subject.proven.lowered.scene)?;
+        let scene = &subject.proven.lowered.scene;
+        let idle = lead::idle(&self.picture.overrides, &scene.settings.mode);
+        idle.filter(|_| !talk.is_quiet())
+            .into_iter()
+            .for_each(talk::say);
+        self.picture.window(scene)?;
         let interrupt = Interrupt::listen()?;
         let observer = Observer {
             on_step: &|_| (),

@@ -1,0 +1,119 @@
+//! Where mistyped commands lead.
+
+use super::*;
+
+/// The words of a refused command.
+fn refused(folder: &TempDir, args: &[&str]) -> String {
+    let output = rtc(folder, args);
+    assert_eq!((code(&output), output.stdout.len()), (2, 0), "{args:?}");
+    stderr(&output)
+}
+
+/// The ball, its paths traced.
+fn folder_with_paths() -> TempDir {
+    let folder = folder();
+    let paths = r#"{"path": {"samples": 4, "multipleScattering": true}}"#;
+    let paths = scene_with("\"phong\", \"shadows\"", &format!("{paths}, \"shadows\""));
+    fs::write(
+        folder.path().join("paths.json"),
+        paths.replacen("1,", "3,", 1),
+    )
+    .unwrap();
+    folder
+}
+
+#[test]
+fn a_scene_without_a_subcommand_leads_to_render() {
+    let folder = folder();
+    for args in [&["ball.json"][..], &["ball.json", "-o", "x.png"]] {
+        let said = refused(&folder, args);
+        assert!(
+            said.contains("tip: did you mean `rtc render ball.json`?"),
+            "{said}"
+        );
+    }
+    assert!(refused(&folder, &["none.glb"]).contains("`rtc render none.glb`"));
+    let said = refused(&folder, &["rendr", "ball.json"]);
+    assert!(
+        said.contains("'render'") && !said.contains("did you mean"),
+        "{said}"
+    );
+}
+
+#[test]
+fn samples_lead_to_the_flag_of_the_scene() {
+    let folder = folder_with_paths();
+    let cases = [
+        (&["ball.json", "--samples", "10"][..], "`--supersampling 4`"),
+        (&["ball.json", "--samples"], "`--supersampling N`"),
+        (&["paths.json", "--samples=64"], "`--spp 64`"),
+        (&["--aa", "8", "--size", "9", "paths.json"], "`--spp 8`"),
+        (
+            &["ball.json", "--integrator", "path", "--samples", "5"],
+            "`--spp 5`",
+        ),
+        (&["none.json", "--samples", "5"], "`--spp N` is for scenes"),
+    ];
+    for (args, flag) in cases {
+        let said = refused(&folder, &[&["render"], args].concat());
+        assert!(said.contains(flag), "{args:?}: {said}");
+    }
+    let said = refused(&folder, &["check", "ball.json", "--samples", "5"]);
+    assert!(!said.contains("--spp"), "{said}");
+}
+
+#[test]
+fn sides_lead_to_a_size_of_the_shape_of_the_scene() {
+    let folder = folder();
+    let cases = [
+        (&["--width", "80"][..], "`--size 80x60`"),
+        (&["--height=15"], "`--size 20x15`"),
+        (&["--width", "8", "--height", "9"], "`--size 8x9`"),
+        (&["--resolution", "64x48"], "`--size 64x48`"),
+        (&["--res", "512"], "`--size 512x512`"),
+        (&["--resolution", "50%"], "`--size WxH`"),
+        (&["--width", "0"], "`--size WxH`"),
+    ];
+    for (args, flag) in cases {
+        let said = refused(&folder, &[&["render", "ball.json"], args].concat());
+        assert!(said.contains(flag), "{args:?}: {said}");
+    }
+}
+
+#[test]
+fn one_number_is_both_sides() {
+    let folder = folder();
+    let made = rtc(&folder, &["render", "ball.json", "--size", "24", "-o", "-"]);
+    let picture = image::load_from_memory(&made.stdout).unwrap();
+    assert_eq!((picture.width(), picture.height()), (24, 24));
+}
+
+#[test]
+fn samples_that_change_nothing_are_told() {
+    let folder = folder_with_paths();
+    let told = |args: &[&str]| {
+        let output = rtc(
+            &folder,
+            &[&["render", "--size", "4", "-o", "-"], args].concat(),
+        );
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        stderr(&output)
+    };
+    let wrong = told(&["ball.json", "--spp", "4"]);
+    assert!(
+        wrong.contains("warning: `--spp` changes nothing") && wrong.contains("`--supersampling N`"),
+        "{wrong}"
+    );
+    let wrong = told(&["paths.json", "--supersampling", "2"]);
+    assert!(
+        wrong.contains("warning: `--supersampling` changes nothing") && wrong.contains("`--spp N`"),
+        "{wrong}"
+    );
+    for args in [
+        &["ball.json", "--supersampling", "2"][..],
+        &["paths.json", "--spp", "2"],
+        &["ball.json", "--spp", "4", "-q"],
+    ] {
+        assert!(!told(args).contains("changes nothing"), "{args:?}");
+    }
+}
