@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::args::CheckArgs;
+use super::files;
 use super::input;
 use super::talk::{self, Talk};
 
@@ -9,7 +10,8 @@ use super::talk::{self, Talk};
 pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let mut talk = Talk::as_result(&args.talk);
     let mut worst = Ok(());
-    for path in &args.files {
+    let scenes = files::scenes(&args.files)?;
+    for path in &scenes {
         let mut input = input::read(path, &args.reading);
         if let Some(loaded) = input.load() {
             input.prove(loaded, |_, _| ());
@@ -24,7 +26,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let is_in_doubt = talk.left_in_doubt();
     talk.finish()?;
     if worst.is_ok() && is_in_doubt {
-        talk::say(&nothing_found(args.files.len()));
+        talk::say(&nothing_found(scenes.len()));
     }
     worst
 }

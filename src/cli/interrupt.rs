@@ -8,7 +8,7 @@ use super::Failure;
 use crate::pipeline::WriteObserver;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU8, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::{fs, io, process};
 
 /// The number of the first signal heard, 0 before; signals are sent to the whole process.
@@ -17,7 +17,11 @@ static HEARD: AtomicU8 = AtomicU8::new(0);
 /// The number of SIGINT, and of Ctrl-C where there are no signals.
 const INTERRUPT: u8 = 2;
 
+/// Who listens, once someone does.
+static LISTENER: OnceLock<Interrupt> = OnceLock::new();
+
 /// Whether the user wants us to stop.
+#[derive(Clone)]
 pub(super) struct Interrupt(Arc<State>);
 
 #[derive(Default)]
@@ -34,10 +38,18 @@ pub(super) fn exit_code() -> u8 {
     }
 }
 
+/// True after a signal.
+pub(super) fn is_heard() -> bool {
+    HEARD.load(Ordering::Relaxed) != 0
+}
+
 impl Interrupt {
     /// From now on the first signal only raises the flag. To be called after reading: a read would
-    /// not see the flag.
+    /// not see the flag. Who listens already goes on with the same flag.
     pub(super) fn listen() -> Result<Self, Failure> {
+        if let Some(listener) = LISTENER.get() {
+            return Ok(listener.clone());
+        }
         let state = Arc::new(State::default());
         let heard = Arc::clone(&state);
         let on_signal = move |signal| {
@@ -48,13 +60,13 @@ impl Interrupt {
         };
         listen_for(on_signal)
             .map_err(|error| Failure::Trouble(format!("can't listen to signals: {error}")))?;
-        Ok(Self(state))
+        Ok(LISTENER.get_or_init(|| Self(state)).clone())
     }
 
     /// True after a signal.
     #[expect(clippy::unused_self, reason = "nobody is heard before someone listens")]
     pub(super) fn is_raised(&self) -> bool {
-        HEARD.load(Ordering::Relaxed) != 0
+        is_heard()
     }
 }
 

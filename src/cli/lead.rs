@@ -114,8 +114,8 @@ fn scene(kept: &[OsString]) -> Option<Option<Scene>> {
     }
     let command = Cli::try_parse_from(kept).ok().map(|cli| cli.command);
     let (file, reading, stage) = match &command {
-        Some(Command::Render(args)) => (&args.file, &args.reading, &args.stage),
-        Some(Command::Farm(args)) => (&args.file, &args.reading, &args.stage),
+        Some(Command::Render(args)) => (args.file(), &args.reading, &args.stage),
+        Some(Command::Farm(args)) => (args.file.as_path(), &args.reading, &args.stage),
         _ => return Some(None),
     };
     if file.as_os_str() == "-" {

@@ -10,6 +10,7 @@ mod compile;
 mod cost;
 mod diff;
 mod explain;
+mod files;
 mod gate;
 mod input;
 mod interrupt;
@@ -95,7 +96,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let outcome = match cli.command {
         Command::Check(args) => check::run(&args),
         Command::Compile(args) => compile::run(&args),
-        Command::Render(args) => render::run(&args, &typed),
+        Command::Render(args) => render::run(*args, &typed),
         Command::Merge(args) => merge::run(&args),
         Command::Farm(args) => batch::run(&args),
         Command::Cost(args) => cost::run(&args),

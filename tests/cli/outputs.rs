@@ -5,7 +5,7 @@ use std::os::unix::fs::symlink;
 use std::process::Child;
 
 /// Waits until a process catches SIGINT: from then on a signal is polled.
-fn until_it_listens(child: &mut Child) {
+pub(crate) fn until_it_listens(child: &mut Child) {
     let status = format!("/proc/{}/status", child.id());
     let listens = || {
         let text = fs::read_to_string(&status).unwrap_or_default();

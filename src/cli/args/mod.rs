@@ -75,7 +75,8 @@ pub(super) enum Command {
 
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
-    /// Scenes, as YAML, glTF, a mesh or IR; `-` is standard input
+    /// Scenes, as YAML, glTF, a mesh or IR; folders, all scenes below them; or patterns, as
+    /// 'a/*.glb'. `-` is standard input
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) files: Vec<PathBuf>,
     #[command(flatten)]

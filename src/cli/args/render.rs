@@ -5,16 +5,18 @@ use super::{LookArgs, Reading, StageArgs, TalkArgs, WantedArgs};
 use crate::pipeline::SharedBy;
 use crate::plan::Rule;
 use clap::{Args, ValueEnum, ValueHint};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Render {
-    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) file: PathBuf,
-    /// Where to write, .png or .exr; `-` is PNG to standard output [default: the scene's name with
-    /// .png, here]
+    /// Scenes, as YAML, glTF, a mesh or IR; folders, all scenes below them; or patterns, as
+    /// 'a/*.glb'. `-` is standard input
+    #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) files: Vec<PathBuf>,
+    /// Where to write, .png or .exr; `-` is PNG to standard output. Of many scenes a folder, as
+    /// `out/`, or a name in which `{stem}` is that of the scene, as `out/{stem}.png` [default: the
+    /// scene's name with .png, here]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) output: Option<PathBuf>,
     #[command(flatten)]
@@ -76,6 +78,13 @@ pub(in crate::cli) struct Render {
     pub(in crate::cli) reading: Reading,
     #[command(flatten)]
     pub(in crate::cli) talk: TalkArgs,
+}
+
+impl Render {
+    /// The scene of a command of one.
+    pub(in crate::cli) fn file(&self) -> &Path {
+        self.files.first().map_or(Path::new("-"), PathBuf::as_path)
+    }
 }
 
 /// What is left out of the work for a picture.

@@ -2,6 +2,7 @@
 
 mod budget;
 mod checkpoint;
+mod many;
 mod part;
 mod shot;
 mod strips;
@@ -28,7 +29,7 @@ use budget::PictureClock;
 use checkpoint::{Checkpoint, Saving};
 pub(super) use checkpoint::{or_restart, say_saved, try_save};
 use part::PartSetup;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 /// A render as it will be done.
@@ -58,13 +59,13 @@ impl From<RenderError> for Failure {
 }
 
 /// Renders the scene and writes the picture.
-pub(super) fn run(args: &args::Render, typed: &[OsString]) -> Result<(), Failure> {
-    let mut plan = RenderSetup::new(args, typed)?;
+pub(super) fn run(args: args::Render, typed: &[OsString]) -> Result<(), Failure> {
+    if let Some(jobs) = many::jobs(&args)? {
+        return many::run(args, jobs, typed);
+    }
+    let plan = RenderSetup::new(&args, typed)?;
     let mut talk = Talk::beside_result(&args.talk);
-    let mut input = input::staged(&args.file, &args.reading, &args.stage)?;
-    input.use_threads(plan.picture.threads);
-    set_stage(&mut input, &args.look, args.turntable);
-    let outcome = plan.carry_out(&mut input, &mut talk);
+    let outcome = plan.begin(args.file(), &args, &mut talk);
     talk.finish()?;
     outcome
 }
@@ -106,6 +107,14 @@ impl RenderSetup {
             strips: args.strips,
             clock: PictureClock::start(),
         })
+    }
+
+    /// Reads the scene at `file` and renders it.
+    fn begin(mut self, file: &Path, args: &args::Render, talk: &mut Talk) -> Result<(), Failure> {
+        let mut input = input::staged(file, &args.reading, &args.stage)?;
+        input.use_threads(self.picture.threads);
+        set_stage(&mut input, &args.look, args.turntable);
+        self.carry_out(&mut input, talk)
     }
 
     fn carry_out(&mut self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
@@ -324,13 +333,16 @@ pub(super) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<OutputFormat
 
 /// The name of the scene with `.png`, in the current folder.
 fn beside_here(args: &args::Render) -> Result<PathBuf, Failure> {
-    let name = if args.file.as_os_str() == "-" {
+    Ok(PathBuf::from(stem(args.file(), args)?).with_added_extension("png"))
+}
+
+/// The name of a scene without its extension.
+fn stem<'a>(file: &'a Path, args: &'a args::Render) -> Result<&'a OsStr, Failure> {
+    let name = if file.as_os_str() == "-" {
         args.reading.stdin_name.as_deref().map(Path::new)
     } else {
-        Some(args.file.as_path())
+        Some(file)
     };
     let stem = name.and_then(Path::file_stem);
-    let stem =
-        stem.ok_or_else(|| Failure::Trouble("no name for the picture; give `-o FILE`".to_owned()))?;
-    Ok(PathBuf::from(stem).with_added_extension("png"))
+    stem.ok_or_else(|| Failure::Trouble("no name for the picture; give `-o FILE`".to_owned()))
 }

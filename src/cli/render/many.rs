@@ -1,0 +1,204 @@
+//! Pictures of many scenes, one after the other: what fails is told, and the rest goes on.
+
+use super::super::talk::{self, Talk};
+use super::super::{Failure, args, files, interrupt};
+use super::{RenderSetup, stem};
+use std::collections::BTreeMap;
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf, is_separator};
+use std::{fs, io};
+
+/// Stands for the name of a scene without its extension.
+const STEM: &str = "{stem}";
+
+/// A scene, and where its picture goes.
+pub(super) struct RenderJob {
+    scene: PathBuf,
+    output: PathBuf,
+}
+
+/// The scenes and their pictures; `None` of one scene whose picture has a name of its own.
+pub(super) fn jobs(args: &args::Render) -> Result<Option<Vec<RenderJob>>, Failure> {
+    let scenes = files::scenes(&args.files)?;
+    let place = Destination::new(args.output.as_deref());
+    if scenes == args.files && scenes.len() == 1 && !place.is_for_many() {
+        return Ok(None);
+    }
+    let refused = |words: &str| Err(Failure::Trouble(words.to_owned()));
+    if args.part.is_some() || args.checkpoint.is_some() {
+        return refused(
+            "`--part` and `--checkpoint` are for one scene and a picture of its own name",
+        );
+    }
+    if let Destination::One(output) = &place {
+        return refused(&format!(
+            "`{}` is one picture, and there are {} scenes; give `-o FOLDER/` or `-o '{STEM}.png'`",
+            output.display(),
+            scenes.len()
+        ));
+    }
+    let job = |scene: PathBuf| {
+        let output = place.of(stem(&scene, args)?);
+        Ok(RenderJob { scene, output })
+    };
+    let jobs = scenes.into_iter().map(job);
+    let jobs = jobs.collect::<Result<Vec<_>, Failure>>()?;
+    refuse_same(&jobs)?;
+    Ok(Some(jobs))
+}
+
+/// Refuses two pictures of one name.
+fn refuse_same(jobs: &[RenderJob]) -> Result<(), Failure> {
+    let mut taken = BTreeMap::new();
+    for RenderJob { scene, output } in jobs {
+        if let Some(other) = taken.insert(output, scene) {
+            let [output, other, scene] = [output, other, scene].map(|path| path.display());
+            return Err(Failure::Trouble(format!(
+                "`{output}` would be the picture of both `{other}` and `{scene}`"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Where pictures go.
+enum Destination<'a> {
+    /// Here, by the names of their scenes.
+    Here,
+    /// Into this folder, by the names of their scenes.
+    Folder(&'a Path),
+    /// By this name, which holds [`STEM`].
+    Pattern(&'a str),
+    /// One picture goes there.
+    One(&'a Path),
+}
+
+impl<'a> Destination<'a> {
+    fn new(output: Option<&'a Path>) -> Self {
+        let Some(output) = output else {
+            return Self::Here;
+        };
+        // A folder that is named as a picture is in its way.
+        let is_folder = output.extension().is_none() && output.is_dir();
+        match output.to_str() {
+            Some(text) if text.contains(STEM) => Self::Pattern(text),
+            Some(text) if text.ends_with(is_separator) || is_folder => Self::Folder(output),
+            None if is_folder => Self::Folder(output),
+            Some(_) | None => Self::One(output),
+        }
+    }
+
+    /// Whether it is a place even for more than one picture by the words of whoever typed it.
+    fn is_for_many(&self) -> bool {
+        matches!(self, Self::Folder(_) | Self::Pattern(_))
+    }
+
+    /// That of the picture of a scene.
+    fn of(&self, stem: &OsStr) -> PathBuf {
+        let named = || PathBuf::from(stem).with_added_extension("png");
+        match self {
+            Self::Here => named(),
+            Self::Folder(folder) => folder.join(named()),
+            Self::Pattern(pattern) => {
+                let mut name = OsString::new();
+                for (number, piece) in pattern.split(STEM).enumerate() {
+                    if number > 0 {
+                        name.push(stem);
+                    }
+                    name.push(piece);
+                }
+                name.into()
+            }
+            Self::One(output) => output.to_path_buf(),
+        }
+    }
+}
+
+/// Renders the scenes and writes their pictures.
+pub(super) fn run(
+    mut args: args::Render,
+    jobs: Vec<RenderJob>,
+    typed: &[OsString],
+) -> Result<(), Failure> {
+    let mut plans = Vec::new();
+    for RenderJob { scene, output } in jobs {
+        // What is wrong in the command is told once, before anything is read.
+        args.files = vec![scene.clone()];
+        args.output = Some(output);
+        plans.push((scene, RenderSetup::new(&args, typed)?));
+    }
+    let mut made = Vec::new();
+    for (_, plan) in &plans {
+        make_folder(&plan.output, &mut made)?;
+    }
+    let mut talk = Talk::beside_result(&args.talk);
+    let outcome = carry_out(plans, &args, &mut talk);
+    // Those that hold no picture go again; the others stay.
+    for folder in made.iter().rev() {
+        let _ = fs::remove_dir(folder);
+    }
+    talk.finish()?;
+    outcome
+}
+
+/// Makes the folder of a picture in one that is there, and notes it.
+fn make_folder(output: &Path, made: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    let folder = output.parent().unwrap_or(Path::new(""));
+    if folder.as_os_str().is_empty() || folder.is_dir() {
+        return Ok(());
+    }
+    let trouble =
+        |error: io::Error| Failure::Trouble(format!("can't make `{}`: {error}", folder.display()));
+    fs::create_dir(folder).map_err(trouble)?;
+    made.push(folder.to_owned());
+    Ok(())
+}
+
+/// Goes on after a failure, unless it is the end of all.
+fn carry_out(
+    plans: Vec<(PathBuf, RenderSetup)>,
+    args: &args::Render,
+    talk: &mut Talk,
+) -> Result<(), Failure> {
+    let (all, mut failed) = (plans.len(), 0);
+    for (scene, plan) in plans {
+        if interrupt::is_heard() {
+            return Err(Failure::Interrupted);
+        }
+        match plan.begin(&scene, args, talk) {
+            Ok(()) => continue,
+            Err(end @ (Failure::Interrupted | Failure::ClosedPipe)) => return Err(end),
+            Err(Failure::Findings | Failure::Unreadable) => {}
+            Err(Failure::Input(words) | Failure::Trouble(words)) => {
+                talk::say(&format!("error: `{}`: {words}", scene.display()));
+            }
+        }
+        failed += 1;
+    }
+    match failed {
+        0 => Ok(()),
+        _ if interrupt::is_heard() => Err(Failure::Interrupted),
+        _ => Err(Failure::Input(format!(
+            "{failed} of {all} scenes have no picture"
+        ))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_of_many_holds_the_stem() {
+        let place = |output| Destination::new(Some(Path::new(output)));
+        assert_eq!(
+            place("out/{stem}-{stem}.exr").of(OsStr::new("a")),
+            Path::new("out/a-a.exr")
+        );
+        assert_eq!(
+            place("out/").of(OsStr::new("a.b")),
+            Path::new("out/a.b.png")
+        );
+        assert!(!place("a.png").is_for_many() && !place("-").is_for_many());
+    }
+}

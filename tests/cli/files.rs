@@ -1,0 +1,168 @@
+//! Many scenes in one call: which files are meant, where their pictures go, and what fails.
+
+use super::*;
+
+/// Scenes in folders, some of them hidden, and what is none.
+fn shelf() -> TempDir {
+    let shelf = folder();
+    let path = |name: &str| shelf.path().join(name);
+    for folder in ["set/deep", "set/.hidden", "empty"] {
+        fs::create_dir_all(path(folder)).unwrap();
+    }
+    let small = SCENE.replace("[40, 30]", "[4, 3]");
+    for name in [
+        "b.json",
+        "a.json",
+        "deep/c.json",
+        ".d.json",
+        ".hidden/e.json",
+        "notes.txt",
+    ] {
+        fs::write(path("set").join(name), &small).unwrap();
+    }
+    shelf
+}
+
+/// The files of which something is told, in this order.
+fn told(output: &Output) -> Vec<String> {
+    let text = stderr(output);
+    let names = text.lines().filter_map(|line| line.split_once(": 4×3, "));
+    names.map(|(name, _)| name.to_owned()).collect()
+}
+
+#[test]
+fn a_folder_is_all_its_scenes_in_order() {
+    let shelf = shelf();
+    let made = rtc(&shelf, &["render", "set", "-o", "out/"]);
+    assert_eq!(code(&made), 0, "{}", stderr(&made));
+    assert_eq!(told(&made), ["out/a.png", "out/b.png", "out/c.png"]);
+    assert_eq!(
+        names(&shelf.path().join("out")),
+        ["a.png", "b.png", "c.png"]
+    );
+    let one = rtc(&shelf, &["render", "set/b.json", "-o", "-"]);
+    let many = fs::read(shelf.path().join("out/b.png")).unwrap();
+    assert_eq!(many, one.stdout, "the bytes are those of one call");
+    for folder in ["empty", "set/.hidden/none", "set/*.glb", "set/["] {
+        let none = rtc(&shelf, &["check", folder]);
+        assert_eq!(code(&none), 2, "{folder}");
+    }
+}
+
+#[test]
+fn a_pattern_is_what_fits_it_but_for_what_is_hidden() {
+    let shelf = shelf();
+    let made = rtc(&shelf, &["render", "set/*.json", "-o", "set/{stem}-4.png"]);
+    assert_eq!(told(&made), ["set/a-4.png", "set/b-4.png"]);
+    fs::write(
+        shelf.path().join("[x].json"),
+        SCENE.replace("[40, 30]", "[4, 3]"),
+    )
+    .unwrap();
+    let one = rtc(&shelf, &["render", "[x].json"]);
+    assert_eq!(told(&one), ["[x].png"], "a file of that name is meant");
+}
+
+#[test]
+fn a_failure_is_told_and_the_rest_goes_on() {
+    let shelf = shelf();
+    fs::create_dir(shelf.path().join("a.png")).unwrap();
+    let args = [
+        "render",
+        "bad.json",
+        "none.json",
+        "set/a.json",
+        "set/b.json",
+    ];
+    let made = rtc(&shelf, &args);
+    assert_eq!((code(&made), told(&made)), (1, vec!["b.png".to_owned()]));
+    let said = stderr(&made);
+    assert!(
+        said.contains("error: `set/a.json`: can't write `a.png`")
+            && said.ends_with("error: 3 of 4 scenes have no picture\n"),
+        "{said}"
+    );
+    let checked = rtc(&shelf, &["check", "bad.json", "set"]);
+    assert_eq!(code(&checked), 1);
+}
+
+#[test]
+fn a_folder_made_in_vain_goes_again() {
+    let shelf = shelf();
+    let made = rtc(&shelf, &["render", "bad.json", "-o", "out/"]);
+    assert_eq!(code(&made), 1);
+    assert!(!names(shelf.path()).contains(&"out".to_owned()));
+}
+
+#[test]
+fn what_can_not_be_meant_is_told_before_anything_is_rendered() {
+    let shelf = shelf();
+    fs::write(shelf.path().join("set/deep/a.json"), SCENE).unwrap();
+    let before = names(shelf.path());
+    let cases = [
+        (
+            &["set"][..],
+            "error: `a.png` would be the picture of both `set/a.json` and `set/deep/a.json`\n",
+        ),
+        (
+            &["ball.json", "away.json", "-o", "x.png"],
+            "error: `x.png` is one picture, and there are 2 scenes; give `-o FOLDER/` or \
+             `-o '{stem}.png'`\n",
+        ),
+        (&["ball.json", "away.json", "-o", "-"], "error: `-` is one"),
+        (
+            &["ball.json", "-o", "{stem}.gif"],
+            "error: can't tell what `ball.gif`",
+        ),
+        (
+            &["ball.json", "away.json", "--part", "1/2"],
+            "error: `--part`",
+        ),
+        (
+            &["ball.json", "-o", "no/such/"],
+            "error: can't make `no/such`",
+        ),
+    ];
+    for (args, words) in cases {
+        let refused = rtc(&shelf, &[&["render"], args].concat());
+        let said = stderr(&refused);
+        assert_eq!(code(&refused), 2, "{args:?}: {said}");
+        assert!(said.starts_with(words), "{args:?}: {said}");
+    }
+    assert_eq!(names(shelf.path()), before);
+}
+
+#[test]
+fn one_log_holds_the_findings_of_all() {
+    let shelf = shelf();
+    let args = [
+        "bad.json",
+        "set/a.json",
+        "none.json",
+        "--message-format",
+        "sarif",
+        "-q",
+    ];
+    let made = rtc(&shelf, &[&["render"], &args[..]].concat());
+    let said = stderr(&made);
+    let log = said.strip_suffix("error: 2 of 3 scenes have no picture\n");
+    let log: serde_json::Value = serde_json::from_str(log.unwrap()).unwrap();
+    let results = log["runs"][0]["results"].as_array().unwrap();
+    assert_eq!((code(&made), results.len()), (1, 2), "{said}");
+}
+
+#[test]
+#[cfg(unix)]
+fn one_interrupt_ends_all() {
+    let shelf = shelf();
+    let slow = ["--size", "2000x1500", "--supersampling", "16"];
+    let args = [&["render", "set", "-o", "out/"], &slow[..]].concat();
+    let mut child = command(shelf.path(), &args).spawn().unwrap();
+    outputs::until_it_listens(&mut child);
+    let killed = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(killed.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(!names(shelf.path()).contains(&"out".to_owned()));
+}
