@@ -1,5 +1,6 @@
 //! Values of arguments: the words people type to the values they mean, or what was expected.
 
+use super::args::BackgroundArg;
 use crate::image::BackgroundFill;
 use crate::passes::{Orbit, Sun};
 use crate::pipeline::{Exposure, MOST_SHARES};
@@ -224,7 +225,7 @@ pub(super) fn exposure(text: &str) -> Result<Exposure, String> {
         .ok_or_else(|| "expected `auto` or -64 to 64 stops".to_owned())
 }
 
-pub(super) fn background(text: &str) -> Result<BackgroundFill, String> {
+pub(super) fn background(text: &str) -> Result<BackgroundArg, String> {
     let numbers = || {
         text.split(',').map(|part| {
             part.trim()
@@ -234,13 +235,30 @@ pub(super) fn background(text: &str) -> Result<BackgroundFill, String> {
         })
     };
     match text {
-        "env" => Ok(BackgroundFill::Film),
-        "transparent" => Ok(BackgroundFill::Transparent),
+        "env" => Ok(BackgroundArg::Fill(BackgroundFill::Film)),
+        "transparent" => Ok(BackgroundArg::Fill(BackgroundFill::Transparent)),
+        "white" => Ok(BackgroundArg::Shown([255; 3])),
+        "black" => Ok(BackgroundArg::Shown([0; 3])),
+        _ if text.starts_with('#') => hex(text)
+            .map(BackgroundArg::Shown)
+            .ok_or_else(|| "expected a colour as #ff8000".to_owned()),
         _ => match numbers().collect::<Option<Vec<_>>>().as_deref() {
-            Some(&[r, g, b]) => Ok(BackgroundFill::Color([r, g, b])),
-            _ => Err("expected `env`, `transparent`, or red, green and blue, as 1,1,1".to_owned()),
+            Some(&[r, g, b]) => Ok(BackgroundArg::Fill(BackgroundFill::Color([r, g, b]))),
+            _ => Err(
+                "expected `env`, `transparent`, `white`, `black`, #rrggbb, or red, green and blue, as 1,1,1"
+                    .to_owned(),
+            ),
         },
     }
+}
+
+/// A colour of six hexadecimal digits, as #ff8000.
+fn hex(text: &str) -> Option<[u8; 3]> {
+    let digits = text.strip_prefix('#')?;
+    let is_hex = digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+    let number = u32::from_str_radix(digits, 16).ok().filter(|_| is_hex)?;
+    let [_, color @ ..] = number.to_be_bytes();
+    Some(color)
 }
 
 pub(super) fn folder(text: &str) -> Result<PathBuf, String> {
@@ -327,11 +345,17 @@ mod tests {
         assert!(are_refused(color, &["-1", "1,2", "1,2,nan"]));
         assert_eq!(
             background("0.5,1, 2"),
-            Ok(BackgroundFill::Color([0.5, 1.0, 2.0]))
+            Ok(BackgroundArg::Fill(BackgroundFill::Color([0.5, 1.0, 2.0])))
+        );
+        assert_eq!(
+            [background("#fF8001"), background("white")],
+            [[255, 128, 1], [255; 3]].map(|color| Ok(BackgroundArg::Shown(color)))
         );
         assert!(are_refused(
             background,
-            &["", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0"]
+            &[
+                "", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0", "#fff", "#+12345", "#ff80000"
+            ]
         ));
     }
 

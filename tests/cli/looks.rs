@@ -150,6 +150,46 @@ fn a_colour_behind_is_what_the_file_holds_and_lights_nothing() {
     );
 }
 
+/// A file of sRGB holds the bytes that were typed; an EXR the linear value, by hand of IEC 61966-2-1.
+#[test]
+fn a_colour_of_the_screen_is_shown_as_typed() {
+    let folder = folder();
+    ball(&folder);
+    let corner = |color: &str, args: &[&str]| {
+        let args = [&["--background", color], args].concat();
+        render(&folder, "alone.json", &args)
+            .to_rgb16()
+            .get_pixel(0, 0)
+            .0
+    };
+    let shown = [0xff_u16, 0x80, 0x01];
+    assert_eq!(corner("#ff8001", &[]), shown.map(|v| v * 257));
+    assert_eq!(corner("#ff8001", &["--bits", "16"]), shown.map(|v| v * 257));
+    assert_eq!(corner("white", &["--tonemap", "agx"]), [65535; 3]);
+    assert_eq!(corner("black", &[]), [0; 3]);
+    let args = [
+        "render",
+        "alone.json",
+        "-q",
+        "-o",
+        "a.exr",
+        "--background",
+        "#ff8001",
+    ];
+    assert_eq!(code(&rtc(&folder, &args)), 0);
+    let read = exr::prelude::read_first_rgba_layer_from_file(
+        folder.path().join("a.exr"),
+        |_, _| None,
+        |first: &mut Option<[f32; 3]>, _, (r, g, b, _): (f32, f32, f32, f32)| {
+            first.get_or_insert([r, g, b]);
+        },
+    );
+    let linear = read.unwrap().layer_data.channel_data.pixels.unwrap();
+    let wanted = [1.0, 0.215_860_5, 1.0 / 255.0 / 12.92];
+    let near = |(own, wanted): (&f32, &f32)| (own - wanted).abs() < 1e-6;
+    assert!(linear.iter().zip(&wanted).all(near), "{linear:?}");
+}
+
 #[test]
 fn an_exr_takes_exposure_and_opacity_but_no_tone_map() {
     let folder = folder();

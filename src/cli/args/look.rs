@@ -2,9 +2,9 @@
 //! with which layers.
 
 use super::super::parse::{background, exposure};
-use crate::color::Tone;
+use crate::color::{Tone, srgb_decoded};
 use crate::image::BackgroundFill;
-use crate::pipeline::Exposure;
+use crate::pipeline::{Exposure, OutputFormat};
 use crate::render::Aov;
 use clap::{Args, ValueEnum};
 
@@ -18,16 +18,42 @@ pub(in crate::cli) struct LookArgs {
     /// [default: auto for the PNG of a glTF asset with lights of its own, else 0]
     #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
     pub(in crate::cli) exposure: Option<Exposure>,
-    /// What is behind all surfaces: `env`, the surroundings of the scene; `transparent`; or a
-    /// colour R,G,B in the values that the file is to hold. Light stays as it is
+    /// What is behind all surfaces of any scene: `env`, the surroundings of the scene;
+    /// `transparent`; `white`, `black` or #rrggbb, as a screen shows it; or a colour R,G,B in the
+    /// values that the file is to hold. Light stays as it is
     #[arg(long, value_name = "WHAT", default_value = "env", value_parser = background)]
-    pub(in crate::cli) background: BackgroundFill,
+    pub(in crate::cli) background: BackgroundArg,
     /// Layers beside the colours, in an EXR: means over what the camera rays of a pixel meet first
     #[arg(long, value_enum, value_name = "LAYERS", value_delimiter = ',')]
     pub(in crate::cli) aov: Vec<Layer>,
     /// Bits a channel of a PNG [default: 8]
     #[arg(long)]
     pub(in crate::cli) bits: Option<BitDepth>,
+}
+
+/// A background as typed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::cli) enum BackgroundArg {
+    /// That of the picture.
+    Fill(BackgroundFill),
+    /// A colour as a screen shows it: sRGB in 8 bits a channel.
+    Shown([u8; 3]),
+}
+
+impl BackgroundArg {
+    /// That of a picture in a kind of file: an EXR holds linear values, other kinds those of sRGB.
+    pub(in crate::cli) fn fill(self, kind: OutputFormat) -> BackgroundFill {
+        match self {
+            Self::Fill(fill) => fill,
+            Self::Shown(color) => {
+                let shown = color.map(|channel| f64::from(channel) / 255.0);
+                BackgroundFill::Color(match kind {
+                    OutputFormat::Exr => shown.map(srgb_decoded),
+                    OutputFormat::Png8 | OutputFormat::Png16 => shown,
+                })
+            }
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -14,7 +14,7 @@ pub(super) use common::{Color, MessageFormat, Reading, TalkArgs};
 pub(super) use cost::{Cost, StudyFormat};
 pub(super) use diff::Diff;
 pub(super) use farm::{Engine, Farm};
-pub(super) use look::{BitDepth, LookArgs};
+pub(super) use look::{BackgroundArg, BitDepth, LookArgs};
 pub(super) use merge::Merge;
 pub(super) use render::{Pruning, Render, SharedByArg};
 pub(super) use stage::{GroundArg, StageArgs};

@@ -1,6 +1,6 @@
 //! The commands that the tasks of a job run: one for a part, one for the picture of all.
 
-use super::super::args::{ArithmeticArg, Farm};
+use super::super::args::{ArithmeticArg, BackgroundArg, Farm};
 use super::frames::Frames;
 use crate::image::BackgroundFill;
 use crate::pipeline::Exposure;
@@ -148,9 +148,14 @@ fn look(args: &Farm) -> Vec<String> {
         say("exposure", stops.to_string());
     }
     match args.look.background {
-        BackgroundFill::Film => {}
-        BackgroundFill::Transparent => say("background", "transparent".to_owned()),
-        BackgroundFill::Color([r, g, b]) => say("background", format!("{r},{g},{b}")),
+        BackgroundArg::Fill(BackgroundFill::Film) => {}
+        BackgroundArg::Fill(BackgroundFill::Transparent) => {
+            say("background", "transparent".to_owned());
+        }
+        BackgroundArg::Fill(BackgroundFill::Color([r, g, b])) => {
+            say("background", format!("{r},{g},{b}"));
+        }
+        BackgroundArg::Shown([r, g, b]) => say("background", format!("#{r:02x}{g:02x}{b:02x}")),
     }
     if !args.look.aov.is_empty() {
         let layers: Vec<String> = args.look.aov.iter().copied().map(name).collect();

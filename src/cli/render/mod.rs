@@ -9,7 +9,7 @@ mod strips;
 mod turning;
 
 use super::Failure;
-use super::args::{self, BitDepth};
+use super::args::{self, BackgroundArg, BitDepth};
 use super::input;
 use super::interrupt::Interrupt;
 use super::lead;
@@ -257,7 +257,7 @@ fn halted(error: RenderError, input: &mut Input, talk: &mut Talk) -> Result<(), 
 pub(super) fn set_stage(input: &mut Input, look: &args::LookArgs, turntable: Option<u32>) {
     input.restage(|stage| {
         stage.all_around = turntable.is_some();
-        if look.background == BackgroundFill::Transparent {
+        if look.background == BackgroundArg::Fill(BackgroundFill::Transparent) {
             stage.ground = stage.ground.or(Some(false));
         }
     });
@@ -301,7 +301,7 @@ fn look(args: &args::LookArgs, output: &Path) -> Result<OutputLook, Failure> {
     let kind = kind(output, args.bits)?;
     let aovs: Vec<Aov> = args.aov.iter().map(|layer| Aov::from(*layer)).collect();
     let tone = args.tonemap.map(Tone::from);
-    let look = OutputLook::new(kind, tone, args.exposure, args.background, &aovs);
+    let look = OutputLook::new(kind, tone, args.exposure, args.background.fill(kind), &aovs);
     let look = look.map_err(refused)?;
     if kind != OutputFormat::Exr && !aovs.is_empty() {
         return Err(refused("`--aov` is for EXR; a PNG holds colours alone"));
