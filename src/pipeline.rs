@@ -5,6 +5,7 @@ mod exposure;
 #[cfg(not(target_family = "wasm"))]
 mod file;
 mod findings;
+mod fix;
 mod input;
 mod light;
 mod look;
@@ -18,6 +19,7 @@ pub mod trial;
 pub use exposure::OwnLight;
 #[cfg(not(target_family = "wasm"))]
 pub use file::{NewFile, NewFolder, WriteObserver};
+pub use fix::{FixedText, fix};
 pub use input::{Input, Loaded, Proven, Provenance};
 pub use look::{Exposure, OutputFormat, OutputLook, SettledLook};
 pub use meter::Meter;

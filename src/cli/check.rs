@@ -2,17 +2,29 @@
 
 use super::Failure;
 use super::args::CheckArgs;
-use super::files;
-use super::input;
 use super::talk::{self, Talk};
+use super::{files, fix, input};
 
 /// Checks the files and tells what was found.
 pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
-    let mut talk = Talk::as_result(&args.talk);
+    // What is shown of a change is a result of its own.
+    let mut talk = match args.diff {
+        true => Talk::beside_result(&args.talk),
+        false => Talk::as_result(&args.talk),
+    };
     let mut worst = Ok(());
     let scenes = files::scenes(&args.files)?;
     for path in &scenes {
-        let mut input = input::read(path, &args.reading);
+        let read = input::read(path, &args.reading);
+        let mut input = match fix::run(path, read, args, &talk) {
+            Ok(input) => input,
+            Err(Failure::Trouble(words)) => {
+                talk::say(&format!("error: {words}"));
+                worst = Err(Failure::Unreadable);
+                continue;
+            }
+            Err(failure) => return Err(failure),
+        };
         if let Some(loaded) = input.load() {
             input.prove(loaded, |_, _| ());
         }

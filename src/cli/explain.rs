@@ -44,7 +44,9 @@ With `--message-format json` each finding is one line, an object with
   the file is not text) and `text`, what is there;
 - `labels`: other places that matter, each like `primary`;
 - `hints`: what to do, each with `text` and `replacement`, which is null or
-  like `primary`, its `text` being what to put there;
+  like `primary`, its `text` being what to put there, and its `guess` whether that
+  is only what was most likely meant, so that `rtc check --fix` leaves it alone
+  without `--unsafe`;
 - `pointer`: a JSON pointer to the culprit, or null;
 - `alias`: the name of the finding in the glTF validator of Khronos, if it has one.
 

@@ -12,8 +12,20 @@ use std::path::Path;
 
 /// Reads the file at `path`, or standard input if it is `-`.
 pub(super) fn read(path: &Path, reading: &Reading) -> Input {
+    let options = options(reading);
+    if path.as_os_str() == "-" {
+        let name = &reading.stdin_name;
+        let name = name.clone().unwrap_or_else(|| "<stdin>".to_owned());
+        Input::reader(name, io::stdin().lock(), options)
+    } else {
+        Input::file(path, options)
+    }
+}
+
+/// How an input is read.
+pub(super) fn options(reading: &Reading) -> Options {
     let Reading {
-        stdin_name,
+        stdin_name: _,
         strict,
         lenient,
         asset_root,
@@ -24,7 +36,7 @@ pub(super) fn read(path: &Path, reading: &Reading) -> Input {
         limit: _,
         allow_huge: _,
     } = reading;
-    let options = Options {
+    Options {
         front: front::FrontOptions {
             strict: *strict,
             lenient: *lenient,
@@ -39,12 +51,6 @@ pub(super) fn read(path: &Path, reading: &Reading) -> Input {
         valid: valid::ProofOptions {
             limits: reading.limits(),
         },
-    };
-    if path.as_os_str() == "-" {
-        let name = stdin_name.clone().unwrap_or_else(|| "<stdin>".to_owned());
-        Input::reader(name, io::stdin().lock(), options)
-    } else {
-        Input::file(path, options)
     }
 }
 

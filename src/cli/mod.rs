@@ -11,6 +11,7 @@ mod cost;
 mod diff;
 mod explain;
 mod files;
+mod fix;
 mod gate;
 mod input;
 mod interrupt;

@@ -41,6 +41,9 @@ pub struct Replacement {
     pub span: Span,
     /// By what.
     pub text: String,
+    /// It says what was most likely meant, which only who wrote it knows; else it says the same in
+    /// the right way.
+    pub is_guess: bool,
 }
 
 /// One finding about the user's input.
@@ -132,10 +135,11 @@ impl Diagnostic {
         self
     }
 
-    /// Adds advice with the text that follows it; without a span it is plain advice.
+    /// Adds advice with the text that says the same in the right way; without a span it is plain
+    /// advice.
     #[must_use]
     pub fn replace(
-        mut self,
+        self,
         hint: impl Into<String>,
         span: impl Into<Option<Span>>,
         by: impl Into<String>,
@@ -143,11 +147,29 @@ impl Diagnostic {
         let replacement = span.into().map(|span| Replacement {
             span,
             text: by.into(),
+            is_guess: false,
         });
-        self.hints.push(Hint {
-            text: hint.into(),
-            replacement,
+        self.advise(hint.into(), replacement)
+    }
+
+    /// Adds advice with what was most likely meant; without a span it is plain advice.
+    #[must_use]
+    pub fn guess(
+        self,
+        hint: impl Into<String>,
+        span: impl Into<Option<Span>>,
+        by: impl Into<String>,
+    ) -> Self {
+        let replacement = span.into().map(|span| Replacement {
+            span,
+            text: by.into(),
+            is_guess: true,
         });
+        self.advise(hint.into(), replacement)
+    }
+
+    fn advise(mut self, text: String, replacement: Option<Replacement>) -> Self {
+        self.hints.push(Hint { text, replacement });
         self
     }
 

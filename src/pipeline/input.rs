@@ -68,6 +68,13 @@ impl Input {
         Self::new(name, options, |_, map| Loader.file(path, map))
     }
 
+    /// Takes these bytes as if they were those of the file at `path`.
+    #[must_use]
+    pub fn edited(path: &Path, bytes: Vec<u8>, options: Options) -> Self {
+        let name = path.display().to_string();
+        Self::new(name, options, |_, map| Ok(map.add_from(path, bytes)))
+    }
+
     /// Reads all of `reader`, for instance standard input, under the name given.
     #[must_use]
     pub fn reader(name: String, reader: impl Read, options: Options) -> Self {
@@ -258,6 +265,17 @@ impl Input {
     #[must_use]
     pub fn is_read(&self) -> bool {
         self.file.is_some()
+    }
+
+    /// The scene as text; none if it could not be read, or is no UTF-8.
+    #[must_use]
+    pub fn text(&self) -> Option<&str> {
+        self.map.text(self.file?)
+    }
+
+    /// The file of the scene, unless it could not be read.
+    pub(super) fn file_id(&self) -> Option<FileId> {
+        self.file
     }
 
     /// Adds a finding.

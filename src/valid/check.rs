@@ -206,7 +206,7 @@ impl<'run> Check<'run> {
             self.report(
                 place,
                 "must be at least 0",
-                finding.replace(format!("use `{name}: 0`"), None, "0"),
+                finding.hint(format!("use `{name}: 0`")),
             );
         }
         proven
@@ -260,7 +260,7 @@ impl<'run> Check<'run> {
             self.report(
                 place,
                 "must be at least 1",
-                finding.replace("use at least one sample", self.span(place), "1"),
+                finding.guess("use at least one sample", self.span(place), "1"),
             );
         }
         proven

@@ -41,6 +41,11 @@ pub(crate) fn trials() -> Vec<Trial> {
         let faults: Vec<String> = texts.iter().flat_map(|case| unhelpful(case)).collect();
         assert!(faults.is_empty(), "{}", faults.join("\n"));
     }));
+    let texts = files(&folder, &["yaml"]);
+    trials.push(trial("diagnostics: fixes leave no case worse", move || {
+        let changed: usize = texts.iter().map(|case| fixed(case)).sum();
+        assert!(changed >= 20, "only {changed} cases are changed");
+    }));
     trials.push(trial("diagnostics: every code has a case", move || {
         every_code_has_a_case(&covered);
     }));
@@ -168,6 +173,36 @@ fn unhelpful(case: &Path) -> Vec<String> {
         }
     }
     faults
+}
+
+/// How many texts are made of a case by what is proposed for it, with guesses and without: each with
+/// fewer findings than before, no more errors, and nothing left to do.
+fn fixed(case: &Path) -> usize {
+    let bytes = fs::read(case).unwrap();
+    let Ok(text) = std::str::from_utf8(&bytes) else {
+        return 0;
+    };
+    let options = options(text);
+    let count = |text: &str| {
+        let (_, _, sink) = found_in(case, text.as_bytes());
+        let of = |severity| {
+            let found = sink.kept().iter();
+            found.filter(|d| d.severity == severity).count()
+        };
+        (of(Severity::Error), of(Severity::Warning))
+    };
+    let before = count(text);
+    let fix = |guesses| {
+        let fixed = pipeline::fix(case, text, &options, guesses);
+        let again = pipeline::fix(case, &fixed.text, &options, guesses);
+        let name = case.display();
+        assert_eq!((again.changes, &again.text), (0, &fixed.text), "{name}");
+        assert_eq!(fixed.changes > 0, fixed.text != text, "{name}");
+        let after = count(&fixed.text);
+        assert!(after < before || fixed.changes == 0, "{name}: {after:?}");
+        usize::from(fixed.changes > 0)
+    };
+    fix(false) + fix(true)
 }
 
 /// Where the expectations of a case are: in the file, unless there is one beside it.

@@ -14,6 +14,7 @@ mod diff;
 mod exposure;
 mod farm;
 mod files;
+mod fixes;
 mod framing;
 mod interplay;
 mod leads;

@@ -22,7 +22,7 @@ pub(super) use wanted::{ArithmeticArg, WantedArgs};
 
 use super::parse::length;
 use crate::ir;
-use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -74,11 +74,21 @@ pub(super) enum Command {
 }
 
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("change").args(["fix", "diff"]).multiple(true))]
 pub(super) struct CheckArgs {
     /// Scenes, as YAML, glTF, a mesh or IR; folders, all scenes below them; or patterns, as
     /// 'a/*.glb'. `-` is standard input
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) files: Vec<PathBuf>,
+    /// Put what hints propose into the files, where it is sure what was meant and nothing gets worse
+    #[arg(long)]
+    pub(super) fix: bool,
+    /// Print what `--fix` would change, and write nothing
+    #[arg(long)]
+    pub(super) diff: bool,
+    /// With `--fix` or `--diff`: also what was only most likely meant
+    #[arg(long = "unsafe", requires = "change")]
+    pub(super) guesses: bool,
     #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]

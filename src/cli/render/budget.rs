@@ -34,6 +34,11 @@ impl PictureClock {
         self.0.get()
     }
 
+    /// Begins now, of a command whose pictures before are made.
+    pub(super) fn restart(&self) {
+        self.0.set(Instant::now());
+    }
+
     /// The time until samples end for the picture to be ready in a time, on a machine that is not quite
     /// idle.
     pub(super) fn sampling(time: Duration, crop: Crop) -> Duration {

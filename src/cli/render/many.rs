@@ -161,7 +161,10 @@ fn carry_out(
     talk: &mut Talk,
 ) -> Result<(), Failure> {
     let (all, mut failed) = (plans.len(), 0);
-    for (scene, plan) in plans {
+    for (number, (scene, plan)) in plans.into_iter().enumerate() {
+        if number > 0 {
+            plan.clock.restart();
+        }
         if interrupt::is_heard() {
             return Err(Failure::Interrupted);
         }

@@ -145,7 +145,7 @@ fn without_source<'a>(run: &[Mark<'a>], place: &FilePlace) -> Vec<Element<'a>> {
 
 /// The hint as a change of the source, if it has one that can be shown.
 fn patch<'a>(hint: &'a Hint, map: &'a SourceMap) -> Option<Group<'a>> {
-    let Replacement { span, text } = hint.replacement.as_ref()?;
+    let Replacement { span, text, .. } = hint.replacement.as_ref()?;
     if !map.is_text(span.file) || !window::fits(map, *span) {
         return None;
     }

@@ -48,7 +48,16 @@ struct Advice<'a> {
     /// In words.
     text: &'a str,
     /// As a change of the source, or null.
-    replacement: Option<Marked<'a>>,
+    replacement: Option<Change<'a>>,
+}
+
+/// A change of the source.
+#[derive(Serialize)]
+struct Change<'a> {
+    #[serde(flatten)]
+    mark: Marked<'a>,
+    /// Whether it says what was most likely meant, and not the same in the right way.
+    guess: bool,
 }
 
 /// One finding of the file `name`.
@@ -97,9 +106,17 @@ fn marked<'a>(map: &'a SourceMap, span: Span, text: &'a str) -> Marked<'a> {
 
 fn advice<'a>(map: &'a SourceMap, hint: &'a Hint) -> Advice<'a> {
     let Hint { text, replacement } = hint;
-    let replacement = replacement
-        .as_ref()
-        .map(|Replacement { span, text }| marked(map, *span, text));
+    let replacement = replacement.as_ref().map(|change| {
+        let Replacement {
+            span,
+            text,
+            is_guess,
+        } = change;
+        Change {
+            mark: marked(map, *span, text),
+            guess: *is_guess,
+        }
+    });
     Advice { text, replacement }
 }
 

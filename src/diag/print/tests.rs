@@ -226,7 +226,7 @@ fn github_is_commands_of_its_own_only() {
 fn json_has_every_field() {
     assert_snapshot!(print(Format::Json, PLAIN, SCENE.as_bytes(), two), @r#"
     {"code":"VA001","severity":"error","message":"`.inf` is not finite","file":"a b.yaml","primary":{"file":"a b.yaml","byteStart":26,"byteEnd":30,"start":{"line":2,"column":15},"end":{"line":2,"column":19},"text":"not a number to compute with"},"labels":[],"hints":[{"text":"give a finite number","replacement":null}],"pointer":"/camera/eye/2"}
-    {"code":"SC001","severity":"warning","message":"unknown key `Shaddows`","file":"a b.yaml","primary":{"file":"a b.yaml","byteStart":32,"byteEnd":40,"start":{"line":3,"column":1},"end":{"line":3,"column":9},"text":"no such key: 100 %, here"},"labels":[{"file":"a b.yaml","byteStart":0,"byteEnd":6,"start":{"line":1,"column":1},"end":{"line":1,"column":7},"text":"`Shadows` goes beside this"}],"hints":[{"text":"a key with a similar name exists","replacement":{"file":"a b.yaml","byteStart":32,"byteEnd":40,"start":{"line":3,"column":1},"end":{"line":3,"column":9},"text":"Shadows"}}],"pointer":null}
+    {"code":"SC001","severity":"warning","message":"unknown key `Shaddows`","file":"a b.yaml","primary":{"file":"a b.yaml","byteStart":32,"byteEnd":40,"start":{"line":3,"column":1},"end":{"line":3,"column":9},"text":"no such key: 100 %, here"},"labels":[{"file":"a b.yaml","byteStart":0,"byteEnd":6,"start":{"line":1,"column":1},"end":{"line":1,"column":7},"text":"`Shadows` goes beside this"}],"hints":[{"text":"a key with a similar name exists","replacement":{"file":"a b.yaml","byteStart":32,"byteEnd":40,"start":{"line":3,"column":1},"end":{"line":3,"column":9},"text":"Shadows","guess":false}}],"pointer":null}
     "#);
 }
 

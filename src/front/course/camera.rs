@@ -295,7 +295,7 @@ fn basis(
                     span,
                     || "`up` has no length".to_owned(),
                     |d| {
-                        d.at(span, "no direction, and no size of a pixel").replace(
+                        d.at(span, "no direction, and no size of a pixel").guess(
                             "for instance",
                             span,
                             "[0, 1, 0]",
@@ -323,7 +323,7 @@ fn parallel(gaze: Vec3, up: Vec3, span: Span, context: &mut Context<'_>) -> Opti
         |d| match lenient {
             false => d
                 .at(span, "parallel to the way from `eye` to `center`")
-                .replace("turn it, for instance", span, text),
+                .guess("turn it, for instance", span, text),
             true => d
                 .at(span, format!("parallel to the view; taken as {text}"))
                 .severity(Severity::Warning),

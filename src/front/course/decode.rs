@@ -2,6 +2,7 @@
 
 use super::meant;
 use super::schema::Definitions;
+use super::spelling::is_same_but_for_signs;
 use crate::diag::clip;
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::front::FrontOptions;
@@ -261,10 +262,13 @@ impl<'a> Context<'a> {
         };
         let message = || format!("{name} must be {what}, not {found}");
         let meant = meant::of(tree, key.span, node, what);
+        let text = meant.as_ref().and_then(|(_, text)| text.as_deref());
+        let same = text.is_some_and(|text| is_same_but_for_signs(tree.written(node), text));
         self.report(&codes::WRONG_TYPE, place, message, |d| {
             let finding = d.at(place, found.clone());
             match meant {
-                Some((hint, Some(text))) => finding.replace(hint, place, text),
+                Some((hint, Some(text))) if same => finding.replace(hint, place, text),
+                Some((hint, Some(text))) => finding.guess(hint, place, text),
                 Some((hint, None)) => finding.hint(hint),
                 None => finding,
             }

@@ -221,7 +221,7 @@ fn other_unit(
         || message(key.text),
         |d| {
             d.at(span, "taken as it is")
-                .replace("in the other unit", span, better)
+                .guess("in the other unit", span, better)
         },
     );
 }

@@ -4,9 +4,8 @@
 use super::decode::{Context, MapEntry, ValueKey, describe};
 use super::form;
 use super::record::{Field, FieldOutcome, Need, Record, Slot};
-use super::spelling::{list, nearest};
-use crate::diag::clip;
-use crate::diag::codes;
+use super::spelling::{is_same_but_for_signs, list, nearest};
+use crate::diag::{Diagnostic, clip, codes};
 use crate::source::Span;
 use crate::source::tree::NodeId;
 use std::collections::BTreeSet;
@@ -245,6 +244,15 @@ pub(super) fn missing_keys(
     });
 }
 
+/// Proposes a key: with the letters and digits of the one that is written, it is the same key.
+fn proposed(d: Diagnostic, key: &str, meant: &str, span: Span, better: String) -> Diagnostic {
+    let hint = format!("did you mean `{meant}`?");
+    match is_same_but_for_signs(key, meant) {
+        true => d.replace(hint, span, better),
+        false => d.guess(hint, span, better),
+    }
+}
+
 fn unknown_key(word: &str, meant: Option<&str>, entry: MapEntry<'_>, context: &mut Context<'_>) {
     let span = context.tree.span(entry.key_node);
     let severity = context.unread();
@@ -258,7 +266,7 @@ fn unknown_key(word: &str, meant: Option<&str>, entry: MapEntry<'_>, context: &m
             let d = d.at(span, "ignored").severity(severity);
             match meant.zip(better) {
                 Some((meant, better)) => {
-                    d.replace(format!("did you mean `{meant}`?"), span, better)
+                    proposed(d, entry.key, meant, span, better)
                 }
                 None if looks_like_number => {
                     d.hint("a comma begins the next key: decimals stand behind a point, lists in `[` and `]`")

@@ -28,6 +28,16 @@ pub(super) fn list<'w>(words: impl IntoIterator<Item = &'w str>) -> String {
     }
 }
 
+/// Whether two texts have the same letters and digits, in any case of letters: what stands between
+/// them differs, and what they say does not.
+pub(super) fn is_same_but_for_signs(written: &str, meant: &str) -> bool {
+    let core = |text: &str| -> Vec<char> {
+        let letters = text.chars().filter(|c| c.is_alphanumeric());
+        letters.flat_map(char::to_lowercase).collect()
+    };
+    core(written) == core(meant)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

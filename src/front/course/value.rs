@@ -356,9 +356,7 @@ pub(super) fn word<T: Copy>(
                 .at(span, "unknown")
                 .hint(format!("it is one of {}", list(words())));
             match meant {
-                Some((meant, better)) => {
-                    d.replace(format!("did you mean `{meant}`?"), span, better)
-                }
+                Some((meant, better)) => d.guess(format!("did you mean `{meant}`?"), span, better),
                 None => d,
             }
         });

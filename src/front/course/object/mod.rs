@@ -156,9 +156,7 @@ fn left_out(word: &str, node: NodeId, context: &mut Context<'_>) {
                 false => d.at(span, "this object would be missing"),
             };
             match meant {
-                Some((meant, better)) => {
-                    d.replace(format!("did you mean `{meant}`?"), span, better)
-                }
+                Some((meant, better)) => d.guess(format!("did you mean `{meant}`?"), span, better),
                 None if lenient => d,
                 None => {
                     let kinds = list(KINDS.iter().map(|kind| kind.words[0]));

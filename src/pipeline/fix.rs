@@ -1,0 +1,209 @@
+//! What findings propose, put into the text of a scene where that makes it better and nothing worse.
+//!
+//! A changed text is checked in the place of the file before it is taken. It is better if each finding
+//! that is obeyed is gone, there is no error that was not there before, and no warning either unless
+//! an error is gone: behind errors, warnings are not seen. What one change brings to light may be
+//! mended by the next, so that a few are tried on. Where all changes together are not better, each is
+//! tried alone.
+
+use super::{Input, Options};
+use crate::diag::{Diagnostic, Severity};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The most times that a text is checked.
+const MOST_CHECKS: usize = 200;
+
+/// So often what a change brought to light is mended, too, before it is given up.
+const FOLLOWED: usize = 4;
+
+/// A text after what its findings propose.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FixedText {
+    /// The text.
+    pub text: String,
+    /// How many changes are in it; none if it is as it was.
+    pub changes: usize,
+    /// How many were proposed for it and are not in it: they would make it no better.
+    pub refused: usize,
+    /// How many are guesses that were not wanted.
+    pub guesses: usize,
+}
+
+/// Obeys what is proposed for a text that stands at `path`, guesses only if they are wanted. Nothing
+/// is written.
+#[must_use]
+pub fn fix(path: &Path, text: &str, options: &Options, with_guesses: bool) -> FixedText {
+    let mut workshop = Workshop {
+        path,
+        options,
+        with_guesses,
+        checks: 0,
+    };
+    let mut best = workshop.check(text.to_owned(), 0);
+    while let Some(better) = workshop.improve(&best) {
+        best = better;
+    }
+    FixedText {
+        changes: best.changes,
+        refused: best.edits.len(),
+        guesses: best.guesses,
+        text: best.text,
+    }
+}
+
+/// What says what is wrong, wherever it is.
+type Complaint = (Severity, &'static str, String);
+
+/// A text and what was found in it.
+struct Draft {
+    text: String,
+    /// How many changes led to it.
+    changes: usize,
+    /// How often there is each complaint.
+    complaints: BTreeMap<Complaint, usize>,
+    /// Not all findings were kept.
+    is_flooded: bool,
+    /// What is proposed for it, from its beginning on; no two at one place.
+    edits: Vec<Edit>,
+    /// How many guesses are proposed that were not wanted.
+    guesses: usize,
+}
+
+/// A change of a text.
+#[derive(Clone)]
+struct Edit {
+    start: usize,
+    end: usize,
+    text: String,
+    /// What it is to mend.
+    complaint: Complaint,
+}
+
+struct Workshop<'w> {
+    path: &'w Path,
+    options: &'w Options,
+    with_guesses: bool,
+    checks: usize,
+}
+
+impl Workshop<'_> {
+    fn check(&mut self, text: String, changes: usize) -> Draft {
+        self.checks += 1;
+        let bytes = text.clone().into_bytes();
+        let mut input = Input::edited(self.path, bytes, self.options.clone());
+        if let Some(loaded) = input.load() {
+            input.prove(loaded, |_, _| ());
+        }
+        let sink = input.take_findings();
+        let mut draft = Draft {
+            text,
+            changes,
+            complaints: BTreeMap::new(),
+            is_flooded: sink.dropped() > 0,
+            edits: Vec::new(),
+            guesses: 0,
+        };
+        for finding in sink.kept() {
+            *draft.complaints.entry(complaint(finding)).or_default() += 1;
+            self.propose(finding, &input, &mut draft);
+        }
+        draft.edits.sort_by_key(|edit| (edit.start, edit.end));
+        draft
+            .edits
+            .dedup_by(|next, last| next.start < last.end || next.start == last.start);
+        draft
+    }
+
+    /// Adds what a finding proposes for the text itself: the first that is wanted.
+    fn propose(&self, finding: &Diagnostic, input: &Input, draft: &mut Draft) {
+        let proposed = finding.hints.iter();
+        let mut proposed = proposed
+            .filter_map(|hint| hint.replacement.as_ref())
+            .filter(|change| Some(change.span.file) == input.file_id())
+            .peekable();
+        let is_any = proposed.peek().is_some();
+        let wanted = proposed.find(|change| self.with_guesses || !change.is_guess);
+        draft.guesses += usize::from(is_any && wanted.is_none());
+        draft.edits.extend(wanted.map(|change| Edit {
+            start: change.span.start as usize,
+            end: change.span.end as usize,
+            text: change.text.clone(),
+            complaint: complaint(finding),
+        }));
+    }
+
+    /// A better text, by all that is proposed or by one of it.
+    fn improve(&mut self, draft: &Draft) -> Option<Draft> {
+        let all = self.follow(draft, &draft.edits);
+        all.or_else(|| {
+            let alone = draft.edits.iter().filter(|_| draft.edits.len() > 1);
+            alone
+                .into_iter()
+                .find_map(|edit| self.follow(draft, std::slice::from_ref(edit)))
+        })
+    }
+
+    /// A better text by these changes, and those that they lead to.
+    fn follow(&mut self, draft: &Draft, edits: &[Edit]) -> Option<Draft> {
+        let mut next = draft.edited(edits);
+        for _ in 0..FOLLOWED {
+            let (text, changes) = next.filter(|_| self.checks < MOST_CHECKS)?;
+            let found = self.check(text, changes);
+            if found.is_better(draft, edits) {
+                return Some(found);
+            }
+            next = found.edited(&found.edits);
+        }
+        None
+    }
+}
+
+impl Draft {
+    /// The text with these changes, and how many there are by then; `None` without any.
+    fn edited(&self, edits: &[Edit]) -> Option<(String, usize)> {
+        let mut text = String::with_capacity(self.text.len());
+        let mut from = 0;
+        for edit in edits {
+            text.push_str(self.text.get(from..edit.start)?);
+            text.push_str(&edit.text);
+            from = edit.end;
+        }
+        text.push_str(self.text.get(from..)?);
+        (text != self.text).then(|| (text, self.changes + edits.len()))
+    }
+
+    fn is_better(&self, before: &Self, edits: &[Edit]) -> bool {
+        let of = |draft: &Self, complaint: &Complaint| {
+            draft.complaints.get(complaint).copied().unwrap_or(0)
+        };
+        let is_gone = |edit: &Edit| {
+            let mended = edits
+                .iter()
+                .filter(|other| other.complaint == edit.complaint);
+            of(self, &edit.complaint) + mended.count() <= of(before, &edit.complaint)
+        };
+        let has_new = |severity| {
+            let own = self.complaints.iter().filter(|((s, ..), _)| *s == severity);
+            own.into_iter()
+                .any(|(complaint, count)| *count > of(before, complaint))
+        };
+        let has_fewer_errors = self.errors() < before.errors();
+        !self.is_flooded
+            && !before.is_flooded
+            && edits.iter().all(is_gone)
+            && !has_new(Severity::Error)
+            && (has_fewer_errors || !has_new(Severity::Warning))
+    }
+
+    fn errors(&self) -> usize {
+        let own = self.complaints.iter();
+        own.filter(|((severity, ..), _)| *severity == Severity::Error)
+            .map(|(_, count)| count)
+            .sum()
+    }
+}
+
+fn complaint(finding: &Diagnostic) -> Complaint {
+    (finding.severity, finding.code.id, finding.message.clone())
+}

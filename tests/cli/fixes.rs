@@ -1,0 +1,96 @@
+//! `rtc check --fix`, `--diff` and `--unsafe`.
+
+use super::*;
+
+/// A scene with a slip that has one reading, one that needs a guess, comments, and line ends of
+/// another system.
+const TYPED: &str = "# A ball.\r\nEye: [0 0 50]  # far away\r\nShadws: true\r\nLights: []\r\nObjects:\r\n\
+- {type: sphere, position: [0, 0, 0], radius: '3', material: {color: [1, 0, 0], ka: 1, kd: 0, ks: 0, n: 1}}\r\n";
+
+fn put(text: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.yaml"), text).unwrap();
+    folder
+}
+
+fn text(folder: &TempDir) -> String {
+    fs::read_to_string(folder.path().join("a.yaml")).unwrap()
+}
+
+#[test]
+fn what_has_one_reading_is_fixed_and_guesses_wait() {
+    let folder = put(TYPED);
+    let fixed = rtc(&folder, &["check", "--fix", "a.yaml"]);
+    let said = stderr(&fixed);
+    assert_eq!(code(&fixed), 0, "{said}");
+    let sure = TYPED.replace("[0 0 50]", "[0, 0, 50]").replace("'3'", "3");
+    assert_eq!(text(&folder), sure);
+    assert!(said.contains("a.yaml: 2 changes made"), "{said}");
+    assert!(said.contains("`--unsafe` takes them"), "{said}");
+    let guessed = rtc(&folder, &["check", "--fix", "--unsafe", "a.yaml"]);
+    assert!(guessed.status.success() && !stderr(&guessed).contains("warning["));
+    assert_eq!(text(&folder), sure.replace("Shadws", "Shadows"));
+    let again = rtc(&folder, &["check", "--fix", "--unsafe", "a.yaml"]);
+    assert!(again.status.success() && again.stderr.is_empty());
+}
+
+#[test]
+fn a_diff_is_shown_and_nothing_is_written() {
+    let folder = put(TYPED);
+    let before = fs::metadata(folder.path().join("a.yaml")).unwrap();
+    let shown = rtc(&folder, &["check", "--fix", "--diff", "-q", "a.yaml"]);
+    assert_eq!(code(&shown), 1, "the file is as it was, with its errors");
+    let diff = String::from_utf8(shown.stdout).unwrap();
+    assert!(diff.starts_with("--- a.yaml\n+++ a.yaml\n@@ -1,6 +1,6 @@\n"));
+    assert!(diff.contains("\n-Eye: [0 0 50]  # far away\r\n+Eye: [0, 0, 50]  # far away\r\n"));
+    let after = fs::metadata(folder.path().join("a.yaml")).unwrap();
+    assert_eq!(text(&folder), TYPED);
+    assert_eq!(after.modified().unwrap(), before.modified().unwrap());
+}
+
+/// With the colon in place the scene would be read, and has other errors.
+#[test]
+fn a_change_that_brings_new_errors_is_left_out() {
+    let typed = "Eye: [0, 0, 50]\nLights: []\nObjects:\n- type: sphere\n  radius = 3\n";
+    let folder = put(typed);
+    let left = rtc(&folder, &["check", "--fix", "--unsafe", "a.yaml"]);
+    assert_eq!((code(&left), text(&folder)), (1, typed.to_owned()));
+    assert!(
+        stderr(&left).contains("a.yaml: 1 change left out"),
+        "{}",
+        stderr(&left)
+    );
+}
+
+#[test]
+fn guesses_need_a_fix_and_a_fix_needs_a_file() {
+    let folder = put(TYPED);
+    assert_eq!(code(&rtc(&folder, &["check", "--unsafe", "a.yaml"])), 2);
+    let mut stdin = command(folder.path(), &["check", "--fix", "-"]);
+    let piped = fs::File::open(folder.path().join("a.yaml")).unwrap();
+    let refused = stdin.stdin(piped).output().unwrap();
+    assert_eq!(code(&refused), 2);
+    assert!(stderr(&refused).contains("standard input can't be fixed"));
+}
+
+#[cfg(unix)]
+#[test]
+fn links_and_permissions_stay() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let folder = put(TYPED);
+    let path = |name: &str| folder.path().join(name);
+    fs::rename(path("a.yaml"), path("own.yaml")).unwrap();
+    symlink("own.yaml", path("a.yaml")).unwrap();
+    fs::set_permissions(path("own.yaml"), fs::Permissions::from_mode(0o640)).unwrap();
+    assert!(rtc(&folder, &["check", "--fix", "a.yaml"]).status.success());
+    assert!(fs::symlink_metadata(path("a.yaml")).unwrap().is_symlink());
+    let own = fs::metadata(path("own.yaml")).unwrap();
+    assert_eq!(own.permissions().mode() & 0o777, 0o640);
+    assert!(text(&folder).contains("[0, 0, 50]"));
+    // What can't be written stays, and is told.
+    fs::write(path("own.yaml"), TYPED).unwrap();
+    fs::set_permissions(path("own.yaml"), fs::Permissions::from_mode(0o440)).unwrap();
+    let refused = rtc(&folder, &["check", "--fix", "a.yaml"]);
+    assert_eq!((code(&refused), text(&folder)), (2, TYPED.to_owned()));
+    assert_eq!(names(folder.path()), ["a.yaml", "own.yaml"]);
+}
