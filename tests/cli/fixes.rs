@@ -4,7 +4,7 @@ use super::*;
 
 /// A scene with a slip that has one reading, one that needs a guess, comments, and line ends of
 /// another system.
-const TYPED: &str = "# A ball.\r\nEye: [0 0 50]  # far away\r\nShadws: true\r\nLights: []\r\nObjects:\r\n\
+const TYPED: &str = "# A ball.\r\nEye: [0 0 50]  # far away\r\nShadws: true\r\nLights: [{position: [9, 9, 90], color: [1, 1, 1]}]\r\nObjects:\r\n\
 - {type: sphere, position: [0, 0, 0], radius: '3', material: {color: [1, 0, 0], ka: 1, kd: 0, ks: 0, n: 1}}\r\n";
 
 fn put(text: &str) -> TempDir {
