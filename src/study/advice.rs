@@ -1,8 +1,10 @@
 //! The advice that follows from a study, in plain words.
 
+use super::knob::Knob;
 use super::metrics::Errors;
 use super::outcome::{MoreBounces, Row, Study};
 use super::setting::Setting;
+use crate::math::pow;
 use crate::plan::Arithmetic;
 
 /// An invisible error, in grey levels.
@@ -25,12 +27,39 @@ pub(super) fn advice(study: &Study) -> Vec<String> {
     };
     let mut lines = vec![best(study, &front[chosen..])];
     lines.extend(study.own().map(|own| about_own(study, own, &front)));
+    lines.extend(about_paths(study));
     lines.extend(study.bounces.as_ref().and_then(about_more));
     if study.rows.iter().any(|row| !row.judged) {
         lines
             .push("Rows with ≤ are as good as the reference, which can't tell them apart; more effort can.".to_owned());
     }
     lines
+}
+
+/// How many paths an error takes that an eye can hardly tell: by the error of the scene's own number,
+/// and the law by which it falls.
+fn about_paths(study: &Study) -> Option<String> {
+    let knobs = &mut study.knobs.iter();
+    let paths = knobs.find(|report| report.knob == Knob::Paths && report.idle.is_none())?;
+    let (own, delta) = (study.own()?, study.own()?.errors.delta_e);
+    let exponent = paths.law.map_or(0.5, |law| law.p.value.clamp(0.25, 1.0));
+    let wanted = f64::from(own.setting.paths) * pow(delta, 1.0 / exponent);
+    (delta > 0.0).then(|| {
+        let [wanted, own] = [two_digits(wanted), f64::from(own.setting.paths)];
+        format!(
+            "An error of 1 ΔE (the mean distance in CIELAB) takes about `--spp {wanted}`; the scene's own {own} have {} ΔE.",
+            digits(delta)
+        )
+    })
+}
+
+/// The next greater number of two significant digits, at least 1.
+fn two_digits(value: f64) -> f64 {
+    let mut unit = 1.0;
+    while value > 100.0 * unit {
+        unit *= 10.0;
+    }
+    (value / unit).ceil().max(1.0) * unit
 }
 
 /// What more bounces would show, if that is visible.
@@ -179,6 +208,14 @@ pub(super) fn seconds(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_of_paths_are_rounded_up() {
+        assert_eq!(
+            [0.2, 17.0, 100.0, 101.0, 12_345.0].map(two_digits),
+            [1.0, 17.0, 100.0, 110.0, 13_000.0]
+        );
+    }
 
     #[test]
     fn numbers_have_the_digits_that_matter() {

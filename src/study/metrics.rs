@@ -1,7 +1,7 @@
 //! Measures of the difference of two pictures. All use display values: each sample was clamped to
 //! [0, 1] before the mean, as in a picture file, without rounding.
 
-use super::flip::{PIXELS_PER_DEGREE, flip};
+use super::flip::{PIXELS_PER_DEGREE, delta_e, flip};
 use super::sample::TileErrors;
 use crate::image::Image;
 use serde::{Deserialize, Serialize};
@@ -29,6 +29,8 @@ pub struct Errors {
     pub visible: f64,
     /// The mean of FLIP, from 0 to 1.
     pub flip: f64,
+    /// The mean distance of pixels in CIELAB: ΔE*ab (CIE 1976).
+    pub delta_e: f64,
 }
 
 impl Errors {
@@ -51,9 +53,10 @@ impl Errors {
                 .zip(reference)
                 .any(|(x, r)| (x - r).abs() * LEVELS > 1.0)
         };
-        let off = pairs()
-            .flat_map(|(test, reference)| test.pixels.iter().zip(&reference.pixels))
-            .filter(|pair| is_off(*pair));
+        let pixel_pairs =
+            || pairs().flat_map(|(test, reference)| test.pixels.iter().zip(&reference.pixels));
+        let off = pixel_pairs().filter(|pair| is_off(*pair));
+        let distances = pixel_pairs().map(|(test, reference)| delta_e(*test, *reference));
         let flips = pairs().flat_map(|(test, reference)| flip(reference, test, PIXELS_PER_DEGREE));
         Self {
             rmse,
@@ -63,6 +66,7 @@ impl Errors {
             max: channels().map(|(x, r)| (x - r).abs()).fold(0.0, f64::max) * LEVELS,
             visible: off.count() as f64 / pixels,
             flip: flips.sum::<f64>() / pixels,
+            delta_e: distances.sum::<f64>() / pixels,
         }
     }
 }
@@ -160,6 +164,7 @@ mod tests {
             "one pixel is off by more than one level"
         );
         assert!([errors.rmse_low, errors.rmse_high] == [errors.rmse; 2] && errors.flip > 0.0);
+        assert!(errors.delta_e > 0.1 && errors.delta_e < 1.0, "{errors:?}");
     }
 
     #[test]

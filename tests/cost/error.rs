@@ -276,4 +276,26 @@ fn paths_have_a_ladder_and_a_law_of_their_own() {
         study::html(&study).contains(">spp<"),
         "the page has the column"
     );
+    let line = study
+        .advice
+        .iter()
+        .find(|line| line.contains("1 ΔE"))
+        .unwrap();
+    let (_, wanted) = line.split_once("`--spp ").unwrap();
+    let wanted: f64 = wanted.split('`').next().unwrap().parse().unwrap();
+    let own = study.own().unwrap().setting;
+    for row in &study.rows {
+        let paths = f64::from(row.setting.paths);
+        if row.setting == own.with(Knob::Paths, row.setting.paths) && row.judged {
+            let delta = row.errors.delta_e;
+            assert!(
+                paths > 0.5 * wanted || delta > 1.0,
+                "{line} {paths} have {delta}"
+            );
+            assert!(
+                paths < 2.0 * wanted || delta < 1.0,
+                "{line} {paths} have {delta}"
+            );
+        }
+    }
 }

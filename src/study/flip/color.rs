@@ -8,6 +8,13 @@ pub(super) fn hyab(a: Vec3, b: Vec3) -> f64 {
     d.x.abs() + (d.y * d.y + d.z * d.z).sqrt()
 }
 
+/// The distance of two display colours in CIELAB: ΔE*ab (CIE 1976), of which 1 is about what an eye can
+/// tell.
+pub(in crate::study) fn delta_e(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let [a, b] = [a, b].map(|color| linear_to_lab(to_linear(color)));
+    (a - b).length()
+}
+
 /// Hunt's effect: colours look paler in the dark.
 pub(super) fn hunt(lab: Vec3) -> Vec3 {
     Vec3::new(lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z)

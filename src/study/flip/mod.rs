@@ -9,6 +9,7 @@ mod color;
 
 use crate::image::Image;
 use crate::math::{Vec3, exp, pow};
+pub(super) use color::delta_e;
 use color::{
     hunt, hyab, linear_to_lab, linear_to_xyz, opponent_to_xyz, to_linear, xyz_to_linear,
     xyz_to_opponent,

@@ -6,7 +6,7 @@ use super::super::outcome::{Row, Study};
 
 const NAMES: &str = "supersampling,aperture,lights,glossy,paths,depth,precision,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
 refracted_rays,seconds,seconds_low,seconds_high,ratio,ratio_low,ratio_high,rmse,rmse_low,rmse_high,relative_mse,\
-max,visible,flip,model";
+max,visible,flip,delta_e,model";
 
 /// All rows.
 #[must_use]
@@ -47,6 +47,7 @@ fn line(row: &Row) -> String {
         errors.max,
         errors.visible,
         errors.flip,
+        errors.delta_e,
         *model,
     ];
     // The shortest digits that read back as the same number.
