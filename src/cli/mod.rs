@@ -13,6 +13,7 @@ mod explain;
 mod files;
 mod fix;
 mod gate;
+mod info;
 mod input;
 mod interrupt;
 mod lead;
@@ -102,6 +103,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Farm(args) => batch::run(&args),
         Command::Cost(args) => cost::run(&args),
         Command::Diff(args) => diff::run(&args),
+        Command::Info(args) => info::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Schema(args) => tell::schema(&args),
         Command::Completions(args) => tell::completions(&args),

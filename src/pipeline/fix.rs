@@ -56,7 +56,7 @@ pub fn fix(path: &Path, text: &str, options: &Options, with_guesses: bool) -> Fi
 type Complaint = (Severity, &'static str, String);
 
 /// A text and what was found in it.
-struct Draft {
+struct FixDraft {
     text: String,
     /// How many changes led to it.
     changes: usize,
@@ -88,7 +88,7 @@ struct Workshop<'w> {
 }
 
 impl Workshop<'_> {
-    fn check(&mut self, text: String, changes: usize) -> Draft {
+    fn check(&mut self, text: String, changes: usize) -> FixDraft {
         self.checks += 1;
         let bytes = text.clone().into_bytes();
         let mut input = Input::edited(self.path, bytes, self.options.clone());
@@ -96,7 +96,7 @@ impl Workshop<'_> {
             input.prove(loaded, |_, _| ());
         }
         let sink = input.take_findings();
-        let mut draft = Draft {
+        let mut draft = FixDraft {
             text,
             changes,
             complaints: BTreeMap::new(),
@@ -116,7 +116,7 @@ impl Workshop<'_> {
     }
 
     /// Adds what a finding proposes for the text itself: the first that is wanted.
-    fn propose(&self, finding: &Diagnostic, input: &Input, draft: &mut Draft) {
+    fn propose(&self, finding: &Diagnostic, input: &Input, draft: &mut FixDraft) {
         let proposed = finding.hints.iter();
         let mut proposed = proposed
             .filter_map(|hint| hint.replacement.as_ref())
@@ -134,7 +134,7 @@ impl Workshop<'_> {
     }
 
     /// A better text, by all that is proposed or by one of it.
-    fn improve(&mut self, draft: &Draft) -> Option<Draft> {
+    fn improve(&mut self, draft: &FixDraft) -> Option<FixDraft> {
         let all = self.follow(draft, &draft.edits);
         all.or_else(|| {
             let alone = draft.edits.iter().filter(|_| draft.edits.len() > 1);
@@ -145,7 +145,7 @@ impl Workshop<'_> {
     }
 
     /// A better text by these changes, and those that they lead to.
-    fn follow(&mut self, draft: &Draft, edits: &[Edit]) -> Option<Draft> {
+    fn follow(&mut self, draft: &FixDraft, edits: &[Edit]) -> Option<FixDraft> {
         let mut next = draft.edited(edits);
         for _ in 0..FOLLOWED {
             let (text, changes) = next.filter(|_| self.checks < MOST_CHECKS)?;
@@ -159,7 +159,7 @@ impl Workshop<'_> {
     }
 }
 
-impl Draft {
+impl FixDraft {
     /// The text with these changes, and how many there are by then; `None` without any.
     fn edited(&self, edits: &[Edit]) -> Option<(String, usize)> {
         let mut text = String::with_capacity(self.text.len());

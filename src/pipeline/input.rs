@@ -273,6 +273,15 @@ impl Input {
         self.map.text(self.file?)
     }
 
+    /// What the text of an asset says that it holds, for before it is loaded; none of other scenes.
+    #[must_use]
+    pub fn asset(&self) -> Option<gltf::AssetSummary> {
+        let file = self.file?;
+        let is_asset = gltf::recognise(self.map.name(file), self.map.bytes(file))
+            && codec::recognise(self.map.bytes(file)).is_none();
+        is_asset.then(|| gltf::summary(file, &self.map))?
+    }
+
     /// The file of the scene, unless it could not be read.
     pub(super) fn file_id(&self) -> Option<FileId> {
         self.file

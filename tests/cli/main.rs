@@ -16,6 +16,7 @@ mod farm;
 mod files;
 mod fixes;
 mod framing;
+mod info;
 mod interplay;
 mod leads;
 mod looks;

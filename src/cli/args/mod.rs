@@ -63,6 +63,8 @@ pub(super) enum Command {
     Cost(Cost),
     /// Compare two pictures, and hold the difference to gates
     Diff(Diff),
+    /// Tell what is in a scene, how large it is, and what its picture needs
+    Info(Box<Info>),
     /// Explain a code of a diagnostic
     Explain(Explain),
     /// Print the JSON Schema of a format
@@ -89,6 +91,22 @@ pub(super) struct CheckArgs {
     /// With `--fix` or `--diff`: also what was only most likely meant
     #[arg(long = "unsafe", requires = "change")]
     pub(super) guesses: bool,
+    #[command(flatten)]
+    pub(super) reading: Reading,
+    #[command(flatten)]
+    pub(super) talk: TalkArgs,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Info {
+    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) file: PathBuf,
+    /// One JSON object, of the form `rtc-info/1`
+    #[arg(long)]
+    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) stage: StageArgs,
     #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]

@@ -35,12 +35,14 @@ mod report;
 mod resource;
 mod schema;
 mod skin;
+mod summary;
 mod texture;
 mod unused;
 mod uri;
 mod usage;
 
 pub(super) use lower::{SURFACE, empty, looking_at};
+pub use summary::{AnimationSummary, AssetSummary, summary};
 
 use super::FrontOptions;
 use crate::diag::{Diagnostic, Sink, codes};

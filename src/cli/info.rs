@@ -1,0 +1,332 @@
+//! `rtc info`: what is in a scene, how large it is, and what its picture needs.
+
+use super::args::Info;
+use super::talk::Talk;
+use super::{Failure, input, output};
+use crate::front::gltf::AssetSummary;
+use crate::ir::{Light, Mesh, Mode, Projection, Scene, Shape};
+use crate::math::{Vec3, shortest};
+use crate::pipeline::{Input, Proven};
+use crate::plan::{Plan, Rule, Rules};
+use indicatif::{BinaryBytes, HumanCount};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// The version of the JSON form.
+const SCHEMA: &str = "rtc-info/1";
+
+/// Columns before the values of the text.
+const INDENT: usize = 12;
+
+/// Tells what is in the scene.
+pub(super) fn run(args: &Info) -> Result<(), Failure> {
+    let mut talk = Talk::beside_result(&args.talk);
+    let mut input = input::staged(&args.file, &args.reading, &args.stage)?;
+    let outcome = carry_out(args, &mut input, &mut talk);
+    talk.finish()?;
+    outcome
+}
+
+fn carry_out(args: &Info, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
+    // The picture is planned, not made.
+    input.lift_rays();
+    let asset = input.asset();
+    let loaded = input.load();
+    let content = loaded.as_ref().map(|own| content(&own.lowered.scene));
+    let proven = loaded.and_then(|own| input.prove(own, input::fill));
+    let proven = input::unless_refused(proven, input, talk)?;
+    let mut facts = json!({ "schema": SCHEMA, "file": input.name() });
+    for part in [content.unwrap_or_default(), picture(&proven)] {
+        extend(&mut facts, part);
+    }
+    extend(
+        &mut facts,
+        json!({ "asset": asset.map(|own| of_asset(&own)) }),
+    );
+    let text = match args.json {
+        true => format!("{facts:#}\n"),
+        false => lines(&facts),
+    };
+    output::to_stdout(text.as_bytes())
+}
+
+fn extend(facts: &mut Value, part: Value) {
+    if let (Value::Object(facts), Value::Object(part)) = (facts, part) {
+        facts.extend(part);
+    }
+}
+
+/// What the scene itself holds, before anything is put around it.
+fn content(scene: &Scene) -> Value {
+    let mut shapes: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut lights: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut materials: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut triangles = 0;
+    for surface in &scene.surfaces {
+        *shapes.entry(surface.shape.kind().word()).or_default() += 1;
+        triangles += triangles_of(&surface.shape, &scene.meshes);
+    }
+    for light in &scene.lights {
+        let kind = match light {
+            Light::Point(_) => "course",
+            Light::Punctual(light) => light.emitter.spelling().kind,
+        };
+        *lights.entry(kind).or_default() += 1;
+    }
+    for material in &scene.materials {
+        let kind = material.phong().map_or("standard", |_| "phong");
+        *materials.entry(kind).or_default() += 1;
+    }
+    let images = scene.images.iter().map(|image| {
+        json!({
+            "name": image.name,
+            "width": image.width,
+            "height": image.height,
+            "bytes": image.pixels.len(),
+        })
+    });
+    let environment = match &scene.environment {
+        None => "none",
+        Some(around) if around.image.is_some() => "image",
+        Some(_) => "color",
+    };
+    json!({
+        "counts": {
+            "surfaces": scene.surfaces.len(),
+            "triangles": triangles,
+            "meshes": scene.meshes.len(),
+            "materials": scene.materials.len(),
+            "textures": scene.textures.len(),
+            "images": scene.images.len(),
+            "lights": scene.lights.len(),
+        },
+        "shapes": shapes,
+        "materials": materials,
+        "lights": lights,
+        "environment": environment,
+        "bounds": bounds(scene),
+        "meshBytes": scene.meshes.iter().map(mesh_bytes).sum::<usize>(),
+        "imageBytes": scene.images.iter().map(|image| image.pixels.len()).sum::<usize>(),
+        "images": images.collect::<Vec<_>>(),
+    })
+}
+
+/// The triangles that a surface shows.
+fn triangles_of(shape: &Shape, meshes: &[Mesh]) -> usize {
+    if let Shape::Instance(instance) = shape {
+        let mesh = meshes.get(instance.mesh.0 as usize);
+        return mesh.map_or(0, |mesh| mesh.triangles.len());
+    }
+    usize::from(matches!(shape, Shape::Triangle(_)))
+}
+
+/// The bytes of the numbers of a mesh.
+fn mesh_bytes(mesh: &Mesh) -> usize {
+    let corners = size_of::<[u32; 3]>() * mesh.triangles.len();
+    mesh.positions.bytes()
+        + mesh.normals.bytes()
+        + mesh.uvs.bytes()
+        + mesh.second_uvs.bytes()
+        + mesh.tangents.bytes()
+        + mesh.colors.bytes()
+        + corners
+}
+
+/// A box around all that has an end, from boxes around its shapes.
+fn bounds(scene: &Scene) -> Value {
+    let boxes = scene.mesh_boxes();
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for surface in &scene.surfaces {
+        let shape = &surface.shape;
+        shape.corners_around(&boxes, &mut |at| (low, high) = (low.min(at), high.max(at)));
+    }
+    if low.is_finite() && high.is_finite() {
+        json!({ "low": low.to_array(), "high": high.to_array() })
+    } else {
+        Value::Null
+    }
+}
+
+/// How the scene is shown, and what that needs.
+fn picture(proven: &Proven) -> Value {
+    let Scene {
+        camera, settings, ..
+    } = &proven.lowered.scene;
+    let (mode, samples) = match &settings.mode {
+        Mode::Phong => ("phong", None),
+        Mode::Zbuffer => ("zbuffer", None),
+        Mode::Normal => ("normal", None),
+        Mode::Gooch(_) => ("gooch", None),
+        Mode::Path(path) => ("path", Some(path.samples)),
+    };
+    let grid = u64::from(settings.supersampling).pow(2);
+    let plan = Plan::new(&proven.scene, Rules::ALL);
+    let whole = plan.verdicts.iter().filter(|verdict| verdict.of.is_none());
+    let effects = whole.map(|verdict| {
+        json!({
+            "effect": verdict.effect.name(),
+            "verdict": verdict.state.name(),
+            "rule": verdict.rule.map(Rule::name),
+            "because": verdict.because,
+        })
+    });
+    json!({
+        "picture": {
+            "width": camera.size[0],
+            "height": camera.size[1],
+            "mode": mode,
+            "samplesPerPixel": samples.map_or(grid, u64::from),
+            "maxDepth": settings.max_depth,
+        },
+        "camera": {
+            "eye": camera.eye,
+            "center": camera.center,
+            "projection": match camera.projection {
+                Projection::Perspective => "perspective",
+                Projection::Orthographic => "orthographic",
+            },
+            "yfov": camera.yfov(),
+        },
+        "effects": effects.collect::<Vec<_>>(),
+    })
+}
+
+fn of_asset(asset: &AssetSummary) -> Value {
+    let counts: serde_json::Map<String, Value> = asset
+        .counts
+        .iter()
+        .map(|(key, count)| ((*key).to_owned(), json!(count)))
+        .collect();
+    let animations = asset
+        .animations
+        .iter()
+        .map(|own| json!({ "name": own.name, "channels": own.channels, "seconds": own.seconds }));
+    json!({
+        "version": asset.version,
+        "generator": asset.generator,
+        "counts": counts,
+        "extensionsUsed": asset.extensions,
+        "extensionsRequired": asset.required,
+        "animations": animations.collect::<Vec<_>>(),
+        "cameras": asset.cameras,
+        "variants": asset.variants,
+    })
+}
+
+/// The facts as aligned lines.
+fn lines(facts: &Value) -> String {
+    let mut lines = FactLines(String::new());
+    let count = |value: &Value| HumanCount(value.as_u64().unwrap_or(0)).to_string();
+    let bytes = |value: &Value| BinaryBytes(value.as_u64().unwrap_or(0)).to_string();
+    let (counts, picture) = (&facts["counts"], &facts["picture"]);
+    let samples = count(&picture["samplesPerPixel"]);
+    let size = format!("{}×{}", picture["width"], picture["height"]);
+    lines.put("file", &word(&facts["file"]));
+    let mode = word(&picture["mode"]);
+    let of = format!(
+        "{size}, {mode}, samples a pixel: {samples}, depth {}",
+        picture["maxDepth"]
+    );
+    lines.put("picture", &of);
+    let camera = &facts["camera"];
+    let projection = word(&camera["projection"]);
+    let (eye, center) = (point(&camera["eye"]), point(&camera["center"]));
+    lines.put("camera", &format!("{projection}, from {eye} to {center}"));
+    let shapes = each(&facts["shapes"]);
+    lines.put(
+        "surfaces",
+        &format!("{}{shapes}", count(&counts["surfaces"])),
+    );
+    lines.put("triangles", &count(&counts["triangles"]));
+    let (low, high) = (&facts["bounds"]["low"], &facts["bounds"]["high"]);
+    if !low.is_null() {
+        lines.put("bounds", &format!("{} to {}", point(low), point(high)));
+    }
+    let meshes = bytes(&facts["meshBytes"]);
+    lines.put("meshes", &format!("{}, {meshes}", count(&counts["meshes"])));
+    let materials = each(&facts["materials"]);
+    lines.put(
+        "materials",
+        &format!("{}{materials}", count(&counts["materials"])),
+    );
+    lines.put("textures", &count(&counts["textures"]));
+    let images = bytes(&facts["imageBytes"]);
+    lines.put("images", &format!("{}, {images}", count(&counts["images"])));
+    let lights = each(&facts["lights"]);
+    lines.put("lights", &format!("{}{lights}", count(&counts["lights"])));
+    lines.put("surrounded", &word(&facts["environment"]));
+    asset_lines(&facts["asset"], &mut lines);
+    for state in ["needed", "pruned", "absent"] {
+        let rows = facts["effects"].as_array().into_iter().flatten();
+        let rows = rows.filter(|row| row["verdict"] == state);
+        let names: Vec<_> = rows.map(|row| word(&row["effect"])).collect();
+        if !names.is_empty() {
+            lines.put(state, &names.join(", "));
+        }
+    }
+    lines.0
+}
+
+fn asset_lines(asset: &Value, lines: &mut FactLines) {
+    if asset.is_null() {
+        return;
+    }
+    let (version, generator) = (word(&asset["version"]), word(&asset["generator"]));
+    lines.put("glTF", format!("{version} {generator}").trim_end());
+    lines.put("holds", each(&asset["counts"]).trim_start_matches(": "));
+    for (key, list) in [
+        ("extensions", "extensionsUsed"),
+        ("required", "extensionsRequired"),
+        ("variants", "variants"),
+    ] {
+        let names = asset[list].as_array().into_iter().flatten();
+        let names: Vec<_> = names.map(word).collect();
+        if !names.is_empty() {
+            lines.put(key, &names.join(", "));
+        }
+    }
+    for own in asset["animations"].as_array().into_iter().flatten() {
+        let seconds = shortest(own["seconds"].as_f64().unwrap_or(0.0));
+        let name = word(&own["name"]);
+        let name = if name.is_empty() { "-" } else { &name };
+        lines.put(
+            "animation",
+            &format!("{name}, {seconds} s, channels: {}", own["channels"]),
+        );
+    }
+}
+
+/// Lines of a name and a value each.
+struct FactLines(String);
+
+impl FactLines {
+    fn put(&mut self, name: &str, value: &str) {
+        let harmless = value.replace(char::is_control, "\u{fffd}");
+        self.0 += &format!("{name:<INDENT$}{harmless}\n");
+    }
+}
+
+fn word(value: &Value) -> String {
+    value.as_str().unwrap_or_default().to_owned()
+}
+
+/// The counts of a map that are not 0, after a colon.
+fn each(counts: &Value) -> String {
+    let counts = counts.as_object().into_iter().flatten();
+    let counts = counts.filter(|(_, count)| count.as_u64() != Some(0));
+    let parts: Vec<_> = counts
+        .map(|(kind, count)| format!("{kind} {count}"))
+        .collect();
+    match parts.is_empty() {
+        true => String::new(),
+        false => format!(": {}", parts.join(", ")),
+    }
+}
+
+fn point(value: &Value) -> String {
+    let numbers = value.as_array().into_iter().flatten();
+    let numbers: Vec<_> = numbers
+        .map(|number| shortest((number.as_f64().unwrap_or(0.0) * 1e3).round() / 1e3))
+        .collect();
+    format!("[{}]", numbers.join(", "))
+}

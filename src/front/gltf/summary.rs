@@ -1,0 +1,107 @@
+//! What the text of an asset says that it holds, unjudged, for people who ask.
+
+use super::field::Fields;
+use super::{parts, text};
+use crate::diag::Sink;
+use crate::source::tree::json;
+use crate::source::{FileId, SourceMap};
+
+/// What an asset holds by its own text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AssetSummary {
+    /// The version of glTF.
+    pub version: String,
+    /// The program that wrote it; empty if it does not say.
+    pub generator: String,
+    /// How many there are of each kind: the key of the list, and its items.
+    pub counts: Vec<(&'static str, usize)>,
+    /// The names in `extensionsUsed`.
+    pub extensions: Vec<String>,
+    /// Those of them that a reader must know.
+    pub required: Vec<String>,
+    /// The animations.
+    pub animations: Vec<AnimationSummary>,
+    /// The names of the cameras, empty where one has none.
+    pub cameras: Vec<String>,
+    /// The names of the variants of materials.
+    pub variants: Vec<String>,
+}
+
+/// One animation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AnimationSummary {
+    /// Its name, empty if it has none.
+    pub name: String,
+    /// How many properties it moves.
+    pub channels: usize,
+    /// The time of its last keyframe in seconds, as its accessors say.
+    pub seconds: f64,
+}
+
+/// The lists that are counted.
+const COUNTED: [&str; 11] = [
+    "scenes",
+    "nodes",
+    "meshes",
+    "skins",
+    "cameras",
+    "materials",
+    "textures",
+    "images",
+    "animations",
+    "accessors",
+    "buffers",
+];
+
+/// What an asset holds; `None` if its text can't be read.
+#[must_use]
+pub fn summary(file: FileId, map: &SourceMap) -> Option<AssetSummary> {
+    // What is wrong with it is told when it is lowered.
+    let mut sink = Sink::default();
+    let parts = parts(file, map, true, &mut sink)?;
+    let (base, text) = text(file, map.bytes(file), &parts, &mut sink)?;
+    let tree = json::parse(file, base, text).ok()?;
+    let root = Fields::new(&tree, tree.root());
+    let words = |key| -> Vec<String> {
+        let items = tree.list(tree.root(), key);
+        items
+            .filter_map(|item| tree.text(item).map(str::to_owned))
+            .collect()
+    };
+    let asset = root.object("asset");
+    let own = |key: &str| asset.and_then(|asset| asset.text(key)).unwrap_or_default();
+    let variants = root.extension("KHR_materials_variants");
+    let names = |fields: Fields<'_, '_>| fields.text("name").unwrap_or_default();
+    Some(AssetSummary {
+        version: own("version"),
+        generator: own("generator"),
+        counts: COUNTED
+            .iter()
+            .map(|key| (*key, tree.list(tree.root(), key).count()))
+            .collect(),
+        extensions: words("extensionsUsed"),
+        required: words("extensionsRequired"),
+        animations: animations(root),
+        cameras: root.objects("cameras").map(names).collect(),
+        variants: variants
+            .map(|variants| variants.objects("variants").map(names).collect())
+            .unwrap_or_default(),
+    })
+}
+
+fn animations(root: Fields<'_, '_>) -> Vec<AnimationSummary> {
+    let ends: Vec<f64> = root
+        .objects("accessors")
+        .map(|accessor| accessor.numbers("max").and_then(|max| max.first().copied()))
+        .map(Option::unwrap_or_default)
+        .collect();
+    let animation = |animation: Fields<'_, '_>| AnimationSummary {
+        name: animation.text("name").unwrap_or_default(),
+        channels: animation.objects("channels").count(),
+        seconds: animation
+            .objects("samplers")
+            .filter_map(|sampler| ends.get(sampler.index("input")?).copied())
+            .fold(0.0, f64::max),
+    };
+    root.objects("animations").map(animation).collect()
+}
