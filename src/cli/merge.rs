@@ -7,7 +7,7 @@ use super::render::kind;
 use super::talk::{self, Talk};
 use super::{Failure, progress};
 use crate::diag::Sink;
-use crate::pipeline::{OutputFormat, PartError, PicturePart};
+use crate::pipeline::{PartError, PicturePart};
 use crate::source::{Limits, Loader, Resource, SourceMap};
 use std::fmt;
 use std::path::Path;
@@ -86,17 +86,10 @@ fn said_of(path: &Path, error: &dyn fmt::Display) -> String {
 /// Refuses to write a picture of another kind than that which the parts are of.
 fn refuse_other_kind(args: &Merge, merged: &PicturePart) -> Result<(), Failure> {
     let asked = kind(&args.output, None)?;
-    let fits = match merged.look().kind {
-        OutputFormat::Png8 | OutputFormat::Png16 => asked != OutputFormat::Exr,
-        OutputFormat::Exr => asked == OutputFormat::Exr,
-    };
-    if fits {
+    let ((is, own), (_, other)) = (merged.look().kind.names(), asked.names());
+    if own == other {
         return Ok(());
     }
-    let [is, other] = match asked {
-        OutputFormat::Exr => ["PNG", "exr"],
-        OutputFormat::Png8 | OutputFormat::Png16 => ["EXR", "png"],
-    };
     Err(Failure::Input(format!(
         "the parts are of {is}; those of another picture are rendered with `--picture NAME.{other}`"
     )))

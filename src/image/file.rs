@@ -1,6 +1,7 @@
 //! A pixel file, written as the strips of its picture come, each a few whole rows from the top: what is
 //! written is let go. A picture as a whole is one strip, so that the bytes are the same.
 
+use super::compressed::{self, CompressedForm};
 use super::{EncodeError, FileFormat, Image, Layers, Picture, exr, png};
 use ::png::BitDepth;
 use std::borrow::Cow;
@@ -76,6 +77,8 @@ impl PictureHead {
         match &self.form {
             FileFormat::Png8 => png::write(self, BitDepth::Eight, out, &mut strips),
             FileFormat::Png16 => png::write(self, BitDepth::Sixteen, out, &mut strips),
+            FileFormat::Jpeg => compressed::write(self, CompressedForm::Jpeg, out, &mut strips),
+            FileFormat::Webp => compressed::write(self, CompressedForm::Webp, out, &mut strips),
             FileFormat::Exr(origin) => exr::write(self, origin, out, &mut strips),
         }
     }

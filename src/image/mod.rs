@@ -1,7 +1,9 @@
 //! Pixels and pixel files, in memory: a film developed into a picture; a picture written as PNG (8
-//! or 16 bit) or EXR, the same bytes every time; PNG, JPEG and WebP read, and pictures of light
+//! or 16 bit), JPEG, WebP or EXR, the same bytes every time; PNG, JPEG and WebP read, and pictures of light
 //! from HDR and EXR.
 
+mod animation;
+mod compressed;
 mod decode;
 mod exr;
 mod file;
@@ -12,6 +14,7 @@ mod range;
 mod shown;
 mod texels;
 
+pub use animation::AnimatedPng;
 pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
 pub use file::{BLOCK_ROWS, PictureHead, StripSource};
 pub use look::{Association, BackgroundFill, Look, exposure};
@@ -62,6 +65,10 @@ pub enum FileFormat {
     Png8,
     /// PNG with ⌊65535·v⌋ per channel, no gamma.
     Png16,
+    /// JPEG with ⌊255·v⌋ per channel before its losses, opaque.
+    Jpeg,
+    /// WebP with ⌊255·v⌋ per channel, lossless.
+    Webp,
     /// EXR with 32-bit floats per channel, clamped only to what those hold: all are finite.
     Exr(Origin),
 }

@@ -34,7 +34,7 @@ pub(super) fn write(
 }
 
 /// The samples of a row, as the format has them.
-fn pack(strip: &Picture, row: usize, depth: BitDepth, bytes: &mut Vec<u8>) {
+pub(super) fn pack(strip: &Picture, row: usize, depth: BitDepth, bytes: &mut Vec<u8>) {
     let width = strip.image.width as usize;
     bytes.clear();
     for index in row * width..(row + 1) * width {

@@ -30,8 +30,25 @@ pub enum OutputFormat {
     Png8,
     /// 16 bits a channel, as displayed.
     Png16,
+    /// JPEG, as displayed and opaque.
+    Jpeg,
+    /// WebP of 8 bits a channel, as displayed.
+    Webp,
     /// 32-bit floats, linear.
     Exr,
+}
+
+impl OutputFormat {
+    /// What it is called, and what the names of its files end in.
+    #[must_use]
+    pub fn names(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Png8 | Self::Png16 => ("PNG", "png"),
+            Self::Jpeg => ("JPEG", "jpg"),
+            Self::Webp => ("WebP", "webp"),
+            Self::Exr => ("EXR", "exr"),
+        }
+    }
 }
 
 /// The look of a picture, as asked for.
@@ -68,6 +85,9 @@ impl OutputLook {
         }
         if is_linear && asked == Some(Exposure::Auto) {
             return Err("`--exposure auto` is for PNG; an EXR holds linear values");
+        }
+        if kind == OutputFormat::Jpeg && background == BackgroundFill::Transparent {
+            return Err("a JPEG has no opacity; name the picture .png or .webp");
         }
         let mut aovs: Vec<Aov> = Vec::new();
         for aov in layers {
@@ -151,7 +171,9 @@ impl OutputLook {
     fn tone(&self, mode: &Mode) -> Tone {
         match self.kind {
             OutputFormat::Exr => Tone::None,
-            OutputFormat::Png8 | OutputFormat::Png16 => self.tone.unwrap_or(mode.tone()),
+            OutputFormat::Png8 | OutputFormat::Png16 | OutputFormat::Jpeg | OutputFormat::Webp => {
+                self.tone.unwrap_or(mode.tone())
+            }
         }
     }
 
@@ -195,7 +217,7 @@ impl OutputLook {
     /// file, which grows by doubling.
     pub fn memory(&self) -> usize {
         let channel = match self.kind {
-            OutputFormat::Png8 => 1,
+            OutputFormat::Png8 | OutputFormat::Jpeg | OutputFormat::Webp => 1,
             OutputFormat::Png16 => 2,
             OutputFormat::Exr => 4,
         };
@@ -234,7 +256,9 @@ impl SettledLook {
     fn develop(&self, film: Image, coverage: Vec<f32>) -> Picture {
         let association = match self.kind {
             OutputFormat::Exr => Association::Associated,
-            OutputFormat::Png8 | OutputFormat::Png16 => Association::Straight,
+            OutputFormat::Png8 | OutputFormat::Png16 | OutputFormat::Jpeg | OutputFormat::Webp => {
+                Association::Straight
+            }
         };
         image::Look {
             stops: self.stops,
@@ -333,6 +357,8 @@ impl SettledLook {
         match self.kind {
             OutputFormat::Png8 => FileFormat::Png8,
             OutputFormat::Png16 => FileFormat::Png16,
+            OutputFormat::Jpeg => FileFormat::Jpeg,
+            OutputFormat::Webp => FileFormat::Webp,
             OutputFormat::Exr => FileFormat::Exr(origin()),
         }
     }

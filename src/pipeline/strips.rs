@@ -2,7 +2,7 @@
 //! it takes the memory of a strip, and its file is that of the whole, byte for byte.
 
 use super::look::{Losses, SettledLook};
-use super::{Input, Meter, Observer, PictureSetup, RenderError, RenderSubject};
+use super::{Input, Meter, Observer, OutputFormat, PictureSetup, RenderError, RenderSubject};
 use crate::image::{BLOCK_ROWS, Picture, StripSource};
 use crate::render::{Counts, Crop, Film, Job};
 use crate::study::Goal;
@@ -17,6 +17,8 @@ const PIXELS: u32 = 1 << 20;
 const BUFFER: usize = 1 << 20;
 
 /// Why a picture can't be rendered in strips.
+const WHOLE: &str =
+    "a JPEG or WebP is compressed as a whole, and has no strips; name it .png or .exr";
 const GOAL: &str = "what is left of an error is known of a whole picture alone, so `--target-error` and \
      `--time-budget` have no strips; give the samples, by `--spp` or `--supersampling`";
 const DISTANCES: &str = "the brightness of a distance depends on all others, so a depth buffer has no \
@@ -58,7 +60,9 @@ impl PictureSetup {
     /// If it is such a picture.
     pub fn refuse_strips(&self, subject: &RenderSubject) -> Result<(), RenderError> {
         let is_distances = matches!(subject.proven.scene.settings().mode, Mode::Zbuffer);
+        let is_whole = matches!(self.look.kind, OutputFormat::Jpeg | OutputFormat::Webp);
         let reasons = [
+            (is_whole, WHOLE),
             (self.goal != Goal::default(), GOAL),
             (is_distances, DISTANCES),
             (self.verify, VERIFY),

@@ -15,6 +15,7 @@ mod exposure;
 mod farm;
 mod files;
 mod fixes;
+mod forms;
 mod framing;
 mod info;
 mod interplay;

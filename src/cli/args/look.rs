@@ -49,7 +49,10 @@ impl BackgroundArg {
                 let shown = color.map(|channel| f64::from(channel) / 255.0);
                 BackgroundFill::Color(match kind {
                     OutputFormat::Exr => shown.map(srgb_decoded),
-                    OutputFormat::Png8 | OutputFormat::Png16 => shown,
+                    OutputFormat::Png8
+                    | OutputFormat::Png16
+                    | OutputFormat::Jpeg
+                    | OutputFormat::Webp => shown,
                 })
             }
         }

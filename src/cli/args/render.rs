@@ -14,7 +14,7 @@ pub(in crate::cli) struct Render {
     /// 'a/*.glb'. `-` is standard input
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) files: Vec<PathBuf>,
-    /// Where to write, .png or .exr; `-` is PNG to standard output. Of many scenes a folder, as
+    /// Where to write: .png, .jpg, .webp (lossless) or .exr; `-` is PNG to standard output. Of many scenes a folder, as
     /// `out/`, or a name in which `{stem}` is that of the scene, as `out/{stem}.png` [default: the
     /// scene's name with .png, here]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -30,12 +30,15 @@ pub(in crate::cli) struct Render {
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
     pub(in crate::cli) time_budget: Option<Duration>,
     /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with
-    /// `-%04d`
+    /// `-%04d`; or is .apng, one file that shows them all
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects")]
     pub(in crate::cli) turntable: Option<u32>,
     /// Only these views of the turntable, from 1 on, the first and the last of them
     #[arg(long, value_name = "A..B", value_parser = frames, requires = "turntable")]
     pub(in crate::cli) frames: Option<[u32; 2]>,
+    /// Pictures a second of a turntable in one file, .apng [default: 12]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), requires = "turntable")]
+    pub(in crate::cli) fps: Option<u16>,
     /// Render one of N shares of the picture into a part, .rtp; `rtc merge` makes the picture of all
     #[arg(long, value_name = "I/N", value_parser = share, conflicts_with = "verify_effects")]
     pub(in crate::cli) part: Option<[u32; 2]>,
@@ -48,7 +51,7 @@ pub(in crate::cli) struct Render {
         requires = "part"
     )]
     pub(in crate::cli) parts_by: SharedByArg,
-    /// The picture that the part is of, .png or .exr [default: the scene's name with .png]
+    /// The picture that the part is of, .png, .jpg, .webp or .exr [default: the scene's name with .png]
     #[arg(long, value_name = "FILE", requires = "part", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) picture: Option<PathBuf>,
     /// Save what is done into this file, .rtp, now and then and when told to end; the same command goes

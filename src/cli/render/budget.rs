@@ -46,13 +46,13 @@ impl PictureClock {
         time.saturating_sub(writing(crop)).mul_f64(BUSY)
     }
 
-    /// The picture is ready: what is to be said of its time and of what it lacks.
+    /// The picture is ready but for its file: what is to be said of its time and of what it lacks.
     pub(super) fn stop(
         &self,
         time: Option<Duration>,
         (crude, crop): (Option<CrudePicture>, Crop),
     ) -> Option<Diagnostic> {
-        let took = self.begun().elapsed() + ENDING;
+        let took = self.begun().elapsed() + writing(crop);
         self.0.set(Instant::now());
         let time = time?;
         let is_late = took > time + LATE.max(time.mul_f64(LATE_PART));

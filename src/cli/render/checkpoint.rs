@@ -265,7 +265,7 @@ impl RenderSetup {
 }
 
 /// Why a command ends whose render came to no end.
-fn ended(error: RenderError, input: &mut Input, talk: &mut Talk) -> Failure {
+pub(super) fn ended(error: RenderError, input: &mut Input, talk: &mut Talk) -> Failure {
     halted(error, input, talk)
         .err()
         .unwrap_or(Failure::Findings)

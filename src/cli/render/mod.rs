@@ -1,5 +1,6 @@
 //! `rtc render`: a scene to a picture. What was typed becomes a [`RenderSetup`] before anything is read.
 
+mod animation;
 mod budget;
 mod checkpoint;
 mod many;
@@ -18,7 +19,7 @@ use super::simd;
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable, Views};
 use crate::color::Tone;
-use crate::image::BackgroundFill;
+use crate::image::{BackgroundFill, Picture};
 use crate::pipeline::{
     Input, Observer, OutputFormat, OutputLook, PictureSetup, RenderError, RenderSubject,
 };
@@ -26,7 +27,7 @@ use crate::plan::{Rule, Rules};
 use crate::render::{Aov, Crop};
 use crate::study::Goal;
 use budget::PictureClock;
-use checkpoint::{Checkpoint, Saving};
+use checkpoint::{Checkpoint, Desk, Saving, ended};
 pub(super) use checkpoint::{or_restart, say_saved, try_save};
 use part::PartSetup;
 use std::ffi::{OsStr, OsString};
@@ -38,6 +39,8 @@ struct RenderSetup {
     picture: PictureSetup,
     /// Views around the scene, if more than its own.
     turntable: Option<Views>,
+    /// Pictures a second of a turntable in one file.
+    rate: Option<u16>,
     up: Option<[f64; 3]>,
     /// The share of the picture that is rendered, if not all of it.
     part: Option<PartSetup>,
@@ -89,7 +92,10 @@ impl RenderSetup {
             error: args.target_error,
             time: args.time_budget,
         };
+        let rate = animation::rate(args, &output)?;
+        let still = rate.map(|_| output.with_extension("png"));
         let picture = part.as_ref().map_or(output.as_path(), PartSetup::picture);
+        let picture = still.as_deref().unwrap_or(picture);
         let picture = PictureSetup {
             goal,
             threads: args.threads.map_or(0, usize::from),
@@ -101,6 +107,7 @@ impl RenderSetup {
             output,
             picture,
             turntable,
+            rate,
             up: args.stage.up,
             part,
             checkpoint: Checkpoint::new(args),
@@ -149,6 +156,10 @@ impl RenderSetup {
                 None => self.shoot_saving(&mut saving, &mut subject, desk),
                 Some(views) => self.turn_saving(views, saving, &mut subject, desk),
             };
+        }
+        if let (Some(views), Some(rate)) = (&self.turntable, self.rate) {
+            let desk = (input, talk, &interrupt);
+            return self.shoot_animation((views, rate), &mut subject, desk);
         }
         if let Some(views) = &self.turntable {
             return self.shoot_around(views, &mut subject, input, talk, &interrupt);
@@ -211,7 +222,25 @@ impl RenderSetup {
             return self.shoot_strips(rows, (subject, path), input, talk, interrupt);
         }
         let (window, output) = self.ready(subject, path, input)?;
-        let (quiet, verbose) = (talk.is_quiet(), talk.is_verbose());
+        let desk = (&mut *input, &mut *talk, interrupt);
+        let (picture, summary) = self.take(subject, path, window, desk)?;
+        let bytes = self.picture.encode(&picture, subject)?;
+        output.commit(&bytes, interrupt)?;
+        if !talk.is_quiet() {
+            talk::say(&summary);
+        }
+        Ok(())
+    }
+
+    /// Renders one picture; it, and what to say of it.
+    fn take(
+        &self,
+        subject: &mut RenderSubject,
+        path: &Path,
+        window: Crop,
+        (input, talk, interrupt): Desk<'_>,
+    ) -> Result<(Picture, String), Failure> {
+        let quiet = talk.is_quiet();
         let shot = match self.picture.goal {
             Goal {
                 error: None,
@@ -221,24 +250,16 @@ impl RenderSetup {
                 self.approach(subject, (window, input.rays()), interrupt, quiet, None)
             }
         };
-        let shot = match shot {
-            Ok(shot) => shot,
-            Err(error) => return halted(error, input, talk),
-        };
-        let summary = shot.summary(path, &self.picture.light_told(), verbose);
+        let shot = shot.map_err(|error| ended(error, input, talk))?;
+        let summary = shot.summary(path, &self.picture.light_told(), talk.is_verbose());
         let film = (shot.image, shot.coverage, &shot.counts);
         let is_stopped = || interrupt.is_raised();
         let picture = self.picture.develop(subject, film, input, &is_stopped)?;
-        let bytes = self.picture.encode(&picture, subject)?;
         let time = self.picture.goal.time;
         let found = self.clock.stop(time, (shot.crude, window));
         found.into_iter().for_each(|finding| input.push(finding));
         input::tell(input, talk)?;
-        output.commit(&bytes, interrupt)?;
-        if !quiet {
-            talk::say(&summary);
-        }
-        Ok(())
+        Ok((picture, summary))
     }
 }
 
@@ -322,10 +343,15 @@ pub(super) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<OutputFormat
         )),
         (Some("png"), Some(BitDepth::Sixteen)) => Ok(OutputFormat::Png16),
         (Some("png"), Some(BitDepth::Eight) | None) => Ok(OutputFormat::Png8),
+        (Some("jpg" | "jpeg"), None) => Ok(OutputFormat::Jpeg),
+        (Some("webp"), None) => Ok(OutputFormat::Webp),
+        (Some("jpg" | "jpeg" | "webp"), Some(_)) => Err(Failure::Trouble(
+            "`--bits` is for PNG; a JPEG or WebP has 8".to_owned(),
+        )),
         (None, Some(BitDepth::Sixteen)) if is_stdout => Ok(OutputFormat::Png16),
         (None, Some(BitDepth::Eight) | None) if is_stdout => Ok(OutputFormat::Png8),
         _ => Err(Failure::Trouble(format!(
-            "can't tell what `{}` is to be; name it .png or .exr",
+            "can't tell what `{}` is to be; name it .png, .jpg, .webp or .exr",
             output.display()
         ))),
     }
