@@ -11,6 +11,8 @@ mod look;
 mod png;
 mod radiance;
 mod range;
+#[cfg(feature = "cli")]
+mod sheet;
 mod shown;
 mod texels;
 
@@ -21,6 +23,8 @@ pub use look::{Association, BackgroundFill, Look, exposure};
 pub use png::png_bytes;
 pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::Lost;
+#[cfg(feature = "cli")]
+pub use sheet::{contact_sheet, for_sheet, shrunk};
 pub use shown::ShownPicture;
 pub use texels::{Texel, Texels};
 

@@ -166,3 +166,60 @@ fn one_interrupt_ends_all() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(!names(shelf.path()).contains(&"out".to_owned()));
 }
+
+#[test]
+fn a_contact_sheet_shows_what_this_call_made() {
+    let shelf = shelf();
+    fs::write(
+        shelf.path().join("set/b.json"),
+        SCENE.replace("\"radius\": 10", "\"radius\": -10"),
+    )
+    .unwrap();
+    fs::create_dir(shelf.path().join("out")).unwrap();
+    image::RgbImage::from_pixel(4, 3, image::Rgb([0, 255, 0]))
+        .save(shelf.path().join("out/b.png"))
+        .unwrap();
+    let made = rtc(
+        &shelf,
+        &[
+            "render",
+            "set",
+            "-q",
+            "-o",
+            "out/",
+            "--contact-sheet",
+            "all.png",
+        ],
+    );
+    assert_eq!(code(&made), 1, "{}", stderr(&made));
+    let sheet = image::open(shelf.path().join("all.png")).unwrap().to_rgb8();
+    assert_eq!(sheet.dimensions(), (3 * 168 + 8, 144 + 8));
+    // Each picture is in the middle of its cell.
+    let middle = |cell: u32| sheet.get_pixel(cell * 168 + 8 + 80, 8 + 60).0;
+    assert!(
+        middle(0)[0] > 100 && middle(0)[1] < 100,
+        "the red ball: {:?}",
+        middle(0)
+    );
+    assert_eq!(middle(1), [63; 3], "a scene with an error has no picture");
+    assert_eq!(middle(2), middle(0));
+    for (sheet, words) in [
+        ("out/a.png", "would be the contact sheet and another file"),
+        ("all.exr", "is a PNG"),
+    ] {
+        let refused = rtc(
+            &shelf,
+            &["render", "set", "-o", "out/", "--contact-sheet", sheet],
+        );
+        assert!(
+            code(&refused) == 2 && stderr(&refused).contains(words),
+            "{}",
+            stderr(&refused)
+        );
+    }
+    let one = rtc(
+        &shelf,
+        &["render", "set/a.json", "--contact-sheet", "all.png"],
+    );
+    assert!(code(&one) == 2 && stderr(&one).contains("is for many scenes"));
+}

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(
     after_help = "Values of pixel files are compared as they are stored, up to 16 bits; those of EXR and HDR by the code of sRGB, cut off \
-at 1, and `relmse` by what they hold. Colours count as on black, and opacity as a fourth channel.\n\n\
+at 1, and `relmse` by what they hold: highlights beyond 1 show in it alone. Of an EXR the first red, green and blue are read, negative values as \
+0, and no opacity. Colours count as on black; opacity of its own shows in `max` and `share`.\n\n\
 Examples:\n  rtc diff new.png golden.png\n  rtc diff new.png golden.png --gate 'rmse<=1,share<=0.1%' -o map.png"
 )]
 pub(in crate::cli) struct Diff {

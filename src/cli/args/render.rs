@@ -19,6 +19,9 @@ pub(in crate::cli) struct Render {
     /// scene's name with .png, here]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) output: Option<PathBuf>,
+    /// Also write one PNG that shows the pictures of all scenes, small, with their names
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "turntable")]
+    pub(in crate::cli) contact_sheet: Option<PathBuf>,
     #[command(flatten)]
     pub(in crate::cli) wanted: WantedArgs,
     /// Sample until the picture is this close, in grey levels of 8 bits (RMSE, kept by 90 of 100

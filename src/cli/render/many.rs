@@ -2,8 +2,9 @@
 
 use super::super::talk::{self, Talk};
 use super::super::{Failure, args, files, interrupt};
+use super::sheet::Sheet;
 use super::{RenderSetup, stem};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf, is_separator};
 use std::{fs, io};
@@ -22,7 +23,13 @@ pub(super) fn jobs(args: &args::Render) -> Result<Option<Vec<RenderJob>>, Failur
     let scenes = files::scenes(&args.files)?;
     let place = Destination::new(args.output.as_deref());
     if scenes == args.files && scenes.len() == 1 && !place.is_for_many() {
-        return Ok(None);
+        return match &args.contact_sheet {
+            None => Ok(None),
+            Some(_) => Err(Failure::Trouble(
+                "`--contact-sheet` is for many scenes; give a folder, a pattern or more of them"
+                    .to_owned(),
+            )),
+        };
     }
     let refused = |words: &str| Err(Failure::Trouble(words.to_owned()));
     if args.part.is_some() || args.checkpoint.is_some() {
@@ -127,12 +134,19 @@ pub(super) fn run(
         args.output = Some(output);
         plans.push((scene, RenderSetup::new(&args, typed)?));
     }
+    let sheet = args.contact_sheet.as_deref();
+    let sheet = sheet.map(|path| Sheet::new(path, &plans)).transpose()?;
     let mut made = Vec::new();
     for (_, plan) in &plans {
         make_folder(&plan.output, &mut made)?;
     }
     let mut talk = Talk::beside_result(&args.talk);
-    let outcome = carry_out(plans, &args, &mut talk);
+    let mut shown = BTreeSet::new();
+    let outcome = carry_out(plans, &args, &mut talk, &mut shown);
+    let outcome = match sheet {
+        Some(sheet) if !interrupt::is_heard() => sheet.write(&shown).and(outcome),
+        Some(_) | None => outcome,
+    };
     // Those that hold no picture go again; the others stay.
     for folder in made.iter().rev() {
         let _ = fs::remove_dir(folder);
@@ -154,11 +168,12 @@ fn make_folder(output: &Path, made: &mut Vec<PathBuf>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Goes on after a failure, unless it is the end of all.
+/// Goes on after a failure, unless it is the end of all; notes the pictures that are made.
 fn carry_out(
     plans: Vec<(PathBuf, RenderSetup)>,
     args: &args::Render,
     talk: &mut Talk,
+    made: &mut BTreeSet<PathBuf>,
 ) -> Result<(), Failure> {
     let (all, mut failed) = (plans.len(), 0);
     for (number, (scene, plan)) in plans.into_iter().enumerate() {
@@ -168,8 +183,12 @@ fn carry_out(
         if interrupt::is_heard() {
             return Err(Failure::Interrupted);
         }
+        let output = plan.output.clone();
         match plan.begin(&scene, args, talk) {
-            Ok(()) => continue,
+            Ok(()) => {
+                made.insert(output);
+                continue;
+            }
             Err(end @ (Failure::Interrupted | Failure::ClosedPipe)) => return Err(end),
             Err(Failure::Findings | Failure::Unreadable) => {}
             Err(Failure::Input(words) | Failure::Trouble(words)) => {

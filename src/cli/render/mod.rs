@@ -5,6 +5,7 @@ mod budget;
 mod checkpoint;
 mod many;
 mod part;
+mod sheet;
 mod shot;
 mod strips;
 mod turning;

@@ -3,9 +3,7 @@
 
 use super::super::difference::heat_map;
 use super::super::flip::{PIXELS_PER_DEGREE, flip};
-use crate::image::{FileFormat, Image, Picture};
-use ::image::imageops::thumbnail;
-use ::image::{ImageBuffer, Rgb32FImage};
+use crate::image::{FileFormat, Image, Picture, shrunk};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
@@ -14,7 +12,7 @@ const WIDTH: u32 = 400;
 
 /// The tiles side by side, as a PNG in a URI.
 pub(super) fn tiles(tiles: &[Image]) -> String {
-    uri(&shrunk(mosaic(tiles)))
+    uri(&shrunk(mosaic(tiles), [WIDTH, u32::MAX]))
 }
 
 /// FLIP of each place, from black for no difference to white for the largest.
@@ -54,26 +52,6 @@ fn mosaic(tiles: &[Image]) -> Image {
     }
 }
 
-/// A picture that is too wide, made as wide as the page shows it: each pixel the mean of those it
-/// stands for.
-fn shrunk(image: Image) -> Image {
-    if image.width <= WIDTH {
-        return image;
-    }
-    let sides = [image.width, image.height];
-    let height = u64::from(image.height) * u64::from(WIDTH) / u64::from(image.width);
-    let height = u32::try_from(height.max(1)).unwrap_or(u32::MAX);
-    let channels = image.pixels.into_iter().flatten();
-    let channels = channels.map(|value| value as f32).collect();
-    let whole: Option<Rgb32FImage> = ImageBuffer::from_raw(sides[0], sides[1], channels);
-    let small = thumbnail(&whole.unwrap_or_default(), WIDTH, height);
-    Image {
-        width: WIDTH,
-        height,
-        pixels: small.pixels().map(|pixel| pixel.0.map(f64::from)).collect(),
-    }
-}
-
 fn uri(image: &Image) -> String {
     // A picture too large to encode is left out.
     let bytes = Picture::opaque(image.clone())
@@ -110,7 +88,7 @@ mod tests {
             height: 7,
             pixels: vec![[0.5; 3]; 7007],
         };
-        let small = shrunk(wide);
+        let small = shrunk(wide, [WIDTH, u32::MAX]);
         assert_eq!(
             (small.width, small.height, small.pixels.len()),
             (400, 2, 400 * 2)
