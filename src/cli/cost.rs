@@ -9,6 +9,7 @@ use super::output::Output;
 use super::render::{or_restart, say_saved, try_save};
 use super::simd;
 use super::talk::Talk;
+use super::versus;
 use crate::ir::Scene;
 use crate::pipeline::{self, Input};
 use crate::source::{Loader, SourceMap};
@@ -21,10 +22,21 @@ use std::time::{Duration, Instant};
 /// The most bytes that are read of what was rendered.
 const MAX_BYTES: u64 = 1 << 36;
 
-/// Studies the scene and writes the report.
+/// Studies the scene, or compares it with its reference, and writes the report.
 pub(super) fn run(args: &args::Cost) -> Result<(), Failure> {
+    match args.files.as_slice() {
+        [first, second] => versus::run(args, [first, second]),
+        files => alone(args, &files[0]),
+    }
+}
+
+fn alone(args: &args::Cost, file: &Path) -> Result<(), Failure> {
+    if args.gate.is_some() {
+        let words = "`--gate` is for a scene and its reference: `rtc cost new.yaml old.yaml --gate 'time<=1.2x'`";
+        return Err(Failure::Trouble(words.to_owned()));
+    }
     let mut talk = Talk::beside_result(&args.talk);
-    let mut input = input::staged(&args.file, &args.reading, &args.stage)?;
+    let mut input = input::staged(file, &args.reading, &args.stage)?;
     input.use_threads(threads(args));
     let outcome = carry_out(args, &mut input, &mut talk);
     talk.finish()?;
@@ -62,44 +74,53 @@ fn threads(args: &args::Cost) -> usize {
     args.threads.map_or(0, usize::from)
 }
 
-#[expect(
-    clippy::disallowed_methods,
-    reason = "the study is handed the clock from here"
-)]
 fn measure(
     args: &args::Cost,
     (about, journal): (About, Option<Journal>),
     scene: &Scene,
     interrupt: &Interrupt,
 ) -> Result<Study, Failure> {
-    let (simd, start) = (simd::level()?, Instant::now());
-    let cpu = || ThreadTime::try_now().map_or(Duration::ZERO, |time| time.as_duration());
-    let wall = || start.elapsed();
-    let on_pixel = |_| !interrupt.is_raised();
-    let bench = Bench::new(
-        threads(args),
-        Clock {
-            cpu: &cpu,
-            wall: &wall,
-        },
-        &on_pixel,
-    );
-    let bench = bench.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
     let file = args.checkpoint.clone().unwrap_or_default();
     let is_saved = AtomicBool::new(false);
     let save = |journal: &Journal| is_saved.store(try_save(&file, &journal.save()), Relaxed);
-    let bench = match journal {
-        Some(journal) => bench.at_level(simd).keeping(journal, args.every, &save),
-        None => bench.at_level(simd),
-    };
-    let study = study::study(scene, about, args.effort.into(), args.seed, &bench);
-    bench.save();
+    let study = on_bench(args, interrupt, |bench| {
+        let bench = match journal {
+            Some(journal) => bench.keeping(journal, args.every, &save),
+            None => bench,
+        };
+        let study = study::study(scene, about, args.effort.into(), args.seed, &bench);
+        bench.save();
+        study
+    })?;
     study.map_err(|Stopped| {
         if is_saved.load(Relaxed) {
             say_saved(&file, "what is rendered");
         }
         Failure::Interrupted
     })
+}
+
+/// Does the work on a bench with the threads wanted and the clock of the machine.
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the study is handed the clock from here"
+)]
+pub(super) fn on_bench<T>(
+    args: &args::Cost,
+    interrupt: &Interrupt,
+    work: impl FnOnce(Bench<'_>) -> T,
+) -> Result<T, Failure> {
+    let (simd, start) = (simd::level()?, Instant::now());
+    let cpu = || ThreadTime::try_now().map_or(Duration::ZERO, |time| time.as_duration());
+    let wall = || start.elapsed();
+    let clock = Clock {
+        cpu: &cpu,
+        wall: &wall,
+    };
+    let on_pixel = |_| !interrupt.is_raised();
+    let bench = Bench::new(threads(args), clock, &on_pixel);
+    let bench = bench.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
+    Ok(work(bench.at_level(simd)))
 }
 
 /// What is rendered of the study, if that is kept.
@@ -121,7 +142,7 @@ fn journal(args: &args::Cost, about: &About, input: &Input) -> Result<Option<Jou
     Ok(Some(journal))
 }
 
-fn about(name: &str, scene: &Scene) -> About {
+pub(super) fn about(name: &str, scene: &Scene) -> About {
     About {
         scene: Path::new(name).file_name().map_or_else(
             || name.to_owned(),

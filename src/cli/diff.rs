@@ -1,10 +1,10 @@
 //! `rtc diff`: how far two pictures are apart, and whether that is within gates.
 
+use super::Failure;
 use super::args::Diff;
-use super::gate::JudgedGate;
+use super::gate::{self, JudgedGate};
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
-use super::{Failure, talk};
 use crate::image::{FileFormat, Picture, ShownPicture};
 use crate::source::{Loader, SourceMap};
 use crate::study::{Difference, heat_map};
@@ -40,12 +40,7 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
     } else if !args.quiet {
         output::to_stdout(words(args, size, &found).as_bytes())?;
     }
-    let told = judged.iter().filter(|gate| !(gate.is_met && args.quiet));
-    told.for_each(|gate| talk::say(&gate.to_string()));
-    match judged.iter().all(|gate| gate.is_met) {
-        true => Ok(()),
-        false => Err(Failure::Findings),
-    }
+    gate::pass(&judged, args.quiet)
 }
 
 fn read(path: &Path, args: &Diff, map: &SourceMap) -> Result<ShownPicture, Failure> {

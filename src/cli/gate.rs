@@ -1,10 +1,39 @@
 //! Gates: limits of measured numbers, for which a command ends with exit code 1 where one is not met.
 
+use super::{Failure, talk};
 use serde::Serialize;
 use std::fmt;
 
-/// The measures of a difference of two pictures.
-const MEASURES: [&str; 5] = ["rmse", "max", "relmse", "flip", "share"];
+/// What may follow the limit of a measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Unit {
+    /// Nothing.
+    Plain,
+    /// `%`: a share may be told in hundredths.
+    Share,
+    /// `x`: so many times as much.
+    Ratio,
+}
+
+/// The measures of a command.
+type Measures = [(&'static str, Unit)];
+
+/// Those of the difference of two pictures.
+const OF_PICTURES: &Measures = &[
+    ("rmse", Unit::Plain),
+    ("max", Unit::Plain),
+    ("relmse", Unit::Plain),
+    ("flip", Unit::Plain),
+    ("share", Unit::Share),
+];
+
+/// Those of one scene against another.
+const OF_SCENES: &Measures = &[
+    ("error", Unit::Plain),
+    ("time", Unit::Ratio),
+    ("rays", Unit::Ratio),
+    ("noise", Unit::Ratio),
+];
 
 /// Limits, as `rmse<=1,share<=0.5%`.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,26 +46,50 @@ struct Gate {
     most: f64,
 }
 
-/// Reads gates as typed.
+/// Reads gates of the difference of two pictures as typed.
 ///
 /// # Errors
 /// If something else is written; in words that name what may be.
-pub(super) fn gates(text: &str) -> Result<Gates, String> {
+pub(super) fn of_pictures(text: &str) -> Result<Gates, String> {
+    gates(text, OF_PICTURES)
+}
+
+/// Reads gates of one scene against another as typed.
+///
+/// # Errors
+/// As [`of_pictures`].
+pub(super) fn of_scenes(text: &str) -> Result<Gates, String> {
+    gates(text, OF_SCENES)
+}
+
+fn gates(text: &str, measures: &Measures) -> Result<Gates, String> {
     text.split(',')
-        .map(|gate| Gate::read(gate.trim()))
+        .map(|gate| Gate::read(gate.trim(), measures))
         .collect::<Result<_, _>>()
         .map(Gates)
 }
 
+/// Tells which gates are met, or if it is to be quiet which are not; a failure if one is not.
+pub(super) fn pass(gates: &[JudgedGate], is_quiet: bool) -> Result<(), Failure> {
+    let told = gates.iter().filter(|gate| !(gate.is_met && is_quiet));
+    told.for_each(|gate| talk::say(&gate.to_string()));
+    match gates.iter().all(|gate| gate.is_met) {
+        true => Ok(()),
+        false => Err(Failure::Findings),
+    }
+}
+
 impl Gate {
-    fn read(text: &str) -> Result<Self, String> {
-        let (name, most) = text
-            .split_once("<=")
-            .ok_or_else(|| format!("`{text}` is no gate; write `MEASURE<=VALUE`, as `rmse<=1`"))?;
+    fn read(text: &str, measures: &Measures) -> Result<Self, String> {
+        let (name, most) = text.split_once("<=").ok_or_else(|| {
+            let first = measures[0].0;
+            format!("`{text}` is no gate; write `MEASURE<=VALUE`, as `{first}<=1`")
+        })?;
         let (name, most) = (name.trim(), most.trim());
-        let measure = MEASURES.into_iter().find(|measure| *measure == name);
-        let measure = measure.ok_or_else(|| {
-            let all = MEASURES.join(", ");
+        let measure = measures.iter().find(|(measure, _)| *measure == name);
+        let (measure, unit) = measure.copied().ok_or_else(|| {
+            let all: Vec<_> = measures.iter().map(|(name, _)| *name).collect();
+            let all = all.join(", ");
             format!("there is no measure `{name}`; measures are {all}")
         })?;
         let number = |text: &str| {
@@ -45,10 +98,16 @@ impl Gate {
                 .ok()
                 .filter(|value| *value >= 0.0)
         };
-        let most = match most.strip_suffix('%') {
-            Some(percent) if measure == "share" => number(percent).map(|value| value / 100.0),
-            Some(_) => return Err(format!("`{measure}` is no share, so its limit has no `%`")),
-            None => number(most),
+        let most = match (most.strip_suffix('%'), most.strip_suffix('x')) {
+            (Some(percent), _) if unit == Unit::Share => number(percent).map(|value| value / 100.0),
+            (Some(_), _) => {
+                return Err(format!("`{measure}` is no share, so its limit has no `%`"));
+            }
+            (None, Some(times)) if unit == Unit::Ratio => number(times),
+            (None, Some(_)) => {
+                return Err(format!("`{measure}` is no ratio, so its limit has no `x`"));
+            }
+            (None, None) => number(most),
         };
         let most =
             most.ok_or_else(|| format!("the limit of `{measure}` must be a number of at least 0"))?;
@@ -104,15 +163,20 @@ mod tests {
 
     #[test]
     fn gates_are_read() {
-        let read = gates("rmse<=1, share <= 0.5%,flip<=2e-2").unwrap();
-        let expected = [("rmse", 1.0), ("share", 0.005), ("flip", 0.02)];
+        let gates = |limits: &[(&'static str, f64)]| {
+            let gate = |(measure, most): &(&'static str, f64)| Gate {
+                measure,
+                most: *most,
+            };
+            Gates(limits.iter().map(gate).collect())
+        };
         assert_eq!(
-            read,
-            Gates(
-                expected
-                    .map(|(measure, most)| Gate { measure, most })
-                    .into()
-            )
+            of_pictures("rmse<=1, share <= 0.5%,flip<=2e-2").unwrap(),
+            gates(&[("rmse", 1.0), ("share", 0.005), ("flip", 0.02)])
+        );
+        assert_eq!(
+            of_scenes("error<=0.5,time<=1.2x,rays<=2").unwrap(),
+            gates(&[("error", 0.5), ("time", 1.2), ("rays", 2.0)])
         );
     }
 
@@ -127,14 +191,22 @@ mod tests {
             ("rmse<=nan", "at least 0"),
             ("rmse<=1,", "is no gate"),
         ] {
-            let error = gates(text).unwrap_err();
+            let error = of_pictures(text).unwrap_err();
+            assert!(error.contains(words), "{text}: {error}");
+        }
+        for (text, words) in [
+            ("error<=1x", "no `x`"),
+            ("time<=10%", "no `%`"),
+            ("rmse<=1", "error, time"),
+        ] {
+            let error = of_scenes(text).unwrap_err();
             assert!(error.contains(words), "{text}: {error}");
         }
     }
 
     #[test]
     fn a_gate_is_met_up_to_its_limit() {
-        let gates = gates("rmse<=1,max<=3").unwrap();
+        let gates = of_pictures("rmse<=1,max<=3").unwrap();
         let judged = gates.judged(|name| if name == "rmse" { 1.0 } else { 3.5 });
         assert_eq!(
             judged.iter().map(|gate| gate.is_met).collect::<Vec<_>>(),

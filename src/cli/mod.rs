@@ -28,6 +28,7 @@ mod talk;
 mod tell;
 pub mod trial;
 mod turntable;
+mod versus;
 
 use crate::diag::clip_words;
 use args::{Cli, Command};

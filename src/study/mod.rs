@@ -31,6 +31,7 @@ mod subject;
 mod sweep;
 mod target;
 mod unmet;
+mod versus;
 
 pub use bench::{Bench, Clock};
 pub use budget::CrudePicture;
@@ -47,14 +48,15 @@ pub use outcome::{
 pub use precision::PrecisionCost;
 pub use reference::{DepthEnd, Level};
 #[cfg(feature = "cli")]
-pub use report::{csv, html, json, table};
+pub use report::{csv, html, json, table, versus_table};
 pub use setting::Setting;
 pub use statistics::{Estimate, PowerLaw, Rng, median};
 pub use stretch::WorkStretch;
 pub use subject::Stopped;
 pub use target::{Goal, Order, Progress, Reached, Samples, Watch, approach, approach_keeping};
+pub use versus::{DifferentTile, Versus, versus};
 
-use crate::ir::Scene;
+use crate::ir::{Mode, Scene, Shape, Surface};
 use crate::render::Seeds;
 use race::{Runner, race};
 use reference::{Depths, Reference};
@@ -63,18 +65,36 @@ use serde::{Deserialize, Serialize};
 use subject::Subject;
 use sweep::{Model, sweep};
 
-/// The approximate number of rays that a study may take.
+/// How much work a study may be: about so many rays of a scene of a few balls. Others are dearer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Effort(pub u64);
 
 impl Effort {
-    /// Seconds.
+    /// Seconds: at most 20 of one processor of 2025, for most scenes.
     pub const QUICK: Self = Self(60_000_000);
-    /// About a minute for a simple scene.
-    pub const DEFAULT: Self = Self(300_000_000);
-    /// Ten times that.
+    /// At most a minute.
+    pub const DEFAULT: Self = Self(180_000_000);
+    /// Ten minutes and more.
     pub const THOROUGH: Self = Self(3_000_000_000);
+
+    /// The rays of a scene that are so much work.
+    fn rays(self, scene: &Scene) -> u64 {
+        self.0 / price(scene)
+    }
+}
+
+/// A ray of the scene in rays of a scene of a few balls, roughly: prices are rules of thumb from
+/// processor times, so that a study takes about as long whatever the scene is.
+fn price(scene: &Scene) -> u64 {
+    let is_torus = |surface: &Surface| matches!(surface.shape, Shape::Torus(_));
+    if matches!(scene.settings.mode, Mode::Path(_)) {
+        return 5;
+    }
+    match scene.surfaces.iter().any(is_torus) {
+        true => 2,
+        false => 1,
+    }
 }
 
 /// The parts of the work, in hundredths.
@@ -142,7 +162,8 @@ struct Scope {
     used: Vec<Knob>,
     /// The knobs that are numbers of samples.
     sampling: Vec<Knob>,
-    effort: Effort,
+    /// The rays that the study may take.
+    rays: u64,
 }
 
 /// The reference and the model: the measures by which rows are judged and chosen.
@@ -167,12 +188,12 @@ impl Scope {
             own: Setting::of(scene),
             used,
             sampling,
-            effort,
+            rays: effort.rays(scene),
         }
     }
 
     fn hundredths(&self, fraction: u64) -> u64 {
-        self.effort.0 / 100 * fraction
+        self.rays / 100 * fraction
     }
 
     /// The scene's own setting with all sampling knobs at one value.
@@ -197,7 +218,7 @@ impl Scope {
         let setting = self.at(2);
         let counts = pilot.shoot(setting, reference::independent(1))?.counts;
         let rays = counts.rays() as f64 / counts.camera.max(1) as f64;
-        let samples = GOOD[0] * (self.effort.0 as f64 / GOOD[1]).sqrt();
+        let samples = GOOD[0] * (self.rays as f64 / GOOD[1]).sqrt();
         let of_reference = self.hundredths(FOR_REFERENCE) as f64 / (3.0 * samples * rays);
         let of_own = self.hundredths(FOR_ROWS) as f64 / (6.0 * self.own.camera_rays() * rays);
         let tiles = |pixels: f64| pixels / pilot.pixels() as f64 * pilot.count() as f64;

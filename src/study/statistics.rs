@@ -194,6 +194,39 @@ pub(super) fn normal_quantile(tail: f64) -> f64 {
         / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308)))
 }
 
+/// How far the means of two sets of values are apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct MeanTest {
+    /// The first mean less the second.
+    pub(super) difference: f64,
+    /// As rare as so many standard deviations of a normal variable, if the means were the same.
+    pub(super) deviations: f64,
+}
+
+/// The test of the means of pairs of values, at least two (Student, "The probable error of a mean",
+/// Biometrika 6 (1908)). Student's t is told as a normal variable by Wallace's approximation (Annals of
+/// Mathematical Statistics 30 (1959)). Differences as small as errors of rounding are none.
+pub(super) fn paired(first: &[f64], second: &[f64]) -> MeanTest {
+    const ROUNDING: f64 = 1e-12;
+    let n = first.len() as f64;
+    let differences: Vec<_> = first.iter().zip(second).map(|(a, b)| a - b).collect();
+    let difference = differences.iter().sum::<f64>() / n;
+    let squares = differences
+        .iter()
+        .map(|value| (value - difference) * (value - difference));
+    let (freedom, variance) = (n - 1.0, squares.sum::<f64>() / (n - 1.0) / n);
+    let t = difference * difference / variance.max(ROUNDING * ROUNDING);
+    let deviations =
+        (8.0 * freedom + 1.0) / (8.0 * freedom + 3.0) * (freedom * ln(1.0 + t / freedom)).sqrt();
+    MeanTest {
+        difference,
+        deviations: match difference.abs() > ROUNDING {
+            true => deviations,
+            false => 0.0,
+        },
+    }
+}
+
 /// The number that Fisher's F of `over` and `under` degrees of freedom exceeds with the probability
 /// `tail`; infinite where the approximation (Paulson, Annals of Mathematical Statistics 13 (1942))
 /// has no value.
@@ -270,6 +303,22 @@ mod tests {
             assert!((fisher_quantile(tail, over, under) / f - 1.0).abs() < 0.005);
         }
         assert_eq!(fisher_quantile(0.001, 0.5, 1.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn the_test_of_two_means_is_that_of_the_tables() {
+        // Differences of the mean 1 and of the variance 1: t is √8 times the mean, of 7 degrees.
+        let spread = [-1.0, 1.0, 0.0, -1.0, 1.0, 0.0, -1.0, 1.0];
+        let scale = (7.0_f64 / 6.0).sqrt();
+        // Student's t of 7 degrees that is exceeded by 5 %, 1 %, 0.1 % on both sides together.
+        for (t, z) in [(2.3646, 1.960), (3.4995, 2.5758), (5.4079, 3.2905)] {
+            let first = spread.map(|value| 3.0 + t / 8.0_f64.sqrt() + value * scale);
+            let test = paired(&first, &[3.0; 8]);
+            assert!((test.difference - t / 8.0_f64.sqrt()).abs() < 1e-12);
+            assert!((test.deviations - z).abs() < 0.02, "{t}: {test:?}");
+        }
+        assert_eq!(paired(&[1.0; 4], &[1.0 + 1e-15; 4]).deviations, 0.0);
+        assert!(paired(&[1.0; 4], &[1.0001; 4]).deviations > 6.0);
     }
 
     #[test]

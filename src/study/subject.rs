@@ -82,13 +82,29 @@ impl<'bench> Subject<'bench> {
         self.tiles.len()
     }
 
-    /// The number of pixels.
-    pub(super) fn pixels(&self) -> u64 {
+    /// Where the tiles lie.
+    pub(super) fn cells(&self) -> Vec<Crop> {
         self.tiles
             .iter()
             .map(|tile| self.rectangle(*tile))
-            .map(|r| u64::from(r.width) * u64::from(r.height))
-            .sum()
+            .collect()
+    }
+
+    /// The tiles of a render, also of a whole picture.
+    pub(super) fn tiles_of(&self, shot: RenderedTiles) -> Vec<Image> {
+        match shot.tiles.as_slice() {
+            [whole] if self.is_whole() => {
+                let cells = self.cells();
+                cells.iter().map(|cell| cut(whole, *cell)).collect()
+            }
+            _ => shot.tiles,
+        }
+    }
+
+    /// The number of pixels.
+    pub(super) fn pixels(&self) -> u64 {
+        let pixels = |cell: Crop| cell.pixels() as u64;
+        self.cells().into_iter().map(pixels).sum()
     }
 
     /// The fraction of the picture that is rendered.
@@ -268,11 +284,8 @@ impl<'bench> Subject<'bench> {
                 counts,
             });
         }
-        let tiles = self
-            .tiles
-            .iter()
-            .map(|tile| cut(&film.image, self.rectangle(*tile)))
-            .collect();
+        let cells = self.cells();
+        let tiles = cells.iter().map(|cell| cut(&film.image, *cell)).collect();
         Ok(RenderedTiles { tiles, counts })
     }
 

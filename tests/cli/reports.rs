@@ -131,3 +131,51 @@ fn rules_can_be_switched_off_and_change_no_byte() {
     let rule = rtc(&folder, &["explain", "E-SPEC"]);
     assert!(String::from_utf8(rule.stdout).unwrap().contains("ks is 0"));
 }
+
+/// A scene against its reference: what is told, and what gates make of it.
+#[test]
+fn a_scene_is_held_against_another() {
+    let folder = folder();
+    let dark = scene_with("\"color\": [1, 1, 1]", "\"color\": [0.5, 0.5, 0.5]");
+    fs::write(folder.path().join("dark.json"), dark).unwrap();
+    let cost = |args: &[&str]| rtc(&folder, &[&["cost", "--effort", "quick"], args].concat());
+    let same = cost(&["ball.json", "ball.json", "--gate", "error<=0,rays<=1x"]);
+    assert_eq!(code(&same), 0, "{}", stderr(&same));
+    let told = String::from_utf8(same.stdout).unwrap();
+    assert!(told.contains("same, to the last bit"), "{told}");
+    let other = cost(&[
+        "dark.json",
+        "ball.json",
+        "--gate",
+        "error<=1",
+        "--format",
+        "json",
+    ]);
+    assert_eq!(code(&other), 1, "{}", stderr(&other));
+    let report: serde_json::Value = serde_json::from_slice(&other.stdout).unwrap();
+    assert_eq!(report["schema"], "rtc-versus/1");
+    assert_eq!(report["gates"][0]["isMet"], false);
+    assert!(report["error"]["low"].as_f64().unwrap() > 1.0, "{report}");
+    assert!(!report["different"].as_array().unwrap().is_empty());
+    let wide = scene_with("[40, 30]", "[50, 30]");
+    fs::write(folder.path().join("wide.json"), wide).unwrap();
+    for (args, end, words) in [
+        (&["wide.json", "ball.json"][..], 1, "50 × 30"),
+        (&["ball.json", "--gate", "time<=2x"], 2, "and its reference"),
+        (
+            &["ball.json", "ball.json", "--format", "csv"],
+            2,
+            "one scene",
+        ),
+        (
+            &["ball.json", "ball.json", "--gate", "rmse<=2"],
+            2,
+            "measures are error",
+        ),
+        (&["-", "-"], 2, "standard input is one scene"),
+    ] {
+        let output = cost(args);
+        assert_eq!(code(&output), end, "{args:?}");
+        assert!(stderr(&output).contains(words), "{}", stderr(&output));
+    }
+}

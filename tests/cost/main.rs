@@ -7,6 +7,7 @@ mod error;
 mod knob;
 mod report;
 mod resume;
+mod versus;
 
 use rtc::internals::codec;
 use rtc::internals::diag::Sink;
@@ -64,12 +65,23 @@ fn study_of(scene: &Scene, rays: u64, threads: usize) -> Study {
 }
 
 /// A study by a clock that ticks so often a ray, another number each time it is read.
-fn study_by(
-    scene: &Scene,
-    rays: u64,
+fn study_by(scene: &Scene, rays: u64, threads: usize, pace: impl FnMut() -> f64 + Send) -> Study {
+    let about = About {
+        scene: "<balls> & \"floor\"".to_owned(),
+        ..About::default()
+    };
+    let study = on_bench(threads, pace, |bench| {
+        study::study(scene, about, Effort(rays), 1, bench)
+    });
+    study.unwrap()
+}
+
+/// Works on a bench with such a clock.
+fn on_bench<T>(
     threads: usize,
     mut pace: impl FnMut() -> f64 + Send,
-) -> Study {
+    work: impl FnOnce(&Bench<'_>) -> T,
+) -> T {
     let traced = AtomicU64::new(0);
     let mut read = (0, 0.0);
     let tick = Mutex::new(move |now: u64| {
@@ -81,20 +93,11 @@ fn study_by(
         traced.fetch_add(step.rays, Ordering::Relaxed);
         true
     };
-    let bench = Bench::new(
-        threads,
-        Clock {
-            cpu: &clock,
-            wall: &clock,
-        },
-        &on_pixel,
-    )
-    .unwrap();
-    let about = About {
-        scene: "<balls> & \"floor\"".to_owned(),
-        ..About::default()
+    let clock = Clock {
+        cpu: &clock,
+        wall: &clock,
     };
-    study::study(scene, about, Effort(rays), 1, &bench).unwrap()
+    work(&Bench::new(threads, clock, &on_pixel).unwrap())
 }
 
 static WHOLE: LazyLock<Study> = LazyLock::new(|| study_of(&scene(&[]), 8_000_000, 0));

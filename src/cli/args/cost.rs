@@ -1,5 +1,6 @@
 //! What `rtc cost` is told.
 
+use super::super::gate::{Gates, of_scenes};
 use super::super::parse::interval;
 use super::{Reading, StageArgs, TalkArgs};
 use crate::study;
@@ -11,12 +12,21 @@ use std::time::Duration;
 #[command(
     after_help = "Errors are against the picture of the scene's own depth; what more bounces would add is told apart. Of a large \
 picture some random tiles are looked at: `tiles%` is how much less or more the error of the whole may be, and a row is on the \
-front only if these tiles show that it has less error than cheaper ones."
+front only if these tiles show that it has less error than cheaper ones.\n\n\
+A scene and its reference are looked at in their own settings: what one takes against the other, and whether their pictures \
+differ by more than noise.\n\n\
+Examples:\n  rtc cost scene.yaml --html cost.html\n  rtc cost model.glb --effort quick\n  \
+rtc cost new.yaml old.yaml --effort quick --gate 'error<=1.0,time<=1.2x'"
 )]
 pub(in crate::cli) struct Cost {
-    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) file: PathBuf,
+    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input. With a second one as reference: what
+    /// the scene costs and shows against that
+    #[arg(value_name = "FILE", required = true, num_args = 1..=2, value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) files: Vec<PathBuf>,
+    /// With a reference: what must hold, or the exit code is 1: `MEASURE<=VALUE`, several with commas between;
+    /// measures are error (in grey levels, beyond noise), and as ratios time, rays and noise
+    #[arg(long, value_name = "GATES", value_parser = of_scenes)]
+    pub(in crate::cli) gate: Option<Gates>,
     /// Where to write; `-` is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) output: PathBuf,

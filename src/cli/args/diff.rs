@@ -1,6 +1,6 @@
 //! What `rtc diff` is told.
 
-use super::super::gate::{Gates, gates};
+use super::super::gate::{Gates, of_pictures};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -23,7 +23,7 @@ pub(in crate::cli) struct Diff {
     pub(in crate::cli) levels: f64,
     /// What must hold, or the exit code is 1: `MEASURE<=VALUE`, several with commas between; measures are rmse, max, relmse, flip
     /// and share (as `0.5%` or 0.005)
-    #[arg(long, value_name = "GATES", value_parser = gates)]
+    #[arg(long, value_name = "GATES", value_parser = of_pictures)]
     pub(in crate::cli) gate: Option<Gates>,
     /// Write where they differ, as perceived (FLIP), from black to white: a PNG
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]

@@ -35,13 +35,19 @@ static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
     )
 });
 
+/// As in docs/ARCHITECTURE.md.
+const EXIT_CODES: &str = "Exit codes:
+    0  it is done; there may be warnings
+    1  the input has errors, or a gate is not met
+    2  usage, files, or a fault of ours
+  130  ended by SIGINT, as by Ctrl-C
+  143  ended by SIGTERM";
+
 /// A compiler for 3-D scenes: checks them, lowers them to one IR, renders the IR, the same bytes
 /// every time.
 #[derive(Debug, Parser)]
 #[command(name = "rtc", version = LONG_VERSION.as_str(), max_term_width = 100, arg_required_else_help = true)]
-#[command(
-    after_help = "Exit codes: 0 fine, 1 the input has errors or a gate is not met, 2 usage, files or internal, 130 interrupted, 143 terminated."
-)]
+#[command(after_help = EXIT_CODES)]
 pub(super) struct Cli {
     #[command(subcommand)]
     pub(super) command: Command,

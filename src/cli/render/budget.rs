@@ -52,6 +52,7 @@ impl PictureClock {
         time: Option<Duration>,
         (crude, crop): (Option<CrudePicture>, Crop),
     ) -> Option<Diagnostic> {
+        // As the file is still to be written.
         let took = self.begun().elapsed() + writing(crop);
         self.0.set(Instant::now());
         let time = time?;
@@ -81,7 +82,7 @@ fn writing(crop: Crop) -> Duration {
 
 fn late(took: Duration, time: Duration) -> String {
     let [took, time] = [took, time].map(|time| time.as_secs_f64());
-    format!("the picture took {took:.2} s, and was to take {time:.2} s")
+    format!("the picture takes about {took:.2} s, and was to take {time:.2} s")
 }
 
 fn lacking(CrudePicture { block, .. }: CrudePicture) -> String {

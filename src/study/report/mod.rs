@@ -6,10 +6,12 @@ mod csv;
 mod html;
 mod picture;
 mod table;
+mod versus;
 
 pub use csv::csv;
 pub use html::html;
 pub use table::table;
+pub use versus::versus_table;
 
 use super::outcome::Study;
 

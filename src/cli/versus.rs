@@ -1,0 +1,97 @@
+//! `rtc cost SCENE REFERENCE`: what a scene costs and shows against another, and whether that is within gates.
+
+use super::Failure;
+use super::args::{self, StudyFormat};
+use super::cost::{about, on_bench};
+use super::gate::{self, JudgedGate};
+use super::input;
+use super::interrupt::Interrupt;
+use super::output::Output;
+use super::talk::Talk;
+use crate::ir::Scene;
+use crate::pipeline::Input;
+use crate::study::{About, Stopped, Versus, versus, versus_table};
+use std::path::Path;
+
+/// Compares the scenes and writes the report.
+pub(super) fn run(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
+    refuse_others(args, files)?;
+    let mut talk = Talk::beside_result(&args.talk);
+    let outcome = carry_out(args, files, &mut talk);
+    talk.finish()?;
+    outcome
+}
+
+/// Refuses what is for the study of one scene.
+fn refuse_others(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
+    let refused = if args.html.is_some() {
+        "`--html` is for the study of one scene"
+    } else if args.checkpoint.is_some() {
+        "`--checkpoint` is for the study of one scene"
+    } else if args.format == StudyFormat::Csv {
+        "`--format csv` is for the study of one scene; of two there is `json`"
+    } else if files.iter().all(|file| file.as_os_str() == "-") {
+        "standard input is one scene; give a file for the other"
+    } else {
+        return Ok(());
+    };
+    Err(Failure::Trouble(refused.to_owned()))
+}
+
+fn carry_out(args: &args::Cost, files: [&Path; 2], talk: &mut Talk) -> Result<(), Failure> {
+    let [first, second] = files.map(|file| input::staged(file, &args.reading, &args.stage));
+    let mut inputs = [first?, second?];
+    let [first, second] = &mut inputs;
+    let (first, second) = (proven(first, talk)?, proven(second, talk)?);
+    let interrupt = Interrupt::listen()?;
+    let [a, b] = [&first.1, &second.1].map(|scene| scene.camera.size);
+    if a != b {
+        let words = "pictures of one size are compared";
+        return Err(Failure::Input(format!(
+            "{words}: `{}` has {} × {} pixels, `{}` {} × {}",
+            first.0.scene, a[0], a[1], second.0.scene, b[0], b[1]
+        )));
+    }
+    let output = Output::open(&args.output, &inputs[0])?;
+    if args.output.as_path() != Path::new("-") {
+        Output::open(&args.output, &inputs[1])?;
+    }
+    let (scenes, abouts) = ([&first.1, &second.1], [first.0.clone(), second.0.clone()]);
+    let found = on_bench(args, &interrupt, |bench| {
+        versus(scenes, abouts, args.effort.into(), args.seed, &bench)
+    })?;
+    let found = found.map_err(|Stopped| Failure::Interrupted)?;
+    let gates = args.gate.as_ref();
+    let judged = gates.map_or_else(Vec::new, |gates| gates.judged(|name| measure(&found, name)));
+    let report = match args.format {
+        StudyFormat::Json => json(&found, &judged)?,
+        StudyFormat::Table | StudyFormat::Csv => versus_table(&found),
+    };
+    output.commit(report.as_bytes(), &interrupt)?;
+    gate::pass(&judged, talk.is_quiet())
+}
+
+/// A scene, proven, and what is told of it.
+fn proven(input: &mut Input, talk: &mut Talk) -> Result<(About, Scene), Failure> {
+    input.lift_rays();
+    let proven = input::require(input, talk, input::fill)?;
+    let scene = proven.lowered.scene.clone();
+    Ok((about(input.name(), &scene), scene))
+}
+
+fn measure(found: &Versus, name: &str) -> f64 {
+    match name {
+        "error" => found.error.value,
+        "time" => found.time.value,
+        "rays" => found.ratio_of_rays(),
+        _ => found.ratio_of_noise(),
+    }
+}
+
+fn json(found: &Versus, gates: &[JudgedGate]) -> Result<String, Failure> {
+    let trouble = |error: serde_json::Error| Failure::Trouble(error.to_string());
+    let mut object = serde_json::to_value(found).map_err(trouble)?;
+    object["gates"] = serde_json::to_value(gates).map_err(trouble)?;
+    let text = serde_json::to_string_pretty(&object).map_err(trouble)?;
+    Ok(text + "\n")
+}

@@ -1,0 +1,101 @@
+//! A scene against its reference, in words for a terminal.
+
+use super::super::advice::{digits, seconds};
+use super::super::versus::{DifferentTile, Versus};
+use super::table::count;
+use std::fmt::Write;
+
+/// The tiles that are named.
+const NAMED: usize = 5;
+
+/// The whole comparison as text.
+#[must_use]
+pub fn versus_table(versus: &Versus) -> String {
+    let mut text = String::new();
+    for (which, about) in ["scene    ", "reference"].iter().zip(&versus.scenes) {
+        let _ = writeln!(text, "{which}  {}  {}", about.hash, about.scene);
+    }
+    let [width, height] = versus.part.size;
+    let looked = match versus.part.tiles {
+        0 => String::new(),
+        tiles => format!(
+            ", of which {tiles} random tiles are looked at ({} %)",
+            digits(100.0 * versus.part.fraction)
+        ),
+    };
+    let _ = writeln!(text, "{width}×{height} pixels{looked}\n");
+    text += "             scene      reference  ratio\n";
+    let fraction = versus.part.fraction;
+    let rays = versus.rays.map(|rays| count(rays.all() as f64 / fraction));
+    let off = format!(" ± {:.1} %", 100.0 * versus.time.relative());
+    let rows = [
+        (
+            "time",
+            versus.seconds.map(|time| seconds(time.value)),
+            versus.time.value,
+            off,
+        ),
+        ("rays", rays, versus.ratio_of_rays(), String::new()),
+        (
+            "noise",
+            versus.noise.map(digits),
+            versus.ratio_of_noise(),
+            "  grey levels, of one render with random samples".to_owned(),
+        ),
+    ];
+    for (name, [scene, reference], ratio, words) in rows {
+        let _ = writeln!(text, "{name:13}{scene:11}{reference:11}{ratio:.2}×{words}");
+    }
+    text += &format!("\n{}{}", difference(versus), tiles(versus));
+    if versus.wall_over_cpu > 1.2 {
+        let times = versus.wall_over_cpu;
+        let _ = writeln!(
+            text,
+            "The machine was busy (wall time {times:.1}× processor time); times are of the processor."
+        );
+    }
+    text
+}
+
+fn difference(versus: &Versus) -> String {
+    let error = versus.error;
+    if versus.rendered == 0.0 {
+        return "The pictures are the same, to the last bit of what was looked at.\n".to_owned();
+    }
+    format!(
+        "The pictures differ by {} grey levels as they are rendered; beyond noise by {} ({} … {}).\n",
+        digits(versus.rendered),
+        digits(error.value),
+        digits(error.low),
+        digits(error.high)
+    )
+}
+
+fn tiles(versus: &Versus) -> String {
+    let (count, all) = (versus.different.len(), versus.tested);
+    if count == 0 {
+        return format!("No tile of {all} surely differs (5 % false alarms for all together).\n");
+    }
+    let mut text = format!(
+        "{count} of {all} tiles surely differ (5 % false alarms for all together){}\n",
+        if count > NAMED {
+            "; the most different:"
+        } else {
+            ":"
+        }
+    );
+    for tile in versus.different.iter().take(NAMED) {
+        let DifferentTile {
+            at: [x, y],
+            size: [width, height],
+            levels,
+            deviations: _,
+        } = tile;
+        let (right, bottom, levels) = (x + width - 1, y + height - 1, digits(*levels));
+        let _ = writeln!(
+            text,
+            "  columns {x} to {right}, rows {y} to {bottom}: by {levels} grey levels in the mean"
+        );
+    }
+    text
+}

@@ -1,0 +1,294 @@
+//! A scene against another, as after a change and before: what each takes, and whether their pictures differ
+//! by more than noise.
+//!
+//! Each is rendered several times, by turns with the same random numbers: what both share cancels. The error
+//! beyond noise is the mean product of two independent differences, and a test of pairs says for each tile
+//! whether it differs (as Welch's does for unpaired renders in Jung, Hanika, Dachsbacher, "Detecting Bias in
+//! Monte Carlo Renderers using Welch's t-test", JCGT 9(2), 2020).
+
+use super::metrics::{LEVELS, mean_product, products, rmse};
+use super::outcome::{About, Rays, StudyArea};
+use super::race::{Runner, race};
+use super::reference::independent;
+use super::setting::Setting;
+use super::statistics::{Estimate, Rng, normal_quantile, paired};
+use super::subject::{Stopped, Subject};
+use super::{Bench, Effort};
+use crate::image::Image;
+use crate::ir::Scene;
+use crate::render::Crop;
+use serde::Serialize;
+
+/// The renders of each scene with independent samples.
+const REPLICATES: u8 = 8;
+
+/// Renders of both on the clock.
+const ROUNDS: f64 = 3.0;
+
+/// Renders of both in all, with the pilot.
+const RENDERS: f64 = 8.0 + ROUNDS + 1.0;
+
+/// The sampling of the pilot.
+const PILOT: u64 = 0x5EED;
+
+/// Fewer tiles say too little.
+const FEWEST: usize = 8;
+
+/// The probability that any tile is said to differ where none does.
+const FALSE_ALARM: f64 = 0.05;
+
+/// A scene against another, its reference; ratios are the scene's over the reference's.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Versus {
+    /// The form of this report: `rtc-versus/1`.
+    pub schema: String,
+    /// The scene and its reference, and the machine.
+    pub scenes: [About; 2],
+    /// The part of the pictures that was rendered.
+    pub part: StudyArea,
+    /// Processor seconds for the whole pictures.
+    pub seconds: [Estimate; 2],
+    /// Their ratio.
+    pub time: Estimate,
+    /// The rays of the part rendered.
+    pub rays: [Rays; 2],
+    /// The noise of one render of each, of samples at random, in grey levels.
+    pub noise: [f64; 2],
+    /// The difference of the pictures as `rtc render` makes them, in grey levels.
+    pub rendered: f64,
+    /// Their difference beyond noise, with the interval of 95 %, in grey levels.
+    pub error: Estimate,
+    /// The number of tiles that were tested.
+    pub tested: usize,
+    /// Those that surely differ, the most different first.
+    pub different: Vec<DifferentTile>,
+    /// Wall time over processor time: above 1.2 the machine was busy.
+    pub wall_over_cpu: f64,
+}
+
+/// A tile of two pictures that differ by more than noise.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct DifferentTile {
+    /// Its first column and row.
+    pub at: [u32; 2],
+    /// Columns and rows.
+    pub size: [u32; 2],
+    /// How far its mean colours are apart, in grey levels.
+    pub levels: f64,
+    /// As rare as so many standard deviations of a normal variable, if only noise were between them.
+    pub deviations: f64,
+}
+
+impl Versus {
+    /// The ratio of rays.
+    #[must_use]
+    pub fn ratio_of_rays(&self) -> f64 {
+        let [scene, reference] = self.rays.map(|rays| rays.all() as f64);
+        scene / reference.max(1.0)
+    }
+
+    /// The ratio of noise; 1 where neither has any.
+    #[must_use]
+    pub fn ratio_of_noise(&self) -> f64 {
+        match self.noise {
+            [scene, reference] if scene == reference => 1.0,
+            [scene, reference] => scene / reference,
+        }
+    }
+}
+
+/// Compares a proven scene with its reference; their pictures have one size.
+///
+/// # Errors
+/// If the observer said stop.
+///
+/// # Panics
+/// If the pictures differ in size.
+pub fn versus(
+    scenes: [&Scene; 2],
+    about: [About; 2],
+    effort: Effort,
+    seed: u64,
+    bench: &Bench<'_>,
+) -> Result<Versus, Stopped> {
+    assert_eq!(scenes[0].camera.size, scenes[1].camera.size);
+    let budget = scenes
+        .map(|scene| effort.rays(scene))
+        .into_iter()
+        .fold(u64::MAX, u64::min) as f64;
+    let [first, second] = scenes.map(|scene| Subject::new(scene, seed, bench));
+    let count = affordable([&first, &second], budget)?;
+    let subjects = [first.keep(count), second.keep(count)];
+    // A race tells ratios to the first.
+    let runners = [&subjects[1], &subjects[0]].map(|subject| Runner {
+        subject: subject.clone(),
+        setting: Setting::of(&subject.scene),
+    });
+    let rounds = (budget * ROUNDS / RENDERS) as u64;
+    let race = race(&runners, rounds, &mut Rng::new(seed))?;
+    let [first, second] = [1, 0].map(|which| &race.runs[which]);
+    let cells = subjects[0].cells();
+    let sampled = [Sampled::of(&subjects[0])?, Sampled::of(&subjects[1])?];
+    Ok(Versus {
+        schema: "rtc-versus/1".to_owned(),
+        scenes: about,
+        part: subjects[0].area(),
+        seconds: [first.seconds, second.seconds],
+        time: first.ratio,
+        rays: [first.shot.counts.into(), second.shot.counts.into()],
+        noise: sampled.each_ref().map(Sampled::noise),
+        rendered: rmse(&first.shot.tiles, &second.shot.tiles),
+        error: beyond_noise(&sampled, subjects[0].fraction()),
+        tested: cells.len(),
+        different: different(&sampled, &cells),
+        wall_over_cpu: race.wall_over_cpu,
+    })
+}
+
+/// The number of tiles of both that a budget of rays is enough for.
+fn affordable(subjects: [&Subject<'_>; 2], budget: f64) -> Result<usize, Stopped> {
+    let mut rays = 0.0;
+    for subject in subjects {
+        let pilot = subject.keep(FEWEST);
+        let shot = pilot.shoot(Setting::of(&subject.scene), independent(PILOT))?;
+        rays += shot.counts.rays() as f64 / pilot.count() as f64;
+    }
+    let tiles = (budget / (RENDERS * rays)).min(subjects[0].count() as f64);
+    Ok((tiles as usize).max(FEWEST))
+}
+
+/// The replicates of a scene.
+struct Sampled {
+    /// The means of the first half of them and of the second, in tiles.
+    halves: [Vec<Image>; 2],
+    /// The mean colour of each tile, for each replicate.
+    means: Vec<Vec<[f64; 3]>>,
+}
+
+impl Sampled {
+    fn of(subject: &Subject<'_>) -> Result<Self, Stopped> {
+        let mut halves = [Vec::new(), Vec::new()];
+        let mut means = Vec::new();
+        for number in 0..REPLICATES {
+            let seeds = independent(u64::from(number + 1));
+            let shot = subject.shoot(Setting::of(&subject.scene), seeds)?;
+            let tiles = subject.tiles_of(shot);
+            means.push(tiles.iter().map(mean_color).collect());
+            let half = &mut halves[usize::from(number % 2)];
+            match half.is_empty() {
+                true => *half = tiles,
+                false => half
+                    .iter_mut()
+                    .zip(&tiles)
+                    .for_each(|(sum, tile)| add(sum, tile)),
+            }
+        }
+        let part = f64::from(REPLICATES / 2).recip();
+        let all = halves
+            .iter_mut()
+            .flatten()
+            .flat_map(|tile| &mut tile.pixels);
+        all.flatten().for_each(|value| *value *= part);
+        Ok(Self { halves, means })
+    }
+
+    /// The root mean square error of one replicate, in grey levels: the halves differ by the noise of two
+    /// means.
+    fn noise(&self) -> f64 {
+        let [first, second] = &self.halves;
+        rmse(first, second) * (0.25 * f64::from(REPLICATES)).sqrt()
+    }
+
+    /// The colours of a tile.
+    fn channel(&self, tile: usize, channel: usize) -> Vec<f64> {
+        self.means
+            .iter()
+            .map(|tiles| tiles[tile][channel])
+            .collect()
+    }
+}
+
+fn mean_color(tile: &Image) -> [f64; 3] {
+    let count = tile.pixels.len().max(1) as f64;
+    [0, 1, 2].map(|c| tile.pixels.iter().map(|pixel| pixel[c]).sum::<f64>() / count)
+}
+
+fn add(sum: &mut Image, tile: &Image) {
+    let pairs = sum
+        .pixels
+        .iter_mut()
+        .flatten()
+        .zip(tile.pixels.iter().flatten());
+    pairs.for_each(|(sum, value)| *sum += value);
+}
+
+/// The difference of two scenes beyond noise, in grey levels, with the interval of 95 %: what noise leaves
+/// open of it, and the choice of tiles.
+fn beyond_noise([a, b]: &[Sampled; 2], fraction: f64) -> Estimate {
+    let first = [a.halves[0].as_slice(), &b.halves[0]];
+    let second = [a.halves[1].as_slice(), &b.halves[1]];
+    let square = mean_product(first, second);
+    let squares = products(first, first).zip(products(second, second));
+    let (mut count, mut variance) = (0.0, 0.0);
+    for (product, (one, other)) in products(first, second).zip(squares) {
+        // The variance of either difference.
+        let noise = 0.5 * (one - 2.0 * product + other).max(0.0);
+        // That of their product.
+        variance += noise * (2.0 * product.max(0.0) + noise);
+        count += 1.0;
+    }
+    let squares: Vec<_> = (0..a.halves[0].len())
+        .map(|tile| {
+            let tile = tile..tile + 1;
+            let pair = |half: usize| [&a.halves[half][tile.clone()], &b.halves[half][tile.clone()]];
+            mean_product(pair(0), pair(1))
+        })
+        .collect();
+    let by_tiles = (1.0 - fraction) * variance_of(&squares) / squares.len().max(1) as f64;
+    let off = 1.96 * (variance / f64::max(count * count, 1.0) + by_tiles).sqrt();
+    let levels = |square: f64| square.max(0.0).sqrt() * LEVELS;
+    Estimate {
+        value: levels(square),
+        low: levels(square - off),
+        high: levels(square + off),
+    }
+}
+
+fn variance_of(values: &[f64]) -> f64 {
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let squares = values.iter().map(|value| (value - mean) * (value - mean));
+    squares.sum::<f64>() / values.len().saturating_sub(1).max(1) as f64
+}
+
+/// The tiles in which a colour differs, all tests together (Holm, "A simple sequentially
+/// rejective multiple test procedure", Scandinavian Journal of Statistics 6 (1979)).
+fn different([a, b]: &[Sampled; 2], cells: &[Crop]) -> Vec<DifferentTile> {
+    let of = |(tile, cell): (usize, &Crop)| {
+        let tests = [0, 1, 2].map(|c| paired(&a.channel(tile, c), &b.channel(tile, c)));
+        let square = tests
+            .iter()
+            .map(|test| test.difference * test.difference)
+            .sum::<f64>();
+        DifferentTile {
+            at: [cell.x, cell.y],
+            size: [cell.width, cell.height],
+            levels: (square / 3.0).sqrt() * LEVELS,
+            deviations: tests.iter().map(|test| test.deviations).fold(0.0, f64::max),
+        }
+    };
+    let mut tiles: Vec<_> = cells.iter().enumerate().map(of).collect();
+    tiles.sort_by(|a, b| b.deviations.total_cmp(&a.deviations));
+    // Three colours of each tile, both signs.
+    let tests = 6.0 * tiles.len() as f64;
+    let limit = |rejected: usize| normal_quantile(FALSE_ALARM / (tests - 6.0 * rejected as f64));
+    let count = tiles
+        .iter()
+        .enumerate()
+        .take_while(|(n, tile)| tile.deviations > limit(*n))
+        .count();
+    tiles.truncate(count);
+    tiles.sort_by(|a, b| b.levels.total_cmp(&a.levels));
+    tiles
+}

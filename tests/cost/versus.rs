@@ -1,0 +1,102 @@
+//! A scene against its reference.
+
+use super::error::picture;
+use super::*;
+use rtc::internals::study::Versus;
+
+/// The balls in a picture of 96 × 64, the right one of the second material, which is a colour.
+fn balls(supersampling: u32, color: [f64; 3]) -> Scene {
+    let size = ("\"size\": [48, 32]", "\"size\": [96, 64]");
+    let mut scene = scene(&[size, ("0.8", "0.4")]);
+    scene.settings.supersampling = supersampling;
+    scene.surfaces[1].material = scene.surfaces[2].material;
+    scene.surfaces[2].material = scene.surfaces[0].material;
+    scene.materials[1].phong_mut().unwrap().color = color;
+    scene
+}
+
+const BLUE: [f64; 3] = [0.5, 0.6, 0.7];
+
+fn against(scene: &Scene, reference: &Scene, seed: u64) -> Versus {
+    let about = || About {
+        scene: "balls".to_owned(),
+        ..About::default()
+    };
+    let found = on_bench(
+        0,
+        || 1.0,
+        |bench| {
+            let scenes = [scene, reference];
+            study::versus(scenes, [about(), about()], Effort(30_000_000), seed, bench)
+        },
+    );
+    found.unwrap()
+}
+
+#[test]
+fn a_scene_does_not_differ_from_itself() {
+    let scene = balls(2, BLUE);
+    let found = against(&scene, &scene, 1);
+    assert_eq!((found.rendered, found.tested), (0.0, 24));
+    assert_eq!((found.time.value, found.ratio_of_rays()), (1.0, 1.0));
+    assert!(
+        found.different.is_empty() && found.noise[0] > 0.1,
+        "{found:?}"
+    );
+    let table = study::versus_table(&found);
+    assert!(table.contains("the same, to the last bit") && table.contains("No tile of 24"));
+}
+
+/// With more samples pictures have other noise and no other mean: of ten comparisons one may see more.
+#[test]
+fn other_noise_is_no_difference() {
+    let (few, many) = (balls(1, BLUE), balls(3, BLUE));
+    let mut alarms = 0;
+    for seed in 1..=10 {
+        let found = against(&few, &many, seed);
+        assert!(found.rendered > 0.3, "{found:?}");
+        assert!(found.error.value < 0.3 * found.rendered, "{found:?}");
+        assert!(
+            found.ratio_of_noise() > 1.2 && found.ratio_of_rays() < 0.9,
+            "{found:?}"
+        );
+        assert!(
+            (found.time.value - found.ratio_of_rays()).abs() < 1e-9,
+            "{found:?}"
+        );
+        alarms += usize::from(!found.different.is_empty());
+    }
+    assert!(alarms <= 1, "{alarms} of 10");
+}
+
+/// The right ball is a little darker: what is told is told where it is, and is the true difference.
+#[test]
+fn a_change_is_seen_where_it_is() {
+    let (before, after) = (balls(2, BLUE), balls(2, [0.5, 0.55, 0.7]));
+    let found = against(&after, &before, 1);
+    let truth = {
+        let fine = |scene| {
+            [picture(
+                scene,
+                Setting::of(scene).with(Knob::Supersampling, 12),
+            )]
+        };
+        study::rmse(&fine(&after), &fine(&before))
+    };
+    assert!(
+        found.error.low <= truth && truth <= found.error.high,
+        "{truth}: {found:?}"
+    );
+    assert!(found.error.relative() < 0.3, "{found:?}");
+    // The ball most of all, and more tiles by what mirrors show of it; the far corners stay.
+    let [x, y] = found.different[0].at;
+    assert!(
+        (48..=64).contains(&x) && (16..=32).contains(&y),
+        "{found:?}"
+    );
+    assert!(found.different.len() < found.tested, "{found:?}");
+    assert!(
+        found.different.iter().all(|tile| tile.at != [0, 0]),
+        "{found:?}"
+    );
+}
