@@ -1,20 +1,25 @@
-//! The cost of each effect of a scene: the scene is rendered with and without it, in the same
-//! setting.
+//! What each effect, light, object and material of a scene costs: the scene is rendered with and without
+//! it, with the same random numbers.
 
-use super::metrics::rmse;
+use super::knob::Knob;
+use super::left_out::{self, Omission};
+use super::metrics::{LEVELS, mean_product, rmse};
 use super::outcome::Rays;
 use super::race::{Runner, race};
+use super::reference::independent;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng};
 use super::subject::{Stopped, Subject};
-use crate::ir::{Light, Material, Mode, Phong, Scene};
+use crate::image::Image;
 use serde::{Deserialize, Serialize};
 
-/// A scene without one of its effects.
+/// A scene without one of its effects, lights, objects or materials.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct EffectCost {
-    /// The effect.
+    /// The kind of what is left out.
+    pub kind: Omission,
+    /// The effect, or whatever is left out.
     pub effect: String,
     /// The rays without it, of the part rendered.
     pub rays: Rays,
@@ -22,97 +27,111 @@ pub struct EffectCost {
     pub ray_ratio: f64,
     /// The ratio of processor times, without it to with it.
     pub ratio: Estimate,
-    /// The difference of the picture without it, in grey levels.
+    /// The ratio of noise, that of samples at random, without it to with it.
+    pub noise_ratio: f64,
+    /// The difference of the picture without it beyond noise, in grey levels.
     pub difference: f64,
 }
 
-/// A function that removes an effect from a scene.
-type Without = (&'static str, fn(&mut Scene));
+/// Renders of each scene: on the clock, and two with independent samples.
+const RENDERS: u64 = 3 + 2;
 
-const EFFECTS: [Without; 6] = [
-    ("shadows", |scene| scene.settings.shadows = false),
-    ("mirrors and refraction", |scene| {
-        scene.settings.max_depth = 0
-    }),
-    ("depth of field", |scene| scene.camera.lens.radius = 0.0),
-    ("highlights and mirrors", |scene| {
-        phongs(scene).for_each(|phong| phong.ks = 0.0)
-    }),
-    ("soft lights", |scene| {
-        scene.lights.iter_mut().for_each(without_radius)
-    }),
-    ("textures", |scene| phongs(scene).for_each(without_maps)),
-];
+/// Fewer tiles say too little.
+const FEWEST: usize = 8;
 
-fn phongs(scene: &mut Scene) -> impl Iterator<Item = &mut Phong> {
-    scene.materials.iter_mut().filter_map(Material::phong_mut)
-}
-
-fn without_radius(light: &mut Light) {
-    if let Light::Point(light) = light {
-        light.radius = 0.0;
-    }
-}
-
-fn without_maps(phong: &mut Phong) {
-    (
-        phong.color_map,
-        phong.specular_map,
-        phong.normal_map,
-        phong.bump,
-    ) = (None, None, None, None);
-}
-
-/// The effects of a scene, each with its cost in a setting.
+/// All that is worth leaving out of a scene, each with its cost, near a setting: as much as a budget of rays
+/// is enough for.
 pub(super) fn costs(
     subject: &Subject<'_>,
     setting: Setting,
     budget: u64,
     rng: &mut Rng,
 ) -> Result<Vec<EffectCost>, Stopped> {
-    if !matches!(subject.scene.settings.mode, Mode::Phong) {
+    /// More paths tell no more of ratios.
+    const PATHS: u32 = 4;
+    let setting = setting.with(Knob::Paths, setting.paths.min(PATHS));
+    let mut without = left_out::of(&subject.scene);
+    let Some((subject, count)) = affordable(subject, setting, (budget, without.len()))? else {
         return Ok(Vec::new());
-    }
-    let with = Runner {
-        subject: subject.clone(),
-        setting,
     };
+    without.truncate(count);
+    let mut runners = vec![runner(subject.clone(), setting)];
     let mut names = Vec::new();
-    let mut runners = vec![with];
-    for (name, without) in EFFECTS {
-        let mut scene = subject.scene.clone();
-        without(&mut scene);
-        if scene != subject.scene {
-            names.push(name);
-            let setting = Setting {
-                depth: scene.settings.max_depth,
-                ..setting
-            };
-            runners.push(Runner {
-                subject: subject.with_scene(scene),
-                setting,
-            });
-        }
+    for left_out in without {
+        names.push((left_out.kind, left_out.name));
+        runners.push(runner(subject.with_scene(left_out.scene), setting));
     }
-    if names.is_empty() {
-        return Ok(Vec::new());
-    }
-    let race = race(&runners, budget, rng)?;
-    let (with, without) = race
-        .runs
-        .split_first()
-        .expect("the scene as it is runs first");
-    let all = Rays::from(with.shot.counts).all().max(1) as f64;
-    let cost = |(name, run): (&str, &super::race::TimedRun)| EffectCost {
-        effect: name.to_owned(),
-        rays: run.shot.counts.into(),
-        ray_ratio: Rays::from(run.shot.counts).all() as f64 / all,
-        ratio: run.ratio,
-        difference: rmse(&with.shot.tiles, &run.shot.tiles),
-    };
+    let race = race(&runners, budget * 3 / RENDERS, rng)?;
+    let pairs = runners.iter().map(SampledPair::of);
+    let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
+    let (with, all) = (&pairs[0], Rays::from(race.runs[0].shot.counts).all());
+    let costs = names.into_iter().zip(&pairs[1..]).zip(&race.runs[1..]);
+    let cost =
+        |(((kind, effect), pair), run): ((_, &SampledPair), &super::race::TimedRun)| EffectCost {
+            kind,
+            effect,
+            rays: run.shot.counts.into(),
+            ray_ratio: Rays::from(run.shot.counts).all() as f64 / all.max(1) as f64,
+            ratio: run.ratio,
+            noise_ratio: pair.noise_over(with),
+            difference: pair.difference(with),
+        };
     // An effect that changes neither picture nor work is absent.
-    let costs = names.into_iter().zip(without).map(cost);
+    let costs = costs.map(cost);
     Ok(costs
         .filter(|cost| cost.difference > 0.0 || cost.ray_ratio != 1.0)
         .collect())
+}
+
+fn runner(subject: Subject<'_>, setting: Setting) -> Runner<'_> {
+    let depth = subject.scene.settings.max_depth.min(setting.depth);
+    Runner {
+        subject,
+        setting: Setting { depth, ..setting },
+    }
+}
+
+/// The tiles that a budget is enough for, and how many things may be left out; none if it is not enough for
+/// one.
+fn affordable<'a>(
+    subject: &Subject<'a>,
+    setting: Setting,
+    (budget, wanted): (u64, usize),
+) -> Result<Option<(Subject<'a>, usize)>, Stopped> {
+    let pilot = subject.keep(FEWEST);
+    let rays = pilot.shoot(setting, independent(1))?.counts.rays();
+    let of_tile = RENDERS as f64 * rays as f64 / pilot.count() as f64;
+    let renders = budget as f64 / of_tile.max(1.0);
+    // The scene as it is takes one more.
+    let count = (renders / pilot.count() as f64) as usize;
+    if wanted == 0 || count < 2 {
+        return Ok(None);
+    }
+    let count = wanted.min(count - 1);
+    let tiles = renders / (count + 1) as f64;
+    Ok(Some((subject.keep(tiles as usize), count)))
+}
+
+/// A scene sampled twice, by seeds common to all.
+struct SampledPair([Vec<Image>; 2]);
+
+impl SampledPair {
+    fn of(runner: &Runner<'_>) -> Result<Self, Stopped> {
+        let shoot = |seed| runner.subject.shoot(runner.setting, independent(seed));
+        Ok(Self([shoot(11)?.tiles, shoot(12)?.tiles]))
+    }
+
+    fn noise_over(&self, other: &Self) -> f64 {
+        let [ours, theirs] = [self, other].map(|pair| rmse(&pair.0[0], &pair.0[1]));
+        match ours == theirs {
+            true => 1.0,
+            false => ours / theirs,
+        }
+    }
+
+    /// In grey levels, beyond noise.
+    fn difference(&self, other: &Self) -> f64 {
+        let pair = |which: usize| [self.0[which].as_slice(), &other.0[which]];
+        mean_product(pair(0), pair(1)).max(0.0).sqrt() * LEVELS
+    }
 }

@@ -14,6 +14,7 @@ mod flip;
 mod growth;
 mod journal;
 mod knob;
+mod left_out;
 mod metrics;
 mod noise;
 mod outcome;
@@ -41,6 +42,7 @@ pub use flip::{PIXELS_PER_DEGREE, flip};
 pub use growth::{Growth, Keep};
 pub use journal::Journal;
 pub use knob::{Knob, idle};
+pub use left_out::Omission;
 pub use metrics::{Errors, LEVELS, rmse};
 pub use outcome::{
     About, BounceCost, KnobReport, MoreBounces, Rays, ReferenceReport, Row, Study, StudyArea,
@@ -89,7 +91,7 @@ impl Effort {
 fn price(scene: &Scene) -> u64 {
     let is_torus = |surface: &Surface| matches!(surface.shape, Shape::Torus(_));
     if matches!(scene.settings.mode, Mode::Path(_)) {
-        return 5;
+        return 6;
     }
     match scene.surfaces.iter().any(is_torus) {
         true => 2,
@@ -99,10 +101,10 @@ fn price(scene: &Scene) -> u64 {
 
 /// The parts of the work, in hundredths.
 const FOR_DEPTH: u64 = 5;
-const FOR_REFERENCE: u64 = 40;
+const FOR_REFERENCE: u64 = 36;
 const FOR_SWEEPS: u64 = 15;
 const FOR_ROWS: u64 = 30;
-const FOR_EFFECTS: u64 = 6;
+const FOR_EFFECTS: u64 = 10;
 const FOR_PRECISION: u64 = 4;
 
 /// The error of a reference is at most this fraction of the errors measured against it.

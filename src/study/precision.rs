@@ -41,6 +41,9 @@ impl PrecisionCost {
     }
 }
 
+/// More paths tell no more of arithmetics.
+const PATHS: u32 = 16;
+
 /// The arithmetics, the robust one first, with the cost of each in a setting.
 pub(super) fn costs(
     subject: &Subject<'_>,
@@ -52,6 +55,7 @@ pub(super) fn costs(
         subject: subject.clone(),
         setting: Setting {
             precision,
+            paths: setting.paths.min(PATHS),
             ..setting
         },
     };

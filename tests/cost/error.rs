@@ -247,7 +247,7 @@ fn tile(image: &Image, [x, y]: [u32; 2]) -> Image {
 #[test]
 fn paths_have_a_ladder_and_a_law_of_their_own() {
     let scene = decoded(include_str!("../honest/paths.json").to_owned());
-    let study = study_of(&scene, 15_000_000, 0);
+    let study = study_of(&scene, 18_000_000, 0);
     let table = study::table(&study);
     assert_eq!(
         study.used(),

@@ -66,11 +66,12 @@ fn idle_knobs_change_no_bit() {
 
 #[test]
 fn effects_are_what_the_scene_has() {
-    let names: Vec<_> = WHOLE
-        .effects
-        .iter()
-        .map(|cost| cost.effect.as_str())
-        .collect();
+    let of = |study: &'static Study, kind| {
+        let costs = study.effects.iter().filter(move |cost| cost.kind == kind);
+        costs.collect::<Vec<_>>()
+    };
+    let effects = of(&WHOLE, Omission::Effect);
+    let names: Vec<_> = effects.iter().map(|cost| cost.effect.as_str()).collect();
     assert_eq!(
         names,
         [
@@ -79,25 +80,46 @@ fn effects_are_what_the_scene_has() {
             "highlights and mirrors"
         ]
     );
+    for cost in &effects {
+        assert!(cost.ray_ratio < 1.0 && cost.difference > 1.0, "{cost:?}");
+        assert!(cost.noise_ratio < 1.05, "{cost:?}");
+    }
     assert!(
-        WHOLE
-            .effects
-            .iter()
-            .all(|cost| cost.ray_ratio < 1.0 && cost.difference > 1.0),
-        "{:?}",
-        WHOLE.effects
+        effects[0].rays.shadow == 0 && effects[1].rays.mirror == 0,
+        "{effects:?}"
     );
+    let camera = |cost: &&EffectCost| cost.rays.camera;
+    let parts = of(&PART, Omission::Effect);
+    let blurred = parts.iter().find(|cost| cost.effect == "shadows").unwrap();
+    let sharp = parts
+        .iter()
+        .find(|cost| cost.effect == "depth of field")
+        .unwrap();
+    assert_eq!(camera(sharp) * 4, camera(blurred));
+}
+
+/// Lights, objects and materials are left out one at a time, the largest first.
+#[test]
+fn parts_of_the_scene_have_their_costs() {
+    let named = |kind| {
+        let costs = WHOLE.effects.iter().filter(move |cost| cost.kind == kind);
+        costs
+            .map(|cost| (cost.effect.as_str(), cost))
+            .collect::<Vec<_>>()
+    };
+    let names = |costs: &[(&'static str, _)]| costs.iter().map(|cost| cost.0).collect::<Vec<_>>();
+    let (lights, objects) = (named(Omission::Light), named(Omission::Object));
+    assert_eq!(names(&lights), ["light 1"]);
+    assert_eq!(lights[0].1.rays.shadow, 0, "no light, no shadow rays");
+    assert_eq!(names(&objects), ["plane 3", "sphere 2", "sphere 1"]);
     assert!(
-        WHOLE.effects[0].rays.shadow == 0 && WHOLE.effects[1].rays.mirror == 0,
-        "{:?}",
-        WHOLE.effects
+        objects.iter().all(|(_, cost)| cost.difference > 1.0),
+        "{objects:?}"
     );
-    assert!(
-        PART.effects
-            .iter()
-            .any(|cost| cost.effect == "depth of field"
-                && cost.rays.camera * 4 <= PART.own().unwrap().rays.camera)
-    );
+    // The floor has no mirror; that of both balls is their material's.
+    let materials = named(Omission::Material);
+    assert_eq!(names(&materials), ["material 1, matt instead"]);
+    assert!(materials[0].1.rays.mirror == 0 && materials[0].1.difference > 1.0);
 }
 
 #[test]

@@ -159,16 +159,18 @@ fn effects(study: &Study) -> String {
     let mut rows = String::new();
     for cost in &study.effects {
         let (time, off) = (cost.ratio.value, 100.0 * cost.ratio.relative());
-        let (rays, difference) = (cost.ray_ratio, digits(cost.difference));
-        let name = escaped(&cost.effect);
+        let (rays, noise) = (cost.ray_ratio, cost.noise_ratio);
+        let (name, difference) = (escaped(&cost.effect), digits(cost.difference));
         let _ = writeln!(
             rows,
-            "<tr><td>{name}</td><td>{time:.2} ± {off:.1} %</td><td>{rays:.2}</td><td>{difference}</td></tr>"
+            "<tr><td>{name}</td><td>{time:.2} ± {off:.1} %</td><td>{rays:.2}</td><td>{noise:.2}</td>\
+             <td>{difference}</td></tr>"
         );
     }
     format!(
-        "<h2>What each effect costs</h2>\n<p>The scene without the effect, in its own setting, over the scene as it is. \
-         </p>\n<div class=\"wide\"><table><thead><tr><th>without</th><th>time</th><th>rays</th>\
+        "<h2>What each effect, light, object and material costs</h2>\n<p>The scene without it over the scene as it is, with \
+         the same random numbers. Noise is that of samples at random; the difference is beyond noise.</p>\n\
+         <div class=\"wide\"><table><thead><tr><th>without</th><th>time</th><th>rays</th><th>noise</th>\
          <th>picture differs by (grey levels)</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     )
 }

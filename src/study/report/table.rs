@@ -78,13 +78,14 @@ pub(super) fn steps(bounces: &MoreBounces) -> Vec<BounceCost> {
 fn effects(study: &Study) -> String {
     let mut text = String::new();
     if !study.effects.is_empty() {
-        text += "\nwithout                   time    rays  picture differs by\n";
+        text += "\nwithout                           time    rays   noise  picture differs by\n";
     }
     for cost in &study.effects {
-        let (name, time, rays) = (&cost.effect, cost.ratio.value, cost.ray_ratio);
-        text += &format!(
-            "{name:24}{time:5.2}×  {rays:5.2}×  {} grey levels\n",
-            digits(cost.difference)
+        let (time, rays, noise) = (cost.ratio.value, cost.ray_ratio, cost.noise_ratio);
+        let (name, difference) = (clipped(&cost.effect), digits(cost.difference));
+        let _ = writeln!(
+            text,
+            "{name:31}{time:6.2}×  {rays:5.2}×  {noise:5.2}×  {difference} grey levels"
         );
     }
     text += "\narithmetic                time  picture differs by\n";
@@ -100,6 +101,15 @@ fn effects(study: &Study) -> String {
         );
     }
     text
+}
+
+/// A name that leaves room for the columns beside it.
+fn clipped(name: &str) -> String {
+    const ROOM: usize = 30;
+    match name.chars().count() {
+        ..=ROOM => name.to_owned(),
+        _ => name.chars().take(ROOM - 1).chain(['…']).collect(),
+    }
 }
 
 /// The columns after those of the knobs, with their widths.

@@ -1,0 +1,275 @@
+//! What of a scene may be left out to see what it costs: an effect, a light, an object, and what makes a
+//! material more than matt.
+
+use crate::ir::{Light, Material, Mode, Phong, Scene, Shape, Standard, Surface};
+use crate::math::Vec3;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// The most lights, objects and materials, each, that are left out.
+const MOST: usize = 8;
+
+/// What kind of thing is left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Omission {
+    /// An effect of the whole scene.
+    Effect,
+    /// A light, or the surroundings.
+    Light,
+    /// An object: a surface, or those of one name that follow each other.
+    Object,
+    /// A material: its surfaces are matt instead, in its colour.
+    Material,
+}
+
+/// A scene without something.
+pub(super) struct LeftOut {
+    pub(super) kind: Omission,
+    pub(super) name: String,
+    pub(super) scene: Scene,
+}
+
+/// A function that removes an effect from a scene.
+type Without = (&'static str, fn(&mut Scene));
+
+const EFFECTS: [Without; 6] = [
+    ("shadows", |scene| scene.settings.shadows = false),
+    ("mirrors and refraction", |scene| {
+        scene.settings.max_depth = 0
+    }),
+    ("depth of field", |scene| scene.camera.lens.radius = 0.0),
+    ("highlights and mirrors", |scene| {
+        phongs(scene).for_each(|phong| phong.ks = 0.0)
+    }),
+    ("soft lights", |scene| {
+        scene.lights.iter_mut().for_each(without_radius)
+    }),
+    ("textures", |scene| phongs(scene).for_each(without_maps)),
+];
+
+/// All that is worth leaving out of a scene: effects first, then of each kind the first of those seen
+/// largest.
+pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
+    if !matches!(scene.settings.mode, Mode::Phong | Mode::Path(_)) {
+        return Vec::new();
+    }
+    let objects = objects(scene);
+    let kinds = [
+        lights(scene),
+        objects
+            .iter()
+            .map(|object| without_object(scene, object))
+            .collect(),
+        materials(scene, &objects),
+    ];
+    let mut all: Vec<_> = effects(scene);
+    for rank in 0..MOST {
+        all.extend(
+            kinds
+                .iter()
+                .filter_map(|kind| kind.get(rank)?.left_out(scene)),
+        );
+    }
+    all
+}
+
+/// A change to a scene that is made only when it is wanted.
+struct Candidate {
+    kind: Omission,
+    name: String,
+    without: Box<dyn Fn(&mut Scene)>,
+}
+
+impl Candidate {
+    /// The scene without it, if it is another.
+    fn left_out(&self, scene: &Scene) -> Option<LeftOut> {
+        let mut without = scene.clone();
+        (self.without)(&mut without);
+        (without != *scene).then(|| LeftOut {
+            kind: self.kind,
+            name: self.name.clone(),
+            scene: without,
+        })
+    }
+}
+
+fn effects(scene: &Scene) -> Vec<LeftOut> {
+    if !matches!(scene.settings.mode, Mode::Phong) {
+        return Vec::new();
+    }
+    let effect = |(name, without): Without| Candidate {
+        kind: Omission::Effect,
+        name: name.to_owned(),
+        without: Box::new(without),
+    };
+    let all = EFFECTS.into_iter().map(effect);
+    all.filter_map(|effect| effect.left_out(scene)).collect()
+}
+
+fn phongs(scene: &mut Scene) -> impl Iterator<Item = &mut Phong> {
+    scene.materials.iter_mut().filter_map(Material::phong_mut)
+}
+
+fn without_radius(light: &mut Light) {
+    if let Light::Point(light) = light {
+        light.radius = 0.0;
+    }
+}
+
+fn without_maps(phong: &mut Phong) {
+    (
+        phong.color_map,
+        phong.specular_map,
+        phong.normal_map,
+        phong.bump,
+    ) = (None, None, None, None);
+}
+
+/// The lights in the order of the scene, then what surrounds it.
+fn lights(scene: &Scene) -> Vec<Candidate> {
+    let light = |index: usize| Candidate {
+        kind: Omission::Light,
+        name: format!("light {}", index + 1),
+        without: Box::new(move |scene| {
+            scene.lights.remove(index);
+        }),
+    };
+    let shining = |index: &usize| scene.lights[*index].shines();
+    let lights = (0..scene.lights.len())
+        .filter(shining)
+        .take(MOST)
+        .map(light);
+    let surroundings = Candidate {
+        kind: Omission::Light,
+        name: "surroundings".to_owned(),
+        without: Box::new(|scene| scene.environment = None),
+    };
+    let surroundings = scene.environment.is_some().then_some(surroundings);
+    surroundings.into_iter().chain(lights).collect()
+}
+
+/// Surfaces that are one object.
+struct SceneObject {
+    surfaces: Range<usize>,
+    name: String,
+    /// About how large it is as seen from the eye: its half diagonal over its distance.
+    extent: f64,
+}
+
+/// The objects, those seen largest first.
+fn objects(scene: &Scene) -> Vec<SceneObject> {
+    let meshes = scene.mesh_boxes();
+    let eye = Vec3::from_array(scene.camera.eye);
+    let name = |index: usize| scene.names.get(index).map_or("", String::as_str);
+    let mut objects: Vec<SceneObject> = Vec::new();
+    for (index, surface) in scene.surfaces.iter().enumerate() {
+        let extent = extent(&surface.shape, &meshes, eye);
+        match objects.last_mut() {
+            Some(last) if !name(index).is_empty() && name(last.surfaces.start) == name(index) => {
+                last.surfaces.end = index + 1;
+                last.extent = last.extent.max(extent);
+            }
+            Some(_) | None => objects.push(SceneObject {
+                surfaces: index..index + 1,
+                name: called(name(index), surface, index),
+                extent,
+            }),
+        }
+    }
+    objects.sort_by(|a, b| b.extent.total_cmp(&a.extent));
+    objects
+}
+
+fn called(name: &str, surface: &Surface, index: usize) -> String {
+    match name {
+        "" => format!("{} {}", surface.shape.kind().word(), index + 1),
+        name => format!("`{name}`"),
+    }
+}
+
+fn extent(shape: &Shape, meshes: &[[Vec3; 2]], eye: Vec3) -> f64 {
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    shape.corners_around(meshes, &mut |corner| {
+        (low, high) = (low.min(corner), high.max(corner));
+    });
+    if low.x > high.x {
+        // It has no end.
+        return f64::INFINITY;
+    }
+    let half = 0.5 * (high - low).length();
+    half / (0.5 * (low + high) - eye).length().max(half * f64::EPSILON)
+}
+
+fn without_object(scene: &Scene, object: &SceneObject) -> Candidate {
+    let (surfaces, is_named) = (object.surfaces.clone(), !scene.names.is_empty());
+    Candidate {
+        kind: Omission::Object,
+        name: object.name.clone(),
+        without: Box::new(move |scene| {
+            scene.surfaces.drain(surfaces.clone());
+            if is_named {
+                scene.names.drain(surfaces.clone());
+            }
+        }),
+    }
+}
+
+/// The materials, those of objects seen largest first.
+fn materials(scene: &Scene, objects: &[SceneObject]) -> Vec<Candidate> {
+    let mut order: Vec<usize> = Vec::new();
+    for surface in objects.iter().flat_map(|object| object.surfaces.clone()) {
+        let material = scene.surfaces[surface].material.0 as usize;
+        if !order.contains(&material) && order.len() < MOST && !is_matt(&scene.materials[material])
+        {
+            order.push(material);
+        }
+    }
+    let material = |index: usize| Candidate {
+        kind: Omission::Material,
+        name: match &scene.materials[index] {
+            Material::Standard(standard) if !standard.name.is_empty() => {
+                format!("`{}`, matt instead", standard.name)
+            }
+            Material::Standard(_) | Material::Phong(_) => {
+                format!("material {}, matt instead", index + 1)
+            }
+        },
+        without: Box::new(move |scene| matt(&mut scene.materials[index])),
+    };
+    order.into_iter().map(material).collect()
+}
+
+fn is_matt(material: &Material) -> bool {
+    let mut other = material.clone();
+    matt(&mut other);
+    other == *material
+}
+
+/// Makes a material matt in its colour, without textures. What shows its colour as it is stays.
+fn matt(material: &mut Material) {
+    match material {
+        Material::Phong(phong) => {
+            let (color, ka, kd) = (phong.color, phong.ka, phong.kd);
+            *phong = Phong {
+                color,
+                ka,
+                kd,
+                ..Phong::MATT
+            };
+        }
+        Material::Standard(standard) if !standard.unlit => {
+            **standard = Standard {
+                name: std::mem::take(&mut standard.name),
+                base_color: standard.base_color,
+                metallic: 0.0,
+                specular: 0.0,
+                emissive: standard.emissive,
+                emissive_map: standard.emissive_map.clone(),
+                double_sided: standard.double_sided,
+                ..Standard::default()
+            };
+        }
+        Material::Standard(_) => {}
+    }
+}
