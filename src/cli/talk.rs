@@ -1,6 +1,7 @@
 //! What is said, and on which stream: findings for people on standard error, those for programs on
 //! standard output.
 
+use super::render::MadePicture;
 use super::{Failure, args, output};
 use crate::diag::{Format, PrintOptions, Printer, Severity, Sink};
 use crate::source::SourceMap;
@@ -16,6 +17,8 @@ pub(super) struct Talk {
     to_stdout: bool,
     quiet: bool,
     verbose: bool,
+    /// Findings are JSON objects.
+    tells_objects: bool,
     /// Something was told of a file.
     has_told: bool,
 }
@@ -59,6 +62,7 @@ impl Talk {
             to_stdout: false,
             quiet,
             verbose,
+            tells_objects: message_format == args::MessageFormat::Json,
             has_told: false,
         }
     }
@@ -70,6 +74,17 @@ impl Talk {
         write(self.to_stdout, &text)
     }
 
+    /// Tells of a picture that was made: in words, or where findings are objects as one more of them.
+    pub(super) fn made(&self, picture: &MadePicture) {
+        if self.quiet {
+            return;
+        }
+        match self.tells_objects {
+            true => say(&picture.object()),
+            false => say(&picture.words(self.verbose)),
+        }
+    }
+
     /// Tells what follows the last finding.
     pub(super) fn finish(self) -> Result<(), Failure> {
         write(self.to_stdout, &self.printer.finish())
@@ -78,11 +93,6 @@ impl Talk {
     /// True if a person at a terminal was told nothing, and did not ask for that.
     pub(super) fn left_in_doubt(&self) -> bool {
         !self.has_told && !self.to_stdout && !self.quiet && io::stderr().is_terminal()
-    }
-
-    /// True if all is wanted that can be told.
-    pub(super) fn is_verbose(&self) -> bool {
-        self.verbose
     }
 
     /// True if only errors are wanted.

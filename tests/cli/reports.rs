@@ -179,3 +179,64 @@ fn a_scene_is_held_against_another() {
         assert!(stderr(&output).contains(words), "{}", stderr(&output));
     }
 }
+
+/// A render that talks in objects ends in one of its picture.
+#[test]
+fn a_picture_is_told_as_an_object() {
+    let folder = folder();
+    let render = |more: &[&str]| {
+        let args = [
+            "render",
+            "ball.json",
+            "-o",
+            "a.png",
+            "--message-format",
+            "json",
+        ];
+        let output = rtc(&folder, &[&args[..], more].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        stderr(&output)
+    };
+    let last = |said: String| -> serde_json::Value {
+        let object: serde_json::Value = serde_json::from_str(said.lines().last().unwrap()).unwrap();
+        object["rendered"].clone()
+    };
+    let plain = last(render(&[]));
+    assert_eq!(plain["output"], "a.png");
+    assert_eq!(plain["size"], serde_json::json!([40, 30]));
+    assert!(plain["rays"].as_u64().unwrap() >= 40 * 30, "{plain}");
+    assert!(
+        plain["quality"].is_null() && plain["simulated"].is_object(),
+        "{plain}"
+    );
+    let good = last(render(&["--target-error", "2"]));
+    let bound = good["quality"]["bound"].as_f64().unwrap();
+    assert!(bound > 0.0 && bound <= 2.0, "{good}");
+    assert!(
+        good["quality"]["samples"]["mean"].as_f64().unwrap() >= 1.0,
+        "{good}"
+    );
+    assert_eq!(render(&["-q"]), "");
+}
+
+/// A picture in the terminal has a line for two of its rows, and its file is there, too.
+#[test]
+fn a_picture_is_shown_in_a_terminal() {
+    let folder = folder();
+    let args = ["render", "ball.json", "-o", "a.png", "--show"];
+    let output = command(folder.path(), &args)
+        .env("COLUMNS", "20")
+        .output()
+        .unwrap();
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let shown = String::from_utf8(output.stdout).unwrap();
+    // 40 × 30 as 20 × 15.
+    assert_eq!(shown.lines().count(), 8, "{shown}");
+    assert!(
+        shown.lines().all(|line| line.matches('▀').count() == 20),
+        "{shown}"
+    );
+    assert!(folder.path().join("a.png").exists());
+    let refused = rtc(&folder, &["render", "ball.json", "-o", "-", "--show"]);
+    assert_eq!(code(&refused), 2, "{}", stderr(&refused));
+}

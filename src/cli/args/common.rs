@@ -86,7 +86,7 @@ pub(in crate::cli) enum MessageFormat {
     Human,
     /// One line each, for editors
     Short,
-    /// One JSON object a line
+    /// One JSON object a line; the last of a picture is `{"rendered": …}`
     Json,
     /// SARIF 2.1.0
     Sarif,

@@ -22,6 +22,9 @@ pub(in crate::cli) struct Render {
     /// Also write one PNG that shows the pictures of all scenes, small, with their names
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "turntable")]
     pub(in crate::cli) contact_sheet: Option<PathBuf>,
+    /// Also print the picture in a terminal of 24-bit colours, as wide as `COLUMNS` says
+    #[arg(long, conflicts_with_all = ["turntable", "part"])]
+    pub(in crate::cli) show: bool,
     #[command(flatten)]
     pub(in crate::cli) wanted: WantedArgs,
     /// Sample until the picture is this close, in grey levels of 8 bits (RMSE, kept by 90 of 100

@@ -3,7 +3,7 @@
 
 use super::super::output::Output;
 use super::super::turntable::{Turntable, Views};
-use super::super::{Failure, args, talk};
+use super::super::{Failure, args};
 use super::RenderSetup;
 use super::checkpoint::Desk;
 use crate::image::{AnimatedPng, FileFormat, PictureHead};
@@ -78,7 +78,7 @@ impl RenderSetup {
             let room = self.picture.find_room(subject, window);
             room.map_err(Failure::from)?;
             let desk = (&mut *input, &mut *talk, interrupt);
-            let (picture, summary) = self.take(subject, &self.output, window, desk)?;
+            let (picture, made) = self.take(subject, &self.output, window, desk)?;
             if let Some(file) = file.take() {
                 let head = PictureHead::of(&picture, FileFormat::Png8);
                 begun = Some(AnimatedPng::begin(&head, frames, rate, file)?);
@@ -86,9 +86,7 @@ impl RenderSetup {
             if let Some(animation) = &mut begun {
                 animation.add(&picture)?;
             }
-            if !talk.is_quiet() {
-                talk::say(&summary);
-            }
+            talk.made(&made);
         }
         begun.map_or(Ok(()), |animation| Ok(animation.finish()?))
     }

@@ -5,8 +5,8 @@ use super::super::merge::{read_part, unfit};
 use super::super::output::Output;
 use super::super::progress::RenderProgress;
 use super::super::{Failure, args, input, interrupt::Interrupt, talk, talk::Talk};
-use super::shot::{KeptGrowth, summary, workers};
-use super::{RenderSetup, halted};
+use super::shot::{KeptGrowth, workers};
+use super::{MadePicture, RenderSetup, halted};
 use crate::image::Picture;
 use crate::pipeline::{
     Input, MOST_SHARES, NewFile, Observer, PicturePart, RenderError, RenderSubject, SharedBy,
@@ -120,7 +120,7 @@ impl RenderSetup {
         }
         let order = (window, input.rays());
         let desk = (&mut *input, &mut *talk, interrupt);
-        let (picture, summary) = match has_goal(self.picture.goal) {
+        let (picture, made) = match has_goal(self.picture.goal) {
             false => self.share_by_share(saving, subject, &mut done, order, desk)?,
             true => self.round_by_round(saving, subject, &mut done, order, desk)?,
         };
@@ -132,9 +132,7 @@ impl RenderSetup {
         }
         written?;
         saving.finished.push(hash_of_file(&bytes));
-        if !talk.is_quiet() {
-            talk::say(&summary);
-        }
+        talk.made(&made);
         Ok(())
     }
 
@@ -158,7 +156,7 @@ impl RenderSetup {
         Ok(done)
     }
 
-    /// The picture by its shares, and what to say of it.
+    /// The picture by its shares, and what is told of it.
     fn share_by_share(
         &self,
         saving: &Saving<'_>,
@@ -166,7 +164,7 @@ impl RenderSetup {
         done: &mut PicturePart,
         (window, rays): (Crop, u64),
         (input, talk, interrupt): Desk<'_>,
-    ) -> Result<(Picture, String), Failure> {
+    ) -> Result<(Picture, MadePicture), Failure> {
         let progress = RenderProgress::start(window.pixels() as u64, talk.is_quiet());
         let watch = (interrupt, &progress);
         let traced = self.trace_saving(saving.checkpoint, subject, done, (window, rays), watch);
@@ -181,12 +179,12 @@ impl RenderSetup {
             developed.map_err(|error| Failure::Trouble(error.to_string()))?;
         found.into_iter().for_each(|finding| input.push(finding));
         let size = [picture.image.width, picture.image.height];
-        let (light, work) = (self.picture.light_told(), (&counts, elapsed));
-        let words = summary(&saving.output, size, &light, work, talk.is_verbose());
-        Ok((picture, words))
+        let work = (counts, elapsed);
+        let made = MadePicture::new(&saving.output, &self.picture, size, work);
+        Ok((picture, made))
     }
 
-    /// The picture that grows towards its goal, and what to say of it.
+    /// The picture that grows towards its goal, and what is told of it.
     fn round_by_round(
         &self,
         saving: &Saving<'_>,
@@ -194,7 +192,7 @@ impl RenderSetup {
         done: &mut PicturePart,
         order: (Crop, u64),
         (input, talk, interrupt): Desk<'_>,
-    ) -> Result<(Picture, String), Failure> {
+    ) -> Result<(Picture, MadePicture), Failure> {
         let begun = done.take_growth();
         let (checkpoint, is_saved) = (saving.checkpoint, AtomicBool::new(false));
         let save = |growth: Vec<u8>| {
@@ -217,15 +215,13 @@ impl RenderSetup {
                 return Err(ended(error, input, talk));
             }
         };
-        let words = shot.summary(
-            &saving.output,
-            &self.picture.light_told(),
-            talk.is_verbose(),
-        );
+        let size = [shot.image.width, shot.image.height];
+        let work = (shot.counts, shot.elapsed);
+        let made = MadePicture::new(&saving.output, &self.picture, size, work).with(shot.quality);
         let film = (shot.image, shot.coverage, &shot.counts);
         let is_stopped = || interrupt.is_raised();
         let picture = self.picture.develop(subject, film, input, &is_stopped)?;
-        Ok((picture, words))
+        Ok((picture, made))
     }
 
     /// Renders the shares of the picture that are missing, and saves on the way.

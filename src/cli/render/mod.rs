@@ -3,10 +3,12 @@
 mod animation;
 mod budget;
 mod checkpoint;
+mod made;
 mod many;
 mod part;
 mod sheet;
 mod shot;
+mod show;
 mod strips;
 mod turning;
 
@@ -30,6 +32,7 @@ use crate::study::Goal;
 use budget::PictureClock;
 use checkpoint::{Checkpoint, Desk, Saving, ended};
 pub(super) use checkpoint::{or_restart, say_saved, try_save};
+pub(super) use made::MadePicture;
 use part::PartSetup;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -49,6 +52,8 @@ struct RenderSetup {
     checkpoint: Option<Checkpoint>,
     /// Whether it is rendered in strips, and of how many rows.
     strips: Option<Option<u32>>,
+    /// Whether the picture is shown in the terminal, too.
+    is_shown: bool,
     clock: PictureClock,
 }
 
@@ -89,6 +94,11 @@ impl RenderSetup {
             ));
         }
         output::refuse_terminal(&output)?;
+        if args.show && output.as_os_str() == "-" {
+            return Err(Failure::Trouble(
+                "`--show` takes standard output; give the picture a name by `-o`".to_owned(),
+            ));
+        }
         let goal = Goal {
             error: args.target_error,
             time: args.time_budget,
@@ -113,6 +123,7 @@ impl RenderSetup {
             part,
             checkpoint: Checkpoint::new(args),
             strips: args.strips,
+            is_shown: args.show,
             clock: PictureClock::start(),
         })
     }
@@ -122,7 +133,11 @@ impl RenderSetup {
         let mut input = input::staged(file, &args.reading, &args.stage)?;
         input.use_threads(self.picture.threads);
         set_stage(&mut input, &args.look, args.turntable);
-        self.carry_out(&mut input, talk)
+        self.carry_out(&mut input, talk)?;
+        match self.is_shown {
+            true => show::show(&self.output),
+            false => Ok(()),
+        }
     }
 
     fn carry_out(&mut self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
@@ -224,23 +239,21 @@ impl RenderSetup {
         }
         let (window, output) = self.ready(subject, path, input)?;
         let desk = (&mut *input, &mut *talk, interrupt);
-        let (picture, summary) = self.take(subject, path, window, desk)?;
+        let (picture, made) = self.take(subject, path, window, desk)?;
         let bytes = self.picture.encode(&picture, subject)?;
         output.commit(&bytes, interrupt)?;
-        if !talk.is_quiet() {
-            talk::say(&summary);
-        }
+        talk.made(&made);
         Ok(())
     }
 
-    /// Renders one picture; it, and what to say of it.
+    /// Renders one picture; it, and what is told of it.
     fn take(
         &self,
         subject: &mut RenderSubject,
         path: &Path,
         window: Crop,
         (input, talk, interrupt): Desk<'_>,
-    ) -> Result<(Picture, String), Failure> {
+    ) -> Result<(Picture, MadePicture), Failure> {
         let quiet = talk.is_quiet();
         let shot = match self.picture.goal {
             Goal {
@@ -252,15 +265,18 @@ impl RenderSetup {
             }
         };
         let shot = shot.map_err(|error| ended(error, input, talk))?;
-        let summary = shot.summary(path, &self.picture.light_told(), talk.is_verbose());
+        let crude = shot.crude();
+        let size = [shot.image.width, shot.image.height];
+        let work = (shot.counts, shot.elapsed);
+        let made = MadePicture::new(path, &self.picture, size, work).with(shot.quality);
         let film = (shot.image, shot.coverage, &shot.counts);
         let is_stopped = || interrupt.is_raised();
         let picture = self.picture.develop(subject, film, input, &is_stopped)?;
         let time = self.picture.goal.time;
-        let found = self.clock.stop(time, (shot.crude, window));
+        let found = self.clock.stop(time, (crude, window));
         found.into_iter().for_each(|finding| input.push(finding));
         input::tell(input, talk)?;
-        Ok((picture, summary))
+        Ok((picture, made))
     }
 }
 

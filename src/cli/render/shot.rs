@@ -2,16 +2,14 @@
 //! that shows how far it is.
 
 use super::super::interrupt::Interrupt;
-use super::super::progress::{self, RenderProgress};
+use super::super::progress::RenderProgress;
 use super::RenderSetup;
 use super::budget::PictureClock;
+use super::made::{Quality, error};
 use crate::image::Image;
 use crate::pipeline::{Meter, Observer, RenderError, RenderSubject};
-use crate::plan::Effect;
 use crate::render::{Counts, Crop, Film};
-use crate::study::{CrudePicture, Goal, Growth, Keep, Order, Reached, Samples, Stopped, Watch};
-use indicatif::HumanCount;
-use std::path::Path;
+use crate::study::{CrudePicture, Goal, Growth, Keep, Order, Reached, Stopped, Watch};
 use std::time::Duration;
 
 /// What was rendered, and what is said of it.
@@ -21,47 +19,41 @@ pub(super) struct Rendered {
     pub(super) counts: Counts,
     pub(super) elapsed: Duration,
     /// How good it is, if that was asked.
-    pub(super) quality: Option<String>,
-    /// If the time was too short for it.
-    pub(super) crude: Option<CrudePicture>,
+    pub(super) quality: Option<Quality>,
 }
 
 impl Rendered {
-    /// What is said of it, with what is told of its light; if `verbose`, with how often each effect was
-    /// simulated.
-    pub(super) fn summary(&self, path: &Path, light: &str, verbose: bool) -> String {
-        let size = [self.image.width, self.image.height];
-        let line = summary(path, size, light, (&self.counts, self.elapsed), verbose);
-        let lines = [Some(line), self.quality.clone()];
-        lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
+    /// A picture that grew towards a goal.
+    fn reached(reached: Reached, elapsed: Duration, has_run_out: bool) -> Self {
+        let Reached {
+            image,
+            coverage,
+            counts,
+            samples,
+            error,
+            unmet,
+            crude,
+            light_samples: _,
+        } = reached;
+        Self {
+            image,
+            coverage,
+            counts,
+            elapsed,
+            quality: Some(Quality {
+                error,
+                unmet,
+                crude,
+                samples,
+                has_run_out,
+            }),
+        }
     }
-}
 
-/// What is said of a picture: its size, what is told of its light, its rays and how long they took; if
-/// `verbose`, how often each effect was simulated.
-pub(super) fn summary(
-    path: &Path,
-    [width, height]: [u32; 2],
-    light: &str,
-    (counts, elapsed): (&Counts, Duration),
-    verbose: bool,
-) -> String {
-    let work = progress::summary(counts.rays(), elapsed);
-    let line = format!("{}: {width}×{height}, {light}{work}", path.display());
-    if verbose {
-        format!("{line}\n{}", simulated(counts))
-    } else {
-        line
+    /// If the time was too short for it.
+    pub(super) fn crude(&self) -> Option<CrudePicture> {
+        self.quality.as_ref()?.crude
     }
-}
-
-/// How often each effect was simulated: its rays, or its evaluations.
-fn simulated(counts: &Counts) -> String {
-    let effects = Effect::OF_PATHS.into_iter().chain(Effect::OF_THE_COURSE);
-    let counted = effects.map(|effect| (effect.name(), counts.of(effect)));
-    let some = counted.filter(|(_, count)| *count > 0);
-    let words = some.map(|(name, count)| format!("{name} {}", HumanCount(count)));
-    format!("simulated: {}", words.collect::<Vec<_>>().join("; "))
 }
 
 /// What was kept of a picture that grows, and who keeps it on its way.
@@ -129,7 +121,6 @@ impl RenderSetup {
             counts,
             elapsed,
             quality: None,
-            crude: None,
         })
     }
 
@@ -196,58 +187,12 @@ impl RenderSetup {
         });
         let ran_out = subject.ran_out(&meter, &observer);
         let elapsed = progress.finish();
-        let (reached, end) = match (reached?, ran_out) {
-            (Ok(reached), None) => (reached, ""),
-            (Ok(reached), Some(_)) => (reached, ", ended by `--limit rays`"),
+        let (reached, has_run_out) = match (reached?, ran_out) {
+            (Ok(reached), None) => (reached, false),
+            (Ok(reached), Some(_)) => (reached, true),
             (Err(Stopped), Some(finding)) => return Err(RenderError::RanOut(finding)),
             (Err(Stopped), None) => return Err(RenderError::Stopped),
         };
-        let Reached {
-            image,
-            coverage,
-            counts,
-            samples: Samples { min, mean, most },
-            error,
-            unmet,
-            crude,
-            light_samples: _,
-        } = reached;
-        let told = crude.map_or_else(|| bound(error, unmet), crude_told);
-        let quality = format!("{told}, {mean:.0} samples a pixel on the mean, {min} … {most}{end}");
-        Ok(Rendered {
-            image,
-            coverage,
-            counts,
-            elapsed,
-            quality: Some(quality),
-            crude,
-        })
+        Ok(Rendered::reached(reached, elapsed, has_run_out))
     }
-}
-
-/// What is said of a crude picture.
-fn crude_told(CrudePicture { block, .. }: CrudePicture) -> String {
-    format!("no bound: of some blocks of {block} × {block} pixels one was sampled")
-}
-
-/// A bound on the error in grey levels, in words; or how bright light may be, in multiples of white, that
-/// leaves none.
-fn bound(levels: f64, unmet: Option<f64>) -> String {
-    match unmet {
-        None => format!("{} (90 %)", error(levels)),
-        Some(white) if white <= 1.0 => format!(
-            "no bound: what few samples show may be unmet; {} (90 %) of what was met",
-            error(levels)
-        ),
-        Some(white) => format!(
-            "no bound: light {white:.0} times as bright as white may be unmet; {} (90 %) of what was met",
-            error(levels)
-        ),
-    }
-}
-
-/// An error in grey levels, in words.
-fn error(levels: f64) -> String {
-    // Rounded up, so that the words promise no more than was measured.
-    format!("error ≤ {:.2} grey levels", (levels * 100.0).ceil() / 100.0)
 }

@@ -1,9 +1,8 @@
 //! A picture in strips: each is rendered, written and let go before the next.
 
 use super::super::progress::RenderProgress;
-use super::super::{Failure, input, interrupt::Interrupt, output::Output, talk, talk::Talk};
-use super::shot::summary;
-use super::{RenderSetup, halted};
+use super::super::{Failure, input, interrupt::Interrupt, output::Output, talk::Talk};
+use super::{MadePicture, RenderSetup, halted};
 use crate::pipeline::{Input, Observer, PictureSetup, RenderSubject};
 use std::fs::File;
 use std::io::ErrorKind;
@@ -47,11 +46,8 @@ impl RenderSetup {
         };
         written?;
         input::tell(input, talk)?;
-        if !talk.is_quiet() {
-            let size = [window.width, window.height];
-            let (light, work) = (setup.light_told(), (&counts, elapsed));
-            talk::say(&summary(path, size, &light, work, talk.is_verbose()));
-        }
+        let size = [window.width, window.height];
+        talk.made(&MadePicture::new(path, setup, size, (counts, elapsed)));
         Ok(())
     }
 }

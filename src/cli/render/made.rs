@@ -1,0 +1,158 @@
+//! A picture that was made: what is told of it, in words for people and as an object for programs.
+
+use super::super::progress;
+use crate::pipeline::PictureSetup;
+use crate::plan::Effect;
+use crate::render::Counts;
+use crate::study::{CrudePicture, Samples};
+use indicatif::HumanCount;
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// A picture that was made.
+pub(in crate::cli) struct MadePicture {
+    output: PathBuf,
+    size: [u32; 2],
+    /// The stops by which it was exposed, if they were found.
+    exposure: Option<f64>,
+    /// What is said of its light.
+    light: String,
+    counts: Counts,
+    elapsed: Duration,
+    quality: Option<Quality>,
+}
+
+/// How good a picture is, if that was asked.
+pub(super) struct Quality {
+    /// The bound on its error in grey levels.
+    pub(super) error: f64,
+    /// How bright light may be that no sample met, if there is no bound.
+    pub(super) unmet: Option<f64>,
+    /// If the time was too short for it.
+    pub(super) crude: Option<CrudePicture>,
+    pub(super) samples: Samples,
+    /// Its rays ran out.
+    pub(super) has_run_out: bool,
+}
+
+impl MadePicture {
+    /// A picture as set up, of so many pixels, rays and seconds.
+    pub(super) fn new(
+        output: &Path,
+        setup: &PictureSetup,
+        size: [u32; 2],
+        (counts, elapsed): (Counts, Duration),
+    ) -> Self {
+        Self {
+            output: output.to_owned(),
+            size,
+            exposure: setup.look.found_exposure(),
+            light: setup.light_told(),
+            counts,
+            elapsed,
+            quality: None,
+        }
+    }
+
+    /// The same, with how good it is.
+    pub(super) fn with(self, quality: Option<Quality>) -> Self {
+        Self { quality, ..self }
+    }
+
+    /// In words: its size, its light, its rays and how long they took; if `verbose`, how often each effect
+    /// was simulated; how good it is.
+    pub(in crate::cli) fn words(&self, verbose: bool) -> String {
+        let ([width, height], light) = (self.size, &self.light);
+        let work = progress::summary(self.counts.rays(), self.elapsed);
+        let line = format!("{}: {width}×{height}, {light}{work}", self.output.display());
+        let simulated = verbose.then(|| simulated(&self.counts));
+        let quality = self.quality.as_ref().map(Quality::words);
+        let lines = [Some(line), simulated, quality];
+        lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
+    }
+
+    /// As an object of one line, `{"rendered": …}`.
+    pub(in crate::cli) fn object(&self) -> String {
+        let simulated: Map<String, Value> = effects(&self.counts)
+            .map(|(name, count)| (name.to_owned(), json!(count)))
+            .collect();
+        let quality = self.quality.as_ref().map(Quality::object);
+        let object = json!({
+            "output": self.output.display().to_string(),
+            "size": self.size,
+            "exposureStops": self.exposure,
+            "rays": self.counts.rays(),
+            "seconds": self.elapsed.as_secs_f64(),
+            "quality": quality,
+            "simulated": simulated,
+        });
+        json!({ "rendered": object }).to_string()
+    }
+}
+
+/// How often each effect was simulated: its rays, or its evaluations.
+fn effects(counts: &Counts) -> impl Iterator<Item = (&'static str, u64)> {
+    let effects = Effect::OF_PATHS.into_iter().chain(Effect::OF_THE_COURSE);
+    let counted = effects.map(|effect| (effect.name(), counts.of(effect)));
+    counted.filter(|(_, count)| *count > 0)
+}
+
+fn simulated(counts: &Counts) -> String {
+    let words = effects(counts).map(|(name, count)| format!("{name} {}", HumanCount(count)));
+    format!("simulated: {}", words.collect::<Vec<_>>().join("; "))
+}
+
+impl Quality {
+    fn words(&self) -> String {
+        let Samples { min, mean, most } = self.samples;
+        let told = match self.crude {
+            Some(CrudePicture { block, .. }) => {
+                format!("no bound: of some blocks of {block} × {block} pixels one was sampled")
+            }
+            None => bound(self.error, self.unmet),
+        };
+        let end = match self.has_run_out {
+            true => ", ended by `--limit rays`",
+            false => "",
+        };
+        format!("{told}, {mean:.0} samples a pixel on the mean, {min} … {most}{end}")
+    }
+
+    /// Without a bound there is none in the object, but the error of what samples met.
+    fn object(&self) -> Value {
+        let Samples { min, mean, most } = self.samples;
+        let has_bound = self.unmet.is_none() && self.crude.is_none();
+        json!({
+            "bound": has_bound.then_some(self.error),
+            "confidence": has_bound.then_some(0.9),
+            "metError": self.crude.is_none().then_some(self.error),
+            "unmetWhites": self.unmet,
+            "crudeBlock": self.crude.map(|crude| crude.block),
+            "samples": { "min": min, "mean": mean, "most": most },
+            "ranOut": self.has_run_out,
+        })
+    }
+}
+
+/// A bound on the error in grey levels, in words; or how bright light may be, in multiples of white, that
+/// leaves none.
+fn bound(levels: f64, unmet: Option<f64>) -> String {
+    match unmet {
+        None => format!("{} (90 %)", error(levels)),
+        Some(white) if white <= 1.0 => format!(
+            "no bound: what few samples show may be unmet; {} (90 %) of what was met",
+            error(levels)
+        ),
+        Some(white) => format!(
+            "no bound: light {white:.0} times as bright as white may be unmet; {} (90 %) of what was met",
+            error(levels)
+        ),
+    }
+}
+
+/// An error in grey levels, in words.
+pub(super) fn error(levels: f64) -> String {
+    // Rounded up, so that the words promise no more than was measured.
+    format!("error ≤ {:.2} grey levels", (levels * 100.0).ceil() / 100.0)
+}
