@@ -202,15 +202,16 @@ fn extent(shape: &Shape, meshes: &[[Vec3; 2]], eye: Vec3) -> f64 {
 }
 
 fn without_object(scene: &Scene, object: &SceneObject) -> Candidate {
-    let (surfaces, is_named) = (object.surfaces.clone(), !scene.names.is_empty());
+    // Surfaces after the last name have none.
+    let surfaces = object.surfaces.clone();
+    let end = surfaces.end.min(scene.names.len());
+    let names = surfaces.start.min(end)..end;
     Candidate {
         kind: Omission::Object,
         name: object.name.clone(),
         without: Box::new(move |scene| {
             scene.surfaces.drain(surfaces.clone());
-            if is_named {
-                scene.names.drain(surfaces.clone());
-            }
+            scene.names.drain(names.clone());
         }),
     }
 }

@@ -91,7 +91,7 @@ impl Effort {
 fn price(scene: &Scene) -> u64 {
     let is_torus = |surface: &Surface| matches!(surface.shape, Shape::Torus(_));
     if matches!(scene.settings.mode, Mode::Path(_)) {
-        return 6;
+        return 8;
     }
     match scene.surfaces.iter().any(is_torus) {
         true => 2,

@@ -72,10 +72,11 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result
             }
         }
     }
+    let mut overheads = Overheads::default();
     let wholes: Vec<Vec<Option<f64>>> = runners
         .iter()
         .zip(&times)
-        .map(|(runner, times)| whole_picture(runner, times, rng))
+        .map(|(runner, times)| overheads.whole_picture(runner, times, rng))
         .collect();
     let runs = shots.into_iter().flatten().zip(&wholes).zip(resumed).map(
         |((shot, seconds), is_resumed)| {
@@ -101,28 +102,51 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result
     })
 }
 
-/// The time for the whole picture, from that of its part: preparing the scene takes the same for
-/// both, and skipping the other pixels does not belong to a picture.
-fn whole_picture(runner: &Runner<'_>, times: &[Option<Time>], rng: &mut Rng) -> Vec<Option<f64>> {
-    const ROUNDS: usize = 5;
-    let Runner { subject, setting } = runner;
-    if subject.is_whole() {
-        return times
-            .iter()
-            .map(|time| time.as_ref().map(|time| time.cpu))
-            .collect();
+/// The seconds for preparing a scene and for skipping all pixels, of those that were timed: they hardly depend
+/// on the setting.
+#[derive(Default)]
+struct Overheads<'a> {
+    known: Vec<(Runner<'a>, [f64; 2])>,
+}
+
+impl<'a> Overheads<'a> {
+    fn of(&mut self, runner: &Runner<'a>, rng: &mut Rng) -> [f64; 2] {
+        const ROUNDS: usize = 5;
+        let Runner { subject, setting } = runner;
+        let is_alike = |(other, _): &&(Runner<'a>, [f64; 2])| {
+            other.subject.is_of_scene_of(subject) && other.setting.precision == setting.precision
+        };
+        if let Some((_, known)) = self.known.iter().find(is_alike) {
+            return *known;
+        }
+        let rounds = subject.time_overhead(*setting, ROUNDS);
+        let overhead = [0, 1].map(|which| {
+            let seconds: Vec<_> = rounds.iter().map(|round| round[which]).collect();
+            median(&seconds, rng).value
+        });
+        let runner = Runner {
+            subject: subject.clone(),
+            setting: *setting,
+        };
+        self.known.push((runner, overhead));
+        overhead
     }
-    let overhead = subject.time_overhead(*setting, ROUNDS);
-    let [prepare, pass] = [0, 1].map(|which| {
-        median(
-            &overhead
-                .iter()
-                .map(|round| round[which])
-                .collect::<Vec<_>>(),
-            rng,
-        )
-        .value
-    });
-    let whole = |time: &Time| prepare + (time.cpu - prepare - pass).max(0.0) / subject.fraction();
-    times.iter().map(|time| time.as_ref().map(whole)).collect()
+
+    /// The time for the whole picture, from that of its part: preparing the scene takes the same for
+    /// both, and skipping the other pixels does not belong to a picture.
+    fn whole_picture(
+        &mut self,
+        runner: &Runner<'a>,
+        times: &[Option<Time>],
+        rng: &mut Rng,
+    ) -> Vec<Option<f64>> {
+        if runner.subject.is_whole() {
+            let cpu = |time: &Option<Time>| time.as_ref().map(|time| time.cpu);
+            return times.iter().map(cpu).collect();
+        }
+        let [prepare, pass] = self.of(runner, rng);
+        let fraction = runner.subject.fraction();
+        let whole = |time: &Time| prepare + (time.cpu - prepare - pass).max(0.0) / fraction;
+        times.iter().map(|time| time.as_ref().map(whole)).collect()
+    }
 }

@@ -10,12 +10,13 @@ use crate::ir::{Pattern, Scene};
 use crate::plan::{Arithmetic, Plan, Rules};
 use crate::render::{Counts, Crop, Job, Seeds, Tiles};
 use crate::valid::{Proof, revalidate};
+use std::sync::Arc;
 use xxhash_rust::xxh3::xxh3_64;
 
 /// A scene, and the part of its picture that is rendered.
 #[derive(Clone)]
 pub(super) struct Subject<'bench> {
-    pub(super) scene: Scene,
+    pub(super) scene: Arc<Scene>,
     seed: u64,
     /// The tiles by rank, as column and row.
     tiles: Vec<[u32; 2]>,
@@ -50,7 +51,7 @@ impl<'bench> Subject<'bench> {
             .collect();
         tiles.sort_by_key(|tile| Tiles::rank(seed, *tile));
         Self {
-            scene: scene.clone(),
+            scene: Arc::new(scene.clone()),
             seed,
             tiles,
             bench,
@@ -67,7 +68,7 @@ impl<'bench> Subject<'bench> {
     /// The same part of another scene's picture.
     pub(super) fn with_scene(&self, scene: Scene) -> Self {
         Self {
-            scene,
+            scene: Arc::new(scene),
             ..self.clone()
         }
     }
@@ -75,6 +76,11 @@ impl<'bench> Subject<'bench> {
     /// Whether the whole picture is rendered; then it is one tile.
     pub(super) fn is_whole(&self) -> bool {
         self.fraction() >= 1.0
+    }
+
+    /// Whether both are parts of the picture of one scene.
+    pub(super) fn is_of_scene_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scene, &other.scene)
     }
 
     /// The number of tiles.
@@ -247,7 +253,7 @@ impl<'bench> Subject<'bench> {
     }
 
     fn prove(&self, setting: Setting, seeds: Seeds) -> Proof {
-        let mut scene = self.scene.clone();
+        let mut scene = Scene::clone(&self.scene);
         setting.apply(&mut scene);
         if seeds.pixel != 0 {
             scene.settings.pattern = Pattern::Jitter;

@@ -122,6 +122,20 @@ fn parts_of_the_scene_have_their_costs() {
     assert!(materials[0].1.rays.mirror == 0 && materials[0].1.difference > 1.0);
 }
 
+/// Surfaces of one name are one object; those after the last name have none.
+#[test]
+fn objects_go_by_their_names() {
+    let mut scene = scene(&[]);
+    scene.names = vec!["pair".to_owned(); 2];
+    let study = study_of(&scene, 8_000_000, 0);
+    let objects = study
+        .effects
+        .iter()
+        .filter(|cost| cost.kind == Omission::Object);
+    let names: Vec<_> = objects.map(|cost| cost.effect.as_str()).collect();
+    assert_eq!(names, ["plane 3", "`pair`"]);
+}
+
 #[test]
 fn precision_is_told_against_the_robust_arithmetic() {
     let names: Vec<_> = WHOLE
