@@ -10,16 +10,17 @@ mod parts;
 mod scale;
 mod small;
 
-use every::{is_the_same_in_any_order, makes_the_same_picture_times, powers};
+use every::{is_the_same_in_any_order, is_the_same_laid_out, makes_the_same_picture_times, powers};
 use rtc::internals::codec::{self, Form};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Lowered, Origins, Scene};
-use rtc::internals::pipeline::{self, Options};
+use rtc::internals::pipeline::{self, Input, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Crop, Job, Seeds, Tiles};
 use rtc::internals::source::SourceMap;
 use small::{WHOLE, bits, film, paths, small};
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 #[test]
 fn the_ir_in_any_form_makes_the_same_picture() {
@@ -39,6 +40,31 @@ fn the_ir_in_any_form_makes_the_same_picture() {
                 path.display()
             );
         }
+    }
+}
+
+/// The scenes of the repo, and those of its tests, sound or not.
+#[test]
+fn laid_out_is_the_same_scene() {
+    let mut open = ["scenes", "tests"].map(PathBuf::from).to_vec();
+    let mut count = 0;
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            open.extend(path.read_dir().unwrap().map(|entry| entry.unwrap().path()));
+        } else if path.extension().is_some_and(|own| own == "yaml") {
+            is_the_same_laid_out(&path);
+            count += 1;
+        }
+    }
+    assert!(count > 200, "{count}");
+}
+
+#[test]
+fn the_scenes_of_the_repo_are_laid_out() {
+    for path in paths() {
+        let mut input = Input::file(&path, Options::default());
+        let is_laid_out = input.lay_out().as_deref() == Ok(input.text().unwrap());
+        assert!(is_laid_out, "{}", path.display());
     }
 }
 

@@ -1,24 +1,36 @@
 //! Scenes by folders and patterns: which files are meant.
 
 use super::Failure;
-use crate::front::is_scene_name;
+use crate::front::{is_scene_name, is_scene_text_name};
 use glob::MatchOptions;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+/// Whether a file of this name is meant where a folder is given.
+type NameTest = fn(&str) -> bool;
+
 /// The files that are meant: each path as it is; of a folder all scenes below it, by their names;
 /// of a pattern that is no file by itself, what fits it. What is found comes in the order of its
 /// names, without what is hidden, and once.
 pub(super) fn scenes(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    named(paths, is_scene_name)
+}
+
+/// The same for scenes that are texts of people.
+pub(super) fn texts(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    named(paths, is_scene_text_name)
+}
+
+fn named(paths: &[PathBuf], is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
     let mut scenes = Vec::new();
     for path in paths {
         if path.is_dir() {
-            add(&mut scenes, below(path)?);
+            add(&mut scenes, below(path, is_meant)?);
         } else if is_pattern(path) {
             for fit in fitting(path)? {
                 match fit.is_dir() {
-                    true => add(&mut scenes, below(&fit)?),
+                    true => add(&mut scenes, below(&fit, is_meant)?),
                     false => add(&mut scenes, vec![fit]),
                 }
             }
@@ -65,10 +77,10 @@ fn fitting(pattern: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// All scenes below a folder: at least one.
-fn below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+fn below(folder: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
     let mut found = Vec::new();
     let refused = |words: &str| Failure::Trouble(format!("`{}`: {words}", folder.display()));
-    walk(folder, &mut found).map_err(|error| refused(&error.to_string()))?;
+    walk(folder, is_meant, &mut found).map_err(|error| refused(&error.to_string()))?;
     if found.is_empty() {
         return Err(refused("there are no scenes in this folder"));
     }
@@ -76,7 +88,7 @@ fn below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// Links to folders are not followed: they may lead round in circles.
-fn walk(folder: &Path, found: &mut Vec<PathBuf>) -> io::Result<()> {
+fn walk(folder: &Path, is_meant: NameTest, found: &mut Vec<PathBuf>) -> io::Result<()> {
     let mut entries = fs::read_dir(folder)?.collect::<io::Result<Vec<_>>>()?;
     entries.sort_by_key(fs::DirEntry::file_name);
     for entry in entries {
@@ -86,8 +98,8 @@ fn walk(folder: &Path, found: &mut Vec<PathBuf>) -> io::Result<()> {
             continue;
         }
         if entry.file_type()?.is_dir() {
-            walk(&path, found)?;
-        } else if is_scene_name(&name) && path.is_file() {
+            walk(&path, is_meant, found)?;
+        } else if is_meant(&name) && path.is_file() {
             found.push(path);
         }
     }

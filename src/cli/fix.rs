@@ -2,15 +2,9 @@
 
 use super::args::CheckArgs;
 use super::talk::{self, Talk};
-use super::{Failure, input, output};
-use crate::pipeline::{self, FixedText, Input, NewFile};
-use crate::source::{Loader, SourceMap};
-use similar::TextDiff;
-use std::io;
+use super::{Failure, edit, input, output};
+use crate::pipeline::{self, FixedText, Input};
 use std::path::Path;
-
-/// Lines shown around each change.
-const AROUND: usize = 3;
 
 /// Fixes the scene that was read from `path`, or shows how that would be: the scene as it is then.
 pub(super) fn run(
@@ -37,11 +31,10 @@ pub(super) fn run(
         return Ok(read);
     }
     if args.diff {
-        output::to_stdout(diff(read.name(), text, &fixed.text).as_bytes())?;
+        output::to_stdout(edit::diff(read.name(), text, &fixed.text).as_bytes())?;
         return Ok(read);
     }
-    write(path, text, &fixed.text)
-        .map_err(|error| Failure::Trouble(format!("can't write `{}`: {error}", read.name())))?;
+    edit::write(path, text, &fixed.text)?;
     Ok(Input::edited(path, fixed.text.into_bytes(), options))
 }
 
@@ -73,27 +66,4 @@ fn tell(name: &str, fixed: &FixedText, is_shown: bool) {
             changes(guesses)
         ));
     }
-}
-
-/// The changes as a unified diff.
-fn diff(name: &str, before: &str, after: &str) -> String {
-    let name: String = name
-        .chars()
-        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
-        .collect();
-    TextDiff::from_lines(before, after)
-        .unified_diff()
-        .context_radius(AROUND)
-        .header(&name, &name)
-        .to_string()
-}
-
-/// Puts the text into the file, unless someone else has changed it since it was read.
-fn write(path: &Path, before: &str, after: &str) -> io::Result<()> {
-    let limit = before.len() as u64;
-    let now = Loader.bytes(path, limit, &SourceMap::default());
-    if !now.is_ok_and(|now| now == before.as_bytes()) {
-        return Err(io::Error::other("it has changed since it was read"));
-    }
-    NewFile::save(path, after.as_bytes())
 }

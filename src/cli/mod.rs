@@ -9,9 +9,11 @@ mod check;
 mod compile;
 mod cost;
 mod diff;
+mod edit;
 mod explain;
 mod files;
 mod fix;
+mod fmt;
 mod gate;
 mod info;
 mod input;
@@ -98,6 +100,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     };
     let outcome = match cli.command {
         Command::Check(args) => check::run(&args),
+        Command::Fmt(args) => fmt::run(&args),
         Command::Compile(args) => compile::run(&args),
         Command::Render(args) => render::run(*args, &typed),
         Command::Merge(args) => merge::run(&args),

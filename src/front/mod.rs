@@ -49,6 +49,13 @@ pub fn is_scene_name(name: &str) -> bool {
     })
 }
 
+/// Whether a file of this name is taken for a scene text where files are looked for to lay out.
+#[must_use]
+pub fn is_scene_text_name(name: &str) -> bool {
+    let extension = name.rsplit_once('.').map(|(_, last)| last.to_lowercase());
+    extension.is_some_and(|extension| matches!(extension.as_str(), "yaml" | "yml"))
+}
+
 /// A file asks for more than the budget has.
 fn over_limit(what: &str, fault: &Exceeded) -> Diagnostic {
     Diagnostic::new(

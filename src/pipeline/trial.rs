@@ -20,12 +20,17 @@ use std::path::Path;
 /// The most of anything a scene under trial is rendered with.
 const TINY: u32 = 4;
 
-/// Lowers a text of the course's format.
+/// Lowers a text of the course's format, and lays it out.
 ///
 /// # Panics
-/// If the text is refused without an error.
+/// If the text is refused without an error, or is laid out otherwise the second time.
 pub fn lower(bytes: &[u8]) {
     let (map, file) = source(bytes);
+    if let Ok(text) = course::lay_out(file, &map, &mut Sink::default()) {
+        let (map, file) = source(text.as_bytes());
+        let again = course::lay_out(file, &map, &mut Sink::default());
+        assert_eq!(again, Ok(text), "a layout is laid out already");
+    }
     let mut sink = Sink::default();
     let lowered = course::lower(file, &map, &Options::default().front, &mut sink);
     assert!(

@@ -19,6 +19,7 @@ mod forms;
 mod framing;
 mod info;
 mod interplay;
+mod layouts;
 mod leads;
 mod looks;
 mod mesh;

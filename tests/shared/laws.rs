@@ -1,6 +1,9 @@
-//! The laws of `tests/laws.rs` for the scenes of the course.
+//! The laws of `tests/laws.rs` for the scenes of the course, and that of the layout for those that
+//! people published for it.
 
-use super::every::{is_the_same_in_any_order, makes_the_same_picture_times, powers};
+use super::every::{
+    is_the_same_in_any_order, is_the_same_laid_out, makes_the_same_picture_times, powers,
+};
 use super::scenes::{COURSE, each};
 use super::small::scenes_in;
 use super::suite::shared;
@@ -15,6 +18,14 @@ pub(crate) fn trials() -> Vec<Trial> {
         &["yaml"],
         is_the_same_in_any_order,
     ));
+    for folder in [COURSE, "wild", "wild-2"] {
+        trials.extend(each(
+            "laws: layout",
+            folder,
+            &["yaml", "yml"],
+            is_the_same_laid_out,
+        ));
+    }
     trials
 }
 

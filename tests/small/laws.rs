@@ -3,10 +3,11 @@
 
 use crate::scale::scaled;
 use crate::small::{WHOLE, bits, film, small};
+use rtc::internals::codec::{self, Form};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{self, Lowered, Origins, Scene};
 use rtc::internals::math::ldexp;
-use rtc::internals::pipeline::{self, Options};
+use rtc::internals::pipeline::{self, Input, LaidOutFault, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Geometry, Shear, World, camera_ray, image_point};
 use std::path::Path;
@@ -32,6 +33,26 @@ pub(crate) fn makes_the_same_picture_times(path: &Path, powers: impl Iterator<It
         let other = film(&scaled(&scene, ldexp(1.0, k)), &WHOLE, 0);
         assert!(bits(&other) == picture, "2^{k}: {}", path.display());
     }
+}
+
+/// Of a file: laid out, it says the same, to the last bit of the IR; and it is laid out once for all.
+pub(crate) fn is_the_same_laid_out(path: &Path) {
+    let options = Options::default;
+    let edited = |text: &str| Input::edited(path, text.as_bytes().to_vec(), options());
+    let text = match Input::file(path, options()).lay_out() {
+        Ok(text) => text,
+        // It is no YAML.
+        Err(LaidOutFault::Findings) => return,
+        Err(fault) => panic!("{}: {fault:?}", path.display()),
+    };
+    let again = edited(&text).lay_out();
+    assert_eq!(again.as_ref(), Ok(&text), "{}", path.display());
+    let encoded = |mut input: Input| {
+        let loaded = input.load()?;
+        Some(codec::encode(Form::Binary, &loaded.lowered.scene).unwrap())
+    };
+    let is_same = encoded(Input::file(path, options())) == encoded(edited(&text));
+    assert!(is_same, "{}", path.display());
 }
 
 /// Whether a camera ray of a pixel, of those in a grid, meets two surfaces at the very same t.

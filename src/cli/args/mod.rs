@@ -4,6 +4,7 @@ mod common;
 mod cost;
 mod diff;
 mod farm;
+mod fmt;
 mod look;
 mod merge;
 mod render;
@@ -14,6 +15,7 @@ pub(super) use common::{Color, MessageFormat, Reading, TalkArgs};
 pub(super) use cost::{Cost, StudyFormat};
 pub(super) use diff::Diff;
 pub(super) use farm::{Engine, Farm};
+pub(super) use fmt::Fmt;
 pub(super) use look::{BackgroundArg, BitDepth, LookArgs};
 pub(super) use merge::Merge;
 pub(super) use render::{Pruning, Render, SharedByArg};
@@ -57,6 +59,8 @@ pub(super) struct Cli {
 pub(super) enum Command {
     /// Check scenes and say what is wrong with them
     Check(CheckArgs),
+    /// Lay out scene texts: indentation, blanks and empty lines; comments stay
+    Fmt(Fmt),
     /// Compile a scene to the intermediate representation
     Compile(Compile),
     /// Render a scene to a picture

@@ -9,6 +9,7 @@ mod decode;
 mod display;
 mod environment;
 mod form;
+mod layout;
 mod light;
 mod lower;
 mod material;
@@ -30,6 +31,7 @@ mod texture;
 mod turn;
 mod value;
 
+pub use layout::lay_out;
 pub use lower::{UnfinishedScene, lower};
 pub use page::page;
 pub use schema::schema;

@@ -1,6 +1,6 @@
 //! What the text around a node says, and whether two nodes were written to say the same.
 
-use super::{NodeId, Tree};
+use super::{Form, NodeId, Tree};
 use crate::source::Span;
 
 impl<'s> Tree<'s> {
@@ -24,5 +24,21 @@ impl<'s> Tree<'s> {
                 && self.shape(a) == self.shape(b)
         };
         inside(a).len() == inside(b).len() && inside(a).zip(inside(b)).all(is_same)
+    }
+
+    /// Whether another text says the same: the same nodes with the same texts, aliases of the same.
+    #[must_use]
+    pub fn says_the_same(&self, other: &Tree<'_>) -> bool {
+        let is_same = |id: NodeId| {
+            let (own, its) = (self.node(id), other.node(id));
+            let has_link = matches!(own.form, Form::List | Form::Map | Form::Alias);
+            own.form == its.form
+                && if has_link {
+                    own.link == its.link
+                } else {
+                    self.shape(id) == other.shape(id)
+                }
+        };
+        self.count() == other.count() && self.nodes().all(is_same)
     }
 }

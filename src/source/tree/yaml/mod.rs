@@ -2,10 +2,12 @@
 //! parser.
 
 mod fault;
+mod layout;
 mod mistake;
 mod slip;
 mod text;
 
+pub use layout::{LayoutFault, layout};
 pub use mistake::Mistake;
 
 use super::{Form, Node, NodeId, Tree, inside_quotes, keys, to_u32};

@@ -1,0 +1,26 @@
+//! What `rtc fmt` is told.
+
+use super::TalkArgs;
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Words, their order, comments and where lines end stay as they are; a text that would say something else is left alone. \
+JSON is laid out likewise; assets, meshes and IR are not.\n\n\
+Examples:\n  rtc fmt scene.yaml\n  rtc fmt --check scenes\n  rtc fmt --diff 'scenes/*.yaml'"
+)]
+pub(in crate::cli) struct Fmt {
+    /// Scene texts, as YAML or JSON; folders, all YAML below them; or patterns, as 'a/*.yaml'. `-` is
+    /// standard input, laid out on standard output
+    #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) files: Vec<PathBuf>,
+    /// Write nothing; name the files that are not laid out, and end with 1 if there are any
+    #[arg(long)]
+    pub(in crate::cli) check: bool,
+    /// Write nothing; show what would change
+    #[arg(long)]
+    pub(in crate::cli) diff: bool,
+    #[command(flatten)]
+    pub(in crate::cli) talk: TalkArgs,
+}

@@ -1,0 +1,71 @@
+//! `rtc fmt`: scene texts in the layout of the house, each by itself.
+
+use super::args::{Fmt, Reading};
+use super::talk::{self, Talk};
+use super::{Failure, edit, files, input, output};
+use crate::pipeline::{Input, LaidOutFault};
+use std::path::Path;
+
+/// Lays out the files, or tells which are not laid out.
+pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
+    let mut talk = Talk::beside_result(&args.talk);
+    let mut worst = Ok(());
+    for path in files::texts(&args.files)? {
+        match one(&path, args, &mut talk) {
+            Err(gone @ Failure::ClosedPipe) => return Err(gone),
+            Err(Failure::Trouble(words)) => {
+                talk::say(&format!("error: {words}"));
+                worst = Err(Failure::Unreadable);
+            }
+            Err(Failure::Input(words)) => {
+                talk::say(&format!("error: {words}"));
+                worst = worst.and(Err(Failure::Findings));
+            }
+            Err(Failure::Findings) => worst = worst.and(Err(Failure::Findings)),
+            Err(failure) => worst = Err(failure),
+            Ok(()) => {}
+        }
+    }
+    talk.finish()?;
+    worst
+}
+
+fn one(path: &Path, args: &Fmt, talk: &mut Talk) -> Result<(), Failure> {
+    let mut input = input::read(path, &Reading::default());
+    let laid_out = input.lay_out();
+    input::tell(&mut input, talk)?;
+    let text = laid_out.map_err(|fault| refusal(&input, fault))?;
+    let before = input.text().unwrap_or_default();
+    let is_stdin = path.as_os_str() == "-";
+    let is_same = before == text;
+    if args.diff && !is_same {
+        output::to_stdout(edit::diff(input.name(), before, &text).as_bytes())?;
+    } else if args.check && !is_same {
+        output::to_stdout(format!("{}\n", input.name()).as_bytes())?;
+    } else if is_stdin && !args.diff && !args.check {
+        output::to_stdout(text.as_bytes())?;
+    } else if !is_same {
+        edit::write(path, before, &text)?;
+        if !talk.is_quiet() {
+            talk::say(&format!("{}: laid out", input.name()));
+        }
+    }
+    match args.check && !is_same {
+        true => Err(Failure::Findings),
+        false => Ok(()),
+    }
+}
+
+/// Why a scene is left as it is.
+fn refusal(input: &Input, fault: LaidOutFault) -> Failure {
+    let name = input.name();
+    Failure::Input(match fault {
+        LaidOutFault::Findings => return Failure::Findings,
+        LaidOutFault::NoText => {
+            format!("`{name}` is left as it is: only scene texts, YAML and JSON, are laid out")
+        }
+        LaidOutFault::Differs => {
+            format!("`{name}` is left as it is: laid out, it would say something else")
+        }
+    })
+}

@@ -1,0 +1,20 @@
+//! The text of a scene in the layout of the house.
+
+use super::syntax;
+use crate::diag::Sink;
+use crate::source::tree::yaml::{self, LayoutFault, Mistake};
+use crate::source::{FileId, SourceMap};
+
+/// The text of a file as it is laid out. What is wrong with it is told only if there is no tree.
+///
+/// # Errors
+/// If there is no tree, or no layout that says the same.
+pub fn lay_out(file: FileId, map: &SourceMap, sink: &mut Sink) -> Result<String, LayoutFault> {
+    let mut found = Vec::new();
+    let tell = &mut |mistake: Mistake<'_>| found.push(syntax::finding(mistake));
+    let laid_out = yaml::layout(file, map.bytes(file), tell);
+    if laid_out == Err(LayoutFault::Mistakes) {
+        found.into_iter().for_each(|finding| sink.push(finding));
+    }
+    laid_out
+}

@@ -1,0 +1,48 @@
+//! The text of a scene as it is laid out; scenes that are no texts of people are not.
+
+use super::Input;
+use crate::front::course;
+use crate::front::{self, gltf, mesh};
+use crate::source::tree::yaml::LayoutFault;
+use crate::{codec, diag};
+
+/// Why a scene is not laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LaidOutFault {
+    /// What is wrong with it is among the findings.
+    Findings,
+    /// It is an asset, a mesh or IR.
+    NoText,
+    /// It would say something else.
+    Differs,
+}
+
+impl Input {
+    /// The text in the layout of the house. Nothing is written.
+    ///
+    /// # Errors
+    /// If it has none.
+    pub fn lay_out(&mut self) -> Result<String, LaidOutFault> {
+        let file = self.file_id().ok_or(LaidOutFault::Findings)?;
+        let (name, bytes) = (self.map().name(file), self.map().bytes(file));
+        if let Some(finding) = front::foreign(name, bytes) {
+            self.push(finding);
+            return Err(LaidOutFault::Findings);
+        }
+        let is_other = codec::recognise(bytes).is_some()
+            || gltf::recognise(name, bytes)
+            || mesh::recognise(name, bytes);
+        if is_other {
+            return Err(LaidOutFault::NoText);
+        }
+        let mut sink = diag::Sink::default();
+        let laid_out = course::lay_out(file, self.map(), &mut sink);
+        for finding in sink.kept() {
+            self.push(finding.clone());
+        }
+        laid_out.map_err(|fault| match fault {
+            LayoutFault::Mistakes => LaidOutFault::Findings,
+            LayoutFault::Differs => LaidOutFault::Differs,
+        })
+    }
+}
