@@ -29,7 +29,7 @@ pub use part::{MOST as MOST_SHARES, PartError, PicturePart, hash_of_file};
 pub use setup::{Observer, PictureSetup, RenderError, RenderSubject};
 pub use share::{SharedBy, Shares};
 
-use crate::diag::{Diagnostic, Sink, clip, codes};
+use crate::diag::{Diagnostic, FindingLevels, Sink, clip, codes};
 use crate::front::course::assets::{self, Asset};
 use crate::front::{course, gltf, mesh};
 use crate::image::Layers;
@@ -55,6 +55,15 @@ pub struct Options {
     pub front: front::FrontOptions,
     /// What the proof lets pass.
     pub valid: valid::ProofOptions,
+    /// What is made of findings.
+    pub levels: FindingLevels,
+}
+
+impl Options {
+    /// An empty sink.
+    fn sink(&self) -> Sink {
+        Sink::within(&self.valid.limits).with_levels(self.levels.clone())
+    }
 }
 
 /// Reads a scene in any form: the course's YAML, glTF, a mesh, or the text or binary form of the IR,

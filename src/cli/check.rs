@@ -15,7 +15,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let mut worst = Ok(());
     let scenes = files::scenes(&args.files)?;
     for path in &scenes {
-        let read = input::read(path, &args.reading);
+        let read = input::read(path, &args.reading)?;
         let mut input = match fix::run(path, read, args, &talk) {
             Ok(input) => input,
             Err(Failure::Trouble(words)) => {

@@ -22,7 +22,7 @@ pub(super) fn run(
             "standard input can't be fixed; give a file, or `--diff`".to_owned(),
         ));
     }
-    let options = input::options(&args.reading);
+    let options = input::options(&args.reading)?;
     let fixed = pipeline::fix(path, text, &options, args.guesses);
     if !talk.is_quiet() {
         tell(read.name(), &fixed, args.diff);

@@ -31,7 +31,7 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
 }
 
 fn one(path: &Path, args: &Fmt, talk: &mut Talk) -> Result<(), Failure> {
-    let mut input = input::read(path, &Reading::default());
+    let mut input = input::read(path, &Reading::default())?;
     let laid_out = input.lay_out();
     input::tell(&mut input, talk)?;
     let text = laid_out.map_err(|fault| refusal(&input, fault))?;

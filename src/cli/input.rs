@@ -11,19 +11,19 @@ use std::io;
 use std::path::Path;
 
 /// Reads the file at `path`, or standard input if it is `-`.
-pub(super) fn read(path: &Path, reading: &Reading) -> Input {
-    let options = options(reading);
-    if path.as_os_str() == "-" {
+pub(super) fn read(path: &Path, reading: &Reading) -> Result<Input, Failure> {
+    let options = options(reading)?;
+    Ok(if path.as_os_str() == "-" {
         let name = &reading.stdin_name;
         let name = name.clone().unwrap_or_else(|| "<stdin>".to_owned());
         Input::reader(name, io::stdin().lock(), options)
     } else {
         Input::file(path, options)
-    }
+    })
 }
 
 /// How an input is read.
-pub(super) fn options(reading: &Reading) -> Options {
+pub(super) fn options(reading: &Reading) -> Result<Options, Failure> {
     let Reading {
         stdin_name: _,
         strict,
@@ -33,10 +33,13 @@ pub(super) fn options(reading: &Reading) -> Options {
         animation,
         variant,
         camera,
+        allow: _,
+        warn: _,
+        deny: _,
         limit: _,
         allow_huge: _,
     } = reading;
-    Options {
+    Ok(Options {
         front: front::FrontOptions {
             strict: *strict,
             lenient: *lenient,
@@ -51,7 +54,8 @@ pub(super) fn options(reading: &Reading) -> Options {
         valid: valid::ProofOptions {
             limits: reading.limits(),
         },
-    }
+        levels: reading.levels().map_err(Failure::Trouble)?,
+    })
 }
 
 /// Reads the file at `path`, or standard input if it is `-`, to be shown in the view and the
@@ -75,7 +79,7 @@ pub(super) fn staged(
         ground,
         integrator,
     } = stage;
-    let mut input = read(path, reading);
+    let mut input = read(path, reading)?;
     let environment = match env {
         Some(path) => input.environment(path).map_err(Failure::Trouble)?,
         None => env_color.map(EnvironmentOverride::Color),

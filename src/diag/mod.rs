@@ -6,11 +6,15 @@
 
 mod clip;
 pub mod codes;
+mod levels;
+mod nearest;
 mod print;
 mod sink;
 
 pub use clip::{clip, clip_path, clip_words};
 pub use codes::{Code, Severity};
+pub use levels::{FindingLevel, FindingLevels, LevelSubject};
+pub use nearest::nearest;
 pub use print::{Format, PrintOptions, Printer, one};
 pub use sink::Sink;
 

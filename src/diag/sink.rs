@@ -1,7 +1,7 @@
 //! The sink: collects findings, counts errors, and keeps no more than a hostile file can be allowed
 //! to make.
 
-use super::{Diagnostic, Severity};
+use super::{Code, Diagnostic, FindingLevels, Severity};
 use crate::source::{Limits, Resource};
 
 /// Where every stage pushes its findings.
@@ -12,6 +12,7 @@ pub struct Sink {
     kept: Vec<Diagnostic>,
     errors: usize,
     dropped: usize,
+    levels: FindingLevels,
 }
 
 impl Default for Sink {
@@ -30,22 +31,37 @@ impl Sink {
             kept: Vec::new(),
             errors: 0,
             dropped: 0,
+            levels: FindingLevels::default(),
         }
+    }
+
+    /// The same with levels for what it takes from now on.
+    #[must_use]
+    pub fn with_levels(self, levels: FindingLevels) -> Self {
+        Self { levels, ..self }
     }
 
     /// Takes one finding. An error always finds a place among the first of its kind, however many
     /// notes came before.
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        self.push_with(diagnostic.severity, || diagnostic);
+        self.push_with(diagnostic.code, diagnostic.severity, || diagnostic);
     }
 
-    /// Takes one finding of this severity, which is made only if it is kept: a flood of them costs
-    /// little.
-    pub fn push_with(&mut self, severity: Severity, make: impl FnOnce() -> Diagnostic) {
+    /// Takes one finding of this code and severity, which is made only if it is kept: a flood of them
+    /// costs little.
+    pub fn push_with(
+        &mut self,
+        code: &Code,
+        severity: Severity,
+        make: impl FnOnce() -> Diagnostic,
+    ) {
+        let Some(severity) = self.levels.of(code, severity) else {
+            return;
+        };
         let first_error = severity == Severity::Error && self.errors == 0;
         self.errors += usize::from(severity == Severity::Error);
         if self.kept.len() < self.capacity || first_error {
-            self.kept.push(make());
+            self.kept.push(make().severity(severity));
         } else {
             self.dropped += 1;
         }
@@ -82,8 +98,62 @@ impl Sink {
 
 #[cfg(test)]
 mod tests {
-    use super::super::codes;
+    use super::super::{FindingLevel, LevelSubject, codes};
     use super::*;
+
+    #[test]
+    fn levels_change_what_is_taken_and_make_no_error_less() {
+        let mut levels = FindingLevels::default();
+        let of = |code| LevelSubject::Code(code);
+        assert!(
+            levels
+                .set(of(&codes::NOT_UTF8), FindingLevel::Allow)
+                .is_err()
+        );
+        assert_eq!(
+            levels.set(LevelSubject::Warnings, FindingLevel::Deny),
+            Ok(())
+        );
+        assert_eq!(
+            levels.set(of(&codes::UNKNOWN_KEY), FindingLevel::Allow),
+            Ok(())
+        );
+        assert_eq!(levels.set(of(&codes::TAG), FindingLevel::Warn), Ok(()));
+        assert!(levels.set(of(&codes::TAG), FindingLevel::Deny).is_err());
+        let mut levels = FindingLevels::default();
+        levels
+            .set(LevelSubject::Warnings, FindingLevel::Deny)
+            .unwrap();
+        levels
+            .set(of(&codes::UNKNOWN_KEY), FindingLevel::Allow)
+            .unwrap();
+        levels.set(of(&codes::TAG), FindingLevel::Warn).unwrap();
+        let mut sink = Sink::default().with_levels(levels);
+        let made = |code, severity| Diagnostic::new(code, "x").severity(severity);
+        for (code, severity) in [
+            (&codes::UNKNOWN_KEY, Severity::Warning),
+            (&codes::UNKNOWN_KEY, Severity::Error),
+            (&codes::TAG, Severity::Note),
+            (&codes::DUPLICATE_KEY, Severity::Warning),
+            (&codes::DUPLICATE_KEY, Severity::Note),
+        ] {
+            sink.push(made(code, severity));
+        }
+        let kept: Vec<_> = sink
+            .kept()
+            .iter()
+            .map(|own| (own.code.id, own.severity))
+            .collect();
+        let [key, tag, twice] = [&codes::UNKNOWN_KEY, &codes::TAG, &codes::DUPLICATE_KEY];
+        let wanted = [
+            (key.id, Severity::Error),
+            (tag.id, Severity::Warning),
+            (twice.id, Severity::Error),
+            (twice.id, Severity::Note),
+        ];
+        assert_eq!(kept, wanted);
+        assert_eq!(sink.errors, 2);
+    }
 
     #[test]
     fn a_flood_of_warnings_hides_no_error() {

@@ -95,7 +95,7 @@ impl Input {
         read: impl FnOnce(&str, &mut SourceMap) -> Result<FileId, LoadError>,
     ) -> Self {
         let limits = options.valid.limits;
-        let (mut map, mut sink) = (SourceMap::with_limits(limits), Sink::within(&limits));
+        let (mut map, mut sink) = (SourceMap::with_limits(limits), options.sink());
         let file = read(&name, &mut map);
         let file = file
             .map_err(|error| sink.push(unreadable(&name, &error)))
@@ -253,7 +253,7 @@ impl Input {
 
     /// What was found since the last time.
     pub fn take_findings(&mut self) -> Sink {
-        std::mem::replace(&mut self.sink, Sink::within(&self.options.valid.limits))
+        std::mem::replace(&mut self.sink, self.options.sink())
     }
 
     /// Puts what was found before in place of what was found since.

@@ -21,6 +21,7 @@ mod info;
 mod interplay;
 mod layouts;
 mod leads;
+mod levels;
 mod looks;
 mod mesh;
 mod numbers;

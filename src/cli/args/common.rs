@@ -1,7 +1,7 @@
 //! What every command with a scene is told: how to read it, and how to tell findings.
 
 use super::super::parse::{folder, limit, moment};
-use crate::diag;
+use crate::diag::{self, FindingLevel, FindingLevels, LevelSubject};
 use crate::source::{Limits, Resource};
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
@@ -35,6 +35,15 @@ pub(in crate::cli) struct Reading {
     /// that shows anything]
     #[arg(long, value_name = "NAME|INDEX")]
     pub(in crate::cli) camera: Option<String>,
+    /// Do not tell findings of this code, as VA004, or no `warnings`; errors are always told
+    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse)]
+    pub(in crate::cli) allow: Vec<LevelSubject>,
+    /// Make findings of this code warnings; what has a code of its own here is no matter of `warnings`
+    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse)]
+    pub(in crate::cli) warn: Vec<LevelSubject>,
+    /// Make findings of this code, or all `warnings`, errors
+    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse)]
+    pub(in crate::cli) deny: Vec<LevelSubject>,
     /// Set a limit on what the run may take, as memory=2GiB; `rtc schema limits` lists them
     #[arg(long, value_name = "NAME=NUMBER", value_parser = limit)]
     pub(in crate::cli) limit: Vec<(Resource, u64)>,
@@ -44,6 +53,23 @@ pub(in crate::cli) struct Reading {
 }
 
 impl Reading {
+    /// What is made of findings.
+    pub(in crate::cli) fn levels(&self) -> Result<FindingLevels, String> {
+        let mut levels = FindingLevels::default();
+        for level in FindingLevel::ALL {
+            let subjects = match level {
+                FindingLevel::Allow => &self.allow,
+                FindingLevel::Warn => &self.warn,
+                FindingLevel::Deny => &self.deny,
+            };
+            for subject in subjects {
+                let set = levels.set(*subject, level);
+                set.map_err(|words| format!("`--{}`: {words}", level.name()))?;
+            }
+        }
+        Ok(levels)
+    }
+
     /// What the run may take.
     pub(in crate::cli) fn limits(&self) -> Limits {
         let mut limits = if self.allow_huge {

@@ -4,8 +4,8 @@
 use super::decode::{Context, MapEntry, ValueKey, describe};
 use super::form;
 use super::record::{Field, FieldOutcome, Need, Record, Slot};
-use super::spelling::{is_same_but_for_signs, list, nearest};
-use crate::diag::{Diagnostic, clip, codes};
+use super::spelling::{is_same_but_for_signs, list};
+use crate::diag::{Diagnostic, clip, codes, nearest};
 use crate::source::Span;
 use crate::source::tree::NodeId;
 use std::collections::BTreeSet;

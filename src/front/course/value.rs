@@ -4,9 +4,9 @@ use super::decode::{Context, Value, describe};
 use super::meant::listed;
 use super::number::{in_radians, is_number, json_number, number, plain_number};
 use super::schema::Definitions;
-use super::spelling::{list, nearest};
-use crate::diag::clip;
+use super::spelling::list;
 use crate::diag::codes;
+use crate::diag::{clip, nearest};
 use crate::source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 

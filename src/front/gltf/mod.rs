@@ -179,7 +179,8 @@ fn not_json(span: Span, message: &str) -> Diagnostic {
 
 fn check_keys(tree: &Tree<'_>, sink: &mut Sink) {
     for (first, second) in tree.duplicate_keys() {
-        sink.push_with(codes::GLTF_KEY_TWICE.severity, || {
+        let code = &codes::GLTF_KEY_TWICE;
+        sink.push_with(code, code.severity, || {
             let key = report::shown(tree.text(*second).unwrap_or_default());
             let message = format!("the key `{key}` stands twice in one object");
             let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message)

@@ -127,7 +127,7 @@ impl<'r, 's> AssetReport<'r, 's> {
         hint: Option<String>,
     ) {
         let json = self.json;
-        self.sink.push_with(severity, || {
+        self.sink.push_with(code, severity, || {
             let finding = finding(json, (code, severity), alias, at, message);
             match hint {
                 Some(hint) => finding.hint(hint),

@@ -18,8 +18,7 @@ pub use dress::{Dress, Dressing};
 
 use super::lower::UnfinishedScene;
 use super::object;
-use super::spelling::nearest;
-use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
+use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes, nearest};
 use crate::front::FrontOptions;
 use crate::image::Opacity;
 use crate::ir::{Field, ImageId, Lowered, MeshId, Noun, Photometry, Place};
