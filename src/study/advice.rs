@@ -12,17 +12,8 @@ const ENOUGH: f64 = 0.5;
 
 /// One sentence per line. The first is the main advice.
 pub(super) fn advice(study: &Study) -> Vec<String> {
-    let front: Vec<_> = study
-        .rows
-        .iter()
-        .filter(|row| row.front)
-        .map(|row| steady(study, row))
-        .collect();
-    let Some(chosen) = front
-        .iter()
-        .position(|row| row.errors.rmse_high <= ENOUGH)
-        .or(front.len().checked_sub(1))
-    else {
+    let front = front(study);
+    let Some(chosen) = chosen(&front) else {
         return Vec::new();
     };
     let mut lines = vec![best(study, &front[chosen..])];
@@ -34,6 +25,37 @@ pub(super) fn advice(study: &Study) -> Vec<String> {
             .push("Rows with ≤ are as good as the reference, which can't tell them apart; more effort can.".to_owned());
     }
     lines
+}
+
+/// The rows of the front.
+fn front(study: &Study) -> Vec<&Row> {
+    let rows = study.rows.iter().filter(|row| row.front);
+    rows.map(|row| steady(study, row)).collect()
+}
+
+/// The place of the row that is recommended: the first whose error is surely invisible, or the last.
+fn chosen(front: &[&Row]) -> Option<usize> {
+    front
+        .iter()
+        .position(|row| row.errors.rmse_high <= ENOUGH)
+        .or(front.len().checked_sub(1))
+}
+
+/// The command that renders the scene in the setting that is recommended.
+pub(super) fn command(study: &Study) -> Option<String> {
+    let front = front(study);
+    let row = front[chosen(&front)?];
+    let own = study.own()?.setting;
+    let is_plain = |letter: char| letter.is_alphanumeric() || "._-".contains(letter);
+    let name = match study.about.scene.as_str() {
+        "" => "SCENE",
+        name if name.chars().all(is_plain) => name,
+        _ => "SCENE",
+    };
+    let flags = study.used().into_iter();
+    let flags = flags.filter(|knob| row.setting.get(*knob) != own.get(*knob));
+    let flags = flags.map(|knob| format!(" {} {}", knob.flag(), knob.cell(row.setting.get(knob))));
+    Some(format!("rtc render {name}{}", flags.collect::<String>()))
 }
 
 /// How many paths an error takes that an eye can hardly tell: by the error of the scene's own number,

@@ -53,6 +53,20 @@ impl Knob {
         }
     }
 
+    /// The flag of `rtc render` that turns it.
+    #[must_use]
+    pub fn flag(self) -> &'static str {
+        match self {
+            Self::Supersampling => "--supersampling",
+            Self::Aperture => "--aperture-samples",
+            Self::Lights => "--light-samples",
+            Self::Glossy => "--glossy-samples",
+            Self::Paths => "--spp",
+            Self::Depth => "--depth",
+            Self::Precision => "--arithmetic",
+        }
+    }
+
     /// The short name.
     #[must_use]
     pub fn short(self) -> &'static str {

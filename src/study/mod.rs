@@ -152,9 +152,11 @@ pub fn study(
         precision,
         wall_over_cpu,
         advice: Vec::new(),
+        command: None,
         truth: context.reference.tiles,
     };
     study.advice = advice::advice(&study);
+    study.command = advice::command(&study);
     Ok(study)
 }
 

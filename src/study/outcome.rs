@@ -192,6 +192,9 @@ pub struct Study {
     pub wall_over_cpu: f64,
     /// The advice, in plain words.
     pub advice: Vec<String>,
+    /// The command that renders the setting that is recommended.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub command: Option<String>,
     /// The pixels of the reference.
     #[serde(skip)]
     pub(super) truth: Vec<Image>,

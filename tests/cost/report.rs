@@ -74,6 +74,35 @@ fn advice_names_a_row_and_judges_the_scenes_own() {
     );
 }
 
+/// The command of the main advice names what is other than in the scene, and is one line of table and page.
+#[test]
+fn the_recommended_setting_has_a_command() {
+    let command = WHOLE.command.as_ref().unwrap();
+    let own = WHOLE.own().unwrap().setting;
+    let words = command.strip_prefix("rtc render SCENE ").unwrap();
+    let mut setting = own;
+    for flag in words.split_whitespace().collect::<Vec<_>>().chunks(2) {
+        let knob = Knob::ALL
+            .into_iter()
+            .find(|knob| knob.flag() == flag[0])
+            .unwrap();
+        let value = (0..200).find(|value| knob.cell(*value) == flag[1]).unwrap();
+        assert!(own.get(knob) != value, "{command}");
+        setting = setting.with(knob, value);
+    }
+    let used = WHOLE.used();
+    assert!(
+        WHOLE.advice[0].starts_with(&format!("{}:", setting.words(&used))),
+        "{command}"
+    );
+    assert!(
+        study::table(&WHOLE)
+            .lines()
+            .any(|line| line.trim() == command)
+    );
+    assert!(study::html(&WHOLE).contains(&format!("<code>{command}</code>")));
+}
+
 /// Twenty studies by clocks that are off by up to a half recommend the same row, as they would by a
 /// clock that is right, and none has a front that rises.
 #[test]

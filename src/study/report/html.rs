@@ -25,11 +25,12 @@ pub fn html(study: &Study) -> String {
         pictures(study),
         fine_print(study),
     ];
-    let advice: String = study
-        .advice
-        .iter()
-        .map(|line| format!("<p>{}</p>\n", escaped(line)))
-        .collect();
+    let lines = study.advice.iter().map(|line| paragraph(&escaped(line)));
+    let command = study.command.iter().map(|command| {
+        let words = "One click marks the command of the first line, to be copied:";
+        paragraph(&format!("{words} <code>{}</code>", escaped(command)))
+    });
+    let advice: String = lines.chain(command).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
@@ -37,6 +38,10 @@ pub fn html(study: &Study) -> String {
          </body>\n</html>\n",
         sections.concat()
     )
+}
+
+fn paragraph(inner: &str) -> String {
+    format!("<p>{inner}</p>\n")
 }
 
 fn front(study: &Study) -> String {

@@ -36,10 +36,13 @@ pub fn table(study: &Study) -> String {
     text += &more_bounces(study.bounces.as_ref());
     text += &effects(study);
     text += "\n";
-    study
-        .advice
-        .iter()
-        .for_each(|advice| text += &wrapped(advice));
+    for (place, advice) in study.advice.iter().enumerate() {
+        text += &wrapped(advice);
+        // The first is the main advice. Its command is one line, to be copied.
+        if let (0, Some(command)) = (place, &study.command) {
+            let _ = writeln!(text, "  {command}");
+        }
+    }
     if study.wall_over_cpu > 1.2 {
         let times = study.wall_over_cpu;
         let note = format!(
