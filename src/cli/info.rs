@@ -141,7 +141,9 @@ fn bounds(scene: &Scene) -> Value {
         shape.corners_around(&boxes, &mut |at| (low, high) = (low.min(at), high.max(at)));
     }
     if low.is_finite() && high.is_finite() {
-        json!({ "low": low.to_array(), "high": high.to_array() })
+        // What is added makes a plain 0 of −0.
+        let point = |at: Vec3| (at + Vec3::ZERO).to_array();
+        json!({ "low": point(low), "high": point(high) })
     } else {
         Value::Null
     }
