@@ -20,7 +20,7 @@ pub mod trial;
 pub use exposure::OwnLight;
 #[cfg(not(target_family = "wasm"))]
 pub use file::{NewFile, NewFolder, WriteObserver};
-pub use fix::{FixedText, fix};
+pub use fix::{Complaint, FixWish, FixedText, complaint, fix};
 pub use input::{Input, Loaded, Proven, Provenance};
 pub use layout::LaidOutFault;
 pub use look::{Exposure, OutputFormat, OutputLook, SettledLook};

@@ -3,7 +3,7 @@
 use super::args::CheckArgs;
 use super::talk::{self, Talk};
 use super::{Failure, edit, input, output};
-use crate::pipeline::{self, FixedText, Input};
+use crate::pipeline::{self, FixWish, FixedText, Input};
 use std::path::Path;
 
 /// Fixes the scene that was read from `path`, or shows how that would be: the scene as it is then.
@@ -23,7 +23,11 @@ pub(super) fn run(
         ));
     }
     let options = input::options(&args.reading)?;
-    let fixed = pipeline::fix(path, text, &options, args.guesses);
+    let wish = FixWish {
+        guesses: args.guesses,
+        only: None,
+    };
+    let fixed = pipeline::fix(path, text, &options, &wish);
     if !talk.is_quiet() {
         tell(read.name(), &fixed, args.diff);
     }

@@ -22,6 +22,7 @@ mod lead;
 mod merge;
 mod output;
 mod parse;
+mod preview;
 mod progress;
 mod render;
 mod report;
@@ -103,6 +104,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Fmt(args) => fmt::run(&args),
         Command::Compile(args) => compile::run(&args),
         Command::Render(args) => render::run(*args, &typed),
+        Command::Preview(args) => preview::run(&args),
         Command::Merge(args) => merge::run(&args),
         Command::Farm(args) => batch::run(&args),
         Command::Cost(args) => cost::run(&args),

@@ -98,6 +98,24 @@ struct Row {
 }
 
 impl Row {
+    /// That of a verdict, with the rays that it takes and saves.
+    fn new(verdict: &Verdict, [costs, saves]: [u64; 2], proven: &Proven, input: &Input) -> Self {
+        let spans = verdict
+            .facts
+            .iter()
+            .filter_map(|place| proven.lowered.origins.span(*place));
+        let lines = spans.map(|span| input.line(span));
+        let mut places: Vec<_> = lines.map(|(file, line)| at(file, line)).collect();
+        places.dedup();
+        Self {
+            verdict: verdict.clone(),
+            places,
+            of: verdict.of.map(|place| place.to_string()),
+            costs,
+            saves,
+        }
+    }
+
     /// The lines of the table, with `about` before counts.
     fn lines(&self, about: &str) -> String {
         let rays = |count: u64| match count {
@@ -144,24 +162,12 @@ impl PlanReport {
             } else {
                 0
             };
-            let spans = verdict
-                .facts
-                .iter()
-                .filter_map(|place| proven.lowered.origins.span(*place));
-            let lines = spans.map(|span| input.line(span));
-            let mut places: Vec<_> = lines.map(|(file, line)| at(file, line)).collect();
-            places.dedup();
-            Ok(Row {
-                verdict: verdict.clone(),
-                places,
-                of: verdict.of.map(|place| place.to_string()),
-                costs: if is_whole {
-                    planned.of(verdict.effect)
-                } else {
-                    0
-                },
-                saves,
-            })
+            let costs = if is_whole {
+                planned.of(verdict.effect)
+            } else {
+                0
+            };
+            Ok(Row::new(verdict, [costs, saves], proven, input))
         };
         Ok(Self {
             kernel: kernel(&plan),
@@ -174,6 +180,14 @@ impl PlanReport {
                 .collect::<Result<_, Failure>>()?,
             counter: counter.sampled,
         })
+    }
+
+    /// The verdicts of a plan as a table, without counts.
+    pub(super) fn verdicts(proven: &Proven, input: &Input) -> String {
+        let plan = Plan::new(&proven.scene, Rules::ALL);
+        let row = |verdict: &Verdict| Row::new(verdict, [0; 2], proven, input);
+        let lines = plan.verdicts.iter().map(|verdict| row(verdict).lines(""));
+        lines.collect()
     }
 
     /// The report in the form asked for.

@@ -30,14 +30,22 @@ pub struct FixedText {
     pub guesses: usize,
 }
 
-/// Obeys what is proposed for a text that stands at `path`, guesses only if they are wanted. Nothing
-/// is written.
+/// Which of the changes that are proposed are wanted.
+#[derive(Clone, Debug, Default)]
+pub struct FixWish {
+    /// Also those that only guess what was meant.
+    pub guesses: bool,
+    /// Those for findings like this one alone.
+    pub only: Option<Complaint>,
+}
+
+/// Obeys what is proposed for a text that stands at `path`, as far as it is wanted. Nothing is written.
 #[must_use]
-pub fn fix(path: &Path, text: &str, options: &Options, with_guesses: bool) -> FixedText {
+pub fn fix(path: &Path, text: &str, options: &Options, wish: &FixWish) -> FixedText {
     let mut workshop = Workshop {
         path,
         options,
-        with_guesses,
+        wish,
         checks: 0,
     };
     let mut best = workshop.check(text.to_owned(), 0);
@@ -52,8 +60,8 @@ pub fn fix(path: &Path, text: &str, options: &Options, with_guesses: bool) -> Fi
     }
 }
 
-/// What says what is wrong, wherever it is.
-type Complaint = (Severity, &'static str, String);
+/// What says what is wrong, wherever it is: severity, code and message.
+pub type Complaint = (Severity, &'static str, String);
 
 /// A text and what was found in it.
 struct FixDraft {
@@ -83,7 +91,7 @@ struct Edit {
 struct Workshop<'w> {
     path: &'w Path,
     options: &'w Options,
-    with_guesses: bool,
+    wish: &'w FixWish,
     checks: usize,
 }
 
@@ -117,19 +125,23 @@ impl Workshop<'_> {
 
     /// Adds what a finding proposes for the text itself: the first that is wanted.
     fn propose(&self, finding: &Diagnostic, input: &Input, draft: &mut FixDraft) {
+        let complaint = complaint(finding);
+        if self.wish.only.as_ref().is_some_and(|own| *own != complaint) {
+            return;
+        }
         let proposed = finding.hints.iter();
         let mut proposed = proposed
             .filter_map(|hint| hint.replacement.as_ref())
             .filter(|change| Some(change.span.file) == input.file_id())
             .peekable();
         let is_any = proposed.peek().is_some();
-        let wanted = proposed.find(|change| self.with_guesses || !change.is_guess);
+        let wanted = proposed.find(|change| self.wish.guesses || !change.is_guess);
         draft.guesses += usize::from(is_any && wanted.is_none());
         draft.edits.extend(wanted.map(|change| Edit {
             start: change.span.start as usize,
             end: change.span.end as usize,
             text: change.text.clone(),
-            complaint: complaint(finding),
+            complaint: complaint.clone(),
         }));
     }
 
@@ -204,6 +216,8 @@ impl FixDraft {
     }
 }
 
-fn complaint(finding: &Diagnostic) -> Complaint {
+/// What a finding says is wrong.
+#[must_use]
+pub fn complaint(finding: &Diagnostic) -> Complaint {
     (finding.severity, finding.code.id, finding.message.clone())
 }

@@ -282,6 +282,12 @@ impl Input {
         is_asset.then(|| gltf::summary(file, &self.map))?
     }
 
+    /// Whether a span is of the text of the scene itself, not of a file that it names.
+    #[must_use]
+    pub fn is_own(&self, span: Span) -> bool {
+        self.file == Some(span.file) && self.text().is_some()
+    }
+
     /// The file of the scene, unless it could not be read.
     pub(super) fn file_id(&self) -> Option<FileId> {
         self.file

@@ -105,6 +105,13 @@ impl SourceMap {
         fs::canonicalize(path).is_ok_and(|path| read.contains(&path))
     }
 
+    /// The files that were read, free of links.
+    #[must_use]
+    pub fn paths_read(&self) -> Vec<PathBuf> {
+        let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.iter().cloned().collect()
+    }
+
     /// Adds a file and returns its handle.
     ///
     /// # Panics

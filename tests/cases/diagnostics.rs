@@ -193,8 +193,12 @@ fn fixed(case: &Path) -> usize {
     };
     let before = count(text);
     let fix = |guesses| {
-        let fixed = pipeline::fix(case, text, &options, guesses);
-        let again = pipeline::fix(case, &fixed.text, &options, guesses);
+        let wish = pipeline::FixWish {
+            guesses,
+            only: None,
+        };
+        let fixed = pipeline::fix(case, text, &options, &wish);
+        let again = pipeline::fix(case, &fixed.text, &options, &wish);
         let name = case.display();
         assert_eq!((again.changes, &again.text), (0, &fixed.text), "{name}");
         assert_eq!(fixed.changes > 0, fixed.text != text, "{name}");

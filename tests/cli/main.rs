@@ -28,6 +28,8 @@ mod numbers;
 #[cfg(unix)]
 mod outputs;
 mod parts;
+#[cfg(unix)]
+mod preview;
 mod rays;
 mod render;
 mod reports;

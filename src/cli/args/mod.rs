@@ -7,6 +7,7 @@ mod farm;
 mod fmt;
 mod look;
 mod merge;
+mod preview;
 mod render;
 mod stage;
 mod wanted;
@@ -18,6 +19,7 @@ pub(super) use farm::{Engine, Farm};
 pub(super) use fmt::Fmt;
 pub(super) use look::{BackgroundArg, BitDepth, LookArgs};
 pub(super) use merge::Merge;
+pub(super) use preview::Preview;
 pub(super) use render::{Pruning, Render, SharedByArg};
 pub(super) use stage::{GroundArg, StageArgs};
 pub(super) use wanted::{ArithmeticArg, WantedArgs};
@@ -65,6 +67,8 @@ pub(super) enum Command {
     Compile(Compile),
     /// Render a scene to a picture
     Render(Box<Render>),
+    /// Show a scene on a page of this machine while it is edited
+    Preview(Box<Preview>),
     /// Merge parts of a picture, rendered by `rtc render --part`, into the picture
     Merge(Merge),
     /// Write a picture in parts as a job for an engine that runs jobs on many machines

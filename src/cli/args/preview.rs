@@ -1,0 +1,39 @@
+//! What `rtc preview` is told.
+
+use super::{LookArgs, Reading, StageArgs, TalkArgs, WantedArgs};
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The page is for this machine alone, and for who has its address. The finished picture has the bytes of `rtc render` with the \
+same options. Ctrl-C ends it.\n\n\
+Examples:\n  rtc preview scene.yaml --open\n  rtc preview scene.yaml --size 320x240 --port 8080\n  rtc preview scene.yaml --against golden.png"
+)]
+pub(in crate::cli) struct Preview {
+    /// The scene, as YAML, glTF, a mesh or IR
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) file: PathBuf,
+    /// The port to listen on; 0 is any that is free
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(in crate::cli) port: u16,
+    /// Open the page in the browser
+    #[arg(long)]
+    pub(in crate::cli) open: bool,
+    /// A picture that the page lays over that of the scene, behind a slider: PNG, JPEG, WebP, EXR or HDR
+    #[arg(long, value_name = "PICTURE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) against: Option<PathBuf>,
+    /// Threads to work on [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(in crate::cli) threads: Option<u16>,
+    #[command(flatten)]
+    pub(in crate::cli) wanted: WantedArgs,
+    #[command(flatten)]
+    pub(in crate::cli) look: LookArgs,
+    #[command(flatten)]
+    pub(in crate::cli) stage: StageArgs,
+    #[command(flatten)]
+    pub(in crate::cli) reading: Reading,
+    #[command(flatten)]
+    pub(in crate::cli) talk: TalkArgs,
+}

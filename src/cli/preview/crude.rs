@@ -1,0 +1,101 @@
+//! A crude picture on the way to the finished one: fewer pixels, and few samples of each.
+
+use super::board::Shot;
+use super::session::shot;
+use crate::diag::Sink;
+use crate::ir::{Mode, Origins, Scene};
+use crate::pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};
+use crate::render::Crop;
+use crate::source::Limits;
+use crate::valid::{self, ProofOptions};
+
+/// About so many pixels.
+const PIXELS: u64 = 20_000;
+
+/// So many paths a pixel.
+const PATHS: u32 = 2;
+
+/// The crude picture; `None` if there is none that is quicker. The subject is as before afterwards.
+pub(super) fn render(
+    setup: &PictureSetup,
+    subject: &mut RenderSubject,
+    input: &mut Input,
+    observer: &Observer<'_>,
+) -> Result<Option<Shot>, RenderError> {
+    let scene = &mut subject.proven.lowered.scene;
+    let Crop { width, height, .. } = setup.window(scene)?;
+    let (camera, settings) = (scene.camera.clone(), scene.settings.clone());
+    let k = coarsen(scene);
+    let options = ProofOptions {
+        limits: Limits::NONE,
+    };
+    let proof = valid::validate(scene, &Origins::default(), &options, &mut Sink::default());
+    let rendered = match proof {
+        None => Ok(None),
+        Some(proof) => {
+            let whole = std::mem::replace(&mut subject.proven.scene, proof);
+            let rendered = trace(&coarse(setup, k), subject, input, observer);
+            subject.proven.scene = whole;
+            rendered.map(|shot| {
+                Some(Shot {
+                    full: [width, height],
+                    is_finished: false,
+                    ..shot
+                })
+            })
+        }
+    };
+    let scene = &mut subject.proven.lowered.scene;
+    (scene.camera, scene.settings) = (camera, settings);
+    subject.turn();
+    rendered
+}
+
+fn trace(
+    setup: &PictureSetup,
+    subject: &mut RenderSubject,
+    input: &mut Input,
+    observer: &Observer<'_>,
+) -> Result<Shot, RenderError> {
+    subject.turn();
+    let window = setup.window(&subject.proven.lowered.scene)?;
+    let film = setup.trace(subject, (window, input.rays()), observer)?;
+    // What is found in it is told of the finished one.
+    let found = input.take_findings();
+    let shot = shot(setup, subject, film, input, observer);
+    input.put_findings(found);
+    shot
+}
+
+/// Takes fewer pixels and samples; every how manyth pixel of a row is left.
+fn coarsen(scene: &mut Scene) -> u32 {
+    let [width, height] = scene.camera.size;
+    let mut k = 1;
+    while u64::from(width / k) * u64::from(height / k) > PIXELS {
+        k += 1;
+    }
+    scene
+        .camera
+        .fit([width, height].map(|side| (side / k).max(1)));
+    scene.camera.lens.samples = 1;
+    scene.settings.supersampling = 1;
+    scene.settings.light_samples = 1;
+    if let Mode::Path(path) = &mut scene.settings.mode {
+        path.samples = path.samples.min(PATHS);
+    }
+    k
+}
+
+/// The same part of a picture of which every k-th pixel is left.
+fn coarse(setup: &PictureSetup, k: u32) -> PictureSetup {
+    let crop = setup.crop.map(|crop| Crop {
+        x: crop.x / k,
+        y: crop.y / k,
+        width: (crop.width / k).max(1),
+        height: (crop.height / k).max(1),
+    });
+    PictureSetup {
+        crop,
+        ..setup.clone()
+    }
+}

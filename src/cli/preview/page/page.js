@@ -1,0 +1,265 @@
+// The page: asks for what is new, shows it, and sends what is done with it.
+
+const token = new URLSearchParams(location.search).get("token") ?? "";
+const at = (id) => document.getElementById(id);
+const url = (path, more = {}) => `${path}?${new URLSearchParams({ token, ...more })}`;
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+const REST = 250;
+
+let state = null;
+let gaze = null;
+let resting = null;
+let drawn = 0;
+
+// What is new, again and again.
+async function follow() {
+  let since = null;
+  for (;;) {
+    try {
+      const reply = await fetch(url("/state", since === null ? {} : { since }));
+      if (!reply.ok) throw new Error(reply.status);
+      state = await reply.json();
+      since = state.version;
+      show();
+    } catch {
+      document.body.classList.remove("is-working");
+      at("status").textContent = "the preview does not answer; was it ended?";
+      since = null;
+      await pause(1000);
+    }
+  }
+}
+
+function show() {
+  document.body.classList.toggle("is-working", state.isWorking);
+  at("status").textContent = words();
+  showFindings();
+  if (state.view && resting === null) {
+    const { eye, center, up } = state.view;
+    gaze = { eye, center, up };
+  }
+  at("moved").hidden = !state.isMoved;
+  at("keep").hidden = !state.view?.canWrite;
+  at("flags").value = state.view?.flags ?? "";
+  if (state.effects !== null) at("verdicts").textContent = state.effects;
+  if (state.picture && state.picture.number !== drawn) draw(state.picture);
+}
+
+function words() {
+  const count = state.findings.length;
+  const found = count === 0 ? "" : count === 1 ? ", 1 finding" : `, ${count} findings`;
+  if (state.isWorking) return `rendering …${found}`;
+  if (state.isFailed) return `no picture${found}`;
+  const [width, height] = state.picture?.full ?? [0, 0];
+  return `${width} × ${height}, finished${found}`;
+}
+
+async function draw({ number, full }) {
+  drawn = number;
+  const reply = await fetch(url("/picture", { number }));
+  // There is a newer one by now.
+  if (!reply.ok) return;
+  const bitmap = await createImageBitmap(await reply.blob());
+  if (drawn !== number) return;
+  at("frame").style.setProperty("--aspect", full[0] / full[1]);
+  paint(at("picture"), bitmap);
+  at("picture").dataset.number = number;
+}
+
+function paint(canvas, bitmap) {
+  canvas.width = bitmap.width;
+  canvas.height = bitmap.height;
+  canvas.getContext("2d").drawImage(bitmap, 0, 0);
+}
+
+function showFindings() {
+  const blocks = state.findings.map(block);
+  if (state.fault !== null) blocks.unshift(block({ text: state.fault, fix: null }));
+  if (state.findings.filter((one) => one.fix === "sure").length > 1) blocks.push(fixAll());
+  at("overlay").hidden = !state.isFailed;
+  at("errors").replaceChildren(...(state.isFailed ? blocks : []));
+  at("warnings").hidden = state.isFailed || blocks.length === 0;
+  at("notes").replaceChildren(...(state.isFailed ? [] : blocks));
+}
+
+function block({ text, fix }, index) {
+  const finding = document.createElement("div");
+  finding.className = "finding";
+  const source = document.createElement("pre");
+  source.textContent = text;
+  source.tabIndex = 0;
+  finding.append(source);
+  if (fix !== null) {
+    const [title] = text.split("\n", 1);
+    finding.append(button(fix === "sure" ? "fix" : "fix (a guess)", title, index));
+  }
+  return finding;
+}
+
+function fixAll() {
+  const row = document.createElement("div");
+  row.className = "row";
+  row.append(button("fix all that is sure", "all findings", null));
+  return row;
+}
+
+function button(label, title, finding) {
+  const own = document.createElement("button");
+  own.type = "button";
+  own.textContent = label;
+  own.setAttribute("aria-label", `${label}: ${title}`);
+  own.dataset.fix = finding ?? "all";
+  const { load } = state;
+  own.addEventListener("click", () => act(own, "/fix", { load, finding }));
+  return own;
+}
+
+function send(path, body) {
+  return fetch(url(path), { method: "POST", body: JSON.stringify(body) });
+}
+
+// Has something done, and says so if it was not.
+async function act(own, path, body) {
+  own.disabled = true;
+  const reply = await send(path, body);
+  own.disabled = false;
+  at("said").textContent = reply.ok ? "" : (await reply.text()) || "that was refused";
+}
+
+let sending = false;
+let waiting = null;
+
+// Sends a view; while one is on its way, only the last of the others.
+async function look(order) {
+  waiting = order;
+  if (sending) return;
+  sending = true;
+  while (waiting !== null) {
+    const next = waiting;
+    waiting = null;
+    await send("/view", next).catch(() => {});
+  }
+  sending = false;
+}
+
+function move(next) {
+  gaze = next;
+  clearTimeout(resting);
+  look({ view: gaze, isMoving: true });
+  resting = setTimeout(() => {
+    resting = null;
+    look({ view: gaze, isMoving: false });
+  }, REST);
+}
+
+function reset() {
+  clearTimeout(resting);
+  resting = null;
+  look({ view: null, isMoving: false });
+}
+
+const TURN = Math.PI / 24;
+const STEP = 0.05;
+const KEYS = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
+
+function onKey(event) {
+  if (gaze === null || event.ctrlKey || event.metaKey || event.altKey) return;
+  const way = KEYS[event.key];
+  if (way && event.shiftKey) move(panned(gaze, way[0] * STEP, way[1] * STEP));
+  else if (way) move(orbited(gaze, state.view.axis, way[0] * TURN, way[1] * TURN));
+  else if (event.key === "+" || event.key === "=") move(zoomed(gaze, 1 / 1.1));
+  else if (event.key === "-") move(zoomed(gaze, 1.1));
+  else if (event.key === "0") reset();
+  else return;
+  event.preventDefault();
+}
+
+let drag = null;
+
+function onDown(event) {
+  drag = { x: event.clientX, y: event.clientY, far: 0 };
+  at("picture").setPointerCapture(event.pointerId);
+}
+
+function onMove(event) {
+  if (drag === null || gaze === null) return;
+  const { width, height } = at("picture").getBoundingClientRect();
+  const right = (event.clientX - drag.x) / width;
+  const above = (drag.y - event.clientY) / height;
+  const far = drag.far + Math.abs(event.clientX - drag.x) + Math.abs(event.clientY - drag.y);
+  drag = { x: event.clientX, y: event.clientY, far };
+  if (far < 4) return;
+  if (event.shiftKey || event.buttons > 1) move(panned(gaze, -right, -above));
+  else move(orbited(gaze, state.view.axis, -right * Math.PI, -above * Math.PI));
+}
+
+function onUp(event) {
+  const isClick = drag !== null && drag.far < 4;
+  drag = null;
+  if (!isClick || !state?.picture) return;
+  const box = at("picture").getBoundingClientRect();
+  const [width, height] = state.picture.full;
+  at("x").value = Math.min(width - 1, Math.floor(((event.clientX - box.left) / box.width) * width));
+  at("y").value = Math.min(height - 1, Math.floor(((event.clientY - box.top) / box.height) * height));
+  inspect();
+}
+
+async function inspect() {
+  const [x, y] = ["x", "y"].map((id) => String(Number(at(id).value)));
+  const reply = await fetch(url("/pixel", { x, y }));
+  if (!reply.ok) {
+    at("pixel").textContent = "there is no such pixel, or the picture is not finished";
+    return;
+  }
+  const found = await reply.json();
+  const value = found.value.map((v) => v.toPrecision(4)).join(", ");
+  const surface =
+    found.surface === null
+      ? "no surface"
+      : `surface ${found.surface}${found.line ? ` (${found.line})` : ""}, depth ${found.depth.toPrecision(5)}`;
+  at("pixel").textContent = `${x}, ${y}: value ${value}; ${surface}`;
+}
+
+async function lay() {
+  const reply = await fetch(url("/against"));
+  if (!reply.ok) return;
+  paint(at("against"), await createImageBitmap(await reply.blob()));
+  at("against").hidden = false;
+  at("compare").hidden = false;
+}
+
+function listen() {
+  const picture = at("picture");
+  picture.addEventListener("keydown", onKey);
+  picture.addEventListener("pointerdown", onDown);
+  picture.addEventListener("pointermove", onMove);
+  picture.addEventListener("pointerup", onUp);
+  picture.addEventListener("contextmenu", (event) => event.preventDefault());
+  const onWheel = (event) => {
+    event.preventDefault();
+    if (gaze !== null) move(zoomed(gaze, Math.exp(Math.sign(event.deltaY) * 0.1)));
+  };
+  picture.addEventListener("wheel", onWheel, { passive: false });
+  at("reset").addEventListener("click", reset);
+  at("keep").addEventListener("click", () => act(at("keep"), "/keep", null));
+  at("copy").addEventListener("click", () => {
+    at("flags").select();
+    navigator.clipboard?.writeText(at("flags").value).catch(() => {});
+  });
+  for (const id of ["x", "y"]) at(id).addEventListener("change", inspect);
+  at("split").addEventListener("input", () => {
+    at("frame").style.setProperty("--split", `${at("split").value}%`);
+  });
+  at("effects").addEventListener("toggle", () => {
+    if (at("effects").open) send("/effects", null);
+  });
+}
+
+listen();
+if (document.documentElement.dataset.against === "yes") lay();
+follow();

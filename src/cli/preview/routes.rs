@@ -1,0 +1,200 @@
+//! What is answered: fixed paths alone, none of them a file.
+
+use super::board::{Board, ReadState};
+use super::http::{HttpReply, HttpRequest};
+use super::view::{self, Gaze};
+use super::{Failure, serve};
+use crate::cli::edit;
+use crate::pipeline::{self, FixWish, Options};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The page, in which its style and its scripts are put.
+const PAGE: &str = include_str!("page/page.html");
+const STYLE: &str = include_str!("page/page.css");
+const SCRIPT: &str = include_str!("page/page.js");
+const VIEW: &str = include_str!("page/view.js");
+
+/// What is needed to answer.
+pub(super) struct Routes {
+    pub(super) path: PathBuf,
+    pub(super) options: Options,
+    pub(super) board: Arc<Board>,
+    /// A picture to compare with, as a PNG.
+    pub(super) against: Option<Arc<Vec<u8>>>,
+}
+
+/// What is to be fixed: one finding or all of them.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FixOrder {
+    /// Of which reading of the scene the finding is.
+    load: u64,
+    finding: Option<usize>,
+}
+
+/// How the scene is to be looked at.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+struct LookOrder {
+    /// From where; as the scene says without.
+    view: Option<Value>,
+    is_moving: bool,
+}
+
+impl Routes {
+    /// Answers a request that was let in.
+    pub(super) fn answer(&self, request: &HttpRequest) -> HttpReply {
+        match (request.method.as_str(), request.path.as_str()) {
+            ("GET", "/") => self.page(),
+            ("GET", "/state") => {
+                let since = request.value("since").and_then(|since| since.parse().ok());
+                let told = self.board.wait(since);
+                told.map_or_else(|| HttpReply::empty(503), |told| HttpReply::json(&told))
+            }
+            ("GET", "/picture") => {
+                let number = request.value("number").unwrap_or_default();
+                let png = self.board.state().png(number);
+                png.map_or_else(|| HttpReply::empty(404), HttpReply::png)
+            }
+            ("GET", "/against") => {
+                let png = self.against.clone();
+                png.map_or_else(|| HttpReply::empty(404), HttpReply::png)
+            }
+            ("GET", "/pixel") => self.pixel(request),
+            ("POST", "/view") => self.look(&request.body),
+            ("POST", "/keep") => self.keep(),
+            ("POST", "/fix") => self.fix(&request.body),
+            ("POST", "/effects") => {
+                self.board.want_effects();
+                HttpReply::empty(202)
+            }
+            _ => HttpReply::empty(404),
+        }
+    }
+
+    fn page(&self) -> HttpReply {
+        let Ok(nonce) = serve::random() else {
+            return HttpReply::empty(503);
+        };
+        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
+        let against = if self.against.is_some() { "yes" } else { "no" };
+        let page = PAGE
+            .replace("{style}", STYLE)
+            .replace("{view}", VIEW)
+            .replace("{script}", SCRIPT)
+            .replace("{nonce}", &nonce)
+            .replace("{against}", against)
+            .replace("{name}", &escaped(&name));
+        HttpReply::page(page, nonce)
+    }
+
+    fn pixel(&self, request: &HttpRequest) -> HttpReply {
+        let [x, y] = ["x", "y"].map(|name| request.value(name).and_then(|at| at.parse().ok()));
+        let state = self.board.state();
+        let told = state.pixels.as_ref().zip(x.zip(y));
+        let told = told.and_then(|(pixels, (x, y))| pixels.told(x, y));
+        told.map_or_else(|| HttpReply::empty(404), |told| HttpReply::json(&told))
+    }
+
+    fn look(&self, body: &[u8]) -> HttpReply {
+        let Ok(LookOrder { view, is_moving }) = serde_json::from_slice(body) else {
+            return HttpReply::empty(400);
+        };
+        let gaze = view.as_ref().map(Gaze::read);
+        if gaze == Some(None) {
+            return HttpReply::empty(400);
+        }
+        let age = self.board.look(gaze.flatten(), is_moving);
+        HttpReply::json(&json!({ "age": age }))
+    }
+
+    /// Writes the view into the scene, which is then shown as it says.
+    fn keep(&self) -> HttpReply {
+        let (text, gaze) = {
+            let state = self.board.state();
+            (state.read.text.clone(), state.gaze)
+        };
+        let (Some(text), Some(gaze)) = (text, gaze) else {
+            return HttpReply::words(409, "there is no other view to write");
+        };
+        match view::written(&self.path, &text, &self.options, &gaze) {
+            Ok(new) => {
+                let reply = put(&self.path, &text, &new);
+                if reply.is_ok() {
+                    self.board.look(None, false);
+                }
+                reply.map_or_else(|words| HttpReply::words(409, &words), |()| done(1))
+            }
+            Err(words) => HttpReply::words(409, words),
+        }
+    }
+
+    /// Obeys what findings propose for the scene's own file.
+    fn fix(&self, body: &[u8]) -> HttpReply {
+        let Ok(order) = serde_json::from_slice::<FixOrder>(body) else {
+            return HttpReply::empty(400);
+        };
+        let (text, wish) = {
+            let state = self.board.state();
+            match (state.read.text.clone(), wish(&state.read, &order)) {
+                (Some(text), Some(wish)) => (text, wish),
+                _ => return HttpReply::words(409, "the scene is another one by now"),
+            }
+        };
+        let fixed = pipeline::fix(&self.path, &text, &self.options, &wish);
+        if fixed.changes == 0 {
+            return HttpReply::words(409, "that would not make the check better");
+        }
+        match put(&self.path, &text, &fixed.text) {
+            Ok(()) => done(fixed.changes),
+            Err(words) => HttpReply::words(409, &words),
+        }
+    }
+}
+
+/// What is wanted of the findings of a scene as it was read; `None` if they are of another one.
+fn wish(read: &ReadState, order: &FixOrder) -> Option<FixWish> {
+    if read.load != order.load {
+        return None;
+    }
+    let Some(index) = order.finding else {
+        return Some(FixWish::default());
+    };
+    let (complaint, is_guess) = read.findings.get(index)?.fix.as_ref()?;
+    Some(FixWish {
+        guesses: *is_guess,
+        only: Some(complaint.clone()),
+    })
+}
+
+fn done(changes: usize) -> HttpReply {
+    HttpReply::json(&json!({ "changes": changes }))
+}
+
+fn put(path: &Path, before: &str, after: &str) -> Result<(), String> {
+    edit::write(path, before, after).map_err(|error| match error {
+        Failure::Trouble(words) => words,
+        Failure::Findings
+        | Failure::Input(_)
+        | Failure::Unreadable
+        | Failure::Interrupted
+        | Failure::ClosedPipe => "it can't be written".to_owned(),
+    })
+}
+
+/// A text as it stands in HTML.
+fn escaped(text: &str) -> String {
+    let entity = |letter: char| match letter {
+        '&' => "&amp;".to_owned(),
+        '<' => "&lt;".to_owned(),
+        '>' => "&gt;".to_owned(),
+        '"' => "&quot;".to_owned(),
+        // It would be taken for a place to fill.
+        '{' => "&#123;".to_owned(),
+        other => other.to_string(),
+    };
+    text.chars().map(entity).collect()
+}

@@ -1,0 +1,267 @@
+//! Where the page looks from: as flags of `rtc render`, and written into the scene, whose keys are
+//! found by their spans. Nothing but their values is changed.
+
+use crate::cli::parse;
+use crate::ir::{Camera, Field, Lowered, Noun, Place};
+use crate::math::{Vec3, shortest, unit};
+use crate::passes::{Stage, StudioChoice, View};
+use crate::pipeline::{Input, Options};
+use crate::source::{SourceMap, Span};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::ops::Range;
+use std::path::Path;
+
+/// How far a camera that was written may be from the one wanted, of its distance.
+const NEAR: f64 = 1e-9;
+
+/// A view that was asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Gaze {
+    eye: [f64; 3],
+    center: [f64; 3],
+    up: [f64; 3],
+}
+
+/// The camera of the scene as it was read, and how another view of it is said.
+#[derive(Clone, Debug)]
+pub(super) struct Sight {
+    eye: [f64; 3],
+    center: [f64; 3],
+    up: [f64; 3],
+    /// The axis of the world that is nearest to `up`.
+    axis: [f64; 3],
+    /// The angle that the flags say, in degrees; none where the scene has keys.
+    yfov: Option<String>,
+    /// The flags that show the same.
+    flags: Option<String>,
+    can_write: bool,
+}
+
+impl Gaze {
+    /// A view as sent by the page; none of what is no place.
+    pub(super) fn read(value: &Value) -> Option<Self> {
+        let gaze = Self::deserialize(value).ok()?;
+        let Self { eye, center, up } = gaze;
+        let is_sound = |text: [f64; 3]| parse::vector(&comma(text)).is_ok();
+        let is_any = up != [0.0; 3] && eye != center;
+        (is_any && [eye, center, up].into_iter().all(is_sound)).then_some(gaze)
+    }
+
+    /// The same as a view of a stage.
+    pub(super) fn view(&self, yfov: Option<f64>) -> View {
+        let Self { eye, center, up } = *self;
+        View {
+            eye: Some(eye),
+            center: Some(center),
+            up: Some(up),
+            yfov,
+            orbit: None,
+        }
+    }
+
+    /// Shows a scene that was staged from here.
+    pub(super) fn aim(&self, lowered: &mut Lowered) -> bool {
+        let stage = Stage {
+            view: self.view(None),
+            studio: StudioChoice::Off,
+            ground: Some(false),
+            ..Stage::default()
+        };
+        stage.apply(lowered, false).is_ok()
+    }
+}
+
+impl Sight {
+    /// What the page is to know of the camera of a scene, seen from elsewhere if there is a gaze; `own`
+    /// is how the scene itself sees it.
+    pub(super) fn new(
+        camera: &Camera,
+        gaze: Option<&Gaze>,
+        can_write: bool,
+        own: Option<&Self>,
+    ) -> Self {
+        let yfov = || {
+            let yfov = camera.yfov().filter(|_| !can_write);
+            yfov.map(|yfov| shortest(yfov.to_degrees()))
+        };
+        let yfov = own.map_or_else(yfov, |own| own.yfov.clone());
+        let angle = yfov.iter().map(|degrees| format!(" --yfov {degrees}"));
+        let flags = gaze.map(|Gaze { eye, center, up }| {
+            let [eye, center, up] = [eye, center, up].map(|own| comma(*own));
+            let view = format!("--eye {eye} --center {center} --up {up}");
+            view + &angle.collect::<String>()
+        });
+        let up = unit(Vec3::from_array(camera.up)).unwrap_or(Vec3::Y);
+        Self {
+            eye: camera.eye,
+            center: camera.center,
+            up: up.to_array(),
+            axis: camera.upright().to_array(),
+            yfov,
+            flags,
+            can_write,
+        }
+    }
+
+    /// The angle that another view of the scene is to have, in radians.
+    pub(super) fn yfov(&self) -> Option<f64> {
+        parse::degrees(self.yfov.as_deref()?).ok()
+    }
+
+    pub(super) fn told(&self) -> Value {
+        let Self {
+            eye,
+            center,
+            up,
+            axis,
+            yfov: _,
+            flags,
+            can_write,
+        } = self;
+        json!({
+            "eye": eye, "center": center, "up": up, "axis": axis, "flags": flags, "canWrite": can_write,
+        })
+    }
+}
+
+/// Where a scene text has the values of `eye`, `center` and `up`, each by itself.
+pub(super) fn keys(lowered: &Lowered, map: &SourceMap, name: &str) -> Option<[Range<usize>; 3]> {
+    let span = |field| {
+        let span: Span = lowered.origins.span(Place::new(Noun::Camera, 0, field))?;
+        let text = map.slice(span);
+        let is_plain =
+            text.starts_with('[') && text.ends_with(']') && !text.contains(['#', '&', '*']);
+        (is_plain && map.name(span.file) == name).then_some(span.start as usize..span.end as usize)
+    };
+    let [eye, center, up] = [Field::Eye, Field::Center, Field::Up].map(span);
+    let own = [eye?, center?, up?];
+    let mut sorted = own.clone();
+    sorted.sort_by_key(|range| range.start);
+    let are_apart = sorted.windows(2).all(|pair| pair[0].end <= pair[1].start);
+    let right = lowered
+        .origins
+        .span(Place::new(Noun::Camera, 0, Field::Right));
+    let is_square =
+        right.is_none_or(|right| own.iter().any(|range| range.start == right.start as usize));
+    (are_apart && is_square).then_some(own)
+}
+
+/// The text of a scene that is at `path`, looked at from elsewhere.
+///
+/// # Errors
+/// Why it can't be, in words.
+pub(super) fn written(
+    path: &Path,
+    text: &str,
+    options: &Options,
+    gaze: &Gaze,
+) -> Result<String, &'static str> {
+    let mut input = Input::edited(path, text.as_bytes().to_vec(), options.clone());
+    let mut lowered = input.load().ok_or("the scene can't be read")?.lowered;
+    let own = keys(&lowered, input.map(), input.name());
+    let own = own.ok_or("the scene has no `eye`, `center` and `up` of its own")?;
+    let before = lowered.scene.camera.clone();
+    if !gaze.aim(&mut lowered) {
+        return Err("it is no view");
+    }
+    let Camera {
+        eye, center, up, ..
+    } = lowered.scene.camera;
+    let mut edits: Vec<_> = own.into_iter().zip([eye, center, up]).collect();
+    edits.sort_by_key(|(range, _)| range.start);
+    let (mut new, mut from) = (String::with_capacity(text.len()), 0);
+    for (range, value) in edits {
+        new.push_str(text.get(from..range.start).unwrap_or_default());
+        new.push_str(&format!("[{}]", value.map(shortest).join(", ")));
+        from = range.end;
+    }
+    new.push_str(text.get(from..).unwrap_or_default());
+    let mut changed = Input::edited(path, new.clone().into_bytes(), options.clone());
+    let changed = changed.load().map(|loaded| loaded.lowered.scene);
+    let mut changed = changed.ok_or("the scene can't be read afterwards")?;
+    let is_seen = is_near(&changed.camera, &lowered.scene.camera);
+    // Nothing else may be another: a value can stand for more than the camera.
+    changed.camera = before.clone();
+    lowered.scene.camera = before;
+    match is_seen && changed == lowered.scene {
+        true => Ok(new),
+        false => Err("its keys do not say the view alone"),
+    }
+}
+
+/// Whether two cameras show the same, but for rounding.
+fn is_near(a: &Camera, b: &Camera) -> bool {
+    let scale = Vec3::from_array(b.eye).distance(Vec3::from_array(b.center));
+    let apart = |a: [f64; 3], b: [f64; 3]| Vec3::from_array(a).distance(Vec3::from_array(b));
+    let step = Vec3::from_array(b.up).distance(Vec3::ZERO);
+    apart(a.eye, b.eye) <= NEAR * scale
+        && apart(a.center, b.center) <= NEAR * scale
+        && apart(a.up, b.up) <= NEAR * step
+        && apart(a.right, b.right) <= NEAR * step
+        && a.size == b.size
+}
+
+/// Three numbers as a flag takes them.
+fn comma(numbers: [f64; 3]) -> String {
+    numbers.map(shortest).join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GAZE: Gaze = Gaze {
+        eye: [50.0, 0.0, 0.0],
+        center: [0.0; 3],
+        up: [0.0, 1.0, 0.0],
+    };
+
+    fn turned(text: &str) -> Result<String, &'static str> {
+        written(Path::new("a.yaml"), text, &Options::default(), &GAZE)
+    }
+
+    #[test]
+    fn the_values_of_the_keys_alone_are_replaced() {
+        let text = |eye: &str, center: &str, up: &str| {
+            format!(
+                "# Mine.\nCamera:\n  up: {up} # a pixel\n  eye: {eye} # far away\n  center: {center}\n  \
+                 viewSize: [8, 6]\nObjects: []\n"
+            )
+        };
+        assert_eq!(
+            turned(&text("[0, 0, 100]", "[0,0,0]", "[0, 0.5, 0]")),
+            Ok(text("[50, 0, 0]", "[0, 0, 0]", "[0, 0.25, 0]")),
+            "a picture of the same angle from half as far has pixels half as large"
+        );
+    }
+
+    #[test]
+    fn what_has_no_such_keys_is_left_as_it_is() {
+        for text in [
+            "Eye: [200, 200, 1000]\nObjects: []\n",
+            "Camera: {eye: &a [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 6]}\nObjects: []\n",
+            "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], right: [2, 0, 0], viewSize: [8, 6]}\nObjects: []\n",
+        ] {
+            assert!(turned(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn views_that_are_none_are_refused() {
+        let read = |eye: Value, up: Value| {
+            Gaze::read(&json!({ "eye": eye, "center": [0, 0, 0], "up": up }))
+        };
+        assert!(read(json!([1, 2, 3]), json!([0, 1, 0])).is_some());
+        for (eye, up) in [
+            (json!([0, 0, 0]), json!([0, 1, 0])),
+            (json!([1, 2, 3]), json!([0, 0, 0])),
+            (json!([1e300, 2, 3]), json!([0, 1, 0])),
+            (json!([1, 2]), json!([0, 1, 0])),
+            (json!("1,2,3"), json!([0, 1, 0])),
+        ] {
+            assert_eq!(read(eye, up), None);
+        }
+    }
+}

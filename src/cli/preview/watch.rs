@@ -1,0 +1,137 @@
+//! Who looks whether files have changed: by their length, the time of their last change and what the
+//! system calls them, some times a second.
+
+use super::board::Board;
+use super::interrupt;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+/// How often files are looked at.
+const EVERY: Duration = Duration::from_millis(50);
+
+/// So many files are looked at each time; where there are more, all are every so often.
+const AT_ONCE: usize = 100;
+
+/// What tells a file from one that it was before; `None` if there is none.
+type Stamp = Option<(u64, Option<SystemTime>, u64)>;
+
+/// The files that are looked at, as they were when they were read.
+#[derive(Default)]
+pub(super) struct Watched {
+    stamps: Mutex<BTreeMap<PathBuf, Stamp>>,
+}
+
+impl Watched {
+    /// Looks at these files from now on. What is known of them is as of before they were read.
+    pub(super) fn set(&self, known: &BTreeMap<PathBuf, Stamp>, paths: Vec<PathBuf>) {
+        let with_stamp = |path: PathBuf| {
+            let stamp = known.get(&path).copied();
+            (path.clone(), stamp.unwrap_or_else(|| stamp_of(&path)))
+        };
+        *self.stamps() = paths.into_iter().map(with_stamp).collect();
+    }
+
+    /// The files that are looked at, and this one, as they are now.
+    pub(super) fn now(&self, first: &Path) -> BTreeMap<PathBuf, Stamp> {
+        let stamps = self.stamps();
+        let paths = stamps.keys().cloned().chain([first.to_owned()]);
+        let now = |path: PathBuf| {
+            let stamp = stamp_of(&path);
+            (path, stamp)
+        };
+        paths.collect::<Vec<_>>().into_iter().map(now).collect()
+    }
+
+    /// The files that are not as they were.
+    fn changed(&self) -> Vec<(PathBuf, Stamp)> {
+        let known = self.stamps().clone();
+        let now = known.into_iter().map(|(path, before)| {
+            let now = stamp_of(&path);
+            (path, before, now)
+        });
+        now.filter(|(_, before, now)| before != now)
+            .map(|(path, _, now)| (path, now))
+            .collect()
+    }
+
+    fn stamps(&self) -> MutexGuard<'_, BTreeMap<PathBuf, Stamp>> {
+        self.stamps.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Has the scene read again when a file has changed and then rests; returns when told to stop.
+    pub(super) fn run(&self, board: &Board) {
+        let (mut pending, mut told) = (Vec::new(), Vec::new());
+        let mut pause = 0;
+        while !interrupt::is_heard() {
+            thread::sleep(EVERY);
+            // Many files take their time.
+            pause += 1;
+            if pause * AT_ONCE < self.stamps().len() {
+                continue;
+            }
+            pause = 0;
+            let changed = self.changed();
+            // Whoever writes a file is given the time to end, and each change is told once.
+            if !changed.is_empty() && changed == pending && changed != told {
+                told.clone_from(&changed);
+                board.reload();
+            } else if changed.is_empty() {
+                told.clear();
+            }
+            pending = changed;
+        }
+        board.end();
+    }
+}
+
+fn stamp_of(path: &Path) -> Stamp {
+    let found = fs::metadata(path).ok()?;
+    #[cfg(unix)]
+    let system = std::os::unix::fs::MetadataExt::ino(&found);
+    #[cfg(not(unix))]
+    let system = 0;
+    Some((found.len(), found.modified().ok(), system))
+}
+
+#[cfg(test)]
+mod tests {
+    #![expect(clippy::disallowed_methods, reason = "a test makes the files it needs")]
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_written_replaced_or_gone_has_changed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        for name in ["a", "b", "c", "d"] {
+            fs::write(path(name), name).unwrap();
+        }
+        let watched = Watched::default();
+        let known = watched.now(&path("a"));
+        watched.set(&known, ["a", "b", "c", "d", "e"].map(path).to_vec());
+        assert!(watched.changed().is_empty());
+        fs::write(path("a"), "longer").unwrap();
+        fs::write(path("new"), "b").unwrap();
+        fs::rename(path("new"), path("b")).unwrap();
+        fs::remove_file(path("c")).unwrap();
+        fs::write(path("e"), "").unwrap();
+        let changed: Vec<_> = watched.changed().into_iter().map(|(own, _)| own).collect();
+        assert_eq!(changed, ["a", "b", "c", "e"].map(path));
+    }
+
+    /// A change between the reading of a file and the look at it is seen all the same.
+    #[test]
+    fn what_changes_while_it_is_read_has_changed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        fs::write(&path, "before").unwrap();
+        let watched = Watched::default();
+        let known = watched.now(&path);
+        fs::write(&path, "behind the back").unwrap();
+        watched.set(&known, vec![path.clone()]);
+        assert_eq!(watched.changed().len(), 1);
+    }
+}
