@@ -116,7 +116,8 @@ fn knobs(study: &Study) -> String {
     let mut idle = String::new();
     for report in &study.knobs {
         let words = escaped(&table::knob_line(report, study.bounces.as_ref()));
-        if report.idle.is_some() || report.knob == Knob::Precision {
+        let has_points = report.levels.iter().any(|level| level.error > 0.0);
+        if report.idle.is_some() || report.knob == Knob::Precision || !has_points {
             let _ = writeln!(idle, "<li>{words}</li>");
         } else {
             let plot = chart::knob(report);
