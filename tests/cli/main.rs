@@ -33,6 +33,8 @@ mod preview;
 mod rays;
 mod render;
 mod reports;
+#[cfg(unix)]
+mod running;
 mod set;
 mod stage;
 mod strips;

@@ -1,146 +1,15 @@
 //! `rtc preview`, by requests as they stand on the wire: who may come in, what is shown, what is
 //! changed.
 
+use super::running::Running;
 use super::*;
 use serde_json::{Value, json};
-use std::io::{BufRead, BufReader, Read};
 use std::net::TcpStream;
-use std::process::{Child, ChildStdout};
 
 /// A small scene with its camera in keys, a slip that has one reading and one that needs a guess.
 const TYPED: &str = "# A ball.\nCamera:\n  eye: [0, 0, 50] # far away\n  center: [0, 0, 0]\n  up: [0, 1, 0]\n  \
 viewSize: [12, 8]\nShadws: true\nLights: [{position: [9, 9, 90], color: [1, 1, 1]}]\nObjects:\n\
 - {type: sphere, position: [0, 0, 0], radius: '3', material: {color: [1, 0, 0], ka: 1, kd: 0, ks: 0, n: 1}}\n";
-
-/// A preview that is running; it ends with the test.
-struct Running {
-    child: Child,
-    /// Its standard output stays open.
-    _stdout: BufReader<ChildStdout>,
-    port: u16,
-    token: String,
-}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-/// A reply: its status, its head and its body.
-struct Reply {
-    status: u16,
-    head: String,
-    body: Vec<u8>,
-}
-
-impl Reply {
-    fn json(&self) -> Value {
-        assert_eq!(self.status, 200, "{}", self.head);
-        serde_json::from_slice(&self.body).unwrap()
-    }
-}
-
-impl Running {
-    fn start(folder: &TempDir, args: &[&str]) -> Self {
-        let words = [&["preview"], args].concat();
-        let mut child = command(folder.path(), &words)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let mut stdout = BufReader::new(child.stdout.take().unwrap());
-        let mut line = String::new();
-        stdout.read_line(&mut line).unwrap();
-        let address = line.trim_end().strip_prefix("http://127.0.0.1:").unwrap();
-        let (port, token) = address.split_once("/?token=").unwrap();
-        assert!(token.len() == 32 && token.chars().all(|c| c.is_ascii_hexdigit()));
-        Self {
-            child,
-            port: port.parse().unwrap(),
-            token: token.to_owned(),
-            _stdout: stdout,
-        }
-    }
-
-    /// Sends these bytes and reads the reply to its end.
-    fn raw(&self, bytes: &[u8]) -> Reply {
-        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
-        stream.write_all(bytes).unwrap();
-        reply(stream)
-    }
-
-    /// Sends a request of this line with more lines.
-    fn ask(&self, line: &str, host: &str, more: &str) -> Reply {
-        self.raw(format!("{line} HTTP/1.1\r\nHost: {host}\r\n{more}\r\n").as_bytes())
-    }
-
-    fn host(&self) -> String {
-        format!("127.0.0.1:{}", self.port)
-    }
-
-    fn get(&self, path: &str, more: &str) -> Reply {
-        let token = &self.token;
-        self.ask(&format!("GET {path}?token={token}{more}"), &self.host(), "")
-    }
-
-    fn post(&self, path: &str, body: &Value) -> Reply {
-        let (token, body) = (&self.token, body.to_string());
-        let lines = format!("Content-Length: {}\r\n", body.len());
-        let line = format!(
-            "POST {path}?token={token} HTTP/1.1\r\nHost: {}\r\n",
-            self.host()
-        );
-        self.raw(format!("{line}{lines}\r\n{body}").as_bytes())
-    }
-
-    /// What is shown once it is as wanted.
-    fn when(&self, what: &str, is_wanted: impl Fn(&Value) -> bool) -> Value {
-        let mut since = String::new();
-        for _ in 0..400 {
-            let state = self.get("/state", &since).json();
-            if is_wanted(&state) {
-                return state;
-            }
-            since = format!("&since={}", state["version"]);
-        }
-        panic!("never {what}: {:#}", self.get("/state", "").json());
-    }
-
-    /// What is shown once a reading of the scene, or a later one, is rendered to its end.
-    fn finished(&self, load: u64) -> Value {
-        self.when("finished", |state| {
-            let picture = &state["picture"];
-            let of = picture["load"].as_u64();
-            of >= Some(load) && of == state["load"].as_u64() && picture["isFinished"] == true
-        })
-    }
-
-    fn picture(&self, state: &Value) -> Vec<u8> {
-        let number = &state["picture"]["number"];
-        let reply = self.get("/picture", &format!("&number={number}"));
-        assert_eq!(reply.status, 200);
-        assert!(reply.head.contains("Content-Type: image/png\r\n"));
-        reply.body
-    }
-}
-
-fn reply(mut stream: TcpStream) -> Reply {
-    let mut bytes = Vec::new();
-    stream.read_to_end(&mut bytes).unwrap();
-    let end = bytes
-        .windows(4)
-        .position(|four| four == b"\r\n\r\n")
-        .unwrap()
-        + 4;
-    let head = String::from_utf8(bytes[..end].to_vec()).unwrap();
-    Reply {
-        status: head.split(' ').nth(1).unwrap().parse().unwrap(),
-        body: bytes[end..].to_vec(),
-        head,
-    }
-}
 
 fn typed(text: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -395,4 +264,35 @@ fn what_can_not_be_shown_is_a_fault_of_usage() {
     let taken = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
     let port = taken.local_addr().unwrap().port().to_string();
     assert_eq!(code(&["ball.json", "--port", &port]), 2);
+}
+
+/// The picture takes 16 thousand million rays.
+#[test]
+fn a_render_for_an_old_text_or_one_that_is_interrupted_is_given_up() {
+    let sound = TYPED.replace("Shadws", "Shadows").replace("'3'", "3");
+    let endless = sound
+        .replace("[12, 8]", "[2000, 2000]")
+        .replace("up: [0, 1, 0]", "up: [0, 0.001, 0]")
+        + "SuperSampling: {factor: 64}\n";
+    let folder = typed(&endless);
+    let path = folder.path().join("a.yaml");
+    fs::write(folder.path().join("b.yaml"), &sound).unwrap();
+    let golden = rtc(&folder, &["render", "b.yaml", "-o", "golden.png"]);
+    assert_eq!(code(&golden), 0);
+    let mut live = Running::start(
+        &folder,
+        &["a.yaml", "--against", "golden.png", "--allow-huge"],
+    );
+    let laid = live.get("/against", "");
+    assert!(laid.status == 200 && laid.body.starts_with(b"\x89PNG"));
+    let is_crude = |state: &Value| state["picture"]["isFinished"] == false;
+    live.when("begun", is_crude);
+    fs::write(&path, &sound).unwrap();
+    let state = live.finished(2);
+    assert_eq!(state["picture"]["full"], json!([12, 8]));
+    fs::write(&path, &endless).unwrap();
+    live.when("begun again", is_crude);
+    let pid = live.child.id().to_string();
+    Command::new("kill").args(["-INT", &pid]).status().unwrap();
+    assert_eq!(live.child.wait().unwrap().code(), Some(130));
 }

@@ -20,7 +20,7 @@ use routes::Routes;
 use serve::Door;
 use session::Session;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::thread;
 use watch::Watched;
 
@@ -46,6 +46,7 @@ pub(super) fn run(args: &args::Preview) -> Result<(), Failure> {
         options: input::options(&args.reading)?,
         board: Arc::clone(&board),
         against,
+        pen: Mutex::default(),
     };
     serve::begin(
         listener,

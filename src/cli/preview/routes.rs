@@ -9,7 +9,7 @@ use crate::pipeline::{self, FixWish, Options};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The page, in which its style and its scripts are put.
 const PAGE: &str = include_str!("page/page.html");
@@ -24,6 +24,8 @@ pub(super) struct Routes {
     pub(super) board: Arc<Board>,
     /// A picture to compare with, as a PNG.
     pub(super) against: Option<Arc<Vec<u8>>>,
+    /// Who holds it changes the scene.
+    pub(super) pen: Mutex<()>,
 }
 
 /// What is to be fixed: one finding or all of them.
@@ -113,6 +115,7 @@ impl Routes {
 
     /// Writes the view into the scene, which is then shown as it says.
     fn keep(&self) -> HttpReply {
+        let _pen = self.pen.lock().unwrap_or_else(PoisonError::into_inner);
         let (text, gaze) = {
             let state = self.board.state();
             (state.read.text.clone(), state.gaze)
@@ -137,6 +140,7 @@ impl Routes {
         let Ok(order) = serde_json::from_slice::<FixOrder>(body) else {
             return HttpReply::empty(400);
         };
+        let _pen = self.pen.lock().unwrap_or_else(PoisonError::into_inner);
         let (text, wish) = {
             let state = self.board.state();
             match (state.read.text.clone(), wish(&state.read, &order)) {

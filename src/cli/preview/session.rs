@@ -1,7 +1,7 @@
 //! The session: reads the scene, shows what is found, and renders it, crude first; all of it anew when
 //! a file or the view changes, whatever is under way.
 
-use super::board::{Board, Shot, ToldFinding, Work};
+use super::board::{Board, ReadState, Shot, ToldFinding, Work};
 use super::pixels::PixelTable;
 use super::view::{self, Gaze, Sight};
 use super::watch::Watched;
@@ -272,11 +272,14 @@ impl<'a> Session<'a> {
         });
     }
 
-    /// Shows that there is no picture for a reason that is no finding.
+    /// Shows and tells that there is no picture for a reason that is no finding.
     fn fail(&mut self, words: &str) {
         self.publish(true, None);
-        let load = self.loads;
+        let (load, is_read) = (self.loads, self.scene.is_some());
         self.board.show(|state| {
+            if !is_read {
+                state.read = ReadState::default();
+            }
             state.read.load = load;
             state.read.is_failed = true;
             state.read.fault = Some(words.to_owned());

@@ -86,12 +86,12 @@ function block({ text, fix }, index) {
   const finding = document.createElement("div");
   finding.className = "finding";
   const source = document.createElement("pre");
-  source.textContent = text;
+  source.textContent = text.trimEnd();
   source.tabIndex = 0;
   finding.append(source);
   if (fix !== null) {
     const [title] = text.split("\n", 1);
-    finding.append(button(fix === "sure" ? "fix" : "fix (a guess)", title, index));
+    finding.prepend(button(fix === "sure" ? "fix" : "fix (a guess)", title, index));
   }
   return finding;
 }
