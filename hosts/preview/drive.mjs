@@ -1,0 +1,161 @@
+// Drives the page of `rtc preview` in a browser: an edit, a fault, a button that mends, a turn, the
+// view written back, a pixel, the slider; and pictures of the page at three widths, light and dark.
+//
+// CHROMIUM names the browser, RTC the binary [default: target/debug/rtc]; pictures go to shots/.
+
+import assert from "node:assert/strict";
+import { execFileSync, spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { createInterface } from "node:readline";
+import { fileURLToPath } from "node:url";
+import puppeteer from "puppeteer-core";
+
+const here = fileURLToPath(new URL(".", import.meta.url));
+const rtc = process.env.RTC ?? join(here, "../../target/debug/rtc");
+const browserPath = process.env.CHROMIUM;
+if (!browserPath) throw new Error("CHROMIUM is to name a browser, as /usr/bin/chromium");
+
+const SCENE = `# Three balls.
+Camera:
+  eye: [0, 30, 200] # far away
+  center: [0, 0, 0]
+  up: [0, 0.5, 0]
+  viewSize: [240, 180]
+Shadows: true
+Lights:
+- {position: [90, 120, 150], color: [1, 1, 1]}
+Objects:
+- {type: sphere, position: [-30, 0, 0], radius: 20, material: {color: [0.9, 0.3, 0.2], ka: 0.2, kd: 0.7, ks: 0.4, n: 20}}
+- {type: sphere, position: [20, 10, 0], radius: 25, material: {color: [0.2, 0.5, 0.9], ka: 0.2, kd: 0.7, ks: 0.4, n: 20}}
+- {type: sphere, position: [0, -15, 30], radius: 8, material: {color: [0.3, 0.8, 0.3], ka: 0.2, kd: 0.7, ks: 0.4, n: 20}}
+`;
+
+const folder = mkdtempSync(join(tmpdir(), "rtc-preview-"));
+const scene = join(folder, "balls.yaml");
+const text = () => readFileSync(scene, "utf8");
+const shots = join(here, "shots");
+mkdirSync(shots, { recursive: true });
+writeFileSync(scene, SCENE);
+execFileSync(rtc, ["render", "-q", scene, "--env-color", "0.5", "-o", join(folder, "other.png")]);
+
+const program = spawn(rtc, ["preview", scene, "--against", join(folder, "other.png")], {
+  stdio: ["ignore", "pipe", "inherit"],
+});
+const ended = new Promise((done) => program.once("exit", done));
+const [address] = await new Promise((done) => {
+  createInterface({ input: program.stdout }).once("line", (line) => done([line]));
+});
+const browser = await puppeteer.launch({
+  executablePath: browserPath,
+  args: ["--no-sandbox", "--disable-gpu"],
+});
+
+try {
+  const page = await browser.newPage();
+  const faults = [];
+  page.on("pageerror", (error) => faults.push(String(error)));
+  page.on("console", (message) => {
+    if (message.type() === "error" && !/status of (404|409|503)/.test(message.text())) faults.push(message.text());
+  });
+  await page.setViewport({ width: 1280, height: 900 });
+  await page.goto(address);
+
+  // By evaluations alone: to wait in the page would take a function made of text, which its policy forbids.
+  const until = async (what, ...args) => {
+    for (let turn = 0; turn < 600; turn += 1) {
+      if (await page.evaluate(what, ...args)) return;
+      await new Promise((done) => setTimeout(done, 100));
+    }
+    throw new Error(`never ${what}`);
+  };
+  // The picture that is drawn is the finished one, and differs from that before.
+  const finished = async (before) => {
+    await until((before) => {
+      const number = Number(document.getElementById("picture").dataset.number ?? 0);
+      const isIdle = !document.body.classList.contains("is-working");
+      return isIdle && state?.picture?.isFinished && state.picture.number === number && number > before;
+    }, before);
+    return page.$eval("#picture", (canvas) => Number(canvas.dataset.number));
+  };
+  const pixels = () => page.$eval("#picture", (canvas) => canvas.toDataURL());
+
+  let number = await finished(0);
+  const first = await pixels();
+  await page.screenshot({ path: join(shots, "start-1280.png") });
+
+  writeFileSync(scene, SCENE.replace("radius: 20", "radius: 10"));
+  number = await finished(number);
+  assert.notEqual(await pixels(), first, "an edit is a new picture");
+
+  writeFileSync(scene, SCENE.replace("radius: 20", "radius: '20'").replace("color: [0.2, 0.5, 0.9]", "color: [0.2 0.5 0.9]"));
+  await until(() => !document.getElementById("overlay").hidden);
+  const told = await page.$eval("#errors", (errors) => errors.textContent);
+  assert.match(told, /error\[/, "the fault is told");
+  for (const [width, height] of [[390, 844], [1280, 900], [1920, 1080]]) {
+    for (const scheme of ["light", "dark"]) {
+      await page.setViewport({ width, height });
+      await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
+      await page.screenshot({ path: join(shots, `fault-${width}-${scheme}.png`) });
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(wide <= 0, `nothing is cut off at ${width}: ${wide}`);
+    }
+  }
+  // By keys alone: the first button, which mends its finding.
+  await page.setViewport({ width: 1280, height: 900 });
+  const before = text();
+  await page.focus("#errors button");
+  await page.keyboard.press("Enter");
+  await until((old) => state.load !== old, await page.evaluate(() => state.load));
+  assert.notEqual(text(), before, "the button changed the file");
+  while (await page.$eval("#errors", (errors) => errors.querySelector("button") !== null)) {
+    const load = await page.evaluate(() => state.load);
+    await page.click("#errors button");
+    await until((old) => state.load !== old && !state.isWorking, load);
+  }
+  number = await finished(number);
+  assert.equal(text(), SCENE, "all is mended");
+  assert.equal(await pixels(), first, "and the picture is that of the beginning");
+
+  await page.focus("#picture");
+  for (const key of ["ArrowRight", "ArrowRight", "ArrowUp", "+"]) await page.keyboard.press(key);
+  await until(() => state.isMoved && state.picture.age > 0 && !document.getElementById("moved").hidden);
+  await new Promise((done) => setTimeout(done, 600));
+  number = await finished(number);
+  assert.notEqual(await pixels(), first, "keys turn the view");
+  const box = await (await page.$("#picture")).boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.7, box.y + box.height * 0.6, { steps: 8 });
+  await page.mouse.up();
+  await new Promise((done) => setTimeout(done, 600));
+  number = await finished(number);
+  await page.click("#effects summary");
+  await until(() => document.getElementById("verdicts").textContent.includes("shadows"));
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  await until(() => document.getElementById("pixel").textContent.includes("value"));
+  for (const [width, height] of [[390, 844], [1280, 900], [1920, 1080]]) {
+    for (const scheme of ["light", "dark"]) {
+      await page.setViewport({ width, height });
+      await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
+      await page.screenshot({ path: join(shots, `turned-${width}-${scheme}.png`), fullPage: true });
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(wide <= 0, `nothing is cut off at ${width}: ${wide}`);
+    }
+  }
+  await page.setViewport({ width: 1280, height: 900 });
+  await page.click("#keep");
+  await until(() => !state.isMoved && !state.isWorking);
+  number = await finished(number);
+  assert.match(text(), /eye: \[[^\]]+\] # far away/, "the comment stays");
+  assert.ok(!text().includes("[0, 30, 200]"), "the view is in the scene");
+  assert.deepEqual(faults, [], "the page has no fault");
+} finally {
+  await browser.close();
+  program.kill("SIGINT");
+  const code = await ended;
+  rmSync(folder, { recursive: true });
+  assert.equal(code, 130);
+}
+console.log("all is well; the pictures are in hosts/preview/shots");
