@@ -241,7 +241,7 @@ mod tests {
     fn what_has_no_such_keys_is_left_as_it_is() {
         for text in [
             "Eye: [200, 200, 1000]\nObjects: []\n",
-            "Camera: {eye: &a [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 6]}\nObjects: []\n",
+            "Camera: {eye: &a [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 6]}\nLights: [{position: *a, color: [1, 1, 1]}]\nObjects: []\n",
             "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], right: [2, 0, 0], viewSize: [8, 6]}\nObjects: []\n",
         ] {
             assert!(turned(text).is_err(), "{text}");
