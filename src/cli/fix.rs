@@ -1,6 +1,7 @@
 //! `rtc check --fix` and `--diff`: what hints propose, put into files or shown.
 
 use super::args::CheckArgs;
+use super::project::Project;
 use super::talk::{self, Talk};
 use super::{Failure, edit, input, output};
 use crate::pipeline::{self, FixWish, FixedText, Input};
@@ -22,7 +23,8 @@ pub(super) fn run(
             "standard input can't be fixed; give a file, or `--diff`".to_owned(),
         ));
     }
-    let options = input::options(&args.reading)?;
+    let project = Project::of(path)?;
+    let options = input::options(&args.reading, project.as_ref())?;
     let wish = FixWish {
         guesses: args.guesses,
         only: None,
@@ -39,7 +41,11 @@ pub(super) fn run(
         return Ok(read);
     }
     edit::write(path, text, &fixed.text)?;
-    Ok(Input::edited(path, fixed.text.into_bytes(), options))
+    let mut input = Input::edited(path, fixed.text.into_bytes(), options);
+    if let Some(project) = project {
+        project.tell(&mut input);
+    }
+    Ok(input)
 }
 
 /// Says what was done, and what was not and why.

@@ -1,9 +1,9 @@
 //! `rtc fmt`: scene texts in the layout of the house, each by itself.
 
-use super::args::{Fmt, Reading};
+use super::args::Fmt;
 use super::talk::{self, Talk};
 use super::{Failure, edit, files, input, output};
-use crate::pipeline::{Input, LaidOutFault};
+use crate::pipeline::{Input, LaidOutFault, Options};
 use std::path::Path;
 
 /// Lays out the files, or tells which are not laid out.
@@ -31,7 +31,7 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
 }
 
 fn one(path: &Path, args: &Fmt, talk: &mut Talk) -> Result<(), Failure> {
-    let mut input = input::read(path, &Reading::default())?;
+    let mut input = input::open(path, None, Options::default());
     let laid_out = input.lay_out();
     input::tell(&mut input, talk)?;
     let text = laid_out.map_err(|fault| refusal(&input, fault))?;

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::args::{self, GroundArg, Reading};
+use super::project::Project;
 use super::talk::Talk;
 use crate::ir::Lowered;
 use crate::passes::{self, EnvironmentOverride, FillLight, Stage, StudioChoice, View};
@@ -12,18 +13,27 @@ use std::path::Path;
 
 /// Reads the file at `path`, or standard input if it is `-`.
 pub(super) fn read(path: &Path, reading: &Reading) -> Result<Input, Failure> {
-    let options = options(reading)?;
-    Ok(if path.as_os_str() == "-" {
-        let name = &reading.stdin_name;
-        let name = name.clone().unwrap_or_else(|| "<stdin>".to_owned());
+    let project = Project::of(path)?;
+    let options = options(reading, project.as_ref())?;
+    let mut input = open(path, reading.stdin_name.as_deref(), options);
+    if let Some(project) = project {
+        project.tell(&mut input);
+    }
+    Ok(input)
+}
+
+/// Reads the file at `path`, or standard input, under a name, if it is `-`, as told alone.
+pub(super) fn open(path: &Path, stdin_name: Option<&str>, options: Options) -> Input {
+    if path.as_os_str() == "-" {
+        let name = stdin_name.unwrap_or("<stdin>").to_owned();
         Input::reader(name, io::stdin().lock(), options)
     } else {
         Input::file(path, options)
-    })
+    }
 }
 
-/// How an input is read.
-pub(super) fn options(reading: &Reading) -> Result<Options, Failure> {
+/// How an input is read, where its project says nothing else.
+pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Options, Failure> {
     let Reading {
         stdin_name: _,
         strict,
@@ -39,11 +49,14 @@ pub(super) fn options(reading: &Reading) -> Result<Options, Failure> {
         limit: _,
         allow_huge: _,
     } = reading;
+    let typed = reading.levels().map_err(Failure::Trouble)?;
+    let levels = project.map_or_else(|| typed.clone(), |own| own.levels(typed.clone()));
+    let lent = || project.and_then(Project::asset_root);
     Ok(Options {
         front: front::FrontOptions {
             strict: *strict,
             lenient: *lenient,
-            asset_root: asset_root.clone(),
+            asset_root: asset_root.clone().or_else(lent),
             home: std::env::home_dir(),
             time: *time,
             animation: animation.clone(),
@@ -52,9 +65,10 @@ pub(super) fn options(reading: &Reading) -> Result<Options, Failure> {
             threads: 0,
         },
         valid: valid::ProofOptions {
-            limits: reading.limits(),
+            limits: reading
+                .limits(|limits| project.into_iter().for_each(|own| own.set_limits(limits))),
         },
-        levels: reading.levels().map_err(Failure::Trouble)?,
+        levels,
     })
 }
 

@@ -24,6 +24,7 @@ mod output;
 mod parse;
 mod preview;
 mod progress;
+mod project;
 mod render;
 mod report;
 mod simd;

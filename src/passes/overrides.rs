@@ -23,6 +23,20 @@ pub struct Overrides {
 }
 
 impl Overrides {
+    /// These, and the others where these say nothing.
+    #[must_use]
+    pub fn or(self, others: Self) -> Self {
+        Self {
+            size: self.size.or(others.size),
+            supersampling: self.supersampling.or(others.supersampling),
+            aperture_samples: self.aperture_samples.or(others.aperture_samples),
+            light_samples: self.light_samples.or(others.light_samples),
+            glossy_samples: self.glossy_samples.or(others.glossy_samples),
+            depth: self.depth.or(others.depth),
+            spp: self.spp.or(others.spp),
+        }
+    }
+
     /// Writes the values given into `scene`.
     pub fn apply(&self, scene: &mut Scene) {
         let Self {

@@ -288,6 +288,11 @@ impl Input {
         self.file == Some(span.file) && self.text().is_some()
     }
 
+    /// Adds a text that is no part of the scene, for findings about it.
+    pub fn add_text(&mut self, path: &Path, bytes: Vec<u8>) -> FileId {
+        self.map.add(path.display().to_string(), bytes)
+    }
+
     /// The file of the scene, unless it could not be read.
     pub(super) fn file_id(&self) -> Option<FileId> {
         self.file

@@ -30,6 +30,7 @@ mod outputs;
 mod parts;
 #[cfg(unix)]
 mod preview;
+mod project;
 mod rays;
 mod render;
 mod reports;

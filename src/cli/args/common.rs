@@ -7,7 +7,7 @@ use clap::{ArgAction, Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
 /// How the input is read.
-#[derive(Clone, Debug, Default, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(next_help_heading = None::<&str>)]
 pub(in crate::cli) struct Reading {
     /// What to call standard input in messages
@@ -70,13 +70,13 @@ impl Reading {
         Ok(levels)
     }
 
-    /// What the run may take.
-    pub(in crate::cli) fn limits(&self) -> Limits {
-        let mut limits = if self.allow_huge {
-            Limits::NONE
-        } else {
-            Limits::default()
-        };
+    /// What the run may take, where by default it is what `settle` makes of the limits of the house.
+    pub(in crate::cli) fn limits(&self, settle: impl FnOnce(&mut Limits)) -> Limits {
+        let mut limits = Limits::default();
+        settle(&mut limits);
+        if self.allow_huge {
+            limits = Limits::NONE;
+        }
         self.limit
             .iter()
             .for_each(|(resource, limit)| limits.set(*resource, *limit));

@@ -9,10 +9,12 @@ use super::Failure;
 use super::args::{Farm, Reading};
 use super::input;
 use super::interrupt::Interrupt;
+use super::project;
 use super::render::{set_stage, wanted};
 use super::talk::{self, Talk};
 use crate::codec::{self, Form};
 use crate::pipeline::{Input, NewFolder, Observer, OutputFormat, RenderSubject, hash};
+use crate::study::Goal;
 use frames::Frames;
 use jobs::FarmJob;
 use std::ffi::OsStr;
@@ -81,6 +83,8 @@ fn settled(
     interrupt: &Interrupt,
 ) -> Result<RenderSubject, Failure> {
     let mut setup = wanted(&args.wanted, &args.look, Path::new(&args.picture))?;
+    let settled = project::picture(&args.file, Goal::default())?;
+    setup.overrides = setup.overrides.or(settled);
     let subject = match input.load() {
         Some(loaded) => setup.prove(loaded, &mut input),
         None => Ok(None),

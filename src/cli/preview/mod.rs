@@ -12,6 +12,7 @@ mod view;
 mod watch;
 
 use super::interrupt::{self, Interrupt};
+use super::project::Project;
 use super::{Failure, args, input, output, render, talk};
 use crate::image::{FileFormat, Picture, PictureHead, ShownPicture};
 use crate::source::{Loader, SourceMap};
@@ -40,10 +41,11 @@ pub(super) fn run(args: &args::Preview) -> Result<(), Failure> {
     let session = Session::new(args, Arc::clone(&board), Arc::clone(&watched))?;
     let (listener, port) = serve::bind(args.port)?;
     let door = Door::new(port)?;
+    let project = Project::of(&args.file)?;
     let address = door.address();
     let routes = Routes {
         path: args.file.clone(),
-        options: input::options(&args.reading)?,
+        options: input::options(&args.reading, project.as_ref())?,
         board: Arc::clone(&board),
         against,
         pen: Mutex::default(),

@@ -6,12 +6,14 @@ use super::pixels::PixelTable;
 use super::view::{self, Gaze, Sight};
 use super::watch::Watched;
 use super::{Failure, args, crude, input, render};
+use crate::cli::project;
 use crate::cli::report::PlanReport;
 use crate::cli::talk::Talk;
 use crate::diag::{self, Diagnostic, Severity, Sink};
 use crate::passes::View;
 use crate::pipeline::{self, Input, Loaded, Observer, PictureSetup, RenderError, RenderSubject};
 use crate::render::{Aov, Film, Job};
+use crate::study::Goal;
 use std::num::NonZeroU32;
 use std::path::Path;
 use std::sync::Arc;
@@ -56,6 +58,7 @@ impl<'a> Session<'a> {
         watched: Arc<Watched>,
     ) -> Result<Self, Failure> {
         let setup = render::wanted(&args.wanted, &args.look, Path::new("preview.png"))?;
+        let settled = project::picture(&args.file, Goal::default())?;
         Ok(Self {
             args,
             board,
@@ -63,6 +66,7 @@ impl<'a> Session<'a> {
             talk: Talk::beside_result(&args.talk),
             setup: PictureSetup {
                 threads: args.threads.map_or(0, usize::from),
+                overrides: setup.overrides.or(settled),
                 ..setup
             },
             loads: 0,

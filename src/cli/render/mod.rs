@@ -18,11 +18,13 @@ use super::input;
 use super::interrupt::Interrupt;
 use super::lead;
 use super::output::{self, Output};
+use super::project;
 use super::simd;
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable, Views};
 use crate::color::Tone;
 use crate::image::{BackgroundFill, Picture};
+use crate::passes::Overrides;
 use crate::pipeline::{
     Input, Observer, OutputFormat, OutputLook, PictureSetup, RenderError, RenderSubject,
 };
@@ -41,6 +43,8 @@ use std::path::{Path, PathBuf};
 struct RenderSetup {
     output: PathBuf,
     picture: PictureSetup,
+    /// What the command line asks for.
+    asked: Overrides,
     /// Views around the scene, if more than its own.
     turntable: Option<Views>,
     /// Pictures a second of a turntable in one file.
@@ -107,7 +111,10 @@ impl RenderSetup {
         let still = rate.map(|_| output.with_extension("png"));
         let picture = part.as_ref().map_or(output.as_path(), PartSetup::picture);
         let picture = still.as_deref().unwrap_or(picture);
+        let asked = args.wanted.overrides();
+        let settled = project::picture(args.file(), goal)?;
         let picture = PictureSetup {
+            overrides: asked.or(settled),
             goal,
             threads: args.threads.map_or(0, usize::from),
             rules: rules(&args.pruning, goal),
@@ -117,6 +124,7 @@ impl RenderSetup {
         Ok(Self {
             output,
             picture,
+            asked,
             turntable,
             rate,
             up: args.stage.up,
@@ -153,7 +161,7 @@ impl RenderSetup {
             }
         };
         let scene = &subject.proven.lowered.scene;
-        let idle = lead::idle(&self.picture.overrides, &scene.settings.mode);
+        let idle = lead::idle(&self.asked, &scene.settings.mode);
         idle.filter(|_| !talk.is_quiet())
             .into_iter()
             .for_each(talk::say);

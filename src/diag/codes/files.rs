@@ -11,4 +11,14 @@ super::codes! { IO:
          a thousand times its size. So what files become is charged to a budget before memory is taken, one for all \
          files of a run, and most limits grow with the bytes read. `rtc schema limits` lists them; `--limit` sets one, \
          `--allow-huge` lifts all.";
+    SETTINGS_WRONG = "IO004", Error, "an `rtc.toml` says what can't be done",
+        "The `rtc.toml` nearest above a scene holds for it where the command line says nothing else: `[levels]` of findings, \
+         `[limits]` on what a run may take, the `asset-root`, and how pictures are made, in `[render]`. \
+         What is wrong in it is told as if it were in the scene.";
+    SETTINGS_UNKNOWN = "IO005", Warning, "an `rtc.toml` has a key that means nothing",
+        "The key is ignored. At the top there are `asset-root`, `levels`, `limits` and `render`; the keys of `limits` are those \
+         of `rtc schema limits`, those of `render` are named as the flags of `rtc render`.";
+    SETTINGS_READ = "IO006", Note, "settings came from an `rtc.toml`",
+        "It lies in the folder of the scene, or is the nearest above it; the search ends where a repository does, at a folder with \
+         a `.git`. What the command line says goes before it.";
 }

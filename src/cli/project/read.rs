@@ -1,0 +1,211 @@
+//! The text of an `rtc.toml`: each key and value, all mistakes with their place.
+
+use super::super::parse;
+use super::{ProjectFault, ProjectSettings};
+use crate::diag::{Code, FindingLevel, LevelSubject, clip, codes, nearest};
+use crate::source::Resource;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+/// The keys at the top.
+const KEYS: [&str; 4] = ["asset-root", "levels", "limits", "render"];
+
+/// Those of `[render]`, as the flags.
+const RENDER_KEYS: [&str; 7] = [
+    "size",
+    "supersampling",
+    "aperture-samples",
+    "light-samples",
+    "glossy-samples",
+    "spp",
+    "depth",
+];
+
+type Key<'t> = Spanned<DeString<'t>>;
+type Value<'t> = Spanned<DeValue<'t>>;
+
+/// What a text says that lies in a folder, and what is wrong with it.
+pub(super) fn read(bytes: &[u8], folder: &Path) -> (ProjectSettings, Vec<ProjectFault>) {
+    let mut reader = ProjectReader {
+        folder,
+        settings: ProjectSettings::default(),
+        faults: Vec::new(),
+    };
+    match std::str::from_utf8(bytes) {
+        Ok(text) => reader.document(text),
+        Err(error) => {
+            let at = error.valid_up_to();
+            reader.fault(
+                at..at + 1,
+                "this file is not UTF-8".to_owned(),
+                "save it as UTF-8",
+            );
+        }
+    }
+    (reader.settings, reader.faults)
+}
+
+struct ProjectReader<'f> {
+    folder: &'f Path,
+    settings: ProjectSettings,
+    faults: Vec<ProjectFault>,
+}
+
+impl ProjectReader<'_> {
+    fn document(&mut self, text: &str) {
+        let (table, errors) = DeTable::parse_recoverable(text);
+        for error in errors {
+            let message = format!("this is no TOML: {}", error.message().replace('\n', ", "));
+            self.fault(error.span().unwrap_or(0..0), message, "");
+        }
+        for (key, value) in table.get_ref() {
+            match key.get_ref().as_ref() {
+                "asset-root" => self.asset_root(value),
+                "levels" => self.section(key, value, Self::level),
+                "limits" => self.section(key, value, Self::limit),
+                "render" => self.section(key, value, Self::render),
+                _ => self.unknown(key, &KEYS),
+            }
+        }
+    }
+
+    fn section(
+        &mut self,
+        key: &Key<'_>,
+        value: &Value<'_>,
+        each: fn(&mut Self, &Key<'_>, &Value<'_>),
+    ) {
+        let Some(table) = value.get_ref().as_table() else {
+            let name = key.get_ref();
+            let hint = format!("write `[{name}]` on a line of its own, and its keys below");
+            return self.fault(value.span(), format!("`{name}` is a table"), &hint);
+        };
+        table.iter().for_each(|(key, value)| each(self, key, value));
+    }
+
+    fn asset_root(&mut self, value: &Value<'_>) {
+        let expected = "`asset-root` is a folder, in that of this file or below";
+        let found = value.get_ref().as_str().and_then(|name| {
+            let folder: PathBuf = self.folder.join(name).canonicalize().ok()?;
+            (folder.is_dir() && folder.starts_with(self.folder)).then_some(folder)
+        });
+        match found {
+            Some(folder) => self.settings.asset_root = Some(folder),
+            None => self.fault(
+                value.span(),
+                expected.to_owned(),
+                "write it as `\"assets\"`",
+            ),
+        }
+    }
+
+    fn level(&mut self, key: &Key<'_>, value: &Value<'_>) {
+        let name = key.get_ref().as_ref();
+        let subject = match LevelSubject::parse(name) {
+            Ok(subject) => subject,
+            Err(words) => return self.fault(key.span(), format!("`{}`: {words}", clip(name)), ""),
+        };
+        let word = value.get_ref().as_str();
+        let level = FindingLevel::ALL
+            .into_iter()
+            .find(|level| word == Some(level.name()));
+        let set = match level {
+            Some(level) => self.settings.levels.set(subject, level),
+            None => Err("a level is `\"allow\"`, `\"warn\"` or `\"deny\"`".to_owned()),
+        };
+        if let Err(words) = set {
+            self.fault(value.span(), words, "");
+        }
+    }
+
+    fn limit(&mut self, key: &Key<'_>, value: &Value<'_>) {
+        let name = key.get_ref().as_ref();
+        if Resource::all().all(|resource| resource.name() != name) {
+            let names: Vec<_> = Resource::all().map(Resource::name).collect();
+            return self.unknown(key, &names);
+        }
+        let limit = written(value.get_ref()).ok_or_else(String::new);
+        match limit.and_then(|number| parse::limit(&format!("{name}={number}"))) {
+            Ok(limit) => self.settings.limits.push(limit),
+            Err(_) => {
+                let message = format!("`{name}` is a number, which a unit may follow");
+                self.fault(value.span(), message, "write it as 5000000 or `\"2GiB\"`");
+            }
+        }
+    }
+
+    fn render(&mut self, key: &Key<'_>, value: &Value<'_>) {
+        let name = key.get_ref().as_ref();
+        let number = || {
+            let number = whole(value.get_ref()).and_then(|number| u32::try_from(number).ok());
+            number.filter(|number| *number > 0 || name == "depth")
+        };
+        let render = &mut self.settings.render;
+        let slot = match name {
+            "size" => {
+                render.size = written(value.get_ref()).and_then(|text| parse::size(&text).ok());
+                if render.size.is_none() {
+                    let message = "`size` is the width and height of the picture".to_owned();
+                    self.fault(value.span(), message, "write it as `\"640x480\"` or 512");
+                }
+                return;
+            }
+            "supersampling" => &mut render.supersampling,
+            "aperture-samples" => &mut render.aperture_samples,
+            "light-samples" => &mut render.light_samples,
+            "glossy-samples" => &mut render.glossy_samples,
+            "spp" => &mut render.spp,
+            "depth" => &mut render.depth,
+            _ => return self.unknown(key, &RENDER_KEYS),
+        };
+        *slot = number();
+        if slot.is_none() {
+            self.fault(
+                value.span(),
+                format!("`{name}` is a whole number, at least 1"),
+                "",
+            );
+        }
+    }
+
+    fn unknown(&mut self, key: &Key<'_>, known: &[&str]) {
+        let name = key.get_ref().as_ref();
+        let meant = nearest(name, known.iter().copied());
+        let hint = match meant {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("the keys here are {}", known.join(", ")),
+        };
+        self.faults.push(ProjectFault {
+            code: &codes::SETTINGS_UNKNOWN,
+            at: key.span(),
+            message: format!("unknown key `{}`", clip(name)),
+            hint: Some(hint),
+            meant: meant.map(str::to_owned),
+        });
+    }
+
+    fn fault(&mut self, at: Range<usize>, message: String, hint: &str) {
+        let code: &'static Code = &codes::SETTINGS_WRONG;
+        self.faults.push(ProjectFault {
+            code,
+            at,
+            message,
+            hint: Some(hint.to_owned()).filter(|hint| !hint.is_empty()),
+            meant: None,
+        });
+    }
+}
+
+/// A whole number, written to the base of ten.
+fn whole(value: &DeValue<'_>) -> Option<u64> {
+    let integer = value.as_integer().filter(|integer| integer.radix() == 10)?;
+    integer.as_str().replace('_', "").parse().ok()
+}
+
+/// A number or text, as the command line would have it.
+fn written(value: &DeValue<'_>) -> Option<String> {
+    let number = whole(value).map(|number| number.to_string());
+    number.or_else(|| value.as_str().map(str::to_owned))
+}
