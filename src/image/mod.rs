@@ -7,6 +7,8 @@ mod compressed;
 mod decode;
 mod exr;
 mod file;
+#[cfg(feature = "cli")]
+mod gif;
 mod look;
 mod png;
 mod radiance;
@@ -19,6 +21,8 @@ mod texels;
 pub use animation::AnimatedPng;
 pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
 pub use file::{BLOCK_ROWS, PictureHead, StripSource};
+#[cfg(feature = "cli")]
+pub use gif::AnimatedGif;
 pub use look::{Association, BackgroundFill, Look, exposure};
 pub use png::png_bytes;
 pub use radiance::{Radiance, RadianceFile, is_radiance};

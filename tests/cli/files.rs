@@ -111,8 +111,8 @@ fn what_can_not_be_meant_is_told_before_anything_is_rendered() {
         ),
         (&["ball.json", "away.json", "-o", "-"], "error: `-` is one"),
         (
-            &["ball.json", "-o", "{stem}.gif"],
-            "error: can't tell what `ball.gif`",
+            &["ball.json", "-o", "{stem}.tiff"],
+            "error: can't tell what `ball.tiff`",
         ),
         (
             &["ball.json", "away.json", "--part", "1/2"],

@@ -149,6 +149,43 @@ fn a_turntable_in_one_file_has_the_pictures_of_its_frames() {
     assert_ne!(still(1), still(2));
 }
 
+/// Colours are those of the frames where there are no more than a GIF holds.
+#[test]
+fn a_turntable_as_gif_has_the_colours_of_its_frames() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let made = |args: &[&str]| {
+        let fixed = ["render", "ball.json", "--size", "8x6", "--turntable", "3"];
+        let output = rtc(&folder, &[&fixed, args].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        stderr(&output)
+    };
+    made(&["-q", "-o", "f.png"]);
+    let said = made(&["-o", "a.gif", "--fps", "20"]);
+    assert!(said.contains("256 colours"), "{said}");
+    made(&["-q", "-o", "b.gif", "--fps", "20", "--threads", "1"]);
+    let bytes = fs::read(path("a.gif")).unwrap();
+    assert_eq!(bytes, fs::read(path("b.gif")).unwrap());
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut reader = options.read_info(bytes.as_slice()).unwrap();
+    assert_eq!((reader.width(), reader.height()), (8, 6));
+    for number in 1..=3 {
+        let frame = reader.read_next_frame().unwrap().unwrap();
+        assert_eq!(frame.delay, 5);
+        let still = image::open(path(&format!("f-000{number}.png"))).unwrap();
+        let still = still.to_rgba8().into_raw();
+        let apart = frame
+            .buffer
+            .iter()
+            .zip(&still)
+            .map(|(a, b)| a.abs_diff(*b))
+            .max();
+        assert!(apart <= Some(4), "{number}: {apart:?}");
+    }
+    assert!(reader.read_next_frame().unwrap().is_none());
+}
+
 #[test]
 fn an_animation_appears_whole_or_not_at_all() {
     let folder = folder();

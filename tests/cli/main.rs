@@ -132,7 +132,7 @@ fn exit_codes_say_whose_fault_it_is() {
     assert_eq!(code(&["check", "bad.json", "none.json", "ball.json"]), 2);
     assert_eq!(code(&["check"]), 2);
     assert_eq!(code(&["check", "."]), 1);
-    assert_eq!(code(&["render", "ball.json", "-o", "x.gif"]), 2);
+    assert_eq!(code(&["render", "ball.json", "-o", "x.bmp"]), 2);
     assert_eq!(
         code(&["render", "ball.json", "-o", "x.exr", "--bits", "16"]),
         2

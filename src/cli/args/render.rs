@@ -36,13 +36,13 @@ pub(in crate::cli) struct Render {
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
     pub(in crate::cli) time_budget: Option<Duration>,
     /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with
-    /// `-%04d`; or is .apng, one file that shows them all
+    /// `-%04d`; or is .apng or .gif, one file that shows them all
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects")]
     pub(in crate::cli) turntable: Option<u32>,
     /// Only these views of the turntable, from 1 on, the first and the last of them
     #[arg(long, value_name = "A..B", value_parser = frames, requires = "turntable")]
     pub(in crate::cli) frames: Option<[u32; 2]>,
-    /// Pictures a second of a turntable in one file, .apng [default: 12]
+    /// Pictures a second of a turntable in one file, .apng or .gif [default: 12]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), requires = "turntable")]
     pub(in crate::cli) fps: Option<u16>,
     /// Render one of N shares of the picture into a part, .rtp; `rtc merge` makes the picture of all

@@ -1,31 +1,31 @@
-//! A turntable as one file, an animated PNG: its pictures are written as they are rendered, and the
+//! A turntable as one file, an animated PNG or a GIF: its pictures are written as they are rendered, and the
 //! file appears with the last.
 
 use super::super::output::Output;
 use super::super::turntable::{Turntable, Views};
-use super::super::{Failure, args};
+use super::super::{Failure, args, talk};
 use super::RenderSetup;
 use super::checkpoint::Desk;
-use crate::image::{AnimatedPng, FileFormat, PictureHead};
+use crate::image::{AnimatedGif, AnimatedPng, FileFormat, Picture, PictureHead};
 use crate::pipeline::RenderSubject;
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, ErrorKind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Pictures a second, unless they are given.
 const RATE: u16 = 12;
 
 /// How many pictures a second the output shows; `None` of one that is no animation.
 pub(super) fn rate(args: &args::Render, output: &Path) -> Result<Option<u16>, Failure> {
-    let is_one = |extension: &std::ffi::OsStr| extension.eq_ignore_ascii_case("apng");
     let refused = |words: &str| Err(Failure::Trouble(words.to_owned()));
-    match output.extension().is_some_and(is_one) {
+    match output.extension().is_some_and(is_apng) || is_gif(output) {
         false if args.fps.is_some() => {
-            refused("`--fps` is for a turntable in one file; name it .apng")
+            refused("`--fps` is for a turntable in one file; name it .apng or .gif")
         }
         false => Ok(None),
         true if args.turntable.is_none() => {
-            refused("an animated PNG is of a turntable; give `--turntable N`, or name it .png")
+            refused("an animation is of a turntable; give `--turntable N`, or name it .png")
         }
         true if args.checkpoint.is_some() || args.strips.is_some() => refused(
             "`--checkpoint` and `--strips` are for the frames of a turntable; name them .png",
@@ -68,7 +68,7 @@ impl RenderSetup {
     ) -> Result<(), FrameError> {
         let table = Turntable::new(&subject.proven.lowered.scene, self.up, views.count);
         let frames = u32::try_from(views.shown.len()).unwrap_or(u32::MAX);
-        let mut begun: Option<AnimatedPng<&mut File>> = None;
+        let mut begun: Option<Animation<'_>> = None;
         let mut file = Some(file);
         for frame in views.shown.clone() {
             table.turn(&mut subject.proven, frame)?;
@@ -81,14 +81,63 @@ impl RenderSetup {
             let (picture, made) = self.take(subject, &self.output, window, desk)?;
             if let Some(file) = file.take() {
                 let head = PictureHead::of(&picture, FileFormat::Png8);
-                begun = Some(AnimatedPng::begin(&head, frames, rate, file)?);
+                begun = Some(match is_gif(&self.output) {
+                    true => Animation::Gif(AnimatedGif::begin(&head, rate, file)?),
+                    false => Animation::Png(AnimatedPng::begin(&head, frames, rate, file)?),
+                });
             }
             if let Some(animation) = &mut begun {
                 animation.add(&picture)?;
             }
             talk.made(&made);
         }
+        if let Some(words) = remark(&self.output).filter(|_| !talk.is_quiet()) {
+            talk::say(words);
+        }
         begun.map_or(Ok(()), |animation| Ok(animation.finish()?))
+    }
+}
+
+/// The picture file by whose kind each frame is made: one without opacities where a GIF, which has no
+/// shades of them, shows it.
+pub(super) fn still(output: &Path) -> PathBuf {
+    output.with_extension(if is_gif(output) { "jpg" } else { "png" })
+}
+
+/// What is told of the colours of an output.
+fn remark(output: &Path) -> Option<&'static str> {
+    let words = "note: a GIF holds 256 colours a picture; `-o NAME.apng` holds all of them";
+    is_gif(output).then_some(words)
+}
+
+fn is_apng(extension: &OsStr) -> bool {
+    extension.eq_ignore_ascii_case("apng")
+}
+
+fn is_gif(output: &Path) -> bool {
+    let extension = output.extension();
+    extension.is_some_and(|extension| extension.eq_ignore_ascii_case("gif"))
+}
+
+/// A file of frames, of which some are written.
+enum Animation<'f> {
+    Png(AnimatedPng<&'f mut File>),
+    Gif(AnimatedGif<&'f mut File>),
+}
+
+impl Animation<'_> {
+    fn add(&mut self, picture: &Picture) -> io::Result<()> {
+        match self {
+            Self::Png(file) => file.add(picture),
+            Self::Gif(file) => file.add(picture),
+        }
+    }
+
+    fn finish(self) -> io::Result<()> {
+        match self {
+            Self::Png(file) => file.finish(),
+            Self::Gif(file) => file.finish(),
+        }
     }
 }
 

@@ -108,7 +108,7 @@ impl RenderSetup {
             time: args.time_budget,
         };
         let rate = animation::rate(args, &output)?;
-        let still = rate.map(|_| output.with_extension("png"));
+        let still = rate.map(|_| animation::still(&output));
         let picture = part.as_ref().map_or(output.as_path(), PartSetup::picture);
         let picture = still.as_deref().unwrap_or(picture);
         let asked = args.wanted.overrides();
