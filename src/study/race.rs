@@ -59,7 +59,8 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result
             let is_first = shots[index].is_none();
             let timed = subject.time(*setting, is_first, |shot| {
                 if is_first {
-                    let fair = budget / runners.len() as u64 / shot.counts.rays().max(1);
+                    let work = subject.preparing() + shot.counts.rays();
+                    let fair = budget / runners.len() as u64 / work.max(1);
                     repeats[index] = (fair / MOST_ROUNDS).clamp(1, MOST_REPEATS);
                     rounds[index] = (fair / repeats[index]).clamp(FEWEST_ROUNDS, MOST_ROUNDS);
                 }

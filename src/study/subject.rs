@@ -6,7 +6,7 @@ use super::journal::Entry;
 use super::outcome::StudyArea;
 use super::setting::Setting;
 use crate::image::Image;
-use crate::ir::{Pattern, Scene};
+use crate::ir::{self, Pattern, Scene};
 use crate::plan::{Arithmetic, Plan, Rules};
 use crate::render::{Counts, Crop, Job, Seeds, Tiles};
 use crate::valid::{Proof, revalidate};
@@ -86,6 +86,19 @@ impl<'bench> Subject<'bench> {
     /// The number of tiles.
     pub(super) fn count(&self) -> usize {
         self.tiles.len()
+    }
+
+    /// What preparing the scene takes before each render, in rays, roughly: a triangle is as much work as a
+    /// ray, and so are many pixels of images.
+    pub(super) fn preparing(&self) -> u64 {
+        const PIXELS: u64 = 512;
+        let triangles = self
+            .scene
+            .meshes
+            .iter()
+            .map(|mesh| mesh.triangles.len() as u64);
+        let pixels = |image: &ir::Image| u64::from(image.width) * u64::from(image.height);
+        triangles.sum::<u64>() + self.scene.images.iter().map(pixels).sum::<u64>() / PIXELS
     }
 
     /// Where the tiles lie.
