@@ -130,7 +130,10 @@ pub fn versus(
     let race = race(&runners, rounds, &mut Rng::new(seed))?;
     let [first, second] = [1, 0].map(|which| &race.runs[which]);
     let cells = subjects[0].cells();
-    let sampled = [Sampled::of(&subjects[0])?, Sampled::of(&subjects[1])?];
+    let [scene, reference] = subjects
+        .each_ref()
+        .map(|subject| Sampled::of(subject, seed));
+    let sampled = [scene?, reference?];
     Ok(Versus {
         schema: "rtc-versus/1".to_owned(),
         scenes: about,
@@ -168,11 +171,13 @@ struct Sampled {
 }
 
 impl Sampled {
-    fn of(subject: &Subject<'_>) -> Result<Self, Stopped> {
+    /// The samples of a seed, which are independent of those of other seeds.
+    fn of(subject: &Subject<'_>, seed: u64) -> Result<Self, Stopped> {
+        let first = seed.wrapping_mul(u64::from(REPLICATES)).wrapping_add(1);
         let mut halves = [Vec::new(), Vec::new()];
         let mut means = Vec::new();
         for number in 0..REPLICATES {
-            let seeds = independent(u64::from(number + 1));
+            let seeds = independent(first.wrapping_add(u64::from(number)).max(1));
             let shot = subject.shoot(Setting::of(&subject.scene), seeds)?;
             let tiles = subject.tiles_of(shot);
             means.push(tiles.iter().map(mean_color).collect());

@@ -73,20 +73,24 @@ fn other_noise_is_no_difference() {
 #[test]
 fn a_change_is_seen_where_it_is() {
     let (before, after) = (balls(2, BLUE), balls(2, [0.5, 0.55, 0.7]));
-    let found = against(&after, &before, 1);
     let truth = {
         let fine = |scene| {
             [picture(
                 scene,
-                Setting::of(scene).with(Knob::Supersampling, 12),
+                Setting::of(scene).with(Knob::Supersampling, 24),
             )]
         };
         study::rmse(&fine(&after), &fine(&before))
     };
-    assert!(
-        found.error.low <= truth && truth <= found.error.high,
-        "{truth}: {found:?}"
-    );
+    // Of ten intervals of 95 % two may miss it.
+    let all: Vec<_> = (1..=10)
+        .map(|seed| against(&after, &before, seed))
+        .collect();
+    let holds = |found: &&Versus| found.error.low <= truth && truth <= found.error.high;
+    let held = all.iter().filter(holds).count();
+    let errors: Vec<_> = all.iter().map(|found| found.error).collect();
+    assert!(held >= 8, "{truth}: {errors:?}");
+    let found = &all[0];
     assert!(found.error.relative() < 0.3, "{found:?}");
     // The ball most of all, and more tiles by what mirrors show of it; the far corners stay.
     let [x, y] = found.different[0].at;

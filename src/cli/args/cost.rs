@@ -14,7 +14,8 @@ use std::time::Duration;
 picture some random tiles are looked at: `tiles%` is how much less or more the error of the whole may be, and a row is on the \
 front only if these tiles show that it has less error than cheaper ones.\n\n\
 A scene and its reference are looked at in their own settings: what one takes against the other, and whether their pictures \
-differ by more than noise.\n\n\
+differ by more than noise. Traced paths are coded after they are averaged, which darkens what is noisy: scenes with other numbers of paths \
+differ by that, too.\n\n\
 Examples:\n  rtc cost scene.yaml --html cost.html\n  rtc cost model.glb --effort quick\n  \
 rtc cost new.yaml old.yaml --effort quick --gate 'error<=1.0,time<=1.2x'"
 )]
@@ -39,7 +40,8 @@ pub(in crate::cli) struct Cost {
     /// How much work the study may be
     #[arg(long, value_enum, default_value_t)]
     pub(in crate::cli) effort: EffortArg,
-    /// Which tiles of the picture are looked at, and in which order settings are timed
+    /// Which tiles of the picture are looked at, in which order settings are timed, and with which random
+    /// numbers two scenes are compared
     #[arg(long, value_name = "N", default_value = "1")]
     pub(in crate::cli) seed: u64,
     /// Keep what is rendered in this file, now and then and when told to end; the same command goes on from
