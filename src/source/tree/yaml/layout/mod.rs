@@ -33,11 +33,26 @@ pub fn layout(
 ) -> Result<String, LayoutFault> {
     let tree = parse(file, bytes, tell).ok_or(LayoutFault::Mistakes)?;
     let source = tree.source.replace("\r\n", "\n").replace('\r', "\n");
-    let items = pieces::items(&source).ok_or(LayoutFault::Differs)?;
-    let text = write::write(&source, &items);
+    let text = settled(&source).ok_or(LayoutFault::Differs)?;
     let again = parse(file, text.as_bytes(), &mut |_| ()).ok_or(LayoutFault::Differs)?;
     let is_same = tree.says_the_same(&again) && words(&source).eq(words(&text));
     is_same.then_some(text).ok_or(LayoutFault::Differs)
+}
+
+/// How often a text is laid out at most; once is enough for all that people write.
+const PASSES: usize = 4;
+
+/// The layout that is its own layout; `None` if there is none near.
+fn settled(source: &str) -> Option<String> {
+    let mut text = source.to_owned();
+    for _ in 0..PASSES {
+        let next = write::write(&text, &pieces::items(&text)?);
+        if next == text {
+            return Some(text);
+        }
+        text = next;
+    }
+    None
 }
 
 /// All that is no blank.

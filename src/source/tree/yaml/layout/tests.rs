@@ -97,6 +97,7 @@ fn texts_of_many_lines_say_the_same() {
     );
     becomes("a: |+\n   x\n\n\nb: 1\n", "a: |+\n  x\n\n\nb: 1\n");
     becomes("a:\n    b: |1\n       x\n", "a:\n  b: |1\n     x\n");
+    becomes("a: |+\n  \n\nb: 1\n", "a: |+\n\n\nb: 1\n");
 }
 
 #[test]

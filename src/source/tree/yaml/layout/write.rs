@@ -248,7 +248,10 @@ impl<'s> LayoutWriter<'s> {
             .take(2)
             .find_map(|c| c.to_digit(10));
         let first = lines.split('\n').find(|line| !line.trim().is_empty());
-        let indent = first.map_or(0, |line| line.len() - line.trim_start_matches(' ').len());
+        // Blanks alone are an empty line, wherever they end.
+        let indent = first.map_or(usize::MAX, |line| {
+            line.len() - line.trim_start_matches(' ').len()
+        });
         let (column, indent) = match told {
             Some(digit) => (column + digit as usize, stood + digit as usize),
             None => (column + STEP, indent),
