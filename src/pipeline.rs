@@ -7,6 +7,7 @@ mod file;
 mod findings;
 mod fix;
 mod input;
+mod layer;
 mod layout;
 mod light;
 mod look;
@@ -23,7 +24,7 @@ pub use file::{NewFile, NewFolder, WriteObserver};
 pub use fix::{Complaint, FixWish, FixedText, complaint, fix};
 pub use input::{Input, Loaded, Proven, Provenance};
 pub use layout::LaidOutFault;
-pub use look::{Exposure, OutputFormat, OutputLook, SettledLook};
+pub use look::{Exposure, OutputLook, SettledLook};
 pub use meter::Meter;
 pub use part::{MOST as MOST_SHARES, PartError, PicturePart, hash_of_file};
 pub use setup::{Observer, PictureSetup, RenderError, RenderSubject};
@@ -348,7 +349,8 @@ pub fn verify(
     Ok(Threads::new(threads)?.install(|| render::verify(scene, plan, job, on_pixel)))
 }
 
-/// The hash of a proven scene's IR, by which a picture or a report says what it is of.
+/// The hash of a proven scene's IR, by which a picture or a report says what it is of: that of its
+/// `.rtir` file, but for how values are shown.
 ///
 /// # Panics
 /// If a number of the scene is not finite, so never if it is proven.

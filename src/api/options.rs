@@ -2,8 +2,9 @@
 
 use super::{Aov, Error, Scene, Tone};
 use crate::image::BackgroundFill;
+use crate::image::FileFormat;
 use crate::passes::{EnvironmentOverride, IntegratorChoice, Orbit, Overrides, Stage, View};
-use crate::pipeline::{self, Exposure, Input, OutputFormat, OutputLook, PictureSetup};
+use crate::pipeline::{self, Exposure, Input, OutputLook, PictureSetup};
 use crate::render::Crop;
 use crate::source::MemoryFiles;
 use std::path::{Path, PathBuf};
@@ -110,14 +111,17 @@ pub enum Format {
     Png16,
     /// Linear values, for an EXR of 32-bit floats.
     Exr,
+    /// Linear values, for an EXR of 16-bit floats; layers of distances and places keep 32 bits.
+    ExrHalf,
 }
 
 impl Format {
-    pub(super) fn kind(self) -> OutputFormat {
+    pub(super) fn kind(self) -> FileFormat {
         match self {
-            Self::Png => OutputFormat::Png8,
-            Self::Png16 => OutputFormat::Png16,
-            Self::Exr => OutputFormat::Exr,
+            Self::Png => FileFormat::Png8,
+            Self::Png16 => FileFormat::Png16,
+            Self::Exr => FileFormat::Exr,
+            Self::ExrHalf => FileFormat::ExrHalf,
         }
     }
 
@@ -126,7 +130,7 @@ impl Format {
     pub fn extension(self) -> &'static str {
         match self {
             Self::Png | Self::Png16 => "png",
-            Self::Exr => "exr",
+            Self::Exr | Self::ExrHalf => "exr",
         }
     }
 }
@@ -310,7 +314,7 @@ impl Options {
             spp,
             ..
         } = self.overrides;
-        let is_linear = self.format == Format::Exr;
+        let is_linear = self.format.kind().is_linear();
         let View { eye, center, .. } = self.view;
         let numbers = [eye, center].into_iter().flatten().flatten();
         let angles = self

@@ -85,10 +85,10 @@ impl Picture {
         let alpha = |index: usize| self.alpha().map_or(1.0, |alpha| f64::from(alpha[index]));
         let shown = |index: usize, pixel: [f64; 3]| match self.format {
             Format::Png | Format::Png16 => pixel,
-            Format::Exr if alpha(index) > 0.0 => {
+            Format::Exr | Format::ExrHalf if alpha(index) > 0.0 => {
                 Tone::Srgb.display(pixel.map(|value| value / alpha(index)))
             }
-            Format::Exr => [0.0; 3],
+            Format::Exr | Format::ExrHalf => [0.0; 3],
         };
         let pixels = self.pixels().iter().enumerate();
         let bytes = pixels.flat_map(|(index, pixel)| {

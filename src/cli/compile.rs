@@ -11,8 +11,8 @@ use super::talk::Talk;
 use crate::codec::{self, Form};
 use crate::emit;
 use crate::emit::course::WrittenScene;
-use crate::image::BackgroundFill;
-use crate::pipeline::{Input, Observer, OutputFormat, OutputLook, PictureSetup, Proven};
+use crate::image::{BackgroundFill, FileFormat};
+use crate::pipeline::{Input, Observer, OutputLook, PictureSetup, Proven};
 use std::path::Path;
 
 /// Compiles the scene and writes it.
@@ -85,7 +85,7 @@ const NO_FOLDER: &str = "its vertices and pictures are to be files beside the te
 
 /// The same for the canonical spelling, which says how a picture is shown too.
 fn carry_out_text(args: &Compile, mut input: Input, talk: &mut Talk) -> Result<(), Failure> {
-    let look = OutputLook::new(OutputFormat::Png8, None, None, BackgroundFill::Film, &[]);
+    let look = OutputLook::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
     let mut setup = PictureSetup {
         simd: simd::level()?,
         ..PictureSetup::new(look.map_err(|words| Failure::Trouble(words.to_owned()))?)

@@ -12,7 +12,7 @@ use super::{
     CHECKSUMS_COUNT, Decoded, NotFinite, image, mesh, newer, span, tree, typed, wrong_shape,
 };
 use crate::diag::{Code, Diagnostic, codes};
-use crate::ir::{Column, Mesh, Scene, Surface, VERSION};
+use crate::ir::{Column, Display, Mesh, Scene, Surface, VERSION};
 use crate::source::{FileId, Span};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -83,8 +83,11 @@ impl ContainerDraft<'_> {
     }
 }
 
-/// Encodes a scene.
-pub(super) fn encode(scene: &Scene) -> Result<ContainerDraft<'_>, NotFinite> {
+/// Encodes a scene, to be shown so.
+pub(super) fn encode<'s>(
+    scene: &'s Scene,
+    display: &Display,
+) -> Result<ContainerDraft<'s>, NotFinite> {
     let Scene {
         camera,
         settings,
@@ -96,7 +99,7 @@ pub(super) fn encode(scene: &Scene) -> Result<ContainerDraft<'_>, NotFinite> {
         surfaces,
         names,
         environment,
-        display,
+        display: _,
     } = scene;
     if !meshes.iter().all(is_finite) {
         return Err(NotFinite);

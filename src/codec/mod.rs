@@ -6,6 +6,7 @@
 //! back as they are.
 
 mod binary;
+mod changes;
 mod columns;
 mod faults;
 mod image;
@@ -18,14 +19,15 @@ mod section;
 mod text;
 mod upgrade;
 
+pub use changes::{Change, changes};
 pub use schema::schema;
 
 use crate::diag::{Diagnostic, Sink, clip_words, codes};
-use crate::ir::{Scene, VERSION};
+use crate::ir::{Display, Scene, VERSION};
 use crate::source::{FileId, SourceMap, Span};
 use serde::Serialize;
 use serde_json::Value;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 
 /// The two forms the IR is stored in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,7 +98,7 @@ pub fn prepare(form: Form, scene: &Scene) -> Result<Encoded<'_>, NotFinite> {
             print::document(scene, &mut text)?;
             Writing::Text(text)
         }
-        Form::Binary => Writing::Binary(binary::encode(scene)?),
+        Form::Binary => Writing::Binary(binary::encode(scene, &scene.display)?),
     }))
 }
 
@@ -112,13 +114,15 @@ pub fn encode(form: Form, scene: &Scene) -> Result<Vec<u8>, NotFinite> {
     Ok(bytes)
 }
 
-/// The hash of the text of a scene, XXH3 of 128 bits; the text is never in memory.
+/// The hash of the container of a scene, XXH3 of 128 bits, as if nothing were said of how its values are
+/// shown; the bytes are never all in memory.
 ///
 /// # Errors
 /// As [`prepare`].
 pub fn hash(scene: &Scene) -> Result<u128, NotFinite> {
     let mut hash = section::Hash::default();
-    print::document(scene, &mut BufWriter::new(&mut hash))?;
+    let draft = binary::encode(scene, &Display::default())?;
+    draft.write(&mut hash).expect("hashing does not fail");
     Ok(hash.0.digest128())
 }
 

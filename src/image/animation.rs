@@ -4,7 +4,7 @@
 use super::Picture;
 use super::file::PictureHead;
 use super::png::pack;
-use ::png::{BitDepth, ColorType, Encoder, Writer};
+use ::png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent, Writer};
 use std::io::{self, Write};
 
 /// An APNG of which some pictures are written, 8 bits per channel.
@@ -28,6 +28,7 @@ impl<W: Write> AnimatedPng<W> {
             ColorType::Rgb
         });
         encoder.set_depth(BitDepth::Eight);
+        encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
         encoder.set_animated(frames, 0)?;
         encoder.set_frame_delay(1, rate)?;
         encoder.validate_sequence(true);

@@ -92,12 +92,8 @@ mod tests {
             .map(|v| color::quantize8(*v))
             .collect();
         let read = |form| {
-            let file = own.encode(&form).unwrap();
-            assert_eq!(
-                file,
-                own.encode(&form).unwrap(),
-                "the same bytes every time"
-            );
+            let file = own.encode(form).unwrap();
+            assert_eq!(file, own.encode(form).unwrap(), "the same bytes every time");
             ::image::load_from_memory(&file)
                 .unwrap()
                 .to_rgb8()
@@ -112,12 +108,12 @@ mod tests {
     #[test]
     fn webp_has_opacity_and_jpeg_has_none() {
         let own = picture(true);
-        let file = own.encode(&FileFormat::Webp).unwrap();
+        let file = own.encode(FileFormat::Webp).unwrap();
         let read = ::image::load_from_memory(&file).unwrap().to_rgba8();
         assert_eq!(
             [read.get_pixel(0, 0).0[3], read.get_pixel(15, 15).0[3]],
             [127, 255]
         );
-        assert!(own.encode(&FileFormat::Jpeg).is_err());
+        assert!(own.encode(FileFormat::Jpeg).is_err());
     }
 }

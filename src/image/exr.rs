@@ -1,22 +1,32 @@
-//! EXR: 32-bit floats per channel, as they are but finite, in one part, with where the picture came
-//! from as text attributes.
+//! EXR: floats of 32 or 16 bits per channel, as they are but finite, in one part, with what colours the
+//! numbers mean, the view, and where the picture came from.
 //!
 //! The encoder keeps free attributes in hashed maps, whose order changes from run to run; each map
 //! here holds one.
 
 use super::file::{BLOCK_ROWS, PictureHead, StripSource};
-use super::range::narrow;
+use super::range::{is_half, narrow};
 use super::{Origin, Picture};
 use ::exr::block::UncompressedBlock;
 use ::exr::block::lines::LineRefMut;
 use ::exr::block::writer::ChunksWriter;
 use ::exr::error::{Error, UnitResult};
-use ::exr::meta::attribute::{AttributeValue, ChannelDescription, SampleType, Text};
+use ::exr::meta::attribute::{
+    AttributeValue, ChannelDescription, Chromaticities, SampleType, Text,
+};
 use ::exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use ::exr::meta::{BlockDescription, attribute::LineOrder};
-use ::exr::prelude::Compression;
+use ::exr::prelude::{Compression, Vec2, f16};
 use std::borrow::Cow;
 use std::io::{self, Seek, Write};
+
+/// The primaries of linear sRGB and its white, D65 (ITU-R BT.709-6, table 1, items 1.3 and 1.4).
+const REC_709: Chromaticities = Chromaticities {
+    red: Vec2(0.64, 0.33),
+    green: Vec2(0.30, 0.60),
+    blue: Vec2(0.15, 0.06),
+    white: Vec2(0.3127, 0.3290),
+};
 
 /// Which number of a pixel a channel holds.
 #[derive(Clone, Copy)]
@@ -32,12 +42,11 @@ enum ChannelSource {
 /// Writes a picture as EXR, block after block, as its strips come.
 pub(super) fn write(
     head: &PictureHead,
-    origin: &Origin,
     out: impl Write + Seek,
     strips: &mut StripSource<'_>,
 ) -> io::Result<()> {
     let sources = channels(head);
-    let header = header(head, origin, &sources);
+    let header = header(head, &sources);
     let written = ::exr::block::write(out, [header].into_iter().collect(), true, |meta, chunks| {
         let mut compressor = chunks.sequential_blocks_compressor(&meta);
         // The strip under way, and the rows it has.
@@ -52,8 +61,9 @@ pub(super) fn write(
             let mut filled = Ok(());
             let channels = &meta.headers[0].channels;
             let fill = |line: LineRefMut<'_>| {
-                let source = sources[line.location.channel].1;
-                let result = fill(&strip, rows.start, source, line);
+                let (name, source) = sources[line.location.channel];
+                let is_half = is_half(head.form, name);
+                let result = fill(&strip, rows.start, (source, is_half), line);
                 filled = std::mem::replace(&mut filled, Ok(())).and(result);
             };
             let data = UncompressedBlock::collect_block_data_from_lines(channels, block, fill);
@@ -71,28 +81,41 @@ pub(super) fn write(
 }
 
 /// Where the picture comes from, and its channels in blocks of so many rows.
-fn header(head: &PictureHead, origin: &Origin, sources: &[(&str, ChannelSource)]) -> Header {
+fn header(head: &PictureHead, sources: &[(&str, ChannelSource)]) -> Header {
     const COMPRESSION: Compression = Compression::ZIP16;
     const _: () = assert!(BLOCK_ROWS == 16, "as many rows as ZIP16 has in a block");
     let Origin {
         software,
         scene,
         settings,
-    } = origin;
+        world_to_camera,
+        layer: _,
+    } = &head.origin;
     let [width, height] = head.size.map(|side| side as usize);
     let size = (width, height);
+    let other = |name, words: &str| {
+        let value = (!words.is_empty()).then(|| AttributeValue::Text(text(words)));
+        value.map(|value| (text(name), value)).into_iter().collect()
+    };
     let attributes = LayerAttributes {
-        software_name: Some(text(software)),
-        other: [(text("rtc:settings"), AttributeValue::Text(text(settings)))].into(),
+        software_name: (!software.is_empty()).then(|| text(software)),
+        world_to_camera: *world_to_camera,
+        other: other("rtc:settings", settings),
         ..LayerAttributes::default()
     };
     let shared = ImageAttributes {
-        other: [(text("rtc:scene"), AttributeValue::Text(text(scene)))].into(),
+        chromaticities: Some(REC_709),
+        other: other("rtc:scene", scene),
         ..ImageAttributes::with_size(size)
     };
-    let channels = sources
-        .iter()
-        .map(|(name, _)| ChannelDescription::named(*name, SampleType::F32));
+    let channels = sources.iter().map(|(name, _)| {
+        let kind = if is_half(head.form, name) {
+            SampleType::F16
+        } else {
+            SampleType::F32
+        };
+        ChannelDescription::named(*name, kind)
+    });
     Header::new(Text::default(), size, channels.collect())
         .with_encoding(
             COMPRESSION,
@@ -115,22 +138,34 @@ fn channels(head: &PictureHead) -> Vec<(&'static str, ChannelSource)> {
     all
 }
 
-/// Fills a row of one channel from the strip whose first row is given.
-fn fill(strip: &Picture, top: usize, source: ChannelSource, line: LineRefMut<'_>) -> UnitResult {
+/// Fills a row of one channel, in floats of 16 bits or not, from the strip whose first row is given.
+fn fill(
+    strip: &Picture,
+    top: usize,
+    (source, is_half): (ChannelSource, bool),
+    line: LineRefMut<'_>,
+) -> UnitResult {
     let row = line.location.position.y() - top;
     if row >= strip.image.height as usize {
         return Err(Error::Invalid("a strip ends within a block".into()));
     }
     let first = row * strip.image.width as usize;
     let width = strip.layers.names.len();
-    line.write_samples(|column| {
+    let value = |column: usize| {
         let pixel = first + column;
-        match source {
-            ChannelSource::Color(k) => narrow(strip.image.pixels[pixel][k]),
-            ChannelSource::Alpha => strip.alpha.as_ref().map_or(1.0, |alpha| alpha[pixel]),
-            ChannelSource::Layer(k) => narrow(f64::from(strip.layers.values[pixel * width + k])),
-        }
-    })
+        let value = match source {
+            ChannelSource::Color(k) => strip.image.pixels[pixel][k],
+            ChannelSource::Alpha => f64::from(strip.alpha.as_ref().map_or(1.0, |a| a[pixel])),
+            ChannelSource::Layer(k) => f64::from(strip.layers.values[pixel * width + k]),
+        };
+        narrow(value, is_half)
+    };
+    if is_half {
+        // From 32 bits, as all machines round those alike.
+        line.write_samples(|column| f16::from_f32(value(column)))
+    } else {
+        line.write_samples(value)
+    }
 }
 
 /// EXR text is Latin-1; what is not becomes a question mark.
@@ -147,35 +182,36 @@ fn text(words: &str) -> Text {
 mod tests {
     use super::super::{FileFormat, Image, Layers};
     use super::*;
-    use ::exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
+    use ::exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
     use std::io::Cursor;
 
-    fn bright() -> (Picture, FileFormat) {
+    fn bright() -> (Picture, PictureHead) {
         let pixels = vec![
             [0.0, 0.5, 1.0],
             [2.5, -1.0, 1e30],
             [0.1, f64::INFINITY, 1e-3],
             [3.0, 4.0, 5.0],
         ];
-        let origin = Origin {
+        let picture = Picture::opaque(Image {
+            width: 2,
+            height: 2,
+            pixels,
+        });
+        let mut head = PictureHead::of(&picture, FileFormat::Exr);
+        head.origin = Origin {
             software: "rtc 1".into(),
             scene: "abc".into(),
             settings: "{\"size\":\"2×2→\"}".into(),
+            world_to_camera: Some([0.5; 16]),
+            layer: String::new(),
         };
-        (
-            Picture::opaque(Image {
-                width: 2,
-                height: 2,
-                pixels,
-            }),
-            FileFormat::Exr(origin),
-        )
+        (picture, head)
     }
 
     #[test]
     fn floats_and_attributes_come_back() {
-        let (picture, form) = bright();
-        let bytes = picture.encode(&form).unwrap();
+        let (picture, head) = bright();
+        let bytes = head.encode(&picture).unwrap();
         let read = read()
             .no_deep_data()
             .largest_resolution_level()
@@ -193,7 +229,7 @@ mod tests {
             .image
             .pixels
             .iter()
-            .map(|pixel| pixel.map(narrow))
+            .map(|pixel| pixel.map(|value| narrow(value, false)))
             .collect();
         assert_eq!(read.layer_data.channel_data.pixels, expected);
         assert_eq!(
@@ -211,18 +247,21 @@ mod tests {
             [attribute("rtc:scene"), attribute("rtc:settings")],
             ["abc", "{\"size\":\"2×2?\"}"]
         );
+        let view = read.layer_data.attributes.world_to_camera;
+        assert_eq!(view, Some([0.5; 16]));
+        assert_eq!(read.attributes.chromaticities, Some(REC_709));
     }
 
     #[test]
     fn channels_of_layers_are_named_and_keep_their_pixels() {
-        let (mut picture, form) = bright();
+        let (mut picture, _) = bright();
         picture.alpha = Some(vec![0.0, 0.25, 0.5, 1.0]);
         let values = (0..12_u8).map(f32::from).collect();
         picture.layers = Layers {
             names: vec!["uv.U", "uv.V", "depth.Z"],
             values,
         };
-        let bytes = picture.encode(&form).unwrap();
+        let bytes = picture.encode(FileFormat::Exr).unwrap();
         let reader = read()
             .no_deep_data()
             .largest_resolution_level()
@@ -250,10 +289,36 @@ mod tests {
     }
 
     #[test]
+    fn half_floats_are_the_nearest_and_distances_keep_32_bits() {
+        let (mut picture, _) = bright();
+        picture.layers = Layers {
+            names: vec!["depth.Z", "normal.X"],
+            values: [70_001.0, 0.1].repeat(4),
+        };
+        let bytes = picture.encode(FileFormat::ExrHalf).unwrap();
+        let reader = read().no_deep_data().largest_resolution_level();
+        let reader = reader.all_channels().first_valid_layer().all_attributes();
+        let read = reader.from_buffered(Cursor::new(bytes)).unwrap();
+        let channel = |name: &str| {
+            let mut list = read.layer_data.channel_data.list.iter();
+            let found = list.find(|channel| channel.name == text(name)).unwrap();
+            let samples = &found.sample_data;
+            let is_half = matches!(samples, FlatSamples::F16(_));
+            (is_half, samples.values_as_f32().collect::<Vec<_>>())
+        };
+        let half = |values: [f32; 4]| values.map(|value| f16::from_f32(value).to_f32()).to_vec();
+        let blue = half([1.0, 65_504.0, 1e-3, 5.0]);
+        assert_eq!(channel("B"), (true, blue));
+        assert_eq!(channel("G").1[2], 65_504.0);
+        assert_eq!(channel("normal.X"), (true, half([0.1; 4])));
+        assert_eq!(channel("depth.Z"), (false, vec![70_001.0; 4]));
+    }
+
+    #[test]
     fn the_same_picture_is_the_same_bytes() {
-        let (picture, form) = bright();
-        let first = picture.encode(&form).unwrap();
-        assert!((0..16).all(|_| picture.encode(&form).unwrap() == first));
+        let (picture, head) = bright();
+        let first = head.encode(&picture).unwrap();
+        assert!((0..16).all(|_| head.encode(&picture).unwrap() == first));
         assert!(!first.windows(8).any(|window| window == b"capDate\0"));
     }
 }

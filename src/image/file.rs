@@ -2,7 +2,7 @@
 //! written is let go. A picture as a whole is one strip, so that the bytes are the same.
 
 use super::compressed::{self, CompressedForm};
-use super::{EncodeError, FileFormat, Image, Layers, Picture, exr, png};
+use super::{EncodeError, FileFormat, Image, Layers, Origin, Picture, exr, png};
 use ::png::BitDepth;
 use std::borrow::Cow;
 use std::io::{self, Cursor, Seek, Write};
@@ -21,8 +21,10 @@ pub struct PictureHead {
     pub layers: Vec<&'static str>,
     /// The form of the file.
     pub form: FileFormat,
-    /// What a PNG says beside its pixels, in Latin-1 without control characters.
-    pub comment: Option<String>,
+    /// Whether its values are colours as a display shows them, where its form can say so; else numbers.
+    pub is_color: bool,
+    /// What it says of where it came from.
+    pub origin: Origin,
 }
 
 /// Where the strips of a picture come from, from the top. Each has the width and the channels of its
@@ -59,7 +61,8 @@ impl PictureHead {
             has_alpha: alpha.is_some(),
             layers: names.clone(),
             form,
-            comment: None,
+            is_color: true,
+            origin: Origin::default(),
         }
     }
 
@@ -74,12 +77,12 @@ impl PictureHead {
             let words = format!("a picture of {width}×{height} pixels has no file");
             return Err(io::Error::other(words));
         }
-        match &self.form {
+        match self.form {
             FileFormat::Png8 => png::write(self, BitDepth::Eight, out, &mut strips),
             FileFormat::Png16 => png::write(self, BitDepth::Sixteen, out, &mut strips),
             FileFormat::Jpeg => compressed::write(self, CompressedForm::Jpeg, out, &mut strips),
             FileFormat::Webp => compressed::write(self, CompressedForm::Webp, out, &mut strips),
-            FileFormat::Exr(origin) => exr::write(self, origin, out, &mut strips),
+            FileFormat::Exr | FileFormat::ExrHalf => exr::write(self, out, &mut strips),
         }
     }
 
@@ -98,7 +101,6 @@ impl PictureHead {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Origin;
     use super::*;
 
     /// A picture with opacities and layers, of which no two rows are alike.
@@ -140,22 +142,21 @@ mod tests {
         }
     }
 
-    fn forms() -> [FileFormat; 3] {
+    fn forms() -> [FileFormat; 4] {
         [
             FileFormat::Png8,
             FileFormat::Png16,
-            FileFormat::Exr(Origin::default()),
+            FileFormat::Exr,
+            FileFormat::ExrHalf,
         ]
     }
 
     #[test]
     fn strips_make_the_bytes_of_the_whole() {
-        for (size, form) in [[31, 70], [1, 16], [90, 17]]
-            .into_iter()
-            .zip(forms().iter().cycle())
-        {
+        let sizes = [[31, 70], [1, 16], [90, 17], [33, 40]];
+        for (size, form) in sizes.into_iter().zip(forms()) {
             let whole = picture(size);
-            let head = PictureHead::of(&whole, form.clone());
+            let head = PictureHead::of(&whole, form);
             for rows in [16, 32, 64, 80] {
                 let mut top = 0;
                 let mut next = || {

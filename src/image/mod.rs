@@ -9,6 +9,7 @@ mod exr;
 mod file;
 #[cfg(feature = "cli")]
 mod gif;
+mod layer;
 mod look;
 mod png;
 mod radiance;
@@ -23,6 +24,7 @@ pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture
 pub use file::{BLOCK_ROWS, PictureHead, StripSource};
 #[cfg(feature = "cli")]
 pub use gif::AnimatedGif;
+pub use layer::LayerPicture;
 pub use look::{Association, BackgroundFill, Look, exposure};
 pub use png::png_bytes;
 pub use radiance::{Radiance, RadianceFile, is_radiance};
@@ -32,6 +34,7 @@ pub use sheet::{contact_sheet, for_sheet, shrunk};
 pub use shown::ShownPicture;
 pub use texels::{Texel, Texels};
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A picture: rows from the top, each from the left; red, green, blue.
@@ -67,7 +70,8 @@ pub struct Layers {
 }
 
 /// A form of pixel file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub enum FileFormat {
     /// PNG with ⌊255·v⌋ per channel, no gamma.
     Png8,
@@ -78,19 +82,74 @@ pub enum FileFormat {
     /// WebP with ⌊255·v⌋ per channel, lossless.
     Webp,
     /// EXR with 32-bit floats per channel, clamped only to what those hold: all are finite.
-    Exr(Origin),
+    Exr,
+    /// EXR with 16-bit floats for colours, opacity, albedo, normals and texture coordinates, and
+    /// 32-bit floats for distances, places and numbers of surfaces; clamped alike.
+    ExrHalf,
 }
 
-/// What an EXR says about where it came from, as text.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Origin {
-    /// The program and its version: the standard attribute `software`.
-    pub software: String,
-    /// The hash of the scene: the attribute `rtc:scene`.
-    pub scene: String,
-    /// The settings of the render: the attribute `rtc:settings`.
-    pub settings: String,
+impl FileFormat {
+    /// What it is called, and what the names of its files end in.
+    #[must_use]
+    pub fn names(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Png8 | Self::Png16 => ("PNG", "png"),
+            Self::Jpeg => ("JPEG", "jpg"),
+            Self::Webp => ("WebP", "webp"),
+            Self::Exr | Self::ExrHalf => ("EXR", "exr"),
+        }
+    }
+
+    /// Whether it holds linear values, however large; else what a display shows.
+    #[must_use]
+    pub fn is_linear(self) -> bool {
+        matches!(self, Self::Exr | Self::ExrHalf)
+    }
 }
+
+/// What a PNG or an EXR says about where it came from: in a PNG as international text (`iTXt`), in an
+/// EXR as attributes of text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Origin {
+    /// The program and its version: `Software` in a PNG, the standard attribute `software`.
+    pub software: String,
+    /// The hash of the scene: `rtc:scene`.
+    pub scene: String,
+    /// The settings of the render that decide the pixels: `rtc:settings`.
+    pub settings: String,
+    /// The view, of an EXR alone: the standard attribute `worldToCamera`.
+    pub world_to_camera: Option<WorldToCamera>,
+    /// Which layer a PNG shows, and what its values stand for: `rtc:layer`; empty for colours.
+    pub layer: String,
+}
+
+impl Origin {
+    /// What the pixels mean, without what made them.
+    #[must_use]
+    pub fn meaning(self) -> Self {
+        Self {
+            world_to_camera: self.world_to_camera,
+            layer: self.layer,
+            ..Self::default()
+        }
+    }
+
+    /// The texts by their names, those that there are.
+    fn texts(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        let texts = [
+            ("Software", &self.software),
+            ("rtc:scene", &self.scene),
+            ("rtc:settings", &self.settings),
+            ("rtc:layer", &self.layer),
+        ];
+        let texts = texts.into_iter().filter(|(_, text)| !text.is_empty());
+        texts.map(|(name, text)| (name, text.as_str()))
+    }
+}
+
+/// From places in the world to places before the camera, which looks along -z, y up: rows of a matrix
+/// that a row vector is multiplied by, as EXR has them.
+pub type WorldToCamera = [f32; 16];
 
 /// Why a picture has no pixel file, in the encoder's words; a width or height of 0 is such a
 /// reason.
@@ -118,8 +177,8 @@ impl Picture {
     ///
     /// # Errors
     /// If the picture is empty or larger than the format can hold.
-    pub fn encode(&self, form: &FileFormat) -> Result<Vec<u8>, EncodeError> {
-        PictureHead::of(self, form.clone()).encode(self)
+    pub fn encode(&self, form: FileFormat) -> Result<Vec<u8>, EncodeError> {
+        PictureHead::of(self, form).encode(self)
     }
 }
 
@@ -134,12 +193,8 @@ mod tests {
             height: 3,
             pixels: Vec::new(),
         });
-        for form in [
-            FileFormat::Png8,
-            FileFormat::Png16,
-            FileFormat::Exr(Origin::default()),
-        ] {
-            assert!(empty.encode(&form).is_err());
+        for form in [FileFormat::Png8, FileFormat::Png16, FileFormat::Exr] {
+            assert!(empty.encode(form).is_err());
         }
     }
 }

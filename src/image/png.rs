@@ -1,10 +1,10 @@
-//! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. It carries
-//! no colour profile, no gamma and no time; a comment if there is one to make.
+//! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. A picture says
+//! that its colours are those of sRGB, and where it came from; never when it was made.
 
 use super::Picture;
 use super::file::{PictureHead, StripSource};
 use crate::color;
-use ::png::{BitDepth, ColorType, Encoder};
+use ::png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
 use std::io::{self, Write};
 
 /// Bytes of a chunk of pixels, compressed: so much is held before it is written.
@@ -18,7 +18,7 @@ pub(super) fn write(
     strips: &mut StripSource<'_>,
 ) -> io::Result<()> {
     let kind = (depth, head.has_alpha);
-    png(head.size, kind, head.comment.as_deref(), out, |rows| {
+    png(head.size, kind, Some(head), out, |rows| {
         let mut bytes = Vec::new();
         let mut left = head.size[1];
         while left > 0 {
@@ -62,17 +62,16 @@ pub fn png_bytes(size: [u32; 2], has_alpha: bool, pixels: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// A PNG of the rows that are written, with a comment if there is one to make, in Latin-1 without
-/// control characters (PNG, third edition, section 11.3.3.2).
+/// A PNG of the rows that are written; with a head, of which colours they are and where they came from.
 fn png(
     size: [u32; 2],
     kind: (BitDepth, bool),
-    comment: Option<&str>,
+    head: Option<&PictureHead>,
     out: impl Write,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     let mut out = CheckedWriter { out, fault: None };
-    let written = encode(&mut out, size, kind, comment, write);
+    let written = encode(&mut out, size, kind, head, write);
     out.fault.map_or(written, Err)
 }
 
@@ -80,7 +79,7 @@ fn encode(
     out: impl Write,
     [width, height]: [u32; 2],
     (depth, has_alpha): (BitDepth, bool),
-    comment: Option<&str>,
+    head: Option<&PictureHead>,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     let mut encoder = Encoder::new(out, width, height);
@@ -90,8 +89,11 @@ fn encode(
         ColorType::Rgb
     });
     encoder.set_depth(depth);
-    if let Some(comment) = comment {
-        encoder.add_text_chunk("Comment".to_owned(), comment.to_owned())?;
+    if head.is_some_and(|head| head.is_color) {
+        encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    }
+    for (name, text) in head.into_iter().flat_map(|head| head.origin.texts()) {
+        encoder.add_itxt_chunk(name.to_owned(), text.to_owned())?;
     }
     let mut writer = encoder.write_header()?;
     let mut rows = writer.stream_writer_with_size(CHUNK)?;
@@ -127,7 +129,7 @@ impl<W: Write> Write for CheckedWriter<W> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{FileFormat, Image};
+    use super::super::{FileFormat, Image, Origin};
     use super::*;
 
     fn ramp() -> Picture {
@@ -141,35 +143,48 @@ mod tests {
         })
     }
 
+    /// The pixels of a PNG, and its texts by their names.
+    fn read(bytes: &[u8]) -> (Vec<u8>, Vec<(String, String)>) {
+        let mut reader = ::png::Decoder::new(std::io::Cursor::new(bytes.to_vec()))
+            .read_info()
+            .unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        let texts = reader.info().utf8_text.iter();
+        let texts = texts.map(|text| (text.keyword.clone(), text.get_text().unwrap()));
+        (pixels, texts.collect())
+    }
+
     #[test]
-    fn a_comment_is_read_and_changes_no_pixel() {
-        let encode = |comment: Option<&str>| {
+    fn where_it_came_from_is_read_and_changes_no_pixel() {
+        let origin = Origin {
+            software: "rtc 1".into(),
+            scene: "abc".into(),
+            settings: "{\"size\":\"2×2→\"}".into(),
+            ..Origin::default()
+        };
+        let encode = |origin: Origin| {
             let head = PictureHead {
-                comment: comment.map(str::to_owned),
+                origin,
                 ..PictureHead::of(&ramp(), FileFormat::Png8)
             };
             head.encode(&ramp()).unwrap()
         };
-        let (plain, commented) = (encode(None), encode(Some("exposure -3.3333 stops")));
-        let read = |bytes: &[u8]| {
-            let mut reader = ::png::Decoder::new(std::io::Cursor::new(bytes.to_vec()))
-                .read_info()
-                .unwrap();
-            let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-            reader.next_frame(&mut pixels).unwrap();
-            let texts = reader.info().uncompressed_latin1_text.clone();
-            let texts = texts.into_iter().map(|text| (text.keyword, text.text));
-            (pixels, texts.collect::<Vec<_>>())
-        };
-        let ((before, none), (after, texts)) = (read(&plain), read(&commented));
-        assert_eq!((before, none.len()), (after, 0));
-        let comment = ("Comment".to_owned(), "exposure -3.3333 stops".to_owned());
-        assert_eq!(texts, [comment]);
+        let (before, none) = read(&encode(Origin::default()));
+        let (after, texts) = read(&encode(origin));
+        assert_eq!((before, none), (after, Vec::new()));
+        let expected = [
+            ("Software", "rtc 1"),
+            ("rtc:scene", "abc"),
+            ("rtc:settings", "{\"size\":\"2×2→\"}"),
+        ];
+        let expected = expected.map(|(name, text)| (name.to_owned(), text.to_owned()));
+        assert_eq!(texts, expected);
     }
 
     #[test]
     fn eight_bits_come_back() {
-        let read = ::image::load_from_memory(&ramp().encode(&FileFormat::Png8).unwrap()).unwrap();
+        let read = ::image::load_from_memory(&ramp().encode(FileFormat::Png8).unwrap()).unwrap();
         let expected: Vec<u8> = ramp()
             .image
             .pixels
@@ -188,7 +203,7 @@ mod tests {
 
     #[test]
     fn sixteen_bits_come_back() {
-        let read = ::image::load_from_memory(&ramp().encode(&FileFormat::Png16).unwrap()).unwrap();
+        let read = ::image::load_from_memory(&ramp().encode(FileFormat::Png16).unwrap()).unwrap();
         let expected: Vec<u16> = ramp()
             .image
             .pixels
@@ -208,7 +223,7 @@ mod tests {
             pixels,
         });
         picture.alpha = Some(vec![0.0, 0.5, 1.0]);
-        let read = |form| ::image::load_from_memory(&picture.encode(&form).unwrap()).unwrap();
+        let read = |form| ::image::load_from_memory(&picture.encode(form).unwrap()).unwrap();
         let eight: Vec<u8> = [0, 127, 255]
             .into_iter()
             .flat_map(|alpha| [255, 127, 0, alpha])
@@ -225,14 +240,17 @@ mod tests {
     }
 
     #[test]
-    fn only_the_three_chunks_that_are_needed() {
-        let bytes = ramp().encode(&FileFormat::Png8).unwrap();
-        for chunk in ["gAMA", "sRGB", "iCCP", "tIME", "tEXt"] {
-            assert!(
-                !bytes.windows(4).any(|window| window == chunk.as_bytes()),
-                "{chunk}"
-            );
-        }
-        assert_eq!(bytes, ramp().encode(&FileFormat::Png8).unwrap());
+    fn a_picture_is_of_srgb_and_tells_no_time() {
+        let has = |bytes: &[u8], chunk: &str| bytes.windows(4).any(|w| w == chunk.as_bytes());
+        let picture = ramp().encode(FileFormat::Png8).unwrap();
+        assert!(has(&picture, "sRGB"));
+        assert!(
+            !["iCCP", "tIME", "tEXt", "iTXt"]
+                .iter()
+                .any(|chunk| has(&picture, chunk))
+        );
+        assert_eq!(picture, ramp().encode(FileFormat::Png8).unwrap());
+        let numbers = png_bytes([1, 1], false, &[1, 2, 3]);
+        assert!(!["sRGB", "gAMA"].iter().any(|chunk| has(&numbers, chunk)));
     }
 }

@@ -192,7 +192,7 @@ fn size_of(most_pixels: u64, size: Vec2<usize>) -> Result<ImageSize, DecodeError
 
 #[cfg(test)]
 mod tests {
-    use super::super::{FileFormat, Image, Origin, Picture};
+    use super::super::{FileFormat, Image, Picture};
     use super::*;
     use ::exr::prelude::{SpecificChannels, WritableImage};
 
@@ -224,12 +224,7 @@ mod tests {
             pixels: vec![[1.0, 0.5, 0.25], [-1.0, 0.0, 0.0]],
         };
         assert_eq!(
-            read(
-                &Picture::opaque(image)
-                    .encode(&FileFormat::Exr(Origin::default()))
-                    .unwrap()
-            )
-            .unwrap(),
+            read(&Picture::opaque(image).encode(FileFormat::Exr).unwrap()).unwrap(),
             expected
         );
     }

@@ -1,14 +1,14 @@
-//! What a file can't hold of a picture: values that are no number, or beyond a 32-bit float.
+//! What a file can't hold of a picture: values that are no number, or beyond its floats.
 
-use super::{Image, Layers, Picture};
+use super::{FileFormat, Image, Layers, Picture};
 
 /// What of a picture its files don't show as it is.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Lost {
     /// How many pixels have a value that is no number: 0 in every file.
     pub unnumbered: u64,
-    /// The channels with values beyond the largest 32-bit float, 3.4e38: an EXR has that in their
-    /// place.
+    /// The channels with values beyond the largest float that an EXR has for them, 3.4e38 in 32 bits
+    /// and 65 504 in 16: it has that in their place.
     pub beyond: Vec<&'static str>,
 }
 
@@ -24,9 +24,9 @@ impl Image {
 }
 
 impl Picture {
-    /// What files of this picture can't hold.
+    /// What a file of this picture can't hold.
     #[must_use]
-    pub fn lost(&self) -> Lost {
+    pub fn lost(&self, form: FileFormat) -> Lost {
         let Self {
             image: Image { pixels, .. },
             alpha: _,
@@ -39,18 +39,16 @@ impl Picture {
                 || layer(*index).iter().any(|value| value.is_nan())
         };
         let colors = ["R", "G", "B"].into_iter().enumerate();
-        let colors = colors.filter(|(k, _)| {
-            pixels
-                .iter()
-                .any(|pixel| pixel[*k].abs() > f64::from(f32::MAX))
+        let most = |name: &str| largest(is_half(form, name));
+        let colors = colors.filter(|(k, name)| {
+            let most = most(name);
+            pixels.iter().any(|pixel| pixel[*k].abs() > most)
         });
         let layers = names.iter().copied().enumerate();
-        let layers = layers.filter(|(k, _)| {
-            values
-                .iter()
-                .skip(*k)
-                .step_by(width)
-                .any(|value| value.is_infinite())
+        let layers = layers.filter(|(k, name)| {
+            let most = most(name);
+            let mut own = values.iter().skip(*k).step_by(width);
+            own.any(|value| f64::from(*value).abs() > most)
         });
         Lost {
             unnumbered: pixels.iter().enumerate().filter(is_unnumbered).count() as u64,
@@ -59,13 +57,29 @@ impl Picture {
     }
 }
 
-/// The float nearest to a number, of those that are finite; 0 for what is no number.
+/// Whether a channel has floats of 16 bits. Distances, places and numbers of surfaces want more.
+pub(super) fn is_half(form: FileFormat, channel: &str) -> bool {
+    let layer = channel.split('.').next();
+    form == FileFormat::ExrHalf && !matches!(layer, Some("depth" | "position" | "instance"))
+}
+
+/// The largest float of 16 or 32 bits.
+fn largest(is_half: bool) -> f64 {
+    if is_half {
+        65_504.0
+    } else {
+        f64::from(f32::MAX)
+    }
+}
+
+/// The float nearest to a number, of those that are finite, in 32 bits and perhaps in 16; 0 for what
+/// is no number.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "rounds to the nearest float"
 )]
-pub(super) fn narrow(v: f64) -> f32 {
-    let largest = f64::from(f32::MAX);
+pub(super) fn narrow(v: f64, is_half: bool) -> f32 {
+    let largest = largest(is_half);
     if v.is_nan() {
         0.0
     } else {
@@ -91,7 +105,7 @@ mod tests {
             pixels,
         });
         assert_eq!(
-            picture.lost(),
+            picture.lost(FileFormat::Exr),
             Lost {
                 unnumbered: 1,
                 beyond: vec!["G", "B"]
@@ -112,19 +126,27 @@ mod tests {
             values,
         };
         assert_eq!(
-            picture.lost(),
+            picture.lost(FileFormat::Exr),
             Lost {
                 unnumbered: 2,
                 beyond: vec!["G", "B", "uv.U"]
             }
         );
+        picture.image.pixels[2] = [65_505.0, 0.0, 0.0];
+        picture.layers.values[0] = 65_505.0;
+        let lost = picture.lost(FileFormat::ExrHalf);
+        assert_eq!(lost.beyond, ["R", "G", "B", "uv.U"]);
     }
 
     #[test]
     fn floats_are_finite() {
         assert_eq!(
-            [1e39, -f64::INFINITY, f64::NAN, 0.1].map(narrow),
+            [1e39, -f64::INFINITY, f64::NAN, 0.1].map(|value| narrow(value, false)),
             [f32::MAX, f32::MIN, 0.0, 0.1]
+        );
+        assert_eq!(
+            [65_505.0, -7e4].map(|value| narrow(value, true)),
+            [65_504.0, -65_504.0]
         );
     }
 }

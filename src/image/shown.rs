@@ -17,6 +17,16 @@ pub struct ShownPicture {
 }
 
 impl ShownPicture {
+    /// An opaque picture of display values.
+    #[must_use]
+    pub fn of(display: Image) -> Self {
+        Self {
+            display,
+            linear: None,
+            alpha: None,
+        }
+    }
+
     /// Reads PNG, JPEG, WebP, HDR or EXR of at most so many pixels; of an EXR the first layer with red,
     /// green and blue, without its opacity, and 0 for negative values.
     ///

@@ -92,6 +92,34 @@ impl Camera {
             .abs()
     }
 
+    /// From places in the world to places before the camera, which looks along -z, y up, in rows that
+    /// a row vector is multiplied by; none if its steps have no direction.
+    #[must_use]
+    pub fn world_to_camera(&self) -> Option<[f32; 16]> {
+        let [eye, center, right, up] =
+            [self.eye, self.center, self.right, self.up].map(Vec3::from_array);
+        let (x, y) = (unit(right)?, unit(up)?);
+        let across = x.cross(y);
+        let z = if across.dot(center - eye) > 0.0 {
+            -across
+        } else {
+            across
+        };
+        let axes = [x, y, z];
+        let row = |k: usize| axes.map(|axis| axis[k]);
+        let place = axes.map(|axis| -axis.dot(eye));
+        let rows = [row(0), row(1), row(2), place];
+        let entry = |at: usize| match at % 4 {
+            3 => f64::from(u8::from(at == 15)),
+            column => rows[at / 4][column],
+        };
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "EXR holds these as 32-bit floats"
+        )]
+        Some(std::array::from_fn(|at| entry(at) as f32))
+    }
+
     /// The angle from bottom to top, in radians, above 0 and below π; none where rays run side by
     /// side.
     #[must_use]

@@ -2,7 +2,7 @@
 
 use super::Proven;
 use crate::diag::{Diagnostic, codes};
-use crate::image::Lost;
+use crate::image::{FileFormat, Lost};
 use crate::ir::{Field, Noun, Place};
 use crate::plan::{self, Symptom};
 use crate::source::Span;
@@ -100,6 +100,7 @@ pub(super) fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option
 /// Warns of what the file can't hold.
 pub(super) fn unholdable(
     Lost { unnumbered, beyond }: &Lost,
+    form: FileFormat,
     arithmetic: plan::Arithmetic,
 ) -> Vec<Diagnostic> {
     let names = beyond
@@ -110,9 +111,13 @@ pub(super) fn unholdable(
     let beyond = (!beyond.is_empty()).then(|| {
         let finding = Diagnostic::new(
             &codes::BEYOND_FLOAT,
-            format!("values beyond a 32-bit float in {names}"),
+            format!("values beyond what the file holds in {names}"),
         );
-        finding.hint("the file has 3.4e38 there; a smaller scene makes the same picture")
+        finding.hint(if form == FileFormat::ExrHalf {
+            "the file has its largest number there, 65504 in 16 bits; leave out `--bits 16`"
+        } else {
+            "the file has 3.4e38 there; a smaller scene makes the same picture"
+        })
     });
     let unnumbered = (*unnumbered > 0).then(|| {
         let finding = Diagnostic::new(

@@ -22,40 +22,11 @@ pub enum Exposure {
     Stops(f64),
 }
 
-/// A kind of pixel file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub enum OutputFormat {
-    /// 8 bits a channel, as displayed.
-    Png8,
-    /// 16 bits a channel, as displayed.
-    Png16,
-    /// JPEG, as displayed and opaque.
-    Jpeg,
-    /// WebP of 8 bits a channel, as displayed.
-    Webp,
-    /// 32-bit floats, linear.
-    Exr,
-}
-
-impl OutputFormat {
-    /// What it is called, and what the names of its files end in.
-    #[must_use]
-    pub fn names(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Png8 | Self::Png16 => ("PNG", "png"),
-            Self::Jpeg => ("JPEG", "jpg"),
-            Self::Webp => ("WebP", "webp"),
-            Self::Exr => ("EXR", "exr"),
-        }
-    }
-}
-
 /// The look of a picture, as asked for.
 #[derive(Clone, Debug)]
 pub struct OutputLook {
     /// The kind of file that it is for.
-    pub kind: OutputFormat,
+    pub kind: FileFormat,
     /// The tone map asked for.
     tone: Option<Tone>,
     /// The exposure asked for.
@@ -65,6 +36,8 @@ pub struct OutputLook {
     background: BackgroundFill,
     /// The layers wanted, each once.
     pub aovs: Vec<Aov>,
+    /// Whether a PNG or an EXR says what made it.
+    pub has_metadata: bool,
 }
 
 impl OutputLook {
@@ -73,20 +46,20 @@ impl OutputLook {
     /// # Errors
     /// What the kind of file does not hold.
     pub fn new(
-        kind: OutputFormat,
+        kind: FileFormat,
         tone: Option<Tone>,
         asked: Option<Exposure>,
         background: BackgroundFill,
         layers: &[Aov],
     ) -> Result<Self, &'static str> {
-        let is_linear = kind == OutputFormat::Exr;
+        let is_linear = kind.is_linear();
         if is_linear && tone.is_some_and(|tone| tone != Tone::None) {
             return Err("`--tonemap` is for PNG; an EXR holds linear values");
         }
         if is_linear && asked == Some(Exposure::Auto) {
             return Err("`--exposure auto` is for PNG; an EXR holds linear values");
         }
-        if kind == OutputFormat::Jpeg && background == BackgroundFill::Transparent {
+        if kind == FileFormat::Jpeg && background == BackgroundFill::Transparent {
             return Err("a JPEG has no opacity; name the picture .png or .webp");
         }
         let mut aovs: Vec<Aov> = Vec::new();
@@ -105,13 +78,14 @@ impl OutputLook {
             },
             background,
             aovs,
+            has_metadata: true,
         })
     }
 
     /// Shows a glTF asset by itself, unless another tone map is asked for: its whites keep their
     /// shades, and its colours stay those that its maker chose.
     pub fn show_asset(&mut self) {
-        if self.kind != OutputFormat::Exr {
+        if !self.kind.is_linear() {
             self.tone = self.tone.or(Some(Tone::PbrNeutral));
         }
     }
@@ -119,7 +93,7 @@ impl OutputLook {
     /// Shows a scene as it asks for, where nothing else is asked for.
     pub fn show_as(&mut self, display: &Display) {
         let Display { exposure, tone } = display;
-        if self.kind != OutputFormat::Exr {
+        if !self.kind.is_linear() {
             self.tone = self.tone.or(*tone);
             if self.asked.is_none() {
                 self.stops = *exposure;
@@ -142,7 +116,7 @@ impl OutputLook {
         match self.asked {
             Some(Exposure::Auto) => true,
             Some(Exposure::Stops(_)) => false,
-            None => is_lit_asset && self.kind != OutputFormat::Exr,
+            None => is_lit_asset && !self.kind.is_linear(),
         }
     }
 
@@ -169,17 +143,16 @@ impl OutputLook {
 
     /// The tone map of a picture of this mode.
     fn tone(&self, mode: &Mode) -> Tone {
-        match self.kind {
-            OutputFormat::Exr => Tone::None,
-            OutputFormat::Png8 | OutputFormat::Png16 | OutputFormat::Jpeg | OutputFormat::Webp => {
-                self.tone.unwrap_or(mode.tone())
-            }
+        if self.kind.is_linear() {
+            Tone::None
+        } else {
+            self.tone.unwrap_or(mode.tone())
         }
     }
 
     /// Which values a film of this mode must hold.
     pub fn values(&self, mode: &Mode) -> Values {
-        let is_plain = self.kind != OutputFormat::Exr && self.stops == 0.0;
+        let is_plain = !self.kind.is_linear() && self.stops == 0.0;
         // Display values of the course are clamped sample by sample, as only its untouched pictures
         // want it.
         if is_plain && mode.tone() == Tone::None && self.tone(mode) == Tone::None {
@@ -217,9 +190,9 @@ impl OutputLook {
     /// file, which grows by doubling.
     pub fn memory(&self) -> usize {
         let channel = match self.kind {
-            OutputFormat::Png8 | OutputFormat::Jpeg | OutputFormat::Webp => 1,
-            OutputFormat::Png16 => 2,
-            OutputFormat::Exr => 4,
+            FileFormat::Png8 | FileFormat::Jpeg | FileFormat::Webp => 1,
+            FileFormat::Png16 => 2,
+            FileFormat::Exr | FileFormat::ExrHalf => 4,
         };
         let layers: usize = self.aovs.iter().map(|aov| aov.channels().len()).sum();
         4 * channel * (4 + layers)
@@ -233,7 +206,7 @@ impl OutputLook {
             stops: self.stops,
             tone: self.tone(mode),
             background: self.background,
-            found: self.found_exposure(),
+            has_metadata: self.has_metadata,
         }
     }
 }
@@ -243,22 +216,21 @@ impl OutputLook {
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct SettledLook {
     /// The kind of file that it is for.
-    pub kind: OutputFormat,
+    pub kind: FileFormat,
     stops: f64,
     tone: Tone,
     background: BackgroundFill,
-    /// The exposure that was found and is told in the file, in stops.
-    found: Option<f64>,
+    /// Whether the file says what made it.
+    has_metadata: bool,
 }
 
 impl SettledLook {
     /// The picture of a film.
     fn develop(&self, film: Image, coverage: Vec<f32>) -> Picture {
-        let association = match self.kind {
-            OutputFormat::Exr => Association::Associated,
-            OutputFormat::Png8 | OutputFormat::Png16 | OutputFormat::Jpeg | OutputFormat::Webp => {
-                Association::Straight
-            }
+        let association = if self.kind.is_linear() {
+            Association::Associated
+        } else {
+            Association::Straight
         };
         image::Look {
             stops: self.stops,
@@ -279,7 +251,7 @@ impl SettledLook {
     ) -> (Picture, Vec<Diagnostic>) {
         let mut losses = Losses::default();
         let picture = self.show(image, coverage, layers, &mut losses);
-        (picture, losses.findings(unnumbered, arithmetic))
+        (picture, losses.findings(unnumbered, self.kind, arithmetic))
     }
 
     /// The picture of a film or of some rows of one, with its coverage and layers; what its file can't
@@ -306,8 +278,8 @@ impl SettledLook {
 
     /// What the file can't hold; a PNG clamps all colours alike.
     fn lost(&self, picture: &Picture) -> Lost {
-        let lost = picture.lost();
-        if self.kind == OutputFormat::Exr {
+        let lost = picture.lost(self.kind);
+        if self.kind.is_linear() {
             lost
         } else {
             Lost {
@@ -327,8 +299,8 @@ impl SettledLook {
         origin: impl FnOnce() -> Origin,
     ) -> Result<Vec<u8>, EncodeError> {
         let head = PictureHead {
-            comment: self.comment(),
-            ..PictureHead::of(picture, self.form(origin))
+            origin: self.origin(origin()),
+            ..PictureHead::of(picture, self.kind)
         };
         head.encode(picture)
     }
@@ -348,24 +320,19 @@ impl SettledLook {
                 .flat_map(|aov| aov.channels())
                 .copied()
                 .collect(),
-            form: self.form(origin),
-            comment: self.comment(),
+            form: self.kind,
+            is_color: true,
+            origin: self.origin(origin()),
         }
     }
 
-    fn form(&self, origin: impl FnOnce() -> Origin) -> FileFormat {
-        match self.kind {
-            OutputFormat::Png8 => FileFormat::Png8,
-            OutputFormat::Png16 => FileFormat::Png16,
-            OutputFormat::Jpeg => FileFormat::Jpeg,
-            OutputFormat::Webp => FileFormat::Webp,
-            OutputFormat::Exr => FileFormat::Exr(origin()),
+    /// What the file says of where it came from.
+    pub(super) fn origin(&self, origin: Origin) -> Origin {
+        if self.has_metadata {
+            origin
+        } else {
+            origin.meaning()
         }
-    }
-
-    /// What a PNG says of its exposure, if that was found.
-    fn comment(&self) -> Option<String> {
-        self.found.map(|stops| format!("exposure {stops:.4} stops"))
     }
 }
 
@@ -380,13 +347,18 @@ pub(super) struct Losses {
 
 impl Losses {
     /// What to say of it, given how many values of rays are no number.
-    pub(super) fn findings(self, unnumbered: u64, arithmetic: Arithmetic) -> Vec<Diagnostic> {
+    pub(super) fn findings(
+        self,
+        unnumbered: u64,
+        form: FileFormat,
+        arithmetic: Arithmetic,
+    ) -> Vec<Diagnostic> {
         // Where samples are clamped, and where a tone map follows, no more is seen of what is no
         // number.
         let lost = Lost {
             unnumbered: self.shown.unnumbered.max(self.film).max(unnumbered),
             ..self.shown
         };
-        findings::unholdable(&lost, arithmetic)
+        findings::unholdable(&lost, form, arithmetic)
     }
 }

@@ -10,7 +10,7 @@ pub use file::{MOST, hash_of_file};
 
 use super::{SettledLook, SharedBy, Shares, findings};
 use crate::diag::Diagnostic;
-use crate::image::{Layers, Origin, Picture};
+use crate::image::{Layers, Origin, Picture, WorldToCamera};
 use crate::plan::Arithmetic;
 use crate::render::{Aov, Counts, Crop, FilmError, PartialFilm, Tiles};
 use serde::{Deserialize, Serialize};
@@ -29,6 +29,9 @@ struct PartHead {
     scene: String,
     /// The settings of the render.
     settings: Value,
+    /// The view.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    world_to_camera: Option<WorldToCamera>,
     look: SettledLook,
     arithmetic: Arithmetic,
     /// The part of the picture wanted: x, y, width, height.
@@ -143,6 +146,8 @@ impl PicturePart {
                     software,
                     scene,
                     settings,
+                    world_to_camera,
+                    layer: _,
                 },
             look,
             arithmetic,
@@ -158,6 +163,7 @@ impl PicturePart {
             software,
             scene,
             settings: serde_json::from_str(&settings).unwrap_or(Value::String(settings)),
+            world_to_camera,
             look,
             arithmetic,
             window: [x, y, width, height],
@@ -218,6 +224,8 @@ impl PicturePart {
             software: self.head.software.clone(),
             scene: self.head.scene.clone(),
             settings: self.head.settings.to_string(),
+            world_to_camera: self.head.world_to_camera,
+            layer: String::new(),
         }
     }
 

@@ -330,6 +330,8 @@ impl PictureSetup {
             software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
             scene: hash(scene),
             settings: settings.to_string(),
+            world_to_camera: scene.camera.world_to_camera(),
+            layer: String::new(),
         }
     }
 }

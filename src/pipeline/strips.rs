@@ -2,8 +2,8 @@
 //! it takes the memory of a strip, and its file is that of the whole, byte for byte.
 
 use super::look::{Losses, SettledLook};
-use super::{Input, Meter, Observer, OutputFormat, PictureSetup, RenderError, RenderSubject};
-use crate::image::{BLOCK_ROWS, Picture, StripSource};
+use super::{Input, Meter, Observer, PictureSetup, RenderError, RenderSubject};
+use crate::image::{BLOCK_ROWS, FileFormat, Picture, StripSource};
 use crate::render::{Counts, Crop, Film, Job};
 use crate::study::Goal;
 use crate::valid::Mode;
@@ -60,7 +60,7 @@ impl PictureSetup {
     /// If it is such a picture.
     pub fn refuse_strips(&self, subject: &RenderSubject) -> Result<(), RenderError> {
         let is_distances = matches!(subject.proven.scene.settings().mode, Mode::Zbuffer);
-        let is_whole = matches!(self.look.kind, OutputFormat::Jpeg | OutputFormat::Webp);
+        let is_whole = matches!(self.look.kind, FileFormat::Jpeg | FileFormat::Webp);
         let reasons = [
             (is_whole, WHOLE),
             (self.goal != Goal::default(), GOAL),
@@ -117,7 +117,7 @@ impl PictureSetup {
         written?;
         let StripRender { counts, losses, .. } = render;
         self.look_for_hits(subject, &counts, input);
-        let found = losses.findings(counts.unnumbered, self.arithmetic);
+        let found = losses.findings(counts.unnumbered, look.kind, self.arithmetic);
         found.into_iter().for_each(|finding| input.push(finding));
         Ok(Ok(counts))
     }

@@ -50,7 +50,7 @@ pub use outcome::{
 pub use precision::PrecisionCost;
 pub use reference::{DepthEnd, Level};
 #[cfg(feature = "cli")]
-pub use report::{csv, html, json, table, versus_table};
+pub use report::{SliderPage, csv, html, json, slider_page, table, told, versus_table};
 pub use setting::Setting;
 pub use statistics::{Estimate, PowerLaw, Rng, median};
 pub use stretch::WorkStretch;

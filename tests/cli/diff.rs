@@ -125,6 +125,11 @@ fn what_can_not_be_compared_is_told_and_no_map_appears() {
     );
     let whole = fs::read(folder.path().join("two.png")).unwrap();
     fs::write(folder.path().join("cut.png"), &whole[..whole.len() / 2]).unwrap();
+    fs::copy(
+        folder.path().join("ball.json"),
+        folder.path().join("ball.png"),
+    )
+    .unwrap();
     for (other, words) in [
         (
             "small.png",
@@ -135,7 +140,11 @@ fn what_can_not_be_compared_is_told_and_no_map_appears() {
             "`light.exr` holds values of light, and `two.png` those of a display",
         ),
         ("cut.png", "`cut.png` is damaged"),
-        ("ball.json", "`ball.json` is not a picture"),
+        (
+            "ball.json",
+            "`two.png` is a picture, and `ball.json` a scene",
+        ),
+        ("ball.png", "`ball.png` is not a picture"),
         ("none.png", "`none.png`"),
     ] {
         let (code, told, said) = diff(&folder, &["two.png", other, "-o", "map.png"]);
@@ -150,4 +159,50 @@ fn what_can_not_be_compared_is_told_and_no_map_appears() {
         code == 2 && said.contains("it is an input of this run"),
         "{said}"
     );
+}
+
+#[test]
+fn scenes_are_compared_by_their_values_and_by_one_camera() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let old = fs::read_to_string(path("ball.json")).unwrap();
+    let mut scene: serde_json::Value = serde_json::from_str(&old).unwrap();
+    scene["materials"][0]["phong"]["kd"] = serde_json::json!(0.015_625);
+    fs::write(path("new.json"), scene.to_string()).unwrap();
+    let args = [
+        "new.json",
+        "ball.json",
+        "--json",
+        "--html",
+        "page.html",
+        "-o",
+        "map.png",
+    ];
+    let (code, told, _) = diff(&folder, &args);
+    assert_eq!(code, 0, "{told}");
+    let report: serde_json::Value = serde_json::from_str(&told).unwrap();
+    let changes = report["changes"].as_array().unwrap();
+    assert_eq!(changes.len(), 1, "{told}");
+    assert!(changes[0]["path"].as_str().unwrap().ends_with("phong.kd"));
+    assert_eq!(changes[0]["new"], serde_json::json!(0.015_625));
+    assert!(report["difference"]["rmse"].as_f64().unwrap() > 0.0);
+    let page = fs::read_to_string(path("page.html")).unwrap();
+    assert!(page.contains("phong.kd") && page.contains("type=\"range\""));
+    assert_eq!(page.matches("data:image/png").count(), 3);
+    assert!(path("map.png").exists());
+
+    // One camera: a scene that differs in its camera alone has the same picture.
+    scene = serde_json::from_str(&old).unwrap();
+    scene["camera"]["eye"] = serde_json::json!([5, 0, 50]);
+    fs::write(path("moved.json"), scene.to_string()).unwrap();
+    let (code, told, _) = diff(&folder, &["moved.json", "ball.json", "--gate", "max<=0"]);
+    assert_eq!(code, 0, "{told}");
+    assert!(told.contains("camera.eye: "), "{told}");
+
+    assert_eq!(diff(&folder, &["new.json", "map.png"]).0, 2);
+    assert_eq!(
+        diff(&folder, &["new.json", "ball.json", "-o", "ball.json"]).0,
+        2
+    );
+    assert_eq!(fs::read_to_string(path("ball.json")).unwrap(), old);
 }

@@ -134,7 +134,7 @@ fn exit_codes_say_whose_fault_it_is() {
     assert_eq!(code(&["check", "."]), 1);
     assert_eq!(code(&["render", "ball.json", "-o", "x.bmp"]), 2);
     assert_eq!(
-        code(&["render", "ball.json", "-o", "x.exr", "--bits", "16"]),
+        code(&["render", "ball.json", "-o", "x.exr", "--bits", "8"]),
         2
     );
     assert_eq!(code(&["render", "ball.json", "--crop", "40,0,1,1"]), 2);

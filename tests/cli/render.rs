@@ -79,26 +79,95 @@ fn options_override_the_scene() {
 }
 
 #[test]
-fn an_exr_says_where_it_came_from() {
+fn a_picture_says_where_it_came_from_unless_that_is_left_out() {
     let folder = folder();
-    let exr = |name: &str| {
-        assert_eq!(code(&rtc(&folder, &["render", "ball.json", "-o", name])), 0);
+    let picture = |name: &str, args: &[&str]| {
+        let render = [&["render", "ball.json", "-o", name], args].concat();
+        assert_eq!(code(&rtc(&folder, &render)), 0, "{name} {args:?}");
         fs::read(folder.path().join(name)).unwrap()
     };
-    let first = exr("a.exr");
-    assert!(first == exr("b.exr"), "two renders differ");
-    for words in [
-        "rtc:scene",
-        "rtc:settings",
-        "\"supersampling\":2",
-        concat!("rtc ", env!("CARGO_PKG_VERSION")),
-    ] {
+    let has = |bytes: &[u8], words: &str| bytes.windows(words.len()).any(|w| w == words.as_bytes());
+    for [name, other] in [["a.exr", "b.exr"], ["a.png", "b.png"]] {
+        let first = picture(name, &[]);
         assert!(
-            first
-                .windows(words.len())
-                .any(|window| window == words.as_bytes()),
-            "{words}"
+            first == picture(other, &["--threads", "1"]),
+            "two renders differ"
         );
+        let bare = picture(other, &["--no-metadata"]);
+        for words in [
+            "rtc:scene",
+            "rtc:settings",
+            "\"supersampling\":2",
+            concat!("rtc ", env!("CARGO_PKG_VERSION")),
+        ] {
+            assert!(
+                has(&first, words) && !has(&bare, words),
+                "{words} in {name}"
+            );
+        }
+        let diff = rtc(&folder, &["diff", name, other, "--gate", "max<=0"]);
+        assert_eq!(code(&diff), 0, "{}", stderr(&diff));
+    }
+    let linear = fs::read(folder.path().join("b.exr")).unwrap();
+    assert!(has(&linear, "chromaticities") && has(&linear, "worldToCamera"));
+    assert!(has(&fs::read(folder.path().join("b.png")).unwrap(), "sRGB"));
+}
+
+#[test]
+fn layers_are_pictures_beside_a_png() {
+    let folder = folder();
+    let render = |args: &[&str]| rtc(&folder, &[&["render", "ball.json"], args].concat());
+    let all = "albedo,normal,depth,uv,instance,position";
+    let made = render(&["-o", "b.png", "--aov", all]);
+    assert_eq!(code(&made), 0, "{}", stderr(&made));
+    for layer in all.split(',') {
+        let bytes = fs::read(folder.path().join(format!("b.{layer}.png"))).unwrap();
+        let text = String::from_utf8_lossy(&bytes);
+        assert!(
+            text.contains(&format!("{{\"layer\":\"{layer}\"")),
+            "{layer}"
+        );
+        assert_eq!(text.contains("sRGB"), layer == "albedo", "{layer}");
+        let ranged = layer == "depth" || layer == "position";
+        assert_eq!(text.contains("\"ranges\":[["), ranged, "{layer}");
+    }
+    for (args, why) in [
+        (&["-o", "b.jpg", "--aov", "uv"][..], "within an EXR"),
+        (&["-o", "-", "--aov", "uv"], "name the picture .exr"),
+        (
+            &["-o", "b.png", "--aov", "uv", "--strips"],
+            "name the picture .exr",
+        ),
+        (
+            &["-o", "b.rtp", "--aov", "uv", "--part", "1/2"],
+            "name the picture .exr",
+        ),
+    ] {
+        let refused = render(args);
+        assert_eq!(code(&refused), 2, "{args:?}");
+        assert!(stderr(&refused).contains(why), "{}", stderr(&refused));
+    }
+}
+
+#[test]
+fn an_exr_has_floats_of_16_bits_if_asked() {
+    let folder = folder();
+    let render = |name: &str, bits: &str| {
+        rtc(
+            &folder,
+            &["render", "ball.json", "-o", name, "--bits", bits],
+        )
+    };
+    assert_eq!(
+        (code(&render("a.exr", "32")), code(&render("b.exr", "16"))),
+        (0, 0)
+    );
+    let length = |name: &str| fs::metadata(folder.path().join(name)).unwrap().len();
+    assert!(length("b.exr") < length("a.exr"));
+    let near = rtc(&folder, &["diff", "a.exr", "b.exr", "--gate", "max<=1"]);
+    assert_eq!(code(&near), 0, "{}", stderr(&near));
+    for (name, bits) in [("a.exr", "8"), ("a.png", "32"), ("a.jpg", "16")] {
+        assert_eq!(code(&render(name, bits)), 2, "{name} {bits}");
     }
 }
 

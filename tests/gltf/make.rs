@@ -394,6 +394,6 @@ fn squares(side: u32) -> Vec<u8> {
     };
     let picture = rtc::internals::image::Picture::opaque(image);
     picture
-        .encode(&rtc::internals::image::FileFormat::Png8)
+        .encode(rtc::internals::image::FileFormat::Png8)
         .unwrap()
 }

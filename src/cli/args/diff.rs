@@ -1,6 +1,7 @@
 //! What `rtc diff` is told.
 
 use super::super::gate::{Gates, of_pictures};
+use super::{Reading, TalkArgs, WantedArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -9,15 +10,16 @@ use std::path::PathBuf;
     after_help = "Values of pixel files are compared as they are stored, up to 16 bits; those of EXR and HDR by the code of sRGB, cut off \
 at 1, and `relmse` by what they hold: highlights beyond 1 show in it alone. Of an EXR the first red, green and blue are read, negative values as \
 0, and no opacity. Colours count as on black; opacity of its own shows in `max` and `share`.\n\n\
-Examples:\n  rtc diff new.png golden.png\n  rtc diff new.png golden.png --gate 'rmse<=1,share<=0.1%' -o map.png"
+Examples:\n  rtc diff new.png golden.png\n  rtc diff new.png golden.png --gate 'rmse<=1,share<=0.1%' -o map.png\n  rtc diff new.yaml old.yaml --html page.html"
 )]
 pub(in crate::cli) struct Diff {
-    /// The picture: PNG, JPEG, WebP, EXR or HDR
-    #[arg(value_name = "PICTURE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) picture: PathBuf,
-    /// What it is compared with, of the same size
-    #[arg(value_name = "REFERENCE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) reference: PathBuf,
+    /// The picture (PNG, JPEG, WebP, EXR or HDR), or the scene
+    #[arg(value_name = "NEW", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) new: PathBuf,
+    /// What it is compared with: a picture of the same size, or a scene, which is seen by the camera of the
+    /// new one
+    #[arg(value_name = "OLD", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) old: PathBuf,
     /// Pixels count as different if a channel is off by more than so many grey levels of 8 bits
     #[arg(long, value_name = "LEVELS", default_value = "1", value_parser = levels)]
     pub(in crate::cli) levels: f64,
@@ -28,15 +30,18 @@ pub(in crate::cli) struct Diff {
     /// Write where they differ, as perceived (FLIP), from black to white: a PNG
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) output: Option<PathBuf>,
+    /// Write a page with a slider between the two
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) html: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
     pub(in crate::cli) json: bool,
-    /// Take pictures of any size
-    #[arg(long)]
-    pub(in crate::cli) allow_huge: bool,
-    /// Say nothing but that a gate is not met
-    #[arg(short, long)]
-    pub(in crate::cli) quiet: bool,
+    #[command(flatten)]
+    pub(in crate::cli) wanted: WantedArgs,
+    #[command(flatten)]
+    pub(in crate::cli) reading: Reading,
+    #[command(flatten)]
+    pub(in crate::cli) talk: TalkArgs,
 }
 
 fn levels(text: &str) -> Result<f64, String> {

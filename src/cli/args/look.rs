@@ -3,8 +3,8 @@
 
 use super::super::parse::{background, exposure};
 use crate::color::{Tone, srgb_decoded};
-use crate::image::BackgroundFill;
-use crate::pipeline::{Exposure, OutputFormat};
+use crate::image::{BackgroundFill, FileFormat};
+use crate::pipeline::Exposure;
 use crate::render::Aov;
 use clap::{Args, ValueEnum};
 
@@ -23,12 +23,18 @@ pub(in crate::cli) struct LookArgs {
     /// values that the file is to hold. Light stays as it is
     #[arg(long, value_name = "WHAT", default_value = "env", value_parser = background)]
     pub(in crate::cli) background: BackgroundArg,
-    /// Layers beside the colours, in an EXR: means over what the camera rays of a pixel meet first
+    /// Layers beside the colours: means over what the camera rays of a pixel meet first. An EXR holds
+    /// their numbers; beside a PNG each is a picture of its own, as `picture.depth.png`
     #[arg(long, value_enum, value_name = "LAYERS", value_delimiter = ',')]
     pub(in crate::cli) aov: Vec<Layer>,
-    /// Bits a channel of a PNG [default: 8]
+    /// Bits a channel: 8 or 16 of a PNG, 16 or 32 of an EXR, whose layers of distances, places and
+    /// numbers keep 32 [default: 8, of an EXR 32]
     #[arg(long)]
     pub(in crate::cli) bits: Option<BitDepth>,
+    /// Leave out of a PNG or an EXR what made it: the program, the hash of the scene and the settings
+    /// that decide the pixels
+    #[arg(long)]
+    pub(in crate::cli) no_metadata: bool,
 }
 
 /// A background as typed.
@@ -42,17 +48,15 @@ pub(in crate::cli) enum BackgroundArg {
 
 impl BackgroundArg {
     /// That of a picture in a kind of file: an EXR holds linear values, other kinds those of sRGB.
-    pub(in crate::cli) fn fill(self, kind: OutputFormat) -> BackgroundFill {
+    pub(in crate::cli) fn fill(self, kind: FileFormat) -> BackgroundFill {
         match self {
             Self::Fill(fill) => fill,
             Self::Shown(color) => {
                 let shown = color.map(|channel| f64::from(channel) / 255.0);
-                BackgroundFill::Color(match kind {
-                    OutputFormat::Exr => shown.map(srgb_decoded),
-                    OutputFormat::Png8
-                    | OutputFormat::Png16
-                    | OutputFormat::Jpeg
-                    | OutputFormat::Webp => shown,
+                BackgroundFill::Color(if kind.is_linear() {
+                    shown.map(srgb_decoded)
+                } else {
+                    shown
                 })
             }
         }
@@ -65,6 +69,8 @@ pub(in crate::cli) enum BitDepth {
     Eight,
     #[value(name = "16")]
     Sixteen,
+    #[value(name = "32")]
+    ThirtyTwo,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -10,10 +10,10 @@ use super::args::{Farm, Reading};
 use super::input;
 use super::interrupt::Interrupt;
 use super::project;
-use super::render::{set_stage, wanted};
+use super::render::{refuse_layers, set_stage, wanted};
 use super::talk::{self, Talk};
 use crate::codec::{self, Form};
-use crate::pipeline::{Input, NewFolder, Observer, OutputFormat, RenderSubject, hash};
+use crate::pipeline::{Input, NewFolder, Observer, RenderSubject, hash};
 use crate::study::Goal;
 use frames::Frames;
 use jobs::FarmJob;
@@ -83,6 +83,7 @@ fn settled(
     interrupt: &Interrupt,
 ) -> Result<RenderSubject, Failure> {
     let mut setup = wanted(&args.wanted, &args.look, Path::new(&args.picture))?;
+    refuse_layers(&setup)?;
     let settled = project::picture(&args.file, Goal::default())?;
     setup.overrides = setup.overrides.or(settled);
     let subject = match input.load() {
@@ -105,7 +106,7 @@ fn settled(
     };
     setup.light(&mut subject, &mut input, &observer)?;
     input::tell(&mut input, talk)?;
-    if setup.look.kind != OutputFormat::Exr {
+    if !setup.look.kind.is_linear() {
         subject.proven.lowered.scene.display = setup.look.as_display();
     }
     Ok(subject)

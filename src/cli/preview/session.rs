@@ -58,6 +58,7 @@ impl<'a> Session<'a> {
         watched: Arc<Watched>,
     ) -> Result<Self, Failure> {
         let setup = render::wanted(&args.wanted, &args.look, Path::new("preview.png"))?;
+        render::refuse_layers(&setup)?;
         let settled = project::picture(&args.file, Goal::default())?;
         Ok(Self {
             args,

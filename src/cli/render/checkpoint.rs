@@ -261,7 +261,7 @@ impl RenderSetup {
 }
 
 /// Why a command ends whose render came to no end.
-pub(super) fn ended(error: RenderError, input: &mut Input, talk: &mut Talk) -> Failure {
+pub(in crate::cli) fn ended(error: RenderError, input: &mut Input, talk: &mut Talk) -> Failure {
     halted(error, input, talk)
         .err()
         .unwrap_or(Failure::Findings)

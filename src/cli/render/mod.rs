@@ -3,6 +3,8 @@
 mod animation;
 mod budget;
 mod checkpoint;
+mod layers;
+mod look;
 mod made;
 mod many;
 mod part;
@@ -13,7 +15,7 @@ mod strips;
 mod turning;
 
 use super::Failure;
-use super::args::{self, BackgroundArg, BitDepth};
+use super::args::{self, BackgroundArg};
 use super::input;
 use super::interrupt::Interrupt;
 use super::lead;
@@ -22,18 +24,17 @@ use super::project;
 use super::simd;
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable, Views};
-use crate::color::Tone;
 use crate::image::{BackgroundFill, Picture};
 use crate::passes::Overrides;
-use crate::pipeline::{
-    Input, Observer, OutputFormat, OutputLook, PictureSetup, RenderError, RenderSubject,
-};
+use crate::pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};
 use crate::plan::{Rule, Rules};
-use crate::render::{Aov, Crop};
+use crate::render::Crop;
 use crate::study::Goal;
 use budget::PictureClock;
-use checkpoint::{Checkpoint, Desk, Saving, ended};
-pub(super) use checkpoint::{or_restart, say_saved, try_save};
+use checkpoint::{Checkpoint, Desk, Saving};
+pub(super) use checkpoint::{ended, or_restart, say_saved, try_save};
+use layers::LayerFiles;
+pub(super) use look::{kind, refuse_layers};
 pub(super) use made::MadePicture;
 use part::PartSetup;
 use std::ffi::{OsStr, OsString};
@@ -121,6 +122,14 @@ impl RenderSetup {
             verify: args.pruning.verify_effects,
             ..wanted(&args.wanted, &args.look, picture)?
         };
+        let is_one_file = args.strips.is_some()
+            || rate.is_some()
+            || part.is_some()
+            || args.checkpoint.is_some()
+            || output.as_os_str() == "-";
+        if is_one_file {
+            refuse_layers(&picture)?;
+        }
         Ok(Self {
             output,
             picture,
@@ -246,10 +255,13 @@ impl RenderSetup {
             return self.shoot_strips(rows, (subject, path), input, talk, interrupt);
         }
         let (window, output) = self.ready(subject, path, input)?;
+        let layers = LayerFiles::open(&self.picture.look, path, input)?;
         let desk = (&mut *input, &mut *talk, interrupt);
         let (picture, made) = self.take(subject, path, window, desk)?;
         let bytes = self.picture.encode(&picture, subject)?;
+        let layers = layers.encode(&self.picture, &picture, subject)?;
         output.commit(&bytes, interrupt)?;
+        layers.commit(interrupt)?;
         talk.made(&made);
         Ok(())
     }
@@ -337,49 +349,8 @@ pub(super) fn wanted(
         arithmetic: wanted.arithmetic.into(),
         crop: wanted.crop,
         simd: simd::level()?,
-        ..PictureSetup::new(self::look(look, name)?)
+        ..PictureSetup::new(look::look(look, name)?)
     })
-}
-
-/// The look that is asked for.
-fn look(args: &args::LookArgs, output: &Path) -> Result<OutputLook, Failure> {
-    let refused = |words: &str| Failure::Trouble(words.to_owned());
-    let kind = kind(output, args.bits)?;
-    let aovs: Vec<Aov> = args.aov.iter().map(|layer| Aov::from(*layer)).collect();
-    let tone = args.tonemap.map(Tone::from);
-    let look = OutputLook::new(kind, tone, args.exposure, args.background.fill(kind), &aovs);
-    let look = look.map_err(refused)?;
-    if kind != OutputFormat::Exr && !aovs.is_empty() {
-        return Err(refused("`--aov` is for EXR; a PNG holds colours alone"));
-    }
-    Ok(look)
-}
-
-/// The kind of pixel file that a name stands for.
-pub(super) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<OutputFormat, Failure> {
-    let extension = output
-        .extension()
-        .map(|extension| extension.to_string_lossy().to_lowercase());
-    let is_stdout = output.as_os_str() == "-";
-    match (extension.as_deref(), bits) {
-        (Some("exr"), None) => Ok(OutputFormat::Exr),
-        (Some("exr"), Some(_)) => Err(Failure::Trouble(
-            "`--bits` is for PNG; an EXR holds 32-bit floats".to_owned(),
-        )),
-        (Some("png"), Some(BitDepth::Sixteen)) => Ok(OutputFormat::Png16),
-        (Some("png"), Some(BitDepth::Eight) | None) => Ok(OutputFormat::Png8),
-        (Some("jpg" | "jpeg"), None) => Ok(OutputFormat::Jpeg),
-        (Some("webp"), None) => Ok(OutputFormat::Webp),
-        (Some("jpg" | "jpeg" | "webp"), Some(_)) => Err(Failure::Trouble(
-            "`--bits` is for PNG; a JPEG or WebP has 8".to_owned(),
-        )),
-        (None, Some(BitDepth::Sixteen)) if is_stdout => Ok(OutputFormat::Png16),
-        (None, Some(BitDepth::Eight) | None) if is_stdout => Ok(OutputFormat::Png8),
-        _ => Err(Failure::Trouble(format!(
-            "can't tell what `{}` is to be; name it .png, .jpg, .webp or .exr",
-            output.display()
-        ))),
-    }
 }
 
 /// The name of the scene with `.png`, in the current folder.

@@ -65,7 +65,7 @@ impl Sheet {
             (name, read.map(|picture| for_sheet(picture.display)))
         });
         let sheet = contact_sheet(&pictures.collect::<Vec<_>>());
-        let bytes = Picture::opaque(sheet).encode(&FileFormat::Png8);
+        let bytes = Picture::opaque(sheet).encode(FileFormat::Png8);
         let bytes = bytes.map_err(|error| Failure::Trouble(error.to_string()))?;
         self.output.commit(&bytes, &Interrupt::listen()?)
     }

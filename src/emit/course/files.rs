@@ -2,7 +2,7 @@
 
 use super::{ply, quoted};
 use crate::emit::beside;
-use crate::image::{FileFormat, Image as Radiances, Origin, Picture, png_bytes};
+use crate::image::{FileFormat, Image as Radiances, Picture, png_bytes};
 use crate::ir::{Image, ImageId, Material, Mesh, MeshId, Pixels, Scene};
 use std::collections::BTreeMap;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
@@ -193,7 +193,7 @@ fn encode(image: &Image) -> Result<Vec<u8>, String> {
                 height: *height,
                 pixels: channels.as_chunks::<3>().0.to_vec(),
             });
-            picture.encode(&FileFormat::Exr(Origin::default()))
+            picture.encode(FileFormat::Exr)
         }
     };
     encoded.map_err(|fault| fault.to_string())

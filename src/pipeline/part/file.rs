@@ -11,7 +11,7 @@ use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
 const MAGIC: [u8; 8] = *b"\x89RTP\r\n\x1a\n";
 
 /// The version of the format.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The bytes before the header: magic, version, and the lengths of header and film.
 const PREAMBLE: usize = 24;

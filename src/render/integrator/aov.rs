@@ -33,6 +33,19 @@ pub enum Aov {
 const FAR: f64 = 1e10;
 
 impl Aov {
+    /// Its name, which the names of its channels begin with.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Albedo => "albedo",
+            Self::Normal => "normal",
+            Self::Depth => "depth",
+            Self::Uv => "uv",
+            Self::Instance => "instance",
+            Self::Position => "position",
+        }
+    }
+
     /// The names of the channels, as denoisers and compositors expect them.
     #[must_use]
     pub fn channels(self) -> &'static [&'static str] {

@@ -7,7 +7,7 @@ use super::super::outcome::{BounceCost, Row, Study};
 use super::{chart, picture, table};
 use std::fmt::Write;
 
-const STYLE: &str = include_str!("page.css");
+pub(super) const STYLE: &str = include_str!("page.css");
 
 /// The maximum number of rows shown as pictures.
 const PICTURES: usize = 8;
@@ -283,7 +283,7 @@ fn fine_print(study: &Study) -> String {
 }
 
 /// Text escaped for HTML.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")

@@ -5,11 +5,13 @@ mod chart;
 mod csv;
 mod html;
 mod picture;
+mod slider;
 mod table;
 mod versus;
 
 pub use csv::csv;
 pub use html::html;
+pub use slider::{SliderPage, slider_page, told};
 pub use table::table;
 pub use versus::versus_table;
 

@@ -15,6 +15,13 @@ pub(super) fn tiles(tiles: &[Image]) -> String {
     uri(&shrunk(mosaic(tiles), [WIDTH, u32::MAX]))
 }
 
+/// A picture by itself, as a PNG in a URI.
+pub(super) fn wide(image: &Image) -> String {
+    /// Wider pictures are shrunk to this width, in pixels.
+    const WIDTH: u32 = 1600;
+    uri(&shrunk(image.clone(), [WIDTH, u32::MAX]))
+}
+
 /// FLIP of each place, from black for no difference to white for the largest.
 pub(super) fn heat(test: &[Image], reference: &[Image]) -> String {
     let map = |(test, reference): (&Image, &Image)| {
@@ -55,7 +62,7 @@ fn mosaic(tiles: &[Image]) -> Image {
 fn uri(image: &Image) -> String {
     // A picture too large to encode is left out.
     let bytes = Picture::opaque(image.clone())
-        .encode(&FileFormat::Png8)
+        .encode(FileFormat::Png8)
         .unwrap_or_default();
     format!("data:image/png;base64,{}", BASE64_STANDARD.encode(bytes))
 }

@@ -37,7 +37,7 @@ pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
     };
     Ok(Shot {
         png: picture
-            .encode(&FileFormat::Png8)
+            .encode(FileFormat::Png8)
             .map_err(|error| error.to_string())?,
         tolerance: match scene.settings().mode {
             Mode::Path(_) => 1,

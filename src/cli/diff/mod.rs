@@ -1,0 +1,175 @@
+//! `rtc diff`: how far two pictures, or two scenes and their pictures, are apart, and whether that is within
+//! gates.
+
+mod pictures;
+mod scenes;
+
+use super::Failure;
+use super::args::Diff;
+use super::gate::{self, JudgedGate};
+use super::interrupt::Interrupt;
+use super::output::{self, Output};
+use crate::codec::Change;
+use crate::image::{FileFormat, Image, Picture, ShownPicture};
+use crate::study::{Difference, SliderPage, heat_map, slider_page, told};
+use serde_json::Value;
+use std::path::Path;
+
+/// The results of a comparison, each fit to be written.
+struct DiffOutputs {
+    map: Option<Output>,
+    page: Option<Output>,
+}
+
+/// Compares two pictures or two scenes, and says how they differ.
+pub(super) fn run(args: &Diff) -> Result<(), Failure> {
+    match [&args.new, &args.old].map(|path| is_picture(path)) {
+        [true, true] => pictures::run(args),
+        [false, false] => scenes::run(args),
+        [is_picture, _] => {
+            let files = [&args.new, &args.old].map(|path| path.display());
+            let (picture, scene) = (
+                &files[usize::from(!is_picture)],
+                &files[usize::from(is_picture)],
+            );
+            Err(Failure::Trouble(format!(
+                "`{picture}` is a picture, and `{scene}` a scene: compare two of a kind, or render the scene"
+            )))
+        }
+    }
+}
+
+/// Whether a file is a picture, by its name.
+fn is_picture(path: &Path) -> bool {
+    const PICTURES: [&str; 6] = ["png", "jpg", "jpeg", "webp", "exr", "hdr"];
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    PICTURES
+        .iter()
+        .any(|kind| extension.eq_ignore_ascii_case(kind))
+}
+
+/// Writes what was asked for, tells how two pictures differ, and their scenes, and passes the gates.
+fn report(
+    args: &Diff,
+    outputs: DiffOutputs,
+    [new, old]: [&ShownPicture; 2],
+    changes: Option<&[Change]>,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
+    let size = [new.display.width, new.display.height];
+    let (found, flips) = Difference::of(new, old, args.levels);
+    if let Some(output) = outputs.map {
+        output.commit(&map_file(heat_map(size, &flips))?, interrupt)?;
+    }
+    if let Some(output) = outputs.page {
+        let page = slider_page(&SliderPage {
+            names: [&args.new, &args.old]
+                .map(|path| path.display().to_string())
+                .each_ref()
+                .map(String::as_str),
+            pictures: [&new.display, &old.display],
+            difference: &found,
+            flips: &flips,
+            changes,
+        });
+        output.commit(page.as_bytes(), interrupt)?;
+    }
+    let gates = args.gate.as_ref();
+    let judged = gates.map_or_else(Vec::new, |gates| gates.judged(|name| measure(&found, name)));
+    if args.json {
+        output::to_stdout(json(args, size, (&found, changes), &judged)?.as_bytes())?;
+    } else if !args.talk.quiet {
+        let scenes = changes.map_or_else(String::new, changed);
+        output::to_stdout((scenes + &words(args, size, &found)).as_bytes())?;
+    }
+    gate::pass(&judged, args.talk.quiet)
+}
+
+/// The map of differences as a PNG.
+fn map_file(image: Image) -> Result<Vec<u8>, Failure> {
+    let bytes = Picture::opaque(image).encode(FileFormat::Png8);
+    bytes.map_err(|error| Failure::Trouble(error.to_string()))
+}
+
+fn measure(found: &Difference, name: &str) -> f64 {
+    match name {
+        "rmse" => found.rmse,
+        "max" => found.max,
+        "relmse" => found.relative_mse,
+        "flip" => found.flip,
+        _ => found.share,
+    }
+}
+
+/// What differs in the scenes, a line each.
+fn changed(changes: &[Change]) -> String {
+    /// So many lines at most.
+    const MOST: usize = 40;
+    let line = |Change { path, new, old }: &Change| {
+        let (new, old) = (told(new.as_ref()), told(old.as_ref()));
+        format!("  {path}: {old} → {new}\n")
+    };
+    let lines: String = changes.iter().take(MOST).map(line).collect();
+    match changes.len() {
+        0 => "the scenes are alike\n".to_owned(),
+        count if count > MOST => {
+            let more = count - MOST;
+            format!("values that differ: {count}\n{lines}  and {more} more (`--json` has all)\n")
+        }
+        count => format!("values that differ: {count}\n{lines}"),
+    }
+}
+
+fn words(args: &Diff, [width, height]: [u32; 2], found: &Difference) -> String {
+    let names = format!(
+        "{} and {}: {width}×{height}",
+        args.new.display(),
+        args.old.display()
+    );
+    if found.is_none() {
+        return format!("{names}, no difference\n");
+    }
+    let place = found.max_at.map_or_else(String::new, |[x, y]| {
+        format!(", first in column {x}, row {y}")
+    });
+    let Difference {
+        rmse,
+        max,
+        max_at: _,
+        relative_mse,
+        flip,
+        share,
+        levels,
+    } = found;
+    format!(
+        "{names}\n\
+         rmse    {rmse:.4} grey levels\n\
+         max     {max:.2} grey levels{place}\n\
+         relmse  {relative_mse:.3e}\n\
+         flip    {flip:.6}\n\
+         share   {:.4} % of the pixels are off by more than {levels} grey levels\n",
+        100.0 * share
+    )
+}
+
+fn json(
+    args: &Diff,
+    size: [u32; 2],
+    (found, changes): (&Difference, Option<&[Change]>),
+    gates: &[JudgedGate],
+) -> Result<String, Failure> {
+    let mut object = serde_json::json!({
+        "schema": "rtc-diff/1",
+        "picture": args.new.display().to_string(),
+        "reference": args.old.display().to_string(),
+        "size": size,
+        "difference": found,
+        "gates": gates,
+    });
+    if let Some(changes) = changes {
+        object["changes"] = serde_json::to_value(changes).unwrap_or(Value::Null);
+    }
+    let text = serde_json::to_string_pretty(&object);
+    text.map(|text| text + "\n")
+        .map_err(|error| Failure::Trouble(error.to_string()))
+}

@@ -1,0 +1,150 @@
+//! Two scenes: what differs in their IR, and their pictures by one camera, that of the new scene.
+
+use super::super::Failure;
+use super::super::args::Diff;
+use super::super::interrupt::Interrupt;
+use super::super::output::Output;
+use super::super::render::ended;
+use super::super::talk::Talk;
+use super::super::{input, simd};
+use super::{DiffOutputs, report};
+use crate::codec::changes;
+use crate::image::{BackgroundFill, FileFormat, Picture, ShownPicture};
+use crate::ir::{Camera, Scene};
+use crate::pipeline::{Input, Observer, OutputLook, PictureSetup, RenderSubject};
+use crate::render::Film;
+use std::path::Path;
+
+/// A scene to be compared, as its picture is set up.
+struct Side {
+    input: Input,
+    setup: PictureSetup,
+    subject: RenderSubject,
+}
+
+/// Compares two scenes, and says how they differ.
+pub(super) fn run(args: &Diff) -> Result<(), Failure> {
+    if [&args.new, &args.old]
+        .iter()
+        .all(|file| file.as_os_str() == "-")
+    {
+        let words = "standard input is one scene; give a file for the other";
+        return Err(Failure::Trouble(words.to_owned()));
+    }
+    let mut talk = Talk::beside_result(&args.talk);
+    let outcome = carry_out(args, &mut talk);
+    talk.finish()?;
+    outcome
+}
+
+fn carry_out(args: &Diff, talk: &mut Talk) -> Result<(), Failure> {
+    let interrupt = Interrupt::listen()?;
+    let mut new = Side::read(args, &args.new, None, talk)?;
+    let mut old = Side::read(args, &args.old, Some(new.size()), talk)?;
+    let changed = changes(new.scene(), old.scene());
+    let changed = changed.expect("proven scenes hold finite numbers only");
+    let open = |path: &Option<_>| {
+        let path: Option<&Path> = path.as_deref();
+        let open = |path: &Path| {
+            Output::open(path, &old.input)?;
+            Output::open(path, &new.input)
+        };
+        path.map(open).transpose()
+    };
+    let outputs = DiffOutputs {
+        map: open(&args.output)?,
+        page: open(&args.html)?,
+    };
+    let first = new.picture(talk, &interrupt)?;
+    old.see_by(&new.scene().camera)?;
+    let second = old.picture(talk, &interrupt)?;
+    report(args, outputs, [&first, &second], Some(&changed), &interrupt)
+}
+
+impl Side {
+    /// Reads a scene, for a picture of this size if one is given; what is found in it is told.
+    fn read(
+        args: &Diff,
+        file: &Path,
+        size: Option<[u32; 2]>,
+        talk: &mut Talk,
+    ) -> Result<Self, Failure> {
+        let mut input = input::read(file, &args.reading)?;
+        let look = OutputLook::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
+        let look = look.map_err(|words| Failure::Trouble(words.to_owned()))?;
+        let mut setup = PictureSetup {
+            overrides: args.wanted.overrides(),
+            set: args.wanted.set.clone(),
+            arithmetic: args.wanted.arithmetic.into(),
+            crop: args.wanted.crop,
+            simd: simd::level()?,
+            ..PictureSetup::new(look)
+        };
+        setup.overrides.size = size.or(setup.overrides.size);
+        let subject = match input.load() {
+            Some(loaded) => setup.prove(loaded, &mut input),
+            None => Ok(None),
+        };
+        let subject = match subject {
+            Ok(subject) => input::unless_refused(subject, &mut input, talk)?,
+            Err(error) => {
+                input::tell(&mut input, talk)?;
+                return Err(error.into());
+            }
+        };
+        Ok(Self {
+            input,
+            setup,
+            subject,
+        })
+    }
+
+    fn scene(&self) -> &Scene {
+        &self.subject.proven.lowered.scene
+    }
+
+    fn size(&self) -> [u32; 2] {
+        self.scene().camera.size
+    }
+
+    /// Lets another camera, of the same size, look at it.
+    fn see_by(&mut self, camera: &Camera) -> Result<(), Failure> {
+        let proven = &mut self.subject.proven;
+        let unseen = || {
+            let words = "the camera of the new scene can't see the old one";
+            Failure::Trouble(words.to_owned())
+        };
+        proven.scene = proven.scene.seen_by(camera).ok_or_else(unseen)?;
+        proven.lowered.scene.camera = camera.clone();
+        self.subject.turn();
+        Ok(())
+    }
+
+    /// Its picture, as `rtc render` shows it.
+    fn picture(&mut self, talk: &mut Talk, interrupt: &Interrupt) -> Result<ShownPicture, Failure> {
+        let Self {
+            input,
+            setup,
+            subject,
+        } = self;
+        let observer = Observer {
+            on_step: &|_| (),
+            is_stopped: &|| interrupt.is_raised(),
+        };
+        setup.light(subject, input, &observer)?;
+        let window = setup.window(&subject.proven.lowered.scene)?;
+        setup.find_room(subject, window)?;
+        let rays = input.rays();
+        let film = setup.trace(subject, (window, rays), &observer);
+        let Film {
+            image,
+            coverage,
+            counts,
+        } = film.map_err(|error| ended(error, input, talk))?;
+        let film = (image, coverage, &counts);
+        let picture = setup.develop(subject, film, input, observer.is_stopped)?;
+        input::tell(input, talk)?;
+        let Picture { image, .. } = picture;
+        Ok(ShownPicture::of(image))
+    }
+}

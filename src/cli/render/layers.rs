@@ -1,0 +1,54 @@
+//! The layers of a PNG: pictures of their own beside it, as `picture.depth.png`.
+
+use super::super::Failure;
+use super::super::interrupt::Interrupt;
+use super::super::output::Output;
+use crate::image::Picture;
+use crate::pipeline::{Input, OutputLook, PictureSetup, RenderSubject};
+use crate::render::Aov;
+use std::path::Path;
+
+/// Where the layers of a picture go; nowhere, if its own file holds them.
+pub(super) struct LayerFiles(Vec<(Aov, Output)>);
+
+/// The same with their bytes.
+pub(super) struct EncodedLayers(Vec<(Output, Vec<u8>)>);
+
+impl LayerFiles {
+    /// Those beside a picture, fit to be written.
+    pub(super) fn open(look: &OutputLook, path: &Path, input: &Input) -> Result<Self, Failure> {
+        if look.kind.is_linear() {
+            return Ok(Self(Vec::new()));
+        }
+        let open = |aov: &Aov| {
+            let (_, extension) = look.kind.names();
+            let path = path.with_extension(format!("{}.{extension}", aov.name()));
+            Ok((*aov, Output::open(&path, input)?))
+        };
+        look.aovs
+            .iter()
+            .map(open)
+            .collect::<Result<_, _>>()
+            .map(Self)
+    }
+
+    /// The files of the layers of a picture.
+    pub(super) fn encode(
+        self,
+        setup: &PictureSetup,
+        picture: &Picture,
+        subject: &RenderSubject,
+    ) -> Result<EncodedLayers, Failure> {
+        let encode = |(aov, output)| Ok((output, setup.encode_layer(aov, picture, subject)?));
+        let encoded = self.0.into_iter().map(encode);
+        encoded.collect::<Result<_, Failure>>().map(EncodedLayers)
+    }
+}
+
+impl EncodedLayers {
+    /// Writes them.
+    pub(super) fn commit(self, interrupt: &Interrupt) -> Result<(), Failure> {
+        let mut files = self.0.into_iter();
+        files.try_for_each(|(output, bytes)| output.commit(&bytes, interrupt))
+    }
+}

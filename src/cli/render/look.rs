@@ -1,0 +1,67 @@
+//! The look that is asked for, and the kind of pixel file that a name stands for.
+
+use super::super::Failure;
+use super::super::args::{BitDepth, LookArgs};
+use crate::color::Tone;
+use crate::image::FileFormat;
+use crate::pipeline::{OutputLook, PictureSetup};
+use crate::render::Aov;
+use std::path::Path;
+
+/// The look that is asked for.
+pub(super) fn look(args: &LookArgs, output: &Path) -> Result<OutputLook, Failure> {
+    let refused = |words: &str| Failure::Trouble(words.to_owned());
+    let kind = kind(output, args.bits)?;
+    let aovs: Vec<Aov> = args.aov.iter().map(|layer| Aov::from(*layer)).collect();
+    let tone = args.tonemap.map(Tone::from);
+    let look = OutputLook::new(kind, tone, args.exposure, args.background.fill(kind), &aovs);
+    let mut look = look.map_err(refused)?;
+    if matches!(kind, FileFormat::Jpeg | FileFormat::Webp) && !aovs.is_empty() {
+        return Err(refused("layers are PNGs beside a PNG, or within an EXR"));
+    }
+    look.has_metadata = !args.no_metadata;
+    Ok(look)
+}
+
+/// Refuses layers that would be files beside a picture, where it is the only file.
+pub(in crate::cli) fn refuse_layers(setup: &PictureSetup) -> Result<(), Failure> {
+    if setup.look.kind.is_linear() || setup.look.aovs.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::Trouble(
+        "the layers of a PNG are files beside it, where a whole picture is rendered into a file; \
+         name the picture .exr, which holds them"
+            .to_owned(),
+    ))
+}
+
+/// The kind of pixel file that a name stands for.
+pub(in crate::cli) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<FileFormat, Failure> {
+    let extension = output
+        .extension()
+        .map(|extension| extension.to_string_lossy().to_lowercase());
+    let is_stdout = output.as_os_str() == "-";
+    match (extension.as_deref(), bits) {
+        (Some("exr"), Some(BitDepth::ThirtyTwo) | None) => Ok(FileFormat::Exr),
+        (Some("exr"), Some(BitDepth::Sixteen)) => Ok(FileFormat::ExrHalf),
+        (Some("exr"), Some(BitDepth::Eight)) => Err(Failure::Trouble(
+            "an EXR holds floats of 16 or 32 bits; leave out `--bits 8`".to_owned(),
+        )),
+        (Some("png"), Some(BitDepth::ThirtyTwo)) => Err(Failure::Trouble(
+            "a PNG has 8 or 16 bits a channel; name the picture .exr".to_owned(),
+        )),
+        (Some("png"), Some(BitDepth::Sixteen)) => Ok(FileFormat::Png16),
+        (Some("png"), Some(BitDepth::Eight) | None) => Ok(FileFormat::Png8),
+        (Some("jpg" | "jpeg"), None) => Ok(FileFormat::Jpeg),
+        (Some("webp"), None) => Ok(FileFormat::Webp),
+        (Some("jpg" | "jpeg" | "webp"), Some(_)) => Err(Failure::Trouble(
+            "`--bits` is for PNG and EXR; a JPEG or WebP has 8".to_owned(),
+        )),
+        (None, Some(BitDepth::Sixteen)) if is_stdout => Ok(FileFormat::Png16),
+        (None, Some(BitDepth::Eight) | None) if is_stdout => Ok(FileFormat::Png8),
+        _ => Err(Failure::Trouble(format!(
+            "can't tell what `{}` is to be; name it .png, .jpg, .webp or .exr",
+            output.display()
+        ))),
+    }
+}

@@ -1,0 +1,162 @@
+//! Layers as pictures, for people: colours as a display shows them, directions and places as colours,
+//! distances from white to black, surfaces in colours of their own.
+
+use super::{Image, Picture};
+use crate::color::srgb_encoded;
+
+/// Distances from so far on are those of no surface.
+const FAR: f32 = 1e10;
+
+/// A layer as a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayerPicture {
+    /// What is shown, in [0, 1].
+    pub image: Image,
+    /// Whether it shows colours; else numbers as colours.
+    pub is_color: bool,
+    /// What 0 and 1 stand for, of distances and places: of each channel, the least and the most.
+    pub ranges: Vec<[f32; 2]>,
+}
+
+impl Picture {
+    /// A layer as a picture, by the names of its channels; none if it is not there.
+    #[must_use]
+    pub fn layer_picture(&self, channels: &[&str]) -> Option<LayerPicture> {
+        let width = self.layers.names.len();
+        let first = channels.first()?;
+        let start = self.layers.names.iter().position(|name| name == first)?;
+        let kind = first.split('.').next()?;
+        let pixels = self.layers.values.chunks_exact(width);
+        let own = pixels.map(|pixel| &pixel[start..start + channels.len()]);
+        let ranges = match kind {
+            "depth" | "position" => ranges(own.clone(), channels.len()),
+            _ => Vec::new(),
+        };
+        Some(LayerPicture {
+            image: Image {
+                width: self.image.width,
+                height: self.image.height,
+                pixels: own.map(|values| shown(kind, values, &ranges)).collect(),
+            },
+            is_color: kind == "albedo",
+            ranges,
+        })
+    }
+}
+
+/// The least and the most of each channel where a surface is, [0, 0] if there is none.
+fn ranges<'v>(pixels: impl Iterator<Item = &'v [f32]>, channels: usize) -> Vec<[f32; 2]> {
+    const NONE: [f32; 2] = [f32::INFINITY, f32::NEG_INFINITY];
+    let mut ranges = vec![NONE; channels];
+    for values in pixels.filter(|values| is_surface(values)) {
+        for (range, value) in ranges.iter_mut().zip(values) {
+            *range = [range[0].min(*value), range[1].max(*value)];
+        }
+    }
+    let or_zero = |range| if range == NONE { [0.0; 2] } else { range };
+    ranges.into_iter().map(or_zero).collect()
+}
+
+/// Whether these are values of a surface: a distance that is near, or a place that is not that of no
+/// hit.
+fn is_surface(values: &[f32]) -> bool {
+    let is_finite = values.iter().all(|value| value.is_finite());
+    is_finite && values[0].abs() < FAR && (values.len() == 1 || values.iter().any(|v| *v != 0.0))
+}
+
+/// The colour of some values of a kind of layer.
+fn shown(kind: &str, values: &[f32], ranges: &[[f32; 2]]) -> [f64; 3] {
+    let value = |at: usize| values.get(at).map_or(0.0, |value| f64::from(*value));
+    let within = |at: usize| {
+        let [least, most] = ranges[at].map(f64::from);
+        let span = if most > least { most - least } else { 1.0 };
+        (value(at) - least) / span
+    };
+    let all = [0, 1, 2];
+    match kind {
+        "albedo" => all.map(|at| srgb_encoded(value(at).clamp(0.0, 1.0))),
+        "normal" => all.map(|at| 0.5 * value(at) + 0.5),
+        "uv" => all.map(|at| value(at) - value(at).floor()),
+        "position" if is_surface(values) => all.map(within),
+        "depth" if is_surface(values) => [1.0 - 0.9 * within(0); 3],
+        "instance" => own_color(value(0)),
+        _ => [0.0; 3],
+    }
+}
+
+/// A colour for a surface by its number: hues a golden angle apart, so that neighbours differ; black
+/// for none.
+fn own_color(number: f64) -> [f64; 3] {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    if number < 1.0 {
+        return [0.0; 3];
+    }
+    let hue = 6.0 * (number * GOLDEN - (number * GOLDEN).floor());
+    // The distance on the circle of hues from red, green and blue (HSV, value and saturation 1).
+    [0.0, 2.0, 4.0].map(|pure: f64| {
+        let apart = (hue - pure).abs();
+        (2.0 - apart.min(6.0 - apart)).clamp(0.15, 1.0)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Layers;
+    use super::*;
+
+    fn with(names: &[&'static str], values: &[f32]) -> Picture {
+        let width = u32::try_from(values.len() / names.len()).unwrap();
+        Picture {
+            image: Image {
+                width,
+                height: 1,
+                pixels: vec![[0.0; 3]; width as usize],
+            },
+            alpha: None,
+            layers: Layers {
+                names: names.to_vec(),
+                values: values.to_vec(),
+            },
+        }
+    }
+
+    #[test]
+    fn near_is_white_far_is_dark_and_nothing_is_black() {
+        let picture = with(
+            &["uv.U", "uv.V", "depth.Z"],
+            &[0.0, 0.0, 2.0, 0.0, 0.0, 6.0, 0.0, 0.0, 1e10, 0.0, 0.0, 4.0],
+        );
+        let layer = picture.layer_picture(&["depth.Z"]).unwrap();
+        let greys: Vec<f64> = layer.image.pixels.iter().map(|pixel| pixel[1]).collect();
+        assert_eq!(greys, [1.0, 1.0 - 0.9, 0.0, 1.0 - 0.45]);
+        assert_eq!((layer.ranges, layer.is_color), (vec![[2.0, 6.0]], false));
+        assert!(picture.layer_picture(&["normal.X"]).is_none());
+    }
+
+    #[test]
+    fn directions_colours_and_coordinates_have_their_usual_codes() {
+        let of = |names: &[&'static str], values: &[f32]| {
+            with(names, values)
+                .layer_picture(names)
+                .unwrap()
+                .image
+                .pixels[0]
+        };
+        let normal = ["normal.X", "normal.Y", "normal.Z"];
+        assert_eq!(of(&normal, &[1.0, 0.0, -1.0]), [1.0, 0.5, 0.0]);
+        assert_eq!(of(&["uv.U", "uv.V"], &[2.25, -0.25]), [0.25, 0.75, 0.0]);
+        let albedo = of(&["albedo.R", "albedo.G", "albedo.B"], &[0.0, 0.5, 2.0]);
+        assert_eq!((albedo[0], albedo[2]), (0.0, 1.0));
+        assert!((albedo[1] - 0.735).abs() < 0.001);
+    }
+
+    #[test]
+    fn surfaces_beside_each_other_have_colours_that_differ() {
+        let numbers: Vec<f32> = (0..40_u8).map(f32::from).collect();
+        let layer = with(&["instance.X"], &numbers).layer_picture(&["instance.X"]);
+        let colors = layer.unwrap().image.pixels;
+        assert_eq!(colors[0], [0.0; 3]);
+        let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).sum::<f64>();
+        assert!(colors.windows(2).all(|pair| apart(pair[0], pair[1]) > 0.3));
+    }
+}

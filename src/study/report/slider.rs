@@ -1,0 +1,119 @@
+//! The page of two pictures: one over the other with a slider between, where they differ, by how much, and
+//! what differs in their scenes.
+
+use super::super::difference::{Difference, heat_map};
+use super::html::{STYLE, escaped};
+use super::picture::wide;
+use crate::codec::Change;
+use crate::image::Image;
+use serde_json::Value;
+use std::fmt::Write;
+
+/// So many differences of the scenes are on the page at most.
+const MOST: usize = 500;
+
+/// Two pictures and what is known of them.
+pub struct SliderPage<'a> {
+    /// What the new and the old picture are called.
+    pub names: [&'a str; 2],
+    /// The pictures, of one size.
+    pub pictures: [&'a Image; 2],
+    /// How far they are apart.
+    pub difference: &'a Difference,
+    /// FLIP of each pixel.
+    pub flips: &'a [f64],
+    /// What differs in their scenes, if they are pictures of scenes.
+    pub changes: Option<&'a [Change]>,
+}
+
+/// The page, with all it needs within it.
+#[must_use]
+pub fn slider_page(page: &SliderPage<'_>) -> String {
+    let [new, old] = page.names.map(escaped);
+    let title = format!("{new} against {old}");
+    let sections = [
+        slider(page, [&new, &old]),
+        numbers(page.difference),
+        changed(page),
+    ];
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n{}</body>\n</html>\n",
+        sections.concat()
+    )
+}
+
+fn slider(page: &SliderPage<'_>, [new, old]: [&str; 2]) -> String {
+    let [a, b] = page.pictures;
+    let map = heat_map([a.width, a.height], page.flips);
+    let labels = format!("<p class=\"ends\"><span>{new}</span><span>{old}</span></p>\n");
+    format!(
+        "{labels}<div class=\"slider\">\n<img alt=\"{old}\" src=\"{}\">\n<img class=\"over\" alt=\"{new}\" src=\"{}\">\n</div>\n\
+         <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"so much of {new}, from the left\" \
+         oninput=\"this.previousElementSibling.style.setProperty('--at', this.value + '%')\">\n\
+         <h2>Where they differ</h2>\n<figure><img alt=\"where they differ\" src=\"{}\">\
+         <figcaption>FLIP of each pixel: dark where nobody would see a difference, bright where it is large</figcaption></figure>\n",
+        wide(b),
+        wide(a),
+        wide(&map),
+    )
+}
+
+fn numbers(difference: &Difference) -> String {
+    let Difference {
+        rmse,
+        max,
+        max_at: _,
+        relative_mse,
+        flip,
+        share,
+        levels,
+    } = difference;
+    let rows = [
+        ("root mean square", format!("{rmse:.4} grey levels")),
+        ("largest", format!("{max:.2} grey levels")),
+        ("relMSE", format!("{relative_mse:.3e}")),
+        ("FLIP, on the mean", format!("{flip:.6}")),
+        (
+            "pixels off",
+            format!("{:.4} % by more than {levels} grey levels", 100.0 * share),
+        ),
+    ];
+    let rows = rows.map(|(name, value)| format!("<tr><td>{name}</td><td>{value}</td></tr>\n"));
+    format!("<h2>By how much</h2>\n<table>\n{}</table>\n", rows.concat())
+}
+
+fn changed(page: &SliderPage<'_>) -> String {
+    let Some(changes) = page.changes else {
+        return String::new();
+    };
+    let mut rows = String::new();
+    for Change { path, new, old } in changes.iter().take(MOST) {
+        let cell = |value: &Option<Value>| escaped(&told(value.as_ref()));
+        let (path, old, new) = (escaped(path), cell(old), cell(new));
+        let _ = writeln!(rows, "<tr><td>{path}</td><td>{old}</td><td>{new}</td></tr>");
+    }
+    let more = match changes.len().saturating_sub(MOST) {
+        0 => String::new(),
+        more => format!("<p>and {more} more</p>\n"),
+    };
+    let table = match changes {
+        [] => "<p>nothing</p>\n".to_owned(),
+        _ => format!(
+            "<div class=\"wide\"><table>\n<tr><th>value</th><th>old</th><th>new</th></tr>\n{rows}</table></div>\n{more}"
+        ),
+    };
+    format!("<h2>What differs in the scenes</h2>\n{table}")
+}
+
+/// A value of a scene in a few words; a dash for none.
+#[must_use]
+pub fn told(value: Option<&Value>) -> String {
+    const MOST: usize = 60;
+    let text = value.map_or_else(|| "–".to_owned(), Value::to_string);
+    match text.char_indices().nth(MOST) {
+        None => text,
+        Some((end, _)) => format!("{}…", text.split_at(end).0),
+    }
+}
