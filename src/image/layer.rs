@@ -44,17 +44,21 @@ impl Picture {
     }
 }
 
-/// The least and the most of each channel where a surface is, [0, 0] if there is none.
+/// The least and the most of each channel where a surface is, of places without the outermost fiftieth on
+/// either side, as a ground may be wide; [0, 0] if there is none.
 fn ranges<'v>(pixels: impl Iterator<Item = &'v [f32]>, channels: usize) -> Vec<[f32; 2]> {
-    const NONE: [f32; 2] = [f32::INFINITY, f32::NEG_INFINITY];
-    let mut ranges = vec![NONE; channels];
-    for values in pixels.filter(|values| is_surface(values)) {
-        for (range, value) in ranges.iter_mut().zip(values) {
-            *range = [range[0].min(*value), range[1].max(*value)];
-        }
-    }
-    let or_zero = |range| if range == NONE { [0.0; 2] } else { range };
-    ranges.into_iter().map(or_zero).collect()
+    let surfaces: Vec<_> = pixels.filter(|values| is_surface(values)).collect();
+    let range = |channel: usize| {
+        let mut values: Vec<f32> = surfaces.iter().map(|values| values[channel]).collect();
+        values.sort_by(f32::total_cmp);
+        let out = if channels > 1 { values.len() / 50 } else { 0 };
+        let least = values.get(out).copied();
+        least.zip(values.iter().rev().nth(out).copied())
+    };
+    let ranges = (0..channels).map(range);
+    ranges
+        .map(|range| range.map_or([0.0; 2], <[f32; 2]>::from))
+        .collect()
 }
 
 /// Whether these are values of a surface: a distance that is near, or a place that is not that of no
@@ -70,7 +74,7 @@ fn shown(kind: &str, values: &[f32], ranges: &[[f32; 2]]) -> [f64; 3] {
     let within = |at: usize| {
         let [least, most] = ranges[at].map(f64::from);
         let span = if most > least { most - least } else { 1.0 };
-        (value(at) - least) / span
+        ((value(at) - least) / span).clamp(0.0, 1.0)
     };
     let all = [0, 1, 2];
     match kind {
@@ -78,10 +82,23 @@ fn shown(kind: &str, values: &[f32], ranges: &[[f32; 2]]) -> [f64; 3] {
         "normal" => all.map(|at| 0.5 * value(at) + 0.5),
         "uv" => all.map(|at| value(at) - value(at).floor()),
         "position" if is_surface(values) => all.map(within),
-        "depth" if is_surface(values) => [1.0 - 0.9 * within(0); 3],
+        "depth" if is_surface(values) => [nearness(value(0), ranges[0].map(f64::from)); 3],
         "instance" => own_color(value(0)),
         _ => [0.0; 3],
     }
+}
+
+/// How near a distance is: 1 the nearest, 0.1 the farthest, between by the reciprocal, as a ground may reach
+/// the horizon; where distances are not all in front of the eye, in proportion.
+fn nearness(distance: f64, [near, far]: [f64; 2]) -> f64 {
+    let scale = |d: f64| if near > 0.0 { 1.0 / d } else { -d };
+    let span = scale(near) - scale(far);
+    let nearness = if span > 0.0 {
+        (scale(distance) - scale(far)) / span
+    } else {
+        1.0
+    };
+    0.1 + 0.9 * nearness
 }
 
 /// A colour for a surface by its number: hues a golden angle apart, so that neighbours differ; black
@@ -128,7 +145,7 @@ mod tests {
         );
         let layer = picture.layer_picture(&["depth.Z"]).unwrap();
         let greys: Vec<f64> = layer.image.pixels.iter().map(|pixel| pixel[1]).collect();
-        assert_eq!(greys, [1.0, 1.0 - 0.9, 0.0, 1.0 - 0.45]);
+        assert_eq!(greys, [1.0, 0.1, 0.0, 0.1 + 0.9 * 0.25]);
         assert_eq!((layer.ranges, layer.is_color), (vec![[2.0, 6.0]], false));
         assert!(picture.layer_picture(&["normal.X"]).is_none());
     }

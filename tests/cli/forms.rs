@@ -31,8 +31,14 @@ fn what_a_form_does_not_hold_is_refused() {
             &["-o", "a.jpg", "--background", "transparent"][..],
             "a JPEG has no opacity",
         ),
-        (&["-o", "a.webp", "--bits", "16"], "`--bits` is for PNG"),
-        (&["-o", "a.jpg", "--aov", "depth"], "`--aov` is for EXR"),
+        (
+            &["-o", "a.webp", "--bits", "16"],
+            "`--bits` is for PNG and EXR",
+        ),
+        (
+            &["-o", "a.jpg", "--aov", "depth"],
+            "layers are PNGs beside a PNG",
+        ),
         (&["-o", "a.webp", "--strips"], "compressed as a whole"),
     ];
     for (args, words) in cases {

@@ -98,7 +98,7 @@ pub(super) fn rtc(folder: &Path, words: &str) -> Output {
 
 /// The bytes of the picture that `rtc render` makes.
 pub(super) fn picture(folder: &Path, words: &str) -> Vec<u8> {
-    let output = rtc(folder, &format!("render {words} -q -o -"));
+    let output = rtc(folder, &format!("render --no-metadata {words} -q -o -"));
     assert_eq!(code(&output), 0, "{words}: {}", stderr(&output));
     output.stdout
 }

@@ -255,7 +255,7 @@ fn a_turntable_is_so_many_pictures_all_around() {
     let folder = folder();
     let made = rtc(
         folder.path(),
-        "render beside.yaml --turntable 3 -o out-%02d.png",
+        "render beside.yaml --turntable 3 --no-metadata -o out-%02d.png",
     );
     assert_eq!(
         (code(&made), stderr(&made).lines().count()),
