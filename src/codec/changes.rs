@@ -5,7 +5,7 @@ use super::{NotFinite, tree};
 use crate::ir::{Column, Image, Mesh, Scene};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 
 /// A value that differs.
@@ -39,7 +39,7 @@ fn rename_materials(new: &Value, old: &mut Value) {
     let [a, b] =
         [new, &*old].map(|scene| scene["materials"].as_array().map_or(&[][..], Vec::as_slice));
     let pairs = pairs(a, b).into_iter();
-    let places: HashMap<u64, usize> = pairs
+    let places: BTreeMap<u64, usize> = pairs
         .filter_map(|(at, from)| Some((from? as u64, at?)))
         .collect();
     for surface in old["surfaces"].as_array_mut().into_iter().flatten() {
