@@ -6,6 +6,7 @@ mod exposure;
 mod file;
 mod findings;
 mod fix;
+mod goal;
 mod input;
 mod layer;
 mod layout;

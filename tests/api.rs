@@ -219,6 +219,22 @@ fn a_name_that_leads_up_finds_what_lies_there_in_memory() {
 }
 
 #[test]
+fn a_target_error_is_reached_and_said() {
+    let scene = path("scenes/mirrors.yaml");
+    let options = Options::new().size(40, 40).target_error(2.0);
+    let picture = Scene::open(&scene).unwrap().render(&options).unwrap();
+    assert!(
+        picture
+            .error()
+            .is_some_and(|error| error > 0.0 && error <= 2.0)
+    );
+    let words = ["--size", "40", "--target-error", "2"];
+    assert!(picture.encode().unwrap() == by_command(&scene, "x.png", &words));
+    assert_eq!(ball().render(&Options::new()).unwrap().error(), None);
+    assert!(refusal(&Options::new().target_error(0.0)).contains("above 0"));
+}
+
+#[test]
 fn a_render_is_stopped_and_limited() {
     let mut scene = ball();
     let stopped = scene.render_until(&Options::new(), &|| true).unwrap_err();

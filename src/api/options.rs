@@ -151,6 +151,7 @@ pub struct Options {
     view: View,
     environment: Option<[f64; 3]>,
     integrator: Option<IntegratorChoice>,
+    pub(super) target_error: Option<f64>,
 }
 
 impl Options {
@@ -192,6 +193,14 @@ impl Options {
     /// Threads, 0 for one per core; the picture is the same for any number.
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = threads;
+        self
+    }
+
+    /// Takes samples, more where there is more noise, until the error is at most so many grey levels of 8
+    /// bits, above 0: root mean square, in 90 % of all pictures. [`Picture::error`](super::Picture::error)
+    /// says how good it got.
+    pub fn target_error(mut self, levels: f64) -> Self {
+        self.target_error = Some(levels);
         self
     }
 
@@ -303,6 +312,7 @@ impl Options {
         setup.overrides = self.overrides;
         setup.crop = self.crop;
         setup.threads = self.threads;
+        setup.goal.error = self.target_error;
         Ok(setup)
     }
 
@@ -327,6 +337,11 @@ impl Options {
             (
                 size.is_some_and(|size| size.contains(&0)),
                 "a picture has at least one pixel",
+            ),
+            (
+                self.target_error
+                    .is_some_and(|levels| !(levels > 0.0 && levels.is_finite())),
+                "a target error is above 0",
             ),
             (
                 supersampling == Some(0) || spp == Some(0),

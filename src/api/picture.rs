@@ -14,6 +14,7 @@ pub struct Picture {
     origin: Origin,
     format: Format,
     statistics: Statistics,
+    error: Option<f64>,
     findings: Vec<Finding>,
 }
 
@@ -35,7 +36,7 @@ impl Picture {
     pub(super) fn new(
         (held, look, origin): (image::Picture, SettledLook, Origin),
         format: Format,
-        counts: &Counts,
+        (counts, error): (&Counts, Option<f64>),
         findings: Vec<Finding>,
     ) -> Self {
         Self {
@@ -49,6 +50,7 @@ impl Picture {
                 hits: counts.hits,
                 shadow_rays: counts.shadow,
             },
+            error,
             findings,
         }
     }
@@ -115,6 +117,14 @@ impl Picture {
     #[must_use]
     pub fn statistics(&self) -> Statistics {
         self.statistics
+    }
+
+    /// The error in grey levels of 8 bits that it has at most, in 90 % of all pictures, if
+    /// [`Options::target_error`](super::Options::target_error) was asked for; none where light that no
+    /// sample met may be far brighter than white.
+    #[must_use]
+    pub fn error(&self) -> Option<f64> {
+        self.error
     }
 
     /// What was found about the scene and in the picture; no errors.

@@ -4,6 +4,7 @@ use super::{Error, Finding, Light, Options, Picture, Reading};
 use crate::diag::{Diagnostic, Sink};
 use crate::passes;
 use crate::pipeline::{self, Input, Loaded, Observer};
+use crate::render::Film;
 use std::fmt;
 use std::path::Path;
 
@@ -133,19 +134,30 @@ impl Scene {
         let made = made.and_then(|()| {
             let window = setup.window(&subject.proven.lowered.scene)?;
             setup.find_room(&mut subject, window)?;
-            let film = setup.trace(&mut subject, (window, rays), &observer)?;
+            let order = (window, rays);
+            let (film, error) = if options.target_error.is_some() {
+                let grown = setup.approach(&mut subject, order, &observer)?;
+                let film = Film {
+                    image: grown.image,
+                    coverage: grown.coverage,
+                    counts: grown.counts,
+                };
+                (film, grown.unmet.is_none().then_some(grown.error))
+            } else {
+                (setup.trace(&mut subject, order, &observer)?, None)
+            };
             let counts = film.counts;
             let film = (film.image, film.coverage, &counts);
             let picture = setup.develop(&mut subject, film, &mut self.input, is_stopped)?;
-            Ok((picture, counts))
+            Ok((picture, counts, error))
         });
-        let (picture, counts) = made.map_err(|error| self.error(error))?;
+        let (picture, counts, error) = made.map_err(|error| self.error(error))?;
         let origin = setup.origin(&subject.proven.lowered.scene);
         let look = setup.look.settled(&subject.proven.scene.settings().mode);
         Ok(Picture::new(
             (picture, look, origin),
             options.format,
-            &counts,
+            (&counts, error),
             self.findings(),
         ))
     }

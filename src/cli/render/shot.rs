@@ -9,7 +9,7 @@ use super::made::{Quality, error};
 use crate::image::Image;
 use crate::pipeline::{Meter, Observer, RenderError, RenderSubject};
 use crate::render::{Counts, Crop, Film};
-use crate::study::{CrudePicture, Goal, Growth, Keep, Order, Reached, Stopped, Watch};
+use crate::study::{CrudePicture, Growth, Keep, Order, Reached, Stopped, Watch};
 use std::time::Duration;
 
 /// What was rendered, and what is said of it.
@@ -124,27 +124,6 @@ impl RenderSetup {
         })
     }
 
-    /// What a picture with a goal is to be.
-    fn order(&self, subject: &RenderSubject, crop: Crop) -> Order {
-        let setup = &self.picture;
-        let mode = &subject.proven.scene.settings().mode;
-        Order {
-            goal: Goal {
-                time: setup
-                    .goal
-                    .time
-                    .map(|time| PictureClock::sampling(time, crop)),
-                ..setup.goal
-            },
-            crop,
-            background: setup.look.background(),
-            values: setup.look.values(mode),
-            display: setup.look.display(mode),
-            keep_lights: setup.overrides.light_samples.is_some(),
-            seed: 0,
-        }
-    }
-
     /// The picture with the samples that its goal takes, or where its rays ran out; kept on its way where
     /// that is asked for.
     pub(super) fn approach(
@@ -156,7 +135,11 @@ impl RenderSetup {
         kept: Option<KeptGrowth<'_>>,
     ) -> Result<Rendered, RenderError> {
         let setup = &self.picture;
-        let order = self.order(subject, window);
+        let time = setup
+            .goal
+            .time
+            .map(|time| PictureClock::sampling(time, window));
+        let order = setup.order(subject, window, time);
         let progress = RenderProgress::start(0, quiet);
         let begun = self.clock.begun();
         let elapsed = || begun.elapsed();

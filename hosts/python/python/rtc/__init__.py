@@ -1,0 +1,31 @@
+"""Scenes checked and rendered on the CPU, the same bytes every time.
+
+>>> import rtc
+>>> scene = rtc.load("scene.yaml")
+>>> for finding in scene.check():
+...     print(finding)
+>>> image = scene.render(size=(320, 240))
+>>> image.array.shape
+(240, 320, 3)
+>>> image.save("scene.png")
+"""
+
+from __future__ import annotations
+
+import sys
+
+from . import _rtc
+from ._meshes import from_trimesh, mesh
+from ._pictures import Difference, Image, diff
+from ._scenes import Finding, Rows, Scene, SceneError, load
+
+__version__ = _rtc.__version__
+__all__ = [
+    "Difference", "Finding", "Image", "Rows", "Scene", "SceneError",
+    "diff", "from_trimesh", "load", "main", "mesh",
+]
+
+
+def main() -> None:
+    """The command line `rtc`: its exit code ends the program."""
+    sys.exit(_rtc.command(["rtc", *sys.argv[1:]]))

@@ -1,0 +1,5 @@
+"""`python -m rtc`: the command line."""
+
+from . import main
+
+main()

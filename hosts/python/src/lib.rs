@@ -1,0 +1,278 @@
+//! The module `rtc._rtc`: the scenes of the library `rtc` for Python, which `python/rtc` makes pleasant. Renders
+//! let other threads of Python run, and end at Ctrl-C.
+
+mod findings;
+mod picture;
+
+use findings::{SceneError, raised, told};
+use picture::Picture;
+use pyo3::prelude::*;
+use rtc::{Aov, Format, Options, Reading, Tone};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+/// How long a signal waits at most.
+const WAIT: Duration = Duration::from_millis(50);
+
+/// A scene that was read.
+#[pyclass]
+struct Scene(Mutex<rtc::Scene>);
+
+/// How a scene is read, from what Python names it by.
+#[derive(Default, FromPyObject)]
+struct ReadingWords {
+    #[pyo3(item)]
+    strict: bool,
+    #[pyo3(item)]
+    lenient: bool,
+    #[pyo3(item)]
+    asset_root: Option<PathBuf>,
+    #[pyo3(item)]
+    time: Option<f64>,
+    #[pyo3(item)]
+    animation: Option<String>,
+    #[pyo3(item)]
+    variant: Option<String>,
+    #[pyo3(item)]
+    camera: Option<String>,
+}
+
+/// How a picture is made, from what Python names it by.
+#[derive(FromPyObject)]
+struct PictureWords {
+    #[pyo3(item)]
+    format: String,
+    #[pyo3(item)]
+    size: Option<(u32, u32)>,
+    #[pyo3(item)]
+    spp: Option<u32>,
+    #[pyo3(item)]
+    supersampling: Option<u32>,
+    #[pyo3(item)]
+    depth: Option<u32>,
+    #[pyo3(item)]
+    target_error: Option<f64>,
+    #[pyo3(item)]
+    threads: usize,
+    #[pyo3(item)]
+    max_rays: Option<u64>,
+    #[pyo3(item)]
+    exposure: Option<f64>,
+    #[pyo3(item)]
+    tonemap: Option<String>,
+    #[pyo3(item)]
+    transparent: bool,
+    #[pyo3(item)]
+    orbit: Option<(f64, f64)>,
+    #[pyo3(item)]
+    aovs: Vec<String>,
+}
+
+impl ReadingWords {
+    fn reading(self) -> Reading {
+        let mut reading = Reading::new().strict(self.strict).lenient(self.lenient);
+        if let Some(folder) = self.asset_root {
+            reading = reading.asset_root(folder);
+        }
+        if let Some(time) = self.time {
+            reading = reading.time(time);
+        }
+        if let Some(name) = self.animation {
+            reading = reading.animation(name);
+        }
+        if let Some(name) = self.variant {
+            reading = reading.variant(name);
+        }
+        if let Some(name) = self.camera {
+            reading = reading.camera(name);
+        }
+        reading
+    }
+}
+
+impl PictureWords {
+    fn options(&self) -> PyResult<Options> {
+        let mut options = Options::new()
+            .format(format(&self.format)?)
+            .threads(self.threads);
+        if let Some((width, height)) = self.size {
+            options = options.size(width, height);
+        }
+        if let Some(paths) = self.spp {
+            options = options.samples(paths);
+        }
+        if let Some(side) = self.supersampling {
+            options = options.supersampling(side);
+        }
+        if let Some(bounces) = self.depth {
+            options = options.depth(bounces);
+        }
+        if let Some(levels) = self.target_error {
+            options = options.target_error(levels);
+        }
+        if let Some(rays) = self.max_rays {
+            options = options.max_rays(rays);
+        }
+        if let Some(stops) = self.exposure {
+            options = options.exposure(stops);
+        }
+        if let Some(name) = &self.tonemap {
+            options = options.tonemap(tone(name)?);
+        }
+        if self.transparent {
+            options = options.transparent();
+        }
+        if let Some((azimuth, elevation)) = self.orbit {
+            options = options.orbit(azimuth, elevation);
+        }
+        for name in &self.aovs {
+            options = options.layer(aov(name)?);
+        }
+        Ok(options)
+    }
+}
+
+#[pymethods]
+impl Scene {
+    /// The scene in a file.
+    #[staticmethod]
+    fn open(py: Python<'_>, path: PathBuf, reading: ReadingWords) -> PyResult<Self> {
+        let reading = reading.reading();
+        let scene = py.detach(|| reading.open(path));
+        scene.map(Self::new).map_err(|error| raised(py, &error))
+    }
+
+    /// The scene at a path among files in memory.
+    #[staticmethod]
+    fn of_files(
+        py: Python<'_>,
+        path: &str,
+        files: BTreeMap<String, Vec<u8>>,
+        reading: ReadingWords,
+    ) -> PyResult<Self> {
+        let reading = reading.reading();
+        let scene = py.detach(|| reading.from_files(path, files));
+        scene.map(Self::new).map_err(|error| raised(py, &error))
+    }
+
+    /// All that is to be said of it, as dictionaries.
+    fn check(&self, py: Python<'_>) -> PyResult<Vec<Py<PyAny>>> {
+        let findings = py.detach(|| self.lock().check());
+        findings.iter().map(|finding| told(py, finding)).collect()
+    }
+
+    /// Its picture. It is rendered beside the thread of Python, which looks for signals meanwhile.
+    fn render(&self, py: Python<'_>, words: PictureWords) -> PyResult<Picture> {
+        let (options, format) = (words.options()?, format(&words.format)?);
+        let is_stopped = AtomicBool::new(false);
+        let stop = || is_stopped.load(Ordering::Relaxed);
+        thread::scope(|scope| {
+            let (sender, receiver) = channel();
+            scope.spawn(|| {
+                let picture = self.lock().render_until(&options, &stop);
+                // Whoever was stopped by a signal does not wait for it.
+                let _ = sender.send(picture);
+                drop(sender);
+            });
+            let receiver = Mutex::new(receiver);
+            let wait = || {
+                let receiver = receiver.lock().unwrap_or_else(|poison| poison.into_inner());
+                receiver.recv_timeout(WAIT)
+            };
+            loop {
+                match py.detach(wait) {
+                    Ok(picture) => {
+                        let picture = picture.map_err(|error| raised(py, &error));
+                        return picture.map(|picture| Picture::new(picture, format));
+                    }
+                    Err(RecvTimeoutError::Timeout) => {
+                        if let Err(signal) = py.check_signals() {
+                            is_stopped.store(true, Ordering::Relaxed);
+                            return Err(signal);
+                        }
+                    }
+                    Err(RecvTimeoutError::Disconnected) => {
+                        let words = "internal error: the render ended without a picture";
+                        return Err(SceneError::new_err(words));
+                    }
+                }
+            }
+        })
+    }
+}
+
+impl Scene {
+    fn new(scene: rtc::Scene) -> Self {
+        Self(Mutex::new(scene))
+    }
+
+    /// The scene, for one thread at a time; each render begins anew, so that one that panicked leaves
+    /// nothing behind.
+    fn lock(&self) -> std::sync::MutexGuard<'_, rtc::Scene> {
+        self.0.lock().unwrap_or_else(|poison| poison.into_inner())
+    }
+}
+
+fn format(name: &str) -> PyResult<Format> {
+    match name {
+        "png" => Ok(Format::Png),
+        "png16" => Ok(Format::Png16),
+        "exr" => Ok(Format::Exr),
+        "exr16" => Ok(Format::ExrHalf),
+        _ => Err(unknown("format", name, "png, png16, exr, exr16")),
+    }
+}
+
+fn tone(name: &str) -> PyResult<Tone> {
+    match name {
+        "none" => Ok(Tone::None),
+        "srgb" => Ok(Tone::Srgb),
+        "agx" => Ok(Tone::Agx),
+        "pbr-neutral" => Ok(Tone::PbrNeutral),
+        _ => Err(unknown("tonemap", name, "none, srgb, agx, pbr-neutral")),
+    }
+}
+
+/// A layer by its name.
+fn aov(name: &str) -> PyResult<Aov> {
+    let all = [
+        Aov::Albedo,
+        Aov::Normal,
+        Aov::Depth,
+        Aov::Uv,
+        Aov::Instance,
+        Aov::Position,
+    ];
+    let found = all.into_iter().find(|aov| aov.name() == name);
+    found.ok_or_else(|| {
+        unknown(
+            "layer",
+            name,
+            "albedo, normal, depth, uv, instance, position",
+        )
+    })
+}
+
+fn unknown(what: &str, name: &str, all: &str) -> PyErr {
+    pyo3::exceptions::PyValueError::new_err(format!("no {what} `{name}`; there are {all}"))
+}
+
+/// The command line of the words given, the first being the name of the program; its exit code.
+#[pyfunction]
+fn command(py: Python<'_>, words: Vec<std::ffi::OsString>) -> u8 {
+    py.detach(|| rtc::internals::cli::run(words.into_iter()))
+}
+
+#[pymodule]
+fn _rtc(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("SceneError", module.py().get_type::<SceneError>())?;
+    module.add_class::<Scene>()?;
+    module.add_class::<Picture>()?;
+    module.add_function(wrap_pyfunction!(command, module)?)
+}
