@@ -31,8 +31,8 @@
 //!
 //! `Scene::open("scene.yaml")` reads a file and what it names, `picture.save("scene.png")` writes one.
 //! Nothing here prints, exits, looks at a clock or reads the environment, and pictures are the same
-//! for any number of threads. The cargo feature `cli`, on by default, is for the binary alone:
-//! `default-features = false` leaves it out. The library builds for `wasm32-unknown-unknown`, where
+//! for any number of threads. The cargo feature `cli`, on by default, is for the binary and for `run`,
+//! which is all of it: `default-features = false` leaves it out. The library builds for `wasm32-unknown-unknown`, where
 //! scenes come from memory, one thread renders, and there is no `Picture::save`.
 //!
 //! # Within
@@ -88,6 +88,8 @@ pub use api::{
     Aov, Error, Finding, Format, Hint, Label, Light, Location, Options, Picture, Reading, Scene,
     Severity, Statistics, Tone,
 };
+#[cfg(feature = "cli")]
+pub use cli::run;
 
 /// The rooms, for the binary and for what judges them beside this crate: tests, benches, fuzzing.
 /// Nothing here is promised to stay as it is.

@@ -5,5 +5,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::from(rtc::internals::cli::run(std::env::args_os()))
+    ExitCode::from(rtc::run(std::env::args_os()))
 }

@@ -265,7 +265,7 @@ fn unknown(what: &str, name: &str, all: &str) -> PyErr {
 /// The command line of the words given, the first being the name of the program; its exit code.
 #[pyfunction]
 fn command(py: Python<'_>, words: Vec<std::ffi::OsString>) -> u8 {
-    py.detach(|| rtc::internals::cli::run(words.into_iter()))
+    py.detach(|| rtc::run(words))
 }
 
 #[pymodule]
