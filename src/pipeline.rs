@@ -24,7 +24,7 @@ pub use exposure::OwnLight;
 pub use file::{NewFile, NewFolder, WriteObserver};
 pub use fix::{Complaint, FixWish, FixedText, complaint, fix};
 pub use input::{Input, Loaded, Proven, Provenance};
-pub use layout::LaidOutFault;
+pub use layout::{LaidOutFault, SourceKind};
 pub use look::{Exposure, OutputLook, SettledLook};
 pub use meter::Meter;
 pub use part::{MOST as MOST_SHARES, PartError, PicturePart, hash_of_file};

@@ -61,7 +61,7 @@ fn page() -> String {
     })
 }
 
-fn entry(code: &Code) -> String {
+pub(super) fn entry(code: &Code) -> String {
     let Code {
         id,
         severity,

@@ -19,6 +19,7 @@ mod info;
 mod input;
 mod interrupt;
 mod lead;
+mod lsp;
 mod merge;
 mod output;
 mod parse;
@@ -106,6 +107,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Compile(args) => compile::run(&args),
         Command::Render(args) => render::run(*args, &typed),
         Command::Preview(args) => preview::run(&args),
+        Command::Lsp(args) => lsp::run(args),
         Command::Merge(args) => merge::run(&args),
         Command::Farm(args) => batch::run(&args),
         Command::Cost(args) => cost::run(&args),

@@ -294,7 +294,7 @@ impl Input {
     }
 
     /// The file of the scene, unless it could not be read.
-    pub(super) fn file_id(&self) -> Option<FileId> {
+    pub fn file_id(&self) -> Option<FileId> {
         self.file
     }
 

@@ -17,6 +17,30 @@ pub enum LaidOutFault {
     Differs,
 }
 
+/// What kind of scene a text is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SourceKind {
+    /// One that people write, YAML or JSON.
+    Scene,
+    /// IR.
+    Ir,
+    /// An asset, or a mesh.
+    Other,
+}
+
+impl SourceKind {
+    /// That of a file of this name and these bytes.
+    #[must_use]
+    pub fn of(name: &str, bytes: &[u8]) -> Self {
+        let is_asset = || gltf::recognise(name, bytes) || mesh::recognise(name, bytes);
+        match codec::recognise(bytes) {
+            Some(_) => Self::Ir,
+            None if is_asset() => Self::Other,
+            None => Self::Scene,
+        }
+    }
+}
+
 impl Input {
     /// The text in the layout of the house. Nothing is written.
     ///
@@ -29,10 +53,7 @@ impl Input {
             self.push(finding);
             return Err(LaidOutFault::Findings);
         }
-        let is_other = codec::recognise(bytes).is_some()
-            || gltf::recognise(name, bytes)
-            || mesh::recognise(name, bytes);
-        if is_other {
+        if SourceKind::of(name, bytes) != SourceKind::Scene {
             return Err(LaidOutFault::NoText);
         }
         let mut sink = diag::Sink::default();

@@ -23,6 +23,8 @@ mod layouts;
 mod leads;
 mod levels;
 mod looks;
+#[cfg(unix)]
+mod lsp;
 mod mesh;
 mod numbers;
 #[cfg(unix)]

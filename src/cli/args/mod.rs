@@ -69,6 +69,8 @@ pub(super) enum Command {
     Render(Box<Render>),
     /// Show a scene on a page of this machine while it is edited
     Preview(Box<Preview>),
+    /// Serve an editor: findings while one types, their fixes, what keys mean (Language Server Protocol)
+    Lsp(Lsp),
     /// Merge parts of a picture, rendered by `rtc render --part`, into the picture
     Merge(Merge),
     /// Write a picture in parts as a job for an engine that runs jobs on many machines
@@ -109,6 +111,16 @@ pub(super) struct CheckArgs {
     pub(super) reading: Reading,
     #[command(flatten)]
     pub(super) talk: TalkArgs,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "An editor starts it and talks to it by standard input and output.\n\n\
+Example, for Helix (languages.toml):\n  [language-server.rtc]\n  command = \"rtc\"\n  args = [\"lsp\"]"
+)]
+pub(super) struct Lsp {
+    #[command(flatten)]
+    pub(super) reading: Reading,
 }
 
 #[derive(Debug, Args)]

@@ -35,3 +35,4 @@ pub use layout::lay_out;
 pub use lower::{UnfinishedScene, lower};
 pub use page::page;
 pub use schema::schema;
+pub use value::FILE;

@@ -311,9 +311,12 @@ impl Value for FileName {
     }
 
     fn schema(_: &mut Definitions) -> Json {
-        json!({ "type": "string", "minLength": 1 })
+        json!({ "title": FILE, "type": "string", "minLength": 1 })
     }
 }
+
+/// What the schema calls names of files.
+pub const FILE: &str = "file";
 
 /// Whether a plain word is text by the core schema: no number, no truth value, not nothing.
 fn is_text(word: &str) -> bool {

@@ -1,0 +1,124 @@
+//! Requests of an editor and their answers.
+
+use super::super::input;
+use super::open_text::OpenText;
+use super::way::Vocabulary;
+use super::workspace::Workspace;
+use super::{completion, findings, hover, outline};
+use crate::pipeline::Input;
+use lsp_server::{ErrorCode, Request, RequestId, Response};
+use lsp_types::request::{self, Request as _};
+use lsp_types::{
+    CodeActionParams, ColorPresentationParams, CompletionParams, DocumentColorParams,
+    DocumentFormattingParams, DocumentSymbolParams, GotoDefinitionParams, HoverParams,
+    InlayHintParams, TextEdit, Uri,
+};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+impl Workspace {
+    /// The answer to a request.
+    pub(super) fn answer(&mut self, request: Request) -> Response {
+        let Request { id, method, params } = request;
+        match method.as_str() {
+            request::CodeActionRequest::METHOD => reply(id, params, |params| self.actions(&params)),
+            request::Formatting::METHOD => reply(id, params, |params: DocumentFormattingParams| {
+                self.laid_out(&params.text_document.uri)
+            }),
+            request::HoverRequest::METHOD => reply(id, params, |params: HoverParams| {
+                let at = params.text_document_position_params;
+                let (document, words) = self.known(&at.text_document.uri)?;
+                hover::hover(document, at.position, words, self.columns)
+            }),
+            request::Completion::METHOD => reply(id, params, |params: CompletionParams| {
+                let at = params.text_document_position;
+                let (document, words) = self.known(&at.text_document.uri)?;
+                let items = completion::completions(document, at.position, words, self.columns);
+                Some(items)
+            }),
+            request::GotoDefinition::METHOD => reply(id, params, |params: GotoDefinitionParams| {
+                let at = params.text_document_position_params;
+                let (document, words) = self.known(&at.text_document.uri)?;
+                outline::definition(document, at.position, words, self.columns)
+            }),
+            _ => self.answer_of_whole(id, &method, params),
+        }
+    }
+
+    /// The answer to a request for what a text holds.
+    fn answer_of_whole(&self, id: RequestId, method: &str, params: Value) -> Response {
+        match method {
+            request::DocumentSymbolRequest::METHOD => {
+                reply(id, params, |params: DocumentSymbolParams| {
+                    let document = self.document(&params.text_document.uri)?;
+                    Some(outline::symbols(document, self.columns))
+                })
+            }
+            request::DocumentColor::METHOD => reply(id, params, |params: DocumentColorParams| {
+                let document = self.document(&params.text_document.uri);
+                // The protocol has no null here.
+                Some(document.map_or_else(Vec::new, |own| outline::colors(own, self.columns)))
+            }),
+            request::ColorPresentationRequest::METHOD => {
+                reply(id, params, |params: ColorPresentationParams| {
+                    Some(outline::presentation(params.color))
+                })
+            }
+            request::InlayHintRequest::METHOD => reply(id, params, |params: InlayHintParams| {
+                let (document, words) = self.known(&params.text_document.uri)?;
+                Some(outline::hints(document, params.range, words, self.columns))
+            }),
+            _ => {
+                let words = format!("`{method}` is not known here");
+                Response::new_err(id, ErrorCode::MethodNotFound as i32, words)
+            }
+        }
+    }
+
+    /// A text that is open, and the words of its format.
+    fn known(&self, uri: &Uri) -> Option<(&OpenText, &Vocabulary)> {
+        let document = self.document(uri)?;
+        Some((document, self.vocabulary(document)))
+    }
+
+    /// The fixes of what is found in a range.
+    fn actions(&mut self, params: &CodeActionParams) -> Option<Vec<findings::Action>> {
+        let (reading, columns) = (self.reading.clone(), self.columns);
+        let document = self.document_mut(&params.text_document.uri)?;
+        document.check(&reading);
+        let only = params.context.only.as_deref();
+        Some(findings::actions(
+            document,
+            params.range,
+            only,
+            &reading,
+            columns,
+        ))
+    }
+
+    /// The text as `rtc fmt` lays it out.
+    fn laid_out(&self, uri: &Uri) -> Option<Vec<TextEdit>> {
+        let document = self.document(uri)?;
+        let options = input::options(&self.reading, None).ok()?;
+        let bytes = document.text.clone().into_bytes();
+        let laid_out = Input::edited(&document.path, bytes, options).lay_out();
+        let text = laid_out.ok()?;
+        let whole = document.lines(self.columns).range(0, document.text.len());
+        let is_same = text == document.text;
+        let edit = (!is_same).then(|| TextEdit::new(whole, text));
+        Some(edit.into_iter().collect())
+    }
+}
+
+/// The answer that is made of parameters of the right shape.
+fn reply<P: DeserializeOwned, R: Serialize>(
+    id: RequestId,
+    params: Value,
+    answer: impl FnOnce(P) -> Option<R>,
+) -> Response {
+    match serde_json::from_value(params) {
+        Ok(params) => Response::new_ok(id, answer(params)),
+        Err(error) => Response::new_err(id, ErrorCode::InvalidParams as i32, error.to_string()),
+    }
+}

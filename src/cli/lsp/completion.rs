@@ -1,0 +1,201 @@
+//! What may be typed at a place: keys, words, anchors, and files beside the scene.
+
+use super::hover::plain;
+use super::open_text::{OpenText, tree};
+use super::text::Columns;
+use super::way::{Vocabulary, WayStep, way};
+use crate::front::course;
+use crate::source::tree::Tree;
+use lsp_types::{CompletionItem, CompletionItemKind, Documentation, InsertTextFormat, Position};
+use serde_json::{Map, Value};
+use std::fs;
+use std::path::Path;
+
+/// What stands in for what is still to be typed.
+const BLANK: &str = "rtc0blank";
+
+/// So many files are proposed at most, from folders so deep below the scene.
+const MOST_FILES: usize = 500;
+const DEPTH: usize = 3;
+
+/// What may be typed at a place.
+pub(super) fn completions(
+    document: &OpenText,
+    place: Position,
+    vocabulary: &Vocabulary,
+    columns: Columns,
+) -> Vec<CompletionItem> {
+    let lines = document.lines(columns);
+    let offset = lines.offset(place);
+    let before = lines.before(offset);
+    let typed = before.len() - before.trim_end_matches(is_of_word).len();
+    let start = offset - typed;
+    let (before, word) = before.split_at(before.len() - typed);
+    let as_value = before.trim_end().ends_with(':') || word.starts_with('*');
+    // The rest of the word under the cursor is replaced with it.
+    let rest = document.text.get(offset..).unwrap_or_default();
+    let end = offset + rest.find(|c| !is_of_word(c)).unwrap_or(rest.len());
+    let is_key = rest
+        .get(end - offset..)
+        .is_some_and(|rest| rest.starts_with(':'));
+    let blanks = match as_value || is_key {
+        true => vec![BLANK.to_owned()],
+        // A key that still wants its value, or an item.
+        false => vec![format!("{BLANK}: 0"), BLANK.to_owned()],
+    };
+    for blank in blanks {
+        let mut text = document.text.clone();
+        text.replace_range(start..end, &blank);
+        let Some(tree) = tree(&text) else {
+            continue;
+        };
+        let items = proposed(document, &tree, start, vocabulary);
+        if !items.is_empty() {
+            return items;
+        }
+    }
+    Vec::new()
+}
+
+fn is_of_word(c: char) -> bool {
+    c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '/' | '*' | '$')
+}
+
+/// What may stand at a byte of a tree, where something stands for it.
+fn proposed(
+    document: &OpenText,
+    tree: &Tree<'_>,
+    offset: usize,
+    vocabulary: &Vocabulary,
+) -> Vec<CompletionItem> {
+    let steps = way(tree, offset);
+    let Some(last) = steps.last() else {
+        return Vec::new();
+    };
+    if let WayStep::Key { map, key, .. } = *last
+        && tree.is(key, BLANK)
+    {
+        let to_map = &steps[..steps.len() - 1];
+        let is_there = |name: &str| tree.get(map, name).is_some();
+        let keys = vocabulary.keys(tree, to_map).into_iter();
+        return keys
+            .filter(|(name, _)| !is_there(name))
+            .map(key_item)
+            .collect();
+    }
+    let schemas = vocabulary.at(tree, &steps);
+    let mut items = words(&schemas);
+    if is_file(&schemas) {
+        items.extend(files(document.path.parent().unwrap_or(Path::new("."))));
+    }
+    items.extend(anchors(&document.text));
+    items
+}
+
+fn key_item((name, schema): (&str, &Value)) -> CompletionItem {
+    let text = schema.get("description").and_then(Value::as_str);
+    CompletionItem {
+        label: name.to_owned(),
+        kind: Some(CompletionItemKind::PROPERTY),
+        detail: schema
+            .get("default")
+            .map(|default| format!("default {}", plain(default))),
+        documentation: text.map(|text| Documentation::String(text.to_owned())),
+        insert_text: Some(format!("{name}: ")),
+        insert_text_format: Some(InsertTextFormat::PLAIN_TEXT),
+        ..CompletionItem::default()
+    }
+}
+
+/// The words that a value may be.
+fn words(schemas: &[&Map<String, Value>]) -> Vec<CompletionItem> {
+    let mut found: Vec<String> = Vec::new();
+    for schema in schemas {
+        let listed = schema.get("enum").and_then(Value::as_array);
+        let listed = listed.into_iter().flatten().map(plain);
+        let alone = schema.get("const").map(plain);
+        let truth = schema.get("type").and_then(Value::as_str) == Some("boolean");
+        let truths = ["true", "false"]
+            .iter()
+            .filter(|_| truth)
+            .map(|word| (*word).to_owned());
+        for word in listed.chain(alone).chain(truths) {
+            if !found.contains(&word) {
+                found.push(word);
+            }
+        }
+    }
+    let item = |label| CompletionItem {
+        label,
+        kind: Some(CompletionItemKind::VALUE),
+        ..CompletionItem::default()
+    };
+    found.into_iter().map(item).collect()
+}
+
+/// Whether a value names a file.
+pub(super) fn is_file(schemas: &[&Map<String, Value>]) -> bool {
+    let mut titles = schemas.iter().filter_map(|schema| schema.get("title"));
+    titles.any(|title| title == course::FILE)
+}
+
+/// Files that a scene in a folder may name.
+fn files(folder: &Path) -> Vec<CompletionItem> {
+    let mut open = vec![(folder.to_owned(), String::new(), 0)];
+    let mut names = Vec::new();
+    while let Some((folder, prefix, depth)) = open.pop() {
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        for entry in entries.take(4 * MOST_FILES) {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+            if name.starts_with('.') || names.len() >= MOST_FILES {
+                continue;
+            }
+            if is_folder && depth < DEPTH {
+                open.push((entry.path(), format!("{prefix}{name}/"), depth + 1));
+            } else if is_named_by_scenes(&name) {
+                names.push(format!("{prefix}{name}"));
+            }
+        }
+    }
+    names.sort();
+    let item = |label| CompletionItem {
+        label,
+        kind: Some(CompletionItemKind::FILE),
+        ..CompletionItem::default()
+    };
+    names.into_iter().map(item).collect()
+}
+
+/// Whether scenes name files like this one: pictures, meshes, assets, profiles of lamps.
+fn is_named_by_scenes(name: &str) -> bool {
+    const KINDS: [&str; 13] = [
+        "png", "jpg", "jpeg", "webp", "hdr", "exr", "obj", "off", "stl", "ply", "gltf", "glb",
+        "ies",
+    ];
+    let extension = Path::new(name)
+        .extension()
+        .unwrap_or_default()
+        .to_string_lossy();
+    KINDS
+        .iter()
+        .any(|kind| extension.eq_ignore_ascii_case(kind))
+}
+
+/// The anchors of a text, as aliases.
+fn anchors(text: &str) -> Vec<CompletionItem> {
+    let mut names: Vec<&str> = Vec::new();
+    for piece in text.split('&').skip(1) {
+        let end = piece.find(|c: char| c.is_whitespace() || ",[]{}".contains(c));
+        let name = piece.split_at(end.unwrap_or(piece.len())).0;
+        if !name.is_empty() && !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let item = |name: &str| CompletionItem {
+        label: format!("*{name}"),
+        kind: Some(CompletionItemKind::REFERENCE),
+        ..CompletionItem::default()
+    };
+    names.into_iter().map(item).collect()
+}

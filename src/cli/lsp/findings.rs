@@ -1,0 +1,191 @@
+//! Findings as the diagnostics of editors, in the files that they are about, and what they propose as quick
+//! fixes.
+
+use super::super::args::Reading;
+use super::open_text::{CheckedScene, CheckedText, OpenText};
+use super::place;
+use super::text::{Columns, TextLines};
+use crate::diag::{self, Severity};
+use crate::pipeline::{self, FixWish};
+use crate::source::Span;
+use lsp_types::{
+    CodeAction, CodeActionKind, CodeActionOrCommand, Diagnostic, DiagnosticRelatedInformation,
+    DiagnosticSeverity, Location, NumberOrString, Range, TextEdit, Uri, WorkspaceEdit,
+};
+use std::path::Path;
+
+/// A fix that an editor offers.
+pub(super) type Action = CodeActionOrCommand;
+
+/// A file and what is found in it.
+pub(super) type FileFindings = (Uri, Vec<Diagnostic>);
+
+/// The diagnostics of a text, by the files that they stand in; those without a place stand at the beginning
+/// of the text.
+pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileFindings> {
+    let mut own = Vec::new();
+    let mut others: Vec<FileFindings> = Vec::new();
+    if let Some(CheckedText::Trouble(words)) = &document.checked {
+        own.push(Diagnostic {
+            severity: Some(DiagnosticSeverity::ERROR),
+            source: Some("rtc".to_owned()),
+            message: words.clone(),
+            ..Diagnostic::default()
+        });
+    }
+    let scene = document.scene();
+    for (checked, finding) in scene
+        .iter()
+        .flat_map(|own| own.findings.iter().map(move |f| (own, f)))
+    {
+        let (uri, diagnostic) = diagnostic(document, checked, finding, columns);
+        match others.iter_mut().find(|(own, _)| *own == uri) {
+            _ if uri == document.uri => own.push(diagnostic),
+            Some((_, list)) => list.push(diagnostic),
+            None => others.push((uri, vec![diagnostic])),
+        }
+    }
+    others.insert(0, (document.uri.clone(), own));
+    others
+}
+
+fn diagnostic(
+    document: &OpenText,
+    checked: &CheckedScene,
+    finding: &diag::Diagnostic,
+    columns: Columns,
+) -> (Uri, Diagnostic) {
+    let locate = |span| location(document, checked, span, columns);
+    let primary = finding.primary.as_ref().map(|label| locate(label.span));
+    let start = || Location::new(document.uri.clone(), Range::default());
+    let Location { uri, range } = primary.unwrap_or_else(start);
+    let related = finding
+        .secondary
+        .iter()
+        .map(|label| DiagnosticRelatedInformation {
+            location: locate(label.span),
+            message: label.text.clone(),
+        });
+    let diagnostic = Diagnostic {
+        range,
+        severity: Some(match finding.severity {
+            Severity::Error => DiagnosticSeverity::ERROR,
+            Severity::Warning => DiagnosticSeverity::WARNING,
+            Severity::Note => DiagnosticSeverity::HINT,
+        }),
+        code: Some(NumberOrString::String(finding.code.id.to_owned())),
+        source: Some("rtc".to_owned()),
+        message: message(finding),
+        related_information: Some(related.collect()),
+        ..Diagnostic::default()
+    };
+    (uri, diagnostic)
+}
+
+/// What is wrong, what is here, and what to do, a line each.
+fn message(finding: &diag::Diagnostic) -> String {
+    let here = finding.primary.as_ref().map(|label| label.text.as_str());
+    let hints = finding
+        .hints
+        .iter()
+        .map(|hint| format!("help: {}", hint.text));
+    let lines = here.filter(|text| !text.is_empty()).map(str::to_owned);
+    let all = std::iter::once(finding.message.clone())
+        .chain(lines)
+        .chain(hints);
+    all.collect::<Vec<_>>().join("\n")
+}
+
+fn location(document: &OpenText, checked: &CheckedScene, span: Span, columns: Columns) -> Location {
+    let Span { file, start, end } = span;
+    let range = |text: &str| TextLines::of(text, columns).range(start as usize, end as usize);
+    if checked.is_own(file) {
+        return Location::new(document.uri.clone(), range(&document.text));
+    }
+    let map = checked.map();
+    let uri = place::uri(Path::new(map.name(file))).unwrap_or_else(|| document.uri.clone());
+    Location::new(uri, map.text(file).map_or_else(Range::default, range))
+}
+
+/// The quick fixes of what is found in a range of a text that is checked; all that is sure at once where
+/// it is asked for by its name, as that checks many times.
+pub(super) fn actions(
+    document: &OpenText,
+    range: Range,
+    only: Option<&[CodeActionKind]>,
+    reading: &Reading,
+    columns: Columns,
+) -> Vec<Action> {
+    let lines = document.lines(columns);
+    if let Some(kinds) = only
+        && !kinds.contains(&CodeActionKind::QUICKFIX)
+    {
+        let source = [CodeActionKind::SOURCE, CodeActionKind::SOURCE_FIX_ALL];
+        let is_asked = kinds.iter().any(|kind| source.contains(kind));
+        let fixed = is_asked.then(|| fix_all(document, reading, &lines));
+        return fixed.flatten().into_iter().collect();
+    }
+    let Some(checked) = document.scene() else {
+        return Vec::new();
+    };
+    let fixes = checked.findings.iter().flat_map(|finding| {
+        let (uri, told) = diagnostic(document, checked, finding, columns);
+        let is_here = uri == document.uri && touch(told.range, range);
+        let hints = finding.hints.iter().filter(move |_| is_here);
+        let changes = hints.filter_map(|hint| {
+            let change = hint.replacement.as_ref()?;
+            checked.is_own(change.span.file).then_some((hint, change))
+        });
+        changes
+            .map(|(hint, change)| {
+                let (start, end) = (change.span.start as usize, change.span.end as usize);
+                let edit = TextEdit::new(lines.range(start, end), change.text.clone());
+                let is_sure = !change.is_guess;
+                quick_fix(document, hint.text.clone(), is_sure, edit, told.clone())
+            })
+            .collect::<Vec<_>>()
+    });
+    fixes.collect()
+}
+
+fn quick_fix(
+    document: &OpenText,
+    title: String,
+    is_sure: bool,
+    edit: TextEdit,
+    mended: Diagnostic,
+) -> Action {
+    CodeActionOrCommand::CodeAction(CodeAction {
+        title,
+        kind: Some(CodeActionKind::QUICKFIX),
+        diagnostics: Some(vec![mended]),
+        edit: Some(change_of(document, edit)),
+        is_preferred: Some(is_sure),
+        ..CodeAction::default()
+    })
+}
+
+/// What `rtc check --fix` does to the text, if that is anything.
+fn fix_all(document: &OpenText, reading: &Reading, lines: &TextLines<'_>) -> Option<Action> {
+    let (options, _) = document.options(reading).ok()?;
+    let wish = FixWish::default();
+    let fixed = pipeline::fix(&document.path, &document.text, &options, &wish);
+    if fixed.changes == 0 {
+        return None;
+    }
+    let edit = TextEdit::new(lines.range(0, document.text.len()), fixed.text);
+    Some(CodeActionOrCommand::CodeAction(CodeAction {
+        title: "do all that is sure to be meant, as `rtc check --fix`".to_owned(),
+        kind: Some(CodeActionKind::SOURCE_FIX_ALL),
+        edit: Some(change_of(document, edit)),
+        ..CodeAction::default()
+    }))
+}
+
+fn change_of(document: &OpenText, edit: TextEdit) -> WorkspaceEdit {
+    WorkspaceEdit::new([(document.uri.clone(), vec![edit])].into())
+}
+
+fn touch(a: Range, b: Range) -> bool {
+    a.start <= b.end && b.start <= a.end
+}

@@ -1,0 +1,135 @@
+//! What a key means, with its default and range, and what a code of a finding is about.
+
+use super::super::explain;
+use super::open_text::OpenText;
+use super::text::Columns;
+use super::way::{Vocabulary, WayStep, way};
+use crate::source::tree::Tree;
+use lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind, Position, Range};
+use serde_json::{Map, Value};
+
+/// What is to be said at a place.
+pub(super) fn hover(
+    document: &OpenText,
+    place: Position,
+    vocabulary: &Vocabulary,
+    columns: Columns,
+) -> Option<Hover> {
+    let (lines, mut parts) = (document.lines(columns), Vec::new());
+    let offset = lines.offset(place);
+    let mut range = None;
+    if let Some((told, (start, end))) = meaning(document, offset, vocabulary) {
+        parts.push(told);
+        range = Some(lines.range(start, end));
+    }
+    parts.extend(codes(document, offset));
+    (!parts.is_empty()).then(|| Hover {
+        contents: HoverContents::Markup(MarkupContent {
+            kind: MarkupKind::Markdown,
+            value: parts.join("\n\n---\n\n"),
+        }),
+        range: range.or(Some(Range::new(place, place))),
+    })
+}
+
+/// What the key at a byte, or that of the value there, means; and where it stands.
+fn meaning(
+    document: &OpenText,
+    offset: usize,
+    vocabulary: &Vocabulary,
+) -> Option<(String, (usize, usize))> {
+    let tree = document.tree()?;
+    let steps = way(&tree, offset);
+    let last = steps
+        .iter()
+        .rposition(|step| matches!(step, WayStep::Key { .. }))?;
+    let WayStep::Key { key, value, .. } = steps[last] else {
+        return None;
+    };
+    let schemas = vocabulary.at(&tree, &steps[..=last]);
+    let described = schemas
+        .iter()
+        .find(|schema| schema.contains_key("description"))?;
+    let name = tree.text(key)?;
+    let text = described.get("description").and_then(Value::as_str)?;
+    let facts = facts(&schemas);
+    let value = effective(&tree, value);
+    let lines = [format!("**`{name}`** {text}"), facts, value];
+    let lines = lines.into_iter().filter(|line| !line.is_empty());
+    let span = tree.span(key);
+    let told = lines.collect::<Vec<_>>().join("\n\n");
+    Some((told, (span.start as usize, span.end as usize)))
+}
+
+/// The range, the words and the default of a value.
+fn facts(schemas: &[&Map<String, Value>]) -> String {
+    const LIMIT: f64 = 1e30;
+    let mut facts = Vec::new();
+    let bounds = [
+        ("minimum", "at least"),
+        ("exclusiveMinimum", "above"),
+        ("maximum", "at most"),
+        ("exclusiveMaximum", "below"),
+    ];
+    for (key, word) in bounds {
+        let bound = schemas.iter().find_map(|schema| schema.get(key)?.as_f64());
+        let bound = bound.filter(|bound| bound.abs() < LIMIT);
+        facts.extend(bound.map(|bound| format!("{word} {bound}")));
+    }
+    let words = schemas
+        .iter()
+        .find_map(|schema| schema.get("enum")?.as_array());
+    facts.extend(words.map(|words| {
+        let words: Vec<_> = words
+            .iter()
+            .map(|word| format!("`{}`", plain(word)))
+            .collect();
+        format!("one of {}", words.join(", "))
+    }));
+    let default = schemas.iter().find_map(|schema| schema.get("default"));
+    facts.extend(default.map(|default| format!("default `{}`", plain(default))));
+    facts.join("; ")
+}
+
+/// A value as a scene writes it.
+pub(super) fn plain(value: &Value) -> String {
+    value
+        .as_str()
+        .map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// What an alias stands for.
+fn effective(tree: &Tree<'_>, value: crate::source::tree::NodeId) -> String {
+    /// So many bytes of it at most.
+    const MOST: usize = 400;
+    let target = tree.target(value);
+    if target == value {
+        return String::new();
+    }
+    let written = tree.written(target);
+    let end = written.floor_char_boundary(MOST.min(written.len()));
+    format!("here\n```yaml\n{}\n```", written.split_at(end).0)
+}
+
+/// The texts of the codes of what is found at a byte.
+fn codes(document: &OpenText, offset: usize) -> Vec<String> {
+    let checked = document.scene().into_iter();
+    let findings = checked.flat_map(|checked| {
+        let own = |span: crate::source::Span| {
+            let (start, end) = (span.start as usize, span.end as usize);
+            checked.is_own(span.file) && (start..=end).contains(&offset)
+        };
+        let findings = checked.findings.iter();
+        findings.filter(move |finding| {
+            finding
+                .primary
+                .as_ref()
+                .is_some_and(|label| own(label.span))
+        })
+    });
+    let mut texts: Vec<String> = findings
+        .map(|finding| explain::entry(finding.code))
+        .collect();
+    texts.dedup();
+    texts
+}

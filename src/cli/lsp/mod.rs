@@ -1,0 +1,185 @@
+//! `rtc lsp`: a language server for scenes over standard input and output (Language Server Protocol 3.17): what
+//! `rtc check` finds while one types, with its fixes, and what keys mean.
+
+mod answer;
+mod completion;
+mod findings;
+mod hover;
+mod open_text;
+mod outline;
+mod place;
+mod text;
+mod way;
+mod wire;
+mod workspace;
+
+use super::Failure;
+use super::args;
+use lsp_server::{ErrorCode, Message, Request, Response};
+use lsp_types::{
+    CodeActionKind, CodeActionOptions, CompletionOptions, InitializeParams, OneOf,
+    ServerCapabilities, TextDocumentSyncKind,
+};
+use serde_json::{Value, json};
+use std::io::{self, BufReader, Stdout};
+use std::panic::{self, AssertUnwindSafe};
+use text::Columns;
+use wire::{Inbox, Incoming};
+use workspace::Workspace;
+
+/// How far a conversation has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stretch {
+    /// The editor has not said yet who it is.
+    Greeting,
+    /// It asks and is answered.
+    Talk,
+    /// It has asked for the end.
+    Farewell,
+}
+
+/// A server of one editor.
+struct Server {
+    inbox: Inbox,
+    out: Stdout,
+    stretch: Stretch,
+    workspace: Workspace,
+}
+
+/// Serves one editor until it says that it has enough, or is gone.
+pub(super) fn run(args: args::Lsp) -> Result<(), Failure> {
+    let trouble = |error: io::Error| Failure::Trouble(format!("lsp: {error}"));
+    let mut server = Server {
+        inbox: Inbox::of(BufReader::new(io::stdin())).map_err(trouble)?,
+        out: io::stdout(),
+        stretch: Stretch::Greeting,
+        workspace: Workspace::new(args.reading),
+    };
+    server.serve()
+}
+
+impl Server {
+    /// Does what it is told, message by message; texts are checked when nothing else waits.
+    fn serve(&mut self) -> Result<(), Failure> {
+        loop {
+            let incoming = match self.inbox.next() {
+                Some(incoming) => incoming,
+                None => {
+                    if let Some(told) = self.workspace.check_next() {
+                        told.into_iter().for_each(|message| self.send(message));
+                        continue;
+                    }
+                    match self.inbox.wait() {
+                        Some(incoming) => incoming,
+                        None => return Ok(()),
+                    }
+                }
+            };
+            match incoming {
+                Incoming::Message(Message::Notification(own)) if own.method == "exit" => {
+                    let is_asked = self.stretch == Stretch::Farewell;
+                    let words = "the editor left without `shutdown`";
+                    let failure = || Failure::Input(words.to_owned());
+                    return is_asked.then_some(()).ok_or_else(failure);
+                }
+                Incoming::Message(message) => self.hear(message),
+                Incoming::Cancelled(id) => {
+                    let words = "taken back".to_owned();
+                    let code = ErrorCode::RequestCanceled as i32;
+                    self.send(Response::new_err(id, code, words));
+                }
+                // An editor that is gone is noticed where its next message is waited for.
+                Incoming::NoMessage(code, words) => {
+                    let _ = wire::refuse(&mut self.out, code, &words);
+                }
+                Incoming::Broken(words) => return Err(Failure::Trouble(format!("lsp: {words}"))),
+            }
+        }
+    }
+
+    fn send(&mut self, message: impl Into<Message>) {
+        let _ = wire::write(&mut self.out, &message.into());
+    }
+
+    fn hear(&mut self, message: Message) {
+        match message {
+            Message::Request(request) => {
+                let response = self.answered(request);
+                self.send(response);
+            }
+            Message::Notification(own) if self.stretch == Stretch::Talk => {
+                let told = self.workspace.note(own);
+                told.into_iter().for_each(|message| self.send(message));
+            }
+            Message::Notification(_) | Message::Response(_) => {}
+        }
+    }
+
+    /// The answer to a request; a fault of ours is one, too, and ends nothing.
+    fn answered(&mut self, request: Request) -> Response {
+        let id = request.id.clone();
+        let refused = |code: ErrorCode, words: &str| {
+            Response::new_err(id.clone(), code as i32, words.to_owned())
+        };
+        match (self.stretch, request.method.as_str()) {
+            (Stretch::Greeting, "initialize") => {
+                self.stretch = Stretch::Talk;
+                Response::new_ok(id, self.greet(request.params))
+            }
+            (Stretch::Greeting, _) => {
+                refused(ErrorCode::ServerNotInitialized, "`initialize` comes first")
+            }
+            (Stretch::Talk, "initialize") => {
+                refused(ErrorCode::InvalidRequest, "`initialize` came before")
+            }
+            (Stretch::Talk, "shutdown") => {
+                self.stretch = Stretch::Farewell;
+                Response::new_ok(id, Value::Null)
+            }
+            (Stretch::Talk, _) => {
+                let answer = AssertUnwindSafe(|| self.workspace.answer(request));
+                let words = "internal error of rtc; please report it with the scene";
+                panic::catch_unwind(answer)
+                    .unwrap_or_else(|_| refused(ErrorCode::InternalError, words))
+            }
+            (Stretch::Farewell, _) => refused(ErrorCode::InvalidRequest, "`shutdown` came before"),
+        }
+    }
+
+    /// What the server can do, said to an editor that says how it counts columns.
+    fn greet(&mut self, params: Value) -> Value {
+        let params: Option<InitializeParams> = serde_json::from_value(params).ok();
+        let general = params.and_then(|own| own.capabilities.general);
+        let offered = general.and_then(|own| own.position_encodings);
+        let columns = Columns::of(&offered.unwrap_or_default());
+        self.workspace.count_columns(columns);
+        json!({
+            "capabilities": capabilities(columns),
+            "serverInfo": { "name": "rtc", "version": env!("CARGO_PKG_VERSION") },
+        })
+    }
+}
+
+fn capabilities(columns: Columns) -> ServerCapabilities {
+    let kinds = [CodeActionKind::QUICKFIX, CodeActionKind::SOURCE_FIX_ALL];
+    let actions = CodeActionOptions {
+        code_action_kinds: Some(kinds.into()),
+        ..CodeActionOptions::default()
+    };
+    ServerCapabilities {
+        position_encoding: Some(columns.kind()),
+        text_document_sync: Some(TextDocumentSyncKind::INCREMENTAL.into()),
+        code_action_provider: Some(actions.into()),
+        hover_provider: Some(true.into()),
+        completion_provider: Some(CompletionOptions {
+            trigger_characters: Some([" ", "/", "*", "\""].map(str::to_owned).to_vec()),
+            ..CompletionOptions::default()
+        }),
+        document_formatting_provider: Some(OneOf::Left(true)),
+        document_symbol_provider: Some(OneOf::Left(true)),
+        definition_provider: Some(OneOf::Left(true)),
+        color_provider: Some(true.into()),
+        inlay_hint_provider: Some(OneOf::Left(true)),
+        ..ServerCapabilities::default()
+    }
+}

@@ -1,0 +1,168 @@
+//! A text that an editor has open, and what was found in it.
+
+use super::super::Failure;
+use super::super::args::Reading;
+use super::super::input;
+use super::super::project::Project;
+use super::findings::FileFindings;
+use super::place;
+use super::text::{Columns, TextLines};
+use crate::diag::{Diagnostic, Severity};
+use crate::pipeline::{Input, Options, SourceKind};
+use crate::source::tree::{Tree, yaml};
+use crate::source::{FileId, SourceMap};
+use lsp_types::{TextDocumentContentChangeEvent, Uri};
+use std::panic::{self, AssertUnwindSafe};
+use std::path::PathBuf;
+
+/// A text that an editor has open.
+pub(super) struct OpenText {
+    pub(super) uri: Uri,
+    pub(super) path: PathBuf,
+    pub(super) version: i32,
+    pub(super) text: String,
+    /// What was found in the text as it is; none until it is checked.
+    pub(super) checked: Option<CheckedText>,
+    /// What the editor was told of it last, by the files that it is about.
+    pub(super) told: Vec<FileFindings>,
+}
+
+/// What was found in a text.
+pub(super) enum CheckedText {
+    /// What `rtc check` finds.
+    Read(Box<CheckedScene>),
+    /// It could not be checked, for this reason.
+    Trouble(String),
+}
+
+/// A scene that was checked.
+pub(super) struct CheckedScene {
+    input: Input,
+    /// Errors and warnings, in the order of the text.
+    pub(super) findings: Vec<Diagnostic>,
+}
+
+impl CheckedScene {
+    pub(super) fn map(&self) -> &SourceMap {
+        self.input.map()
+    }
+
+    /// Whether a file is the text itself.
+    pub(super) fn is_own(&self, file: FileId) -> bool {
+        self.input.file_id() == Some(file)
+    }
+}
+
+impl OpenText {
+    pub(super) fn new(uri: Uri, version: i32, text: String) -> Self {
+        Self {
+            path: place::path(&uri),
+            uri,
+            version,
+            text,
+            checked: None,
+            told: Vec::new(),
+        }
+    }
+
+    /// The same text opened anew.
+    pub(super) fn replace(&mut self, other: Self) {
+        let told = std::mem::take(&mut self.told);
+        *self = Self { told, ..other };
+    }
+
+    /// Has it checked again.
+    pub(super) fn forget(&mut self) {
+        self.checked = None;
+    }
+
+    /// What kind of text it is.
+    pub(super) fn kind(&self) -> SourceKind {
+        SourceKind::of(&self.path.to_string_lossy(), self.text.as_bytes())
+    }
+
+    /// The same after changes, each of the text that the one before has left.
+    pub(super) fn change(
+        &mut self,
+        version: i32,
+        changes: Vec<TextDocumentContentChangeEvent>,
+        columns: Columns,
+    ) {
+        for change in changes {
+            match change.range {
+                None => self.text = change.text,
+                Some(range) => {
+                    let lines = TextLines::of(&self.text, columns);
+                    let start = lines.offset(range.start);
+                    let end = lines.offset(range.end).max(start);
+                    self.text.replace_range(start..end, &change.text);
+                }
+            }
+        }
+        (self.version, self.checked) = (version, None);
+    }
+
+    pub(super) fn lines(&self, columns: Columns) -> TextLines<'_> {
+        TextLines::of(&self.text, columns)
+    }
+
+    /// What was found in it, if it could be checked.
+    pub(super) fn scene(&self) -> Option<&CheckedScene> {
+        match self.checked.as_ref()? {
+            CheckedText::Read(scene) => Some(scene.as_ref()),
+            CheckedText::Trouble(_) => None,
+        }
+    }
+
+    /// Checks the text in the place of its file, as `rtc check` does, unless it is.
+    pub(super) fn check(&mut self, reading: &Reading) {
+        if self.checked.is_some() {
+            return;
+        }
+        let check = AssertUnwindSafe(|| self.checked_anew(reading));
+        let checked = match panic::catch_unwind(check) {
+            Ok(Ok(scene)) => CheckedText::Read(Box::new(scene)),
+            Ok(Err(Failure::Trouble(words) | Failure::Input(words))) => CheckedText::Trouble(words),
+            Ok(Err(_)) => CheckedText::Trouble("the scene can't be checked".to_owned()),
+            Err(_) => CheckedText::Trouble("internal error of rtc; please report it".to_owned()),
+        };
+        self.checked = Some(checked);
+    }
+
+    fn checked_anew(&self, reading: &Reading) -> Result<CheckedScene, Failure> {
+        let (options, project) = self.options(reading)?;
+        let bytes = self.text.clone().into_bytes();
+        let mut input = Input::edited(&self.path, bytes, options);
+        if let Some(project) = project {
+            project.tell(&mut input);
+        }
+        if let Some(loaded) = input.load() {
+            input.prove(loaded, |_, _| ());
+        }
+        let mut sink = input.take_findings();
+        sink.sort();
+        let kept = sink.kept().iter();
+        let findings = kept.filter(|finding| finding.severity != Severity::Note);
+        Ok(CheckedScene {
+            findings: findings.cloned().collect(),
+            input,
+        })
+    }
+
+    /// How the text is read.
+    pub(super) fn options(&self, reading: &Reading) -> Result<(Options, Option<Project>), Failure> {
+        let project = Project::of(&self.path)?;
+        Ok((input::options(reading, project.as_ref())?, project))
+    }
+
+    /// The text as a tree, if it is one of YAML or JSON without mistakes.
+    pub(super) fn tree(&self) -> Option<Tree<'_>> {
+        tree(&self.text)
+    }
+}
+
+/// A text as a tree.
+pub(super) fn tree(text: &str) -> Option<Tree<'_>> {
+    let file = SourceMap::default().add("", Vec::new());
+    yaml::parse(file, text.as_bytes(), &mut |_| ())
+}

@@ -1,0 +1,210 @@
+//! What a text holds: its outline, its colours, the defaults that it leaves unsaid, and where names lead.
+
+use super::completion::is_file;
+use super::hover::plain;
+use super::open_text::OpenText;
+use super::place;
+use super::text::{Columns, TextLines};
+use super::way::{Vocabulary, WayStep, way};
+use crate::source::tree::{NodeContent, NodeId, Tree};
+use lsp_types::{
+    Color, ColorInformation, ColorPresentation, DocumentSymbol, InlayHint, InlayHintLabel,
+    Location, Position, Range, SymbolKind,
+};
+use serde_json::Value;
+
+/// So many of a kind are told at most.
+const MOST: usize = 5000;
+
+/// The keys of the scene, and what their lists hold.
+#[expect(
+    deprecated,
+    reason = "the protocol has a field of old that must be filled"
+)]
+pub(super) fn symbols(document: &OpenText, columns: Columns) -> Vec<DocumentSymbol> {
+    let Some(tree) = document.tree() else {
+        return Vec::new();
+    };
+    let lines = document.lines(columns);
+    let range = |id: NodeId| range(&tree, id, &lines);
+    let symbol = |name: String, kind, whole: Range, own: Range, children| DocumentSymbol {
+        name,
+        detail: None,
+        kind,
+        tags: None,
+        deprecated: None,
+        range: whole,
+        selection_range: own,
+        children: Some(children),
+    };
+    let item = |(at, id): (usize, NodeId)| {
+        let name = named(&tree, id).unwrap_or_else(|| format!("{at}"));
+        symbol(name, SymbolKind::OBJECT, range(id), range(id), Vec::new())
+    };
+    let pairs = tree.pairs(tree.root()).take(MOST);
+    let symbols = pairs.map(|(key, value)| {
+        let items = tree.items(value).filter(|_| tree.is_list(value));
+        let items = items.enumerate().filter(|(_, id)| tree.is_map(*id));
+        let children = items.take(MOST).map(item).collect();
+        let whole = Range::new(range(key).start, range(value).end.max(range(key).end));
+        let name = tree.text(key).unwrap_or_default().to_owned();
+        symbol(name, SymbolKind::PROPERTY, whole, range(key), children)
+    });
+    symbols.filter(|symbol| !symbol.name.is_empty()).collect()
+}
+
+/// What a map calls itself.
+fn named(tree: &Tree<'_>, id: NodeId) -> Option<String> {
+    let mut names = ["name", "type", "file"].into_iter();
+    let found = names.find_map(|key| tree.text(tree.get(id, key)?));
+    found.filter(|name| !name.is_empty()).map(str::to_owned)
+}
+
+fn range(tree: &Tree<'_>, id: NodeId, lines: &TextLines<'_>) -> Range {
+    let span = tree.span(id);
+    lines.range(span.start as usize, span.end as usize)
+}
+
+/// The colours in the text: what a key with `color` in its name holds.
+pub(super) fn colors(document: &OpenText, columns: Columns) -> Vec<ColorInformation> {
+    let Some(tree) = document.tree() else {
+        return Vec::new();
+    };
+    let lines = document.lines(columns);
+    let maps = tree
+        .nodes()
+        .filter(|id| tree.is_map(*id) && tree.target(*id) == *id);
+    let pairs = maps.flat_map(|map| tree.pairs(map).collect::<Vec<_>>());
+    let colors = pairs.filter_map(|(key, value)| {
+        let name = tree.text(key)?.to_lowercase();
+        let is_here = tree.target(value) == value && tree.is_list(value);
+        let is_color = is_here && (name.contains("color") || name.contains("colour"));
+        let values: Vec<f32> = tree
+            .items(value)
+            .filter_map(|id| number(&tree, id))
+            .collect();
+        let [red, green, blue] = values.try_into().ok().filter(|_| is_color)?;
+        let [red, green, blue] = [red, green, blue].map(|v: f32| v.clamp(0.0, 1.0));
+        let color = Color {
+            red,
+            green,
+            blue,
+            alpha: 1.0,
+        };
+        let range = range(&tree, value, &lines);
+        Some(ColorInformation { range, color })
+    });
+    colors.take(MOST).collect()
+}
+
+fn number(tree: &Tree<'_>, id: NodeId) -> Option<f32> {
+    match tree.shape(id) {
+        NodeContent::Word(word) => word.parse().ok(),
+        NodeContent::Text(_) | NodeContent::List | NodeContent::Map => None,
+    }
+}
+
+/// How a colour is written.
+pub(super) fn presentation(color: Color) -> Vec<ColorPresentation> {
+    let Color {
+        red, green, blue, ..
+    } = color;
+    let channels = [red, green, blue].map(|v| {
+        let text = format!("{:.3}", f64::from(v));
+        let short = text.trim_end_matches('0').trim_end_matches('.');
+        short.to_owned()
+    });
+    vec![ColorPresentation {
+        label: format!("[{}]", channels.join(", ")),
+        ..ColorPresentation::default()
+    }]
+}
+
+/// Where the alias, or the name of a file, at a place leads.
+pub(super) fn definition(
+    document: &OpenText,
+    place: Position,
+    vocabulary: &Vocabulary,
+    columns: Columns,
+) -> Option<Location> {
+    let tree = document.tree()?;
+    let lines = document.lines(columns);
+    let steps = way(&tree, lines.offset(place));
+    let value = match *steps.last()? {
+        WayStep::Key { value, .. } => value,
+        WayStep::Item { item, .. } => item,
+    };
+    let target = tree.target(value);
+    if target != value {
+        let range = range(&tree, target, &lines);
+        return Some(Location::new(document.uri.clone(), range));
+    }
+    let file = tree
+        .text(value)
+        .filter(|_| is_file(&vocabulary.at(&tree, &steps)))?;
+    let path = document.path.parent()?.join(file);
+    path.is_file()
+        .then(|| Some(Location::new(place::uri(&path)?, Range::default())))?
+}
+
+/// The defaults that the maps of some lines leave unsaid, at the end of their first lines.
+pub(super) fn hints(
+    document: &OpenText,
+    shown: Range,
+    vocabulary: &Vocabulary,
+    columns: Columns,
+) -> Vec<InlayHint> {
+    /// So many of a map are told.
+    const FIRST: usize = 4;
+    let Some(tree) = document.tree() else {
+        return Vec::new();
+    };
+    let lines = document.lines(columns);
+    let maps = tree
+        .nodes()
+        .filter(|id| tree.is_map(*id) && tree.target(*id) == *id);
+    let hint = |map: NodeId| {
+        let start = tree.span(map).start as usize;
+        let line = lines.position(start).line;
+        let is_shown = shown.start.line <= line && line <= shown.end.line;
+        if !is_shown || map == tree.root() {
+            return None;
+        }
+        // One byte in, so that the way leads into the map and not past it.
+        let mut steps = way(&tree, start);
+        while steps.last().is_some_and(|step| leads_past(step, map)) {
+            steps.pop();
+        }
+        let keys = vocabulary.keys(&tree, &steps).into_iter();
+        let unsaid = keys.filter(|(name, _)| tree.get(map, name).is_none());
+        let defaults = unsaid.filter_map(|(name, schema)| {
+            let default: &Value = schema.get("default")?;
+            Some(format!("{name}: {}", plain(default)))
+        });
+        let mut defaults: Vec<String> = defaults.collect();
+        let more = defaults.len() > FIRST;
+        defaults.truncate(FIRST);
+        let end = if more { ", …" } else { "" };
+        let label = format!("{}{end}", defaults.join(", "));
+        (!defaults.is_empty()).then(|| InlayHint {
+            position: lines.position(lines.line_end(start)),
+            label: InlayHintLabel::String(label),
+            kind: None,
+            text_edits: None,
+            tooltip: None,
+            padding_left: Some(true),
+            padding_right: None,
+            data: None,
+        })
+    };
+    maps.filter_map(hint).take(MOST).collect()
+}
+
+/// Whether a step leads from a map on, not to it.
+fn leads_past(step: &WayStep, map: NodeId) -> bool {
+    let to = match *step {
+        WayStep::Key { value, .. } => value,
+        WayStep::Item { item, .. } => item,
+    };
+    to != map
+}

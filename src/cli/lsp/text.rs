@@ -1,0 +1,142 @@
+//! Places in a text as editors count them: lines, and columns in UTF-16 or UTF-8.
+
+use lsp_types::{Position, PositionEncodingKind, Range};
+
+/// The units of columns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Columns {
+    /// Those of UTF-16, which every editor understands.
+    Utf16,
+    /// Bytes.
+    Utf8,
+}
+
+impl Columns {
+    /// Those of the kinds an editor offers that take the least work.
+    pub(super) fn of(offered: &[PositionEncodingKind]) -> Self {
+        match offered.contains(&PositionEncodingKind::UTF8) {
+            true => Self::Utf8,
+            false => Self::Utf16,
+        }
+    }
+
+    /// As the protocol calls it.
+    pub(super) fn kind(self) -> PositionEncodingKind {
+        match self {
+            Self::Utf16 => PositionEncodingKind::UTF16,
+            Self::Utf8 => PositionEncodingKind::UTF8,
+        }
+    }
+
+    fn width(self, letter: char) -> usize {
+        match self {
+            Self::Utf16 => letter.len_utf16(),
+            Self::Utf8 => letter.len_utf8(),
+        }
+    }
+}
+
+/// A text whose lines are known.
+pub(super) struct TextLines<'t> {
+    text: &'t str,
+    columns: Columns,
+    /// Where each line starts, in bytes.
+    starts: Vec<usize>,
+}
+
+impl<'t> TextLines<'t> {
+    pub(super) fn of(text: &'t str, columns: Columns) -> Self {
+        let bytes = text.as_bytes();
+        let ends = bytes.iter().enumerate().filter(|(at, byte)| {
+            **byte == b'\n' || (**byte == b'\r' && bytes.get(at + 1) != Some(&b'\n'))
+        });
+        let starts = std::iter::once(0).chain(ends.map(|(at, _)| at + 1));
+        Self {
+            text,
+            columns,
+            starts: starts.collect(),
+        }
+    }
+
+    /// The place of a byte; of one that is within a character, that of the character.
+    pub(super) fn position(&self, offset: usize) -> Position {
+        let offset = self.text.floor_char_boundary(offset.min(self.text.len()));
+        let line = self.starts.partition_point(|start| *start <= offset) - 1;
+        let before = self.text.get(self.starts[line]..offset).unwrap_or_default();
+        let column: usize = before.chars().map(|c| self.columns.width(c)).sum();
+        Position::new(to_u32(line), to_u32(column))
+    }
+
+    /// The place of some bytes.
+    pub(super) fn range(&self, start: usize, end: usize) -> Range {
+        Range::new(self.position(start), self.position(end.max(start)))
+    }
+
+    /// The byte of a place; beyond the end of its line, or of the text, that end.
+    pub(super) fn offset(&self, place: Position) -> usize {
+        let line = place.line as usize;
+        let Some(start) = self.starts.get(line).copied() else {
+            return self.text.len();
+        };
+        let next = self
+            .starts
+            .get(line + 1)
+            .copied()
+            .unwrap_or(self.text.len());
+        let own = self.text.get(start..next).unwrap_or_default();
+        let own = own.trim_end_matches(['\n', '\r']);
+        let (mut left, mut offset) = (place.character as usize, start);
+        for letter in own.chars() {
+            let width = self.columns.width(letter);
+            if left < width {
+                break;
+            }
+            left -= width;
+            offset += letter.len_utf8();
+        }
+        offset
+    }
+
+    /// The bytes of a line before a byte of it.
+    pub(super) fn before(&self, offset: usize) -> &'t str {
+        let line = self.starts.partition_point(|start| *start <= offset) - 1;
+        self.text.get(self.starts[line]..offset).unwrap_or_default()
+    }
+
+    /// The end of the line that a byte is in, without its line break.
+    pub(super) fn line_end(&self, offset: usize) -> usize {
+        let rest = self.text.get(offset..).unwrap_or_default();
+        offset + rest.find(['\n', '\r']).unwrap_or(rest.len())
+    }
+}
+
+fn to_u32(count: usize) -> u32 {
+    u32::try_from(count).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_count_as_the_editor_does() {
+        let text = "a😀b\r\ncé\rd";
+        let (wide, bytes) = (
+            TextLines::of(text, Columns::Utf16),
+            TextLines::of(text, Columns::Utf8),
+        );
+        let b = text.find('b').unwrap();
+        assert_eq!(wide.position(b), Position::new(0, 3));
+        assert_eq!(bytes.position(b), Position::new(0, 5));
+        let d = text.find('d').unwrap();
+        assert_eq!(wide.position(d), Position::new(2, 0));
+        for lines in [&wide, &bytes] {
+            for (at, _) in text.char_indices().filter(|(_, c)| !"\r\n".contains(*c)) {
+                assert_eq!(lines.offset(lines.position(at)), at);
+            }
+        }
+        assert_eq!(wide.offset(Position::new(0, 99)), b + 1);
+        assert_eq!(wide.offset(Position::new(9, 0)), text.len());
+        assert_eq!(wide.position(text.len() + 7), Position::new(2, 1));
+    }
+}

@@ -1,0 +1,160 @@
+//! Where in a tree a byte stands: the keys and items that lead there, and what the schema of scenes says of
+//! each.
+
+use crate::source::tree::{NodeId, Tree};
+use serde_json::{Map, Value};
+
+/// A step from a list or a map to what it holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum WayStep {
+    /// The value of a key.
+    Key {
+        map: NodeId,
+        key: NodeId,
+        value: NodeId,
+    },
+    /// An item of a list.
+    Item { at: usize, item: NodeId },
+}
+
+/// The steps from the root to what stands at a byte.
+pub(super) fn way(tree: &Tree<'_>, offset: usize) -> Vec<WayStep> {
+    let holds = |id: NodeId| {
+        let span = tree.span(id);
+        (span.start as usize..=span.end as usize).contains(&offset)
+    };
+    let (mut steps, mut here) = (Vec::new(), tree.root());
+    loop {
+        // What an alias stands for is written elsewhere.
+        let is_alias = tree.target(here) != here;
+        let key = tree
+            .pairs(here)
+            .find(|(key, value)| !is_alias && (holds(*key) || holds(*value)));
+        let item = || tree.items(here).enumerate().find(|(_, item)| holds(*item));
+        let (step, next) = match key {
+            Some((key, value)) => (
+                WayStep::Key {
+                    map: here,
+                    key,
+                    value,
+                },
+                value,
+            ),
+            None if tree.is_list(here) && !is_alias => match item() {
+                Some((at, item)) => (WayStep::Item { at, item }, item),
+                None => return steps,
+            },
+            None => return steps,
+        };
+        steps.push(step);
+        here = next;
+    }
+}
+
+/// The schema of a format, asked by ways.
+pub(super) struct Vocabulary {
+    schema: Value,
+}
+
+impl Vocabulary {
+    pub(super) fn new(schema: Value) -> Self {
+        Self { schema }
+    }
+
+    /// What may stand at the end of a way: schemas, without references.
+    pub(super) fn at<'v>(
+        &'v self,
+        tree: &Tree<'_>,
+        steps: &[WayStep],
+    ) -> Vec<&'v Map<String, Value>> {
+        let mut here = self.plain(&self.schema, tree, tree.root());
+        for step in steps {
+            let found: Vec<&Value> = match *step {
+                WayStep::Key { key, .. } => {
+                    let name = tree.text(key).unwrap_or_default();
+                    here.iter()
+                        .filter_map(|s| s.get("properties")?.get(name))
+                        .collect()
+                }
+                WayStep::Item { at, .. } => here
+                    .iter()
+                    .filter_map(|s| {
+                        s.get("prefixItems")
+                            .and_then(|all| all.get(at))
+                            .or(s.get("items"))
+                    })
+                    .collect(),
+            };
+            let node = match *step {
+                WayStep::Key { value, .. } => value,
+                WayStep::Item { item, .. } => item,
+            };
+            here = found
+                .into_iter()
+                .flat_map(|schema| self.plain(schema, tree, node))
+                .collect();
+        }
+        here
+    }
+
+    /// What the keys of a map may be: their names and schemas, those to be preferred alone.
+    pub(super) fn keys<'v>(
+        &'v self,
+        tree: &Tree<'_>,
+        to_map: &[WayStep],
+    ) -> Vec<(&'v str, &'v Value)> {
+        let mut keys: Vec<(&str, &Value)> = Vec::new();
+        for schema in self.at(tree, to_map) {
+            let properties = schema.get("properties").and_then(Value::as_object);
+            for (name, property) in properties.into_iter().flatten() {
+                let is_old = property.get("deprecated").is_some();
+                if !is_old && !keys.iter().any(|(known, _)| known == name) {
+                    keys.push((name, property));
+                }
+            }
+        }
+        keys
+    }
+
+    /// A schema with what it refers to, its alternatives, and what the kind of the node asks for beside it.
+    fn plain<'v>(
+        &'v self,
+        schema: &'v Value,
+        tree: &Tree<'_>,
+        node: NodeId,
+    ) -> Vec<&'v Map<String, Value>> {
+        let (mut plain, mut open) = (Vec::new(), vec![schema]);
+        while let Some(next) = open.pop() {
+            let Some(map) = next.as_object() else {
+                continue;
+            };
+            let target = map.get("$ref").and_then(Value::as_str);
+            let target = target.and_then(|name| self.schema.pointer(name.trim_start_matches('#')));
+            open.extend(target);
+            let alternatives = ["anyOf", "oneOf"].map(|key| map.get(key).and_then(Value::as_array));
+            open.extend(alternatives.into_iter().flatten().flatten());
+            for rule in map
+                .get("allOf")
+                .and_then(Value::as_array)
+                .into_iter()
+                .flatten()
+            {
+                open.extend(rule.get("then").filter(|_| is_meant(rule, tree, node)));
+            }
+            plain.push(map);
+        }
+        plain
+    }
+}
+
+/// Whether a map says by one of its values that a rule is for it.
+fn is_meant(rule: &Value, tree: &Tree<'_>, node: NodeId) -> bool {
+    let asked = rule.pointer("/if/properties").and_then(Value::as_object);
+    asked.is_some_and(|asked| {
+        asked.iter().all(|(key, value)| {
+            let word = value.get("const").and_then(Value::as_str);
+            let own = tree.get(node, key).and_then(|own| tree.text(own));
+            word.is_some() && word == own
+        })
+    })
+}

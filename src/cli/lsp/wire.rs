@@ -1,0 +1,253 @@
+//! Messages as they stand on a wire: lines of a head, then JSON (Language Server Protocol 3.17, "Base Protocol"),
+//! and those that wait for an answer.
+
+use lsp_server::{Message, RequestId};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::collections::VecDeque;
+use std::io::{self, BufRead, Read, Write};
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
+
+/// The largest message that is taken, in bytes.
+const MAX_MESSAGE: u64 = 1 << 28;
+
+/// The longest line of a head, in bytes.
+const MAX_LINE: u64 = 1 << 12;
+
+/// The name of what takes a request back.
+const CANCEL: &str = "$/cancelRequest";
+
+/// What came in.
+#[derive(Debug)]
+pub(super) enum Incoming {
+    /// A message.
+    Message(Message),
+    /// A request that was taken back before it was begun.
+    Cancelled(RequestId),
+    /// A body that is no message, with the code and words of the answer.
+    NoMessage(i32, String),
+    /// What can't be read on, in words.
+    Broken(String),
+}
+
+/// The messages that wait, in their order.
+pub(super) struct Inbox {
+    receiver: Receiver<Incoming>,
+    waiting: VecDeque<Incoming>,
+}
+
+impl Inbox {
+    /// That of a stream, which is read by a thread of its own.
+    ///
+    /// # Errors
+    /// If there is no thread to be had.
+    pub(super) fn of(mut input: impl BufRead + Send + 'static) -> io::Result<Self> {
+        let (sender, receiver) = mpsc::channel();
+        let read = move || {
+            loop {
+                let (incoming, is_last) = match next(&mut input) {
+                    Ok(Some(incoming)) => (incoming, false),
+                    Ok(None) => return,
+                    Err(error) => (Incoming::Broken(error.to_string()), true),
+                };
+                if sender.send(incoming).is_err() || is_last {
+                    return;
+                }
+            }
+        };
+        let reader = thread::Builder::new().name("reader".to_owned());
+        drop(reader.spawn(read)?);
+        Ok(Self {
+            receiver,
+            waiting: VecDeque::new(),
+        })
+    }
+
+    /// The next message, if one is there.
+    pub(super) fn next(&mut self) -> Option<Incoming> {
+        while let Ok(incoming) = self.receiver.try_recv() {
+            self.put(incoming);
+        }
+        self.waiting.pop_front()
+    }
+
+    /// The next message, which may be waited for; none where no more can come.
+    pub(super) fn wait(&mut self) -> Option<Incoming> {
+        if let Some(incoming) = self.next() {
+            return Some(incoming);
+        }
+        self.put(self.receiver.recv().ok()?);
+        self.next()
+    }
+
+    /// Puts a message behind the others, or takes one of them back, as it says.
+    fn put(&mut self, incoming: Incoming) {
+        let Some(id) = taken_back(&incoming) else {
+            return self.waiting.push_back(incoming);
+        };
+        let is_meant = |own: &&mut Incoming| match own {
+            Incoming::Message(Message::Request(request)) => request.id == id,
+            Incoming::Message(Message::Response(_) | Message::Notification(_))
+            | Incoming::Cancelled(_)
+            | Incoming::NoMessage(..)
+            | Incoming::Broken(_) => false,
+        };
+        if let Some(meant) = self.waiting.iter_mut().find(is_meant) {
+            *meant = Incoming::Cancelled(id);
+        }
+    }
+}
+
+/// The request that a message takes back.
+fn taken_back(incoming: &Incoming) -> Option<RequestId> {
+    let Incoming::Message(Message::Notification(own)) = incoming else {
+        return None;
+    };
+    let id = own.params.get("id").filter(|_| own.method == CANCEL)?;
+    RequestId::deserialize(id).ok()
+}
+
+/// The next message of a stream; none at its end.
+fn next(input: &mut impl BufRead) -> io::Result<Option<Incoming>> {
+    let Some(length) = head(input)? else {
+        return Ok(None);
+    };
+    let mut body = Vec::new();
+    // What is said to come is given room as it comes.
+    if input.take(length).read_to_end(&mut body)? as u64 != length {
+        return Ok(None);
+    }
+    let no_message = |code: lsp_server::ErrorCode, error: serde_json::Error| {
+        Incoming::NoMessage(code as i32, error.to_string())
+    };
+    let value: Value = match serde_json::from_slice(&body) {
+        Ok(value) => value,
+        Err(error) => return Ok(Some(no_message(lsp_server::ErrorCode::ParseError, error))),
+    };
+    Ok(Some(match serde_json::from_value(value) {
+        Ok(message) => Incoming::Message(message),
+        Err(error) => no_message(lsp_server::ErrorCode::InvalidRequest, error),
+    }))
+}
+
+/// The length of the message whose head comes next; none at the end of the stream.
+fn head(input: &mut impl BufRead) -> io::Result<Option<u64>> {
+    let wrong = |words: &str| io::Error::new(io::ErrorKind::InvalidData, words.to_owned());
+    let mut length = None;
+    loop {
+        let mut line = Vec::new();
+        input.take(MAX_LINE).read_until(b'\n', &mut line)?;
+        if line.is_empty() {
+            return Ok(None);
+        }
+        let line = str::from_utf8(&line).map_err(|_| wrong("the head of a message is no text"))?;
+        if line.trim().is_empty() {
+            break;
+        }
+        let (name, value) = line
+            .split_once(':')
+            .filter(|_| line.ends_with('\n'))
+            .ok_or_else(|| wrong("a line in the head of a message is no `name: value`"))?;
+        if name.trim().eq_ignore_ascii_case("Content-Length") {
+            length = value.trim().parse().ok().filter(|own| *own <= MAX_MESSAGE);
+        }
+    }
+    let length = length
+        .ok_or_else(|| wrong("a message has no `Content-Length`, or one of more than 256 MB"))?;
+    Ok(Some(length))
+}
+
+/// Writes a message.
+///
+/// # Errors
+/// If the stream takes nothing.
+pub(super) fn write(out: &mut impl Write, message: &Message) -> io::Result<()> {
+    message.write(out)
+}
+
+/// Answers what has no number, as it is no message.
+///
+/// # Errors
+/// If the stream takes nothing.
+pub(super) fn refuse(out: &mut impl Write, code: i32, words: &str) -> io::Result<()> {
+    let error = json!({ "code": code, "message": words });
+    let answer = json!({ "jsonrpc": "2.0", "id": null, "error": error }).to_string();
+    write!(out, "Content-Length: {}\r\n\r\n{answer}", answer.len())?;
+    out.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn framed(body: &str) -> String {
+        format!("Content-Length: {}\r\n\r\n{body}", body.len())
+    }
+
+    fn read(text: &str) -> Vec<String> {
+        let mut input = text.as_bytes();
+        let told = |incoming| match incoming {
+            Incoming::Message(Message::Request(own)) => format!("request {}", own.id),
+            Incoming::Message(Message::Notification(own)) => own.method,
+            Incoming::Message(Message::Response(_)) => "response".to_owned(),
+            Incoming::Cancelled(id) => format!("cancelled {id}"),
+            Incoming::NoMessage(code, _) => format!("no message {code}"),
+            Incoming::Broken(_) => "broken".to_owned(),
+        };
+        let mut all = Vec::new();
+        loop {
+            match next(&mut input) {
+                Ok(Some(incoming)) => all.push(told(incoming)),
+                Ok(None) => return all,
+                Err(error) => {
+                    all.push(error.kind().to_string());
+                    return all;
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_message_is_told_and_the_next_is_read() {
+        let bad = framed("{\"id\": }") + &framed("[1]");
+        let good = framed(r#"{"id":7,"method":"shutdown"}"#);
+        assert_eq!(
+            read(&(bad + &good)),
+            ["no message -32700", "no message -32600", "request 7"]
+        );
+    }
+
+    #[test]
+    fn a_head_that_promises_too_much_ends_it_and_takes_no_memory() {
+        let wrong = io::ErrorKind::InvalidData.to_string();
+        for text in [
+            "Content-Length: 99999999999999\r\n\r\n{}",
+            "Content-Length: -1\r\n\r\n{}",
+            "Content-Type: x\r\n\r\n{}",
+            "GET / HTTP/1.1\r\n\r\n",
+            &"x".repeat(1 << 13),
+        ] {
+            assert_eq!(read(text), [wrong.as_str()], "{text}");
+        }
+        assert!(read("Content-Length: 200000000\r\n\r\n{").is_empty());
+    }
+
+    #[test]
+    fn requests_that_wait_can_be_taken_back() {
+        let text = framed(r#"{"id":1,"method":"a"}"#)
+            + &framed(r#"{"id":"x","method":"b"}"#)
+            + &framed(r#"{"method":"$/cancelRequest","params":{"id":"x"}}"#);
+        let mut inbox = Inbox::of(io::Cursor::new(text)).unwrap();
+        let first = inbox.wait().unwrap();
+        assert!(matches!(first, Incoming::Message(Message::Request(_))));
+        let (mut others, mut cancelled) = (0, 0);
+        while let Some(own) = inbox.wait() {
+            others += 1;
+            cancelled += usize::from(matches!(own, Incoming::Cancelled(_)));
+        }
+        // Whether the second still waited when it was taken back is for the threads to say.
+        assert_eq!(others, 1);
+        assert!(cancelled <= 1);
+    }
+}

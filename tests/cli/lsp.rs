@@ -1,0 +1,269 @@
+//! `rtc lsp`, by messages as they stand on the wire: what an editor is told, and what it can't break.
+
+mod editor;
+
+use super::*;
+use editor::Editor;
+use serde_json::{Value, json};
+
+/// A scene with a key that has a slip, an alias, a file that is not there and a colour.
+const SCENE: &str = "# 😀\nCamera: {eye: [0, 0, 50], center: [0, 0, 0], up: [0, 1, 0], viewSize: [12, 8]}\n\
+Shadws: true\nLights: [{position: [9, 9, 90], color: [1, 1, 1]}]\nObjects:\n\
+- &a {type: sphere, position: [0, 0, 0], radius: 3, material: {color: [1, 0.5, 0], ka: 1}}\n\
+- type: mesh\n  file: bal.obj\n- *a\n";
+
+fn codes(findings: &[Value]) -> Vec<&str> {
+    findings
+        .iter()
+        .map(|own| own["code"].as_str().unwrap())
+        .collect()
+}
+
+fn labels(items: &Value) -> Vec<&str> {
+    let items = items.as_array().unwrap().iter();
+    items.map(|own| own["label"].as_str().unwrap()).collect()
+}
+
+#[test]
+fn findings_come_while_one_types_and_go_with_their_fix() {
+    let mut editor = Editor::with(SCENE);
+    let found = editor.findings("a.yaml");
+    assert!(codes(&found).contains(&"SC001"), "{found:?}");
+    let slip = found.iter().find(|own| own["code"] == "SC001").unwrap();
+    assert_eq!(slip["range"]["start"], json!({"line": 2, "character": 0}));
+    assert_eq!(slip["range"]["end"], json!({"line": 2, "character": 6}));
+    let place = json!({"line": 2, "character": 3});
+    let params = json!({"textDocument": {"uri": editor.uri("a.yaml")},
+        "range": {"start": place, "end": place}, "context": {"diagnostics": []}});
+    let actions = editor.ask("textDocument/codeAction", params);
+    let [action] = actions.as_array().unwrap().as_slice() else {
+        panic!("{actions}");
+    };
+    assert_eq!(action["kind"], "quickfix");
+    let edits = action["edit"]["changes"][editor.uri("a.yaml")].clone();
+    assert_eq!(edits[0]["newText"], "Shadows");
+    let change = json!([{"range": edits[0]["range"], "text": edits[0]["newText"]}]);
+    editor.change(2, change);
+    let found = editor.findings("a.yaml");
+    assert!(!codes(&found).contains(&"SC001"), "{found:?}");
+    assert_eq!(editor.told.last().unwrap()["version"], 2);
+    let own = json!({"uri": editor.uri("a.yaml")});
+    editor.note("textDocument/didClose", json!({"textDocument": own}));
+    assert_eq!(editor.findings("a.yaml"), Vec::<Value>::new());
+    assert_eq!(editor.ask("shutdown", Value::Null), Value::Null);
+    assert_eq!(editor.leave(), 0);
+}
+
+#[test]
+fn all_that_is_sure_is_mended_at_once_as_check_fix_does() {
+    let mut editor = Editor::with(SCENE);
+    let params = json!({"textDocument": {"uri": editor.uri("a.yaml")},
+        "range": {"start": {"line": 0, "character": 0}, "end": {"line": 0, "character": 0}},
+        "context": {"diagnostics": [], "only": ["source.fixAll"]}});
+    let actions = editor.ask("textDocument/codeAction", params);
+    fs::write(editor.folder.path().join("b.yaml"), SCENE).unwrap();
+    rtc(&editor.folder, &["check", "--fix", "-q", "b.yaml"]);
+    let fixed = fs::read_to_string(editor.folder.path().join("b.yaml")).unwrap();
+    match actions[0]["edit"]["changes"][editor.uri("a.yaml")][0]["newText"].as_str() {
+        Some(text) => assert_eq!(text, fixed),
+        None => assert_eq!(fixed, SCENE),
+    }
+}
+
+#[test]
+fn keys_words_names_and_files_are_completed() {
+    let mut editor = Editor::with(SCENE);
+    fs::write(editor.folder.path().join("ball.obj"), "v 0 0 0\n").unwrap();
+    fs::write(editor.folder.path().join("notes.txt"), "").unwrap();
+    let keys = editor.ask_at("textDocument/completion", 2, 3);
+    let keys = labels(&keys);
+    assert!(
+        keys.contains(&"Shadows") && keys.contains(&"ImageSize"),
+        "{keys:?}"
+    );
+    assert!(
+        !keys.contains(&"Camera"),
+        "what is there is not proposed: {keys:?}"
+    );
+    let files = editor.ask_at("textDocument/completion", 7, 12);
+    let files = labels(&files);
+    assert!(
+        files.contains(&"ball.obj") && !files.contains(&"notes.txt"),
+        "{files:?}"
+    );
+    let words = editor.ask_at("textDocument/completion", 6, 10);
+    assert!(labels(&words).contains(&"torus"), "{words}");
+    let names = editor.ask_at("textDocument/completion", 8, 3);
+    assert!(labels(&names).contains(&"*a"), "{names}");
+}
+
+#[test]
+fn a_key_is_explained_with_its_finding() {
+    let mut editor = Editor::with(SCENE);
+    editor.findings("a.yaml");
+    let told = editor.ask_at("textDocument/hover", 1, 45);
+    let text = told["contents"]["value"].as_str().unwrap();
+    assert!(text.starts_with("**`up`**"), "{text}");
+    let told = editor.ask_at("textDocument/hover", 2, 2);
+    let text = told["contents"]["value"].as_str().unwrap();
+    assert!(text.contains("SC001"), "{text}");
+}
+
+#[test]
+fn the_text_is_outlined_laid_out_coloured_and_followed() {
+    let mut editor = Editor::with(SCENE);
+    let whole = json!({"textDocument": {"uri": editor.uri("a.yaml")}, "options": {"tabSize": 2, "insertSpaces": true},
+        "range": {"start": {"line": 0, "character": 0}, "end": {"line": 99, "character": 0}}});
+    let symbols = editor.ask("textDocument/documentSymbol", whole.clone());
+    let objects = symbols
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|own| own["name"] == "Objects");
+    let objects = objects.unwrap()["children"].as_array().unwrap();
+    assert_eq!(objects[1]["name"], "mesh");
+    let colors = editor.ask("textDocument/documentColor", whole.clone());
+    let found: Vec<_> = colors
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|own| &own["color"]["green"])
+        .collect();
+    assert_eq!(found, [1.0, 0.5]);
+    let shown = json!({"textDocument": {"uri": editor.uri("a.yaml")}, "range": colors[1]["range"],
+        "color": {"red": 0.25, "green": 0.0, "blue": 1.0, "alpha": 1.0}});
+    let shown = editor.ask("textDocument/colorPresentation", shown);
+    assert_eq!(shown[0]["label"], "[0.25, 0, 1]");
+    let anchor = editor.ask_at("textDocument/definition", 8, 3);
+    assert_eq!(anchor["range"]["start"]["line"], 5);
+    assert!(editor.ask_at("textDocument/definition", 7, 10).is_null());
+    fs::write(editor.folder.path().join("bal.obj"), "").unwrap();
+    let file = editor.ask_at("textDocument/definition", 7, 10);
+    assert!(
+        file["uri"].as_str().unwrap().ends_with("/bal.obj"),
+        "{file}"
+    );
+    let hints = editor.ask("textDocument/inlayHint", whole.clone());
+    let hints = hints.as_array().unwrap();
+    let camera = hints
+        .iter()
+        .find(|own| own["position"]["line"] == 1)
+        .unwrap();
+    assert!(camera["label"].as_str().unwrap().contains(": "), "{camera}");
+    let sound = SCENE
+        .replace("Shadws: ", "Shadows:   ")
+        .replace("- type: mesh\n  file: bal.obj\n", "");
+    editor.change(2, json!([{"text": sound}]));
+    let edits = editor.ask("textDocument/formatting", whole);
+    fs::write(editor.folder.path().join("b.yaml"), &sound).unwrap();
+    assert_eq!(code(&rtc(&editor.folder, &["fmt", "-q", "b.yaml"])), 0);
+    assert_ne!(edits, json!([]));
+    let laid_out = fs::read_to_string(editor.folder.path().join("b.yaml")).unwrap();
+    assert_eq!(edits[0]["newText"], laid_out);
+}
+
+#[test]
+fn what_is_found_in_a_file_of_the_scene_is_told_there() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(
+        folder.path().join("bal.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
+    )
+    .unwrap();
+    let mut editor = Editor::new(folder);
+    let text = SCENE.replace("Shadws", "Shadows");
+    editor.open("a.yaml", &text);
+    let found = editor.findings("bal.obj");
+    assert_eq!(found[0]["range"]["start"]["line"], 3, "{found:?}");
+    fs::write(
+        editor.folder.path().join("bal.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    )
+    .unwrap();
+    let own = json!({"uri": editor.uri("bal.obj")});
+    editor.note("textDocument/didSave", json!({"textDocument": own}));
+    assert_eq!(editor.findings("bal.obj"), Vec::<Value>::new());
+}
+
+#[test]
+fn gltf_has_its_findings_and_no_keys_of_scenes() {
+    let mut editor = Editor::new(tempfile::tempdir().unwrap());
+    let text = r#"{"asset": {"version": "2.0"}, "scene": 3, "nodes": [{"mesh": 0}]}"#;
+    editor.open("a.yaml", text);
+    let found = editor.findings("a.yaml");
+    assert!(found.iter().any(|own| own["severity"] == 1), "{found:?}");
+    let keys = editor.ask_at("textDocument/completion", 0, 32);
+    assert_eq!(keys, json!([]));
+}
+
+#[test]
+fn texts_follow_changes_in_columns_of_utf_16() {
+    let mut editor = Editor::with("Lights: [] # 😀😀 x\n");
+    editor.findings("a.yaml");
+    let at = |start: u32, end: u32, text: &str| json!({"range": {"start": {"line": 0, "character": start}, "end": {"line": 0, "character": end}}, "text": text});
+    // Behind two smileys of two units each; then in the text that this leaves.
+    editor.change(
+        2,
+        json!([at(18, 19, "y"), at(0, 6, "Shadws"), at(8, 10, "true")]),
+    );
+    let found = editor.findings("a.yaml");
+    let slip = found.iter().find(|own| own["code"] == "SC001").unwrap();
+    assert_eq!(slip["range"]["end"]["character"], 6);
+    let params = json!({"textDocument": {"uri": editor.uri("a.yaml")}, "options": {"tabSize": 2, "insertSpaces": true}});
+    let edits = editor.ask("textDocument/formatting", params);
+    assert!(
+        edits.is_null() || edits.as_array().is_some_and(Vec::is_empty),
+        "{edits}"
+    );
+}
+
+#[test]
+fn nothing_that_an_editor_says_ends_it() {
+    let mut editor = Editor::silent(tempfile::tempdir().unwrap());
+    let early = editor.response("textDocument/hover", json!({}));
+    assert_eq!(early["error"]["code"], -32002);
+    editor.raw("{no JSON");
+    assert_eq!(
+        editor.until(|own| own["id"].is_null())["error"]["code"],
+        -32700
+    );
+    editor.ask("initialize", json!({"capabilities": {}}));
+    let again = editor.response("initialize", json!({"capabilities": {}}));
+    assert_eq!(again["error"]["code"], -32600);
+    for (method, params, code) in [
+        ("textDocument/hover", json!({"textDocument": 3}), -32602),
+        ("textDocument/rename", json!({}), -32601),
+    ] {
+        let response = editor.response(method, params);
+        assert_eq!(response["error"]["code"], code, "{method}");
+    }
+    editor.note("textDocument/didOpen", json!([1]));
+    editor.change(9, json!([{"text": "not open"}]));
+    assert!(editor.ask_at("textDocument/hover", 7, 7).is_null());
+    editor.open("a.yaml", "a: [\n");
+    let beyond = json!([{"range": {"start": {"line": 9, "character": 9}, "end": {"line": 0, "character": 0}}, "text": "]"}]);
+    editor.change(2, beyond);
+    assert!(!editor.findings("a.yaml").is_empty());
+    assert_eq!(editor.ask("shutdown", Value::Null), Value::Null);
+    let late = editor.response("textDocument/hover", json!({}));
+    assert_eq!(late["error"]["code"], -32600);
+    assert_eq!(editor.leave(), 0);
+    let unfinished = Editor::new(tempfile::tempdir().unwrap());
+    assert_eq!(unfinished.leave(), 1);
+}
+
+#[test]
+fn a_project_that_can_not_be_read_is_told_in_the_text() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("rtc.toml"), "#".repeat(100_000)).unwrap();
+    let mut editor = Editor::new(folder);
+    editor.open("a.yaml", SCENE);
+    let found = editor.findings("a.yaml");
+    assert!(
+        found[0]["message"].as_str().unwrap().contains("rtc.toml"),
+        "{found:?}"
+    );
+    fs::write(editor.folder.path().join("rtc.toml"), "").unwrap();
+    editor.note("workspace/didChangeWatchedFiles", json!({"changes": []}));
+    assert!(codes(&editor.findings("a.yaml")).contains(&"SC001"));
+}
