@@ -3,6 +3,7 @@
 //! It holds no rule about scenes: it hands what is asked for to [`crate::pipeline`], as the command
 //! line does, so both find the same and render the same bytes.
 
+mod effect;
 mod error;
 mod finding;
 mod light;
@@ -12,7 +13,9 @@ mod scene;
 
 pub use crate::color::Tone;
 pub use crate::diag::Severity;
+pub use crate::plan::State as EffectState;
 pub use crate::render::Aov;
+pub use effect::Effect;
 pub use error::Error;
 pub use finding::{Finding, Hint, Label, Location};
 pub use light::Light;

@@ -85,8 +85,8 @@ mod study;
 mod valid;
 
 pub use api::{
-    Aov, Error, Finding, Format, Hint, Label, Light, Location, Options, Picture, Reading, Scene,
-    Severity, Statistics, Tone,
+    Aov, Effect, EffectState, Error, Finding, Format, Hint, Label, Light, Location, Options,
+    Picture, Reading, Scene, Severity, Statistics, Tone,
 };
 #[cfg(feature = "cli")]
 pub use cli::run;

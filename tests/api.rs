@@ -16,7 +16,9 @@ mod custom_light;
 #[expect(dead_code, reason = "the test calls what main does")]
 mod render;
 
-use rtc::{Aov, Error, Format, Light, Options, Picture, Reading, Scene, Severity, Tone};
+use rtc::{
+    Aov, EffectState, Error, Format, Light, Options, Picture, Reading, Scene, Severity, Tone,
+};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -158,6 +160,29 @@ fn what_is_found_does_not_add_up() {
     assert_eq!(scene.check().len(), 1);
     scene.remove_lights();
     assert_eq!((scene.lights(), scene.check()), (0, vec![]));
+}
+
+#[test]
+fn effects_are_those_of_the_scene_as_it_is_asked_for() {
+    let mut scene = ball();
+    let mut states = |options: &Options| {
+        let effects = scene.effects(options).unwrap();
+        let state = |name: &str| {
+            let mut all = effects.iter();
+            let own = all.find(|own| own.name == name && own.of.is_none());
+            (own.unwrap().state, own.unwrap().rule)
+        };
+        ["supersampling", "direct light", "shadows"].map(state)
+    };
+    let [sharp, direct, shadows] = states(&Options::new());
+    assert_eq!(sharp, (EffectState::Absent, Some("E-SS")));
+    assert_eq!(direct, (EffectState::Needed, None));
+    assert_ne!(shadows.0, EffectState::Needed);
+    let [smooth, ..] = states(&Options::new().supersampling(2));
+    assert_eq!(smooth.0, EffectState::Needed);
+    let mut broken = Scene::from_files("a.yaml", [("a.yaml".to_owned(), b"Lights: 3".to_vec())]);
+    let error = broken.as_mut().unwrap().effects(&Options::new());
+    assert!(matches!(error, Err(Error::Invalid(findings)) if !findings.is_empty()));
 }
 
 /// The files that a scene with a mesh and a texture is of.

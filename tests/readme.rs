@@ -319,3 +319,20 @@ fn lines_are_found_between_cuts() {
         "# # # # rays/s #"
     );
 }
+
+#[test]
+fn its_picture_is_what_its_first_command_makes() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = folder.path().join("glass.png");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rtc"));
+    command
+        .current_dir(root())
+        .args(["render", "-q", "scenes/glass.yaml", "-o"]);
+    assert!(command.arg(&made).status().unwrap().success());
+    let shown = root().join("scenes/glass.png");
+    assert!(
+        fs::read(made).unwrap() == fs::read(&shown).unwrap(),
+        "{}: render scenes/glass.yaml anew, and put its sha256 into the README",
+        shown.display()
+    );
+}

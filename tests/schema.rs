@@ -10,7 +10,7 @@
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 use rtc::internals::diag::{Severity, Sink};
-use rtc::internals::front::{self, course};
+use rtc::internals::front::{self, course, gltf};
 use rtc::internals::pipeline;
 use rtc::internals::source::{SourceMap, budget};
 use serde_json::{Value, json};
@@ -37,6 +37,7 @@ fn the_committed_schema_and_page_are_current() {
         ("scene.schema.json", schema),
         ("course-format.md", course::page()),
         ("limits.md", budget::page()),
+        ("gltf-extensions.md", gltf::extensions()),
     ];
     for (name, current) in pages {
         let path = root().join("schema").join(name);

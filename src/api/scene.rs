@@ -1,9 +1,10 @@
 //! A scene that a caller holds.
 
-use super::{Error, Finding, Light, Options, Picture, Reading};
+use super::{Effect, Error, Finding, Light, Options, Picture, Reading};
 use crate::diag::{Diagnostic, Sink};
 use crate::passes;
-use crate::pipeline::{self, Input, Loaded, Observer};
+use crate::pipeline::{self, Input, Loaded, Observer, PictureSetup, RenderSubject};
+use crate::plan::{Plan, Rules};
 use crate::render::Film;
 use std::fmt;
 use std::path::Path;
@@ -74,6 +75,17 @@ impl Scene {
         self.findings()
     }
 
+    /// What its picture needs and what is left out of it, each with the reason: the parts of the
+    /// picture by their names, then those of single lights, materials and surfaces.
+    ///
+    /// # Errors
+    /// As [`Scene::render`].
+    pub fn effects(&mut self, options: &Options) -> Result<Vec<Effect>, Error> {
+        let subject = self.prove(options, &mut options.setup()?)?;
+        let plan = Plan::new(&subject.proven.scene, Rules::ALL);
+        Ok(plan.verdicts.iter().map(Effect::new).collect())
+    }
+
     /// How many lights it has, besides surroundings and surfaces that glow; 0 if it has errors.
     #[must_use]
     pub fn lights(&self) -> usize {
@@ -115,16 +127,7 @@ impl Scene {
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Picture, Error> {
         let mut setup = options.setup()?;
-        self.restart();
-        self.input.stage(options.stage());
-        let proven = match self.loaded.clone() {
-            Some(loaded) => setup.prove(loaded, &mut self.input),
-            None => Ok(None),
-        };
-        let proven = proven.map_err(|error| self.error(error))?;
-        let Some(mut subject) = proven else {
-            return Err(Error::Invalid(self.findings()));
-        };
+        let mut subject = self.prove(options, &mut setup)?;
         let observer = Observer {
             on_step: &|_| (),
             is_stopped,
@@ -160,6 +163,22 @@ impl Scene {
             (&counts, error),
             self.findings(),
         ))
+    }
+
+    /// The scene as the options ask for it, proven.
+    fn prove(
+        &mut self,
+        options: &Options,
+        setup: &mut PictureSetup,
+    ) -> Result<RenderSubject, Error> {
+        self.restart();
+        self.input.stage(options.stage());
+        let proven = match self.loaded.clone() {
+            Some(loaded) => setup.prove(loaded, &mut self.input),
+            None => Ok(None),
+        };
+        let proven = proven.map_err(|error| self.error(error))?;
+        proven.ok_or_else(|| Error::Invalid(self.findings()))
     }
 
     /// Forgets what was found after it was read.

@@ -3,7 +3,7 @@
 use super::args::{Cli, Completions, Man, Schema, SchemaFormat};
 use super::{Failure, output};
 use crate::codec;
-use crate::front::course;
+use crate::front::{course, gltf};
 use crate::source::budget;
 use clap::CommandFactory;
 
@@ -14,6 +14,7 @@ pub(super) fn schema(args: &Schema) -> Result<(), Failure> {
         SchemaFormat::Ir => format!("{:#}\n", codec::schema()),
         SchemaFormat::Page => course::page(),
         SchemaFormat::Limits => budget::page(),
+        SchemaFormat::Extensions => gltf::extensions(),
     };
     output::to_stdout(text.as_bytes())
 }

@@ -77,6 +77,7 @@ fn strangers_are_told_nothing() {
         "Cache-Control: no-store\r\n",
         "Referrer-Policy: no-referrer\r\n",
         "Content-Security-Policy: default-src 'none'; ",
+        "; frame-ancestors vscode-file: vscode-webview:;",
     ] {
         assert!(head.contains(line), "{head}");
     }

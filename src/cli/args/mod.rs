@@ -227,6 +227,8 @@ pub(super) enum SchemaFormat {
     Page,
     /// What a run may take of the machine, as a page to read in Markdown
     Limits,
+    /// The extensions of glTF that are read, as a page to read in Markdown
+    Extensions,
 }
 
 #[cfg(test)]

@@ -14,6 +14,9 @@ const MAX_LINES: usize = 64;
 /// The longest body of a request, in bytes.
 const MAX_BODY: usize = 4 << 10;
 
+/// Who may hold the page in a frame: an editor. No page of the web has such an address.
+const ANCESTORS: &str = "vscode-file: vscode-webview:";
+
 /// How long a request may take to arrive, and each piece of a reply to leave.
 const PATIENCE: Duration = Duration::from_secs(5);
 
@@ -118,7 +121,7 @@ impl HttpReply {
              Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\n\
              Cross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: same-origin\r\n\
              Content-Security-Policy: default-src 'none'; base-uri 'none'; form-action 'none'; \
-             frame-ancestors 'none'{allowed}\r\n\r\n",
+             frame-ancestors {ANCESTORS}{allowed}\r\n\r\n",
             self.status,
             reason(self.status),
             self.kind,

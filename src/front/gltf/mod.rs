@@ -57,6 +57,18 @@ use report::AssetReport;
 use resource::Resources;
 use usage::Usages;
 
+/// `schema/gltf-extensions.md`: the extensions that are read and drawn.
+#[must_use]
+pub fn extensions() -> String {
+    format!(
+        "# Extensions of glTF\n\n\
+         What rtc reads and draws beside glTF 2.0 itself, printed by `rtc schema extensions`: an asset may require\n\
+         each of these. One that is required and not here is an error; one that is only used is told and left out.\n\n\
+         | extension | in | properties |\n| --- | --- | --- |\n{}",
+        schema::extension_rows()
+    )
+}
+
 /// The mark that some programs put before a text, and glTF forbids.
 const BOM: &str = "\u{feff}";
 

@@ -21,6 +21,26 @@ pub(in super::super) fn find(name: &str) -> Option<&'static Extension> {
     all.find(|extension| extension.name == name)
 }
 
+/// A row of Markdown for each extension, by their names: what carries it, and the properties that are read.
+pub(in super::super) fn rows() -> String {
+    let mut all: Vec<_> = EXTENSIONS.iter().chain(OF_MATERIALS).collect();
+    all.sort_by_key(|extension| extension.name);
+    all.into_iter().map(row).collect()
+}
+
+fn row(extension: &Extension) -> String {
+    let Extension { name, places } = extension;
+    let carriers: Vec<_> = places.iter().map(|(kind, _)| *kind).collect();
+    let all = places.iter().flat_map(|(_, object)| object.keys);
+    let mut keys: Vec<_> = all.map(|key| format!("`{}`", key.name)).collect();
+    keys.dedup();
+    format!(
+        "| `{name}` | {} | {} |\n",
+        carriers.join(", "),
+        keys.join(", ")
+    )
+}
+
 const RIGHT_ANGLE: Bounds = Bounds {
     min: 0.0,
     max: std::f64::consts::FRAC_PI_2,

@@ -7,7 +7,7 @@ mod own;
 mod value;
 mod walk;
 
-pub(super) use extension::find;
+pub(super) use extension::{find, rows as extension_rows};
 pub(super) use walk::walk;
 
 /// A kind of object.
