@@ -145,6 +145,16 @@ try {
     }
   }
   await page.setViewport({ width: 1280, height: 900 });
+  await page.click("#prices summary");
+  await page.click("#measure");
+  await until(() => /recommended|rtc render/.test(document.getElementById("costs").textContent));
+  for (const width of [390, 1920]) {
+    await page.setViewport({ width, height: 900 });
+    await page.screenshot({ path: join(shots, `costs-${width}.png`), fullPage: true });
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(wide <= 0, `nothing is cut off at ${width}: ${wide}`);
+  }
+  await page.setViewport({ width: 1280, height: 900 });
   await page.click("#keep");
   await until(() => !state.isMoved && !state.isWorking);
   number = await finished(number);

@@ -70,7 +70,7 @@ fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<()
 }
 
 /// How many threads work, 0 for one per core.
-fn threads(args: &args::Cost) -> usize {
+pub(super) fn threads(args: &args::Cost) -> usize {
     args.threads.map_or(0, usize::from)
 }
 
@@ -83,7 +83,8 @@ fn measure(
     let file = args.checkpoint.clone().unwrap_or_default();
     let is_saved = AtomicBool::new(false);
     let save = |journal: &Journal| is_saved.store(try_save(&file, &journal.save()), Relaxed);
-    let study = on_bench(args, interrupt, |bench| {
+    let is_going = || !interrupt.is_raised();
+    let study = on_bench(threads(args), &is_going, |bench| {
         let bench = match journal {
             Some(journal) => bench.keeping(journal, args.every, &save),
             None => bench,
@@ -106,8 +107,8 @@ fn measure(
     reason = "the study is handed the clock from here"
 )]
 pub(super) fn on_bench<T>(
-    args: &args::Cost,
-    interrupt: &Interrupt,
+    threads: usize,
+    is_going: &(dyn Fn() -> bool + Sync),
     work: impl FnOnce(Bench<'_>) -> T,
 ) -> Result<T, Failure> {
     let (simd, start) = (simd::level()?, Instant::now());
@@ -117,8 +118,8 @@ pub(super) fn on_bench<T>(
         cpu: &cpu,
         wall: &wall,
     };
-    let on_pixel = |_| !interrupt.is_raised();
-    let bench = Bench::new(threads(args), clock, &on_pixel);
+    let on_pixel = |_| is_going();
+    let bench = Bench::new(threads, clock, &on_pixel);
     let bench = bench.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
     Ok(work(bench.at_level(simd)))
 }

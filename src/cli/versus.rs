@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::args::{self, StudyFormat};
-use super::cost::{about, on_bench};
+use super::cost::{about, on_bench, threads};
 use super::gate::{self, JudgedGate};
 use super::input;
 use super::interrupt::Interrupt;
@@ -57,7 +57,8 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], talk: &mut Talk) -> Result<()
         Output::open(&args.output, &inputs[1])?;
     }
     let (scenes, abouts) = ([&first.1, &second.1], [first.0.clone(), second.0.clone()]);
-    let found = on_bench(args, &interrupt, |bench| {
+    let is_going = || !interrupt.is_raised();
+    let found = on_bench(threads(args), &is_going, |bench| {
         versus(scenes, abouts, args.effort.into(), args.seed, &bench)
     })?;
     let found = found.map_err(|Stopped| Failure::Interrupted)?;

@@ -94,3 +94,80 @@ fn links_and_permissions_stay() {
     assert_eq!((code(&refused), text(&folder)), (2, TYPED.to_owned()));
     assert_eq!(names(folder.path()), ["a.yaml", "own.yaml"]);
 }
+
+/// Codes and severities of what `rtc check` finds in a file.
+fn found(folder: &Path, name: &str) -> Vec<String> {
+    let words = [
+        "check",
+        "--message-format",
+        "json",
+        "--max-errors",
+        "1000",
+        name,
+    ];
+    let output = command(folder, &words).output().unwrap();
+    let lines = String::from_utf8(output.stdout).unwrap();
+    let objects = lines
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap());
+    let told = objects.filter_map(|own: serde_json::Value| {
+        Some(format!(
+            "{} {}",
+            own["severity"].as_str()?,
+            own["code"].as_str()?
+        ))
+    });
+    let mut told: Vec<_> = told.filter(|told| !told.starts_with("note")).collect();
+    told.sort();
+    told
+}
+
+/// Every broken text of tests/diagnostics: what is mended is gone, nothing else has come, and what can't be mended is left as
+/// it was; mending again changes nothing.
+#[test]
+fn no_broken_scene_gets_worse() {
+    let all = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/diagnostics");
+    let (mut fixed, mut left) = (0, 0);
+    for family in fs::read_dir(all).unwrap().map(Result::unwrap) {
+        let folder = tempfile::tempdir().unwrap();
+        let mut scenes = Vec::new();
+        for entry in fs::read_dir(family.path()).unwrap().map(Result::unwrap) {
+            if entry.path().is_file() {
+                let name = entry.file_name().into_string().unwrap();
+                fs::copy(entry.path(), folder.path().join(&name)).unwrap();
+                scenes.extend(name.ends_with(".yaml").then_some(name));
+            }
+        }
+        for name in scenes {
+            let own = folder.path().join(&name);
+            let (text, before) = (fs::read(&own).unwrap(), found(folder.path(), &name));
+            let fix = ["check", "--fix", "--unsafe", "-q", &name];
+            rtc(&folder, &fix);
+            let (mended, after) = (fs::read(&own).unwrap(), found(folder.path(), &name));
+            let mut rest = before.clone();
+            // A scene that has errors no more is looked at more closely.
+            let is_read = !after.iter().any(|own| own.starts_with("error"));
+            for own in &after {
+                match rest.iter().position(|other| other == own) {
+                    Some(known) => drop(rest.remove(known)),
+                    None => assert!(
+                        is_read && own.starts_with("warning"),
+                        "{name} has a new {own}: {before:?}"
+                    ),
+                }
+            }
+            assert_eq!(
+                rest.is_empty(),
+                mended == text,
+                "{name}: {before:?} {after:?}"
+            );
+            (fixed, left) = (
+                fixed + usize::from(mended != text),
+                left + usize::from(mended == text),
+            );
+            rtc(&folder, &fix);
+            assert!(fs::read(&own).unwrap() == mended, "{name} changes again");
+        }
+    }
+    assert!(fixed >= 20 && left >= 20, "{fixed} {left}");
+}

@@ -70,6 +70,12 @@ fn strangers_are_told_nothing() {
     ] {
         assert_eq!(live.get(path, "").status, 404, "{path}");
     }
+}
+
+#[test]
+fn the_page_needs_nothing_else_and_stands_in_no_page_of_the_web() {
+    let folder = folder();
+    let live = Running::start(&folder, &["ball.json", "--size", "4x3"]);
     let page = live.get("/", "");
     let head = page.head.as_str();
     for line in [
@@ -85,7 +91,7 @@ fn strangers_are_told_nothing() {
     let nonce = head.split("script-src 'nonce-").nth(1).unwrap();
     let nonce = nonce.split('\'').next().unwrap();
     assert_eq!(text.matches(&format!("nonce=\"{nonce}\"")).count(), 2);
-    assert!(!head.contains("unsafe") && !text.contains("://") && !text.contains(&token));
+    assert!(!head.contains("unsafe") && !text.contains("://") && !text.contains(&live.token));
 }
 
 #[test]
@@ -147,6 +153,38 @@ fn the_finished_picture_is_that_of_render() {
     assert_eq!(live.post("/effects", &Value::Null).status, 202);
     let state = live.when("explained", |state| state["effects"].is_string());
     assert!(state["effects"].as_str().unwrap().contains("shadows"));
+}
+
+#[test]
+fn costs_are_measured_when_asked_and_go_with_their_picture() {
+    let folder = folder();
+    let live = Running::start(&folder, &["ball.json", "--size", "16x12"]);
+    assert_eq!(live.finished(1)["costs"], Value::Null);
+    assert_eq!(live.post("/costs", &Value::Null).status, 202);
+    let state = live.when("measured", |state| state["costs"].is_string());
+    let table = state["costs"].as_str().unwrap();
+    assert!(
+        table.contains("rays") && table.contains("rtc render ball.json"),
+        "{table}"
+    );
+    let view = json!({ "eye": [30.5, 10, 40], "center": [0, 0, 0], "up": [0, 1, 0] });
+    live.post("/view", &json!({ "view": view, "isMoving": false }));
+    live.when("forgotten", |state| state["costs"].is_null());
+}
+
+#[test]
+fn another_scene_is_rendered_to_be_compared_with() {
+    let folder = folder();
+    let text = fs::read_to_string(folder.path().join("ball.json")).unwrap();
+    fs::write(folder.path().join("same.json"), text).unwrap();
+    let size = ["--size", "40x30"];
+    let against = ["ball.json", "--against", "same.json"];
+    let live = Running::start(&folder, &[&against[..], &size].concat());
+    let laid = live.get("/against", "");
+    assert!(laid.body == rendered(&folder, &[&["same.json"][..], &size].concat()));
+    fs::write(folder.path().join("same.json"), "Lights: 3").unwrap();
+    let refused = rtc(&folder, &[&["preview"][..], &against].concat());
+    assert_eq!(code(&refused), 1, "{}", stderr(&refused));
 }
 
 #[test]
@@ -259,7 +297,8 @@ fn what_can_not_be_shown_is_a_fault_of_usage() {
     let code = |args: &[&str]| code(&rtc(&folder, &[&["preview"], args].concat()));
     assert_eq!(code(&["-"]), 2);
     assert_eq!(code(&["ball.json", "--against", "none.png"]), 2);
-    assert_eq!(code(&["ball.json", "--against", "ball.json"]), 2);
+    fs::write(folder.path().join("no.png"), "{}").unwrap();
+    assert_eq!(code(&["ball.json", "--against", "no.png"]), 2);
     assert_eq!(code(&["ball.json", "--port", "70000"]), 2);
     assert_eq!(code(&["ball.json", "--aov", "depth"]), 2);
     let taken = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();

@@ -63,6 +63,8 @@ pub(super) struct BoardState {
     pub(super) pixels: Option<PixelTable>,
     pub(super) sight: Option<Sight>,
     pub(super) effects: Option<String>,
+    /// What accuracy costs in the picture that is shown, once it was asked for.
+    pub(super) costs: Option<String>,
     /// Where the page looks from, if not as the scene says.
     pub(super) gaze: Option<Gaze>,
     is_moving: bool,
@@ -81,6 +83,8 @@ pub(super) struct Orders {
     pub(super) look: bool,
     /// The effects are asked for.
     pub(super) effects: bool,
+    /// The costs are asked for.
+    pub(super) costs: bool,
 }
 
 /// A piece of work for the render.
@@ -155,6 +159,13 @@ impl Board {
             state.orders.effects = true;
             self.changed.notify_all();
         }
+    }
+
+    /// Has the costs of the picture measured. What is being done goes on before.
+    pub(super) fn want_costs(&self) {
+        let mut state = self.state();
+        state.orders.costs = true;
+        self.changed.notify_all();
     }
 
     fn order(&self, change: impl FnOnce(&mut BoardState)) -> u64 {
@@ -253,6 +264,7 @@ impl BoardState {
             "view": self.sight.as_ref().map(Sight::told),
             "isMoved": self.gaze.is_some(),
             "effects": self.effects,
+            "costs": self.costs,
         })
     }
 }

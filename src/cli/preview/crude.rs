@@ -1,7 +1,7 @@
 //! A crude picture on the way to the finished one: fewer pixels, and few samples of each.
 
 use super::board::Shot;
-use super::session::shot;
+use super::shots::shot;
 use crate::diag::Sink;
 use crate::ir::{Mode, Origins, Scene};
 use crate::pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};

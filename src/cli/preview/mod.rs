@@ -2,12 +2,14 @@
 //! the files of the scene, and a session that renders.
 
 mod board;
+mod costs;
 mod crude;
 mod http;
 mod pixels;
 mod routes;
 mod serve;
 mod session;
+mod shots;
 mod view;
 mod watch;
 
@@ -35,8 +37,12 @@ pub(super) fn run(args: &args::Preview) -> Result<(), Failure> {
         let words = "standard input is read once, so there is nothing to preview; give a file";
         return Err(Failure::Trouble(words.to_owned()));
     }
-    Interrupt::listen()?;
-    let against = args.against.as_deref().map(against).transpose()?;
+    let interrupt = Interrupt::listen()?;
+    let against = match &args.against {
+        Some(path) if is_picture(path) => Some(picture(path)?),
+        Some(path) => Some(shots::of_scene(args, path, &interrupt)?),
+        None => None,
+    };
     let (board, watched) = (Arc::new(Board::default()), Arc::new(Watched::default()));
     let session = Session::new(args, Arc::clone(&board), Arc::clone(&watched))?;
     let (listener, port) = serve::bind(args.port)?;
@@ -65,8 +71,15 @@ pub(super) fn run(args: &args::Preview) -> Result<(), Failure> {
     session.run()
 }
 
-/// The picture to compare with, as a PNG.
-fn against(path: &Path) -> Result<Arc<Vec<u8>>, Failure> {
+/// Whether a file is a picture by its name; else it is a scene.
+fn is_picture(path: &Path) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    let known = ["png", "jpg", "jpeg", "webp", "exr", "hdr"];
+    extension.is_some_and(|own| known.iter().any(|known| own.eq_ignore_ascii_case(known)))
+}
+
+/// The picture in a file, as a PNG.
+fn picture(path: &Path) -> Result<Arc<Vec<u8>>, Failure> {
     let refused = |words: String| Failure::Trouble(format!("`{}`: {words}", path.display()));
     let bytes = Loader.bytes(path, MAX_BYTES, &SourceMap::default());
     let bytes = bytes.map_err(|error| refused(error.to_string()))?;

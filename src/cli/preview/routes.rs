@@ -73,6 +73,10 @@ impl Routes {
                 self.board.want_effects();
                 HttpReply::empty(202)
             }
+            ("POST", "/costs") => {
+                self.board.want_costs();
+                HttpReply::empty(202)
+            }
             _ => HttpReply::empty(404),
         }
     }

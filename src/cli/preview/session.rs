@@ -1,21 +1,15 @@
 //! The session: reads the scene, shows what is found, and renders it, crude first; all of it anew when
 //! a file or the view changes, whatever is under way.
 
-use super::board::{Board, ReadState, Shot, ToldFinding, Work};
-use super::pixels::PixelTable;
+use super::board::{Board, ReadState, ToldFinding, Work};
 use super::view::{self, Gaze, Sight};
 use super::watch::Watched;
-use super::{Failure, args, crude, input, render};
-use crate::cli::project;
+use super::{Failure, args, costs, crude, input, render, shots};
 use crate::cli::report::PlanReport;
 use crate::cli::talk::Talk;
 use crate::diag::{self, Diagnostic, Severity, Sink};
 use crate::passes::View;
 use crate::pipeline::{self, Input, Loaded, Observer, PictureSetup, RenderError, RenderSubject};
-use crate::render::{Aov, Film, Job};
-use crate::study::Goal;
-use std::num::NonZeroU32;
-use std::path::Path;
 use std::sync::Arc;
 
 /// Columns of what is told on the page.
@@ -57,19 +51,12 @@ impl<'a> Session<'a> {
         board: Arc<Board>,
         watched: Arc<Watched>,
     ) -> Result<Self, Failure> {
-        let setup = render::wanted(&args.wanted, &args.look, Path::new("preview.png"))?;
-        render::refuse_layers(&setup)?;
-        let settled = project::picture(&args.file, Goal::default())?;
         Ok(Self {
             args,
             board,
             watched,
             talk: Talk::beside_result(&args.talk),
-            setup: PictureSetup {
-                threads: args.threads.map_or(0, usize::from),
-                overrides: setup.overrides.or(settled),
-                ..setup
-            },
+            setup: shots::setup(args)?,
             loads: 0,
             scene: None,
             shown: None,
@@ -88,6 +75,8 @@ impl<'a> Session<'a> {
                 self.look(&work)?;
             } else if work.orders.effects {
                 self.tell_effects(&work);
+            } else if work.orders.costs {
+                self.tell_costs(&work)?;
             }
         }
         self.talk.finish()?;
@@ -179,7 +168,7 @@ impl<'a> Session<'a> {
         if let Some(shot) = crude::render(&setup, &mut subject, input, &observer)? {
             self.board.put(shot, None, work.age);
         }
-        let (shot, pixels) = finish(&setup, &mut subject, input, &observer)?;
+        let (shot, pixels) = shots::finish(&setup, &mut subject, input, &observer)?;
         self.publish(false, Some((&subject, work.gaze.as_ref())));
         self.board.put(shot, Some(pixels), work.age);
         self.shown = Some((setup, subject));
@@ -273,6 +262,7 @@ impl<'a> Session<'a> {
             let read = &mut state.read;
             (read.load, read.text, read.findings) = (load, text, findings);
             (read.is_failed, read.fault) = (is_failed, None);
+            state.costs = None;
             state.sight = sight.or(state.sight.take());
         });
     }
@@ -315,53 +305,19 @@ impl<'a> Session<'a> {
             self.board.show(|state| state.effects = Some(effects));
         }
     }
-}
 
-/// The picture as `rtc render` makes it, and its pixels.
-fn finish(
-    setup: &PictureSetup,
-    subject: &mut RenderSubject,
-    input: &mut Input,
-    observer: &Observer<'_>,
-) -> Result<(Shot, PixelTable), RenderError> {
-    let window = setup.window(&subject.proven.lowered.scene)?;
-    setup.find_room(subject, window)?;
-    let film = setup.trace(subject, (window, input.rays()), observer)?;
-    let job = Job {
-        crop: Some(window),
-        samples: Some(NonZeroU32::MIN),
-        ..Job::default()
-    };
-    let is_going = || !(observer.is_stopped)();
-    let (_, renderer) = setup.renderer(subject)?;
-    let layers = renderer.layers(&[Aov::Instance, Aov::Depth], &job, &is_going);
-    let layers = layers.ok_or(RenderError::Stopped)?;
-    let pixels = PixelTable::new(&film.image, &layers, &subject.proven, input);
-    let shot = shot(setup, subject, film, input, observer)?;
-    Ok((shot, pixels))
-}
-
-/// The picture of a film, as a file.
-pub(super) fn shot(
-    setup: &PictureSetup,
-    subject: &mut RenderSubject,
-    film: Film,
-    input: &mut Input,
-    observer: &Observer<'_>,
-) -> Result<Shot, RenderError> {
-    let Film {
-        image,
-        coverage,
-        counts,
-    } = film;
-    let full = [image.width, image.height];
-    let film = (image, coverage, &counts);
-    let picture = setup.develop(subject, film, input, observer.is_stopped)?;
-    Ok(Shot {
-        png: Arc::new(setup.encode(&picture, subject)?),
-        full,
-        is_finished: true,
-    })
+    /// Shows what accuracy costs in the picture, unless something newer is ordered meanwhile.
+    fn tell_costs(&self, work: &Work) -> Result<(), Failure> {
+        if let (Some(scene), Some((setup, subject))) = (&self.scene, &self.shown) {
+            let is_going = || !self.board.is_stale(work.age);
+            let studied = (scene.input.name(), &subject.proven.lowered.scene);
+            let costs = costs::table(studied, setup.threads, &is_going)?;
+            if costs.is_some() {
+                self.board.show(|state| state.costs = costs);
+            }
+        }
+        Ok(())
+    }
 }
 
 /// A finding as the page shows it.

@@ -42,7 +42,25 @@ function show() {
   at("keep").hidden = !state.view?.canWrite;
   at("flags").value = state.view?.flags ?? "";
   if (state.effects !== null) at("verdicts").textContent = state.effects;
+  showCosts();
   if (state.picture && state.picture.number !== drawn) draw(state.picture);
+}
+
+// The picture of which costs are being measured.
+let measured = null;
+
+function showCosts() {
+  at("costs").hidden = state.costs === null;
+  at("costs").textContent = state.costs ?? "";
+  if (state.costs !== null || measured !== drawn) measured = null;
+  at("measure").disabled = measured !== null;
+  at("measuring").textContent = measured === null ? "It takes some seconds; a change ends it." : "measuring …";
+}
+
+function measure() {
+  measured = drawn;
+  send("/costs", null);
+  showCosts();
 }
 
 function words() {
@@ -255,6 +273,7 @@ function listen() {
   at("split").addEventListener("input", () => {
     at("frame").style.setProperty("--split", `${at("split").value}%`);
   });
+  at("measure").addEventListener("click", measure);
   at("effects").addEventListener("toggle", () => {
     if (at("effects").open) send("/effects", null);
   });

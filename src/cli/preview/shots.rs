@@ -1,0 +1,100 @@
+//! Pictures of scenes: the finished one of `rtc render`, and that of another scene to compare with.
+
+use super::board::Shot;
+use super::pixels::PixelTable;
+use super::{Failure, args, input, render};
+use crate::cli::interrupt::Interrupt;
+use crate::cli::project;
+use crate::cli::talk::Talk;
+use crate::pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};
+use crate::render::{Aov, Film, Job};
+use crate::study::Goal;
+use std::num::NonZeroU32;
+use std::path::Path;
+use std::sync::Arc;
+
+/// How pictures are asked for.
+pub(super) fn setup(args: &args::Preview) -> Result<PictureSetup, Failure> {
+    let setup = render::wanted(&args.wanted, &args.look, Path::new("preview.png"))?;
+    render::refuse_layers(&setup)?;
+    let settled = project::picture(&args.file, Goal::default())?;
+    Ok(PictureSetup {
+        threads: args.threads.map_or(0, usize::from),
+        overrides: setup.overrides.or(settled),
+        ..setup
+    })
+}
+
+/// The picture of another scene that is asked for in the same way.
+pub(super) fn of_scene(
+    args: &args::Preview,
+    path: &Path,
+    interrupt: &Interrupt,
+) -> Result<Arc<Vec<u8>>, Failure> {
+    let mut talk = Talk::beside_result(&args.talk);
+    let mut input = input::staged(path, &args.reading, &args.stage)?;
+    let mut setup = setup(args)?;
+    input.use_threads(setup.threads);
+    render::set_stage(&mut input, &args.look, None);
+    let subject = match input.load() {
+        Some(loaded) => setup.prove(loaded, &mut input)?,
+        None => None,
+    };
+    let outcome = input::unless_refused(subject, &mut input, &mut talk);
+    talk.finish()?;
+    let mut subject = outcome?;
+    let observer = Observer {
+        on_step: &|_| (),
+        is_stopped: &|| interrupt.is_raised(),
+    };
+    setup.light(&mut subject, &mut input, &observer)?;
+    let (shot, _) = finish(&setup, &mut subject, &mut input, &observer)?;
+    Ok(shot.png)
+}
+
+/// The picture as `rtc render` makes it, and its pixels.
+pub(super) fn finish(
+    setup: &PictureSetup,
+    subject: &mut RenderSubject,
+    input: &mut Input,
+    observer: &Observer<'_>,
+) -> Result<(Shot, PixelTable), RenderError> {
+    let window = setup.window(&subject.proven.lowered.scene)?;
+    setup.find_room(subject, window)?;
+    let film = setup.trace(subject, (window, input.rays()), observer)?;
+    let job = Job {
+        crop: Some(window),
+        samples: Some(NonZeroU32::MIN),
+        ..Job::default()
+    };
+    let is_going = || !(observer.is_stopped)();
+    let (_, renderer) = setup.renderer(subject)?;
+    let layers = renderer.layers(&[Aov::Instance, Aov::Depth], &job, &is_going);
+    let layers = layers.ok_or(RenderError::Stopped)?;
+    let pixels = PixelTable::new(&film.image, &layers, &subject.proven, input);
+    let shot = shot(setup, subject, film, input, observer)?;
+    Ok((shot, pixels))
+}
+
+/// The picture of a film, as a file.
+pub(super) fn shot(
+    setup: &PictureSetup,
+    subject: &mut RenderSubject,
+    film: Film,
+    input: &mut Input,
+    observer: &Observer<'_>,
+) -> Result<Shot, RenderError> {
+    let Film {
+        image,
+        coverage,
+        counts,
+    } = film;
+    let full = [image.width, image.height];
+    let film = (image, coverage, &counts);
+    let picture = setup.develop(subject, film, input, observer.is_stopped)?;
+    Ok(Shot {
+        png: Arc::new(setup.encode(&picture, subject)?),
+        full,
+        is_finished: true,
+    })
+}
