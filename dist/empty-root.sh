@@ -7,15 +7,15 @@ archive=${1:-$(ls target/dist-files/rtc-*-x86_64-unknown-linux-musl.tgz)}
 
 root=$(mktemp -d)
 trap 'rm -r "$root"' EXIT
-mkdir "$root/work" "$root/tmp"
+mkdir "$root/scenes" "$root/tmp"
 tar -xzf "$archive" -C "$root" --strip-components 1 --wildcards '*/rtc'
-cp scenes/glass.yaml "$root/work/"
-sed 's/^Objects:/Objcts:/' scenes/five-spheres.yaml >"$root/work/slip.yaml"
+cp scenes/glass.yaml "$root/scenes/"
+sed 's/^Objects:/Objcts:/' scenes/five-spheres.yaml >"$root/scenes/slip.yaml"
 
 # `run WORDS…`: a command in that root, with no environment; what it is and what it says.
 run() {
     printf '$ rtc %s\n' "$*"
-    env -i unshare --user --map-root-user --root "$root" --wd /work /rtc "$@" 2>&1
+    env -i unshare --user --map-root-user --root "$root" --wd /scenes /rtc "$@" 2>&1
 }
 
 run --version
@@ -25,6 +25,6 @@ run render slip.yaml -o spheres.png
 run render glass.yaml -o glass.png
 run diff glass.png glass.png --gate 'rmse<=0'
 find "$root" -type f -printf '%P %s bytes\n' | sort
-sum=$(sha256sum "$root/work/glass.png" | cut -d ' ' -f 1)
+sum=$(sha256sum "$root/scenes/glass.png" | cut -d ' ' -f 1)
 grep -q "$sum" README.md
 printf 'glass.png has the sha256 of the README\n'

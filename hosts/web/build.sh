@@ -12,7 +12,7 @@ cargo build --locked --release --package rtc-web --lib --target wasm32-unknown-u
 rm -rf dist
 mkdir -p dist/scenes
 "$target/release/rtc-web-bind" "$target/wasm32-unknown-unknown/release/rtc_web.wasm" dist
-cp page/* dist/
+cp page/* ../../src/cli/preview/page/base.css dist/
 node scenes.mjs
 gzip -9 --keep dist/rtc_web_bg.wasm
 printf 'dist: %d bytes of WebAssembly, %d compressed\n' "$(wc -c <dist/rtc_web_bg.wasm)" "$(wc -c <dist/rtc_web_bg.wasm.gz)"

@@ -90,11 +90,7 @@ fn carry_out_text(args: &Compile, mut input: Input, talk: &mut Talk) -> Result<(
         simd: simd::level()?,
         ..PictureSetup::new(look.map_err(|words| Failure::Trouble(words.to_owned()))?)
     };
-    let subject = match input.load() {
-        Some(loaded) => setup.prove(loaded, &mut input)?,
-        None => None,
-    };
-    let mut subject = input::unless_refused(subject, &mut input, talk)?;
+    let mut subject = input::subject(&mut setup, &mut input, talk)?;
     let interrupt = Interrupt::listen()?;
     let observer = Observer {
         on_step: &|_| (),

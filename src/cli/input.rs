@@ -6,7 +6,7 @@ use super::project::Project;
 use super::talk::Talk;
 use crate::ir::Lowered;
 use crate::passes::{self, EnvironmentOverride, FillLight, Stage, StudioChoice, View};
-use crate::pipeline::{Input, Options, Proven, Provenance};
+use crate::pipeline::{Input, Options, PictureSetup, Proven, Provenance, RenderSubject};
 use crate::{front, valid};
 use std::io;
 use std::path::Path;
@@ -137,6 +137,34 @@ pub(super) fn require(
 ) -> Result<Proven, Failure> {
     let proven = input.load().and_then(|loaded| input.prove(loaded, change));
     unless_refused(proven, input, talk)
+}
+
+/// Whether a file is a picture, by its name.
+pub(super) fn is_picture(path: &Path) -> bool {
+    const PICTURES: [&str; 6] = ["png", "jpg", "jpeg", "webp", "exr", "hdr"];
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    PICTURES
+        .iter()
+        .any(|kind| extension.eq_ignore_ascii_case(kind))
+}
+
+/// The scene as a picture of it is asked for, proven; what is found is told.
+pub(super) fn subject(
+    setup: &mut PictureSetup,
+    input: &mut Input,
+    talk: &mut Talk,
+) -> Result<RenderSubject, Failure> {
+    let subject = match input.load() {
+        Some(loaded) => setup.prove(loaded, input),
+        None => Ok(None),
+    };
+    match subject {
+        Ok(subject) => unless_refused(subject, input, talk),
+        Err(error) => {
+            tell(input, talk)?;
+            Err(error.into())
+        }
+    }
 }
 
 /// What was made of the input, after telling what was found; none if it is refused.

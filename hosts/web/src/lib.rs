@@ -124,12 +124,6 @@ impl Picture {
     }
 }
 
-/// The version of the library.
-#[wasm_bindgen]
-pub fn version() -> String {
-    env!("CARGO_PKG_VERSION").to_owned()
-}
-
 /// `message` in words and `findings`, which may be empty.
 fn thrown(error: &Error) -> String {
     json!({"message": error.to_string(), "findings": told(error.findings())}).to_string()

@@ -86,17 +86,7 @@ fn settled(
     refuse_layers(&setup)?;
     let settled = project::picture(&args.file, Goal::default())?;
     setup.overrides = setup.overrides.or(settled);
-    let subject = match input.load() {
-        Some(loaded) => setup.prove(loaded, &mut input),
-        None => Ok(None),
-    };
-    let mut subject = match subject {
-        Ok(subject) => input::unless_refused(subject, &mut input, talk)?,
-        Err(error) => {
-            input::tell(&mut input, talk)?;
-            return Err(error.into());
-        }
-    };
+    let mut subject = input::subject(&mut setup, &mut input, talk)?;
     let scene = &subject.proven.lowered.scene;
     setup.window(scene)?;
     setup.separable(scene, args.parts_by.into())?;

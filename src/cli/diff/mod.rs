@@ -7,13 +7,13 @@ mod scenes;
 use super::Failure;
 use super::args::Diff;
 use super::gate::{self, JudgedGate};
+use super::input;
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
 use crate::codec::Change;
 use crate::image::{FileFormat, Image, Picture, ShownPicture};
 use crate::study::{Difference, SliderPage, heat_map, slider_page, told};
 use serde_json::Value;
-use std::path::Path;
 
 /// The results of a comparison, each fit to be written.
 struct DiffOutputs {
@@ -23,7 +23,7 @@ struct DiffOutputs {
 
 /// Compares two pictures or two scenes, and says how they differ.
 pub(super) fn run(args: &Diff) -> Result<(), Failure> {
-    match [&args.new, &args.old].map(|path| is_picture(path)) {
+    match [&args.new, &args.old].map(|path| input::is_picture(path)) {
         [true, true] => pictures::run(args),
         [false, false] => scenes::run(args),
         [is_picture, _] => {
@@ -37,15 +37,6 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
             )))
         }
     }
-}
-
-/// Whether a file is a picture, by its name.
-fn is_picture(path: &Path) -> bool {
-    const PICTURES: [&str; 6] = ["png", "jpg", "jpeg", "webp", "exr", "hdr"];
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    PICTURES
-        .iter()
-        .any(|kind| extension.eq_ignore_ascii_case(kind))
 }
 
 /// Writes what was asked for, tells how two pictures differ, and their scenes, and passes the gates.

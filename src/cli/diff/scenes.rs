@@ -81,17 +81,7 @@ impl Side {
             ..PictureSetup::new(look)
         };
         setup.overrides.size = size.or(setup.overrides.size);
-        let subject = match input.load() {
-            Some(loaded) => setup.prove(loaded, &mut input),
-            None => Ok(None),
-        };
-        let subject = match subject {
-            Ok(subject) => input::unless_refused(subject, &mut input, talk)?,
-            Err(error) => {
-                input::tell(&mut input, talk)?;
-                return Err(error.into());
-            }
-        };
+        let subject = input::subject(&mut setup, &mut input, talk)?;
         Ok(Self {
             input,
             setup,

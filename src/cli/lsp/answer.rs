@@ -1,6 +1,5 @@
 //! Requests of an editor and their answers.
 
-use super::super::input;
 use super::open_text::OpenText;
 use super::way::Vocabulary;
 use super::workspace::Workspace;
@@ -100,7 +99,7 @@ impl Workspace {
     /// The text as `rtc fmt` lays it out.
     fn laid_out(&self, uri: &Uri) -> Option<Vec<TextEdit>> {
         let document = self.document(uri)?;
-        let options = input::options(&self.reading, None).ok()?;
+        let (options, _) = document.options(&self.reading).ok()?;
         let bytes = document.text.clone().into_bytes();
         let laid_out = Input::edited(&document.path, bytes, options).lay_out();
         let text = laid_out.ok()?;

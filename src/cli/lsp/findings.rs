@@ -33,12 +33,12 @@ pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileFind
             ..Diagnostic::default()
         });
     }
-    let scene = document.scene();
+    let (scene, lines) = (document.scene(), document.lines(columns));
     for (checked, finding) in scene
         .iter()
         .flat_map(|own| own.findings.iter().map(move |f| (own, f)))
     {
-        let (uri, diagnostic) = diagnostic(document, checked, finding, columns);
+        let (uri, diagnostic) = diagnostic(document, checked, finding, &lines);
         match others.iter_mut().find(|(own, _)| *own == uri) {
             _ if uri == document.uri => own.push(diagnostic),
             Some((_, list)) => list.push(diagnostic),
@@ -53,9 +53,9 @@ fn diagnostic(
     document: &OpenText,
     checked: &CheckedScene,
     finding: &diag::Diagnostic,
-    columns: Columns,
+    lines: &TextLines<'_>,
 ) -> (Uri, Diagnostic) {
-    let locate = |span| location(document, checked, span, columns);
+    let locate = |span| location(document, checked, span, lines);
     let primary = finding.primary.as_ref().map(|label| locate(label.span));
     let start = || Location::new(document.uri.clone(), Range::default());
     let Location { uri, range } = primary.unwrap_or_else(start);
@@ -96,15 +96,25 @@ fn message(finding: &diag::Diagnostic) -> String {
     all.collect::<Vec<_>>().join("\n")
 }
 
-fn location(document: &OpenText, checked: &CheckedScene, span: Span, columns: Columns) -> Location {
+/// Where a span stands; `lines` are those of the text itself.
+fn location(
+    document: &OpenText,
+    checked: &CheckedScene,
+    span: Span,
+    lines: &TextLines<'_>,
+) -> Location {
     let Span { file, start, end } = span;
-    let range = |text: &str| TextLines::of(text, columns).range(start as usize, end as usize);
+    let range = |lines: &TextLines<'_>| lines.range(start as usize, end as usize);
     if checked.is_own(file) {
-        return Location::new(document.uri.clone(), range(&document.text));
+        return Location::new(document.uri.clone(), range(lines));
     }
     let map = checked.map();
     let uri = place::uri(Path::new(map.name(file))).unwrap_or_else(|| document.uri.clone());
-    Location::new(uri, map.text(file).map_or_else(Range::default, range))
+    Location::new(
+        uri,
+        map.text(file)
+            .map_or_else(Range::default, |text| range(&lines.of_other(text))),
+    )
 }
 
 /// The quick fixes of what is found in a range of a text that is checked; all that is sure at once where
@@ -129,7 +139,7 @@ pub(super) fn actions(
         return Vec::new();
     };
     let fixes = checked.findings.iter().flat_map(|finding| {
-        let (uri, told) = diagnostic(document, checked, finding, columns);
+        let (uri, told) = diagnostic(document, checked, finding, &lines);
         let is_here = uri == document.uri && touch(told.range, range);
         let hints = finding.hints.iter().filter(move |_| is_here);
         let changes = hints.filter_map(|hint| {

@@ -98,7 +98,7 @@ impl Server {
     }
 
     fn send(&mut self, message: impl Into<Message>) {
-        let _ = wire::write(&mut self.out, &message.into());
+        let _ = message.into().write(&mut self.out);
     }
 
     fn hear(&mut self, message: Message) {

@@ -5,7 +5,7 @@ use super::hover::plain;
 use super::open_text::OpenText;
 use super::place;
 use super::text::{Columns, TextLines};
-use super::way::{Vocabulary, WayStep, way};
+use super::way::{Vocabulary, way};
 use crate::source::tree::{NodeContent, NodeId, Tree};
 use lsp_types::{
     Color, ColorInformation, ColorPresentation, DocumentSymbol, InlayHint, InlayHintLabel,
@@ -71,10 +71,7 @@ pub(super) fn colors(document: &OpenText, columns: Columns) -> Vec<ColorInformat
         return Vec::new();
     };
     let lines = document.lines(columns);
-    let maps = tree
-        .nodes()
-        .filter(|id| tree.is_map(*id) && tree.target(*id) == *id);
-    let pairs = maps.flat_map(|map| tree.pairs(map).collect::<Vec<_>>());
+    let pairs = maps(&tree).flat_map(|map| tree.pairs(map).collect::<Vec<_>>());
     let colors = pairs.filter_map(|(key, value)| {
         let name = tree.text(key)?.to_lowercase();
         let is_here = tree.target(value) == value && tree.is_list(value);
@@ -95,6 +92,12 @@ pub(super) fn colors(document: &OpenText, columns: Columns) -> Vec<ColorInformat
         Some(ColorInformation { range, color })
     });
     colors.take(MOST).collect()
+}
+
+/// The maps that are written in the text, each once.
+fn maps(tree: &Tree<'_>) -> impl Iterator<Item = NodeId> {
+    let is_written = |id: &NodeId| tree.is_map(*id) && tree.target(*id) == *id;
+    tree.nodes().filter(is_written)
 }
 
 fn number(tree: &Tree<'_>, id: NodeId) -> Option<f32> {
@@ -130,10 +133,7 @@ pub(super) fn definition(
     let tree = document.tree()?;
     let lines = document.lines(columns);
     let steps = way(&tree, lines.offset(place));
-    let value = match *steps.last()? {
-        WayStep::Key { value, .. } => value,
-        WayStep::Item { item, .. } => item,
-    };
+    let value = steps.last()?.node();
     let target = tree.target(value);
     if target != value {
         let range = range(&tree, target, &lines);
@@ -160,19 +160,16 @@ pub(super) fn hints(
         return Vec::new();
     };
     let lines = document.lines(columns);
-    let maps = tree
-        .nodes()
-        .filter(|id| tree.is_map(*id) && tree.target(*id) == *id);
     let hint = |map: NodeId| {
         let start = tree.span(map).start as usize;
-        let line = lines.position(start).line;
-        let is_shown = shown.start.line <= line && line <= shown.end.line;
+        let line = lines.line(start);
+        let is_shown = shown.start.line as usize <= line && line <= shown.end.line as usize;
         if !is_shown || map == tree.root() {
             return None;
         }
-        // One byte in, so that the way leads into the map and not past it.
+        // The way goes on to the first key, which may start with the map.
         let mut steps = way(&tree, start);
-        while steps.last().is_some_and(|step| leads_past(step, map)) {
+        while steps.last().is_some_and(|step| step.node() != map) {
             steps.pop();
         }
         let keys = vocabulary.keys(&tree, &steps).into_iter();
@@ -197,14 +194,5 @@ pub(super) fn hints(
             data: None,
         })
     };
-    maps.filter_map(hint).take(MOST).collect()
-}
-
-/// Whether a step leads from a map on, not to it.
-fn leads_past(step: &WayStep, map: NodeId) -> bool {
-    let to = match *step {
-        WayStep::Key { value, .. } => value,
-        WayStep::Item { item, .. } => item,
-    };
-    to != map
+    maps(&tree).filter_map(hint).take(MOST).collect()
 }

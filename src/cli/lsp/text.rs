@@ -58,10 +58,20 @@ impl<'t> TextLines<'t> {
         }
     }
 
+    /// The lines of another text, in the same units.
+    pub(super) fn of_other<'o>(&self, text: &'o str) -> TextLines<'o> {
+        TextLines::of(text, self.columns)
+    }
+
+    /// The line that a byte is in, from 0.
+    pub(super) fn line(&self, offset: usize) -> usize {
+        self.starts.partition_point(|start| *start <= offset) - 1
+    }
+
     /// The place of a byte; of one that is within a character, that of the character.
     pub(super) fn position(&self, offset: usize) -> Position {
         let offset = self.text.floor_char_boundary(offset.min(self.text.len()));
-        let line = self.starts.partition_point(|start| *start <= offset) - 1;
+        let line = self.line(offset);
         let before = self.text.get(self.starts[line]..offset).unwrap_or_default();
         let column: usize = before.chars().map(|c| self.columns.width(c)).sum();
         Position::new(to_u32(line), to_u32(column))
@@ -99,7 +109,7 @@ impl<'t> TextLines<'t> {
 
     /// The bytes of a line before a byte of it.
     pub(super) fn before(&self, offset: usize) -> &'t str {
-        let line = self.starts.partition_point(|start| *start <= offset) - 1;
+        let line = self.line(offset);
         self.text.get(self.starts[line]..offset).unwrap_or_default()
     }
 

@@ -17,6 +17,16 @@ pub(super) enum WayStep {
     Item { at: usize, item: NodeId },
 }
 
+impl WayStep {
+    /// What it leads to.
+    pub(super) fn node(self) -> NodeId {
+        match self {
+            Self::Key { value, .. } => value,
+            Self::Item { item, .. } => item,
+        }
+    }
+}
+
 /// The steps from the root to what stands at a byte.
 pub(super) fn way(tree: &Tree<'_>, offset: usize) -> Vec<WayStep> {
     let holds = |id: NodeId| {
@@ -85,13 +95,9 @@ impl Vocabulary {
                     })
                     .collect(),
             };
-            let node = match *step {
-                WayStep::Key { value, .. } => value,
-                WayStep::Item { item, .. } => item,
-            };
             here = found
                 .into_iter()
-                .flat_map(|schema| self.plain(schema, tree, node))
+                .flat_map(|schema| self.plain(schema, tree, step.node()))
                 .collect();
         }
         here

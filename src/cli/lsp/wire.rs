@@ -158,14 +158,6 @@ fn head(input: &mut impl BufRead) -> io::Result<Option<u64>> {
     Ok(Some(length))
 }
 
-/// Writes a message.
-///
-/// # Errors
-/// If the stream takes nothing.
-pub(super) fn write(out: &mut impl Write, message: &Message) -> io::Result<()> {
-    message.write(out)
-}
-
 /// Answers what has no number, as it is no message.
 ///
 /// # Errors

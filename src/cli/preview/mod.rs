@@ -39,7 +39,7 @@ pub(super) fn run(args: &args::Preview) -> Result<(), Failure> {
     }
     let interrupt = Interrupt::listen()?;
     let against = match &args.against {
-        Some(path) if is_picture(path) => Some(picture(path)?),
+        Some(path) if input::is_picture(path) => Some(picture(path)?),
         Some(path) => Some(shots::of_scene(args, path, &interrupt)?),
         None => None,
     };
@@ -69,13 +69,6 @@ pub(super) fn run(args: &args::Preview) -> Result<(), Failure> {
         serve::open(&address);
     }
     session.run()
-}
-
-/// Whether a file is a picture by its name; else it is a scene.
-fn is_picture(path: &Path) -> bool {
-    let extension = path.extension().and_then(|extension| extension.to_str());
-    let known = ["png", "jpg", "jpeg", "webp", "exr", "hdr"];
-    extension.is_some_and(|own| known.iter().any(|known| own.eq_ignore_ascii_case(known)))
 }
 
 /// The picture in a file, as a PNG.

@@ -7,7 +7,7 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::project;
 use crate::cli::talk::Talk;
 use crate::pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};
-use crate::render::{Aov, Film, Job};
+use crate::render::{Aov, Crop, Film, Job};
 use crate::study::Goal;
 use std::num::NonZeroU32;
 use std::path::Path;
@@ -36,20 +36,17 @@ pub(super) fn of_scene(
     let mut setup = setup(args)?;
     input.use_threads(setup.threads);
     render::set_stage(&mut input, &args.look, None);
-    let subject = match input.load() {
-        Some(loaded) => setup.prove(loaded, &mut input)?,
-        None => None,
-    };
-    let outcome = input::unless_refused(subject, &mut input, &mut talk);
+    let subject = input::subject(&mut setup, &mut input, &mut talk);
     talk.finish()?;
-    let mut subject = outcome?;
+    let mut subject = subject?;
     let observer = Observer {
         on_step: &|_| (),
         is_stopped: &|| interrupt.is_raised(),
     };
     setup.light(&mut subject, &mut input, &observer)?;
-    let (shot, _) = finish(&setup, &mut subject, &mut input, &observer)?;
-    Ok(shot.png)
+    let window = setup.window(&subject.proven.lowered.scene)?;
+    let film = trace(&setup, &mut subject, window, &input, &observer)?;
+    Ok(shot(&setup, &mut subject, film, &mut input, &observer)?.png)
 }
 
 /// The picture as `rtc render` makes it, and its pixels.
@@ -60,8 +57,7 @@ pub(super) fn finish(
     observer: &Observer<'_>,
 ) -> Result<(Shot, PixelTable), RenderError> {
     let window = setup.window(&subject.proven.lowered.scene)?;
-    setup.find_room(subject, window)?;
-    let film = setup.trace(subject, (window, input.rays()), observer)?;
+    let film = trace(setup, subject, window, input, observer)?;
     let job = Job {
         crop: Some(window),
         samples: Some(NonZeroU32::MIN),
@@ -74,6 +70,18 @@ pub(super) fn finish(
     let pixels = PixelTable::new(&film.image, &layers, &subject.proven, input);
     let shot = shot(setup, subject, film, input, observer)?;
     Ok((shot, pixels))
+}
+
+/// The film of a window, if there is room for it.
+fn trace(
+    setup: &PictureSetup,
+    subject: &mut RenderSubject,
+    window: Crop,
+    input: &Input,
+    observer: &Observer<'_>,
+) -> Result<Film, RenderError> {
+    setup.find_room(subject, window)?;
+    setup.trace(subject, (window, input.rays()), observer)
 }
 
 /// The picture of a film, as a file.

@@ -17,15 +17,18 @@ pub(in super::super) struct Extension {
 
 /// The extension of this name.
 pub(in super::super) fn find(name: &str) -> Option<&'static Extension> {
-    let mut all = EXTENSIONS.iter().chain(OF_MATERIALS);
-    all.find(|extension| extension.name == name)
+    all().find(|extension| extension.name == name)
+}
+
+fn all() -> impl Iterator<Item = &'static Extension> {
+    EXTENSIONS.iter().chain(OF_MATERIALS)
 }
 
 /// A row of Markdown for each extension, by their names: what carries it, and the properties that are read.
 pub(in super::super) fn rows() -> String {
-    let mut all: Vec<_> = EXTENSIONS.iter().chain(OF_MATERIALS).collect();
-    all.sort_by_key(|extension| extension.name);
-    all.into_iter().map(row).collect()
+    let mut sorted: Vec<_> = all().collect();
+    sorted.sort_by_key(|extension| extension.name);
+    sorted.into_iter().map(row).collect()
 }
 
 fn row(extension: &Extension) -> String {
