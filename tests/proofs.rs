@@ -71,7 +71,7 @@ fn taken(script: &str) -> Vec<(String, f64)> {
 #[test]
 fn proofs_are_about_the_numbers_of_the_code() {
     let scripts = scripts();
-    assert_eq!(scripts.len(), 5, "one for each filter");
+    assert_eq!(scripts.len(), 10, "one for each filter");
     for path in scripts {
         let script = fs::read_to_string(&path).unwrap();
         let taken = taken(&script);

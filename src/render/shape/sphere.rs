@@ -35,7 +35,8 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// The smallest root above 0, right to within 64 u for any ray; a tangent ray hits.
+    /// The smallest root above 0, right to within 64 u for all rays that were tried (`docs/proofs` has
+    /// what is proven of it); a tangent ray hits.
     #[must_use]
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {
