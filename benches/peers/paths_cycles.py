@@ -112,7 +112,8 @@ def render(scene, seed, out, log):
     os.remove(out + ".exr")
     pixels[::-1, :, :3].tofile(out)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    return {"render_s": sampled[-1] - sampled[0], "whole_s": whole, "whole_cpu_s": cpu, "peak_mb": peak}
+    told_s = sampled[-1] - sampled[0] if sampled else None  # Only some versions of Blender tell of samples.
+    return {"render_s": told_s, "whole_s": whole, "whole_cpu_s": cpu, "peak_mb": peak}
 
 
 def main(path, samples):
