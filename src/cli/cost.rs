@@ -10,11 +10,13 @@ use super::render::{or_restart, say_saved, try_save};
 use super::simd;
 use super::talk::Talk;
 use super::versus;
+use crate::image::{FileFormat, Picture};
 use crate::ir::Scene;
 use crate::pipeline::{self, Input};
 use crate::source::{Loader, SourceMap};
 use crate::study::{self, About, Bench, Clock, Journal, Stopped, Study};
 use cpu_time::ThreadTime;
+use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::{Duration, Instant};
@@ -55,6 +57,9 @@ fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<()
         .as_deref()
         .map(|path| Output::open(path, input))
         .transpose()?;
+    if let Some(folder) = &args.maps {
+        make_folder(folder)?;
+    }
     let about = about(input.name(), &proven.lowered.scene);
     let journal = journal(args, &about, input)?;
     let study = measure(args, (about, journal), &proven.lowered.scene, &interrupt)?;
@@ -63,10 +68,39 @@ fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<()
         StudyFormat::Csv => study::csv(&study),
         StudyFormat::Json => study::json(&study),
     };
+    if let Some(folder) = &args.maps {
+        write_maps(folder, &study, input, &interrupt)?;
+    }
     if let Some(page) = page {
         page.commit(study::html(&study).as_bytes(), &interrupt)?;
     }
     output.commit(report.as_bytes(), &interrupt)
+}
+
+fn make_folder(folder: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(folder)
+        .map_err(|error| Failure::Trouble(format!("can't make `{}`: {error}", folder.display())))
+}
+
+/// The maps as pictures, and their scales as a page.
+fn write_maps(
+    folder: &Path,
+    study: &Study,
+    input: &Input,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
+    let mut files = vec![("maps.html".to_owned(), study::maps_page(study).into_bytes())];
+    for map in study::maps(study) {
+        let name = format!("{}.png", map.name);
+        let encoded = Picture::opaque(map.image).encode(FileFormat::Png8);
+        let trouble = |error| Failure::Trouble(format!("can't write `{name}`: {error}"));
+        let bytes = encoded.map_err(trouble)?;
+        files.push((name, bytes));
+    }
+    for (name, bytes) in files {
+        Output::open(&folder.join(name), input)?.commit(&bytes, interrupt)?;
+    }
+    Ok(())
 }
 
 /// How many threads work, 0 for one per core.

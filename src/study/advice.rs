@@ -41,10 +41,15 @@ fn chosen(front: &[&Row]) -> Option<usize> {
         .or(front.len().checked_sub(1))
 }
 
+/// The row that is recommended.
+pub(super) fn recommended(study: &Study) -> Option<&Row> {
+    let front = front(study);
+    Some(front[chosen(&front)?])
+}
+
 /// The command that renders the scene in the setting that is recommended.
 pub(super) fn command(study: &Study) -> Option<String> {
-    let front = front(study);
-    let row = front[chosen(&front)?];
+    let row = recommended(study)?;
     let own = study.own()?.setting;
     let is_plain = |letter: char| letter.is_alphanumeric() || "._-".contains(letter);
     let name = match study.about.scene.as_str() {

@@ -2,9 +2,10 @@
 
 use super::journal::{Entry, Journal};
 use crate::plan::Plan;
-use crate::render::{AnyWorld, Film, Job, OnPixel, SimdLevel};
+use crate::render::{AnyWorld, Film, Job, OnPixel, SimdLevel, Step};
 use crate::valid::Proof;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -162,6 +163,21 @@ impl<'a> Bench<'a> {
     /// Renders a scene as planned; `None` if the observer said stop.
     pub(super) fn render(&self, scene: &Proof, plan: &Plan, job: &Job) -> Option<Film> {
         AnyWorld::prepare_at(scene, plan, self.simd).render(job, self.on_pixel)
+    }
+
+    /// Renders a scene as planned for the rays of each pixel of the whole picture, row by row; `None` if the
+    /// observer said stop.
+    pub(super) fn rays_of_pixels(&self, scene: &Proof, plan: &Plan, job: &Job) -> Option<Vec<u64>> {
+        let [width, height] =
+            [scene.camera().width, scene.camera().height].map(|side| side.get() as usize);
+        let rays: Vec<_> = (0..width * height).map(|_| AtomicU64::new(0)).collect();
+        let on_pixel = |step: Step| {
+            let [x, y] = step.pixel.map(|at| at as usize);
+            rays[y * width + x].fetch_add(step.rays, Relaxed);
+            (self.on_pixel)(step)
+        };
+        AnyWorld::prepare_at(scene, plan, self.simd).render(job, &on_pixel)?;
+        Some(rays.into_iter().map(AtomicU64::into_inner).collect())
     }
 
     /// Does a piece of work on all threads.

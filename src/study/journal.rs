@@ -29,7 +29,8 @@ struct JournalHead {
     seed: u64,
 }
 
-/// One render: what it showed, if that is still wanted, and the seconds it took.
+/// One render: what it showed, if that is still wanted, and the seconds it took; of a map of rays, those of each
+/// pixel instead.
 #[derive(Clone)]
 pub(super) struct Entry {
     pub(super) key: u64,

@@ -15,6 +15,7 @@ mod growth;
 mod journal;
 mod knob;
 mod left_out;
+mod maps;
 mod metrics;
 mod noise;
 mod outcome;
@@ -43,6 +44,7 @@ pub use growth::{Growth, Keep};
 pub use journal::Journal;
 pub use knob::{Knob, idle};
 pub use left_out::Omission;
+pub use maps::{StudyMap, maps};
 pub use metrics::{Errors, LEVELS, rmse};
 pub use outcome::{
     About, BounceCost, KnobReport, MoreBounces, Rays, ReferenceReport, Row, Study, StudyArea,
@@ -50,7 +52,7 @@ pub use outcome::{
 pub use precision::PrecisionCost;
 pub use reference::{DepthEnd, Level};
 #[cfg(feature = "cli")]
-pub use report::{SliderPage, csv, html, json, slider_page, table, told, versus_table};
+pub use report::{SliderPage, csv, html, json, maps_page, slider_page, table, told, versus_table};
 pub use setting::Setting;
 pub use statistics::{Estimate, PowerLaw, Rng, median};
 pub use stretch::WorkStretch;
@@ -94,7 +96,7 @@ fn price(scene: &Scene) -> u64 {
         return 8;
     }
     match scene.surfaces.iter().any(is_torus) {
-        true => 2,
+        true => 3,
         false => 1,
     }
 }
@@ -154,9 +156,12 @@ pub fn study(
         advice: Vec::new(),
         command: None,
         truth: context.reference.tiles,
+        areas: subject.areas(),
+        mapped: Vec::new(),
     };
     study.advice = advice::advice(&study);
     study.command = advice::command(&study);
+    study.mapped = maps::count(&study, &subject)?;
     Ok(study)
 }
 

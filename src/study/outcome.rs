@@ -1,13 +1,14 @@
 //! The result of a study, to be printed, kept and read again.
 
 use super::knob::Knob;
+use super::maps::PixelRays;
 use super::metrics::Errors;
 use super::reference::{DepthEnd, Level};
 use super::setting::Setting;
 use super::statistics::{Estimate, PowerLaw};
 use super::{EffectCost, Effort, PrecisionCost};
 use crate::image::Image;
-use crate::render::Counts;
+use crate::render::{Counts, Crop};
 use serde::{Deserialize, Serialize};
 
 /// The subject of a study, and the machine it ran on.
@@ -198,6 +199,12 @@ pub struct Study {
     /// The pixels of the reference.
     #[serde(skip)]
     pub(super) truth: Vec<Image>,
+    /// Where its pictures lie in the whole one.
+    #[serde(skip)]
+    pub(super) areas: Vec<Crop>,
+    /// The rays of each pixel, for the maps.
+    #[serde(skip)]
+    pub(super) mapped: Vec<PixelRays>,
 }
 
 impl Study {

@@ -109,6 +109,42 @@ impl<'bench> Subject<'bench> {
             .collect()
     }
 
+    /// Where the pictures of a render lie: the tiles, or the whole picture.
+    pub(super) fn areas(&self) -> Vec<Crop> {
+        let [width, height] = self.scene.camera.size;
+        match self.is_whole() {
+            true => vec![Crop {
+                x: 0,
+                y: 0,
+                width,
+                height,
+            }],
+            false => self.cells(),
+        }
+    }
+
+    /// The rays of each pixel of the whole picture in a setting, row by row.
+    pub(super) fn rays_of_pixels(&self, setting: Setting) -> Result<Vec<u64>, Stopped> {
+        let key = self.key("rays", setting, Seeds::NONE);
+        if let Some(entry) = self.bench.recall(key) {
+            return Ok(entry.seconds.iter().map(|rays| *rays as u64).collect());
+        }
+        let (scene, job) = (self.prove(setting, Seeds::NONE), self.job(Seeds::NONE));
+        let plan = Plan::by(setting.precision, &scene, Rules::ALL);
+        let count = || self.bench.rays_of_pixels(&scene, &plan, &job);
+        let rays = self.bench.work(count).ok_or(Stopped)?;
+        self.bench.note(|| Entry {
+            key,
+            shot: RenderedTiles {
+                tiles: Vec::new(),
+                counts: Counts::default(),
+            },
+            // Whole numbers below 2⁵³, so none is rounded.
+            seconds: rays.iter().map(|rays| *rays as f64).collect(),
+        });
+        Ok(rays)
+    }
+
     /// The tiles of a render, also of a whole picture.
     pub(super) fn tiles_of(&self, shot: RenderedTiles) -> Vec<Image> {
         match shot.tiles.as_slice() {
@@ -280,20 +316,7 @@ impl<'bench> Subject<'bench> {
         arithmetic: Arithmetic,
         seeds: Seeds,
     ) -> Result<RenderedTiles, Stopped> {
-        let last = self
-            .tiles
-            .last()
-            .map_or(0, |tile| Tiles::rank(self.seed, *tile));
-        let tiles = Some(Tiles {
-            seed: self.seed,
-            first: 0,
-            last,
-        });
-        let job = Job {
-            tiles,
-            seeds,
-            ..Job::default()
-        };
+        let job = self.job(seeds);
         let plan = Plan::by(arithmetic, scene, Rules::ALL);
         let film = self.bench.render(scene, &plan, &job).ok_or(Stopped)?;
         let counts = film.counts;
@@ -306,6 +329,24 @@ impl<'bench> Subject<'bench> {
         let cells = self.cells();
         let tiles = cells.iter().map(|cell| cut(&film.image, *cell)).collect();
         Ok(RenderedTiles { tiles, counts })
+    }
+
+    /// What is asked of the renderer: the tiles, sampled by seeds.
+    fn job(&self, seeds: Seeds) -> Job {
+        let last = self
+            .tiles
+            .last()
+            .map_or(0, |tile| Tiles::rank(self.seed, *tile));
+        let tiles = Some(Tiles {
+            seed: self.seed,
+            first: 0,
+            last,
+        });
+        Job {
+            tiles,
+            seeds,
+            ..Job::default()
+        }
     }
 
     /// Where a tile lies in the picture.

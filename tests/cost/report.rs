@@ -59,6 +59,43 @@ fn the_page_needs_nobody_else() {
     assert!(page.contains("<text"), "text of plots stays text");
 }
 
+/// Maps are as large as the picture, grey and hatched but for the tiles looked at, and one scale holds for both
+/// settings; the rays of all pixels are those of the row.
+#[test]
+fn maps_have_the_size_of_the_picture_and_mark_the_tiles() {
+    for study in [&*WHOLE, &*PART] {
+        let maps = study::maps(study);
+        let names: Vec<_> = maps.iter().map(|map| map.name.as_str()).collect();
+        assert!(
+            names
+                == [
+                    "rays-own",
+                    "rays-recommended",
+                    "error-own",
+                    "error-recommended"
+                ],
+            "{names:?}"
+        );
+        assert!(maps[0].most == maps[1].most && maps[2].most == maps[3].most);
+        for map in &maps {
+            assert_eq!([map.image.width, map.image.height], study.part.size);
+            let is_grey = |pixel: &&[f64; 3]| pixel[0] == pixel[1] && pixel[1] == pixel[2];
+            let hatched = map.image.pixels.iter().filter(is_grey).count() as u64;
+            let all = u64::from(study.part.size[0]) * u64::from(study.part.size[1]);
+            assert_eq!(hatched, all - study.part.pixels, "{}", map.name);
+        }
+        let page = study::maps_page(study);
+        assert!(page.contains("grey levels") && page.contains(" and more"));
+        assert_eq!(page.contains("Hatched grey"), study.part.tiles > 0);
+        assert!(study::html(study).contains("Where time goes"));
+    }
+    let read: Study = serde_json::from_str(&study::json(&WHOLE)).unwrap();
+    assert!(
+        study::maps(&read).is_empty(),
+        "a study that was read has no pictures"
+    );
+}
+
 #[test]
 fn advice_names_a_row_and_judges_the_scenes_own() {
     let first = &WHOLE.advice[0];

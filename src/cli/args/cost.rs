@@ -16,7 +16,7 @@ front only if these tiles show that it has less error than cheaper ones.\n\n\
 A scene and its reference are looked at in their own settings: what one takes against the other, and whether their pictures \
 differ by more than noise. Traced paths are coded after they are averaged, which darkens what is noisy: scenes with other numbers of paths \
 differ by that, too.\n\n\
-Examples:\n  rtc cost scene.yaml --html cost.html\n  rtc cost model.glb --effort quick\n  \
+Examples:\n  rtc cost scene.yaml --html cost.html\n  rtc cost scene.yaml --maps maps\n  rtc cost model.glb --effort quick\n  \
 rtc cost new.yaml old.yaml --effort quick --gate 'error<=1.0,time<=1.2x'"
 )]
 pub(in crate::cli) struct Cost {
@@ -37,6 +37,10 @@ pub(in crate::cli) struct Cost {
     /// Also write a page for a browser, with plots and pictures
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) html: Option<PathBuf>,
+    /// Also write maps into this folder, which is made if there is none: PNGs of the size of the picture with the rays
+    /// and the error of each pixel, in the scene's own setting and in the recommended one, and `maps.html` with their scales
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(in crate::cli) maps: Option<PathBuf>,
     /// How much work the study may be
     #[arg(long, value_enum, default_value_t)]
     pub(in crate::cli) effort: EffortArg,

@@ -4,10 +4,10 @@
 use super::super::advice::{digits, interval, seconds};
 use super::super::knob::Knob;
 use super::super::outcome::{BounceCost, Row, Study};
-use super::{chart, picture, table};
+use super::{chart, maps, picture, table};
 use std::fmt::Write;
 
-pub(super) const STYLE: &str = include_str!("page.css");
+const STYLE: &str = include_str!("page.css");
 
 /// The maximum number of rows shown as pictures.
 const PICTURES: usize = 8;
@@ -22,6 +22,7 @@ pub fn html(study: &Study) -> String {
         bounces(study),
         effects(study),
         precision(study),
+        maps::section(study),
         pictures(study),
         fine_print(study),
     ];
@@ -31,12 +32,16 @@ pub fn html(study: &Study) -> String {
         paragraph(&format!("{words} <code>{}</code>", escaped(command)))
     });
     let advice: String = lines.chain(command).collect();
+    let advice = format!("<div class=\"advice\">\n{advice}</div>\n");
+    page(&title, &(advice + &sections.concat()))
+}
+
+/// A page with all it needs within it.
+pub(super) fn page(title: &str, body: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n<div class=\"advice\">\n{advice}</div>\n{}\
-         </body>\n</html>\n",
-        sections.concat()
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n{body}</body>\n</html>\n"
     )
 }
 

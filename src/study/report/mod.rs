@@ -4,6 +4,7 @@
 mod chart;
 mod csv;
 mod html;
+mod maps;
 mod picture;
 mod slider;
 mod table;
@@ -11,6 +12,7 @@ mod versus;
 
 pub use csv::csv;
 pub use html::html;
+pub use maps::maps_page;
 pub use slider::{SliderPage, slider_page, told};
 pub use table::table;
 pub use versus::versus_table;

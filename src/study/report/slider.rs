@@ -2,7 +2,7 @@
 //! what differs in their scenes.
 
 use super::super::difference::{Difference, heat_map};
-use super::html::{STYLE, escaped};
+use super::html::{self, escaped};
 use super::picture::wide;
 use crate::codec::Change;
 use crate::image::Image;
@@ -36,12 +36,7 @@ pub fn slider_page(page: &SliderPage<'_>) -> String {
         numbers(page.difference),
         changed(page),
     ];
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n{}</body>\n</html>\n",
-        sections.concat()
-    )
+    html::page(&title, &sections.concat())
 }
 
 fn slider(page: &SliderPage<'_>, [new, old]: [&str; 2]) -> String {

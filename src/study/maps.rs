@@ -1,0 +1,154 @@
+//! Maps of a picture: how many rays each pixel takes, and how far it is off, in the scene's own
+//! setting and in the recommended one.
+
+use super::advice;
+use super::difference::heat_map;
+use super::metrics::LEVELS;
+use super::outcome::{Row, Study};
+use super::setting::Setting;
+use super::subject::{Stopped, Subject};
+use crate::image::Image;
+
+/// The rays of each pixel of the whole picture in a setting, row by row; 0 where nothing was looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct PixelRays {
+    setting: Setting,
+    rays: Vec<u64>,
+}
+
+/// A map of the whole picture, one pixel for each of its own.
+pub struct StudyMap {
+    /// The name of its file, without ending: as `rays-own`.
+    pub name: String,
+    /// What it shows, in words.
+    pub words: String,
+    /// The unit of its values.
+    pub unit: &'static str,
+    /// The value of the brightest colour; the darkest is 0, and colours between are linear. The same for
+    /// both settings, so that their maps compare.
+    pub most: f64,
+    /// The picture: hatched grey where nothing was looked at.
+    pub image: Image,
+}
+
+/// Counts the rays of each pixel in the settings that are mapped.
+pub(super) fn count(study: &Study, subject: &Subject<'_>) -> Result<Vec<PixelRays>, Stopped> {
+    let count = |(_, row): (_, &Row)| {
+        let setting = row.setting;
+        let rays = subject.rays_of_pixels(setting)?;
+        Ok(PixelRays { setting, rays })
+    };
+    mapped(study).into_iter().map(count).collect()
+}
+
+/// The rows that are mapped, with what they are called.
+fn mapped(study: &Study) -> Vec<(&'static str, &Row)> {
+    let own = study.own().map(|row| ("own", row));
+    let best = advice::recommended(study).filter(|row| !row.own);
+    own.into_iter()
+        .chain(best.map(|row| ("recommended", row)))
+        .collect()
+}
+
+/// The maps of a study that was just made; none of one that was read.
+#[must_use]
+pub fn maps(study: &Study) -> Vec<StudyMap> {
+    let rows = mapped(study);
+    let rays = rows.iter().filter_map(|(_, row)| {
+        let mut mapped = study.mapped.iter();
+        mapped.find(|map| map.setting == row.setting)
+    });
+    let rays: Vec<Vec<f64>> = rays
+        .map(|map| map.rays.iter().map(|rays| *rays as f64).collect())
+        .collect();
+    if rays.is_empty() {
+        return Vec::new();
+    }
+    let errors: Vec<_> = rows.iter().map(|(_, row)| errors(study, row)).collect();
+    let kinds = [
+        ("rays", "Rays of each pixel", "rays", rays),
+        ("error", "Error of each pixel", "grey levels", errors),
+    ];
+    let mut maps = Vec::new();
+    for (kind, title, unit, values) in kinds {
+        let most = upper_limit(study, &values);
+        for ((which, row), values) in rows.iter().zip(values) {
+            let setting = row.setting.words(&study.used());
+            maps.push(StudyMap {
+                name: format!("{kind}-{which}"),
+                words: format!("{title}, {which} setting: {setting}"),
+                unit,
+                most,
+                image: image(study, &values, most),
+            });
+        }
+    }
+    maps
+}
+
+/// The error of each pixel of the picture, the root of the mean square of its channels in grey
+/// levels; 0 where nothing was looked at.
+fn errors(study: &Study, row: &Row) -> Vec<f64> {
+    let [width, height] = study.part.size.map(|side| side as usize);
+    let mut values = vec![0.0; width * height];
+    for ((area, test), truth) in study.areas.iter().zip(&row.tiles).zip(&study.truth) {
+        let pairs = test.pixels.iter().zip(&truth.pixels).enumerate();
+        for (index, (x, r)) in pairs {
+            let (column, line) = (index % test.width as usize, index / test.width as usize);
+            let place = (area.y as usize + line) * width + area.x as usize + column;
+            let squares = x.iter().zip(r).map(|(x, r)| (x - r) * (x - r));
+            values[place] = (squares.sum::<f64>() / 3.0).sqrt() * LEVELS;
+        }
+    }
+    values
+}
+
+/// Whether each pixel was looked at.
+fn seen(study: &Study) -> Vec<bool> {
+    let [width, height] = study.part.size.map(|side| side as usize);
+    let mut seen = vec![false; width * height];
+    for area in &study.areas {
+        for line in area.y..area.y + area.height {
+            let start = line as usize * width + area.x as usize;
+            seen[start..start + area.width as usize].fill(true);
+        }
+    }
+    seen
+}
+
+/// The least of 1, 2, 5, 10 … and of their tenths that 99 % of the pixels of all maps stay below.
+fn upper_limit(study: &Study, maps: &[Vec<f64>]) -> f64 {
+    const FRACTION: f64 = 0.99;
+    let seen = seen(study);
+    let values = maps.iter().flat_map(|map| map.iter().zip(&seen));
+    let mut values: Vec<_> = values
+        .filter(|(_, seen)| **seen)
+        .map(|(value, _)| *value)
+        .collect();
+    values.sort_unstable_by(f64::total_cmp);
+    let place = (FRACTION * values.len() as f64) as usize;
+    let value = values.get(place).or(values.last()).copied().unwrap_or(0.0);
+    let mut unit = 0.01;
+    loop {
+        let steps = [1.0, 2.0, 5.0].map(|step| step * unit);
+        if let Some(step) = steps.into_iter().find(|step| *step >= value) {
+            return step;
+        }
+        unit *= 10.0;
+    }
+}
+
+/// Colours for values from 0 to `most`, hatched grey where nothing was looked at.
+fn image(study: &Study, values: &[f64], most: f64) -> Image {
+    const HATCH: [f64; 2] = [0.35, 0.45];
+    let shares: Vec<_> = values.iter().map(|value| value / most).collect();
+    let mut image = heat_map(study.part.size, &shares);
+    let width = image.width as usize;
+    for (index, seen) in seen(study).into_iter().enumerate() {
+        if !seen {
+            let stripe = (index % width + index / width) / 4 % 2;
+            image.pixels[index] = [HATCH[stripe]; 3];
+        }
+    }
+    image
+}

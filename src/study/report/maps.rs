@@ -1,0 +1,56 @@
+//! Maps of cost and error with their scales: a section of the page, and a page of their own.
+
+use super::super::advice::digits;
+use super::super::difference::heat_map;
+use super::super::maps::{StudyMap, maps};
+use super::super::outcome::Study;
+use super::html::{escaped, page};
+use super::picture::wide;
+use std::fmt::Write;
+
+/// The colours of a scale.
+const STEPS: u32 = 64;
+
+/// The section of the maps; empty if there are none.
+pub(super) fn section(study: &Study) -> String {
+    let maps = maps(study);
+    if maps.is_empty() {
+        return String::new();
+    }
+    let scale: Vec<_> = (0..STEPS)
+        .map(|step| f64::from(step) / f64::from(STEPS - 1))
+        .collect();
+    let bar = wide(&heat_map([STEPS, 1], &scale));
+    let mut figures = String::new();
+    for map in &maps {
+        let StudyMap {
+            words,
+            unit,
+            most,
+            image,
+            name: _,
+        } = map;
+        let (words, most, picture) = (escaped(words), digits(*most), wide(image));
+        let _ = writeln!(
+            figures,
+            "<figure><img alt=\"{words}\" src=\"{picture}\">\n<img class=\"bar\" alt=\"\" src=\"{bar}\">\
+             <div class=\"ends\"><span>0</span><span>{unit}</span><span>{most} and more</span></div>\
+             <figcaption>{words}</figcaption></figure>"
+        );
+    }
+    let hatched = match study.part.tiles {
+        0 => "",
+        _ => " Hatched grey is what was not looked at.",
+    };
+    format!(
+        "<h2>Where time goes, and where the error is</h2>\n<p>The whole picture. Maps of one measure have one scale.{hatched}</p>\n\
+         <div class=\"grid maps\">\n{figures}</div>\n"
+    )
+}
+
+/// The page of the maps alone.
+#[must_use]
+pub fn maps_page(study: &Study) -> String {
+    let title = format!("Maps of cost and error: {}", escaped(&study.about.scene));
+    page(&title, &section(study))
+}
