@@ -38,6 +38,35 @@ fn the_table_fits_a_terminal() {
     }
 }
 
+/// Each column of the table is explained under it and on the page, and what a time buys is a row of the front that
+/// is done in that time.
+#[test]
+fn columns_are_explained_and_times_buy_rows() {
+    for study in [&*WHOLE, &*PART] {
+        let (table, page) = (study::table(study), study::html(study));
+        let lines: Vec<_> = table.lines().collect();
+        let head = lines.iter().position(|line| line.contains("×own")).unwrap();
+        let words = lines[head + 1..].join(" ");
+        for column in lines[head].split_whitespace() {
+            assert!(words.contains(&format!("{column}: ")), "{column}: {table}");
+        }
+        let (_, explained) = page.split_once("<dl>").unwrap();
+        let (explained, _) = explained.split_once("</dl>").unwrap();
+        for name in [
+            "time",
+            "error",
+            "× own",
+            "FLIP",
+            "pixels off",
+            "expected",
+            "largest",
+        ] {
+            assert!(explained.contains(&format!("<dt>{name}</dt>")), "{name}");
+        }
+        assert!(words.contains("in ") && page.contains("<li class=\"at\">in "));
+    }
+}
+
 #[test]
 fn the_page_needs_nobody_else() {
     let page = study::html(&PART);

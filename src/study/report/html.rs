@@ -4,6 +4,7 @@
 use super::super::advice::{digits, interval, seconds};
 use super::super::knob::Knob;
 use super::super::outcome::{BounceCost, Row, Study};
+use super::words::{MEANINGS, bought, buys};
 use super::{chart, maps, picture, table};
 use std::fmt::Write;
 
@@ -18,6 +19,8 @@ pub fn html(study: &Study) -> String {
     let title = format!("What accuracy costs: {}", escaped(&study.about.scene));
     let sections = [
         front(study),
+        legend(&study.used()),
+        times(study),
         knobs(study),
         bounces(study),
         effects(study),
@@ -80,6 +83,45 @@ fn front(study: &Study) -> String {
         chart::front(study),
         "Points are settings as measured, bars their uncertainty, steps the front, hollow points those that the reference \
          is not good enough to judge."
+    )
+}
+
+/// What the columns mean; it opens by mouse and keyboard.
+fn legend(used: &[Knob]) -> String {
+    let knobs = used.iter().map(|knob| (knob.short(), knob.name()));
+    let meanings = MEANINGS.iter().map(|(_, name, meaning)| (*name, *meaning));
+    let entry = |(name, meaning)| {
+        let meaning = escaped(meaning);
+        format!("<dt>{name}</dt><dd>{meaning}</dd>\n")
+    };
+    let entries: String = knobs.chain(meanings).map(entry).collect();
+    format!(
+        "<details>\n<summary>What the columns mean</summary>\n<dl>\n{entries}</dl>\n</details>\n"
+    )
+}
+
+/// What a time buys, with a slider over the times at which it is another row.
+fn times(study: &Study) -> String {
+    let lines: Vec<_> = buys(study)
+        .iter()
+        .map(|what| escaped(&bought(study, what)))
+        .collect();
+    let Some(last) = lines.len().checked_sub(1) else {
+        return String::new();
+    };
+    let items: String = lines
+        .iter()
+        .enumerate()
+        .map(|(place, line)| {
+            let mark = if place == last { " class=\"at\"" } else { "" };
+            format!("<li{mark}>{line}</li>\n")
+        })
+        .collect();
+    format!(
+        "<h2>What a time buys</h2>\n<input type=\"range\" min=\"0\" max=\"{last}\" value=\"{last}\" \
+         aria-label=\"time\" oninput=\"[...this.nextElementSibling.children].forEach((line, place) => \
+         line.classList.toggle('at', place == this.value)); this.setAttribute('aria-valuetext', \
+         this.nextElementSibling.children[this.value].textContent)\">\n<ul class=\"buys\">\n{items}</ul>\n"
     )
 }
 

@@ -9,6 +9,7 @@ mod picture;
 mod slider;
 mod table;
 mod versus;
+mod words;
 
 pub use csv::csv;
 pub use html::html;

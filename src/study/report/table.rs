@@ -4,6 +4,7 @@ use super::super::advice::{digits, seconds};
 use super::super::knob::Knob;
 use super::super::outcome::{BounceCost, KnobReport, MoreBounces, Row, Study};
 use super::super::reference::DepthEnd;
+use super::words::{MEANINGS, bought, buys};
 use std::fmt::Write;
 
 const WIDTH: usize = 80;
@@ -28,6 +29,11 @@ pub fn table(study: &Study) -> String {
     if study.rows.iter().any(|row| row.resumed) {
         text += "† timed, in part at least, before the study was interrupted\n";
     }
+    text += &legend(&used, &columns);
+    text += "\n";
+    for what in buys(study) {
+        text += &wrapped(&bought(study, &what));
+    }
     text += "\n";
     study
         .knobs
@@ -51,6 +57,17 @@ pub fn table(study: &Study) -> String {
         text += &wrapped(&note);
     }
     text
+}
+
+/// What the columns mean that are shown.
+fn legend(used: &[Knob], columns: &[usize]) -> String {
+    let knobs = used
+        .iter()
+        .map(|knob| format!("{}: {}", knob.short(), knob.name()));
+    let is_shown = |name: &str| name == "*" || columns.iter().any(|at| COLUMNS[*at].0 == name);
+    let meanings = MEANINGS.iter().filter(|(name, ..)| is_shown(name));
+    let meanings = meanings.map(|(name, _, meaning)| format!("{name}: {meaning}"));
+    wrapped(&knobs.chain(meanings).collect::<Vec<_>>().join("; "))
 }
 
 /// What more bounces than the scene's own would add.

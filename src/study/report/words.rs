@@ -1,0 +1,84 @@
+//! Words for those who read a report: what each column means, and what a time buys.
+
+use super::super::advice::{digits, interval, seconds};
+use super::super::outcome::{Row, Study};
+
+/// What the columns of the table mean, by their names in the terminal and on the page; knobs explain themselves
+/// by their long names.
+pub(super) const MEANINGS: [(&str, &str, &str); 11] = [
+    ("*", "★", "on the front: nothing as cheap has less error"),
+    ("rays", "rays", "rays of the whole picture"),
+    (
+        "time",
+        "time",
+        "seconds of one processor for the whole picture: the median",
+    ),
+    ("±%", "±", "half its 95 % interval, in %"),
+    (
+        "×own",
+        "× own",
+        "the time over that of the scene's own setting",
+    ),
+    (
+        "error",
+        "error",
+        "root mean square against the reference, in grey levels of 255",
+    ),
+    (
+        "model",
+        "expected",
+        "the error that was expected from each knob alone",
+    ),
+    (
+        ">1lv%",
+        "pixels off",
+        "% of pixels with a channel off by more than one grey level",
+    ),
+    (
+        "FLIP",
+        "FLIP",
+        "how visible the error is when pictures are flipped, from 0 to 1",
+    ),
+    (
+        "tiles%",
+        "(low … high)",
+        "how much less and more the error of the whole picture may be: only tiles were looked at",
+    ),
+    (
+        "",
+        "largest",
+        "the largest error of a channel, in grey levels",
+    ),
+];
+
+/// The row with the least error of those on the front that are done within each time, for times of 1, 2, 5, 10 …:
+/// only those times at which another row is bought.
+pub(super) fn buys(study: &Study) -> Vec<(f64, &Row)> {
+    let front: Vec<_> = study.rows.iter().filter(|row| row.front).collect();
+    let times = (-4..6).flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * power_of_ten(decade)));
+    let mut bought: Vec<(f64, &Row)> = Vec::new();
+    for time in times {
+        let Some(row) = front.iter().rfind(|row| row.seconds.value <= time) else {
+            continue;
+        };
+        if bought
+            .last()
+            .is_none_or(|(_, last)| last.setting != row.setting)
+        {
+            bought.push((time, row));
+        }
+    }
+    bought
+}
+
+fn power_of_ten(decade: i32) -> f64 {
+    crate::math::exp(f64::from(decade) * std::f64::consts::LN_10)
+}
+
+/// As "in 1.00 s: error 0.4 grey levels (4×4, depth 2)".
+pub(super) fn bought(study: &Study, (time, row): &(f64, &Row)) -> String {
+    let limit = if row.judged { "" } else { "≤ " };
+    let (time, error) = (seconds(*time), digits(row.errors.rmse));
+    let (interval, setting) = (interval(&row.errors), row.setting.words(&study.used()));
+    format!("in {time}: error {limit}{error}{interval} grey levels ({setting})")
+}
