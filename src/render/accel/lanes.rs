@@ -7,6 +7,7 @@
 use crate::render::accel::beam::Beam;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x4, f32x8};
+use std::hint::black_box;
 
 /// Children of a node.
 pub(in crate::render::accel) const WIDTH: usize = 8;
@@ -21,20 +22,74 @@ pub(in crate::render::accel) type WideNode = [f32; 64];
 /// Where the links of a node are.
 pub(in crate::render::accel) const LINKS: usize = 6 * WIDTH;
 
-/// A leaf: for each corner and axis the coordinates of four triangles, then their items as the bits
-/// of numbers.
-pub(in crate::render::accel) type WideLeaf = [f32; 40];
+/// What a hierarchy keeps of a triangle: the nine coordinates of its corners, and its item as the bits
+/// of a number. The triangles of a leaf share their rows.
+pub(in crate::render::accel) type TriangleRow = [f32; ITEM + 1];
+
+/// A leaf of one to four triangles: for each corner and axis the coordinates of all of them, then
+/// their items.
+#[derive(Clone, Copy)]
+pub(in crate::render::accel) struct WideLeaf<'rows> {
+    /// As many numbers as four triangles have, so that four can be read wherever one may be: what
+    /// follows those of the leaf belongs to the next ones.
+    numbers: &'rows [f32],
+    count: usize,
+}
+
+impl<'rows> WideLeaf<'rows> {
+    /// The leaf of so many triangles from a row on; three rows at least follow the last leaf.
+    #[inline(always)]
+    pub(in crate::render::accel) fn new(
+        rows: &'rows [TriangleRow],
+        first: usize,
+        count: usize,
+    ) -> Self {
+        let numbers = &rows.as_flattened()[first * (ITEM + 1)..][..TRIANGLES * (ITEM + 1)];
+        Self { numbers, count }
+    }
+
+    /// How many triangles it has.
+    #[inline(always)]
+    pub(in crate::render::accel) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// A number of one of its triangles.
+    #[inline(always)]
+    pub(in crate::render::accel) fn number(&self, place: usize, lane: usize) -> f32 {
+        self.numbers[place * self.count + lane]
+    }
+
+    /// The item of one of its triangles.
+    #[inline(always)]
+    pub(in crate::render::accel) fn item(&self, lane: usize) -> u32 {
+        self.number(ITEM, lane).to_bits()
+    }
+
+    /// A number of all its triangles; what is in lanes beyond them means nothing.
+    #[inline(always)]
+    fn numbers<S: Simd>(&self, simd: S, place: usize) -> f32x4<S> {
+        let at = place * self.count;
+        f32x4::from_slice(simd, &self.numbers[at..at + TRIANGLES])
+    }
+
+    /// Asks for its memory.
+    #[inline(always)]
+    pub(in crate::render::accel) fn touch(&self) {
+        black_box([self.numbers[0], self.numbers[16], self.numbers[32]]);
+    }
+}
 
 /// By how much the far ends of boxes grow: more than the relative errors of both ends.
 pub(in crate::render::accel) const GROWN: f32 = 1.0 + 16.0 * f32::EPSILON;
 
-/// Where the items of a leaf are.
-pub(in crate::render::accel) const ITEMS: usize = 9 * TRIANGLES;
+/// Which of the numbers of a triangle is its item.
+pub(in crate::render::accel) const ITEM: usize = 9;
 
-/// Where a coordinate of a corner of the first triangle of a leaf is.
+/// Which of the numbers of a triangle is a coordinate of a corner.
 #[inline(always)]
 pub(in crate::render::accel) const fn place(corner: usize, axis: usize) -> usize {
-    (3 * corner + axis) * TRIANGLES
+    3 * corner + axis
 }
 
 #[inline(always)]
@@ -171,12 +226,12 @@ impl<S: Simd> TriangleLanes<f32x4<S>> {
     pub(in crate::render::accel) fn judge<const SURE: bool>(
         &self,
         simd: S,
-        leaf: &WideLeaf,
+        leaf: WideLeaf<'_>,
         limits: [f32; 2],
     ) -> LeafVerdict {
         self.verdict::<SURE, S>(
             #[inline(always)]
-            |at: usize| f32x4::from_slice(simd, &leaf[at..at + TRIANGLES]),
+            |place: usize| leaf.numbers(simd, place),
             [f32x4::splat(simd, limits[0]), f32x4::splat(simd, limits[1])],
         )
     }
@@ -206,7 +261,7 @@ impl<V> TriangleLanes<V> {
     }
 
     /// Which lanes may be hits before their limit; if `SURE`, also which surely are before their
-    /// second limit. `coordinate` gives those of the triangles at a place of a leaf.
+    /// second limit. `coordinate` gives those of the triangles at a place.
     ///
     /// The signs of the edge functions are those of exact arithmetic where they exceed a bound on
     /// their error: a triangle with two sure signs that differ is missed, one with three that agree

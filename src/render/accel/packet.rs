@@ -6,7 +6,7 @@
 
 use crate::render::accel::beam::Beam;
 use crate::render::accel::lanes::{
-    GROWN, LeafVerdict, TRIANGLES, TriangleLanes, WIDTH, WideLeaf, WideNode, bits, nearer_ends,
+    GROWN, LeafVerdict, TriangleLanes, WIDTH, WideLeaf, WideNode, bits, nearer_ends,
 };
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
@@ -180,13 +180,13 @@ impl<S: Simd> Packet<S> {
     pub(in crate::render::accel) fn judge<const SURE: bool>(
         &self,
         simd: S,
-        leaf: &WideLeaf,
+        leaf: WideLeaf<'_>,
         lane: usize,
         limits: &[OfRays; 2],
     ) -> LeafVerdict {
         self.triangles.verdict::<SURE, S>(
             #[inline(always)]
-            |at: usize| f32x8::splat(simd, leaf[at + (lane & (TRIANGLES - 1))]),
+            |place: usize| f32x8::splat(simd, leaf.number(place, lane)),
             [
                 f32x8::load_array(simd, limits[0]),
                 f32x8::load_array(simd, limits[1]),

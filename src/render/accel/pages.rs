@@ -18,23 +18,37 @@ pub(in crate::render::accel) enum Pages<T> {
 }
 
 impl<T: Pod> Pages<T> {
-    /// The rows of some lists, one after the other; each list is freed when its rows are copied.
-    pub(in crate::render::accel) fn joined(lists: Vec<Vec<T>>) -> Self {
-        let bytes = lists.iter().map(Vec::len).sum::<usize>() * size_of::<T>();
+    /// So many rows of zeros.
+    pub(in crate::render::accel) fn zeroed(count: usize) -> Self {
+        let bytes = count * size_of::<T>();
         let mapped = (bytes >= WORTH).then(|| MmapOptions::new().len(bytes).map_anon());
-        let Some(Ok(mut map)) = mapped else {
-            return Self::List(lists.into_iter().flatten().collect());
+        let Some(Ok(map)) = mapped else {
+            return Self::List(vec![T::zeroed(); count]);
         };
         // Without huge pages it is slower, and no less right.
         #[cfg(target_os = "linux")]
         let _ = map.advise(memmap2::Advice::HugePage);
-        let mut rest: &mut [T] = bytemuck::cast_slice_mut(&mut map);
+        Self::Mapped(map, PhantomData)
+    }
+
+    /// The rows of some lists, one after the other; each list is freed when its rows are copied.
+    pub(in crate::render::accel) fn joined(lists: Vec<Vec<T>>) -> Self {
+        let mut pages = Self::zeroed(lists.iter().map(Vec::len).sum());
+        let mut rest = pages.rows_mut();
         for list in lists {
             let (here, after) = rest.split_at_mut(list.len());
             here.copy_from_slice(&list);
             rest = after;
         }
-        Self::Mapped(map, PhantomData)
+        pages
+    }
+
+    /// The rows, to be written.
+    pub(in crate::render::accel) fn rows_mut(&mut self) -> &mut [T] {
+        match self {
+            Self::List(list) => list,
+            Self::Mapped(map, _) => bytemuck::cast_slice_mut(map),
+        }
     }
 
     /// The rows.

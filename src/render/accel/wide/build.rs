@@ -8,10 +8,14 @@ use super::split::{BoxedItem, Part};
 use super::{LEAF, NONE, Wide};
 use crate::math::{Bounds, Vec3};
 use crate::render::accel::beam::QuantizationFrame;
-use crate::render::accel::lanes::{ITEMS, LINKS, TRIANGLES, WIDTH, WideLeaf, WideNode, place};
+use crate::render::accel::lanes::{ITEM, LINKS, TRIANGLES, TriangleRow, WIDTH, WideNode, place};
 use crate::render::accel::pages::Pages;
 use crate::render::accel::simd::SimdLevel;
+use arrayvec::ArrayVec;
 use rayon::prelude::*;
+
+/// A link to a leaf counts no more triangles, which would take 21 GB.
+const MOST: u32 = 1 << 29;
 
 /// Parts of so few triangles are built by one thread.
 const ALONE: usize = 4096;
@@ -36,7 +40,7 @@ impl Wide {
         error_bound: f64,
         corners: impl Fn(u32) -> [Vec3; 3] + Sync,
     ) -> Option<Self> {
-        let count = u32::try_from(count).unwrap_or(u32::MAX);
+        let count = u32::try_from(count).unwrap_or(MOST).min(MOST);
         if count == 0 {
             return None;
         }
@@ -51,28 +55,30 @@ impl Wide {
             centers.sum::<Vec3>()
         };
         let frame = QuantizationFrame::around(whole, mean, error_bound);
-        let item = |item| BoxedItem::new(item, frame.rounded_outward(bounds(item)));
-        let mut items: Vec<BoxedItem> = match builders {
-            Builders::One => (0..count).map(item).collect(),
-            Builders::All => all().map(item).collect(),
-        };
+        let item = |item| TriangleRow::of_box(item, frame.rounded_outward(bounds(item)));
+        // Whoever reads a leaf may read as much as four triangles are.
+        let mut triangles = Pages::zeroed(count as usize + TRIANGLES - 1);
+        let rows = &mut triangles.rows_mut()[..count as usize];
+        match builders {
+            Builders::One => rows.iter_mut().zip(0..).for_each(|(row, n)| *row = item(n)),
+            Builders::All => rows
+                .par_iter_mut()
+                .zip(all())
+                .for_each(|(row, n)| *row = item(n)),
+        }
         let leaves = Leaves {
             builders,
             frame,
             corners,
         };
-        let (root, branches) = grow_all(&mut items, &leaves);
-        drop(items);
+        let (root, branches) = grow_all(rows, &leaves);
         let is_exact = branches.iter().all(|branch| branch.is_exact);
-        let (nodes, leaves) = branches
-            .into_iter()
-            .map(|branch| (branch.nodes, branch.leaves))
-            .unzip();
+        let nodes = branches.into_iter().map(|branch| branch.nodes).collect();
         Some(Self {
             simd,
             frame,
             nodes: Pages::joined(nodes),
-            leaves: Pages::joined(leaves),
+            triangles,
             root,
             unit: frame.unit().filter(|_| is_exact),
         })
@@ -87,29 +93,29 @@ struct Leaves<C> {
 }
 
 impl<C: Fn(u32) -> [Vec3; 3]> Leaves<C> {
-    /// The leaf of some items, and whether it holds their corners exactly.
-    fn leaf(&self, items: &[BoxedItem]) -> (WideLeaf, bool) {
-        let (mut leaf, mut is_exact) = ([0.0; ITEMS + TRIANGLES], true);
-        leaf[ITEMS..].fill(f32::from_bits(NONE));
-        for (lane, item) in items.iter().enumerate() {
-            leaf[ITEMS + lane] = f32::from_bits(item.number());
-            for (corner, point) in (self.corners)(item.number()).into_iter().enumerate() {
+    /// Makes some items a leaf where they are; whether it holds their corners exactly.
+    fn fill(&self, items: &mut [TriangleRow]) -> bool {
+        let numbers: ArrayVec<u32, TRIANGLES> = items.iter().map(BoxedItem::number).collect();
+        let leaf = items.as_flattened_mut();
+        let mut is_exact = true;
+        for (lane, number) in numbers.iter().enumerate() {
+            leaf[ITEM * numbers.len() + lane] = f32::from_bits(*number);
+            for (corner, point) in (self.corners)(*number).into_iter().enumerate() {
                 let rounded = self.frame.enter(point).as_vec3();
                 let exact = self.frame.unit().map(|unit| rounded.as_dvec3() * unit);
                 is_exact &= exact == Some(point);
-                for (axis, number) in rounded.to_array().into_iter().enumerate() {
-                    leaf[place(corner, axis) + lane] = number;
+                for (axis, coordinate) in rounded.to_array().into_iter().enumerate() {
+                    leaf[place(corner, axis) * numbers.len() + lane] = coordinate;
                 }
             }
         }
-        (leaf, is_exact)
+        is_exact
     }
 }
 
-/// Nodes and leaves that lead to each other.
+/// Nodes that lead to each other and to leaves.
 struct Branch {
     nodes: Vec<WideNode>,
-    leaves: Vec<WideLeaf>,
     is_exact: bool,
 }
 
@@ -121,15 +127,15 @@ struct LeftPart<'items> {
     lane: usize,
 }
 
-/// The link to the root, and all branches: links count the nodes and the leaves of all, in order.
+/// The link to the root, and all branches: links count the nodes of all, in order.
 fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
-    items: &mut [BoxedItem],
+    items: &mut [TriangleRow],
     leaves: &Leaves<C>,
 ) -> (u32, Vec<Branch>) {
     let alone = ALONE.max(items.len() / 64);
     let mut top = Branch::new();
     let mut left = Vec::new();
-    let root = top.grow(Part::of(items), 0, leaves, &mut |part| {
+    let root = top.grow(Part::of(0, items), 0, leaves, &mut |part| {
         let is_small = part.part.items.len() <= alone;
         if is_small {
             left.push(part);
@@ -146,12 +152,12 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
         Builders::One => left.into_iter().map(grow).collect(),
         Builders::All => left.into_par_iter().map(grow).collect(),
     };
-    let (mut nodes, mut leaves) = (top.nodes.len(), top.leaves.len());
+    let mut nodes = top.nodes.len();
     let mut branches = Vec::with_capacity(grown.len() + 1);
     for (node, lane, link, mut branch) in grown {
         let moved = |link: u32| match link & LEAF {
             0 => link + to_u32(nodes),
-            _ => link + (to_u32(leaves) << 2),
+            _ => link,
         };
         top.nodes[node][LINKS + lane] = f32::from_bits(moved(link));
         for link in branch
@@ -162,7 +168,6 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
             *link = f32::from_bits(moved(link.to_bits()));
         }
         nodes += branch.nodes.len();
-        leaves += branch.leaves.len();
         branches.push(branch);
     }
     branches.insert(0, top);
@@ -173,7 +178,6 @@ impl Branch {
     fn new() -> Self {
         Self {
             nodes: Vec::new(),
-            leaves: Vec::new(),
             is_exact: true,
         }
     }
@@ -188,10 +192,8 @@ impl Branch {
         take: &mut impl FnMut(LeftPart<'items>) -> Option<LeftPart<'items>>,
     ) -> u32 {
         if part.items.len() <= TRIANGLES {
-            let (leaf, is_exact) = leaves.leaf(part.items);
-            self.leaves.push(leaf);
-            self.is_exact &= is_exact;
-            return LEAF | to_u32(self.leaves.len() - 1) << 2 | to_u32(part.items.len() - 1);
+            self.is_exact &= leaves.fill(part.items);
+            return LEAF | to_u32(part.first) << 2 | to_u32(part.items.len() - 1);
         }
         let children = part.into_children(leaves.builders, depth);
         let here = self.nodes.len();
@@ -224,7 +226,7 @@ fn node(children: &[Part<'_>]) -> WideNode {
             node[2 * WIDTH * axis + WIDTH + lane] = high;
         }
     }
-    node[LINKS..][..WIDTH].fill(f32::from_bits(LEAF));
+    node[LINKS..][..WIDTH].fill(f32::from_bits(NONE));
     node
 }
 

@@ -10,7 +10,7 @@ mod walk;
 
 use crate::math::Vec3;
 use crate::render::accel::beam::QuantizationFrame;
-use crate::render::accel::lanes::{ITEMS, TRIANGLES, WIDTH, WideLeaf, WideNode, place};
+use crate::render::accel::lanes::{TRIANGLES, TriangleRow, WIDTH, WideLeaf, WideNode, place};
 use crate::render::accel::pages::Pages;
 use crate::render::accel::simd::SimdLevel;
 use arrayvec::ArrayVec;
@@ -25,10 +25,10 @@ const HEURISTIC_DEPTH: usize = 16;
 type TraversalStack = ArrayVec<(f32, u32), { (HEURISTIC_DEPTH + 12) * (WIDTH - 1) + 1 }>;
 
 /// The bit of a link that leads to a leaf; the two lowest are then one less than the triangles in
-/// it.
+/// it, those between are its first row.
 const LEAF: u32 = 1 << 31;
 
-/// Where a leaf has no triangle.
+/// The link to a child that is not there.
 const NONE: u32 = u32::MAX;
 
 /// The hierarchy.
@@ -37,7 +37,8 @@ pub(in crate::render) struct Wide {
     simd: SimdLevel,
     frame: QuantizationFrame,
     nodes: Pages<WideNode>,
-    leaves: Pages<WideLeaf>,
+    /// Those of a leaf side by side.
+    triangles: Pages<TriangleRow>,
     root: u32,
     /// What 1 of the cube is in space, if leaves hold all corners exactly.
     unit: Option<f64>,
@@ -55,7 +56,7 @@ impl Wide {
 pub(in crate::render) struct Candidate<'walk> {
     /// Its number.
     pub(in crate::render) item: u32,
-    leaf: &'walk WideLeaf,
+    leaf: WideLeaf<'walk>,
     lane: usize,
     unit: Option<f64>,
 }
@@ -65,17 +66,18 @@ impl Candidate<'_> {
     #[inline(always)]
     pub(in crate::render) fn corners(&self) -> Option<[Vec3; 3]> {
         let unit = self.unit?;
-        let lane = self.lane & (TRIANGLES - 1);
-        let number = |corner, axis| f64::from(self.leaf[place(corner, axis) + lane]) * unit;
+        let number =
+            |corner, axis| f64::from(self.leaf.number(place(corner, axis), self.lane)) * unit;
         let point = |corner| Vec3::new(number(corner, 0), number(corner, 1), number(corner, 2));
         Some([point(0), point(1), point(2)])
     }
 }
 
-/// The item of a lane of a leaf.
+/// The leaf that a link leads to.
 #[inline(always)]
-fn item(leaf: &WideLeaf, lane: usize) -> u32 {
-    leaf[ITEMS + (lane & (TRIANGLES - 1))].to_bits()
+fn leaf_at(rows: &[TriangleRow], link: u32) -> WideLeaf<'_> {
+    let (first, less) = ((link & !LEAF) >> 2, link & (TRIANGLES as u32 - 1));
+    WideLeaf::new(rows, first as usize, less as usize + 1)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 
 use super::{Builders, HEURISTIC_DEPTH};
 use crate::math::Lanes;
-use crate::render::accel::lanes::{TRIANGLES, WIDTH};
+use crate::render::accel::lanes::{TRIANGLES, TriangleRow, WIDTH};
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
@@ -19,32 +19,46 @@ fn bins_of(count: usize) -> usize {
     (4 + count / 4).min(BINS)
 }
 
-/// The box of a triangle in the cube, and its number as the bits of the fourth lane of `min`.
-#[derive(Clone, Copy)]
-pub(super) struct BoxedItem {
-    min: Lanes,
-    max: Lanes,
-}
-
-impl BoxedItem {
+/// The box of a triangle in the cube, and its number: in the row that the triangle has later, so that
+/// building takes no memory of its own.
+pub(super) trait BoxedItem {
     /// Of a number and the lowest and the highest corner of its box.
-    pub(super) fn new(number: u32, [min, max]: [[f32; 3]; 2]) -> Self {
-        let lanes = |[x, y, z]: [f32; 3], w: f32| Lanes::new(x, y, z, w);
-        Self {
-            min: lanes(min, f32::from_bits(number)),
-            max: lanes(max, 0.0),
-        }
-    }
+    fn of_box(number: u32, ends: [[f32; 3]; 2]) -> Self;
 
     /// Its number.
-    pub(super) fn number(&self) -> u32 {
-        self.min.w.to_bits()
-    }
+    fn number(&self) -> u32;
+
+    /// The lowest corner of its box; the fourth lane means nothing.
+    fn low(&self) -> Lanes;
+
+    /// The highest one.
+    fn high(&self) -> Lanes;
 
     /// Twice its centre.
     #[inline(always)]
     fn center(&self) -> Lanes {
-        self.min + self.max
+        self.low() + self.high()
+    }
+}
+
+impl BoxedItem for TriangleRow {
+    fn of_box(number: u32, [[a, b, c], [d, e, f]]: [[f32; 3]; 2]) -> Self {
+        [a, b, c, f32::from_bits(number), d, e, f, 0.0, 0.0, 0.0]
+    }
+
+    #[inline(always)]
+    fn number(&self) -> u32 {
+        self[3].to_bits()
+    }
+
+    #[inline(always)]
+    fn low(&self) -> Lanes {
+        Lanes::from_slice(&self[..4])
+    }
+
+    #[inline(always)]
+    fn high(&self) -> Lanes {
+        Lanes::from_slice(&self[4..8])
     }
 }
 
@@ -74,9 +88,10 @@ impl LaneBox {
     }
 }
 
-/// Some items side by side, the box around them, and that around twice their centres.
+/// Some items side by side from a row on, the box around them, and that around twice their centres.
 pub(super) struct Part<'items> {
-    pub(super) items: &'items mut [BoxedItem],
+    pub(super) first: usize,
+    pub(super) items: &'items mut [TriangleRow],
     bounds: LaneBox,
     centers: LaneBox,
 }
@@ -95,14 +110,15 @@ struct Border {
 type Bins = ArrayVec<[(LaneBox, u32); 3], BINS>;
 
 impl<'items> Part<'items> {
-    /// All of some items.
-    pub(super) fn of(items: &'items mut [BoxedItem]) -> Self {
+    /// All of some items, of which the first is in this row.
+    pub(super) fn of(first: usize, items: &'items mut [TriangleRow]) -> Self {
         let (mut bounds, mut centers) = (LaneBox::EMPTY, LaneBox::EMPTY);
         for item in items.iter() {
-            bounds.add(item.min, item.max);
+            bounds.add(item.low(), item.high());
             centers.add(item.center(), item.center());
         }
         Self {
+            first,
             items,
             bounds,
             centers,
@@ -145,7 +161,7 @@ impl<'items> Part<'items> {
         let size = self.centers.max - self.centers.min;
         let count = bins_of(self.items.len());
         let scale = Lanes::splat(count as f32 * 0.9999) / size.max(Lanes::splat(1e-30));
-        let bins = |item: &BoxedItem| (item.center() - self.centers.min) * scale;
+        let bins = |item: &TriangleRow| (item.center() - self.centers.min) * scale;
         let border = if by_heuristic {
             cheapest_border(&self.fill(builders, count, &bins), size)
         } else {
@@ -162,7 +178,7 @@ impl<'items> Part<'items> {
         &self,
         builders: Builders,
         count: usize,
-        place: &(impl Fn(&BoxedItem) -> Lanes + Sync),
+        place: &(impl Fn(&TriangleRow) -> Lanes + Sync),
     ) -> Bins {
         if builders == Builders::One || self.items.len() <= 2 * CHUNK {
             return filled(self.items, count, place);
@@ -177,7 +193,7 @@ impl<'items> Part<'items> {
     fn parted(self, border: &Border, scale: Lanes) -> [Self; 2] {
         let (axis, origin) = (border.axis, self.centers.min[border.axis]);
         let is_below =
-            |item: &BoxedItem| bin((item.center()[axis] - origin) * scale[axis]) < border.bin;
+            |item: &TriangleRow| bin((item.center()[axis] - origin) * scale[axis]) < border.bin;
         let mut centers = [LaneBox::EMPTY; 2];
         let (mut next, mut end) = (0, self.items.len());
         while next < end {
@@ -193,6 +209,7 @@ impl<'items> Part<'items> {
         }
         let (below, above) = self.items.split_at_mut(next);
         let part = |items, side: usize| Self {
+            first: self.first + side * next,
             items,
             bounds: border.sides[side],
             centers: centers[side],
@@ -210,7 +227,10 @@ impl<'items> Part<'items> {
             order.then(a.number().cmp(&b.number()))
         });
         let (first, second) = self.items.split_at_mut(middle);
-        [Self::of(first), Self::of(second)]
+        [
+            Self::of(self.first, first),
+            Self::of(self.first + middle, second),
+        ]
     }
 }
 
@@ -226,13 +246,13 @@ fn empty_bins(count: usize) -> Bins {
 
 /// The bins of some items.
 #[inline(always)]
-fn filled(items: &[BoxedItem], count: usize, place: &impl Fn(&BoxedItem) -> Lanes) -> Bins {
+fn filled(items: &[TriangleRow], count: usize, place: &impl Fn(&TriangleRow) -> Lanes) -> Bins {
     let mut bins = empty_bins(count);
     for item in items {
         let places = place(item).to_array();
         for (axis, place) in places.into_iter().take(3).enumerate() {
             let (bounds, count) = &mut bins[bin(place)][axis];
-            bounds.add(item.min, item.max);
+            bounds.add(item.low(), item.high());
             *count += 1;
         }
     }

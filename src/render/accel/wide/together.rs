@@ -2,7 +2,7 @@
 //! once for eight of them.
 
 use super::walk::{Visitor, lanes_of};
-use super::{Candidate, LEAF, TraversalStack, Wide, item};
+use super::{Candidate, LEAF, TraversalStack, Wide, leaf_at};
 use crate::render::accel::beam::{Beam, NoBeam};
 use crate::render::accel::lanes::{LINKS, WIDTH};
 use crate::render::accel::packet::{Packet, RAYS};
@@ -170,8 +170,8 @@ impl<S: Simd, V: Visitor> Together<'_, '_, S, V> {
 
     #[inline(always)]
     fn visit_leaf(&mut self, simd: S, link: u32) {
-        let leaf = &self.wide.leaves.rows()[((link & !LEAF) >> 2) as usize];
-        for lane in 0..=(link & 3) as usize {
+        let leaf = leaf_at(self.wide.triangles.rows(), link);
+        for lane in 0..leaf.count() {
             let verdict = if V::IS_SURE {
                 self.packet.judge::<true>(simd, leaf, lane, &self.limits)
             } else {
@@ -181,7 +181,7 @@ impl<S: Simd, V: Visitor> Together<'_, '_, S, V> {
                 continue;
             }
             let candidate = Candidate {
-                item: item(leaf, lane),
+                item: leaf.item(lane),
                 leaf,
                 lane,
                 unit: self.wide.unit,

@@ -1,10 +1,10 @@
 //! How rays go through a hierarchy: one by one, or several by turns, so that while the memory that
 //! one waits for is fetched the others go on.
 
-use super::{Candidate, LEAF, NONE, TraversalStack, Wide, item};
+use super::{Candidate, LEAF, NONE, TraversalStack, Wide, leaf_at};
 use crate::render::accel::beam::Beam;
 use crate::render::accel::lanes::{
-    BoxLanes, LINKS, LeafVerdict, TRIANGLES, TriangleLanes, WIDTH, WideLeaf, WideNode,
+    BoxLanes, LINKS, LeafVerdict, TriangleLanes, TriangleRow, WIDTH, WideNode,
 };
 use crate::render::accel::simd::at_level;
 use crate::render::ray::Ray;
@@ -17,7 +17,7 @@ const TURNS: usize = 4;
 /// Where a ray is in the hierarchy.
 struct Traversal<'walk, S: Simd> {
     nodes: &'walk [WideNode],
-    leaves: &'walk [WideLeaf],
+    rows: &'walk [TriangleRow],
     unit: Option<f64>,
     beam: Beam,
     boxes: BoxLanes<S>,
@@ -129,7 +129,7 @@ impl Wide {
     fn start<S: Simd, V: Visitor>(&self, simd: S, beam: Beam, t_max: f64) -> Traversal<'_, S> {
         Traversal {
             nodes: self.nodes.rows(),
-            leaves: self.leaves.rows(),
+            rows: self.triangles.rows(),
             unit: self.unit,
             boxes: BoxLanes::new(simd, &beam),
             triangles: TriangleLanes::new(simd, &beam),
@@ -150,12 +150,15 @@ impl Wide {
     #[inline(never)]
     pub(super) fn visit_all(&self, visitor: &mut impl Visitor) {
         let unit = self.unit;
-        let all = self.leaves.rows().iter();
-        for (leaf, lane) in all.flat_map(|leaf| (0..TRIANGLES).map(move |lane| (leaf, lane))) {
-            let item = item(leaf, lane);
-            if item == NONE {
-                continue;
-            }
+        let nodes = self.nodes.rows().iter();
+        let links = nodes.flat_map(|node| node[LINKS..].iter().map(|link| link.to_bits()));
+        let links = links.chain([self.root]);
+        let leaves = links
+            .filter(|link| link & LEAF != 0 && *link != NONE)
+            .map(|link| leaf_at(self.triangles.rows(), link));
+        for (leaf, lane) in leaves.flat_map(|leaf| (0..leaf.count()).map(move |lane| (leaf, lane)))
+        {
+            let item = leaf.item(lane);
             let t_max = visitor.visit(Candidate {
                 item,
                 leaf,
@@ -195,7 +198,7 @@ impl<S: Simd> Traversal<'_, S> {
 
     #[inline(always)]
     fn visit_leaf<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> Step {
-        let leaf = &self.leaves[((self.link & !LEAF) >> 2) as usize];
+        let leaf = leaf_at(self.rows, self.link);
         let all = 0b1111 >> (3 - (self.link & 3));
         let verdict = match (V::CULLS, V::IS_SURE) {
             (false, _) => LeafVerdict { may: all, sure: 0 },
@@ -206,13 +209,13 @@ impl<S: Simd> Traversal<'_, S> {
             }
         };
         for lane in lanes_of(verdict.sure & all) {
-            if visitor.is_settled_by(item(leaf, lane)) {
+            if visitor.is_settled_by(leaf.item(lane)) {
                 return Step::Ends;
             }
         }
         let mut t_max = None;
         for lane in lanes_of(verdict.may & all) {
-            let item = item(leaf, lane);
+            let item = leaf.item(lane);
             let unit = self.unit;
             let end = visitor.visit(Candidate {
                 item,
@@ -238,8 +241,7 @@ impl<S: Simd> Traversal<'_, S> {
             let node = &self.nodes[self.link as usize];
             black_box([node[0], node[16], node[32], node[48]]);
         } else {
-            let leaf = &self.leaves[((self.link & !LEAF) >> 2) as usize];
-            black_box([leaf[0], leaf[16], leaf[32]]);
+            leaf_at(self.rows, self.link).touch();
         }
     }
 }
