@@ -26,25 +26,31 @@ pub(in crate::render::accel) const LINKS: usize = 6 * WIDTH;
 /// of a number. The triangles of a leaf share their rows.
 pub(in crate::render::accel) type TriangleRow = [f32; ITEM + 1];
 
+/// So many rows at least follow the first row of each leaf.
+pub(in crate::render::accel) const ROWS_AFTER: usize = 6;
+
+/// So many numbers are seen of a leaf at most.
+const SEEN: usize = 64;
+
 /// A leaf of one to four triangles: for each corner and axis the coordinates of all of them, then
 /// their items.
 #[derive(Clone, Copy)]
 pub(in crate::render::accel) struct WideLeaf<'rows> {
-    /// As many numbers as four triangles have, so that four can be read wherever one may be: what
-    /// follows those of the leaf belongs to the next ones.
+    /// Its numbers, and some of the leaves after it: so four can be read wherever one may be, and no
+    /// place needs to be checked.
     numbers: &'rows [f32],
     count: usize,
 }
 
 impl<'rows> WideLeaf<'rows> {
-    /// The leaf of so many triangles from a row on; three rows at least follow the last leaf.
+    /// The leaf of so many triangles from a row on.
     #[inline(always)]
     pub(in crate::render::accel) fn new(
         rows: &'rows [TriangleRow],
         first: usize,
         count: usize,
     ) -> Self {
-        let numbers = &rows.as_flattened()[first * (ITEM + 1)..][..TRIANGLES * (ITEM + 1)];
+        let numbers = rows[first..][..=ROWS_AFTER].as_flattened();
         Self { numbers, count }
     }
 
@@ -57,7 +63,7 @@ impl<'rows> WideLeaf<'rows> {
     /// A number of one of its triangles.
     #[inline(always)]
     pub(in crate::render::accel) fn number(&self, place: usize, lane: usize) -> f32 {
-        self.numbers[place * self.count + lane]
+        self.numbers[(place * self.count + lane) & (SEEN - 1)]
     }
 
     /// The item of one of its triangles.
@@ -69,7 +75,7 @@ impl<'rows> WideLeaf<'rows> {
     /// A number of all its triangles; what is in lanes beyond them means nothing.
     #[inline(always)]
     fn numbers<S: Simd>(&self, simd: S, place: usize) -> f32x4<S> {
-        let at = place * self.count;
+        let at = (place * self.count) & (SEEN - 1);
         f32x4::from_slice(simd, &self.numbers[at..at + TRIANGLES])
     }
 

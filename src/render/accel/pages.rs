@@ -8,6 +8,9 @@ use std::marker::PhantomData;
 /// Lists of so many bytes are worth pages of their own: twice the size of a huge page.
 const WORTH: usize = 1 << 22;
 
+/// Lists of so many bytes are worth giving back at once: the allocator would keep them.
+const RETURNED: usize = 1 << 18;
+
 /// A list of rows of numbers.
 #[derive(Debug)]
 pub(in crate::render::accel) enum Pages<T> {
@@ -20,24 +23,39 @@ pub(in crate::render::accel) enum Pages<T> {
 impl<T: Pod> Pages<T> {
     /// So many rows of zeros.
     pub(in crate::render::accel) fn zeroed(count: usize) -> Self {
-        let bytes = count * size_of::<T>();
-        let mapped = (bytes >= WORTH).then(|| MmapOptions::new().len(bytes).map_anon());
-        let Some(Ok(map)) = mapped else {
-            return Self::List(vec![T::zeroed(); count]);
-        };
+        let pages = Self::mapped_from(WORTH, count);
         // Without huge pages it is slower, and no less right.
         #[cfg(target_os = "linux")]
-        let _ = map.advise(memmap2::Advice::HugePage);
-        Self::Mapped(map, PhantomData)
+        if let Self::Mapped(map, _) = &pages {
+            let _ = map.advise(memmap2::Advice::HugePage);
+        }
+        pages
+    }
+
+    /// So many rows of zeros, in memory asked of the system if there are so many bytes.
+    fn mapped_from(bytes: usize, count: usize) -> Self {
+        let length = count * size_of::<T>();
+        let map = (length >= bytes).then(|| MmapOptions::new().len(length).map_anon());
+        match map {
+            Some(Ok(map)) => Self::Mapped(map, PhantomData),
+            Some(Err(_)) | None => Self::List(vec![T::zeroed(); count]),
+        }
+    }
+
+    /// The rows of a list, in memory that the system has back when they are dropped.
+    pub(in crate::render::accel) fn put_aside(list: &[T]) -> Self {
+        let mut pages = Self::mapped_from(RETURNED, list.len());
+        pages.rows_mut().copy_from_slice(list);
+        pages
     }
 
     /// The rows of some lists, one after the other; each list is freed when its rows are copied.
-    pub(in crate::render::accel) fn joined(lists: Vec<Vec<T>>) -> Self {
-        let mut pages = Self::zeroed(lists.iter().map(Vec::len).sum());
+    pub(in crate::render::accel) fn joined(lists: Vec<Self>) -> Self {
+        let mut pages = Self::zeroed(lists.iter().map(|list| list.rows().len()).sum());
         let mut rest = pages.rows_mut();
         for list in lists {
-            let (here, after) = rest.split_at_mut(list.len());
-            here.copy_from_slice(&list);
+            let (here, after) = rest.split_at_mut(list.rows().len());
+            here.copy_from_slice(list.rows());
             rest = after;
         }
         pages
@@ -74,7 +92,8 @@ mod tests {
                 .to_vec()
         };
         for rows in [0, 7, WORTH / 256 + 1] {
-            let pages = Pages::joined(lists(rows));
+            let aside = lists(rows).into_iter().map(|list| Pages::put_aside(&list));
+            let pages = Pages::joined(aside.collect());
             assert_eq!(pages.rows(), lists(rows).concat());
             assert_eq!(matches!(pages, Pages::Mapped(..)), rows > 7);
         }

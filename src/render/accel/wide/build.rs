@@ -8,7 +8,9 @@ use super::split::{BoxedItem, Part};
 use super::{LEAF, NONE, Wide};
 use crate::math::{Bounds, Vec3};
 use crate::render::accel::beam::QuantizationFrame;
-use crate::render::accel::lanes::{ITEM, LINKS, TRIANGLES, TriangleRow, WIDTH, WideNode, place};
+use crate::render::accel::lanes::{
+    ITEM, LINKS, ROWS_AFTER, TRIANGLES, TriangleRow, WIDTH, WideNode, place,
+};
 use crate::render::accel::pages::Pages;
 use crate::render::accel::simd::SimdLevel;
 use arrayvec::ArrayVec;
@@ -56,8 +58,7 @@ impl Wide {
         };
         let frame = QuantizationFrame::around(whole, mean, error_bound);
         let item = |item| TriangleRow::of_box(item, frame.rounded_outward(bounds(item)));
-        // Whoever reads a leaf may read as much as four triangles are.
-        let mut triangles = Pages::zeroed(count as usize + TRIANGLES - 1);
+        let mut triangles = Pages::zeroed(count as usize + ROWS_AFTER);
         let rows = &mut triangles.rows_mut()[..count as usize];
         match builders {
             Builders::One => rows.iter_mut().zip(0..).for_each(|(row, n)| *row = item(n)),
@@ -119,6 +120,12 @@ struct Branch {
     is_exact: bool,
 }
 
+/// A branch that is done.
+struct GrownBranch {
+    nodes: Pages<WideNode>,
+    is_exact: bool,
+}
+
 /// A part that is left for later, and where the link to it goes.
 struct LeftPart<'items> {
     part: Part<'items>,
@@ -131,7 +138,7 @@ struct LeftPart<'items> {
 fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
     items: &mut [TriangleRow],
     leaves: &Leaves<C>,
-) -> (u32, Vec<Branch>) {
+) -> (u32, Vec<GrownBranch>) {
     let alone = ALONE.max(items.len() / 64);
     let mut top = Branch::new();
     let mut left = Vec::new();
@@ -146,7 +153,7 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
     let grow = |left: LeftPart<'_>| {
         let mut branch = Branch::new();
         let link = branch.grow(left.part, left.depth, leaves, &mut Some);
-        (left.node, left.lane, link, branch)
+        (left.node, left.lane, link, branch.grown())
     };
     let grown: Vec<_> = match leaves.builders {
         Builders::One => left.into_iter().map(grow).collect(),
@@ -160,17 +167,14 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
             _ => link,
         };
         top.nodes[node][LINKS + lane] = f32::from_bits(moved(link));
-        for link in branch
-            .nodes
-            .iter_mut()
-            .flat_map(|node| &mut node[LINKS..][..WIDTH])
-        {
+        let rows = branch.nodes.rows_mut();
+        for link in rows.iter_mut().flat_map(|node| &mut node[LINKS..][..WIDTH]) {
             *link = f32::from_bits(moved(link.to_bits()));
         }
-        nodes += branch.nodes.len();
+        nodes += rows.len();
         branches.push(branch);
     }
-    branches.insert(0, top);
+    branches.insert(0, top.grown());
     (root, branches)
 }
 
@@ -179,6 +183,13 @@ impl Branch {
         Self {
             nodes: Vec::new(),
             is_exact: true,
+        }
+    }
+
+    fn grown(self) -> GrownBranch {
+        GrownBranch {
+            nodes: Pages::put_aside(&self.nodes),
+            is_exact: self.is_exact,
         }
     }
 

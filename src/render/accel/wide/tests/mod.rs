@@ -333,6 +333,26 @@ fn a_hierarchy_built_amid_the_work_of_all_threads_ends() {
     assert_eq!(asked.count(), 64);
 }
 
+/// A triangle takes its row of 40 bytes, and its share of the nodes.
+#[test]
+fn a_triangle_of_a_surface_takes_few_bytes() {
+    const SIDE: u32 = 100;
+    let corners = |item: u32| {
+        let (row, column, half) = (item / 2 / SIDE, item / 2 % SIDE, item % 2);
+        let corner = |across: u32, down: u32| {
+            let (x, y) = (f64::from(column + across), f64::from(row + down));
+            Vec3::new(x, y, f64::from((column + across) * (row + down) % 7) * 0.1)
+        };
+        [corner(half, half), corner(1, 0), corner(0, 1)]
+    };
+    let count = 2 * (SIDE * SIDE) as usize;
+    let wide = Wide::build(Builders::One, SimdLevel::best(), count, 0.0, corners).unwrap();
+    let bytes = size_of_val(wide.triangles.rows()) + size_of_val(wide.nodes.rows());
+    let each = bytes as f64 / count as f64;
+    println!("{each:.1} bytes a triangle");
+    assert!(each < 60.0, "{each}");
+}
+
 /// Equal boxes leave the heuristic nothing to choose by.
 #[test]
 fn equal_triangles_build_a_hierarchy_that_ends() {
