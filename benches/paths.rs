@@ -1,5 +1,6 @@
-//! A picture of a set-up by paths, on one thread: `paths SETUP.json SAMPLES SEED OUT` writes its
-//! pixels to OUT, row by row, three little-endian f32 each, linear. Another seed is another noise.
+//! A picture of a set-up (`.json`) or of a scene by paths, on one thread: `paths FILE SAMPLES SEED
+//! OUT` writes its pixels to OUT, row by row, three little-endian f32 each, linear. Another seed is
+//! another noise.
 //!
 //! One line of JSON comes out: triangles, camera samples, seconds of the clock and CPU-seconds of
 //! rendering, without what is prepared before; CPU-seconds of the process; its peak of memory in MB.
@@ -14,6 +15,7 @@
 mod setup;
 
 use cpu_time::ProcessTime;
+use rtc::internals::ir::{Lowered, Mode};
 use rtc::internals::pipeline::Renderer;
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Film, Job, Seeds, Values};
@@ -25,9 +27,9 @@ use std::time::Instant;
 fn main() {
     let arguments: Vec<_> = std::env::args().skip(1).collect();
     let [path, samples, seed, out] = &arguments[..] else {
-        panic!("usage: paths SETUP.json SAMPLES SEED OUT");
+        panic!("usage: paths FILE SAMPLES SEED OUT");
     };
-    let lowered = setup::load_set_up(Path::new(path), samples.parse().unwrap());
+    let lowered = load(Path::new(path), samples.parse().unwrap());
     let proof = setup::prove(&lowered);
     let seed = seed.parse().unwrap();
     let job = Job {
@@ -53,6 +55,18 @@ fn main() {
         "peak_mb": peak(),
     });
     println!("{row}");
+}
+
+/// The scene of a set-up, or of any other file whose paths are traced, with so many paths a pixel.
+fn load(path: &Path, samples: u32) -> Lowered {
+    if path.extension().is_some_and(|ending| ending == "json") {
+        return setup::load_set_up(path, samples);
+    }
+    let mut lowered = setup::load(path);
+    if let Mode::Path(paths) = &mut lowered.scene.settings.mode {
+        paths.samples = samples;
+    }
+    lowered
 }
 
 #[expect(

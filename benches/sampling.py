@@ -1,0 +1,115 @@
+"""Equal-time table of two programs `paths`: BEFORE AFTER ASSETS ENVIRONMENTS.
+
+Each scene is compiled by RTC (environment variable) at SIDE x SIDE pixels. A reference of many paths and
+another seed comes from BEFORE, once. The error is relMSE: the mean of (x - r)^2 / (r^2 + 0.01) over pixels and
+channels. Time is CPU time of sampling alone, of turns by each in turn; efficiency is 1 / (relMSE x time).
+"""
+
+import array
+import json
+import math
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).parent
+SIDE = int(os.environ.get("SIDE", 96))
+SAMPLES = int(os.environ.get("SAMPLES", 16))
+REFERENCE = int(os.environ.get("REFERENCE", 2048))
+TURNS = int(os.environ.get("TURNS", 5))
+RTC = os.environ["RTC"]
+WORK = pathlib.Path(os.environ.get("WORK", HERE.parent / "target" / "sampling"))
+
+
+def scenes(assets, environments):
+    """Name, file and options of each scene."""
+    def at(name):
+        return pathlib.Path(assets) / name
+    sun = pathlib.Path(environments) / "royal_esplanade_256.hdr"
+    rows = [
+        ("FlightHelmet", at("FlightHelmet/FlightHelmet.gltf"), []),
+        ("MetalRoughGrid", at("own_MetalRoughGrid.glb"), []),
+        ("TransmissionRoughnessTest", at("TransmissionRoughnessTest.glb"), []),
+        ("CornellLambert", at("own_CornellLambert.glb"), []),
+        ("GlassSphere", at("own_GlassSphere.glb"), []),
+        ("ClearCoatTest", at("ClearCoatTest.glb"), []),
+        ("SheenCloth", at("SheenCloth.glb"), []),
+        ("vases", HERE.parent / "scenes" / "vases.yaml", ["--integrator", "path"]),
+        ("FlightHelmet, sky image", at("FlightHelmet/FlightHelmet.gltf"), ["--env", sun]),
+        ("MetalRoughGrid, sky image", at("own_MetalRoughGrid.glb"), ["--env", sun]),
+    ]
+    wanted = os.environ.get("ONLY", "").split(";")
+    return [row for row in rows if wanted == [""] or row[0] in wanted]
+
+
+def compile_scene(name, file, options):
+    """The scene as IR, at the size that is measured."""
+    out = WORK / f"{name}-{SIDE}.rtir"
+    if out.exists():
+        return out
+    made = [RTC, "compile", file, "-o", "-", "--emit", "ir", "--allow", "warnings", *options]
+    scene = json.loads(subprocess.run(made, check=True, capture_output=True).stdout)
+    camera = scene["camera"]
+    scale = max(camera["size"]) / SIDE
+    for axis in ("right", "up"):
+        camera[axis] = [number * scale for number in camera[axis]]
+    camera["size"] = [max(1, round(side / scale)) for side in camera["size"]]
+    text = WORK / "scene.json"
+    text.write_text(json.dumps(scene))
+    subprocess.run([RTC, "compile", text, "-o", out, "--allow", "warnings"], check=True)
+    return out
+
+
+def trace(program, scene, samples, seed):
+    """The pixels, and CPU-seconds."""
+    out = WORK / "pixels"
+    made = [program, scene, str(samples), str(seed), out]
+    row = json.loads(subprocess.run(made, check=True, capture_output=True).stdout)
+    pixels = array.array("f")
+    pixels.frombytes(out.read_bytes())
+    return pixels, row["render_cpu_s"]
+
+
+def reference(program, scene):
+    """A converged picture of a seed that no turn has."""
+    kept = WORK / f"{scene.stem}-{REFERENCE}.f32"
+    if not kept.exists():
+        pixels, _ = trace(program, scene, REFERENCE, 1 << 20)
+        kept.write_bytes(pixels.tobytes())
+    pixels = array.array("f")
+    pixels.frombytes(kept.read_bytes())
+    return pixels
+
+
+def error(pixels, truth):
+    pairs = zip(pixels, truth, strict=True)
+    return math.fsum((x - r) ** 2 / (r * r + 0.01) for x, r in pairs) / len(truth)
+
+
+def measure(name, scene, programs):
+    truth = reference(programs[0], scene)
+    found = [([], []) for _ in programs]
+    for turn in range(TURNS):
+        for program, (errors, times) in zip(programs, found):
+            pixels, time = trace(program, scene, SAMPLES, 1 + turn)
+            errors.append(error(pixels, truth))
+            times.append(time)
+    (before, after) = [(statistics.mean(e), statistics.median(t)) for e, t in found]
+    gain = before[0] * before[1] / (after[0] * after[1])
+    print(f"| {name} | {before[0]:.5f} | {after[0]:.5f} | {after[1] / before[1]:.2f} | {gain:.2f} |", flush=True)
+    return gain
+
+
+def main():
+    before, after, assets, environments = sys.argv[1:]
+    WORK.mkdir(parents=True, exist_ok=True)
+    print("| scene | relMSE before | after | time, × before | efficiency, × before |")
+    print("| --- | --: | --: | --: | --: |")
+    gains = [measure(row[0], compile_scene(*row), [before, after]) for row in scenes(assets, environments)]
+    mean = math.exp(statistics.mean(map(math.log, gains)))
+    print(f"\nGeometric mean {mean:.2f}, arithmetic {statistics.mean(gains):.2f}, least {min(gains):.2f}.")
+
+
+main()
