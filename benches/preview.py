@@ -36,12 +36,12 @@ class Live:
         return reply.status, reply.read()
 
     def when(self, is_wanted):
-        since = ""
-        while True:
-            state = json.loads(self.get("/state", since)[1])
-            if is_wanted(state):
-                return state
-            since = f"&since={state['version']}"
+        connection = http.client.HTTPConnection("127.0.0.1", int(self.port), timeout=60)
+        connection.request("GET", f"/events?token={self.token}")
+        with connection.getresponse() as events:
+            for line in events:
+                if line.startswith(b"data: {") and is_wanted(state := json.loads(line[6:])):
+                    return state
 
     def cpu(self):
         """Seconds of all cores since the start."""

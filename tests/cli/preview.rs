@@ -66,7 +66,7 @@ fn strangers_are_told_nothing() {
         "/ball.json",
         "/%2e%2e/",
         "//",
-        "/state/",
+        "/events/",
     ] {
         assert_eq!(live.get(path, "").status, 404, "{path}");
     }
@@ -109,7 +109,33 @@ fn what_is_too_long_or_too_much_keeps_nobody_out() {
         .collect();
     assert_eq!(live.get("/", "").status, 200);
     let slow = idle.iter().map(|mut stream| stream.write(b"GET"));
-    assert!(slow.count() == 200 && live.get("/state", "").status == 200);
+    assert!(slow.count() == 200 && live.get("/", "").status == 200);
+}
+
+#[test]
+fn streams_of_events_are_few_and_keep_nobody_out() {
+    let folder = folder();
+    let live = Running::start(&folder, &["ball.json", "--size", "4x3"]);
+    live.finished(1);
+    let opened = (0..100).map(|_| {
+        let mut stream = live.events();
+        assert_eq!(stream.next().unwrap()["load"], 1, "a new one is told");
+        stream
+    });
+    let mut streams: Vec<_> = opened.collect();
+    assert_eq!(live.get("/", "").status, 200);
+    let view = json!({ "eye": [30.5, 10, 40], "center": [0, 0, 0], "up": [0, 1, 0] });
+    live.post("/view", &json!({ "view": view, "isMoving": false }));
+    let mut newest = streams.pop().unwrap();
+    assert!(
+        newest.any(|state| state["isMoved"] == true),
+        "and go on to be"
+    );
+    let ended = streams.into_iter().take(96);
+    assert!(
+        ended.map(Iterator::count).max() <= Some(2),
+        "the others end"
+    );
 }
 
 #[test]

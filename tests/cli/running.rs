@@ -36,6 +36,18 @@ impl Reply {
     }
 }
 
+/// What is shown, as it changes.
+pub(super) struct Events(std::io::Lines<BufReader<TcpStream>>);
+
+impl Iterator for Events {
+    type Item = Value;
+
+    fn next(&mut self) -> Option<Value> {
+        let mut lines = self.0.by_ref().map_while(Result::ok);
+        lines.find_map(|line| serde_json::from_str(line.strip_prefix("data: ")?).ok())
+    }
+}
+
 impl Running {
     pub(super) fn start(folder: &TempDir, args: &[&str]) -> Self {
         let words = [&["preview"], args].concat();
@@ -89,17 +101,21 @@ impl Running {
         self.raw(format!("{line}{lines}\r\n{body}").as_bytes())
     }
 
+    /// A stream of events from now on.
+    pub(super) fn events(&self) -> Events {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        let (token, host) = (&self.token, self.host());
+        let request = format!("GET /events?token={token} HTTP/1.1\r\nHost: {host}\r\n\r\n");
+        stream.write_all(request.as_bytes()).unwrap();
+        let patience = std::time::Duration::from_secs(60);
+        stream.set_read_timeout(Some(patience)).unwrap();
+        Events(BufReader::new(stream).lines())
+    }
+
     /// What is shown once it is as wanted.
     pub(super) fn when(&self, what: &str, is_wanted: impl Fn(&Value) -> bool) -> Value {
-        let mut since = String::new();
-        for _ in 0..400 {
-            let state = self.get("/state", &since).json();
-            if is_wanted(&state) {
-                return state;
-            }
-            since = format!("&since={}", state["version"]);
-        }
-        panic!("never {what}: {:#}", self.get("/state", "").json());
+        let state = self.events().find(is_wanted);
+        state.unwrap_or_else(|| panic!("never {what}"))
     }
 
     /// What is shown once a reading of the scene, or a later one, is rendered to its end.

@@ -2,19 +2,14 @@
 //! with every change, and what is asked for.
 
 use super::interrupt;
+use super::news::{self, News};
 use super::pixels::PixelTable;
 use super::view::{Gaze, Sight};
 use crate::pipeline::Complaint;
 use serde_json::{Value, json};
+use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
-
-/// The most requests that wait for a change at a time.
-const MOST_WAITING: usize = 16;
-
-/// How long a request waits for a change.
-const WAIT: Duration = Duration::from_secs(15);
 
 /// A picture as the page shows it.
 pub(super) struct Shot {
@@ -52,7 +47,9 @@ pub(super) struct ReadState {
 #[derive(Default)]
 pub(super) struct BoardState {
     version: u64,
-    waiting: usize,
+    /// Who follows what is shown, by the order in which they came, and how many ever did.
+    followers: VecDeque<u64>,
+    followed: u64,
     pub(super) read: ReadState,
     is_working: bool,
     shot: Option<Shot>,
@@ -208,22 +205,35 @@ impl Board {
         self.show(|state| state.is_working = false);
     }
 
-    /// What is shown, once it differs from that of a version, or after a while; `None` if too many
-    /// wait already.
-    pub(super) fn wait(&self, since: Option<u64>) -> Option<Value> {
+    /// A place for one more who follows what is shown; if need be, the oldest gives way.
+    pub(super) fn admit(&self) -> u64 {
         let mut state = self.state();
-        if Some(state.version) != since {
-            return Some(state.told());
+        state.followed += 1;
+        let number = state.followed;
+        state.followers.push_back(number);
+        while state.followers.len() > news::MOST {
+            state.followers.pop_front();
         }
-        if state.waiting >= MOST_WAITING {
-            return None;
+        self.changed.notify_all();
+        number
+    }
+
+    /// Takes the place back.
+    pub(super) fn dismiss(&self, number: u64) {
+        self.state().followers.retain(|own| *own != number);
+    }
+
+    /// Waits until what is shown differs from that of a version.
+    pub(super) fn wait(&self, number: u64, since: Option<u64>) -> News {
+        let goes_on = |state: &BoardState| !state.is_ended && state.followers.contains(&number);
+        let is_same = |state: &mut BoardState| goes_on(state) && Some(state.version) == since;
+        let waited = self.changed.wait_while(self.state(), is_same);
+        let state = waited.unwrap_or_else(PoisonError::into_inner);
+        match (state.is_ended, goes_on(&state)) {
+            (true, _) => News::Ended,
+            (false, true) => News::Shown(state.version, state.told()),
+            (false, false) => News::GaveWay,
         }
-        state.waiting += 1;
-        let is_same = |state: &mut BoardState| Some(state.version) == since && !state.is_ended;
-        let waited = self.changed.wait_timeout_while(state, WAIT, is_same);
-        let (mut state, _) = waited.unwrap_or_else(PoisonError::into_inner);
-        state.waiting -= 1;
-        Some(state.told())
     }
 }
 

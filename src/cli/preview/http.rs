@@ -60,11 +60,21 @@ impl From<io::Error> for BadRequest {
     }
 }
 
+/// Pieces of a reply, as they come.
+pub(super) type Events = Box<dyn Iterator<Item = String>>;
+
+/// What follows the head of a reply.
+enum Body {
+    Whole(Arc<Vec<u8>>),
+    /// Sent until it ends, or who reads it is gone.
+    Events(Events),
+}
+
 /// A reply.
 pub(super) struct HttpReply {
     status: u16,
     kind: &'static str,
-    body: Arc<Vec<u8>>,
+    body: Body,
     /// What marks the script and the style that the page may have.
     nonce: Option<String>,
 }
@@ -79,8 +89,16 @@ impl HttpReply {
         Self {
             status: 200,
             kind: "image/png",
-            body: bytes,
+            body: Body::Whole(bytes),
             nonce: None,
+        }
+    }
+
+    /// A reply of server-sent events (HTML Living Standard, section 9.2).
+    pub(super) fn events(events: Events) -> Self {
+        Self {
+            body: Body::Events(events),
+            ..Self::of(200, "text/event-stream", Vec::new())
         }
     }
 
@@ -105,7 +123,7 @@ impl HttpReply {
         Self {
             status,
             kind,
-            body: Arc::new(body),
+            body: Body::Whole(Arc::new(body)),
             nonce: None,
         }
     }
@@ -116,8 +134,13 @@ impl HttpReply {
                 "; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; img-src data:; connect-src 'self'"
             )
         });
+        // Events end with their connection.
+        let length = match &self.body {
+            Body::Whole(bytes) => format!("Content-Length: {}\r\n", bytes.len()),
+            Body::Events(_) => String::new(),
+        };
         format!(
-            "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\nConnection: close\r\n\
+            "HTTP/1.1 {} {}\r\nContent-Type: {}\r\n{length}Connection: close\r\n\
              Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\n\
              Cross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: same-origin\r\n\
              Content-Security-Policy: default-src 'none'; base-uri 'none'; form-action 'none'; \
@@ -125,15 +148,19 @@ impl HttpReply {
             self.status,
             reason(self.status),
             self.kind,
-            self.body.len(),
         )
     }
 
     /// Sends it and ends the connection.
-    pub(super) fn send(&self, mut stream: &TcpStream) -> io::Result<()> {
+    pub(super) fn send(self, mut stream: &TcpStream) -> io::Result<()> {
         stream.set_write_timeout(Some(PATIENCE))?;
         stream.write_all(self.head().as_bytes())?;
-        stream.write_all(&self.body)?;
+        match self.body {
+            Body::Whole(bytes) => stream.write_all(&bytes)?,
+            Body::Events(mut events) => {
+                events.try_for_each(|event| stream.write_all(event.as_bytes()))?;
+            }
+        }
         stream.shutdown(Shutdown::Write)
     }
 }

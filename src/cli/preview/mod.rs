@@ -5,6 +5,7 @@ mod board;
 mod costs;
 mod crude;
 mod http;
+mod news;
 mod pixels;
 mod routes;
 mod serve;

@@ -2,6 +2,7 @@
 
 use super::board::{Board, ReadState};
 use super::http::{HttpReply, HttpRequest};
+use super::news::Follower;
 use super::view::{self, Gaze};
 use super::{Failure, serve};
 use crate::cli::edit;
@@ -51,11 +52,7 @@ impl Routes {
     pub(super) fn answer(&self, request: &HttpRequest) -> HttpReply {
         match (request.method.as_str(), request.path.as_str()) {
             ("GET", "/") => self.page(),
-            ("GET", "/state") => {
-                let since = request.value("since").and_then(|since| since.parse().ok());
-                let told = self.board.wait(since);
-                told.map_or_else(|| HttpReply::empty(503), |told| HttpReply::json(&told))
-            }
+            ("GET", "/events") => HttpReply::events(Box::new(Follower::new(&self.board))),
             ("GET", "/picture") => {
                 let number = request.value("number").unwrap_or_default();
                 let png = self.board.state().png(number);

@@ -3,7 +3,6 @@
 const token = new URLSearchParams(location.search).get("token") ?? "";
 const at = (id) => document.getElementById(id);
 const url = (path, more = {}) => `${path}?${new URLSearchParams({ token, ...more })}`;
-const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 const REST = 250;
 
 let state = null;
@@ -11,23 +10,27 @@ let gaze = null;
 let resting = null;
 let drawn = 0;
 
-// What is new, again and again.
-async function follow() {
-  let since = null;
-  for (;;) {
-    try {
-      const reply = await fetch(url("/state", since === null ? {} : { since }));
-      if (!reply.ok) throw new Error(reply.status);
-      state = await reply.json();
-      since = state.version;
-      show();
-    } catch {
-      document.body.classList.remove("is-working");
-      at("status").textContent = "the preview does not answer; was it ended?";
-      since = null;
-      await pause(1000);
-    }
-  }
+let news = null;
+
+// What is new, as it comes. Few pages are told at a time: one that gave way asks again when it is looked at.
+function follow() {
+  news?.close();
+  news = new EventSource(url("/events"));
+  news.onmessage = (event) => {
+    state = JSON.parse(event.data);
+    show();
+  };
+  news.addEventListener("full", () => lose("newer pages are told what is new; look at this one again to follow"));
+  news.onerror = () => {
+    lose("the preview does not answer; was it ended?");
+    setTimeout(follow, 1000);
+  };
+}
+
+function lose(words) {
+  news.close();
+  document.body.classList.remove("is-working");
+  at("status").textContent = words;
 }
 
 function show() {
@@ -274,6 +277,9 @@ function listen() {
     at("frame").style.setProperty("--split", `${at("split").value}%`);
   });
   at("measure").addEventListener("click", measure);
+  addEventListener("focus", () => {
+    if (news?.readyState === EventSource.CLOSED) follow();
+  });
   at("effects").addEventListener("toggle", () => {
     if (at("effects").open) send("/effects", null);
   });
