@@ -1,6 +1,7 @@
 //! The doors the stages are joined by: bytes to scene, scene to proof, proof to film. Nothing here
 //! prints or exits.
 
+mod denoise;
 mod exposure;
 #[cfg(not(target_family = "wasm"))]
 mod file;

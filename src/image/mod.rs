@@ -5,6 +5,7 @@
 mod animation;
 mod compressed;
 mod decode;
+mod denoise;
 mod exr;
 mod file;
 #[cfg(feature = "cli")]
@@ -21,6 +22,7 @@ mod texels;
 
 pub use animation::AnimatedPng;
 pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
+pub use denoise::{GUIDES, Guide, NoisyHalf, denoise};
 pub use file::{BLOCK_ROWS, PictureHead, StripSource};
 #[cfg(feature = "cli")]
 pub use gif::AnimatedGif;

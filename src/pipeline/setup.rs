@@ -36,6 +36,8 @@ pub struct PictureSetup {
     pub rules: Rules,
     /// Whether what was left out is simulated too, and compared.
     pub verify: bool,
+    /// Whether the picture is denoised.
+    pub denoise: bool,
     /// Whether the studio was found to fill in beside the light of the scene.
     pub is_filled: bool,
 }
@@ -91,6 +93,7 @@ impl PictureSetup {
             simd: SimdLevel::best(),
             rules: Rules::ALL,
             verify: false,
+            denoise: false,
             is_filled: false,
         }
     }
@@ -166,7 +169,9 @@ impl PictureSetup {
         /// A pixel of a film, with what is counted of it; and of one that grows.
         const FILM: [usize; 2] = [40, 320];
         let Crop { width, height, .. } = window;
-        let pixel = FILM[usize::from(self.goal != Goal::default())] + self.look.memory();
+        let pixel = FILM[usize::from(self.goal != Goal::default())]
+            + self.look.memory()
+            + self.denoiser_memory();
         let bytes = (width as usize)
             .saturating_mul(height as usize)
             .saturating_mul(pixel);
@@ -206,6 +211,8 @@ impl PictureSetup {
         let film = if self.verify {
             let scene = &subject.proven.scene;
             super::verify(scene, &self.plan(scene), &job, self.threads, &on_pixel)?
+        } else if self.denoise {
+            self.denoised(subject, &job, &on_pixel)?.map(Ok)
         } else {
             self.renderer(subject)?.1.render(&job, &on_pixel).map(Ok)
         };
@@ -324,6 +331,9 @@ impl PictureSetup {
         }
         if let Some(time) = self.goal.time {
             settings["timeBudget"] = time.as_secs_f64().into();
+        }
+        if self.denoise {
+            settings["denoiser"] = "regression-1".into();
         }
         self.look.describe(&mut settings);
         Origin {

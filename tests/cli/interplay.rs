@@ -17,7 +17,7 @@ enum Cell {
 
 /// The rows: what the table calls it, the words of a render, its picture, and what checkpoints, parts,
 /// strips and frames do to it.
-const ROWS: [(&str, &[&str], &str, [Cell; 4]); 9] = [
+const ROWS: [(&str, &[&str], &str, [Cell; 4]); 10] = [
     (
         "target error",
         &["ball.json", "--target-error", "2"],
@@ -45,6 +45,17 @@ const ROWS: [(&str, &[&str], &str, [Cell; 4]); 9] = [
         &["paths.json", "--spp", "24", "--exposure", "auto"],
         "a.png",
         [Same; 4],
+    ),
+    (
+        "denoising",
+        &["paths.json", "--spp", "24", "--denoise"],
+        "a.png",
+        [
+            Refused("cannot be used with"),
+            Refused("cannot be used with"),
+            Refused("cannot be used with"),
+            Same,
+        ],
     ),
     (
         "layers",

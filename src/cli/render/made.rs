@@ -20,6 +20,8 @@ pub(in crate::cli) struct MadePicture {
     light: String,
     counts: Counts,
     elapsed: Duration,
+    /// Whether it is denoised, which leaves no bound.
+    is_denoised: bool,
     quality: Option<Quality>,
 }
 
@@ -51,6 +53,7 @@ impl MadePicture {
             light: setup.light_told(),
             counts,
             elapsed,
+            is_denoised: setup.denoise,
             quality: None,
         }
     }
@@ -68,7 +71,10 @@ impl MadePicture {
         let line = format!("{}: {width}×{height}, {light}{work}", self.output.display());
         let simulated = verbose.then(|| simulated(&self.counts));
         let quality = self.quality.as_ref().map(Quality::words);
-        let lines = [Some(line), simulated, quality];
+        let denoised = self
+            .is_denoised
+            .then(|| "no bound: the error of a denoised picture is not told".to_owned());
+        let lines = [Some(line), simulated, quality, denoised];
         lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
 
@@ -85,6 +91,7 @@ impl MadePicture {
             "rays": self.counts.rays(),
             "seconds": self.elapsed.as_secs_f64(),
             "quality": quality,
+            "denoised": self.is_denoised,
             "simulated": simulated,
         });
         json!({ "rendered": object }).to_string()

@@ -120,6 +120,7 @@ impl RenderSetup {
             threads: args.threads.map_or(0, usize::from),
             rules: rules(&args.pruning, goal),
             verify: args.pruning.verify_effects,
+            denoise: args.denoise,
             ..wanted(&args.wanted, &args.look, picture)?
         };
         let is_one_file = args.strips.is_some()

@@ -1,6 +1,7 @@
 //! From world to film: the one loop over tiles, on all threads of the pool. It renders whole
 //! pictures, parts, growing pictures and layers.
 
+pub(in crate::render) mod halves;
 pub(in crate::render) mod layers;
 pub(in crate::render) mod picture;
 pub(in crate::render) mod progressive;

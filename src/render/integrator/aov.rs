@@ -2,6 +2,7 @@
 //! averaged over the rays with a hit. The rays are the same as for the colours.
 
 use super::Integrator;
+use crate::image::Guide;
 use crate::math::Vec3;
 use crate::render::camera::Camera;
 use crate::render::film::Counts;
@@ -117,7 +118,7 @@ pub(in crate::render) const CHANNELS: usize = 16;
 pub(in crate::render) struct LayerSums<'run> {
     wanted: &'run [Aov],
     camera: &'run Camera,
-    sums: Sums,
+    sums: FirstHitSums,
 }
 
 impl<'run> LayerSums<'run> {
@@ -125,7 +126,7 @@ impl<'run> LayerSums<'run> {
         Self {
             wanted,
             camera,
-            sums: Sums::default(),
+            sums: FirstHitSums::default(),
         }
     }
 }
@@ -158,7 +159,7 @@ impl Accumulator for LayerSums<'_> {
 
 /// The sums over the rays of a pixel.
 #[derive(Default)]
-struct Sums {
+pub(in crate::render) struct FirstHitSums {
     rays: u32,
     hits: u32,
     albedo: Vec3,
@@ -170,9 +171,9 @@ struct Sums {
     instance: usize,
 }
 
-impl Sums {
+impl FirstHitSums {
     /// Adds the first hit of a ray in this direction.
-    fn add(&mut self, direction: Vec3, first: Option<First>) {
+    pub(super) fn add(&mut self, direction: Vec3, first: Option<First>) {
         self.rays += 1;
         let Some(First {
             albedo,
@@ -199,6 +200,21 @@ impl Sums {
             self.uv += Vec3::new(u, v, 0.0);
             self.hits_with_uv += 1;
         }
+    }
+
+    /// The guide of a denoiser: all means are over all rays.
+    pub(super) fn guide(&self, camera: &Camera) -> Guide {
+        let mean = |sum: Vec3| sum / f64::from(self.rays.max(1));
+        let coverage = f64::from(self.hits) / f64::from(self.rays.max(1));
+        let (albedo, normal) = (mean(self.albedo), mean(self.normal));
+        let distance = if self.hits == 0 {
+            0.0
+        } else {
+            coverage * depth(camera, self.point / f64::from(self.hits))
+        };
+        [
+            coverage, albedo.x, albedo.y, albedo.z, normal.x, normal.y, normal.z, distance,
+        ]
     }
 
     /// The values of the channels of a layer.

@@ -2,6 +2,7 @@
 
 pub(in crate::render) mod aov;
 pub(in crate::render) mod first_hit;
+pub(in crate::render) mod guide;
 pub(in crate::render) mod path;
 pub(in crate::render) mod whitted;
 

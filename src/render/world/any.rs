@@ -1,6 +1,6 @@
 //! A world of any shapes and arithmetic, built once for all its renders.
 
-use crate::image::Layers;
+use crate::image::{Guide, Layers};
 use crate::plan::{Arithmetic, Plan, Rules, Shapes};
 use crate::render::accel::simd::SimdLevel;
 use crate::render::film::heartbeat::OnPixel;
@@ -127,6 +127,32 @@ impl AnyWorld {
         let simd = each!(self, world => world.simd);
         Self::prepare_at(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE), simd)
             .layers(wanted, job, on_pixel)
+    }
+
+    /// Sums a range of the samples of traced paths.
+    pub(in crate::render) fn range(
+        &self,
+        samples: &Range<u32>,
+        job: &Job,
+        on_pixel: &OnPixel<'_>,
+    ) -> Option<Film> {
+        each!(self, world => world.whole(job, |_, job| world.sum(samples, job, on_pixel)))
+    }
+
+    /// The guides of a denoiser, by three ranges of the samples of traced paths.
+    pub(in crate::render) fn guides(
+        &self,
+        samples: &[Range<u32>; 3],
+        job: &Job,
+        on_pixel: &OnPixel<'_>,
+    ) -> Option<[Vec<Guide>; 3]> {
+        let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
+        // As of layers.
+        let simd = each!(self, world => world.simd);
+        let whole = Self::prepare_at(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE), simd);
+        let of = |range| each!(&whole, world => world.guides(range, job, on_pixel));
+        let [first, second, exact] = samples.each_ref().map(of);
+        Some([first?, second?, exact?])
     }
 
     /// Takes samples until each pixel has those wanted: `wanted(i)` is how many each replicate of

@@ -1,0 +1,36 @@
+//! Guides of a denoiser: of each pixel the share of camera rays with a hit, and the albedo, the
+//! normal and the distance of first hits, added up over all rays, those without a hit as zero.
+
+use super::aov::{CameraHit, FirstHitSums};
+use crate::image::Guide;
+use crate::render::camera::Camera;
+use crate::render::film::pixel::{Accumulator, SampleId};
+
+/// Adds up the guide of a pixel.
+pub(in crate::render) struct GuideSums<'run> {
+    camera: &'run Camera,
+    sums: FirstHitSums,
+}
+
+impl<'run> GuideSums<'run> {
+    pub(in crate::render) fn new(camera: &'run Camera) -> Self {
+        Self {
+            camera,
+            sums: FirstHitSums::default(),
+        }
+    }
+}
+
+impl Accumulator for GuideSums<'_> {
+    type Sample = CameraHit;
+    type Kept = Guide;
+
+    fn add(&mut self, _: &SampleId, CameraHit { direction, first }: CameraHit) {
+        self.sums.add(direction, first);
+    }
+
+    /// The distance is in units of the scene.
+    fn close(self) -> Guide {
+        self.sums.guide(self.camera)
+    }
+}
