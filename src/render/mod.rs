@@ -8,6 +8,11 @@ mod film;
 mod frame;
 mod integrator;
 mod kernel;
+#[cfg_attr(
+    not(target_arch = "x86_64"),
+    allow(dead_code, reason = "lanes gain with AVX-512 alone")
+)]
+mod lanes;
 mod light;
 mod material;
 mod ray;

@@ -4,7 +4,7 @@ use crate::math::{U, Vec3, ldexp, unit_scale};
 
 /// How far from a surface rays start, in units of its rounding error: enough for the error of the
 /// point, of the surface's own numbers, and of the sum that moves the point.
-const OFFSET: f64 = 8.0;
+pub(in crate::render) const OFFSET: f64 = 8.0;
 
 /// A half-line; `t` counts in lengths of `direction`, which need not be a unit vector.
 #[derive(Clone, Copy, Debug)]

@@ -8,7 +8,7 @@ pub struct SimdLevel(Tokens);
 
 /// Proofs that the machine has the instructions.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render::accel) enum Tokens {
+pub(in crate::render) enum Tokens {
     /// None: one lane after the other.
     Scalar(Fallback),
     /// SSE2 of x86.
@@ -85,7 +85,7 @@ impl SimdLevel {
 
     /// The proof that the machine has it.
     #[inline]
-    pub(in crate::render::accel) fn tokens(self) -> Tokens {
+    pub(in crate::render) fn tokens(self) -> Tokens {
         self.0
     }
 }

@@ -61,6 +61,12 @@ impl Counts {
         self.evaluations[effect.index()] += 1;
     }
 
+    /// Counts so many evaluations of an effect.
+    #[inline]
+    pub(in crate::render) fn add_several(&mut self, effect: Effect, count: u32) {
+        self.evaluations[effect.index()] += u64::from(count);
+    }
+
     /// How often an effect was simulated: its rays, or its evaluations.
     #[must_use]
     pub fn of(&self, effect: Effect) -> u64 {

@@ -10,6 +10,7 @@ use super::film::Counts;
 use super::film::heartbeat::Heartbeat;
 use super::film::pixel::{Accumulator, SampleId};
 use super::film::tile::Tile;
+use super::lanes::LANES;
 
 /// A way to find what samples of pixels show. Each thread has its own, which keeps its memory from
 /// pixel to pixel; what it finds depends on the world and the [`SampleId`] alone.
@@ -22,6 +23,12 @@ pub(in crate::render) trait Integrator<'run>: Sized {
 
     /// What one sample shows.
     fn sample(&mut self, id: &SampleId) -> Self::Sample;
+
+    /// What the sample and those after it show, if they can be had together: of a stream begun at
+    /// which so many are left.
+    fn samples(&mut self, _first: &SampleId) -> Option<[Self::Sample; LANES]> {
+        None
+    }
 
     /// Whether all samples of the pixel and the stream begun are proven to be equal.
     fn is_uniform(&self) -> bool {
@@ -55,6 +62,16 @@ pub(in crate::render) trait Integrator<'run>: Sized {
                         return false;
                     }
                     id.index = index;
+                    if left.len() + 1 >= LANES
+                        && let Some(samples) = self.samples(&id)
+                    {
+                        for sample in samples {
+                            pixel.sums.add(&id, sample);
+                            id.index += 1;
+                        }
+                        left.start = id.index;
+                        continue;
+                    }
                     let sample = self.sample(&id);
                     pixel.sums.add(&id, sample);
                     if self.is_uniform() {

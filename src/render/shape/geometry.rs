@@ -3,12 +3,16 @@
 use crate::math::{Bounds, Vec3};
 use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::sphere::Sphere;
 use crate::render::shape::triangle::Shear;
 
 /// A kind of prepared shape: which shapes there are, and by which arithmetic rays meet them.
 pub trait Geometry: Sized + Send + Sync {
     /// Whether triangles of instances can stand in the world one by one.
     const FLATTENS: bool = true;
+
+    /// Whether four rays at once meet them by the same operations as one.
+    const HAS_LANES: bool = false;
 
     /// The smallest root above 0 and its primitive; `shear` is that of the ray. Roots beyond `t_max`
     /// may be left out.
@@ -113,6 +117,12 @@ pub trait Geometry: Sized + Send + Sync {
     /// A box around it; `None` for unbounded shapes.
     #[must_use]
     fn bounds(&self) -> Option<Bounds>;
+
+    /// The sphere that it is.
+    #[must_use]
+    fn as_sphere(&self) -> Option<&Sphere> {
+        None
+    }
 
     /// A ball around it; `None` for unbounded shapes, and where hits are not known to lie within.
     #[must_use]

@@ -4,6 +4,8 @@
 macro_rules! dispatch {
     ($Enum:ident { $($Name:ident)* }) => {
         impl Geometry for $Enum {
+            const HAS_LANES: bool = true;
+
             #[inline]
             fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
                 match self {
@@ -116,6 +118,14 @@ macro_rules! dispatch {
                 }
             }
 
+            #[inline(always)]
+            fn as_sphere(&self) -> Option<&sphere::Sphere> {
+                match self {
+                    Self::Sphere(textured) => Some(&textured.sphere),
+                    _ => None,
+                }
+            }
+
             fn ball(&self) -> Option<Ball> {
                 match self {
                     $(Self::$Name(shape) => <$Name as Geometry>::ball(shape),)*
@@ -130,6 +140,11 @@ pub(in crate::render) mod cone;
 mod corners;
 pub(in crate::render) mod cylinder;
 pub(in crate::render) mod disc;
+#[cfg_attr(
+    not(target_arch = "x86_64"),
+    allow(dead_code, reason = "lanes gain with AVX-512 alone")
+)]
+pub(in crate::render) mod four;
 pub(in crate::render) mod geometry;
 pub(in crate::render) mod instance;
 pub(in crate::render) mod interval;

@@ -19,11 +19,11 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// A root is computed again when rounding may have been amplified by more than this.
-const AMPLIFIED: f64 = 48.0;
+pub(super) const AMPLIFIED: f64 = 48.0;
 
 /// From a squared distance this many times the squared radius the first root is measured from the
 /// foot.
-const FAR: f64 = 4.0;
+pub(super) const FAR: f64 = 4.0;
 
 /// A prepared sphere.
 #[derive(Clone, Copy, Debug)]
@@ -116,7 +116,7 @@ impl Sphere {
     /// As [`Self::intersect`] in double-double, with an error of at most 1 u.
     #[cold]
     #[inline(never)]
-    fn intersect_precisely(&self, ray: &Ray) -> Option<f64> {
+    pub(super) fn intersect_precisely(&self, ray: &Ray) -> Option<f64> {
         let f = [0, 1, 2].map(|k| DoubleDouble::difference(ray.origin[k], self.center[k]));
         let d = [0, 1, 2].map(|k| DoubleDouble::from(ray.direction[k]));
         let dot =

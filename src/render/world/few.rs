@@ -72,9 +72,19 @@ impl Few {
         }
     }
 
+    /// The shear of a ray, if a shape looks at it.
+    #[inline(always)]
+    pub(in crate::render) fn shear_of<S: Geometry>(shape: &S, ray: &Ray) -> Shear {
+        if shape.uses_shear() {
+            Shear::new(ray)
+        } else {
+            Shear::UNUSED
+        }
+    }
+
     /// The index of the first surface of some, and the others.
     #[inline(always)]
-    fn pop(items: &mut u64) -> Option<usize> {
+    pub(in crate::render) fn pop(items: &mut u64) -> Option<usize> {
         if *items == 0 {
             return None;
         }
@@ -109,16 +119,7 @@ impl<S: Geometry> World<S> {
                 nearest.add(t, (surface, prim_id));
             }
         }
-        let (t, (surface, prim_id)) = match nearest.key {
-            NOWHERE => return None,
-            _ if nearest.is_tied() => self.settle(ray, NOWHERE, nearest.t)?,
-            key => (nearest.t, key),
-        };
-        Some(Hit {
-            t,
-            surface,
-            prim_id,
-        })
+        self.hit(ray, 1.0, NOWHERE, &nearest)
     }
 
     /// As [`World::occluded`], where only some surfaces can stand between.

@@ -4,7 +4,7 @@
 pub(in crate::render) mod alpha;
 pub(in crate::render) mod any;
 mod batch;
-mod few;
+pub(in crate::render) mod few;
 mod flattened;
 mod light;
 mod material;
@@ -86,7 +86,7 @@ pub struct World<S = Shape> {
     casters: Option<Apart>,
     flattened: Option<Flattened>,
     /// The vector instructions that rays are traced with.
-    simd: SimdLevel,
+    pub(in crate::render) simd: SimdLevel,
     /// All surfaces, if they are few and the integrator asks for bundles of rays.
     pub(in crate::render) few: Option<Few>,
 }
@@ -187,6 +187,16 @@ impl<S: Geometry> World<S> {
             visit(apart.bounded[item as usize])
         });
         nearest
+    }
+
+    /// The closest hit of a ray of length 1 where others are as close as `t`.
+    pub(in crate::render) fn settled(&self, ray: &Ray, t: f64) -> Option<Hit> {
+        let (t, (surface, prim_id)) = self.settle(ray, NOWHERE, t)?;
+        Some(Hit {
+            t,
+            surface,
+            prim_id,
+        })
     }
 
     /// Breaks the tie between the hits as close as the one at `t`.
@@ -320,11 +330,12 @@ impl<S: Geometry> World<S> {
     }
 }
 
+/// The end of a segment is known to this many units of its size.
+pub(in crate::render) const END: f64 = 16.0 * crate::math::U;
+
 /// The ray from one point to another, and the t before which nothing belongs to the other; `None`
 /// if they are as good as one.
 pub(in crate::render) fn segment(from: Vec3, to: Vec3) -> Option<(Ray, f64)> {
-    /// The end of the segment is known to this many units of its size.
-    const END: f64 = 16.0 * crate::math::U;
     let direction = to - from;
     let size = (from.abs() + to.abs()).element_sum();
     let length = direction.length();

@@ -4,6 +4,11 @@
 
 mod aov;
 mod branch;
+#[cfg_attr(
+    not(target_arch = "x86_64"),
+    allow(dead_code, unused_variables, reason = "lanes gain with AVX-512 alone")
+)]
+mod four;
 mod pixel;
 mod shade;
 
@@ -43,6 +48,8 @@ pub(in crate::render) struct Tracer<'world, S, const F: u32> {
     /// How many bounces the path under way has behind it.
     bounces: u32,
     bundles: Bundles,
+    /// Whether samples are taken four at a time where they can be.
+    by_four: bool,
     /// The rays traced so far.
     pub(in crate::render) counts: Counts,
 }
@@ -66,6 +73,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             pixel: PixelState::default(),
             bounces: 0,
             bundles: Bundles::EMPTY,
+            by_four: Self::goes_by_four(world),
             counts,
         }
     }

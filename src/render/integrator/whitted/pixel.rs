@@ -8,6 +8,7 @@ use crate::render::film::heartbeat::Heartbeat;
 use crate::render::film::pixel::{Sample, SampleId, Stream};
 use crate::render::film::{Counts, Seeds};
 use crate::render::integrator::Integrator;
+use crate::render::lanes::LANES;
 use crate::render::ray::Ray;
 use crate::render::sampler::Key;
 use crate::render::sampler::sequence::Sequence;
@@ -23,7 +24,7 @@ pub(super) struct PixelState {
     /// The previous sample, if samples are checked for being equal.
     last: Option<Sample>,
     /// Whether all samples are proven to be equal.
-    is_uniform: bool,
+    pub(super) is_uniform: bool,
 }
 
 impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
@@ -63,6 +64,11 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
         sample
     }
 
+    #[inline(always)]
+    fn samples(&mut self, first: &SampleId) -> Option<[Sample; LANES]> {
+        self.four_samples(first)
+    }
+
     #[inline]
     fn is_uniform(&self) -> bool {
         self.pixel.is_uniform
@@ -90,7 +96,7 @@ const REPLICATE: u64 = u64::MAX - 2;
 impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// The ray of the next sample of the grid of cells and points of the lens.
     #[inline(always)]
-    fn ray_of_picture(&mut self, pixel: [u32; 2], seeds: Seeds) -> Ray {
+    pub(super) fn ray_of_picture(&mut self, pixel: [u32; 2], seeds: Seeds) -> Ray {
         let camera = &self.world.camera;
         if !Self::can(Features::CAMERA) {
             return Grid::MIDDLE

@@ -11,6 +11,7 @@ use crate::render::material::phong::PhongMaterial;
 use crate::render::ray::Interaction;
 use crate::render::sampler::{DiscPoints, Key};
 use crate::render::shape::geometry::Geometry;
+use crate::render::world::few::Few;
 use crate::render::world::settings::Gooch;
 
 /// A point seen from one side.
@@ -229,26 +230,29 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         let Some(few) = &world.few else {
             return !world.occluded(start(), light);
         };
-        let lights = &world.lights.course;
         let hiding = few.hiding(shadowed.light, shading_point.surface);
         if hiding == 0 {
             return true;
         }
-        let place = [self.bounces as usize, shadowed.light, lights.len()];
+        let items = hiding & self.towards(few, shadowed.light, interaction.point);
+        items == 0 || !world.occluded_by(few, items, [start(), light])
+    }
+
+    /// The surfaces that may stand between a point and a light, of a bundle of such ways.
+    #[inline(always)]
+    pub(super) fn towards(&mut self, few: &Few, light: usize, from: Vec3) -> u64 {
+        let lights = &self.world.lights.course;
+        let place = [self.bounces as usize, light, lights.len()];
         let target = || {
             let CourseLight {
                 position, radius, ..
-            } = lights[shadowed.light];
+            } = lights[light];
             Ball {
                 center: position,
                 radius: radius.get(),
             }
         };
-        let items = self
-            .bundles
-            .towards(&few.balls, place, interaction.point, target);
-        let items = items & hiding;
-        items == 0 || !world.occluded_by(few, items, [start(), light])
+        self.bundles.towards(&few.balls, place, from, target)
     }
 
     /// Gooch et al., "A non-photorealistic lighting model for automatic technical illustration"

@@ -1,0 +1,328 @@
+//! Four samples of a pixel at once, one in each lane, where paths are chains of mirrors: each lane
+//! does what [`Tracer::radiance`] does for its ray, in the same order, so that the bytes are the
+//! same. What has no form in lanes is asked lane by lane.
+//!
+//! Only with AVX-512 is it faster than one ray after the other (`docs/decisions/0006`).
+
+mod shade;
+
+use super::Tracer;
+use crate::math::Vec3;
+use crate::plan::Features;
+#[cfg(target_arch = "x86_64")]
+use crate::render::accel::simd::Tokens;
+use crate::render::film::pixel::{Sample, SampleId, Stream};
+use crate::render::integrator::Integrator;
+use crate::render::lanes::{ALL, FourRays, LANES, Vectors, lanes_of};
+use crate::render::shape::four::{self, Interactions};
+use crate::render::shape::geometry::Geometry;
+use crate::render::shape::tie::CLOSE;
+use crate::render::world::few::Few;
+use crate::render::world::settings::Mode;
+use crate::render::world::{Hit, World};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x4, mask64x4};
+
+/// What four rays hit first.
+struct Hits<V: Simd> {
+    /// Infinite for none.
+    t: f64x4<V>,
+    surfaces: [usize; LANES],
+    prims: [u32; LANES],
+    /// The lanes that hit something.
+    met: u64,
+}
+
+/// Points as their viewers see them.
+struct Points<V: Simd> {
+    at: Interactions<V>,
+    /// The normal on the side of the viewer.
+    normal: Vectors<V>,
+    to_viewer: Vectors<V>,
+    color: Vectors<V>,
+    ka: f64x4<V>,
+    kd: f64x4<V>,
+    ks: f64x4<V>,
+    n: f64x4<V>,
+    /// The index of the surface in the scene.
+    surfaces: [usize; LANES],
+    /// The lanes that have a point.
+    met: u64,
+}
+
+impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
+    /// Whether the integrator has all its features in lanes.
+    const HAS_LANES: bool = {
+        let others = Features::MAPS
+            .with(Features::NAIVE)
+            .with(Features::SAMPLED)
+            .with(Features::GOOCH);
+        S::HAS_LANES && Self::can(Features::CAMERA) && F & others.0 == 0
+    };
+
+    /// Whether samples of a world are taken four at a time.
+    pub(super) fn goes_by_four(world: &World<S>) -> bool {
+        Self::HAS_LANES
+            && world.few.is_some()
+            && matches!(world.settings.mode, Mode::Phong)
+            && world.phongs.iter().all(|phong| phong.kt.get() == 0.0)
+    }
+
+    /// The next four samples of a picture.
+    pub(super) fn four_samples(&mut self, id: &SampleId) -> Option<[Sample; LANES]> {
+        if !Self::HAS_LANES || !self.by_four || self.pixel.is_uniform {
+            return None;
+        }
+        let Stream::Picture(seeds) = id.stream else {
+            return None;
+        };
+        #[cfg(target_arch = "x86_64")]
+        if let Tokens::Avx512(simd) = self.world.simd.tokens() {
+            return Some(simd.vectorize(
+                #[inline(always)]
+                || {
+                    let rays = [(); LANES].map(|()| self.ray_of_picture(id.pixel, seeds));
+                    self.radiances(simd, FourRays::each(simd, &rays))
+                },
+            ));
+        }
+        None
+    }
+
+    /// What four camera rays see.
+    #[inline(always)]
+    fn radiances<V: Simd>(&mut self, simd: V, mut rays: FourRays<V>) -> [Sample; LANES] {
+        let depth = self.world.plan.max_depth;
+        let number = |x: f64| f64x4::splat(simd, x);
+        let mut sum = Vectors::splat(simd, Vec3::ZERO);
+        let (mut beta, mut active, mut first) = (number(1.0), ALL, 0);
+        self.counts.camera += LANES as u64;
+        for bounce in 0..=depth {
+            if bounce > 0 && !self.goes_on() {
+                break;
+            }
+            self.bounces = bounce;
+            let hits = self.hits(simd, &rays, active);
+            if bounce == 0 {
+                first = hits.met;
+                self.counts.hits += u64::from(first.count_ones());
+            }
+            let Some(points) = self.points(simd, &rays, &hits) else {
+                break;
+            };
+            let value = self.phong_of(simd, &points).times(beta);
+            let met = mask64x4::from_bitmask(simd, hits.met);
+            sum = sum.plus(value).where_else(met, sum);
+            if !Self::can(Features::BOUNCE) || bounce == depth {
+                break;
+            }
+            let weight = beta * points.ks;
+            let weight = weight
+                .simd_lt(number(f64::MAX))
+                .select(weight, number(f64::MAX));
+            active = hits.met & weight.simd_gt(number(0.0)).to_bitmask();
+            if active == 0 {
+                break;
+            }
+            self.counts.mirror += u64::from(active.count_ones());
+            rays = mirrored(simd, &rays, &points);
+            beta = weight;
+        }
+        let sample = |lane: usize| Sample {
+            radiance: sum.lane(lane),
+            hit: first >> lane & 1 == 1,
+        };
+        let samples = [sample(0), sample(1), sample(2), sample(3)];
+        let unnumbered = samples.iter().filter(|sample| sample.radiance.is_nan());
+        self.counts.unnumbered += unnumbered.count() as u64;
+        samples
+    }
+
+    /// The closest hits of the rays of some lanes.
+    #[inline(always)]
+    fn hits<V: Simd>(&mut self, simd: V, rays: &FourRays<V>, active: u64) -> Hits<V> {
+        let world = self.world;
+        let none = f64x4::splat(simd, f64::INFINITY);
+        let mut hits = Hits {
+            t: none,
+            surfaces: [0; LANES],
+            prims: [0; LANES],
+            met: 0,
+        };
+        let Some(few) = &world.few else {
+            return hits;
+        };
+        let (mut items, mut bundled) = (0, 0);
+        for lane in lanes_of(active) {
+            let bounce = self.bounces as usize;
+            if let Some(along) = self.bundles.along(&few.balls, bounce, &rays.lane(lane)) {
+                (items, bundled) = (items | along, bundled | 1 << lane);
+            }
+        }
+        let asked = mask64x4::from_bitmask(simd, bundled);
+        let mut next = none;
+        while let Some(surface) = Few::pop(&mut items) {
+            let shape = &world.surfaces[surface].shape;
+            let t = match shape.as_sphere() {
+                Some(sphere) => four::intersect(simd, sphere, rays, asked),
+                None => roots(shape, rays, &mut hits, bundled),
+            };
+            let closer = t.simd_lt(hits.t);
+            next = closer.select(hits.t, t.simd_lt(next).select(t, next));
+            hits.t = closer.select(t, hits.t);
+            for lane in lanes_of(closer.to_bitmask()) {
+                hits.surfaces[lane] = surface;
+            }
+        }
+        hits.met = hits.t.simd_lt(none).to_bitmask();
+        let tied = next
+            .simd_le(hits.t * f64x4::splat(simd, CLOSE))
+            .to_bitmask()
+            & hits.met;
+        let odd = active & !bundled;
+        if tied | odd != 0 {
+            for lane in lanes_of(tied | odd) {
+                let hit = if odd >> lane & 1 == 1 {
+                    world.closest_hit(&rays.lane(lane))
+                } else {
+                    world.settled(&rays.lane(lane), hits.t[lane])
+                };
+                hits.put(lane, hit);
+            }
+        }
+        hits
+    }
+
+    /// The points that rays met, if one did.
+    #[inline(always)]
+    fn points<V: Simd>(&self, simd: V, rays: &FourRays<V>, hits: &Hits<V>) -> Option<Points<V>> {
+        let number = |x: f64| f64x4::splat(simd, x);
+        let mut rest = hits.met;
+        let mut all: Option<Points<V>> = None;
+        while rest != 0 {
+            let surface = hits.surfaces[rest.trailing_zeros() as usize];
+            let same = lanes_of(rest).filter(|lane| hits.surfaces[*lane] == surface);
+            let same = same.fold(0, |bits, lane| bits | 1 << lane);
+            rest &= !same;
+            let surface = &self.world.surfaces[surface];
+            let material = &self.world.phongs[surface.material];
+            let at = match surface.shape.as_sphere() {
+                Some(sphere) => four::interactions(simd, sphere, rays, hits.t),
+                None => interactions(simd, &surface.shape, rays, hits, same),
+            };
+            let is_back = rays.direction.dot(at.normal).simd_gt(number(0.0));
+            let of_surface = Points {
+                at,
+                normal: at.normal.negated().where_else(is_back, at.normal),
+                to_viewer: rays.direction.negated(),
+                color: Vectors::splat(simd, material.color),
+                ka: number(material.ka.get()),
+                kd: number(material.kd.get()),
+                ks: number(material.ks.get()),
+                n: number(material.n.get()),
+                surfaces: [surface.index; LANES],
+                met: hits.met,
+            };
+            all = Some(match all {
+                None => of_surface,
+                Some(others) => of_surface.where_else(simd, same, others),
+            });
+        }
+        all
+    }
+}
+
+impl<V: Simd> Hits<V> {
+    /// Replaces what a lane hits.
+    fn put(&mut self, lane: usize, hit: Option<Hit>) {
+        let bit = 1 << lane;
+        self.met = if hit.is_some() {
+            self.met | bit
+        } else {
+            self.met & !bit
+        };
+        if let Some(Hit {
+            t,
+            surface,
+            prim_id,
+        }) = hit
+        {
+            self.t[lane] = t;
+            (self.surfaces[lane], self.prims[lane]) = (surface, prim_id);
+        }
+    }
+}
+
+impl<V: Simd> Points<V> {
+    /// Those of `self` in some lanes, those of `others` elsewhere.
+    #[inline(always)]
+    fn where_else(self, simd: V, lanes: u64, others: Self) -> Self {
+        let mask = mask64x4::from_bitmask(simd, lanes);
+        let mut surfaces = others.surfaces;
+        for lane in lanes_of(lanes) {
+            surfaces[lane] = self.surfaces[lane];
+        }
+        Self {
+            at: self.at.where_else(mask, others.at),
+            normal: self.normal.where_else(mask, others.normal),
+            to_viewer: self.to_viewer,
+            color: self.color.where_else(mask, others.color),
+            ka: mask.select(self.ka, others.ka),
+            kd: mask.select(self.kd, others.kd),
+            ks: mask.select(self.ks, others.ks),
+            n: mask.select(self.n, others.n),
+            surfaces,
+            met: self.met,
+        }
+    }
+}
+
+/// The rays mirrored at points where nothing bends the normal.
+#[inline(always)]
+fn mirrored<V: Simd>(simd: V, rays: &FourRays<V>, points: &Points<V>) -> FourRays<V> {
+    let number = |x: f64| f64x4::splat(simd, x);
+    let (d, n) = (rays.direction, points.normal);
+    let along = d.minus(n.times(number(2.0) * d.dot(n)));
+    let direction = along.times(number(1.0) / along.length());
+    FourRays {
+        origin: points.at.start(simd, direction),
+        direction,
+    }
+}
+
+/// The roots of a shape that has no form in lanes, and their primitives where they are closer.
+fn roots<V: Simd, S: Geometry>(
+    shape: &S,
+    rays: &FourRays<V>,
+    hits: &mut Hits<V>,
+    lanes: u64,
+) -> f64x4<V> {
+    let mut roots = f64x4::splat(hits.t.simd, f64::INFINITY);
+    for lane in lanes_of(lanes) {
+        let ray = rays.lane(lane);
+        let shear = Few::shear_of(shape, &ray);
+        if let Some((t, prim_id)) = shape.closest_hit(&ray, &shear, hits.t[lane] * CLOSE) {
+            roots[lane] = t;
+            if t < hits.t[lane] {
+                hits.prims[lane] = prim_id;
+            }
+        }
+    }
+    roots
+}
+
+/// The interactions with a shape that has no form in lanes.
+fn interactions<V: Simd, S: Geometry>(
+    simd: V,
+    shape: &S,
+    rays: &FourRays<V>,
+    hits: &Hits<V>,
+    lanes: u64,
+) -> Interactions<V> {
+    let at = |lane: usize| shape.interaction(&rays.lane(lane), hits.t[lane], hits.prims[lane]);
+    let mut all = [at(lanes.trailing_zeros() as usize); LANES];
+    for lane in lanes_of(lanes & (lanes - 1)) {
+        all[lane] = at(lane);
+    }
+    Interactions::each(simd, &all)
+}

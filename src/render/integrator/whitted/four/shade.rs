@@ -1,0 +1,191 @@
+//! Phong's model in four lanes, and the shadow rays it asks for.
+
+use super::Points;
+use crate::math::Vec3;
+use crate::plan::{Effect, Features};
+use crate::render::bsdf::optics::highlight;
+use crate::render::integrator::whitted::Tracer;
+use crate::render::lanes::{FourRays, LANES, Vectors, lanes_of};
+use crate::render::shape::four;
+use crate::render::shape::geometry::Geometry;
+use crate::render::world::END;
+use crate::render::world::few::Few;
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x4, mask64x4};
+
+impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
+    /// As [`Tracer::phong`].
+    #[inline(always)]
+    pub(super) fn phong_of<V: Simd>(&mut self, simd: V, points: &Points<V>) -> Vectors<V> {
+        let world = self.world;
+        let mut sum = Vectors::splat(simd, Vec3::ZERO);
+        for (index, light) in world.lights.course.iter().enumerate() {
+            let plan = &world.plan.lights[index];
+            if !plan.kept {
+                continue;
+            }
+            let mut term = points.color.times(points.ka);
+            if Self::can(Features::LIGHT) && plan.direct {
+                term = self.with_direct(simd, points, term, index);
+            }
+            sum = sum.plus(Vectors::splat(simd, light.color).times_each(term));
+        }
+        sum
+    }
+
+    /// As `Tracer::direct`, added to `term`.
+    #[inline(always)]
+    fn with_direct<V: Simd>(
+        &mut self,
+        simd: V,
+        points: &Points<V>,
+        term: Vectors<V>,
+        light: usize,
+    ) -> Vectors<V> {
+        let number = |x: f64| f64x4::splat(simd, x);
+        let zero = number(0.0);
+        let place = self.world.lights.course[light].position;
+        let diffuse = points.color.times(points.kd);
+        let is_black = diffuse.x.simd_eq(zero) & diffuse.y.simd_eq(zero) & diffuse.z.simd_eq(zero);
+        let mut shines = points.ks.simd_gt(zero).to_bitmask();
+        if !Self::can(Features::HIGHLIGHT) {
+            shines = 0;
+        }
+        let mut lit = points.met & !(is_black.to_bitmask() & !shines);
+        self.counts
+            .add_several(Effect::DirectLight, lit.count_ones());
+
+        let to_light = Vectors::splat(simd, place).minus(points.at.point);
+        let inverse = number(1.0) / to_light.length();
+        let has_way = inverse.simd_gt(zero) & inverse.simd_lt(number(f64::INFINITY));
+        let to_light = to_light.times(inverse);
+        let n_dot_l = points.normal.dot(to_light);
+        let is_before = n_dot_l.simd_gt(zero);
+        lit &= has_way.to_bitmask();
+        if self.world.settings.shadows {
+            lit &= is_before.to_bitmask();
+            if Self::can(Features::SHADOW) && lit != 0 {
+                lit = self.unshadowed(simd, points, light, lit);
+            }
+        }
+        if lit == 0 {
+            return term;
+        }
+        let cosine = is_before.select(n_dot_l, zero);
+        let mut direct = points.color.times(points.kd * cosine);
+        shines &= lit;
+        if shines != 0 {
+            self.counts
+                .add_several(Effect::Highlight, shines.count_ones());
+            let reflected = points.normal.times(number(2.0) * n_dot_l).minus(to_light);
+            let gloss = points.ks * highlights(reflected.dot(points.to_viewer), points.n, shines);
+            let shines = mask64x4::from_bitmask(simd, shines);
+            let whole = Vectors {
+                x: direct.x + gloss,
+                y: direct.y + gloss,
+                z: direct.z + gloss,
+            };
+            direct = whole.where_else(shines, direct);
+        }
+        term.plus(direct)
+            .where_else(mask64x4::from_bitmask(simd, lit), term)
+    }
+
+    /// The lanes, of some, whose point sees a light.
+    #[inline(always)]
+    fn unshadowed<V: Simd>(
+        &mut self,
+        simd: V,
+        points: &Points<V>,
+        light: usize,
+        asked: u64,
+    ) -> u64 {
+        let world = self.world;
+        let Some(few) = &world.few else {
+            return asked;
+        };
+        let plan = &world.plan.lights[light];
+        let (mut hiding, mut all, mut doubted) = ([0; LANES], 0, 0);
+        for lane in lanes_of(asked) {
+            let surface = points.surfaces[lane];
+            if !plan.shadowed[surface] {
+                continue;
+            }
+            self.counts.shadow += 1;
+            let casters = few.hiding(light, surface);
+            if casters != 0 {
+                let from = points.at.point.lane(lane);
+                hiding[lane] = casters & self.towards(few, light, from);
+                all |= hiding[lane];
+                doubted |= u64::from(hiding[lane] != 0) << lane;
+            }
+        }
+        if doubted == 0 {
+            return asked;
+        }
+        let target = world.lights.course[light].position;
+        let to = Vectors::splat(simd, target);
+        let origin = points.at.start(simd, to.minus(points.at.point));
+        let direction = to.minus(origin);
+        let rays = FourRays { origin, direction };
+        let mut hidden = 0;
+        for lane in lanes_of(doubted) {
+            if !rays.lane(lane).is_scaled() {
+                doubted &= !(1 << lane);
+                let is_hidden = world.occluded(origin.lane(lane), target);
+                hidden |= u64::from(is_hidden) << lane;
+            }
+        }
+        let end = ends(simd, &rays, to);
+        while let Some(surface) = Few::pop(&mut all) {
+            let of_surface = |lane: &usize| hiding[*lane] >> surface & 1 == 1;
+            let lanes = lanes_of(doubted & !hidden).filter(of_surface);
+            let lanes = lanes.fold(0, |bits, lane| bits | 1 << lane);
+            if lanes == 0 {
+                continue;
+            }
+            let shape = &world.surfaces[surface].shape;
+            let t = match shape.as_sphere() {
+                Some(sphere) => {
+                    four::intersect(simd, sphere, &rays, mask64x4::from_bitmask(simd, lanes))
+                }
+                None => first_roots(shape, &rays, lanes),
+            };
+            hidden |= t.simd_lt(end).to_bitmask() & lanes;
+        }
+        asked & !hidden
+    }
+}
+
+/// Where the segments of rays to one point end, as [`crate::render::world::segment`] says; 0 where
+/// both ends are as good as one.
+#[inline(always)]
+fn ends<V: Simd>(simd: V, rays: &FourRays<V>, to: Vectors<V>) -> f64x4<V> {
+    let number = |x: f64| f64x4::splat(simd, x);
+    let size = rays.origin.abs().plus(to.abs()).sum();
+    let length = rays.direction.length();
+    number(1.0) - number(END) * (number(1.0) + size / length)
+}
+
+/// Phong's highlight in some lanes, 0 in the others.
+#[inline(always)]
+fn highlights<V: Simd>(r_dot_v: f64x4<V>, n: f64x4<V>, lanes: u64) -> f64x4<V> {
+    let mut all = f64x4::splat(n.simd, 0.0);
+    for lane in lanes_of(lanes) {
+        all[lane] = highlight(r_dot_v[lane], n[lane]);
+    }
+    all
+}
+
+/// The roots before 1 of a shape that has no form in lanes.
+fn first_roots<V: Simd, S: Geometry>(shape: &S, rays: &FourRays<V>, lanes: u64) -> f64x4<V> {
+    let mut roots = f64x4::splat(rays.origin.x.simd, f64::INFINITY);
+    for lane in lanes_of(lanes) {
+        let ray = rays.lane(lane);
+        let shear = Few::shear_of(shape, &ray);
+        if let Some((t, _)) = shape.intersect(&ray, &shear, 1.0) {
+            roots[lane] = t;
+        }
+    }
+    roots
+}

@@ -1,0 +1,213 @@
+//! The sphere and interactions in four lanes: the steps of [`Sphere::intersect`],
+//! [`Sphere::interaction`] and [`Interaction`] on four rays at once. What those decide in
+//! double-double is asked of them, lane by lane.
+
+use super::sphere::{AMPLIFIED, FAR, Sphere};
+use crate::math::{U, Vec3};
+use crate::render::lanes::{FourRays, LANES, Vectors, lanes_of};
+use crate::render::ray::{Interaction, OFFSET};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x4, mask64x4};
+
+/// Interactions of four rays.
+#[derive(Clone, Copy)]
+pub(in crate::render) struct Interactions<S: Simd> {
+    pub(in crate::render) point: Vectors<S>,
+    pub(in crate::render) normal: Vectors<S>,
+    pub(in crate::render) offset: f64x4<S>,
+    pub(in crate::render) back: Vectors<S>,
+}
+
+impl<S: Simd> Interactions<S> {
+    /// One in each lane.
+    #[inline(always)]
+    pub(in crate::render) fn each(simd: S, all: &[Interaction; LANES]) -> Self {
+        Self {
+            point: Vectors::each(simd, all.map(|at| at.point)),
+            normal: Vectors::each(simd, all.map(|at| at.normal)),
+            offset: f64x4::simd_from(simd, all.map(|at| at.offset)),
+            back: Vectors::each(simd, all.map(|at| at.back)),
+        }
+    }
+
+    /// Those of `self` in the lanes of a mask, those of `other` elsewhere.
+    #[inline(always)]
+    pub(in crate::render) fn where_else(self, mask: mask64x4<S>, other: Self) -> Self {
+        Self {
+            point: self.point.where_else(mask, other.point),
+            normal: self.normal.where_else(mask, other.normal),
+            offset: mask.select(self.offset, other.offset),
+            back: self.back.where_else(mask, other.back),
+        }
+    }
+
+    /// As [`Interaction::start`].
+    #[inline(always)]
+    pub(in crate::render) fn start(&self, simd: S, direction: Vectors<S>) -> Vectors<S> {
+        let zero = f64x4::splat(simd, 0.0);
+        let is_below = direction.dot(self.normal).simd_lt(zero);
+        let side = is_below.select(-self.offset, self.offset);
+        let returns = !(self.back.dot(self.normal).simd_lt(zero) ^ side.simd_lt(zero));
+        let step = self.normal.times(side);
+        let back = step.plus(self.back.times(self.offset));
+        self.point.plus(back.where_else(returns, step))
+    }
+}
+
+/// As [`Sphere::intersect`], of the lanes `asked`; infinite where there is no root.
+#[inline(always)]
+pub(in crate::render) fn intersect<S: Simd>(
+    simd: S,
+    sphere: &Sphere,
+    rays: &FourRays<S>,
+    asked: mask64x4<S>,
+) -> f64x4<S> {
+    let number = |x: f64| f64x4::splat(simd, x);
+    let (zero, none) = (number(0.0), number(f64::INFINITY));
+    let f = rays.origin.minus(Vectors::splat(simd, sphere.center));
+    let d = rays.direction;
+    let (f2, b) = (f.dot(f), -f.dot(d));
+    let r2 = number(sphere.radius * sphere.radius);
+    let a = d.dot(d);
+    let outside = f2 * number(1.0 - 64.0 * U) - r2;
+    let is_beside = outside.simd_gt(zero) & (a * outside).simd_gt(b * b);
+    let is_behind = b.simd_lt(zero) & (f2 * number(1.0 - 8.0 * U)).simd_gt(r2);
+    let near = asked & !(is_beside | is_behind);
+    if near.all_false() {
+        return none;
+    }
+
+    let nearest = b / a;
+    let foot = f.plus(d.times(nearest));
+    let foot2 = foot.dot(foot);
+    let discriminant = r2 - foot2;
+    let extent = f.abs().sum();
+    let sizes = r2 + foot2 + number(sphere.radius) * extent;
+    let error_bound = number(16.0 * U) * (sizes + number(16.0 * U) * extent * extent);
+    let met = near & !discriminant.simd_lt(-error_bound);
+    let is_tangent = met & discriminant.simd_le(error_bound);
+
+    let c = f2 - r2;
+    let a_discriminant = a * discriminant;
+    let root = a_discriminant.sqrt();
+    let is_ahead = b.simd_ge(zero);
+    let q = is_ahead.select(b + root, b - root);
+    let from_afar = f2.simd_gt(number(FAR) * r2);
+    let (first, second) = (c / q, q / a);
+    let takes_first = is_ahead & first.simd_gt(zero) | !(is_ahead | second.simd_gt(zero));
+    let by_step = nearest - (foot.dot(d) + root) / a;
+    let t = from_afar.select(by_step, takes_first.select(first, second));
+    let is_root = met & t.simd_gt(zero);
+    let is_cancelled = (from_afar | takes_first) & (f2 + r2).simd_gt(number(AMPLIFIED) * c.abs());
+    let is_amplified =
+        (r2 * (r2 + f2) * a * a).simd_gt(number(AMPLIFIED * AMPLIFIED) * a_discriminant * q * q);
+
+    let mut found = is_root.select(t, none);
+    let doubted = is_tangent | (is_root & (is_cancelled | is_amplified));
+    if doubted.any_true() {
+        for lane in lanes_of(doubted.to_bitmask()) {
+            let precise = sphere.intersect_precisely(&rays.lane(lane));
+            found[lane] = precise.unwrap_or(f64::INFINITY);
+        }
+    }
+    found
+}
+
+/// As [`Sphere::interaction`].
+#[inline(always)]
+pub(in crate::render) fn interactions<S: Simd>(
+    simd: S,
+    sphere: &Sphere,
+    rays: &FourRays<S>,
+    t: f64x4<S>,
+) -> Interactions<S> {
+    let number = |x: f64| f64x4::splat(simd, x);
+    let center = Vectors::splat(simd, sphere.center);
+    let step = rays.direction.times(t);
+    let local = rays.origin.minus(center).plus(step);
+    let length = local.length();
+    let mut normal = local.over(length);
+    let has_none = !length.simd_gt(number(0.0));
+    if has_none.any_true() {
+        for lane in lanes_of(has_none.to_bitmask()) {
+            let Vec3 { x, y, z } = rays.lane(lane).outward(local.lane(lane));
+            (normal.x[lane], normal.y[lane], normal.z[lane]) = (x, y, z);
+        }
+    }
+    let along_ray = rays.origin.abs().plus(step.abs()).sum();
+    let along_radius = number(sphere.center.abs().element_sum() + sphere.radius);
+    let on_sphere = center.plus(normal.times(number(sphere.radius)));
+    let on_ray = rays.origin.plus(step);
+    let point = on_ray.where_else(along_ray.simd_lt(along_radius), on_sphere);
+
+    let sizes = point.abs().plus(center.abs());
+    let size = normal.abs().dot(sizes) + number(sphere.radius);
+    let direction = rays.direction;
+    Interactions {
+        point,
+        normal,
+        offset: number(OFFSET * U) * size,
+        back: direction.negated().over(direction.abs().sum()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::ray::Ray;
+    use crate::render::sampler::Key;
+    use fearless_simd::Fallback;
+
+    /// Rays from near and far, at the sphere and past it, from its surface and along it.
+    fn rays(index: u64) -> [Ray; LANES] {
+        [0, 1, 2, 3].map(|lane| {
+            let key = Key::new([7, lane], index);
+            let vector = |k: u64| {
+                Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0
+            };
+            let far = [1.0, 1.001, 4.0, 1e3, 1e9][(key.bits(9) % 5) as usize];
+            let origin = vector(0).normalize() * far;
+            let aim = match key.bits(10) % 3 {
+                0 => vector(3),
+                1 => vector(3).normalize(),
+                _ => vector(3) * far,
+            };
+            Ray {
+                origin,
+                direction: (aim - origin).normalize(),
+            }
+        })
+    }
+
+    #[test]
+    fn four_rays_have_the_bits_of_each() {
+        let simd = Fallback::new();
+        let sphere = Sphere {
+            center: Vec3::ZERO,
+            radius: 1.0,
+        };
+        let all = mask64x4::splat(simd, true);
+        let mut hits = 0;
+        for index in 0..20_000 {
+            let each = rays(index);
+            let four = FourRays::each(simd, &each);
+            let t = intersect(simd, &sphere, &four, all);
+            let at = interactions(simd, &sphere, &four, t);
+            let starts = at.start(simd, at.back);
+            for (lane, ray) in each.iter().enumerate() {
+                let single = sphere.intersect(ray);
+                assert_eq!(single.unwrap_or(f64::INFINITY).to_bits(), t[lane].to_bits());
+                let Some(t) = single else { continue };
+                let one = sphere.interaction(ray, t);
+                let bits = |v: Vec3| v.to_array().map(f64::to_bits);
+                assert_eq!(bits(one.point), bits(at.point.lane(lane)));
+                assert_eq!(bits(one.normal), bits(at.normal.lane(lane)));
+                assert_eq!(bits(one.back), bits(at.back.lane(lane)));
+                assert_eq!(one.offset.to_bits(), at.offset[lane].to_bits());
+                assert_eq!(bits(one.start(one.back)), bits(starts.lane(lane)));
+                hits += 1;
+            }
+        }
+        assert!(hits > 20_000, "{hits}");
+    }
+}
