@@ -8,6 +8,7 @@ use super::merge::unfit;
 use super::output::Output;
 use super::render::{or_restart, say_saved, try_save};
 use super::simd;
+use super::system;
 use super::talk::Talk;
 use super::versus;
 use crate::image::{FileFormat, Picture};
@@ -185,16 +186,7 @@ pub(super) fn about(name: &str, scene: &Scene) -> About {
         ),
         hash: pipeline::hash(scene),
         software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
-        processor: processor().unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
+        processor: system::processor().unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
         cores: std::thread::available_parallelism().map_or(1, usize::from),
     }
-}
-
-/// The name of the processor, where the system tells it in a file.
-fn processor() -> Option<String> {
-    let mut map = SourceMap::default();
-    let file = Loader.file(Path::new("/proc/cpuinfo"), &mut map).ok()?;
-    let text = String::from_utf8_lossy(map.bytes(file)).into_owned();
-    let line = text.lines().find(|line| line.starts_with("model name"))?;
-    Some(line.split_once(':')?.1.trim().to_owned())
 }

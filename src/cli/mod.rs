@@ -29,6 +29,7 @@ mod project;
 mod render;
 mod report;
 mod simd;
+mod system;
 mod talk;
 mod tell;
 pub mod trial;

@@ -42,11 +42,13 @@ pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     (p, e)
 }
 
+/// The factor of Veltkamp's splitting: 2²⁷ + 1.
+pub const SPLITTER: f64 = 134_217_729.0;
+
 /// Veltkamp's splitting into two halves of at most 26 bits each.
 #[inline(always)]
 fn split(a: f64) -> (f64, f64) {
-    const FACTOR: f64 = 134_217_729.0;
-    let c = FACTOR * a;
+    let c = SPLITTER * a;
     let high = c - (c - a);
     (high, a - high)
 }

@@ -22,7 +22,9 @@ pub use bounds::Bounds;
 pub use column::{Column, Shared};
 pub use direction::{length, unit, unit_scale};
 pub use double::DoubleDouble;
-pub use exact::{cross, difference_of_products, dot, two_difference, two_product, two_sum};
+pub use exact::{
+    SPLITTER, cross, difference_of_products, dot, two_difference, two_product, two_sum,
+};
 pub use flat::is_flat;
 pub use func::{acos, atan2, cos, exp, ldexp, ln, pow, sin, sin_cos};
 pub use glam::DVec3 as Vec3;

@@ -1,7 +1,7 @@
 //! Four vectors at once, one in each lane. Every operation is that of one vector in the same order,
 //! so that each lane has its bits.
 
-use crate::math::Vec3;
+use crate::math::{SPLITTER, Vec3};
 use crate::render::ray::Ray;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
@@ -112,6 +112,12 @@ impl<S: Simd> Vectors<S> {
         }
     }
 
+    /// The coordinates along an axis, 0 to 2.
+    #[inline(always)]
+    pub(in crate::render) fn along(self, axis: usize) -> f64x4<S> {
+        [self.x, self.y, self.z][axis]
+    }
+
     /// The sum of the coordinates.
     #[inline(always)]
     pub(in crate::render) fn sum(self) -> f64x4<S> {
@@ -121,6 +127,16 @@ impl<S: Simd> Vectors<S> {
     #[inline(always)]
     pub(in crate::render) fn dot(self, other: Self) -> f64x4<S> {
         self.times_each(other).sum()
+    }
+
+    /// As [`crate::math::cross`].
+    #[inline(always)]
+    pub(in crate::render) fn cross(self, other: Self) -> Self {
+        Self {
+            x: difference_of_products(self.y, other.z, self.z, other.y),
+            y: difference_of_products(self.z, other.x, self.x, other.z),
+            z: difference_of_products(self.x, other.y, self.y, other.x),
+        }
     }
 
     #[inline(always)]
@@ -137,6 +153,41 @@ impl<S: Simd> Vectors<S> {
             z: mask.select(self.z, other.z),
         }
     }
+}
+
+/// As [`crate::math::two_difference`].
+#[inline(always)]
+pub(in crate::render) fn two_difference<S: Simd>(a: f64x4<S>, b: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
+    let b = -b;
+    let s = a + b;
+    let b_virtual = s - a;
+    (s, (a - (s - b_virtual)) + (b - b_virtual))
+}
+
+/// As [`crate::math::difference_of_products`].
+#[inline(always)]
+fn difference_of_products<S: Simd>(a: f64x4<S>, b: f64x4<S>, c: f64x4<S>, d: f64x4<S>) -> f64x4<S> {
+    let (p, p_error) = two_product(a, b);
+    let (q, q_error) = two_product(c, d);
+    (p - q) + (p_error - q_error)
+}
+
+/// The products and their rounding errors, by Dekker as in [`crate::math::two_product`].
+#[inline(always)]
+fn two_product<S: Simd>(a: f64x4<S>, b: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
+    let p = a * b;
+    let (a_high, a_low) = split(a);
+    let (b_high, b_low) = split(b);
+    let e = ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    (p, e)
+}
+
+/// Veltkamp's splitting into two halves.
+#[inline(always)]
+fn split<S: Simd>(a: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
+    let c = f64x4::splat(a.simd, SPLITTER) * a;
+    let high = c - (c - a);
+    (high, a - high)
 }
 
 /// Four rays.

@@ -8,6 +8,9 @@ use crate::diag::codes;
 use crate::ir::{self, Field, Noun};
 use crate::math::{Column, Shared, Vec3, unit};
 
+/// A mesh has at most so many triangles: a hierarchy over them takes 21 GB.
+pub const MOST_TRIANGLES: usize = 1 << 29;
+
 /// Triangles over one list of corners. Its columns are shared with the scene.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
@@ -115,6 +118,7 @@ fn fault(mesh: &ir::Mesh) -> Option<String> {
     fault_of_numbers(positions, normals)
         .or_else(|| fault_of_columns([uvs, second_uvs], tangents, colors))
         .or_else(|| fault_of_lengths(mesh))
+        .or_else(|| fault_of_count(triangles.len()))
         .or_else(|| fault_of_triangles(triangles, positions.len()))
 }
 
@@ -179,6 +183,12 @@ fn fault_of_lengths(mesh: &ir::Mesh) -> Option<String> {
     })
 }
 
+fn fault_of_count(triangles: usize) -> Option<String> {
+    let message =
+        || format!("a mesh has {triangles} triangles; at most {MOST_TRIANGLES} can be rendered");
+    (triangles > MOST_TRIANGLES).then(message)
+}
+
 fn fault_of_triangles(triangles: &[[u32; 3]], count: usize) -> Option<String> {
     let is_lost = |triangle: &[u32; 3]| triangle.iter().any(|k| *k as usize >= count);
     let lost = triangles.iter().position(is_lost)?;
@@ -186,4 +196,16 @@ fn fault_of_triangles(triangles: &[[u32; 3]], count: usize) -> Option<String> {
         "triangle {lost} of a mesh refers to {:?}, but the mesh has {count} vertices",
         triangles[lost]
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mesh_of_more_than_a_hierarchy_holds_has_a_fault() {
+        assert_eq!(fault_of_count(MOST_TRIANGLES), None);
+        let fault = fault_of_count(MOST_TRIANGLES + 1);
+        assert!(fault.is_some_and(|fault| fault.contains("536870913 triangles")));
+    }
 }

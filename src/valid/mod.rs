@@ -24,7 +24,7 @@ pub use environment::Environment;
 pub use image::Image;
 pub use light::{CourseLight, DirectionalLight, Falloff, Light, PointLight, Punctual};
 pub use material::Material;
-pub use mesh::Mesh;
+pub use mesh::{MOST_TRIANGLES, Mesh};
 pub use phong::{Bump, Maps, Phong};
 pub use settings::{Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;

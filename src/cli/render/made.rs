@@ -1,11 +1,11 @@
 //! A picture that was made: what is told of it, in words for people and as an object for programs.
 
-use super::super::progress;
+use super::super::{progress, system};
 use crate::pipeline::PictureSetup;
 use crate::plan::Effect;
 use crate::render::Counts;
 use crate::study::{CrudePicture, Samples};
-use indicatif::HumanCount;
+use indicatif::{HumanBytes, HumanCount};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -64,17 +64,18 @@ impl MadePicture {
     }
 
     /// In words: its size, its light, its rays and how long they took; if `verbose`, how often each effect
-    /// was simulated; how good it is.
+    /// was simulated and what is on huge pages; how good it is.
     pub(in crate::cli) fn words(&self, verbose: bool) -> String {
         let ([width, height], light) = (self.size, &self.light);
         let work = progress::summary(self.counts.rays(), self.elapsed);
         let line = format!("{}: {width}×{height}, {light}{work}", self.output.display());
         let simulated = verbose.then(|| simulated(&self.counts));
+        let pages = verbose.then(huge_pages).flatten();
         let quality = self.quality.as_ref().map(Quality::words);
         let denoised = self
             .is_denoised
             .then(|| "no bound: the error of a denoised picture is not told".to_owned());
-        let lines = [Some(line), simulated, quality, denoised];
+        let lines = [Some(line), simulated, pages, quality, denoised];
         lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
 
@@ -162,4 +163,10 @@ fn bound(levels: f64, unmet: Option<f64>) -> String {
 pub(super) fn error(levels: f64) -> String {
     // Rounded up, so that the words promise no more than was measured.
     format!("error ≤ {:.2} grey levels", (levels * 100.0).ceil() / 100.0)
+}
+
+/// What is on huge pages, in words.
+fn huge_pages() -> Option<String> {
+    let bytes = system::huge_pages().filter(|bytes| *bytes > 0)?;
+    Some(format!("huge pages: {}", HumanBytes(bytes)))
 }

@@ -4,8 +4,8 @@ use super::kinds::{Plane, Sphere, Triangle};
 use crate::math::{Bounds, Vec3};
 use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::four::InLanes;
 use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
-use crate::render::shape::sphere;
 use crate::render::shape::tie;
 use crate::render::shape::triangle::Shear;
 

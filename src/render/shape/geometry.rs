@@ -3,7 +3,7 @@
 use crate::math::{Bounds, Vec3};
 use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::sphere::Sphere;
+use crate::render::shape::four::InLanes;
 use crate::render::shape::triangle::Shear;
 
 /// A kind of prepared shape: which shapes there are, and by which arithmetic rays meet them.
@@ -118,9 +118,9 @@ pub trait Geometry: Sized + Send + Sync {
     #[must_use]
     fn bounds(&self) -> Option<Bounds>;
 
-    /// The sphere that it is.
+    /// Itself, if rays meet it four at a time.
     #[must_use]
-    fn as_sphere(&self) -> Option<&Sphere> {
+    fn in_lanes(&self) -> Option<InLanes<'_>> {
         None
     }
 

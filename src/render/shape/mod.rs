@@ -119,10 +119,9 @@ macro_rules! dispatch {
             }
 
             #[inline(always)]
-            fn as_sphere(&self) -> Option<&sphere::Sphere> {
+            fn in_lanes(&self) -> Option<InLanes<'_>> {
                 match self {
-                    Self::Sphere(textured) => Some(&textured.sphere),
-                    _ => None,
+                    $(Self::$Name(shape) => <$Name as Geometry>::in_lanes(shape),)*
                 }
             }
 
@@ -175,6 +174,7 @@ pub(in crate::render) mod kinds {
 use crate::math::{Bounds, Vec3};
 use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::four::InLanes;
 use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
 use crate::render::shape::triangle::Shear;
 use kinds::*;

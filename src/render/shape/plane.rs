@@ -3,6 +3,7 @@
 
 use crate::math::{Bounds, U, Vec3, cross, dot, two_difference, unit_scale};
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::four::InLanes;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::mesh::PlainMesh;
 use crate::render::shape::plain::ray::PlainRay;
@@ -15,18 +16,18 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct Normal {
     /// The normal as given, times a power of two.
-    raw: Vec3,
+    pub(super) raw: Vec3,
     /// Its square.
-    square: f64,
+    pub(super) square: f64,
     unit: Vec3,
 }
 
 /// An axis that a normal lies along, and its sign there: products with such a normal are exact, and
 /// so are their sums.
 #[derive(Clone, Copy, Debug)]
-struct Axis {
-    index: usize,
-    sign: f64,
+pub struct Axis {
+    pub(super) index: usize,
+    pub(super) sign: f64,
 }
 
 impl Axis {
@@ -47,8 +48,8 @@ impl Axis {
 /// A prepared plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane {
-    anchor: Vec3,
-    normal: Normal,
+    pub(super) anchor: Vec3,
+    pub(super) normal: Normal,
 }
 
 impl Normal {
@@ -97,7 +98,7 @@ impl Normal {
     }
 
     /// The axis along which the normal lies, if it lies along one.
-    #[inline]
+    #[inline(always)]
     fn axis(&self) -> Option<Axis> {
         if self.square != 1.0 {
             return None;
@@ -211,6 +212,12 @@ impl Geometry for Plane {
 
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         self.interaction(ray, t)
+    }
+
+    #[inline(always)]
+    fn in_lanes(&self) -> Option<InLanes<'_>> {
+        let axis = self.normal.axis()?;
+        Some(InLanes::Plane(self, axis))
     }
 
     fn bounds(&self) -> Option<Bounds> {

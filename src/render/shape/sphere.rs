@@ -8,6 +8,7 @@
 use crate::math::{Bounds, DoubleDouble, U, Vec3, acos, atan2};
 use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::four::InLanes;
 use crate::render::shape::geometry::{Asked, Details, Geometry};
 use crate::render::shape::mesh::PlainMesh;
 use crate::render::shape::plain::ray::PlainRay;
@@ -212,6 +213,11 @@ impl Geometry for TexturedSphere {
             tangent,
             ..Details::default()
         }
+    }
+
+    #[inline(always)]
+    fn in_lanes(&self) -> Option<InLanes<'_>> {
+        Some(InLanes::Sphere(&self.sphere))
     }
 
     fn bounds(&self) -> Option<Bounds> {

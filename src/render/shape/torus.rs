@@ -10,6 +10,7 @@
 use crate::math::{Bounds, Vec3, cross, ldexp};
 use crate::render::accel::bounds::Ball;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::four::InLanes;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::mesh::PlainMesh;
 use crate::render::shape::plain::ray::PlainRay;
@@ -21,23 +22,30 @@ use crate::render::shape::triangle::Shear;
 use std::sync::Arc;
 
 /// Steps of a bracketed search: bisection alone would need 60.
-const MAX_STEPS: usize = 100;
+pub(super) const MAX_STEPS: usize = 100;
 
 /// The rounding error of lengths in units of the torus.
-const ROUNDING: f64 = 0.5 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 0.5 * f64::EPSILON;
+
+/// The margin of what touches the torus, in its units, where lengths are of about 1: far above
+/// rounding.
+pub(super) const TOUCH: f64 = 1.0 / 1_048_576.0;
+
+/// A square so much larger is larger by more than rounding.
+pub(super) const NEARLY_ONE: f64 = 1.0 + 1e-12;
 
 /// A prepared torus.
 #[derive(Clone, Copy, Debug)]
 pub struct Torus {
-    center: Vec3,
+    pub(super) center: Vec3,
     /// A unit vector along the axis.
-    axis: Vec3,
+    pub(super) axis: Vec3,
     /// From the centre to the middle of the tube.
-    major: f64,
+    pub(super) major: f64,
     /// Of the tube.
-    minor: f64,
+    pub(super) minor: f64,
     /// The power of two near the outer radius.
-    unit: f64,
+    pub(super) unit: f64,
 }
 
 /// A ray near the torus, in units of about its outer radius, as seen from the axis.
@@ -69,18 +77,16 @@ impl TorusRay {
     /// the two planes that touch the torus, or all the way between them in the hole. All of it with
     /// a margin far above rounding; the distance from the axis is largest at an end of that way.
     fn passes(&self, low: f64, high: f64) -> bool {
-        /// Lengths are of about 1.
-        const MARGIN: f64 = 1.0 / 1_048_576.0;
-        let above = self.minor + MARGIN;
+        let above = self.minor + TOUCH;
         let ends = [-above, above].map(|height| (height - self.height) / self.rise);
         let (enter, leave) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-        let hole = self.major - self.minor - MARGIN;
+        let hole = self.major - self.minor - TOUCH;
         let is_in_hole = |s: f64| {
             let off = self.off + self.turn * s;
             off.dot(off) < hole * hole
         };
-        enter > high + MARGIN
-            || leave < low - MARGIN
+        enter > high + TOUCH
+            || leave < low - TOUCH
             || hole > 0.0 && is_in_hole(enter) && is_in_hole(leave)
     }
 
@@ -229,7 +235,7 @@ impl Torus {
         let nearest = -f.dot(d) / length2;
         let foot = f + d * nearest;
         let outer = self.major + self.minor;
-        let half2 = outer * outer * (1.0 + 1e-12) - foot.dot(foot);
+        let half2 = outer * outer * NEARLY_ONE - foot.dot(foot);
         if half2 < 0.0 || half2.is_nan() {
             return None;
         }
@@ -283,6 +289,11 @@ impl Geometry for Torus {
 
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         self.interaction(ray, t)
+    }
+
+    #[inline(always)]
+    fn in_lanes(&self) -> Option<InLanes<'_>> {
+        Some(InLanes::Torus(self))
     }
 
     fn bounds(&self) -> Option<Bounds> {

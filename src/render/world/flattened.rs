@@ -2,12 +2,12 @@
 
 use super::Surface;
 use crate::render::accel::simd::SimdLevel;
-use crate::render::accel::wide::{Builders, Candidate, Wide};
+use crate::render::accel::wide::{Builders, Candidate, MOST, Wide};
 use crate::render::ray::Ray;
 use crate::render::shape::geometry::{Geometry, LocalRay};
 use crate::render::shape::mesh::FEW;
 use crate::render::shape::triangle::{self, Shear};
-use crate::valid::{self, Proof};
+use crate::valid::{self, MOST_TRIANGLES, Proof};
 
 /// The triangles of all flattened instances, numbered surface by surface.
 pub(super) struct Flattened {
@@ -19,6 +19,8 @@ pub(super) struct Flattened {
 /// A mesh with several instances is flattened if its instances have at most this many triangles
 /// together.
 const MAX_TRIANGLES: usize = 1 << 18;
+
+const _: () = assert!(MOST_TRIANGLES == MOST, "a proven mesh has a hierarchy");
 
 /// One ray against flattened triangles. The ray is brought to the coordinates of a surface once for
 /// a run of its triangles.
@@ -174,12 +176,17 @@ pub(super) fn flattened_surfaces(scene: &Proof) -> Vec<bool> {
         .iter()
         .filter_map(mesh)
         .for_each(|mesh| uses[mesh] += 1);
-    let flattens = |mesh: usize| {
-        uses[mesh] == 1 || uses[mesh] * scene.meshes()[mesh].triangles.len() <= MAX_TRIANGLES
+    let triangles = |mesh: usize| scene.meshes()[mesh].triangles.len();
+    let mut all = 0;
+    let mut flattens = |mesh: usize| {
+        let is_worth = uses[mesh] == 1 || uses[mesh] * triangles(mesh) <= MAX_TRIANGLES;
+        let fits = is_worth && all + triangles(mesh) <= MOST_TRIANGLES;
+        all += usize::from(fits) * triangles(mesh);
+        fits
     };
     scene
         .surfaces()
         .iter()
-        .map(|surface| mesh(surface).is_some_and(flattens))
+        .map(|surface| mesh(surface).is_some_and(&mut flattens))
         .collect()
 }

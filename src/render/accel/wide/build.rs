@@ -17,7 +17,7 @@ use arrayvec::ArrayVec;
 use rayon::prelude::*;
 
 /// A link to a leaf counts no more triangles, which would take 21 GB.
-const MOST: u32 = 1 << 29;
+pub(in crate::render) const MOST: usize = 1 << 29;
 
 /// Parts of so few triangles are built by one thread.
 const ALONE: usize = 4096;
@@ -42,7 +42,8 @@ impl Wide {
         error_bound: f64,
         corners: impl Fn(u32) -> [Vec3; 3] + Sync,
     ) -> Option<Self> {
-        let count = u32::try_from(count).unwrap_or(MOST).min(MOST);
+        assert!(count <= MOST, "a proven scene has no more triangles");
+        let count = count as u32;
         if count == 0 {
             return None;
         }

@@ -14,7 +14,7 @@ use crate::render::accel::lanes::{TRIANGLES, TriangleRow, WIDTH, WideLeaf, WideN
 use crate::render::accel::pages::Pages;
 use crate::render::accel::simd::SimdLevel;
 use arrayvec::ArrayVec;
-pub(in crate::render) use build::Builders;
+pub(in crate::render) use build::{Builders, MOST};
 pub(in crate::render) use walk::Visitor;
 
 /// Below this depth the heuristic chooses; above it the middle, which needs at most 12 more.

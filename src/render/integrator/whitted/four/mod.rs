@@ -14,7 +14,7 @@ use crate::render::accel::simd::Tokens;
 use crate::render::film::pixel::{Sample, SampleId, Stream};
 use crate::render::integrator::Integrator;
 use crate::render::lanes::{ALL, FourRays, LANES, Vectors, lanes_of};
-use crate::render::shape::four::{self, Interactions};
+use crate::render::shape::four::Interactions;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::tie::CLOSE;
 use crate::render::world::few::Few;
@@ -81,7 +81,9 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             return Some(simd.vectorize(
                 #[inline(always)]
                 || {
-                    let rays = [(); LANES].map(|()| self.ray_of_picture(id.pixel, seeds));
+                    // Written out: `map` of an array is not inlined here.
+                    let mut next = || self.ray_of_picture(id.pixel, seeds);
+                    let rays = [next(), next(), next(), next()];
                     self.radiances(simd, FourRays::each(simd, &rays))
                 },
             ));
@@ -163,8 +165,8 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         let mut next = none;
         while let Some(surface) = Few::pop(&mut items) {
             let shape = &world.surfaces[surface].shape;
-            let t = match shape.as_sphere() {
-                Some(sphere) => four::intersect(simd, sphere, rays, asked),
+            let t = match shape.in_lanes() {
+                Some(shape) => shape.intersect(simd, rays, asked),
                 None => roots(shape, rays, &mut hits, bundled),
             };
             let closer = t.simd_lt(hits.t);
@@ -206,10 +208,11 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             rest &= !same;
             let surface = &self.world.surfaces[surface];
             let material = &self.world.phongs[surface.material];
-            let at = match surface.shape.as_sphere() {
-                Some(sphere) => four::interactions(simd, sphere, rays, hits.t),
-                None => interactions(simd, &surface.shape, rays, hits, same),
-            };
+            let shape = &surface.shape;
+            let in_lanes = shape.in_lanes();
+            let at = in_lanes
+                .and_then(|shape| shape.interactions(simd, rays, hits.t))
+                .unwrap_or_else(|| interactions(simd, shape, rays, hits, same));
             let is_back = rays.direction.dot(at.normal).simd_gt(number(0.0));
             let of_surface = Points {
                 at,

@@ -6,7 +6,6 @@ use crate::plan::{Effect, Features};
 use crate::render::bsdf::optics::highlight;
 use crate::render::integrator::whitted::Tracer;
 use crate::render::lanes::{FourRays, LANES, Vectors, lanes_of};
-use crate::render::shape::four;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::END;
 use crate::render::world::few::Few;
@@ -145,10 +144,8 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                 continue;
             }
             let shape = &world.surfaces[surface].shape;
-            let t = match shape.as_sphere() {
-                Some(sphere) => {
-                    four::intersect(simd, sphere, &rays, mask64x4::from_bitmask(simd, lanes))
-                }
+            let t = match shape.in_lanes() {
+                Some(shape) => shape.intersect(simd, &rays, mask64x4::from_bitmask(simd, lanes)),
                 None => first_roots(shape, &rays, lanes),
             };
             hidden |= t.simd_lt(end).to_bitmask() & lanes;

@@ -1,13 +1,61 @@
-//! The sphere and interactions in four lanes: the steps of [`Sphere::intersect`],
+//! The shapes that four rays meet at once, the sphere and interactions in four lanes: the steps of [`Sphere::intersect`],
 //! [`Sphere::interaction`] and [`Interaction`] on four rays at once. What those decide in
 //! double-double is asked of them, lane by lane.
 
+mod plane;
+mod torus;
+
+use super::plane::{Axis, Plane};
 use super::sphere::{AMPLIFIED, FAR, Sphere};
+use super::torus::Torus;
 use crate::math::{U, Vec3};
 use crate::render::lanes::{FourRays, LANES, Vectors, lanes_of};
 use crate::render::ray::{Interaction, OFFSET};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
+
+/// A shape that four rays meet at once.
+#[derive(Clone, Copy)]
+pub enum InLanes<'a> {
+    /// A sphere.
+    Sphere(&'a Sphere),
+    /// A torus.
+    Torus(&'a Torus),
+    /// A plane along an axis.
+    Plane(&'a Plane, Axis),
+}
+
+impl InLanes<'_> {
+    /// The roots above 0 of the lanes `asked`; infinite where there is none.
+    #[inline(always)]
+    pub(in crate::render) fn intersect<S: Simd>(
+        self,
+        simd: S,
+        rays: &FourRays<S>,
+        asked: mask64x4<S>,
+    ) -> f64x4<S> {
+        match self {
+            Self::Sphere(sphere) => intersect(simd, sphere, rays, asked),
+            Self::Torus(torus) => torus::intersect(simd, torus, rays, asked),
+            Self::Plane(plane, axis) => plane::intersect(simd, plane, axis, rays, asked),
+        }
+    }
+
+    /// The interactions at `t`, where they have a form in lanes.
+    #[inline(always)]
+    pub(in crate::render) fn interactions<S: Simd>(
+        self,
+        simd: S,
+        rays: &FourRays<S>,
+        t: f64x4<S>,
+    ) -> Option<Interactions<S>> {
+        match self {
+            Self::Sphere(sphere) => Some(interactions(simd, sphere, rays, t)),
+            Self::Torus(_) => None,
+            Self::Plane(plane, axis) => Some(plane::interactions(simd, plane, axis, rays, t)),
+        }
+    }
+}
 
 /// Interactions of four rays.
 #[derive(Clone, Copy)]
@@ -19,6 +67,27 @@ pub(in crate::render) struct Interactions<S: Simd> {
 }
 
 impl<S: Simd> Interactions<S> {
+    /// As [`Interaction::new`].
+    #[inline(always)]
+    fn new(
+        simd: S,
+        rays: &FourRays<S>,
+        point: Vectors<S>,
+        normal: Vectors<S>,
+        anchor: Vec3,
+        extent: f64,
+    ) -> Self {
+        let sizes = point.abs().plus(Vectors::splat(simd, anchor.abs()));
+        let size = normal.abs().dot(sizes) + f64x4::splat(simd, extent);
+        let direction = rays.direction;
+        Self {
+            point,
+            normal,
+            offset: f64x4::splat(simd, OFFSET * U) * size,
+            back: direction.negated().over(direction.abs().sum()),
+        }
+    }
+
     /// One in each lane.
     #[inline(always)]
     pub(in crate::render) fn each(simd: S, all: &[Interaction; LANES]) -> Self {
@@ -56,7 +125,7 @@ impl<S: Simd> Interactions<S> {
 
 /// As [`Sphere::intersect`], of the lanes `asked`; infinite where there is no root.
 #[inline(always)]
-pub(in crate::render) fn intersect<S: Simd>(
+fn intersect<S: Simd>(
     simd: S,
     sphere: &Sphere,
     rays: &FourRays<S>,
@@ -115,7 +184,7 @@ pub(in crate::render) fn intersect<S: Simd>(
 
 /// As [`Sphere::interaction`].
 #[inline(always)]
-pub(in crate::render) fn interactions<S: Simd>(
+fn interactions<S: Simd>(
     simd: S,
     sphere: &Sphere,
     rays: &FourRays<S>,
@@ -140,15 +209,7 @@ pub(in crate::render) fn interactions<S: Simd>(
     let on_ray = rays.origin.plus(step);
     let point = on_ray.where_else(along_ray.simd_lt(along_radius), on_sphere);
 
-    let sizes = point.abs().plus(center.abs());
-    let size = normal.abs().dot(sizes) + number(sphere.radius);
-    let direction = rays.direction;
-    Interactions {
-        point,
-        normal,
-        offset: number(OFFSET * U) * size,
-        back: direction.negated().over(direction.abs().sum()),
-    }
+    Interactions::new(simd, rays, point, normal, sphere.center, sphere.radius)
 }
 
 #[cfg(test)]
@@ -156,6 +217,7 @@ mod tests {
     use super::*;
     use crate::render::ray::Ray;
     use crate::render::sampler::Key;
+    use crate::render::shape::geometry::Geometry;
     use fearless_simd::Fallback;
 
     /// Rays from near and far, at the sphere and past it, from its surface and along it.
@@ -180,6 +242,76 @@ mod tests {
     }
 
     #[test]
+    fn four_rays_meet_a_torus_as_each_does() {
+        let simd = Fallback::new();
+        let all = mask64x4::splat(simd, true);
+        let mut hits = 0;
+        for (axis, major, minor) in [
+            (Vec3::new(0.0, 0.0, 1.0), 0.75, 0.25),
+            (Vec3::new(1.0, 2.0, -2.0), 0.9, 0.01),
+            (Vec3::new(-0.3, 0.1, 0.2), 0.5, 0.5),
+        ] {
+            let torus = Torus::new(Vec3::new(0.1, -0.2, 0.05), axis, major, minor);
+            for index in 0..5_000 {
+                let each = rays(index);
+                let t = torus::intersect(simd, &torus, &FourRays::each(simd, &each), all);
+                for (lane, ray) in each.iter().enumerate() {
+                    let single = torus.intersect(ray);
+                    assert_eq!(single.unwrap_or(f64::INFINITY).to_bits(), t[lane].to_bits());
+                    hits += usize::from(single.is_some());
+                }
+            }
+        }
+        assert!(hits > 10_000, "{hits}");
+    }
+
+    #[test]
+    fn four_rays_meet_a_plane_along_an_axis_as_each_does() {
+        let simd = Fallback::new();
+        let all = mask64x4::splat(simd, true);
+        let mut hits = 0;
+        for (anchor, normal) in [
+            (Vec3::new(0.1, 0.2, 0.0), Vec3::new(0.0, 0.0, -4.0)),
+            (Vec3::new(0.5, -0.25, 0.3), Vec3::new(2.0, 0.0, 0.0)),
+        ] {
+            let plane = Plane::new(anchor, normal);
+            let Some(lanes) = plane.in_lanes() else {
+                panic!("{normal} lies along an axis")
+            };
+            for index in 0..20_000 {
+                let mut each = rays(index);
+                // Some start on the plane, or run along it.
+                if index % 5 == 0 {
+                    each[1].origin = anchor;
+                    each[2].direction.z = 0.0;
+                }
+                let four = FourRays::each(simd, &each);
+                let t = lanes.intersect(simd, &four, all);
+                let Some(at) = lanes.interactions(simd, &four, t) else {
+                    panic!("a plane has its interactions in lanes")
+                };
+                for (lane, ray) in each.iter().enumerate() {
+                    let single = plane.intersect(ray);
+                    assert_eq!(single.unwrap_or(f64::INFINITY).to_bits(), t[lane].to_bits());
+                    let Some(t) = single else { continue };
+                    assert_same(&plane.interaction(ray, t), &at, lane);
+                    hits += 1;
+                }
+            }
+        }
+        assert!(hits > 20_000, "{hits}");
+    }
+
+    /// Whether an interaction has the bits of that in a lane.
+    fn assert_same(one: &Interaction, at: &Interactions<Fallback>, lane: usize) {
+        let bits = |v: Vec3| v.to_array().map(f64::to_bits);
+        assert_eq!(bits(one.point), bits(at.point.lane(lane)));
+        assert_eq!(bits(one.normal), bits(at.normal.lane(lane)));
+        assert_eq!(bits(one.back), bits(at.back.lane(lane)));
+        assert_eq!(one.offset.to_bits(), at.offset[lane].to_bits());
+    }
+
+    #[test]
     fn four_rays_have_the_bits_of_each() {
         let simd = Fallback::new();
         let sphere = Sphere {
@@ -199,12 +331,12 @@ mod tests {
                 assert_eq!(single.unwrap_or(f64::INFINITY).to_bits(), t[lane].to_bits());
                 let Some(t) = single else { continue };
                 let one = sphere.interaction(ray, t);
-                let bits = |v: Vec3| v.to_array().map(f64::to_bits);
-                assert_eq!(bits(one.point), bits(at.point.lane(lane)));
-                assert_eq!(bits(one.normal), bits(at.normal.lane(lane)));
-                assert_eq!(bits(one.back), bits(at.back.lane(lane)));
-                assert_eq!(one.offset.to_bits(), at.offset[lane].to_bits());
-                assert_eq!(bits(one.start(one.back)), bits(starts.lane(lane)));
+                assert_same(&one, &at, lane);
+                let (single, lane) = (one.start(one.back), starts.lane(lane));
+                assert_eq!(
+                    single.to_array().map(f64::to_bits),
+                    lane.to_array().map(f64::to_bits)
+                );
                 hits += 1;
             }
         }
