@@ -1,5 +1,6 @@
-// Drives the page of `rtc preview` in a browser: an edit, a fault, a button that mends, a turn, the
-// view written back, a pixel, the slider; and pictures of the page at three widths, light and dark.
+// Drives the page of `rtc preview` in a browser: an edit, a fault, a button that mends, a turn that
+// what it is compared with follows, the view written back, a pixel with its effects, settings chosen by
+// their costs; and pictures of the page at three widths, light and dark.
 //
 // CHROMIUM names the browser, RTC the binary [default: target/debug/rtc]; pictures go to shots/.
 
@@ -38,9 +39,16 @@ const text = () => readFileSync(scene, "utf8");
 const shots = join(here, "shots");
 mkdirSync(shots, { recursive: true });
 writeFileSync(scene, SCENE);
-execFileSync(rtc, ["render", "-q", scene, "--env-color", "0.5", "-o", join(folder, "other.png")]);
+const other = join(folder, "other.yaml");
+writeFileSync(other, SCENE.replace("[0.9, 0.3, 0.2]", "[0.9, 0.9, 0.2]"));
 
-const program = spawn(rtc, ["preview", scene, "--against", join(folder, "other.png")], {
+/** The picture of a command of the page, perhaps of another scene. */
+const rendered = (command, of = "balls.yaml") => {
+  const words = command.split(" ").slice(1).map((word) => (word === scene ? join(folder, of) : word));
+  return execFileSync(rtc, [...words, "-q", "-o", "-"], { maxBuffer: 1 << 28 });
+};
+
+const program = spawn(rtc, ["preview", scene, "--against", other], {
   stdio: ["ignore", "pipe", "inherit"],
 });
 const ended = new Promise((done) => program.once("exit", done));
@@ -64,7 +72,7 @@ try {
 
   // By evaluations alone: to wait in the page would take a function made of text, which its policy forbids.
   const until = async (what, ...args) => {
-    for (let turn = 0; turn < 600; turn += 1) {
+    for (let turn = 0; turn < 300; turn += 1) {
       if (await page.evaluate(what, ...args)) return;
       await new Promise((done) => setTimeout(done, 100));
     }
@@ -78,6 +86,29 @@ try {
       return isIdle && state?.picture?.isFinished && state.picture.number === number && number > before;
     }, before);
     return page.$eval("#picture", (canvas) => Number(canvas.dataset.number));
+  };
+  // The files of what is shown, as the server has them.
+  const file = async (path) => {
+    const read = async (path) => {
+      const { number } = path === "/picture" ? state.picture : state.against;
+      const bytes = await (await fetch(url(path, { number }))).arrayBuffer();
+      return btoa(Array.from(new Uint8Array(bytes), (byte) => String.fromCharCode(byte)).join(""));
+    };
+    return Buffer.from(await page.evaluate(read, path), "base64");
+  };
+  const command = () => page.$eval("#command", (own) => own.value);
+  // All of the page, at three widths, light and dark; nothing is cut off.
+  const shoot = async (name, { fullPage = true } = {}) => {
+    for (const [width, height] of [[390, 844], [1280, 900], [1920, 1080]]) {
+      for (const scheme of ["light", "dark"]) {
+        await page.setViewport({ width, height });
+        await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
+        await page.screenshot({ path: join(shots, `${name}-${width}-${scheme}.png`), fullPage });
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+        assert.ok(wide <= 0, `nothing is cut off at ${width}: ${wide}`);
+      }
+    }
+    await page.setViewport({ width: 1280, height: 900 });
   };
   const pixels = () => page.$eval("#picture", (canvas) => canvas.toDataURL());
 
@@ -93,17 +124,8 @@ try {
   await until(() => !document.getElementById("overlay").hidden);
   const told = await page.$eval("#errors", (errors) => errors.textContent);
   assert.match(told, /error\[/, "the fault is told");
-  for (const [width, height] of [[390, 844], [1280, 900], [1920, 1080]]) {
-    for (const scheme of ["light", "dark"]) {
-      await page.setViewport({ width, height });
-      await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
-      await page.screenshot({ path: join(shots, `fault-${width}-${scheme}.png`) });
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-      assert.ok(wide <= 0, `nothing is cut off at ${width}: ${wide}`);
-    }
-  }
+  await shoot("fault", { fullPage: false });
   // By keys alone: the first button, which mends its finding.
-  await page.setViewport({ width: 1280, height: 900 });
   const before = text();
   await page.focus("#errors button");
   await page.keyboard.press("Enter");
@@ -131,30 +153,52 @@ try {
   await page.mouse.up();
   await new Promise((done) => setTimeout(done, 600));
   number = await finished(number);
+  await until(() => state.against.age === state.picture.age && state.against.isFinished);
+  await until(() => Number(document.getElementById("against").dataset.number) === state.against.number);
+  assert.ok((await file("/picture")).equals(rendered(await command())), "the bytes of the command");
+  assert.ok((await file("/against")).equals(rendered(await command(), "other.yaml")), "the other follows");
+
   await page.click("#effects summary");
   await until(() => document.getElementById("verdicts").textContent.includes("shadows"));
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   await until(() => document.getElementById("pixel").textContent.includes("value"));
-  for (const [width, height] of [[390, 844], [1280, 900], [1920, 1080]]) {
-    for (const scheme of ["light", "dark"]) {
-      await page.setViewport({ width, height });
-      await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
-      await page.screenshot({ path: join(shots, `turned-${width}-${scheme}.png`), fullPage: true });
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-      assert.ok(wide <= 0, `nothing is cut off at ${width}: ${wide}`);
-    }
-  }
-  await page.setViewport({ width: 1280, height: 900 });
-  await page.click("#prices summary");
-  await page.click("#measure");
-  await until(() => /recommended|rtc render/.test(document.getElementById("costs").textContent));
-  for (const width of [390, 1920]) {
-    await page.setViewport({ width, height: 900 });
-    await page.screenshot({ path: join(shots, `costs-${width}.png`), fullPage: true });
-    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-    assert.ok(wide <= 0, `nothing is cut off at ${width}: ${wide}`);
-  }
-  await page.setViewport({ width: 1280, height: 900 });
+  await until(() => /took part: surfaces \d+×, direct light/.test(document.getElementById("taken").textContent));
+  assert.match(await page.$eval("#pixel", (own) => own.textContent), /surface \d: sphere \(.*balls.yaml:\d+\)/);
+  await shoot("turned");
+
+  // The panel measures when it is opened, and not before; by keys alone a setting is chosen.
+  assert.equal(await page.evaluate(() => state.costs), null);
+  await page.focus("#prices summary");
+  await page.keyboard.press("Enter");
+  await until(() => document.querySelector("#knobs input") !== null);
+  await until(() => /rtc render/.test(document.getElementById("costs").textContent));
+  assert.match(await page.$eval("#rows", (rows) => rows.textContent), /recommended/);
+  await page.focus('#rows button:not([data-values="[]"])');
+  const wanted = await page.evaluate(() => document.activeElement.dataset.values);
+  await page.keyboard.press("Enter");
+  await until((wanted) => ordered(state.choice.values) === wanted && !state.isWorking, wanted);
+  number = await finished(number);
+  await until(() => document.activeElement.getAttribute("aria-pressed") === "true");
+  assert.notEqual(await page.evaluate(() => state.costs), null, "the costs stay");
+  assert.ok((await file("/picture")).equals(rendered(await command())), "the bytes of the command");
+  await page.focus("#knob-supersampling");
+  await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("Tab");
+  number = await finished(number);
+  assert.match(await command(), /--supersampling \d/);
+  assert.ok((await file("/picture")).equals(rendered(await command())), "the bytes of the command");
+  await page.emulateMediaFeatures([{ name: "prefers-reduced-motion", value: "reduce" }]);
+  const moving = await page.evaluate(() => {
+    document.body.classList.add("is-working");
+    const name = getComputedStyle(document.getElementById("status"), "::before").animationName;
+    document.body.classList.remove("is-working");
+    return name;
+  });
+  assert.equal(moving, "none", "nothing moves for who wants that");
+  await shoot("settings");
+  await page.click("#own");
+  number = await finished(number);
+  assert.ok(!(await command()).includes("--supersampling"));
   await page.click("#keep");
   await until(() => !state.isMoved && !state.isWorking);
   number = await finished(number);

@@ -79,6 +79,11 @@ pub(super) fn staged(
     reading: &Reading,
     stage: &args::StageArgs,
 ) -> Result<Input, Failure> {
+    set_stage(read(path, reading)?, stage)
+}
+
+/// Has an input shown in the view and the light given.
+pub(super) fn set_stage(mut input: Input, stage: &args::StageArgs) -> Result<Input, Failure> {
     let args::StageArgs {
         eye,
         center,
@@ -93,7 +98,6 @@ pub(super) fn staged(
         ground,
         integrator,
     } = stage;
-    let mut input = read(path, reading)?;
     let environment = match env {
         Some(path) => input.environment(path).map_err(Failure::Trouble)?,
         None => env_color.map(EnvironmentOverride::Color),

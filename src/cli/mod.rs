@@ -34,6 +34,7 @@ mod talk;
 mod tell;
 pub mod trial;
 mod turntable;
+mod typed;
 mod versus;
 
 use crate::diag::clip_words;
@@ -107,7 +108,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Fmt(args) => fmt::run(&args),
         Command::Compile(args) => compile::run(&args),
         Command::Render(args) => render::run(*args, &typed),
-        Command::Preview(args) => preview::run(&args),
+        Command::Preview(args) => preview::run(&args, &typed),
         Command::Lsp(args) => lsp::run(args),
         Command::Merge(args) => merge::run(&args),
         Command::Farm(args) => batch::run(&args),

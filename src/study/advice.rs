@@ -41,8 +41,9 @@ fn chosen(front: &[&Row]) -> Option<usize> {
         .or(front.len().checked_sub(1))
 }
 
-/// The row that is recommended.
-pub(super) fn recommended(study: &Study) -> Option<&Row> {
+/// The row that is recommended: the cheapest of the front whose error is surely invisible.
+#[must_use]
+pub fn recommended(study: &Study) -> Option<&Row> {
     let front = front(study);
     Some(front[chosen(&front)?])
 }

@@ -153,8 +153,9 @@ impl Knob {
 /// The deepest path a study follows.
 pub(super) const MAX_DEPTH: u32 = 64;
 
-/// The arithmetic of a value of the precision.
-pub(super) fn arithmetic(value: u32) -> Arithmetic {
+/// The arithmetic of a value of the precision; the robust one of a value that is none.
+#[must_use]
+pub fn arithmetic(value: u32) -> Arithmetic {
     Arithmetic::ALL
         .into_iter()
         .rev()

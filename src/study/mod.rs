@@ -35,6 +35,7 @@ mod target;
 mod unmet;
 mod versus;
 
+pub use advice::recommended;
 pub use bench::{Bench, Clock};
 pub use budget::CrudePicture;
 pub use difference::{Difference, heat_map};
@@ -42,7 +43,7 @@ pub use effects::EffectCost;
 pub use flip::{PIXELS_PER_DEGREE, flip};
 pub use growth::{Growth, Keep};
 pub use journal::Journal;
-pub use knob::{Knob, idle};
+pub use knob::{Knob, arithmetic, idle};
 pub use left_out::Omission;
 pub use maps::{StudyMap, maps};
 pub use metrics::{Errors, LEVELS, rmse};

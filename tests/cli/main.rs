@@ -39,6 +39,8 @@ mod reports;
 #[cfg(unix)]
 mod running;
 mod set;
+#[cfg(unix)]
+mod settings;
 mod stage;
 mod strips;
 mod studio;

@@ -17,10 +17,21 @@ fn typed(text: &str) -> TempDir {
     folder
 }
 
-fn rendered(folder: &TempDir, args: &[&str]) -> Vec<u8> {
+pub(super) fn rendered(folder: &TempDir, args: &[&str]) -> Vec<u8> {
     let output = rtc(folder, &[&["render", "-q", "-o", "-"], args].concat());
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     output.stdout
+}
+
+/// The picture of the command that is said to render what is shown.
+pub(super) fn commanded(folder: &TempDir, state: &Value) -> Vec<u8> {
+    let words = state["command"].as_str().unwrap();
+    let words: Vec<_> = words
+        .strip_prefix("rtc render ")
+        .unwrap()
+        .split(' ')
+        .collect();
+    rendered(folder, &words)
 }
 
 #[test]
@@ -165,9 +176,7 @@ fn the_finished_picture_is_that_of_render() {
     let state = live.when("turned", |state| {
         state["picture"]["age"].as_u64() == age && state["picture"]["isFinished"] == true
     });
-    let flags = state["view"]["flags"].as_str().unwrap();
-    let flags: Vec<_> = flags.split(' ').collect();
-    let turned = rendered(&folder, &[&["ball.json"][..], &size, &flags].concat());
+    let turned = commanded(&folder, &state);
     assert!(turned != whole && live.picture(&state) == turned);
     for wrong in [
         json!({ "isMoving": 1 }),
@@ -179,38 +188,6 @@ fn the_finished_picture_is_that_of_render() {
     assert_eq!(live.post("/effects", &Value::Null).status, 202);
     let state = live.when("explained", |state| state["effects"].is_string());
     assert!(state["effects"].as_str().unwrap().contains("shadows"));
-}
-
-#[test]
-fn costs_are_measured_when_asked_and_go_with_their_picture() {
-    let folder = folder();
-    let live = Running::start(&folder, &["ball.json", "--size", "16x12"]);
-    assert_eq!(live.finished(1)["costs"], Value::Null);
-    assert_eq!(live.post("/costs", &Value::Null).status, 202);
-    let state = live.when("measured", |state| state["costs"].is_string());
-    let table = state["costs"].as_str().unwrap();
-    assert!(
-        table.contains("rays") && table.contains("rtc render ball.json"),
-        "{table}"
-    );
-    let view = json!({ "eye": [30.5, 10, 40], "center": [0, 0, 0], "up": [0, 1, 0] });
-    live.post("/view", &json!({ "view": view, "isMoving": false }));
-    live.when("forgotten", |state| state["costs"].is_null());
-}
-
-#[test]
-fn another_scene_is_rendered_to_be_compared_with() {
-    let folder = folder();
-    let text = fs::read_to_string(folder.path().join("ball.json")).unwrap();
-    fs::write(folder.path().join("same.json"), text).unwrap();
-    let size = ["--size", "40x30"];
-    let against = ["ball.json", "--against", "same.json"];
-    let live = Running::start(&folder, &[&against[..], &size].concat());
-    let laid = live.get("/against", "");
-    assert!(laid.body == rendered(&folder, &[&["same.json"][..], &size].concat()));
-    fs::write(folder.path().join("same.json"), "Lights: 3").unwrap();
-    let refused = rtc(&folder, &[&["preview"][..], &against].concat());
-    assert_eq!(code(&refused), 1, "{}", stderr(&refused));
 }
 
 #[test]
@@ -349,7 +326,7 @@ fn a_render_for_an_old_text_or_one_that_is_interrupted_is_given_up() {
         &folder,
         &["a.yaml", "--against", "golden.png", "--allow-huge"],
     );
-    let laid = live.get("/against", "");
+    let laid = live.get("/against", "&number=1");
     assert!(laid.status == 200 && laid.body.starts_with(b"\x89PNG"));
     let is_crude = |state: &Value| state["picture"]["isFinished"] == false;
     live.when("begun", is_crude);

@@ -21,7 +21,7 @@ pub(super) use look::{BackgroundArg, BitDepth, LookArgs};
 pub(super) use merge::Merge;
 pub(super) use preview::Preview;
 pub(super) use render::{Pruning, Render, SharedByArg};
-pub(super) use stage::{GroundArg, StageArgs};
+pub(super) use stage::{GroundArg, IntegratorArg, StageArgs};
 pub(super) use wanted::{ArithmeticArg, WantedArgs};
 
 use super::parse::length;

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[command(
     after_help = "The page is for this machine alone, and for who has its address. The finished picture has the bytes of `rtc render` with the \
 same options. Ctrl-C ends it.\n\n\
-Examples:\n  rtc preview scene.yaml --open\n  rtc preview scene.yaml --size 320x240 --port 8080\n  rtc preview scene.yaml --against golden.png\n  git show HEAD:scene.yaml > before.yaml; rtc preview scene.yaml --against before.yaml"
+Examples:\n  rtc preview scene.yaml --open\n  rtc preview scene.yaml --size 320x240 --port 8080\n  rtc preview scene.yaml --against golden.png\n  rtc preview scene.yaml --against HEAD~1"
 )]
 pub(in crate::cli) struct Preview {
     /// The scene, as YAML, glTF, a mesh or IR
@@ -20,8 +20,8 @@ pub(in crate::cli) struct Preview {
     /// Open the page in the browser
     #[arg(long)]
     pub(in crate::cli) open: bool,
-    /// A picture that the page lays over that of the scene, behind a slider: PNG, JPEG, WebP, EXR, HDR, or another scene, whose
-    /// picture is made once in the same way
+    /// What the page lays over the picture of the scene, behind a slider: a picture file (PNG, JPEG, WebP, EXR, HDR), another
+    /// scene, or a commit of git, whose text of the scene is taken; scenes are looked at as the first one
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) against: Option<PathBuf>,
     /// Threads to work on [default: one a core]

@@ -1,6 +1,7 @@
 //! What the page, the watch and the render have in common: what is shown, under a number that rises
 //! with every change, and what is asked for.
 
+use super::choice::Choice;
 use super::interrupt;
 use super::news::{self, News};
 use super::pixels::PixelTable;
@@ -10,6 +11,15 @@ use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+
+/// How the scene is looked at.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Manner {
+    /// From where, if not as the scene says.
+    pub(super) gaze: Option<Gaze>,
+    /// In which settings.
+    pub(super) choice: Choice,
+}
 
 /// A picture as the page shows it.
 pub(super) struct Shot {
@@ -43,6 +53,14 @@ pub(super) struct ReadState {
     pub(super) is_failed: bool,
 }
 
+/// A picture with its number, and by how old an order it was made.
+#[derive(Default)]
+struct NumberedShot {
+    shot: Option<Shot>,
+    number: u64,
+    age: u64,
+}
+
 /// All that is shown and asked for.
 #[derive(Default)]
 pub(super) struct BoardState {
@@ -52,20 +70,26 @@ pub(super) struct BoardState {
     followed: u64,
     pub(super) read: ReadState,
     is_working: bool,
-    shot: Option<Shot>,
-    /// The number of the picture, of which reading of the scene it is, and by how old an order.
-    number: u64,
+    shown: NumberedShot,
+    /// Of which reading of the scene the picture is.
     load: u64,
-    age: u64,
+    /// What it is compared with.
+    against: NumberedShot,
     pub(super) pixels: Option<PixelTable>,
     pub(super) sight: Option<Sight>,
     pub(super) effects: Option<String>,
-    /// What accuracy costs in the picture that is shown, once it was asked for.
-    pub(super) costs: Option<String>,
-    /// Where the page looks from, if not as the scene says.
-    pub(super) gaze: Option<Gaze>,
+    /// Which effects took part at a pixel, once that was asked for.
+    pub(super) pixel: Value,
+    /// The settings that the scene has, once they were asked for.
+    pub(super) settings: Value,
+    /// What accuracy costs in the scene as it is looked at, once that was asked for.
+    pub(super) costs: Value,
+    /// The command that renders the same.
+    pub(super) command: String,
+    pub(super) manner: Manner,
     is_moving: bool,
     wants_effects: bool,
+    wants_settings: bool,
     /// What is asked of the render.
     orders: Orders,
     is_ended: bool,
@@ -82,15 +106,18 @@ pub(super) struct Orders {
     pub(super) effects: bool,
     /// The costs are asked for.
     pub(super) costs: bool,
+    /// The effects of a pixel are asked for.
+    pub(super) pixel: Option<[u32; 2]>,
 }
 
 /// A piece of work for the render.
 pub(super) struct Work {
     pub(super) orders: Orders,
-    pub(super) gaze: Option<Gaze>,
+    pub(super) manner: Manner,
     /// The view is still changing: a crude picture will do.
     pub(super) is_moving: bool,
     pub(super) wants_effects: bool,
+    pub(super) wants_settings: bool,
     /// How old the order is; see [`Board::is_stale`].
     pub(super) age: u64,
 }
@@ -121,12 +148,16 @@ impl Board {
     /// Shows a picture, made by an order of this age.
     pub(super) fn put(&self, shot: Shot, pixels: Option<PixelTable>, age: u64) {
         self.show(|state| {
-            state.number += 1;
-            (state.load, state.age) = (state.read.load, age);
+            state.load = state.read.load;
             state.is_working = !shot.is_finished;
-            state.shot = Some(shot);
+            state.shown.put(shot, age);
             state.pixels = pixels;
         });
+    }
+
+    /// Shows what the picture is compared with, made by an order of this age.
+    pub(super) fn put_against(&self, shot: Shot, age: u64) {
+        self.show(|state| state.against.put(shot, age));
     }
 
     /// Whether work that was ordered at an age is of no use any more.
@@ -142,8 +173,17 @@ impl Board {
     /// Has the scene looked at from elsewhere; as it says with `None`. The age of the order.
     pub(super) fn look(&self, gaze: Option<Gaze>, is_moving: bool) -> u64 {
         self.order(|state| {
-            state.gaze = gaze;
+            state.manner.gaze = gaze;
             state.is_moving = is_moving;
+            state.orders.look = true;
+        })
+    }
+
+    /// Has the scene rendered in these settings. The age of the order.
+    pub(super) fn choose(&self, choice: Choice) -> u64 {
+        self.order(|state| {
+            state.manner.choice = choice;
+            state.is_moving = false;
             state.orders.look = true;
         })
     }
@@ -158,10 +198,18 @@ impl Board {
         }
     }
 
-    /// Has the costs of the picture measured. What is being done goes on before.
+    /// Has the settings told from now on, and their costs measured. What is being done goes on before.
     pub(super) fn want_costs(&self) {
         let mut state = self.state();
+        state.wants_settings = true;
         state.orders.costs = true;
+        self.changed.notify_all();
+    }
+
+    /// Has the effects of a pixel told. What is being done goes on before.
+    pub(super) fn want_pixel(&self, place: [u32; 2]) {
+        let mut state = self.state();
+        state.orders.pixel = Some(place);
         self.changed.notify_all();
     }
 
@@ -193,9 +241,10 @@ impl Board {
         }
         Some(Work {
             orders,
-            gaze: state.gaze,
+            manner: state.manner.clone(),
             is_moving: state.is_moving,
             wants_effects: state.wants_effects,
+            wants_settings: state.wants_settings,
             age: self.age.load(Ordering::Relaxed),
         })
     }
@@ -237,11 +286,40 @@ impl Board {
     }
 }
 
+impl NumberedShot {
+    fn put(&mut self, shot: Shot, age: u64) {
+        (self.number, self.age) = (self.number + 1, age);
+        self.shot = Some(shot);
+    }
+
+    /// The file of the picture of this number; none if there is another by now.
+    fn png(&self, number: &str) -> Option<Arc<Vec<u8>>> {
+        let shot = self.shot.as_ref()?;
+        (self.number.to_string() == number).then(|| Arc::clone(&shot.png))
+    }
+
+    fn told(&self, load: u64) -> Option<Value> {
+        self.shot.as_ref().map(|shot| {
+            json!({
+                "number": self.number,
+                "load": load,
+                "age": self.age,
+                "full": shot.full,
+                "isFinished": shot.is_finished,
+            })
+        })
+    }
+}
+
 impl BoardState {
     /// The picture of this number; none if there is another by now.
     pub(super) fn png(&self, number: &str) -> Option<Arc<Vec<u8>>> {
-        let shot = self.shot.as_ref()?;
-        (self.number.to_string() == number).then(|| Arc::clone(&shot.png))
+        self.shown.png(number)
+    }
+
+    /// That which it is compared with.
+    pub(super) fn png_against(&self, number: &str) -> Option<Arc<Vec<u8>>> {
+        self.against.png(number)
     }
 
     /// What the page is told.
@@ -254,15 +332,6 @@ impl BoardState {
             };
             json!({ "severity": finding.severity, "text": finding.text, "fix": fix })
         };
-        let picture = self.shot.as_ref().map(|shot| {
-            json!({
-                "number": self.number,
-                "load": self.load,
-                "age": self.age,
-                "full": shot.full,
-                "isFinished": shot.is_finished,
-            })
-        });
         json!({
             "version": self.version,
             "load": self.read.load,
@@ -270,10 +339,15 @@ impl BoardState {
             "isFailed": self.read.is_failed,
             "fault": self.read.fault,
             "findings": self.read.findings.iter().map(finding).collect::<Vec<_>>(),
-            "picture": picture,
+            "picture": self.shown.told(self.load),
+            "against": self.against.told(self.load),
             "view": self.sight.as_ref().map(Sight::told),
-            "isMoved": self.gaze.is_some(),
+            "isMoved": self.manner.gaze.is_some(),
+            "choice": self.manner.choice,
+            "command": self.command,
             "effects": self.effects,
+            "pixel": self.pixel,
+            "settings": self.settings,
             "costs": self.costs,
         })
     }

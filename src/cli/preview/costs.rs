@@ -1,21 +1,48 @@
-//! What accuracy costs in the scene that is shown: the table of `rtc cost --effort quick`.
+//! What accuracy costs in the scene that is shown, as `rtc cost --effort quick` measures it: settings,
+//! each with its seconds and its error.
 
 use super::Failure;
 use crate::cli::cost::{about, on_bench};
 use crate::ir::Scene;
-use crate::study::{self, Effort};
+use crate::study::{self, Effort, Knob, Row, Setting, Study};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// What draws the samples; that of `rtc cost` without a flag.
 const SEED: u64 = 1;
 
-/// The table of a scene of this name; `None` if the work is to stop.
-pub(super) fn table(
-    (name, scene): (&str, &Scene),
+/// The costs in a scene of this name, whose own setting this is; `None` if the work is to stop.
+pub(super) fn costs(
+    (name, scene, own): (&str, &Scene, &Setting),
     threads: usize,
     is_going: &(dyn Fn() -> bool + Sync),
-) -> Result<Option<String>, Failure> {
+) -> Result<Option<Value>, Failure> {
     let study = on_bench(threads, is_going, |bench| {
         study::study(scene, about(name, scene), Effort::QUICK, SEED, &bench)
     })?;
-    Ok(study.ok().map(|study| study::table(&study)))
+    Ok(study.ok().map(|study| told(&study, own)))
+}
+
+fn told(study: &Study, own: &Setting) -> Value {
+    let used = study.used();
+    let best = study::recommended(study).map(|row| row.setting);
+    let row = |row: &Row| {
+        let setting = &row.setting;
+        let other = |knob: &&Knob| setting.get(**knob) != own.get(**knob);
+        let values = used.iter().filter(other);
+        let values: BTreeMap<_, _> = values.map(|knob| (knob, setting.get(*knob))).collect();
+        json!({
+            "values": values,
+            "words": setting.words(&used),
+            "seconds": row.seconds.value,
+            "ratio": row.ratio.value,
+            "error": row.errors.rmse,
+            "most": row.errors.rmse_high,
+            "isJudged": row.judged,
+            "isFront": row.front,
+            "isBest": best == Some(row.setting),
+        })
+    };
+    let rows: Vec<_> = study.rows.iter().map(row).collect();
+    json!({ "rows": rows, "advice": study.advice, "report": study::table(study) })
 }

@@ -1,5 +1,5 @@
 //! What a pixel of the finished picture shows: its value, which surface is met there and how far away,
-//! and the line that says it.
+//! what it is called, and the line that says it.
 
 use crate::image::{Image, Layers};
 use crate::ir::{Field, Noun, Place};
@@ -13,8 +13,8 @@ pub(super) struct PixelTable {
     values: Vec<[f32; 3]>,
     /// The number of the surface and its distance, for each pixel.
     hits: Vec<(u32, f32)>,
-    /// The place of each surface that is seen, as `file:line`.
-    lines: BTreeMap<u32, String>,
+    /// The name, or the shape, of each surface that is seen, and its place as `file:line`.
+    surfaces: BTreeMap<u32, [String; 2]>,
 }
 
 impl PixelTable {
@@ -23,24 +23,19 @@ impl PixelTable {
         let hit = |pair: &[f32; 2]| (pair[0] as u32, pair[1]);
         let (pairs, _) = layers.values.as_chunks::<2>();
         let hits: Vec<_> = pairs.iter().map(hit).collect();
-        let mut lines = BTreeMap::new();
+        let mut surfaces = BTreeMap::new();
         for (number, _) in &hits {
-            let Some(index) = number.checked_sub(1) else {
-                continue;
-            };
-            lines.entry(*number).or_insert_with(|| {
-                let place = Place::new(Noun::Surface, index as usize, Field::Whole);
-                let span = proven.lowered.origins.span(place);
-                let line = span.map(|span| input.line(span));
-                line.map_or_else(String::new, |(file, line)| format!("{file}:{line}"))
-            });
+            if let Some(index) = number.checked_sub(1) {
+                let told = || surface(index as usize, proven, input);
+                surfaces.entry(*number).or_insert_with(told);
+            }
         }
         let value = |pixel: &[f64; 3]| pixel.map(|channel| channel as f32);
         Self {
             size: [image.width, image.height],
             values: image.pixels.iter().map(value).collect(),
             hits,
-            lines,
+            surfaces,
         }
     }
 
@@ -54,13 +49,32 @@ impl PixelTable {
         let value = self.values.get(index)?;
         let (number, depth) = self.hits.get(index).copied().unwrap_or_default();
         let is_hit = number > 0;
+        let words = self.surfaces.get(&number);
+        let [name, line] = [0, 1].map(|at| words.map(|own| &own[at]).filter(|own| !own.is_empty()));
         Some(json!({
             "x": x,
             "y": y,
             "value": value,
             "surface": is_hit.then_some(number),
             "depth": is_hit.then_some(depth),
-            "line": self.lines.get(&number).filter(|line| !line.is_empty()),
+            "name": name,
+            "line": line,
         }))
     }
+}
+
+/// What a surface is called, else its shape; and where it was written.
+fn surface(index: usize, proven: &Proven, input: &Input) -> [String; 2] {
+    let scene = &proven.lowered.scene;
+    let name = scene.names.get(index).filter(|name| !name.is_empty());
+    let shape = scene.surfaces.get(index).map(|own| own.shape.kind().word());
+    let place = Place::new(Noun::Surface, index, Field::Whole);
+    let span = proven.lowered.origins.span(place);
+    let line = span.map(|span| input.line(span));
+    [
+        name.cloned()
+            .or(shape.map(str::to_owned))
+            .unwrap_or_default(),
+        line.map_or_else(String::new, |(file, line)| format!("{file}:{line}")),
+    ]
 }

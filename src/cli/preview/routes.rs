@@ -1,6 +1,7 @@
 //! What is answered: fixed paths alone, none of them a file.
 
 use super::board::{Board, ReadState};
+use super::choice::Choice;
 use super::http::{HttpReply, HttpRequest};
 use super::news::Follower;
 use super::view::{self, Gaze};
@@ -15,7 +16,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The page, in which its style and its scripts are put.
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = concat!(include_str!("page/base.css"), include_str!("page/page.css"));
-const SCRIPT: &str = include_str!("page/page.js");
+const SCRIPT: &str = concat!(
+    include_str!("page/page.js"),
+    include_str!("page/settings.js")
+);
 const VIEW: &str = include_str!("page/view.js");
 
 /// What is needed to answer.
@@ -23,8 +27,6 @@ pub(super) struct Routes {
     pub(super) path: PathBuf,
     pub(super) options: Options,
     pub(super) board: Arc<Board>,
-    /// A picture to compare with, as a PNG.
-    pub(super) against: Option<Arc<Vec<u8>>>,
     /// Who holds it changes the scene.
     pub(super) pen: Mutex<()>,
 }
@@ -59,10 +61,25 @@ impl Routes {
                 png.map_or_else(|| HttpReply::empty(404), HttpReply::png)
             }
             ("GET", "/against") => {
-                let png = self.against.clone();
+                let number = request.value("number").unwrap_or_default();
+                let png = self.board.state().png_against(number);
                 png.map_or_else(|| HttpReply::empty(404), HttpReply::png)
             }
             ("GET", "/pixel") => self.pixel(request),
+            ("POST", "/pixel") => match serde_json::from_slice(&request.body) {
+                Ok(place) => {
+                    self.board.want_pixel(place);
+                    HttpReply::empty(202)
+                }
+                Err(_) => HttpReply::empty(400),
+            },
+            ("POST", "/settings") => match Choice::read(&request.body) {
+                Some(choice) => {
+                    let age = self.board.choose(choice);
+                    HttpReply::json(&json!({ "age": age }))
+                }
+                None => HttpReply::empty(400),
+            },
             ("POST", "/view") => self.look(&request.body),
             ("POST", "/keep") => self.keep(),
             ("POST", "/fix") => self.fix(&request.body),
@@ -83,14 +100,13 @@ impl Routes {
             return HttpReply::empty(503);
         };
         let name = self.path.file_name().unwrap_or_default().to_string_lossy();
-        let against = if self.against.is_some() { "yes" } else { "no" };
+        // The scripts come last: they have words in braces of their own.
         let page = PAGE
+            .replace("{name}", &escaped(&name))
+            .replace("{nonce}", &nonce)
             .replace("{style}", STYLE)
             .replace("{view}", VIEW)
-            .replace("{script}", SCRIPT)
-            .replace("{nonce}", &nonce)
-            .replace("{against}", against)
-            .replace("{name}", &escaped(&name));
+            .replace("{script}", SCRIPT);
         HttpReply::page(page, nonce)
     }
 
@@ -119,7 +135,7 @@ impl Routes {
         let _pen = self.pen.lock().unwrap_or_else(PoisonError::into_inner);
         let (text, gaze) = {
             let state = self.board.state();
-            (state.read.text.clone(), state.gaze)
+            (state.read.text.clone(), state.manner.gaze)
         };
         let (Some(text), Some(gaze)) = (text, gaze) else {
             return HttpReply::words(409, "there is no other view to write");

@@ -1,15 +1,17 @@
 //! The session: reads the scene, shows what is found, and renders it, crude first; all of it anew when
 //! a file or the view changes, whatever is under way.
 
-use super::board::{Board, ReadState, ToldFinding, Work};
-use super::view::{self, Gaze, Sight};
+use super::against::Against;
+use super::board::{Board, Manner, ReadState, ToldFinding, Work};
+use super::command::RenderWords;
+use super::scene::{self, ReadScene, ShownScene};
+use super::view::Sight;
 use super::watch::Watched;
-use super::{Failure, args, costs, crude, input, render, shots};
-use crate::cli::report::PlanReport;
+use super::{Failure, args, crude, shots};
 use crate::cli::talk::Talk;
-use crate::diag::{self, Diagnostic, Severity, Sink};
-use crate::passes::View;
-use crate::pipeline::{self, Input, Loaded, Observer, PictureSetup, RenderError, RenderSubject};
+use crate::diag::{self, Diagnostic, Severity};
+use crate::pipeline::{self, Input, Observer, PictureSetup, RenderError, RenderSubject};
+use serde_json::Value;
 use std::sync::Arc;
 
 /// Columns of what is told on the page.
@@ -18,48 +20,50 @@ const WIDTH: usize = 100;
 /// What is shown, as long as there is a scene.
 pub(super) struct Session<'a> {
     args: &'a args::Preview,
-    board: Arc<Board>,
+    pub(super) board: Arc<Board>,
     watched: Arc<Watched>,
     talk: Talk,
     /// The picture as it is asked for.
-    setup: PictureSetup,
+    pub(super) setup: PictureSetup,
+    /// What was typed, to be said again.
+    words: RenderWords,
     loads: u64,
-    scene: Option<ReadScene>,
-    /// The scene as it was rendered last, and how.
-    shown: Option<(PictureSetup, RenderSubject)>,
+    pub(super) scene: Option<ReadScene>,
+    /// The scene as it was rendered last.
+    pub(super) shown: Option<ShownScene>,
+    against: Option<Against>,
+    /// Of which reading and in which manner costs are told.
+    costed: (u64, Manner),
     /// What was told last.
     told: Vec<Diagnostic>,
-}
-
-/// A scene that was read.
-struct ReadScene {
-    input: Input,
-    loaded: Option<Loaded>,
-    /// What was found while it was read.
-    found: Sink,
-    /// The view that was asked for when it was read.
-    view: View,
-    /// Whether it has keys for another view.
-    can_write: bool,
-    /// How its own camera sees it, once that is known.
-    sight: Option<Sight>,
 }
 
 impl<'a> Session<'a> {
     pub(super) fn new(
         args: &'a args::Preview,
-        board: Arc<Board>,
-        watched: Arc<Watched>,
+        words: RenderWords,
+        (board, watched): (Arc<Board>, Arc<Watched>),
+        against: Option<Against>,
     ) -> Result<Self, Failure> {
+        let against = match against {
+            Some(Against::Picture(shot)) => {
+                board.put_against(shot, 0);
+                None
+            }
+            other => other,
+        };
         Ok(Self {
             args,
             board,
             watched,
             talk: Talk::beside_result(&args.talk),
             setup: shots::setup(args)?,
+            words,
             loads: 0,
             scene: None,
             shown: None,
+            against,
+            costed: Default::default(),
             told: Vec::new(),
         })
     }
@@ -75,7 +79,12 @@ impl<'a> Session<'a> {
                 self.look(&work)?;
             } else if work.orders.effects {
                 self.tell_effects(&work);
-            } else if work.orders.costs {
+            }
+            // What is newer is done first.
+            if work.orders.pixel.is_some() && !self.board.is_stale(work.age) {
+                self.tell_pixel(&work);
+            }
+            if work.orders.costs && !self.board.is_stale(work.age) {
                 self.tell_costs(&work)?;
             }
         }
@@ -88,8 +97,8 @@ impl<'a> Session<'a> {
         let known = self.watched.now(&self.args.file);
         let args = self.args;
         self.loads += 1;
-        let mut input = match input::staged(&args.file, &args.reading, &args.stage) {
-            Ok(input) => input,
+        let scene = match scene::of_file(args, self.setup.threads) {
+            Ok(scene) => scene,
             Err(failure) => {
                 let paths = [Some(&args.file), args.stage.env.as_ref()];
                 self.watched
@@ -98,25 +107,10 @@ impl<'a> Session<'a> {
                 return self.fail(&failure_told(&failure));
             }
         };
-        input.use_threads(self.setup.threads);
-        render::set_stage(&mut input, &args.look, None);
-        let mut view = View::default();
-        input.restage(|stage| view = stage.view);
-        let loaded = input.load();
-        let paths = input.map().paths_read().into_iter();
+        let paths = scene.input.map().paths_read().into_iter();
         self.watched
             .set(&known, paths.chain([args.file.clone()]).collect());
-        let own = loaded
-            .as_ref()
-            .and_then(|loaded| view::keys(&loaded.lowered, input.map(), input.name()));
-        self.scene = Some(ReadScene {
-            found: input.take_findings(),
-            can_write: own.is_some() && input.text().is_some(),
-            sight: None,
-            input,
-            loaded,
-            view,
-        });
+        self.scene = Some(scene);
     }
 
     /// Renders the scene as it is looked at: crude, and to the end unless the view is moving.
@@ -125,17 +119,26 @@ impl<'a> Session<'a> {
             return Ok(());
         }
         self.shown = None;
+        self.forget_costs(work);
         let board = Arc::clone(&self.board);
         let is_stopped = || board.is_stale(work.age);
         let rendered = self.render(work, &is_stopped);
         match rendered {
-            Ok(true) => self.tell_effects(work),
+            Ok(true) => {
+                self.tell_effects(work);
+                self.tell_settings(work);
+                if !self.show_against(work, &is_stopped) {
+                    return Ok(());
+                }
+            }
             // The findings say why.
-            Ok(false) => self.publish(true, None),
+            Ok(false) => self.publish(true, &work.manner, None),
             Err(RenderError::Stopped) => return Ok(()),
             Err(RenderError::RanOut(finding)) => {
-                self.push(*finding);
-                self.publish(true, None);
+                if let Some(scene) = &mut self.scene {
+                    scene.input.push(*finding);
+                }
+                self.publish(true, &work.manner, None);
             }
             Err(RenderError::Refused(words)) => self.fail(&words),
         }
@@ -149,19 +152,20 @@ impl<'a> Session<'a> {
         work: &Work,
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<bool, RenderError> {
-        let Some((mut setup, mut subject)) = self.prove(work.gaze.as_ref())? else {
+        let Some(scene) = &mut self.scene else {
+            return Ok(false);
+        };
+        let Some((mut setup, mut subject)) = scene.prove(&self.setup, &work.manner)? else {
             return Ok(false);
         };
         setup.window(&subject.proven.lowered.scene)?;
-        let Some(ReadScene { input, .. }) = &mut self.scene else {
-            return Ok(false);
-        };
+        let input = &mut scene.input;
         let observer = Observer {
             on_step: &|_| (),
             is_stopped,
         };
         setup.light(&mut subject, input, &observer)?;
-        self.publish(false, Some((&subject, work.gaze.as_ref())));
+        self.publish(false, &work.manner, Some(&subject));
         let Some(ReadScene { input, .. }) = &mut self.scene else {
             return Ok(false);
         };
@@ -169,41 +173,21 @@ impl<'a> Session<'a> {
             self.board.put(shot, None, work.age);
         }
         let (shot, pixels) = shots::finish(&setup, &mut subject, input, &observer)?;
-        self.publish(false, Some((&subject, work.gaze.as_ref())));
+        self.publish(false, &work.manner, Some(&subject));
         self.board.put(shot, Some(pixels), work.age);
         self.shown = Some((setup, subject));
         Ok(true)
     }
 
-    /// Proves the scene as it is looked at.
-    fn prove(
-        &mut self,
-        gaze: Option<&Gaze>,
-    ) -> Result<Option<(PictureSetup, RenderSubject)>, RenderError> {
-        let Some(scene) = &mut self.scene else {
-            return Ok(None);
-        };
-        let yfov = scene.sight.as_ref().and_then(Sight::yfov);
-        let view = gaze.map_or(scene.view, |gaze| gaze.view(yfov.or(scene.view.yfov)));
-        scene.input.restage(|stage| stage.view = view);
-        scene.input.put_findings(scene.found.clone());
-        let mut setup = self.setup.clone();
-        let Some(loaded) = scene.loaded.clone() else {
-            return Ok(None);
-        };
-        let proven = setup.prove(loaded, &mut scene.input)?;
-        Ok(proven.map(|subject| (setup, subject)))
-    }
-
     /// Shows what was rendered last from elsewhere, crudely; false if it can't be.
     fn move_on(&mut self, work: &Work) -> bool {
-        let (Some((setup, subject)), Some(gaze)) = (&mut self.shown, &work.gaze) else {
+        let (Some(shown), Some(gaze)) = (&mut self.shown, &work.manner.gaze) else {
             return false;
         };
         let Some(scene) = &mut self.scene else {
             return false;
         };
-        if !gaze.aim(&mut subject.proven.lowered) {
+        if !gaze.aim(&mut shown.1.proven.lowered) {
             return false;
         }
         let is_stopped = || self.board.is_stale(work.age);
@@ -211,25 +195,43 @@ impl<'a> Session<'a> {
             on_step: &|_| (),
             is_stopped: &is_stopped,
         };
-        let found = scene.input.take_findings();
-        let shot = crude::render(setup, subject, &mut scene.input, &observer);
-        scene.input.put_findings(found);
-        match shot {
+        match scene.glance(shown, &observer) {
             Ok(Some(shot)) => self.board.put(shot, None, work.age),
             Ok(None) | Err(RenderError::Stopped) => {}
             Err(RenderError::RanOut(_) | RenderError::Refused(_)) => return false,
         }
+        let camera = &shown.1.proven.lowered.scene.camera;
+        if let Some(Against::Scene(other)) = &mut self.against
+            && let Ok(Some(shot)) = other.glance(camera, &observer)
+        {
+            self.board.put_against(shot, work.age);
+        }
         true
     }
 
-    fn push(&mut self, finding: Diagnostic) {
-        if let Some(scene) = &mut self.scene {
-            scene.input.push(finding);
+    /// Shows what the picture is compared with as it is looked at; false if it is to stop.
+    fn show_against(&mut self, work: &Work, is_stopped: &(dyn Fn() -> bool + Sync)) -> bool {
+        let (Some(Against::Scene(other)), Some((_, subject))) = (&mut self.against, &self.shown)
+        else {
+            return true;
+        };
+        let observer = Observer {
+            on_step: &|_| (),
+            is_stopped,
+        };
+        let camera = &subject.proven.lowered.scene.camera;
+        match other.shot(&self.setup, (&work.manner, camera), &observer) {
+            Ok(Some(shot)) => self.board.put_against(shot, work.age),
+            Ok(None) => {}
+            Err(RenderError::Stopped) => return false,
+            Err(RenderError::RanOut(finding)) => super::talk::say(&finding.message),
+            Err(RenderError::Refused(words)) => super::talk::say(&words),
         }
+        true
     }
 
     /// Shows what was found so far, and the camera of what is rendered.
-    fn publish(&mut self, is_failed: bool, shown: Option<(&RenderSubject, Option<&Gaze>)>) {
+    fn publish(&mut self, is_failed: bool, manner: &Manner, shown: Option<&RenderSubject>) {
         let Some(scene) = &mut self.scene else {
             return;
         };
@@ -248,28 +250,29 @@ impl<'a> Session<'a> {
             .collect();
         scene.input.put_findings(found);
         let text = scene.input.text().map(Arc::from);
-        let sight = shown.map(|(subject, gaze)| {
+        let sight = shown.map(|subject| {
             let camera = &subject.proven.lowered.scene.camera;
-            let own = scene.sight.as_ref();
+            let (own, gaze) = (scene.sight.as_ref(), manner.gaze.as_ref());
             let sight = Sight::new(camera, gaze, scene.can_write, own);
             if gaze.is_none() {
                 scene.sight = Some(sight.clone());
             }
             sight
         });
-        let load = self.loads;
+        let (load, words) = (self.loads, &self.words);
         self.board.show(|state| {
             let read = &mut state.read;
             (read.load, read.text, read.findings) = (load, text, findings);
             (read.is_failed, read.fault) = (is_failed, None);
-            state.costs = None;
             state.sight = sight.or(state.sight.take());
+            let view = state.sight.as_ref().map_or(&[][..], |own| &own.flags);
+            state.command = words.command(view, &manner.choice);
         });
     }
 
     /// Shows and tells that there is no picture for a reason that is no finding.
     fn fail(&mut self, words: &str) {
-        self.publish(true, None);
+        self.publish(true, &Manner::default(), None);
         let (load, is_read) = (self.loads, self.scene.is_some());
         self.board.show(|state| {
             if !is_read {
@@ -295,28 +298,22 @@ impl<'a> Session<'a> {
         self.talk.file(scene.input.name(), found, scene.input.map())
     }
 
-    /// Shows which effects the picture needs, if that is asked for.
-    fn tell_effects(&self, work: &Work) {
-        if !work.wants_effects {
-            return;
-        }
-        if let (Some(scene), Some((_, subject))) = (&self.scene, &self.shown) {
-            let effects = PlanReport::verdicts(&subject.proven, &scene.input);
-            self.board.show(|state| state.effects = Some(effects));
-        }
-    }
-
-    /// Shows what accuracy costs in the picture, unless something newer is ordered meanwhile.
-    fn tell_costs(&self, work: &Work) -> Result<(), Failure> {
-        if let (Some(scene), Some((setup, subject))) = (&self.scene, &self.shown) {
-            let is_going = || !self.board.is_stale(work.age);
-            let studied = (scene.input.name(), &subject.proven.lowered.scene);
-            let costs = costs::table(studied, setup.threads, &is_going)?;
-            if costs.is_some() {
-                self.board.show(|state| state.costs = costs);
+    /// Forgets the costs, if they are not of the scene as it is looked at now: a choice of values alone
+    /// does not change them.
+    fn forget_costs(&mut self, work: &Work) {
+        let Manner { gaze, choice } = &work.manner;
+        let manner = Manner {
+            gaze: *gaze,
+            choice: choice.without_values(),
+        };
+        let costed = (self.loads, manner);
+        self.board.show(|state| {
+            state.pixel = Value::Null;
+            if self.costed != costed {
+                state.costs = Value::Null;
             }
-        }
-        Ok(())
+        });
+        self.costed = costed;
     }
 }
 

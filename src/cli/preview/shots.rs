@@ -1,13 +1,11 @@
-//! Pictures of scenes: the finished one of `rtc render`, and that of another scene to compare with.
+//! Pictures of scenes: the finished one of `rtc render`, and one pixel of it.
 
 use super::board::Shot;
 use super::pixels::PixelTable;
-use super::{Failure, args, input, render};
-use crate::cli::interrupt::Interrupt;
+use super::{Failure, args, render};
 use crate::cli::project;
-use crate::cli::talk::Talk;
 use crate::pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};
-use crate::render::{Aov, Crop, Film, Job};
+use crate::render::{Aov, Counts, Crop, Film, Job};
 use crate::study::Goal;
 use std::num::NonZeroU32;
 use std::path::Path;
@@ -23,30 +21,6 @@ pub(super) fn setup(args: &args::Preview) -> Result<PictureSetup, Failure> {
         overrides: setup.overrides.or(settled),
         ..setup
     })
-}
-
-/// The picture of another scene that is asked for in the same way.
-pub(super) fn of_scene(
-    args: &args::Preview,
-    path: &Path,
-    interrupt: &Interrupt,
-) -> Result<Arc<Vec<u8>>, Failure> {
-    let mut talk = Talk::beside_result(&args.talk);
-    let mut input = input::staged(path, &args.reading, &args.stage)?;
-    let mut setup = setup(args)?;
-    input.use_threads(setup.threads);
-    render::set_stage(&mut input, &args.look, None);
-    let subject = input::subject(&mut setup, &mut input, &mut talk);
-    talk.finish()?;
-    let mut subject = subject?;
-    let observer = Observer {
-        on_step: &|_| (),
-        is_stopped: &|| interrupt.is_raised(),
-    };
-    setup.light(&mut subject, &mut input, &observer)?;
-    let window = setup.window(&subject.proven.lowered.scene)?;
-    let film = trace(&setup, &mut subject, window, &input, &observer)?;
-    Ok(shot(&setup, &mut subject, film, &mut input, &observer)?.png)
 }
 
 /// The picture as `rtc render` makes it, and its pixels.
@@ -70,6 +44,40 @@ pub(super) fn finish(
     let pixels = PixelTable::new(&film.image, &layers, &subject.proven, input);
     let shot = shot(setup, subject, film, input, observer)?;
     Ok((shot, pixels))
+}
+
+/// The picture alone.
+pub(super) fn whole(
+    setup: &PictureSetup,
+    subject: &mut RenderSubject,
+    input: &mut Input,
+    observer: &Observer<'_>,
+) -> Result<Shot, RenderError> {
+    let window = setup.window(&subject.proven.lowered.scene)?;
+    let film = trace(setup, subject, window, input, observer)?;
+    shot(setup, subject, film, input, observer)
+}
+
+/// What was simulated for a pixel of the picture, which is rendered again alone; none of a pixel outside.
+pub(super) fn pixel(
+    setup: &PictureSetup,
+    subject: &mut RenderSubject,
+    [x, y]: [u32; 2],
+    input: &Input,
+    observer: &Observer<'_>,
+) -> Result<Option<Counts>, RenderError> {
+    let window = setup.window(&subject.proven.lowered.scene)?;
+    if x >= window.width || y >= window.height {
+        return Ok(None);
+    }
+    let own = Crop {
+        x: window.x + x,
+        y: window.y + y,
+        width: 1,
+        height: 1,
+    };
+    let film = setup.trace(subject, (own, input.rays()), observer)?;
+    Ok(Some(film.counts))
 }
 
 /// The film of a window, if there is room for it.

@@ -34,8 +34,8 @@ pub(super) struct Sight {
     axis: [f64; 3],
     /// The angle that the flags say, in degrees; none where the scene has keys.
     yfov: Option<String>,
-    /// The flags that show the same.
-    flags: Option<String>,
+    /// The flags that show the same, where the scene does not.
+    pub(super) flags: Vec<(&'static str, String)>,
     can_write: bool,
 }
 
@@ -87,11 +87,11 @@ impl Sight {
             yfov.map(|yfov| shortest(yfov.to_degrees()))
         };
         let yfov = own.map_or_else(yfov, |own| own.yfov.clone());
-        let angle = yfov.iter().map(|degrees| format!(" --yfov {degrees}"));
-        let flags = gaze.map(|Gaze { eye, center, up }| {
-            let [eye, center, up] = [eye, center, up].map(|own| comma(*own));
-            let view = format!("--eye {eye} --center {center} --up {up}");
-            view + &angle.collect::<String>()
+        let flags = gaze.map_or_else(Vec::new, |Gaze { eye, center, up }| {
+            let view = [("--eye", eye), ("--center", center), ("--up", up)];
+            let view = view.map(|(name, value)| (name, comma(*value))).into_iter();
+            view.chain(yfov.clone().map(|degrees| ("--yfov", degrees)))
+                .collect()
         });
         let up = unit(Vec3::from_array(camera.up)).unwrap_or(Vec3::Y);
         Self {
@@ -117,12 +117,10 @@ impl Sight {
             up,
             axis,
             yfov: _,
-            flags,
+            flags: _,
             can_write,
         } = self;
-        json!({
-            "eye": eye, "center": center, "up": up, "axis": axis, "flags": flags, "canWrite": can_write,
-        })
+        json!({ "eye": eye, "center": center, "up": up, "axis": axis, "canWrite": can_write })
     }
 }
 

@@ -35,7 +35,7 @@ use checkpoint::{Checkpoint, Desk, Saving};
 pub(super) use checkpoint::{ended, or_restart, say_saved, try_save};
 use layers::LayerFiles;
 pub(super) use look::{kind, refuse_layers};
-pub(super) use made::MadePicture;
+pub(super) use made::{MadePicture, effects};
 use part::PartSetup;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! One share of a picture, for `rtc merge` to put together with the others.
 
 use super::super::progress::{self, RenderProgress};
-use super::super::{Failure, args, interrupt::Interrupt, talk, talk::Talk};
+use super::super::{Failure, args, interrupt::Interrupt, talk, talk::Talk, typed};
 use super::{RenderSetup, beside_here, halted};
 use crate::pipeline::{Input, Observer, RenderSubject, SharedBy, Shares};
 use std::ffi::OsString;
@@ -47,7 +47,7 @@ impl PartSetup {
                 count,
             },
             picture: args.picture.clone().map_or_else(|| beside_here(args), Ok)?,
-            command: without_share(typed),
+            command: typed::without(typed, &["--part", "--output", "-o"]),
         }))
     }
 
@@ -67,23 +67,6 @@ impl PartSetup {
 /// Whether a picture is asked for that is done when it is good enough.
 fn has_goal(args: &args::Render) -> bool {
     args.target_error.is_some() || args.time_budget.is_some()
-}
-
-/// The words that were typed, without program, share and output.
-fn without_share(typed: &[OsString]) -> Vec<String> {
-    let mut words = typed.iter().skip(1).map(|word| word.to_string_lossy());
-    let mut kept = Vec::new();
-    while let Some(word) = words.next() {
-        match word.as_ref() {
-            // The value is the next word.
-            "--part" | "--output" | "-o" => drop(words.next()),
-            word if word.starts_with("--part=")
-                || word.starts_with("--output=")
-                || (word.starts_with("-o") && !word.starts_with("--")) => {}
-            word => kept.push(word.to_owned()),
-        }
-    }
-    kept
 }
 
 impl RenderSetup {

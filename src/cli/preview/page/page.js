@@ -41,29 +41,16 @@ function show() {
     const { eye, center, up } = state.view;
     gaze = { eye, center, up };
   }
-  at("moved").hidden = !state.isMoved;
-  at("keep").hidden = !state.view?.canWrite;
-  at("flags").value = state.view?.flags ?? "";
+  at("moved").hidden = !state.isMoved && !isChosen();
+  at("keep").hidden = !state.isMoved || !state.view?.canWrite;
+  at("reset").hidden = !state.isMoved;
+  at("own").hidden = !isChosen();
+  at("command").value = state.command;
   if (state.effects !== null) at("verdicts").textContent = state.effects;
-  showCosts();
+  showSettings();
+  showPixel();
   if (state.picture && state.picture.number !== drawn) draw(state.picture);
-}
-
-// The picture of which costs are being measured.
-let measured = null;
-
-function showCosts() {
-  at("costs").hidden = state.costs === null;
-  at("costs").textContent = state.costs ?? "";
-  if (state.costs !== null || measured !== drawn) measured = null;
-  at("measure").disabled = measured !== null;
-  at("measuring").textContent = measured === null ? "It takes some seconds; a change ends it." : "measuring …";
-}
-
-function measure() {
-  measured = drawn;
-  send("/costs", null);
-  showCosts();
+  if (state.against && state.against.number !== laid) lay(state.against);
 }
 
 function words() {
@@ -75,16 +62,33 @@ function words() {
   return `${width} × ${height}, finished${found}`;
 }
 
-async function draw({ number, full }) {
+async function draw({ number, full, isFinished }) {
   drawn = number;
-  const reply = await fetch(url("/picture", { number }));
-  // There is a newer one by now.
-  if (!reply.ok) return;
-  const bitmap = await createImageBitmap(await reply.blob());
-  if (drawn !== number) return;
+  const bitmap = await fetched("/picture", number);
+  if (bitmap === null || drawn !== number) return;
   at("frame").style.setProperty("--aspect", full[0] / full[1]);
   paint(at("picture"), bitmap);
   at("picture").dataset.number = number;
+  if (isFinished && inspected !== null) inspect();
+}
+
+// What the picture is compared with.
+let laid = 0;
+
+async function lay({ number }) {
+  laid = number;
+  const bitmap = await fetched("/against", number);
+  if (bitmap === null || laid !== number) return;
+  paint(at("against"), bitmap);
+  at("against").dataset.number = number;
+  at("against").hidden = false;
+  at("compare").hidden = false;
+}
+
+// The picture of this number; none if there is a newer one by now.
+async function fetched(path, number) {
+  const reply = await fetch(url(path, { number }));
+  return reply.ok ? createImageBitmap(await reply.blob()) : null;
 }
 
 function paint(canvas, bitmap) {
@@ -230,28 +234,36 @@ function onUp(event) {
   inspect();
 }
 
+// The pixel that is looked at, and what is said of it.
+let inspected = null;
+let seen = "";
+
 async function inspect() {
-  const [x, y] = ["x", "y"].map((id) => String(Number(at(id).value)));
+  const [x, y] = ["x", "y"].map((id) => Number(at(id).value));
+  inspected = [x, y];
   const reply = await fetch(url("/pixel", { x, y }));
   if (!reply.ok) {
-    at("pixel").textContent = "there is no such pixel, or the picture is not finished";
-    return;
+    seen = "there is no such pixel, or the picture is not finished";
+    return showPixel();
   }
   const found = await reply.json();
   const value = found.value.map((v) => v.toPrecision(4)).join(", ");
+  const place = [found.name, found.line && `(${found.line})`].filter(Boolean).join(" ");
   const surface =
     found.surface === null
       ? "no surface"
-      : `surface ${found.surface}${found.line ? ` (${found.line})` : ""}, depth ${found.depth.toPrecision(5)}`;
-  at("pixel").textContent = `${x}, ${y}: value ${value}; ${surface}`;
+      : `surface ${found.surface}${place && `: ${place}`}, depth ${found.depth.toPrecision(5)}`;
+  seen = `${x}, ${y}: value ${value}; ${surface}`;
+  showPixel();
+  send("/pixel", inspected);
 }
 
-async function lay() {
-  const reply = await fetch(url("/against"));
-  if (!reply.ok) return;
-  paint(at("against"), await createImageBitmap(await reply.blob()));
-  at("against").hidden = false;
-  at("compare").hidden = false;
+function showPixel() {
+  if (inspected === null) return;
+  at("pixel").textContent = seen;
+  const isOfIt = state.pixel !== null && String(state.pixel.at) === String(inspected);
+  const parts = isOfIt ? state.pixel.effects.map(([name, count]) => `${name} ${count}×`) : [];
+  at("taken").textContent = isOfIt ? `took part: ${parts.join(", ") || "what is behind the scene alone"}` : "";
 }
 
 function listen() {
@@ -269,14 +281,14 @@ function listen() {
   at("reset").addEventListener("click", reset);
   at("keep").addEventListener("click", () => act(at("keep"), "/keep", null));
   at("copy").addEventListener("click", () => {
-    at("flags").select();
-    navigator.clipboard?.writeText(at("flags").value).catch(() => {});
+    at("command").select();
+    navigator.clipboard?.writeText(at("command").value).catch(() => {});
   });
   for (const id of ["x", "y"]) at(id).addEventListener("change", inspect);
   at("split").addEventListener("input", () => {
     at("frame").style.setProperty("--split", `${at("split").value}%`);
   });
-  at("measure").addEventListener("click", measure);
+  listenToSettings();
   addEventListener("focus", () => {
     if (news?.readyState === EventSource.CLOSED) follow();
   });
@@ -285,6 +297,3 @@ function listen() {
   });
 }
 
-listen();
-if (document.documentElement.dataset.against === "yes") lay();
-follow();

@@ -1,0 +1,166 @@
+//! What the picture is compared with: a picture file, or another scene, which is looked at as the first
+//! one: another file, or what a commit of git has in place of the scene's own.
+
+use super::board::{Manner, Shot};
+use super::scene::{self, ReadScene, ShownScene};
+use super::{Failure, args, input, shots};
+use crate::cli::project::Project;
+use crate::cli::talk::Talk;
+use crate::image::{FileFormat, Picture, PictureHead, ShownPicture};
+use crate::ir::Camera;
+use crate::pipeline::{Input, Observer, PictureSetup, RenderError};
+use crate::source::{Loader, SourceMap};
+use std::io::Read as _;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::sync::Arc;
+
+/// The largest picture file that is compared with, in bytes, and the most pixels of it.
+const MAX_BYTES: u64 = 1 << 30;
+const MAX_PIXELS: u64 = 1 << 25;
+
+/// What the picture is compared with.
+pub(super) enum Against {
+    /// A picture, which is as it is.
+    Picture(Shot),
+    /// A scene.
+    Scene(Box<OtherScene>),
+}
+
+/// A scene to compare with.
+pub(super) struct OtherScene {
+    scene: ReadScene,
+    shown: Option<ShownScene>,
+    /// How it was looked at last, and by which camera if not by its own.
+    seen: Option<(Manner, Option<Camera>)>,
+}
+
+impl Against {
+    /// What is asked for, if it is; a scene is proven, and what is found in it told.
+    pub(super) fn new(args: &args::Preview) -> Result<Option<Self>, Failure> {
+        let Some(path) = &args.against else {
+            return Ok(None);
+        };
+        if input::is_picture(path) {
+            return Ok(Some(Self::Picture(picture(path)?)));
+        }
+        let text = match path.exists() {
+            true => None,
+            false => committed(path, &args.file),
+        };
+        let input = match text {
+            Some(text) => {
+                let project = Project::of(&args.file)?;
+                let options = input::options(&args.reading, project.as_ref())?;
+                input::set_stage(Input::edited(&args.file, text, options), &args.stage)?
+            }
+            None => input::staged(path, &args.reading, &args.stage)?,
+        };
+        let setup = shots::setup(args)?;
+        let mut scene = ReadScene::read(input, args, setup.threads);
+        let mut talk = Talk::beside_result(&args.talk);
+        let proven = scene.prove(&setup, &Manner::default());
+        let proven = match proven {
+            Ok(proven) => input::unless_refused(proven, &mut scene.input, &mut talk).map(drop),
+            Err(error) => input::tell(&mut scene.input, &mut talk).and(Err(error.into())),
+        };
+        talk.finish()?;
+        proven?;
+        let (shown, seen) = (None, None);
+        Ok(Some(Self::Scene(Box::new(OtherScene {
+            scene,
+            shown,
+            seen,
+        }))))
+    }
+}
+
+impl OtherScene {
+    /// Its picture as the first scene is looked at, by the same camera if that is not the scene's own;
+    /// `None` if it is shown so already.
+    pub(super) fn shot(
+        &mut self,
+        setup: &PictureSetup,
+        (manner, camera): (&Manner, &Camera),
+        observer: &Observer<'_>,
+    ) -> Result<Option<Shot>, RenderError> {
+        let camera = manner.gaze.is_some().then_some(camera);
+        let wanted = (manner.clone(), camera.cloned());
+        if self.seen.as_ref() == Some(&wanted) {
+            return Ok(None);
+        }
+        (self.shown, self.seen) = (None, None);
+        let Some((mut setup, mut subject)) = self.scene.prove(setup, manner)? else {
+            let words = "what the scene is compared with can't be shown in these settings";
+            return Err(RenderError::Refused(words.to_owned()));
+        };
+        let input = &mut self.scene.input;
+        setup.light(&mut subject, input, observer)?;
+        if let Some(camera) = camera {
+            scene::see_by(&mut subject, camera);
+        }
+        let shot = shots::whole(&setup, &mut subject, input, observer)?;
+        (self.shown, self.seen) = (Some((setup, subject)), Some(wanted));
+        Ok(Some(shot))
+    }
+
+    /// A crude picture by another camera; `None` if there is none.
+    pub(super) fn glance(
+        &mut self,
+        camera: &Camera,
+        observer: &Observer<'_>,
+    ) -> Result<Option<Shot>, RenderError> {
+        self.seen = None;
+        let Some(shown) = &mut self.shown else {
+            return Ok(None);
+        };
+        scene::see_by(&mut shown.1, camera);
+        self.scene.glance(shown, observer)
+    }
+}
+
+/// The picture in a file, as a PNG.
+fn picture(path: &Path) -> Result<Shot, Failure> {
+    let refused = |words: String| Failure::Trouble(format!("`{}`: {words}", path.display()));
+    let bytes = Loader.bytes(path, MAX_BYTES, &SourceMap::default());
+    let bytes = bytes.map_err(|error| refused(error.to_string()))?;
+    let shown = ShownPicture::read(&bytes, MAX_PIXELS);
+    let image = shown.map_err(|error| refused(error.to_string()))?.display;
+    let full = [image.width, image.height];
+    let picture = Picture {
+        image,
+        ..Picture::default()
+    };
+    let png = PictureHead::of(&picture, FileFormat::Png8).encode(&picture);
+    Ok(Shot {
+        png: Arc::new(png.map_err(|error| refused(error.to_string()))?),
+        full,
+        is_finished: true,
+    })
+}
+
+/// The text that the scene has in a commit of git; none if there is no such commit, or no scene in it.
+fn committed(revision: &Path, scene: &Path) -> Option<Vec<u8>> {
+    let revision = revision.to_str().filter(|own| !own.starts_with('-'))?;
+    let folder = scene.parent().filter(|own| !own.as_os_str().is_empty());
+    let mut git = Command::new("git")
+        .arg("-C")
+        .arg(folder.unwrap_or(Path::new(".")))
+        .args(["cat-file", "blob"])
+        .arg(format!("{revision}:./{}", scene.file_name()?.to_str()?))
+        .envs([("GIT_NO_LAZY_FETCH", "1"), ("GIT_TERMINAL_PROMPT", "0")])
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .ok()?;
+    let mut text = Vec::new();
+    // The pipe is closed then, so that git does not wait for a reader.
+    let read = git
+        .stdout
+        .take()?
+        .take(MAX_BYTES + 1)
+        .read_to_end(&mut text);
+    let is_whole = git.wait().ok()?.success() && text.len() as u64 <= MAX_BYTES;
+    (read.is_ok() && is_whole).then_some(text)
+}

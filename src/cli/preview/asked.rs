@@ -1,0 +1,100 @@
+//! What the session tells when it is asked for: the effects of the picture and of a pixel, the settings
+//! and what they cost.
+
+use super::board::{Manner, Work};
+use super::session::Session;
+use super::{Failure, choice, costs, shots};
+use crate::cli::render::effects;
+use crate::cli::report::PlanReport;
+use crate::ir::Scene;
+use crate::pipeline::{Observer, PictureSetup};
+use serde_json::json;
+
+impl Session<'_> {
+    /// Shows which effects the picture needs, if that is asked for.
+    pub(super) fn tell_effects(&self, work: &Work) {
+        if !work.wants_effects {
+            return;
+        }
+        if let (Some(scene), Some((_, subject))) = (&self.scene, &self.shown) {
+            let effects = PlanReport::verdicts(&subject.proven, &scene.input);
+            self.board.show(|state| state.effects = Some(effects));
+        }
+    }
+
+    /// Shows which effects took part at the pixel that is asked for.
+    pub(super) fn tell_pixel(&mut self, work: &Work) {
+        let (Some(scene), Some((setup, subject)), Some(place)) =
+            (&self.scene, &mut self.shown, work.orders.pixel)
+        else {
+            return;
+        };
+        let observer = Observer {
+            on_step: &|_| (),
+            is_stopped: &|| self.board.is_stale(work.age),
+        };
+        let counts = shots::pixel(setup, subject, place, &scene.input, &observer);
+        // Of what can't be rendered nothing is told: the picture has shown that it can.
+        if let Ok(Some(counts)) = counts {
+            let effects = effects(&counts).map(|(name, count)| json!([name, count]));
+            let effects: Vec<_> = effects.collect();
+            self.board
+                .show(|state| state.pixel = json!({ "at": place, "effects": effects }));
+        }
+    }
+
+    /// Shows which settings the scene has, if that is asked for.
+    pub(super) fn tell_settings(&mut self, work: &Work) {
+        let own = match work.wants_settings {
+            true => self.own(work),
+            false => None,
+        };
+        if let Some((setup, scene)) = own {
+            let settings = choice::told(&scene, &choice::own_setting(&scene, &setup));
+            self.board.show(|state| state.settings = settings);
+        }
+    }
+
+    /// The scene as it is looked at, but in its own values.
+    fn own(&mut self, work: &Work) -> Option<(PictureSetup, Scene)> {
+        let scene = self.scene.as_mut()?;
+        let manner = Manner {
+            gaze: work.manner.gaze,
+            choice: work.manner.choice.without_values(),
+        };
+        if manner == work.manner {
+            let (setup, subject) = self.shown.as_ref()?;
+            return Some((setup.clone(), subject.proven.lowered.scene.clone()));
+        }
+        let found = scene.input.take_findings();
+        let proven = scene.prove(&self.setup, &manner).ok().flatten();
+        let lit = proven.and_then(|(mut setup, mut subject)| {
+            let observer = Observer {
+                on_step: &|_| (),
+                is_stopped: &|| self.board.is_stale(work.age),
+            };
+            let lit = setup.light(&mut subject, &mut scene.input, &observer);
+            lit.ok().map(|()| (setup, subject.proven.lowered.scene))
+        });
+        scene.input.put_findings(found);
+        lit
+    }
+
+    /// Shows what accuracy costs in the scene, unless something newer is ordered meanwhile.
+    pub(super) fn tell_costs(&mut self, work: &Work) -> Result<(), Failure> {
+        self.tell_settings(work);
+        let Some((setup, studied)) = self.own(work) else {
+            return Ok(());
+        };
+        let Some(scene) = &self.scene else {
+            return Ok(());
+        };
+        let is_going = || !self.board.is_stale(work.age);
+        let own = choice::own_setting(&studied, &setup);
+        let studied = (scene.input.name(), &studied, &own);
+        if let Some(costs) = costs::costs(studied, setup.threads, &is_going)? {
+            self.board.show(|state| state.costs = costs);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,140 @@
+//! Settings that the page chooses in place of those of the scene: what the scene has of them, and the
+//! same as flags of `rtc render`.
+
+use crate::cli::args::IntegratorArg;
+use crate::ir::{Mode, Scene};
+use crate::passes::{IntegratorChoice, Overrides};
+use crate::pipeline::PictureSetup;
+use crate::plan::Arithmetic;
+use crate::study::{Knob, Setting, arithmetic, idle};
+use clap::ValueEnum;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// The number of arithmetics, by which the values of the precision end.
+const ARITHMETICS: u32 = Arithmetic::ALL.len() as u32;
+
+/// Values of knobs in place of those of the scene, and how light is followed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Choice {
+    values: BTreeMap<Knob, u32>,
+    /// A value of `--integrator`.
+    integrator: Option<String>,
+}
+
+impl Choice {
+    /// A choice as sent by the page; none of values that no flag takes.
+    pub(super) fn read(bytes: &[u8]) -> Option<Self> {
+        let choice: Self = serde_json::from_slice(bytes).ok()?;
+        let is_sound = |(knob, value): (&Knob, &u32)| {
+            *value >= knob.lowest() && (*knob != Knob::Precision || *value < ARITHMETICS)
+        };
+        let is_known = choice.integrator.is_none() || choice.integrator().is_some();
+        (is_known && choice.values.iter().all(is_sound)).then_some(choice)
+    }
+
+    /// The same integrator, with the scene's own values.
+    pub(super) fn without_values(&self) -> Self {
+        Self {
+            values: BTreeMap::new(),
+            integrator: self.integrator.clone(),
+        }
+    }
+
+    pub(super) fn integrator(&self) -> Option<IntegratorChoice> {
+        let word = self.integrator.as_deref()?;
+        IntegratorArg::from_str(word, false)
+            .ok()
+            .map(IntegratorChoice::from)
+    }
+
+    /// The picture as it is asked for, in these settings.
+    pub(super) fn settle(&self, setup: &PictureSetup) -> PictureSetup {
+        let of = |knob| self.values.get(&knob).copied();
+        let chosen = Overrides {
+            size: None,
+            supersampling: of(Knob::Supersampling),
+            aperture_samples: of(Knob::Aperture),
+            light_samples: of(Knob::Lights),
+            glossy_samples: of(Knob::Glossy),
+            depth: of(Knob::Depth),
+            spp: of(Knob::Paths),
+        };
+        PictureSetup {
+            overrides: chosen.or(setup.overrides),
+            arithmetic: of(Knob::Precision).map_or(setup.arithmetic, arithmetic),
+            ..setup.clone()
+        }
+    }
+
+    /// The flags of `rtc render` with their values.
+    pub(super) fn flags(&self) -> Vec<(&'static str, String)> {
+        let values = self.values.iter();
+        let values = values.map(|(knob, value)| (knob.flag(), knob.cell(*value)));
+        let integrator = self.integrator.clone().map(|word| ("--integrator", word));
+        values.chain(integrator).collect()
+    }
+}
+
+/// The setting of a scene without the values of a choice.
+pub(super) fn own_setting(scene: &Scene, setup: &PictureSetup) -> Setting {
+    Setting {
+        precision: setup.arithmetic,
+        ..Setting::of(scene)
+    }
+}
+
+/// What the page is told of the settings of a scene, which is without the values of the choice: each
+/// knob with its own value, and why it is to be left alone, if it is.
+pub(super) fn told(scene: &Scene, own: &Setting) -> Value {
+    let knob = |knob: Knob| {
+        let words = (knob == Knob::Precision).then(|| {
+            (0..ARITHMETICS)
+                .map(|value| knob.cell(value))
+                .collect::<Vec<_>>()
+        });
+        json!({
+            "knob": knob,
+            "name": knob.name(),
+            "lowest": knob.lowest(),
+            "own": own.get(knob),
+            "words": words,
+            "idle": idle(knob, scene),
+        })
+    };
+    let integrator = match scene.settings.mode {
+        Mode::Path(_) => Some("path"),
+        Mode::Phong => Some("whitted"),
+        Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => None,
+    };
+    json!({ "knobs": Knob::ALL.map(knob), "integrator": integrator })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_choice_is_one_that_flags_can_say() {
+        let read = |text: &str| Choice::read(text.as_bytes());
+        let choice = r#"{"values": {"supersampling": 2, "precision": 0}, "integrator": "path"}"#;
+        let flags = [
+            ("--supersampling", "2".to_owned()),
+            ("--arithmetic", "f32".to_owned()),
+            ("--integrator", "path".to_owned()),
+        ];
+        assert_eq!(read(choice).unwrap().flags(), flags);
+        for wrong in [
+            r#"{"values": {"supersampling": 0}, "integrator": null}"#,
+            r#"{"values": {"precision": 3}, "integrator": null}"#,
+            r#"{"values": {"size": 3}, "integrator": null}"#,
+            r#"{"values": {"depth": -1}, "integrator": null}"#,
+            r#"{"values": {}, "integrator": "bdpt"}"#,
+            r#"{"values": {}, "more": 1}"#,
+        ] {
+            assert_eq!(read(wrong), None, "{wrong}");
+        }
+    }
+}

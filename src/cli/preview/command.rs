@@ -1,0 +1,64 @@
+//! The command that renders what the page shows: `rtc render` with what was typed for the preview, the
+//! view and the settings.
+
+use super::choice::Choice;
+use crate::cli::typed::{quoted, without};
+use std::ffi::OsString;
+
+/// The options of the preview that `rtc render` has not: those with a value, and that without.
+const OWN: [&str; 2] = ["--port", "--against"];
+const OPEN: &str = "--open";
+
+/// Where the camera stands, in place of a view by an angle.
+const EYE: &str = "--eye";
+const ORBIT: &str = "--orbit";
+
+/// What was typed, as words of `rtc render`.
+pub(super) struct RenderWords(Vec<OsString>);
+
+impl RenderWords {
+    /// Of the words of a preview, program name first.
+    pub(super) fn new(typed: &[OsString]) -> Self {
+        let kept = without(typed, &OWN).into_iter().skip(1);
+        let words = ["rtc".to_owned(), "render".to_owned()].into_iter();
+        let words = words.chain(kept.filter(|word| word != OPEN));
+        Self(words.map(OsString::from).collect())
+    }
+
+    /// With the flags of a view, and a choice, in place of those that were typed.
+    pub(super) fn command(&self, view: &[(&str, String)], choice: &Choice) -> String {
+        let more: Vec<_> = view.iter().cloned().chain(choice.flags()).collect();
+        let orbit = more.iter().any(|(name, _)| *name == EYE).then_some(ORBIT);
+        let replaced: Vec<_> = more.iter().map(|(name, _)| *name).chain(orbit).collect();
+        let kept = without(&self.0, &replaced).into_iter();
+        let more = more
+            .iter()
+            .flat_map(|(name, value)| [(*name).to_owned(), value.clone()]);
+        let words = kept.chain(more).map(|word| quoted(&word));
+        let words: Vec<_> = words.collect();
+        format!("rtc {}", words.join(" "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_page_says_stands_in_place_of_what_was_typed() {
+        let typed =
+            "rtc preview my.yaml --open --orbit 30,20 --depth=3 --port 80 --against HEAD --spp 4";
+        let typed: Vec<_> = typed.split(' ').map(OsString::from).collect();
+        let words = RenderWords::new(&typed);
+        assert_eq!(
+            words.command(&[], &Choice::default()),
+            "rtc render my.yaml --orbit 30,20 --depth=3 --spp 4"
+        );
+        let choice = Choice::read(br#"{"values": {"depth": 1}, "integrator": null}"#).unwrap();
+        let view = [("--eye", "1,2,3".to_owned())];
+        assert_eq!(
+            words.command(&view, &choice),
+            "rtc render my.yaml --spp 4 --eye 1,2,3 --depth 1"
+        );
+    }
+}

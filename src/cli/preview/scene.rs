@@ -1,0 +1,100 @@
+//! A scene as it was read, to be looked at from anywhere in any setting.
+
+use super::board::{Manner, Shot};
+use super::view::{self, Sight};
+use super::{Failure, args, crude, input, render};
+use crate::diag::Sink;
+use crate::ir::Camera;
+use crate::passes::{IntegratorChoice, View};
+use crate::pipeline::{Input, Loaded, Observer, PictureSetup, RenderError, RenderSubject};
+
+/// A scene that was read.
+pub(super) struct ReadScene {
+    pub(super) input: Input,
+    pub(super) loaded: Option<Loaded>,
+    /// What was found while it was read.
+    found: Sink,
+    /// The view and the integrator that were asked for when it was read.
+    view: View,
+    integrator: Option<IntegratorChoice>,
+    /// Whether it has keys for another view.
+    pub(super) can_write: bool,
+    /// How its own camera sees it, once that is known.
+    pub(super) sight: Option<Sight>,
+}
+
+/// A scene as it was rendered, and how.
+pub(super) type ShownScene = (PictureSetup, RenderSubject);
+
+impl ReadScene {
+    /// Reads an input that was staged.
+    pub(super) fn read(mut input: Input, args: &args::Preview, threads: usize) -> Self {
+        input.use_threads(threads);
+        render::set_stage(&mut input, &args.look, None);
+        let (mut view, mut integrator) = (View::default(), None);
+        input.restage(|stage| (view, integrator) = (stage.view, stage.integrator));
+        let loaded = input.load();
+        let own = loaded
+            .as_ref()
+            .and_then(|loaded| view::keys(&loaded.lowered, input.map(), input.name()));
+        Self {
+            found: input.take_findings(),
+            can_write: own.is_some() && input.text().is_some(),
+            sight: None,
+            input,
+            loaded,
+            view,
+            integrator,
+        }
+    }
+
+    /// Proves the scene as it is looked at; the findings say why if it can't be.
+    pub(super) fn prove(
+        &mut self,
+        setup: &PictureSetup,
+        manner: &Manner,
+    ) -> Result<Option<ShownScene>, RenderError> {
+        let yfov = self.sight.as_ref().and_then(Sight::yfov);
+        let gaze = manner.gaze.as_ref();
+        let view = gaze.map_or(self.view, |gaze| gaze.view(yfov.or(self.view.yfov)));
+        let integrator = manner.choice.integrator().or(self.integrator);
+        self.input
+            .restage(|stage| (stage.view, stage.integrator) = (view, integrator));
+        self.input.put_findings(self.found.clone());
+        let mut setup = manner.choice.settle(setup);
+        let Some(loaded) = self.loaded.clone() else {
+            return Ok(None);
+        };
+        let proven = setup.prove(loaded, &mut self.input)?;
+        Ok(proven.map(|subject| (setup, subject)))
+    }
+
+    /// A crude picture of what was rendered before, of which but the camera was changed; what is found
+    /// in it is forgotten.
+    pub(super) fn glance(
+        &mut self,
+        (setup, subject): &mut ShownScene,
+        observer: &Observer<'_>,
+    ) -> Result<Option<Shot>, RenderError> {
+        let found = self.input.take_findings();
+        let shot = crude::render(setup, subject, &mut self.input, observer);
+        self.input.put_findings(found);
+        shot
+    }
+}
+
+/// Reads the file of the scene, to be shown as it is asked for.
+pub(super) fn of_file(args: &args::Preview, threads: usize) -> Result<ReadScene, Failure> {
+    let input = input::staged(&args.file, &args.reading, &args.stage)?;
+    Ok(ReadScene::read(input, args, threads))
+}
+
+/// Lets another camera look at a scene, if it takes pictures of the same size.
+pub(super) fn see_by(subject: &mut RenderSubject, camera: &Camera) {
+    let proven = &mut subject.proven;
+    if let Some(seen) = proven.scene.seen_by(camera) {
+        proven.scene = seen;
+        proven.lowered.scene.camera = camera.clone();
+        subject.turn();
+    }
+}

@@ -1,0 +1,58 @@
+//! The words of a command as they were typed, to be said again.
+
+use std::ffi::OsString;
+
+/// The words without the program and without these options, each of which has a value: the next word, or
+/// the rest of its own.
+pub(super) fn without(typed: &[OsString], options: &[&str]) -> Vec<String> {
+    let mut words = typed.iter().skip(1).map(|word| word.to_string_lossy());
+    let mut kept = Vec::new();
+    while let Some(word) = words.next() {
+        if options.contains(&word.as_ref()) {
+            words.next();
+        } else if !options.iter().any(|option| holds(&word, option)) {
+            kept.push(word.into_owned());
+        }
+    }
+    kept
+}
+
+/// Whether a word is an option and its value in one.
+fn holds(word: &str, option: &str) -> bool {
+    let rest = word.strip_prefix(option);
+    rest.is_some_and(|rest| !option.starts_with("--") || rest.starts_with('='))
+}
+
+/// A word as a shell of POSIX takes it.
+pub(super) fn quoted(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./:=,+@%".contains(letter);
+    match !word.is_empty() && word.chars().all(is_plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_go_with_their_values_and_the_rest_stays() {
+        let typed = "rtc render a.yaml --size 4 -o b --part=1/2 --output c --party x -ob --size=3";
+        let typed: Vec<_> = typed.split(' ').map(OsString::from).collect();
+        assert_eq!(
+            without(&typed, &["--part", "--output", "-o", "--size"]).join(" "),
+            "render a.yaml --party x"
+        );
+    }
+
+    #[test]
+    fn what_a_shell_would_take_apart_is_quoted() {
+        assert_eq!(
+            ["a-b/c.yaml", "", "two words", "it's", "$HOME"]
+                .map(quoted)
+                .join("|"),
+            "a-b/c.yaml|''|'two words'|'it'\\''s'|'$HOME'"
+        );
+    }
+}
