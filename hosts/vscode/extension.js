@@ -79,8 +79,11 @@ function preview(wanted) {
   let said = "";
   program.stderr.on("data", (text) => (said = (said + text).slice(-KEPT)));
   createInterface({ input: program.stdout }).once("line", async (address) => {
-    const outside = await vscode.env.asExternalUri(vscode.Uri.parse(address, true));
-    if (!isClosed) panel.webview.html = page(outside.toString(true));
+    const inside = vscode.Uri.parse(address, true);
+    const outside = await vscode.env.asExternalUri(inside);
+    // Some editors keep nothing but the host and the port.
+    const { path, query } = inside;
+    if (!isClosed) panel.webview.html = page(outside.with({ path, query }).toString(true));
   });
   program.on("error", (error) => {
     panel.dispose();
