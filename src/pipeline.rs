@@ -43,7 +43,7 @@ use crate::plan::{self, Plan};
 use crate::render::{
     self, AnyWorld, Aov, Film, FilmError, Job, Mismatch, OnPixel, PartialFilm, SimdLevel,
 };
-use crate::source::{FileId, SourceMap};
+use crate::source::{EditedFiles, FileId, SourceMap};
 use crate::study::{self, Keep, Order, Reached, Stopped, Watch};
 use crate::valid::{self, Proof, Surface};
 use crate::{codec, front};
@@ -60,6 +60,8 @@ pub struct Options {
     pub valid: valid::ProofOptions,
     /// What is made of findings.
     pub levels: FindingLevels,
+    /// What is read in place of files that scenes name.
+    pub edited: EditedFiles,
 }
 
 impl Options {

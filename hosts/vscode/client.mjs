@@ -88,6 +88,8 @@ assert.deepEqual((await findings(text.uri, 2)).filter((found) => found.severity 
 const ask = (type, more) => connection.sendRequest(type, { textDocument: own, ...more });
 const hover = await ask(lsp.HoverRequest.type, { position: at("Shadows", 2) });
 assert.match(JSON.stringify(hover.contents), /shadow/i);
+const place = await ask(lsp.HoverRequest.type, { position: at("eye", 1) });
+assert.match(JSON.stringify(place.contents), /in scene units/);
 const offered = [await ask(lsp.CompletionRequest.type, { position: at("Shadows") })].flatMap((own) => own.items ?? own);
 const keys = offered.map((item) => item.label);
 assert.ok(keys.includes("ToneMap") && !keys.includes("Lights"), `keys that are not there yet: ${keys}`);
@@ -107,6 +109,10 @@ await connection.sendNotification(lsp.DidOpenTextDocumentNotification.type, {
   textDocument: { uri: address("empty.gltf"), languageId: "json", version: 1, text: GLTF },
 });
 assert.ok((await findings(address("empty.gltf"), 1)).some((found) => found.severity === lsp.DiagnosticSeverity.Error));
+
+const scene = { line: 0, character: GLTF.indexOf(": 3") + 2 };
+const ofGltf = await connection.sendRequest(lsp.HoverRequest.type, { textDocument: { uri: address("empty.gltf") }, position: scene });
+assert.match(JSON.stringify(ofGltf.contents), /The scene that is shown.*##/, "what the key means, and what is wrong with it");
 
 await connection.sendRequest(lsp.ShutdownRequest.type);
 await connection.sendNotification(lsp.ExitNotification.type);

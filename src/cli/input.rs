@@ -7,6 +7,7 @@ use super::talk::Talk;
 use crate::ir::Lowered;
 use crate::passes::{self, EnvironmentOverride, FillLight, Stage, StudioChoice, View};
 use crate::pipeline::{Input, Options, PictureSetup, Proven, Provenance, RenderSubject};
+use crate::source::EditedFiles;
 use crate::{front, valid};
 use std::io;
 use std::path::Path;
@@ -69,6 +70,7 @@ pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Op
                 .limits(|limits| project.into_iter().for_each(|own| own.set_limits(limits))),
         },
         levels,
+        edited: EditedFiles::default(),
     })
 }
 

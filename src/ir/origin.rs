@@ -28,8 +28,18 @@ pub enum Noun {
 }
 
 impl Noun {
-    /// How many kinds there are.
-    const COUNT: usize = Self::Environment as usize + 1;
+    /// All kinds, in their order.
+    const ALL: [Self; Self::Environment as usize + 1] = [
+        Self::Camera,
+        Self::Settings,
+        Self::Light,
+        Self::Image,
+        Self::Texture,
+        Self::Mesh,
+        Self::Material,
+        Self::Surface,
+        Self::Environment,
+    ];
 }
 
 /// A value of an entity, or all of it.
@@ -172,7 +182,7 @@ fn pointer_tail(noun: Noun, field: Field) -> &'static str {
 /// kinds in turns, and so there is mostly nothing to sort.
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
-    lists: [List; Noun::COUNT],
+    lists: [List; Noun::ALL.len()],
 }
 
 #[derive(Clone, Debug, Default)]
@@ -215,6 +225,19 @@ impl Origins {
             list.spans.sort_by_key(|(index, field, _)| (*index, *field));
             list.unsorted = false;
         }
+    }
+
+    /// The places whose values were written at this span.
+    pub fn places(&self, span: Span) -> impl Iterator<Item = Place> {
+        let nouns = Noun::ALL.into_iter().zip(&self.lists);
+        nouns.flat_map(move |(noun, list)| {
+            let spans = list.spans.iter().filter(move |(_, _, own)| *own == span);
+            spans.map(move |(index, field, _)| Place {
+                noun,
+                index: *index,
+                field: *field,
+            })
+        })
     }
 
     /// The span the value was written at; a value that was a default has that of its entity.

@@ -95,7 +95,8 @@ impl Input {
         read: impl FnOnce(&str, &mut SourceMap) -> Result<FileId, LoadError>,
     ) -> Self {
         let limits = options.valid.limits;
-        let (mut map, mut sink) = (SourceMap::with_limits(limits), options.sink());
+        let map = SourceMap::with_limits(limits).with_edited(options.edited.clone());
+        let (mut map, mut sink) = (map, options.sink());
         let file = read(&name, &mut map);
         let file = file
             .map_err(|error| sink.push(unreadable(&name, &error)))

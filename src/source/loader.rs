@@ -76,16 +76,21 @@ impl Loader {
         Ok(map.add(name, all(reader, 0, MAX_BYTES)?))
     }
 
-    /// Reads a file that was found, of at most `limit` bytes: what was opened when it was found.
-    /// The map only notes it.
+    /// Reads a file that was found, of at most `limit` bytes: what was opened when it was found, or the
+    /// text that the map has in its place. The map only notes it.
     ///
     /// # Errors
     /// What the system says, or that the file is too large.
     pub fn found(&self, found: &Found, limit: u64, map: &SourceMap) -> Result<Vec<u8>, LoadError> {
-        if found.opened().memory().is_none() {
-            map.note(&found.path);
+        let opened = found.opened();
+        if opened.memory().is_some() {
+            return opened.bytes(limit);
         }
-        found.opened().bytes(limit)
+        map.note(&found.path);
+        match map.edited(opened.path()) {
+            Some(text) => all(text, text.len(), limit),
+            None => opened.bytes(limit),
+        }
     }
 
     /// Reads the file at `path`, which the user names, of at most `limit` bytes. The map only notes

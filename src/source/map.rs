@@ -1,7 +1,7 @@
 //! The source map: owns the bytes of every file read and turns offsets into lines and columns.
 
 use super::memory::resolved;
-use super::{Budget, Folder, Found, Limits, MemoryFiles};
+use super::{Budget, EditedFiles, Folder, Found, Limits, MemoryFiles};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -71,6 +71,8 @@ pub struct SourceMap {
     budget: Budget,
     /// All files read, free of links, those that are not in the map too.
     read: Mutex<BTreeSet<PathBuf>>,
+    /// What stands in place of files.
+    edited: EditedFiles,
 }
 
 impl SourceMap {
@@ -81,6 +83,17 @@ impl SourceMap {
             budget: Budget::new(limits),
             ..Self::default()
         }
+    }
+
+    /// Has these texts read in place of their files, where a scene names them.
+    #[must_use]
+    pub fn with_edited(self, edited: EditedFiles) -> Self {
+        Self { edited, ..self }
+    }
+
+    /// What stands in place of the file at a path that is free of links.
+    pub(super) fn edited(&self, path: &Path) -> Option<&[u8]> {
+        self.edited.get(path)
     }
 
     /// What the run may still take of the machine. The bytes of the files of the map count as read.

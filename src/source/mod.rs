@@ -2,6 +2,7 @@
 //! place.
 
 pub mod budget;
+mod edited;
 mod escape;
 mod loader;
 mod map;
@@ -10,6 +11,7 @@ mod search;
 pub mod tree;
 
 pub use budget::{Budget, Exceeded, Limits, Resource};
+pub use edited::EditedFiles;
 pub use escape::uri_path;
 pub use loader::{Identity, LoadError, Loader};
 pub use map::{FileId, LineColumn, SourceMap, Span};

@@ -186,14 +186,101 @@ fn what_is_found_in_a_file_of_the_scene_is_told_there() {
 }
 
 #[test]
-fn gltf_has_its_findings_and_no_keys_of_scenes() {
+fn what_is_open_is_read_in_place_of_its_file() {
+    let mesh = |last: u8| format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 {last}\n");
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("bal.obj"), mesh(9)).unwrap();
+    let mut editor = Editor::new(folder);
+    editor.open("a.yaml", &SCENE.replace("Shadws", "Shadows"));
+    assert_eq!(editor.findings("bal.obj").len(), 1);
+    // The scene is checked first, then the mesh by itself.
+    let told = |editor: &mut Editor| [editor.findings("bal.obj"), editor.findings("bal.obj")];
+    editor.open("bal.obj", &mesh(3));
+    let [_, last] = told(&mut editor);
+    assert_eq!(last, Vec::<Value>::new());
+    let own = json!({"uri": editor.uri("bal.obj"), "version": 2});
+    let params = json!({"textDocument": own, "contentChanges": [{"text": mesh(8)}]});
+    editor.note("textDocument/didChange", params);
+    let [first, last] = told(&mut editor);
+    assert_eq!(first, last, "what both find is told once");
+    assert_eq!(last[0]["range"]["start"]["line"], 3, "{last:?}");
+    let own = json!({"uri": editor.uri("bal.obj")});
+    fs::write(editor.folder.path().join("bal.obj"), mesh(3)).unwrap();
+    editor.note("textDocument/didClose", json!({"textDocument": own}));
+    let [_, last] = told(&mut editor);
+    assert_eq!(last, Vec::<Value>::new(), "the file counts again");
+}
+
+#[test]
+fn gltf_has_its_findings_and_its_own_keys() {
     let mut editor = Editor::new(tempfile::tempdir().unwrap());
-    let text = r#"{"asset": {"version": "2.0"}, "scene": 3, "nodes": [{"mesh": 0}]}"#;
+    let text = r#"{"asset": {"version": "2.0"}, "scene": 3, "nodes": [{"mesh": 0}],
+"extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"outerConeAngle": 0.5}}]}},
+"materials": [{"extensions": {"KHR_materials_volume": {"thicknessFactor": 2}}}], "cameras": [{"type": "p"}]}"#;
     editor.open("a.yaml", text);
     let found = editor.findings("a.yaml");
     assert!(found.iter().any(|own| own["severity"] == 1), "{found:?}");
     let keys = editor.ask_at("textDocument/completion", 0, 32);
-    assert_eq!(keys, json!([]));
+    let names = labels(&keys);
+    assert!(
+        names.contains(&"bufferViews") && !names.contains(&"Lights") && !names.contains(&"nodes"),
+        "{names:?}"
+    );
+    let (line, at) = (
+        2,
+        text.lines().nth(2).unwrap().rfind("\"p\"").unwrap() as u32 + 2,
+    );
+    let words = editor.ask_at("textDocument/completion", line, at);
+    assert_eq!(labels(&words), ["perspective", "orthographic"]);
+    assert_eq!(
+        words[0]["insertText"], "perspective",
+        "the quotes are there"
+    );
+    let mut told = |line: u32, key: &str| {
+        let at = text.lines().nth(line as usize).unwrap().find(key).unwrap();
+        let told = editor.ask_at("textDocument/hover", line, at as u32 + 2);
+        told["contents"]["value"].as_str().unwrap().to_owned()
+    };
+    let spot = told(1, "outerConeAngle");
+    for words in [
+        "where the light ends",
+        "in radians",
+        "default `0.785",
+        "at most 1.57",
+    ] {
+        assert!(spot.contains(words), "{words}: {spot}");
+    }
+    let volume = told(2, "thicknessFactor");
+    assert!(
+        volume.contains("in metres") && volume.contains("volume"),
+        "{volume}"
+    );
+    let scene = told(0, ": 3");
+    let mut all = codes(&found).into_iter();
+    assert!(
+        scene.contains("**`scene`**") && all.any(|code| scene.contains(code)),
+        "{scene}"
+    );
+}
+
+#[test]
+fn a_value_is_told_with_its_unit_and_as_it_is_in_effect() {
+    let sound = SCENE
+        .replace("Shadws", "Shadows")
+        .replace("ka: 1", "ka: 1, kd: 0, ks: 0, n: 1")
+        .replace("- type: mesh\n  file: bal.obj\n", "");
+    let mut editor = Editor::with(&sound);
+    editor.findings("a.yaml");
+    let mut told = |line: u32, key: &str| {
+        let at = sound.lines().nth(line as usize).unwrap().find(key).unwrap();
+        let told = editor.ask_at("textDocument/hover", line, at as u32 + 1);
+        told["contents"]["value"].as_str().unwrap().to_owned()
+    };
+    let eye = told(1, "eye");
+    assert!(
+        eye.contains("in scene units") && !eye.contains("in effect"),
+        "{eye}"
+    );
 }
 
 #[test]

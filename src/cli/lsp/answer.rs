@@ -84,8 +84,7 @@ impl Workspace {
     /// The fixes of what is found in a range.
     fn actions(&mut self, params: &CodeActionParams) -> Option<Vec<findings::Action>> {
         let (reading, columns) = (self.reading.clone(), self.columns);
-        let document = self.document_mut(&params.text_document.uri)?;
-        document.check(&reading);
+        let document = self.checked(&params.text_document.uri)?;
         let only = params.context.only.as_deref();
         Some(findings::actions(
             document,

@@ -1,6 +1,6 @@
 //! What may be typed at a place: keys, words, anchors, and files beside the scene.
 
-use super::hover::plain;
+use super::hover::{default, plain};
 use super::open_text::{OpenText, tree};
 use super::text::Columns;
 use super::way::{Vocabulary, WayStep, way};
@@ -37,7 +37,8 @@ pub(super) fn completions(
     let end = offset + rest.find(|c| !is_of_word(c)).unwrap_or(rest.len());
     let is_key = rest
         .get(end - offset..)
-        .is_some_and(|rest| rest.starts_with(':'));
+        .is_some_and(|rest| rest.trim_start_matches('"').starts_with(':'));
+    let quotes = Quotes::of(&document.text, before);
     let blanks = match as_value || is_key {
         true => vec![BLANK.to_owned()],
         // A key that still wants its value, or an item.
@@ -51,10 +52,50 @@ pub(super) fn completions(
         };
         let items = proposed(document, &tree, start, vocabulary);
         if !items.is_empty() {
-            return items;
+            return items.into_iter().map(|item| quotes.around(item)).collect();
         }
     }
     Vec::new()
+}
+
+/// Whether what is put in needs quotes.
+#[derive(Clone, Copy)]
+enum Quotes {
+    /// It needs none.
+    None,
+    /// They are there.
+    There,
+    /// JSON wants them around it.
+    Wanted,
+}
+
+impl Quotes {
+    fn of(text: &str, before: &str) -> Self {
+        if before.ends_with('"') {
+            return Self::There;
+        }
+        match text.trim_start().starts_with('{') {
+            true => Self::Wanted,
+            false => Self::None,
+        }
+    }
+
+    fn around(self, item: CompletionItem) -> CompletionItem {
+        let name = &item.label;
+        let is_key = item.kind == Some(CompletionItemKind::PROPERTY);
+        let is_text = serde_json::from_str::<Value>(name).is_err();
+        let insert_text = match self {
+            Self::None => return item,
+            Self::There => name.clone(),
+            Self::Wanted if is_key => format!("\"{name}\": "),
+            Self::Wanted if is_text => format!("\"{name}\""),
+            Self::Wanted => name.clone(),
+        };
+        CompletionItem {
+            insert_text: Some(insert_text),
+            ..item
+        }
+    }
 }
 
 fn is_of_word(c: char) -> bool {
@@ -97,9 +138,7 @@ fn key_item((name, schema): (&str, &Value)) -> CompletionItem {
     CompletionItem {
         label: name.to_owned(),
         kind: Some(CompletionItemKind::PROPERTY),
-        detail: schema
-            .get("default")
-            .map(|default| format!("default {}", plain(default))),
+        detail: default(schema).map(|default| format!("default {default}")),
         documentation: text.map(|text| Documentation::String(text.to_owned())),
         insert_text: Some(format!("{name}: ")),
         insert_text_format: Some(InsertTextFormat::PLAIN_TEXT),

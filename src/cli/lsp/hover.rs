@@ -1,6 +1,7 @@
 //! What a key means, with its default and range, and what a code of a finding is about.
 
 use super::super::explain;
+use super::effective;
 use super::open_text::OpenText;
 use super::text::Columns;
 use super::way::{Vocabulary, WayStep, way};
@@ -53,8 +54,9 @@ fn meaning(
     let name = tree.text(key)?;
     let text = described.get("description").and_then(Value::as_str)?;
     let facts = facts(&schemas);
-    let value = effective(&tree, value);
-    let lines = [format!("**`{name}`** {text}"), facts, value];
+    let here = aliased(&tree, value);
+    let value = effective::value(document, &tree, value).unwrap_or_default();
+    let lines = [format!("**`{name}`** {text}"), facts, here, value];
     let lines = lines.into_iter().filter(|line| !line.is_empty());
     let span = tree.span(key);
     let told = lines.collect::<Vec<_>>().join("\n\n");
@@ -86,9 +88,24 @@ fn facts(schemas: &[&Map<String, Value>]) -> String {
             .collect();
         format!("one of {}", words.join(", "))
     }));
+    facts.extend(unit(schemas).map(|unit| format!("in {unit}")));
     let default = schemas.iter().find_map(|schema| schema.get("default"));
     facts.extend(default.map(|default| format!("default `{}`", plain(default))));
     facts.join("; ")
+}
+
+/// The unit of a value, or of the numbers that it is a list of.
+pub(super) fn unit<'v>(schemas: &[&'v Map<String, Value>]) -> Option<&'v str> {
+    let of_items = |schema: &&'v Map<String, Value>| schema.get("items")?.get("x-unit");
+    let own = schemas.iter().find_map(|schema| schema.get("x-unit"));
+    own.or_else(|| schemas.iter().find_map(of_items))?.as_str()
+}
+
+/// The default of a key with its unit, as a scene writes it.
+pub(super) fn default(schema: &Value) -> Option<String> {
+    let value = plain(schema.get("default")?);
+    let unit = schema.as_object().and_then(|own| unit(&[own]));
+    Some(unit.map_or_else(|| value.clone(), |unit| format!("{value} {unit}")))
 }
 
 /// A value as a scene writes it.
@@ -99,7 +116,7 @@ pub(super) fn plain(value: &Value) -> String {
 }
 
 /// What an alias stands for.
-fn effective(tree: &Tree<'_>, value: crate::source::tree::NodeId) -> String {
+fn aliased(tree: &Tree<'_>, value: crate::source::tree::NodeId) -> String {
     /// So many bytes of it at most.
     const MOST: usize = 400;
     let target = tree.target(value);

@@ -3,6 +3,7 @@
 
 mod answer;
 mod completion;
+mod effective;
 mod findings;
 mod hover;
 mod open_text;

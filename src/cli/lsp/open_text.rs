@@ -8,12 +8,13 @@ use super::findings::FileFindings;
 use super::place;
 use super::text::{Columns, TextLines};
 use crate::diag::{Diagnostic, Severity};
+use crate::ir::Lowered;
 use crate::pipeline::{Input, Options, SourceKind};
 use crate::source::tree::{Tree, yaml};
-use crate::source::{FileId, SourceMap};
+use crate::source::{EditedFiles, FileId, SourceMap};
 use lsp_types::{TextDocumentContentChangeEvent, Uri};
 use std::panic::{self, AssertUnwindSafe};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A text that an editor has open.
 pub(super) struct OpenText {
@@ -21,6 +22,8 @@ pub(super) struct OpenText {
     pub(super) path: PathBuf,
     pub(super) version: i32,
     pub(super) text: String,
+    /// The other texts that are open, which stand in place of files that it names.
+    pub(super) others: EditedFiles,
     /// What was found in the text as it is; none until it is checked.
     pub(super) checked: Option<CheckedText>,
     /// What the editor was told of it last, by the files that it is about.
@@ -38,6 +41,8 @@ pub(super) enum CheckedText {
 /// A scene that was checked.
 pub(super) struct CheckedScene {
     input: Input,
+    /// What the text says, if it is sound.
+    pub(super) lowered: Option<Lowered>,
     /// Errors and warnings, in the order of the text.
     pub(super) findings: Vec<Diagnostic>,
 }
@@ -45,6 +50,16 @@ pub(super) struct CheckedScene {
 impl CheckedScene {
     pub(super) fn map(&self) -> &SourceMap {
         self.input.map()
+    }
+
+    /// Whether the file at a path was read for it.
+    pub(super) fn has_read(&self, path: &Path) -> bool {
+        self.input.has_read(path)
+    }
+
+    /// The file of the text itself.
+    pub(super) fn file(&self) -> Option<FileId> {
+        self.input.file_id()
     }
 
     /// Whether a file is the text itself.
@@ -60,6 +75,7 @@ impl OpenText {
             uri,
             version,
             text,
+            others: EditedFiles::default(),
             checked: None,
             told: Vec::new(),
         }
@@ -136,9 +152,14 @@ impl OpenText {
         if let Some(project) = project {
             project.tell(&mut input);
         }
-        if let Some(loaded) = input.load() {
-            input.prove(loaded, |_, _| ());
-        }
+        let loaded = input.load();
+        let proven = loaded.and_then(|loaded| input.prove(loaded, |_, _| ()));
+        let lowered = proven.map(|proven| {
+            let mut lowered = proven.lowered;
+            // What may be large is not told of.
+            (lowered.scene.meshes, lowered.scene.images) = (Vec::new(), Vec::new());
+            lowered
+        });
         let mut sink = input.take_findings();
         sink.sort();
         let kept = sink.kept().iter();
@@ -146,13 +167,18 @@ impl OpenText {
         Ok(CheckedScene {
             findings: findings.cloned().collect(),
             input,
+            lowered,
         })
     }
 
     /// How the text is read.
     pub(super) fn options(&self, reading: &Reading) -> Result<(Options, Option<Project>), Failure> {
         let project = Project::of(&self.path)?;
-        Ok((input::options(reading, project.as_ref())?, project))
+        let options = Options {
+            edited: self.others.clone(),
+            ..input::options(reading, project.as_ref())?
+        };
+        Ok((options, project))
     }
 
     /// The text as a tree, if it is one of YAML or JSON without mistakes.

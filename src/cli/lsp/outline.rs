@@ -1,7 +1,7 @@
 //! What a text holds: its outline, its colours, the defaults that it leaves unsaid, and where names lead.
 
 use super::completion::is_file;
-use super::hover::plain;
+use super::hover::default;
 use super::open_text::OpenText;
 use super::place;
 use super::text::{Columns, TextLines};
@@ -11,7 +11,6 @@ use lsp_types::{
     Color, ColorInformation, ColorPresentation, DocumentSymbol, InlayHint, InlayHintLabel,
     Location, Position, Range, SymbolKind,
 };
-use serde_json::Value;
 
 /// So many of a kind are told at most.
 const MOST: usize = 5000;
@@ -156,6 +155,8 @@ pub(super) fn hints(
 ) -> Vec<InlayHint> {
     /// So many of a map are told.
     const FIRST: usize = 4;
+    /// Longer ones are passed over, as a matrix of glTF.
+    const LONGEST: usize = 32;
     let Some(tree) = document.tree() else {
         return Vec::new();
     };
@@ -175,8 +176,8 @@ pub(super) fn hints(
         let keys = vocabulary.keys(&tree, &steps).into_iter();
         let unsaid = keys.filter(|(name, _)| tree.get(map, name).is_none());
         let defaults = unsaid.filter_map(|(name, schema)| {
-            let default: &Value = schema.get("default")?;
-            Some(format!("{name}: {}", plain(default)))
+            let default = default(schema).filter(|own| own.len() <= LONGEST)?;
+            Some(format!("{name}: {default}"))
         });
         let mut defaults: Vec<String> = defaults.collect();
         let more = defaults.len() > FIRST;

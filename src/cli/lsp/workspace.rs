@@ -6,8 +6,9 @@ use super::open_text::OpenText;
 use super::text::Columns;
 use super::way::Vocabulary;
 use crate::codec;
-use crate::front::course;
+use crate::front::{course, gltf};
 use crate::pipeline::SourceKind;
+use crate::source::EditedFiles;
 use lsp_server::{Message, Notification};
 use lsp_types::notification::{self, Notification as _};
 use lsp_types::{
@@ -16,6 +17,7 @@ use lsp_types::{
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+use std::path::Path;
 
 /// The texts that are open, and what is needed to answer questions about them.
 pub(super) struct Workspace {
@@ -24,6 +26,7 @@ pub(super) struct Workspace {
     documents: Vec<OpenText>,
     scenes: Vocabulary,
     ir: Vocabulary,
+    gltf: Vocabulary,
     nothing: Vocabulary,
 }
 
@@ -36,6 +39,7 @@ impl Workspace {
             documents: Vec::new(),
             scenes: Vocabulary::new(course::schema()),
             ir: Vocabulary::new(codec::schema()),
+            gltf: Vocabulary::new(gltf::schema()),
             nothing: Vocabulary::new(Value::Null),
         }
     }
@@ -60,6 +64,7 @@ impl Workspace {
         match document.kind() {
             SourceKind::Scene => &self.scenes,
             SourceKind::Ir => &self.ir,
+            SourceKind::Other if document.text.trim_start().starts_with('{') => &self.gltf,
             SourceKind::Other => &self.nothing,
         }
     }
@@ -90,12 +95,14 @@ impl Workspace {
             return;
         };
         let document = OpenText::new(own.uri, own.version, own.text);
+        let path = document.path.clone();
         // What was told of it before stays known, to be taken back.
         let before = self.document_mut(&document.uri);
         match before {
             Some(before) => before.replace(document),
             None => self.documents.push(document),
         }
+        self.touch(&path);
     }
 
     fn change(&mut self, params: Value) {
@@ -109,6 +116,47 @@ impl Workspace {
         };
         if let Some(document) = self.document_mut(&text_document.uri) {
             document.change(text_document.version, content_changes, columns);
+            let path = document.path.clone();
+            self.touch(&path);
+        }
+    }
+
+    /// Has the texts checked again for which a file was read that has another text now.
+    fn touch(&mut self, path: &Path) {
+        let documents = self.documents.iter_mut();
+        documents
+            .filter(|own| own.path != path && own.scene().is_some_and(|it| it.has_read(path)))
+            .for_each(OpenText::forget);
+    }
+
+    /// Gives a text that waits to be checked the others, as they are.
+    fn hand_others(&mut self, at: usize) {
+        let others = self
+            .documents
+            .iter()
+            .enumerate()
+            .filter(|(own, _)| *own != at);
+        let others = others.map(|(_, own)| (own.path.clone(), own.text.clone().into_bytes()));
+        let others = EditedFiles::new(others);
+        if let Some(document) = self.documents.get_mut(at) {
+            document.others = others;
+        }
+    }
+
+    /// A text that is open, checked as it is.
+    pub(super) fn checked(&mut self, uri: &Uri) -> Option<&OpenText> {
+        let at = self.documents.iter().position(|own| own.uri == *uri)?;
+        self.check(at);
+        self.documents.get(at)
+    }
+
+    fn check(&mut self, at: usize) {
+        let is_waiting = |own: &OpenText| own.checked.is_none();
+        if self.documents.get(at).is_some_and(is_waiting) {
+            self.hand_others(at);
+            if let Some(document) = self.documents.get_mut(at) {
+                document.check(&self.reading);
+            }
         }
     }
 
@@ -118,16 +166,20 @@ impl Workspace {
             return Vec::new();
         };
         let gone = self.documents.remove(at);
+        self.touch(&gone.path);
         let files = gone.told.into_iter().map(|(file, _)| file);
         self.published(files.collect())
     }
 
     /// Checks a text that was changed, and returns what there is to tell; none if all are checked.
     pub(super) fn check_next(&mut self) -> Option<Vec<Message>> {
-        let (reading, columns) = (&self.reading, self.columns);
-        let waits = |own: &&mut OpenText| own.checked.is_none();
-        let document = self.documents.iter_mut().find(waits)?;
-        document.check(reading);
+        let columns = self.columns;
+        let at = self
+            .documents
+            .iter()
+            .position(|own| own.checked.is_none())?;
+        self.check(at);
+        let document = self.documents.get_mut(at)?;
         let found = findings::diagnostics(document, columns);
         let before = std::mem::replace(&mut document.told, found);
         let mut files: Vec<Uri> = before.into_iter().map(|(file, _)| file).collect();
@@ -144,7 +196,8 @@ impl Workspace {
             let told = self.documents.iter().flat_map(|own| &own.told);
             let of_file = told.filter(|(own, _): &&FileFindings| *own == file);
             for diagnostic in of_file.flat_map(|(_, list)| list) {
-                if !all.contains(diagnostic) {
+                // The same may be found in a file by itself and by scenes that name it.
+                if !all.iter().any(|own| is_same(own, diagnostic)) {
                     all.push(diagnostic.clone());
                 }
             }
@@ -155,6 +208,10 @@ impl Workspace {
         };
         files.into_iter().map(publish).collect()
     }
+}
+
+fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
+    (&a.range, &a.code, &a.message) == (&b.range, &b.code, &b.message)
 }
 
 fn read<P: DeserializeOwned>(params: Value) -> Option<P> {

@@ -282,7 +282,7 @@ ranged! {
             looks_like_radians(degrees, node, context);
         }
         Some(degrees)
-    }, { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 180 }
+    }, { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 180, "x-unit": "degrees" }
 }
 
 ranged! {
@@ -293,7 +293,7 @@ ranged! {
             looks_like_radians(degrees, node, context);
         }
         Some(degrees)
-    }, { "type": "number" }
+    }, { "type": "number", "x-unit": "degrees" }
 }
 
 ranged! {
@@ -322,7 +322,7 @@ ranged! {
     /// An angle in radians of at most a quarter turn.
     HalfAngle(f64), |node, context| {
         number(node, "a number", context).map(|angle| in_radians(angle, node, context))
-    }, { "type": "number", "exclusiveMinimum": 0, "maximum": FRAC_PI_2 }
+    }, { "type": "number", "exclusiveMinimum": 0, "maximum": FRAC_PI_2, "x-unit": "radians" }
 }
 
 ranged! {
@@ -335,7 +335,7 @@ ranged! {
             return Some(0.0);
         }
         Some(stops)
-    }, { "type": "number", "minimum": -64, "maximum": 64 }
+    }, { "type": "number", "minimum": -64, "maximum": 64, "x-unit": "stops" }
 }
 
 /// The largest side of an image.
@@ -343,7 +343,7 @@ const MAX_SIDE: u32 = 65_535;
 
 ranged! {
     /// A side of an image in pixels.
-    Side(u32), |node, context| whole(1, MAX_SIDE, node, context), { "type": "integer", "minimum": 1, "maximum": MAX_SIDE }
+    Side(u32), |node, context| whole(1, MAX_SIDE, node, context), { "type": "integer", "minimum": 1, "maximum": MAX_SIDE, "x-unit": "pixels" }
 }
 
 #[cfg(test)]

@@ -79,7 +79,7 @@ macro_rules! triple {
 triple! {
     /// A point.
     Point, |node, context| number(node, "a list of three numbers", context),
-    { "type": "number", "minimum": -1e60, "maximum": 1e60 }
+    { "type": "number", "minimum": -1e60, "maximum": 1e60, "x-unit": "scene units" }
 }
 
 triple! {
@@ -93,7 +93,7 @@ triple! {
     Angles, |node, context| {
         number(node, "a list of three numbers", context).map(|angle| in_radians(angle, node, context))
     },
-    { "type": "number", "minimum": -1e60, "maximum": 1e60 }
+    { "type": "number", "minimum": -1e60, "maximum": 1e60, "x-unit": "radians" }
 }
 
 triple! {

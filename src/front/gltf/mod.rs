@@ -69,6 +69,13 @@ pub fn extensions() -> String {
     )
 }
 
+/// A JSON schema of glTF 2.0 and its extensions with words for people, defaults and units (`x-unit`). What is
+/// asked of several properties at once is not in it.
+#[must_use]
+pub fn schema() -> serde_json::Value {
+    schema::schema()
+}
+
 /// The mark that some programs put before a text, and glTF forbids.
 const BOM: &str = "\u{feff}";
 

@@ -10,7 +10,7 @@ use super::{Bounds, FACTOR, FREE, Key, Object, POSITIVE, Pool, UNIT, optional, r
 /// An extension.
 #[derive(Debug)]
 pub(in super::super) struct Extension {
-    name: &'static str,
+    pub(super) name: &'static str,
     /// The kinds of objects that carry it, and what they carry.
     pub(super) places: &'static [(&'static str, &'static Object)],
 }
@@ -20,7 +20,8 @@ pub(in super::super) fn find(name: &str) -> Option<&'static Extension> {
     all().find(|extension| extension.name == name)
 }
 
-fn all() -> impl Iterator<Item = &'static Extension> {
+/// All of them.
+pub(super) fn all() -> impl Iterator<Item = &'static Extension> {
     EXTENSIONS.iter().chain(OF_MATERIALS)
 }
 

@@ -3,11 +3,13 @@
 
 mod core;
 mod extension;
+mod json;
 mod own;
 mod value;
 mod walk;
 
 pub(super) use extension::{find, rows as extension_rows};
+pub(super) use json::schema;
 pub(super) use walk::walk;
 
 /// A kind of object.

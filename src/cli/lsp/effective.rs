@@ -1,0 +1,77 @@
+//! What a value comes to in the IR, where that is not as it is written: with its defaults, in the units of the
+//! renderer.
+
+use super::open_text::OpenText;
+use crate::ir::{Field, Noun, Place, Scene};
+use crate::math::shortest;
+use crate::source::Span;
+use crate::source::tree::{NodeId, Tree};
+use serde::Serialize;
+use serde_json::Value;
+
+/// So many bytes of it are told at most.
+const MOST: usize = 1000;
+
+/// What the value of a node comes to, in Markdown; none of a text that is not sound, and of what is in effect
+/// as it is written.
+pub(super) fn value(document: &OpenText, tree: &Tree<'_>, node: NodeId) -> Option<String> {
+    let checked = document.scene()?;
+    let lowered = checked.lowered.as_ref()?;
+    let target = tree.target(node);
+    let own = tree.span(target);
+    let span = Span::new(checked.file()?, own.start, own.end);
+    let values = lowered.origins.places(span);
+    let mut values = values.filter_map(|place| of(&lowered.scene, place));
+    let found = plain(values.next()?);
+    let written = tree.written(target);
+    let is_same = match serde_json::from_str(written) {
+        Ok(value) => plain(value) == found,
+        Err(_) => found == *written,
+    };
+    let line = found.to_string();
+    let is_told = !is_same && line.len() <= MOST;
+    is_told.then(|| match found.is_object() {
+        true => format!("in effect\n```json\n{found:#}\n```"),
+        false => format!("in effect `{line}`"),
+    })
+}
+
+/// The value at a place of the IR; none of what may be large.
+fn of(scene: &Scene, place: Place) -> Option<Value> {
+    let at = place.index as usize;
+    let whole = match place.noun {
+        Noun::Camera => json(&scene.camera),
+        Noun::Settings => json(&scene.settings),
+        Noun::Light => json(scene.lights.get(at)?),
+        Noun::Texture => json(scene.textures.get(at)?),
+        Noun::Material => json(scene.materials.get(at)?),
+        Noun::Surface => json(scene.surfaces.get(at)?),
+        Noun::Environment => json(scene.environment.as_ref()?),
+        Noun::Image | Noun::Mesh => None,
+    }?;
+    let entity = Place {
+        field: Field::Whole,
+        ..place
+    };
+    let way = place.to_string();
+    let way = way.strip_prefix(&entity.to_string())?;
+    whole.pointer(way).cloned()
+}
+
+/// The same with whole numbers as such.
+fn plain(value: Value) -> Value {
+    let number = |value: f64| serde_json::from_str(&shortest(value)).ok();
+    match value {
+        Value::Number(own) => own.as_f64().and_then(number).unwrap_or_default(),
+        Value::Array(items) => items.into_iter().map(plain).collect(),
+        Value::Object(map) => {
+            let pairs = map.into_iter().map(|(key, value)| (key, plain(value)));
+            Value::Object(pairs.collect())
+        }
+        other @ (Value::Null | Value::Bool(_) | Value::String(_)) => other,
+    }
+}
+
+fn json(value: &impl Serialize) -> Option<Value> {
+    serde_json::to_value(value).ok()
+}
