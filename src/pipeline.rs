@@ -20,6 +20,7 @@ mod share;
 mod strips;
 pub mod trial;
 
+pub use denoise::Traced;
 pub use exposure::OwnLight;
 #[cfg(not(target_family = "wasm"))]
 pub use file::{NewFile, NewFolder, WriteObserver};

@@ -3,7 +3,7 @@
 use super::{Effect, Error, Finding, Light, Options, Picture, Reading};
 use crate::diag::{Diagnostic, Sink};
 use crate::passes;
-use crate::pipeline::{self, Input, Loaded, Observer, PictureSetup, RenderSubject};
+use crate::pipeline::{self, Input, Loaded, Observer, PictureSetup, RenderSubject, Traced};
 use crate::plan::{Plan, Rules};
 use crate::render::Film;
 use std::fmt;
@@ -147,7 +147,9 @@ impl Scene {
                 };
                 (film, grown.unmet.is_none().then_some(grown.error))
             } else {
-                (setup.trace(&mut subject, order, &observer)?, None)
+                let Traced { film, probed } = setup.trace(&mut subject, order, &observer)?;
+                let told = probed.filter(|probed| probed.unmet.is_none());
+                (film, told.map(|probed| probed.error))
             };
             let counts = film.counts;
             let film = (film.image, film.coverage, &counts);

@@ -22,7 +22,7 @@ mod texels;
 
 pub use animation::AnimatedPng;
 pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
-pub use denoise::{GUIDES, Guide, NoisyHalf, denoise};
+pub use denoise::{GUIDES, Guide, NoisyHalf, around, denoise};
 pub use file::{BLOCK_ROWS, PictureHead, StripSource};
 #[cfg(feature = "cli")]
 pub use gif::AnimatedGif;

@@ -1,6 +1,7 @@
 //! A picture as it is asked for: from a scene that was loaded to a film, and to the picture that a
 //! file holds.
 
+use super::denoise::Traced;
 use super::light::FirstView;
 use super::{Input, Loaded, Meter, OutputLook, Proven, Provenance, Renderer, findings, hash};
 use crate::diag::Diagnostic;
@@ -8,7 +9,7 @@ use crate::image::{Image, Layers, Origin, Picture};
 use crate::ir::{Field, Mode, Noun, Place, Scene};
 use crate::passes::{self, Framing, Overrides};
 use crate::plan::{self, Plan, Rule, Rules};
-use crate::render::{Counts, Crop, Film, Job, Mismatch, SimdLevel, Step};
+use crate::render::{Counts, Crop, Job, Mismatch, SimdLevel, Step};
 use crate::study::Goal;
 use crate::valid::Proof;
 use rayon::ThreadPoolBuildError;
@@ -185,8 +186,7 @@ impl PictureSetup {
         )))
     }
 
-    /// The picture in the setting of the scene, or where its rays ran out, of which there may be so
-    /// many.
+    /// The picture in the setting of the scene, or where its rays, at most so many, ran out.
     ///
     /// # Errors
     /// If there is none.
@@ -195,32 +195,33 @@ impl PictureSetup {
         subject: &mut RenderSubject,
         (window, rays): (Crop, u64),
         observer: &Observer<'_>,
-    ) -> Result<Film, RenderError> {
+    ) -> Result<Traced, RenderError> {
         let job = Job {
             crop: Some(window),
             values: self.look.values(&subject.proven.scene.settings().mode),
             background: self.look.background(),
             ..Job::default()
         };
-        let renders = if self.verify { 2 } else { 1 };
-        let meter = Meter::of_each(rays, window, renders);
+        let meter = Meter::of_each(rays, window, 1 + usize::from(self.verify));
         let on_pixel = |step| {
             (observer.on_step)(step);
             !(observer.is_stopped)() && meter.step(step)
         };
-        let film = if self.verify {
+        let traced = if self.verify {
             let scene = &subject.proven.scene;
             super::verify(scene, &self.plan(scene), &job, self.threads, &on_pixel)?
+                .map(|film| film.map(Traced::from))
         } else if self.denoise {
-            self.denoised(subject, &job, &on_pixel)?.map(Ok)
+            self.denoised(subject, &job, (&on_pixel, &meter))?.map(Ok)
         } else {
-            self.renderer(subject)?.1.render(&job, &on_pixel).map(Ok)
+            let film = self.renderer(subject)?.1.render(&job, &on_pixel);
+            film.map(|film| Ok(film.into()))
         };
         if let Some(finding) = subject.ran_out(&meter, observer) {
             return Err(RenderError::RanOut(finding));
         }
-        let film = film.ok_or(RenderError::Stopped)?;
-        film.map_err(|mismatch| RenderError::Refused(left_out(&mismatch)))
+        let refused = |mismatch| RenderError::Refused(left_out(&mismatch));
+        traced.ok_or(RenderError::Stopped)?.map_err(refused)
     }
 
     /// The picture of a film, and what is found in it.

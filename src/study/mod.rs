@@ -21,6 +21,7 @@ mod noise;
 mod outcome;
 mod pareto;
 mod precision;
+mod probe;
 mod race;
 mod reference;
 #[cfg(feature = "cli")]
@@ -51,6 +52,7 @@ pub use outcome::{
     About, BounceCost, KnobReport, MoreBounces, Rays, ReferenceReport, Row, Study, StudyArea,
 };
 pub use precision::PrecisionCost;
+pub use probe::{ProbedError, probe};
 pub use reference::{DepthEnd, Level};
 #[cfg(feature = "cli")]
 pub use report::{SliderPage, csv, html, json, maps_page, slider_page, table, told, versus_table};

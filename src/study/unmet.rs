@@ -72,8 +72,13 @@ impl Unmet {
     /// Of a film with samples everywhere.
     pub(super) fn of(&self, film: &ProgressiveFilm) -> UnmetError {
         let shown = film.pixels().map(|pixel| pixel.counts()[0]);
+        self.within(shown.min().unwrap_or(0))
+    }
+
+    /// Of pixels that have `count` samples or more in each of two replicates.
+    pub(super) fn within(&self, count: u32) -> UnmetError {
         UnmetError {
-            square: self.square(shown.min().unwrap_or(0)),
+            square: self.square(count),
             brightest: self.brightest,
         }
     }

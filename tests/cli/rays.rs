@@ -74,6 +74,27 @@ fn rays_that_end_are_counted_to_the_last() {
     );
 }
 
+/// Guides and probes take rays like all others.
+#[test]
+fn rays_of_a_denoised_picture_are_counted_to_the_last() {
+    let folder = TempDir::new().unwrap();
+    let render = |words: &str| {
+        let words = format!("--integrator path --spp 4 --threads 2 {words}");
+        render_lobes(&folder, 2, &words)
+    };
+    let [plain, free] =
+        ["--allow-huge", "--denoise --allow-huge"].map(|words| rays_of(&render(words)));
+    let at = |limit: u32| render(&format!("--denoise --limit rays={limit}"));
+    // The guides of both halves take four camera rays a pixel, the exact ones sixteen.
+    assert!(free > plain + 20 * 12 * 9, "{plain} {free}");
+    assert_eq!((code(&at(free)), code(&at(free - 1))), (0, 1));
+    let words = stderr(&at(free));
+    assert!(
+        words.contains("error ≤ ") && words.contains("(90 %)"),
+        "{words}"
+    );
+}
+
 #[test]
 fn what_does_not_branch_without_end_is_rendered() {
     let folder = TempDir::new().unwrap();

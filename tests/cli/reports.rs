@@ -217,6 +217,13 @@ fn a_picture_is_told_as_an_object() {
         "{good}"
     );
     assert_eq!(render(&["-q"]), "");
+    let denoised = last(render(&["--integrator", "path", "--spp", "4", "--denoise"]));
+    let quality = &denoised["quality"];
+    let [met, told] = ["metError", "toldError"].map(|key| quality[key].as_f64().unwrap());
+    assert!(denoised["denoised"] == true && met >= told, "{denoised}");
+    // A quarter of the pixels, or some of them more than once.
+    let probes = serde_json::json!({ "pixels": 300, "samples": 8 });
+    assert_eq!(quality["probes"], probes, "{denoised}");
 }
 
 /// A picture in the terminal has a line for two of its rows, and its file is there, too.

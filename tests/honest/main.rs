@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 mod budget;
+mod denoised;
 mod grids;
 mod paths;
 mod patterns;
@@ -12,7 +13,7 @@ mod scenes;
 use patterns::grains;
 use rtc::internals::ir::Scene;
 use rtc::internals::render::{Crop, Values};
-use rtc::internals::study::{Goal, Order, Reached, Stopped, Watch, approach};
+use rtc::internals::study::{Goal, Order, Stopped, Watch, approach};
 use scenes::{error, order, references, render, scene, world};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::Duration;
@@ -27,7 +28,7 @@ fn flat() -> Scene {
     scene
 }
 
-fn on(threads: usize, work: impl FnOnce() -> Reached + Send) -> Reached {
+fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

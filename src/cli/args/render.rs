@@ -36,7 +36,7 @@ pub(in crate::cli) struct Render {
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
     pub(in crate::cli) time_budget: Option<Duration>,
     /// Denoise traced paths, guided by albedo, normal and distance of first hits, of four times as many
-    /// camera rays; there is no bound on the error
+    /// camera rays; some pixels are sampled anew, which tells the error
     #[arg(long, conflicts_with_all = ["target_error", "time_budget", "part", "checkpoint", "strips", "verify_effects"])]
     pub(in crate::cli) denoise: bool,
     /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with

@@ -130,7 +130,7 @@ impl Side {
             image,
             coverage,
             counts,
-        } = film.map_err(|error| ended(error, input, talk))?;
+        } = film.map_err(|error| ended(error, input, talk))?.film;
         let film = (image, coverage, &counts);
         let picture = setup.develop(subject, film, input, observer.is_stopped)?;
         input::tell(input, talk)?;

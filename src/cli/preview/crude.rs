@@ -4,7 +4,7 @@ use super::board::Shot;
 use super::shots::shot;
 use crate::diag::Sink;
 use crate::ir::{Mode, Origins, Scene};
-use crate::pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};
+use crate::pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject, Traced};
 use crate::render::Crop;
 use crate::source::Limits;
 use crate::valid::{self, ProofOptions};
@@ -59,7 +59,7 @@ fn trace(
 ) -> Result<Shot, RenderError> {
     subject.turn();
     let window = setup.window(&subject.proven.lowered.scene)?;
-    let film = setup.trace(subject, (window, input.rays()), observer)?;
+    let Traced { film, .. } = setup.trace(subject, (window, input.rays()), observer)?;
     // What is found in it is told of the finished one.
     let found = input.take_findings();
     let shot = shot(setup, subject, film, input, observer);

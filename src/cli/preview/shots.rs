@@ -76,8 +76,8 @@ pub(super) fn pixel(
         width: 1,
         height: 1,
     };
-    let film = setup.trace(subject, (own, input.rays()), observer)?;
-    Ok(Some(film.counts))
+    let traced = setup.trace(subject, (own, input.rays()), observer)?;
+    Ok(Some(traced.film.counts))
 }
 
 /// The film of a window, if there is room for it.
@@ -89,7 +89,7 @@ fn trace(
     observer: &Observer<'_>,
 ) -> Result<Film, RenderError> {
     setup.find_room(subject, window)?;
-    setup.trace(subject, (window, input.rays()), observer)
+    Ok(setup.trace(subject, (window, input.rays()), observer)?.film)
 }
 
 /// The picture of a film, as a file.

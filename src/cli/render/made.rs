@@ -4,7 +4,7 @@ use super::super::{progress, system};
 use crate::pipeline::PictureSetup;
 use crate::plan::Effect;
 use crate::render::Counts;
-use crate::study::{CrudePicture, Samples};
+use crate::study::{CrudePicture, ProbedError, Samples};
 use indicatif::{HumanBytes, HumanCount};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -20,22 +20,39 @@ pub(in crate::cli) struct MadePicture {
     light: String,
     counts: Counts,
     elapsed: Duration,
-    /// Whether it is denoised, which leaves no bound.
+    /// Whether it is denoised.
     is_denoised: bool,
     quality: Option<Quality>,
 }
 
-/// How good a picture is, if that was asked.
+/// How good a picture is, if that is known.
 pub(super) struct Quality {
     /// The bound on its error in grey levels.
     pub(super) error: f64,
     /// How bright light may be that no sample met, if there is no bound.
     pub(super) unmet: Option<f64>,
-    /// If the time was too short for it.
-    pub(super) crude: Option<CrudePicture>,
-    pub(super) samples: Samples,
-    /// Its rays ran out.
-    pub(super) has_run_out: bool,
+    pub(super) known: KnownBy,
+}
+
+/// How it is known.
+pub(super) enum KnownBy {
+    /// The picture grew until it was good enough.
+    Growing {
+        /// If the time was too short for it.
+        crude: Option<CrudePicture>,
+        samples: Samples,
+        /// Its rays ran out.
+        has_run_out: bool,
+    },
+    /// Some pixels of a denoised picture were sampled anew.
+    Probing {
+        /// The likely error, in grey levels.
+        told: f64,
+        /// So many pixels.
+        probes: usize,
+        /// Each so often.
+        samples: u32,
+    },
 }
 
 impl MadePicture {
@@ -72,10 +89,7 @@ impl MadePicture {
         let simulated = verbose.then(|| simulated(&self.counts));
         let pages = verbose.then(huge_pages).flatten();
         let quality = self.quality.as_ref().map(Quality::words);
-        let denoised = self
-            .is_denoised
-            .then(|| "no bound: the error of a denoised picture is not told".to_owned());
-        let lines = [Some(line), simulated, pages, quality, denoised];
+        let lines = [Some(line), simulated, pages, quality];
         lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
 
@@ -112,34 +126,86 @@ fn simulated(counts: &Counts) -> String {
 }
 
 impl Quality {
+    /// Of a denoised picture.
+    pub(super) fn probed(probed: &ProbedError) -> Self {
+        Self {
+            error: probed.error,
+            unmet: probed.unmet,
+            known: KnownBy::Probing {
+                told: probed.told,
+                probes: probed.probes,
+                samples: probed.samples,
+            },
+        }
+    }
+
+    /// If the time was too short for the picture.
+    pub(super) fn crude(&self) -> Option<CrudePicture> {
+        match self.known {
+            KnownBy::Growing { crude, .. } => crude,
+            KnownBy::Probing { .. } => None,
+        }
+    }
+
     fn words(&self) -> String {
-        let Samples { min, mean, most } = self.samples;
-        let told = match self.crude {
+        let bound = match self.crude() {
             Some(CrudePicture { block, .. }) => {
                 format!("no bound: of some blocks of {block} × {block} pixels one was sampled")
             }
             None => bound(self.error, self.unmet),
         };
-        let end = match self.has_run_out {
-            true => ", ended by `--limit rays`",
-            false => "",
-        };
-        format!("{told}, {mean:.0} samples a pixel on the mean, {min} … {most}{end}")
+        match &self.known {
+            KnownBy::Growing {
+                samples: Samples { min, mean, most },
+                has_run_out,
+                ..
+            } => {
+                let end = match has_run_out {
+                    true => ", ended by `--limit rays`",
+                    false => "",
+                };
+                format!("{bound}, {mean:.0} samples a pixel on the mean, {min} … {most}{end}")
+            }
+            KnownBy::Probing {
+                told,
+                probes,
+                samples,
+            } => {
+                format!("{bound}, likely {told:.2}, by {samples} more samples of {probes} pixels")
+            }
+        }
     }
 
     /// Without a bound there is none in the object, but the error of what samples met.
     fn object(&self) -> Value {
-        let Samples { min, mean, most } = self.samples;
-        let has_bound = self.unmet.is_none() && self.crude.is_none();
-        json!({
+        let crude = self.crude();
+        let has_bound = self.unmet.is_none() && crude.is_none();
+        let mut object = json!({
             "bound": has_bound.then_some(self.error),
             "confidence": has_bound.then_some(0.9),
-            "metError": self.crude.is_none().then_some(self.error),
+            "metError": crude.is_none().then_some(self.error),
             "unmetWhites": self.unmet,
-            "crudeBlock": self.crude.map(|crude| crude.block),
-            "samples": { "min": min, "mean": mean, "most": most },
-            "ranOut": self.has_run_out,
-        })
+        });
+        match &self.known {
+            KnownBy::Growing {
+                samples: Samples { min, mean, most },
+                has_run_out,
+                ..
+            } => {
+                object["crudeBlock"] = json!(crude.map(|crude| crude.block));
+                object["samples"] = json!({ "min": min, "mean": mean, "most": most });
+                object["ranOut"] = json!(has_run_out);
+            }
+            KnownBy::Probing {
+                told,
+                probes,
+                samples,
+            } => {
+                object["toldError"] = json!(told);
+                object["probes"] = json!({ "pixels": probes, "samples": samples });
+            }
+        }
+        object
     }
 }
 

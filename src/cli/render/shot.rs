@@ -5,9 +5,9 @@ use super::super::interrupt::Interrupt;
 use super::super::progress::RenderProgress;
 use super::RenderSetup;
 use super::budget::PictureClock;
-use super::made::{Quality, error};
+use super::made::{KnownBy, Quality, error};
 use crate::image::Image;
-use crate::pipeline::{Meter, Observer, RenderError, RenderSubject};
+use crate::pipeline::{Meter, Observer, RenderError, RenderSubject, Traced};
 use crate::render::{Counts, Crop, Film};
 use crate::study::{CrudePicture, Growth, Keep, Order, Reached, Stopped, Watch};
 use std::time::Duration;
@@ -43,16 +43,18 @@ impl Rendered {
             quality: Some(Quality {
                 error,
                 unmet,
-                crude,
-                samples,
-                has_run_out,
+                known: KnownBy::Growing {
+                    crude,
+                    samples,
+                    has_run_out,
+                },
             }),
         }
     }
 
     /// If the time was too short for it.
     pub(super) fn crude(&self) -> Option<CrudePicture> {
-        self.quality.as_ref()?.crude
+        self.quality.as_ref()?.crude()
     }
 }
 
@@ -108,19 +110,20 @@ impl RenderSetup {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
         };
-        let film = self.picture.trace(subject, (window, rays), &observer);
+        let traced = self.picture.trace(subject, (window, rays), &observer);
         let elapsed = progress.finish();
+        let Traced { film, probed } = traced?;
         let Film {
             image,
             coverage,
             counts,
-        } = film?;
+        } = film;
         Ok(Rendered {
             image,
             coverage,
             counts,
             elapsed,
-            quality: None,
+            quality: probed.as_ref().map(Quality::probed),
         })
     }
 

@@ -81,8 +81,12 @@ fn variances([a, b]: [NoisyHalf<'_>; 2]) -> Vec<[f64; 3]> {
     (0..a.image.pixels.len()).into_par_iter().map(of).collect()
 }
 
-/// The pixels at most `reach` away from one, row by row.
-fn around(index: usize, [width, height]: [usize; 2], reach: usize) -> impl Iterator<Item = usize> {
+/// The pixels at most `reach` away from one, row by row, of a picture of this width and height.
+pub fn around(
+    index: usize,
+    [width, height]: [usize; 2],
+    reach: usize,
+) -> impl Iterator<Item = usize> {
     let (x, y) = (index % width, index / width);
     let columns = x.saturating_sub(reach)..(x + reach + 1).min(width);
     let rows = y.saturating_sub(reach)..(y + reach + 1).min(height);

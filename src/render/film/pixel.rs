@@ -33,6 +33,20 @@ pub(in crate::render) enum Stream {
     },
 }
 
+impl Stream {
+    /// The seeds of its samples.
+    pub(in crate::render) fn seeds(self) -> Seeds {
+        match self {
+            Self::Picture(seeds) => seeds,
+            Self::Replicate { number, .. } => Seeds {
+                pixel: number,
+                lens: number,
+                path: number,
+            },
+        }
+    }
+}
+
 /// What one sample of a pixel shows.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct Sample {

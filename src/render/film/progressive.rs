@@ -162,6 +162,16 @@ impl Replicates {
         apart.length_squared() / 12.0
     }
 
+    /// The square error of a value of the pixel that is independent of the replicates, as it is
+    /// displayed: the mean over the channels. Its noise cancels in the mean, so it may be below 0.
+    #[must_use]
+    pub fn square_error(&self, value: [f64; 3]) -> f64 {
+        let n = f64::from(self.counts[SHOWN].max(1));
+        let [value, a, b] = [Vec3::from_array(value), self.sums[0] / n, self.sums[1] / n]
+            .map(|mean| self.tone.map_or(mean, |tone| shown(tone, mean)));
+        (value - a).dot(value - b) / 3.0
+    }
+
     /// The variance of the samples of the pilot: the mean over the channels.
     #[must_use]
     pub fn variance_of_samples(&self) -> f64 {

@@ -2,15 +2,13 @@
 //! camera rays.
 
 use super::{Selection, run};
-use crate::image::{Guide, NoisyHalf, denoise};
-use crate::plan::PathFeatures;
+use crate::image::{Guide, Image, NoisyHalf, denoise};
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::tiled::Tiled;
-use crate::render::film::{Film, Job};
+use crate::render::film::{Counts, Film, Job};
 use crate::render::frame::picture::asked;
-use crate::render::integrator::aov::FirstHits;
 use crate::render::integrator::guide::GuideSums;
-use crate::render::integrator::path::{PathTracer, Strategy};
+use crate::render::integrator::path::{FirstHitsOfPaths, Strategy};
 use crate::render::light::Lights;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
@@ -20,74 +18,77 @@ use std::ops::Range;
 /// Camera rays of the exact guides for each sample, and the most that so are taken.
 const GUIDE_RAYS: (u32, u32) = (4, 256);
 
+/// A denoised picture as rendered.
+#[derive(Clone, Debug)]
+pub struct DenoisedFilm {
+    /// The picture, and all rays, those of guides included.
+    pub film: Film,
+    /// The plain picture of the same samples.
+    pub plain: Image,
+}
+
 impl<S: Geometry> World<S> {
-    /// The guides of pixels by a range of the samples of traced paths.
+    /// The guides of pixels by a range of the samples of traced paths, and the rays they take.
     pub(in crate::render) fn guides(
         &self,
         samples: &Range<u32>,
         job: &Job,
         on_pixel: &OnPixel<'_>,
-    ) -> Option<Vec<Guide>> {
+    ) -> Option<(Vec<Guide>, Counts)> {
         let lights = Lights::new(self, Strategy::Mis);
-        let tracer = || {
-            PathTracer::<S, { PathFeatures::EVERYTHING.0 }>::new(
-                self,
-                &lights,
-                Strategy::Mis,
-                on_pixel,
-            )
-            .knowing_all()
-        };
+        let worker = || FirstHitsOfPaths::new(self, &lights, on_pixel);
         let open = |_: [u32; 2], _: usize, _: &Guide| {
             (GuideSums::new(&self.camera), asked(job, samples.clone()))
         };
         let mut film = Tiled::new(self.crop(job), job.tiles, Guide::default());
-        run(&mut film, Selection::of(job), || FirstHits(tracer()), &open)?;
-        Some(film.iter().copied().collect())
+        let counts = run(&mut film, Selection::of(job), worker, &open)?;
+        Some((film.iter().copied().collect(), counts))
     }
 }
 
 impl AnyWorld {
     /// A denoised picture of traced paths, of so many samples a pixel, at least 2; `None` if
-    /// `on_pixel` said stop.
+    /// `on_pixel` said stop. `between` is called between two passes over all pixels.
     #[must_use]
-    pub fn denoised(&self, samples: u32, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
+    pub fn denoised(
+        &self,
+        samples: u32,
+        job: &Job,
+        on_pixel: &OnPixel<'_>,
+        between: &dyn Fn(),
+    ) -> Option<DenoisedFilm> {
         let middle = samples / 2;
         let ranges = [0..middle, middle..samples];
-        let [first, second] = ranges
-            .clone()
-            .map(|range| self.range(&range, job, on_pixel));
-        let films = [first?, second?];
+        let a = self.range(&ranges[0], job, on_pixel)?;
+        between();
+        let b = self.range(&ranges[1], job, on_pixel)?;
+        between();
         let (rays, most) = GUIDE_RAYS;
         let rays = samples.saturating_mul(rays).min(most).max(samples);
-        let all = [ranges[0].clone(), ranges[1].clone(), 0..rays];
-        let mut guides = self.guides(&all, job, on_pixel)?;
+        let [first, second] = ranges;
+        let guides = self.guides(&[first, second, 0..rays], job, on_pixel, between)?;
+        let (mut guides, of_guides) = guides;
         scale_distances(&mut guides);
-        let [first, second, exact] = guides;
-        let half = |film, guides| NoisyHalf {
-            image: film,
-            guides,
+        let [first, second, exact] = &guides;
+        let half = |image, guides| NoisyHalf { image, guides };
+        let halves = [half(&a.image, first), half(&b.image, second)];
+        let image = denoise(halves, exact);
+        let [first, second] = [middle, samples - middle].map(f64::from);
+        let mean = |a: f64, b: f64| (a * first + b * second) / (first + second);
+        let pairs = a.image.pixels.iter().zip(&b.image.pixels);
+        let pixels = pairs.map(|(a, b)| [0, 1, 2].map(|c| mean(a[c], b[c])));
+        let plain = Image {
+            pixels: pixels.collect(),
+            ..image
         };
-        let halves = [
-            half(&films[0].image, &first),
-            half(&films[1].image, &second),
-        ];
-        let image = denoise(halves, &exact);
-        let [a, b] = films;
-        let mean = |(a, b): (f32, f32)| {
-            let parts = [(a, middle), (b, samples - middle)];
-            parts
-                .map(|(part, count)| part * count as f32)
-                .iter()
-                .sum::<f32>()
-                / samples as f32
-        };
-        let coverage = a.coverage.into_iter().zip(b.coverage).map(mean);
-        Some(Film {
+        let coverage = a.coverage.iter().zip(&b.coverage);
+        let coverage = coverage.map(|(a, b)| mean(f64::from(*a), f64::from(*b)) as f32);
+        let film = Film {
             image,
             coverage: coverage.collect(),
-            counts: a.counts.plus(b.counts),
-        })
+            counts: a.counts.plus(b.counts).plus(of_guides),
+        };
+        Some(DenoisedFilm { film, plain })
     }
 }
 

@@ -2,14 +2,14 @@
 
 use super::{Selection, run};
 use crate::image::Layers;
-use crate::plan::{Features, PathFeatures};
+use crate::plan::Features;
 use crate::render::film::Job;
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::Accumulator;
 use crate::render::film::tiled::Tiled;
 use crate::render::frame::picture::asked;
 use crate::render::integrator::aov::{Aov, FirstHit, FirstHits, LayerSums};
-use crate::render::integrator::path::{PathTracer, Strategy};
+use crate::render::integrator::path::{FirstHitsOfPaths, Strategy};
 use crate::render::integrator::whitted::Tracer;
 use crate::render::light::Lights;
 use crate::render::shape::geometry::Geometry;
@@ -27,25 +27,17 @@ impl<S: Geometry> World<S> {
     ) -> Option<Layers> {
         if let Mode::Path(samples) = self.settings.mode {
             let lights = Lights::new(self, Strategy::Mis);
-            let worker = || {
-                PathTracer::<S, { PathFeatures::EVERYTHING.0 }>::new(
-                    self,
-                    &lights,
-                    Strategy::Mis,
-                    on_pixel,
-                )
-                .knowing_all()
-            };
+            let worker = || FirstHitsOfPaths::new(self, &lights, on_pixel);
             return self.layers_by(worker, samples, wanted, job);
         }
-        let worker = || Tracer::<S, { Features::EVERYTHING.0 }>::new(self, on_pixel);
+        let worker = || FirstHits(Tracer::<S, { Features::EVERYTHING.0 }>::new(self, on_pixel));
         self.layers_by(worker, self.settings.grid.samples(), wanted, job)
     }
 
-    /// Renders layers by integrators that `worker` makes.
+    /// Renders layers by the first hits of integrators that `worker` makes.
     fn layers_by<'run, I: FirstHit<'run>>(
         &self,
-        worker: impl Fn() -> I + Sync + Send,
+        worker: impl Fn() -> FirstHits<I> + Sync + Send,
         samples: u32,
         wanted: &[Aov],
         job: &Job,
@@ -56,7 +48,7 @@ impl<S: Geometry> World<S> {
         };
         let blank = <LayerSums<'_> as Accumulator>::Kept::new();
         let mut film = Tiled::new(self.crop(job), job.tiles, blank);
-        run(&mut film, Selection::of(job), || FirstHits(worker()), &open)?;
+        run(&mut film, Selection::of(job), worker, &open)?;
         let names: Vec<_> = wanted.iter().flat_map(|aov| aov.channels()).collect();
         // A pixel that nobody asked for has no numbers.
         let mut values = Vec::with_capacity(film.len() * names.len());

@@ -6,7 +6,7 @@ use crate::render::accel::simd::SimdLevel;
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::partial::{FilmError, PartialFilm};
 use crate::render::film::progressive::ProgressiveFilm;
-use crate::render::film::{Film, Job};
+use crate::render::film::{Counts, Film, Job};
 use crate::render::integrator::aov::Aov;
 use crate::render::shape::Shape;
 use crate::render::shape::basic::Basic;
@@ -139,20 +139,26 @@ impl AnyWorld {
         each!(self, world => world.whole(job, |_, job| world.sum(samples, job, on_pixel)))
     }
 
-    /// The guides of a denoiser, by three ranges of the samples of traced paths.
+    /// The guides of a denoiser, by three ranges of the samples of traced paths, and the rays they take;
+    /// `between` is called between two of them.
     pub(in crate::render) fn guides(
         &self,
         samples: &[Range<u32>; 3],
         job: &Job,
         on_pixel: &OnPixel<'_>,
-    ) -> Option<[Vec<Guide>; 3]> {
+        between: &dyn Fn(),
+    ) -> Option<([Vec<Guide>; 3], Counts)> {
         let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
         // As of layers.
         let simd = each!(self, world => world.simd);
         let whole = Self::prepare_at(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE), simd);
         let of = |range| each!(&whole, world => world.guides(range, job, on_pixel));
-        let [first, second, exact] = samples.each_ref().map(of);
-        Some([first?, second?, exact?])
+        let (first, a) = of(&samples[0])?;
+        between();
+        let (second, b) = of(&samples[1])?;
+        between();
+        let (exact, c) = of(&samples[2])?;
+        Some(([first, second, exact], a.plus(b).plus(c)))
     }
 
     /// Takes samples until each pixel has those wanted: `wanted(i)` is how many each replicate of

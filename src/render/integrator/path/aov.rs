@@ -1,17 +1,38 @@
 //! The first vertex of a path.
 
-use super::PathTracer;
 use super::state::PathState;
+use super::{PathTracer, Strategy};
 use crate::math::Vec3;
-use crate::render::film::Seeds;
+use crate::plan::PathFeatures;
+use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::SampleId;
-use crate::render::integrator::aov::{CameraHit, First, FirstHit};
+use crate::render::integrator::aov::{CameraHit, First, FirstHit, FirstHits};
+use crate::render::light::Lights;
 use crate::render::sampler::sobol::Sobol;
 use crate::render::shape::geometry::Geometry;
+use crate::render::world::World;
+
+/// Finds the first hits of paths, with all that surfaces can show.
+pub(in crate::render) type FirstHitsOfPaths<'world, S> =
+    FirstHits<PathTracer<'world, S, { PathFeatures::EVERYTHING.0 }>>;
+
+impl<'world, S: Geometry> FirstHitsOfPaths<'world, S> {
+    pub(in crate::render) fn new(
+        world: &'world World<S>,
+        lights: &'world Lights<'world, S>,
+        on_pixel: &'world OnPixel<'world>,
+    ) -> Self {
+        Self(PathTracer {
+            knows_all: true,
+            ..PathTracer::new(world, lights, Strategy::Mis, on_pixel)
+        })
+    }
+}
 
 impl<'run, S: Geometry, const F: u32> FirstHit<'run> for PathTracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {
-        let sobol = Sobol::new(id.pixel, id.index, Seeds::NONE);
+        let sobol = Sobol::new(id.pixel, id.index, id.stream.seeds());
+        self.counts.camera += 1;
         let mut state = PathState::new(self.camera_ray(id.pixel, &sobol), sobol);
         let first = self.at_closest_hit(&mut state, |tracer, state, vertex| {
             let wo = -state.ray.direction;
@@ -24,6 +45,7 @@ impl<'run, S: Geometry, const F: u32> FirstHit<'run> for PathTracer<'run, S, F> 
                 surface: tracer.world.surfaces[vertex.hit.surface].index,
             }
         });
+        self.counts.hits += u64::from(first.is_some());
         CameraHit {
             direction: state.ray.direction,
             first,

@@ -15,13 +15,14 @@ use crate::math::Vec3;
 use crate::plan::{Effect, EnvironmentLeft, PathFeatures};
 use crate::render::camera::{image_point, lens_at, ray_through};
 use crate::render::film::heartbeat::{Heartbeat, OnPixel};
-use crate::render::film::pixel::{Sample, SampleId, Stream};
-use crate::render::film::{Background, Counts, Seeds};
+use crate::render::film::pixel::{Sample, SampleId};
+use crate::render::film::{Background, Counts};
 use crate::render::light::Lights;
 use crate::render::ray::Ray;
 use crate::render::sampler::sobol::{FILM, LENS, Sobol};
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
+pub(in crate::render) use aov::FirstHitsOfPaths;
 use state::PathState;
 
 /// The sampling strategy. All strategies have the same expected value; only the noise differs.
@@ -87,14 +88,6 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         Self { background, ..self }
     }
 
-    /// The same tracer with all details at its vertices.
-    pub(in crate::render) fn knowing_all(self) -> Self {
-        Self {
-            knows_all: true,
-            ..self
-        }
-    }
-
     /// Whether this tracer can do it: known at compile time.
     #[inline]
     const fn can(feature: PathFeatures) -> bool {
@@ -143,18 +136,10 @@ impl<'world, S: Geometry, const F: u32> Integrator<'world> for PathTracer<'world
     type Sample = Sample;
 
     fn sample(&mut self, id: &SampleId) -> Sample {
-        let seeds = match id.stream {
-            Stream::Picture(seeds) => seeds,
-            Stream::Replicate { number, .. } => Seeds {
-                pixel: number,
-                lens: number,
-                path: number,
-            },
-        };
         if id.index > 0 {
             self.counts.add(Effect::Supersampling);
         }
-        let sobol = Sobol::new(id.pixel, id.index, seeds);
+        let sobol = Sobol::new(id.pixel, id.index, id.stream.seeds());
         let (ray, hits) = (self.camera_ray(id.pixel, &sobol), self.counts.hits);
         let radiance = self.radiance(ray, sobol);
         let hit = self.counts.hits > hits;

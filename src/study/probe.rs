@@ -1,0 +1,263 @@
+//! The error of a denoised picture: some of its pixels are sampled anew, independently of it.
+//!
+//! Halves of the samples don't tell it: parts of one stratified sequence are not independent, and a
+//! picture of half the samples is another one (decision 15). Two independent means of a pixel do,
+//! however a value came about: the product of its differences from both is its square error in the
+//! mean.
+
+use super::metrics::LEVELS;
+use super::statistics::fisher_quantile;
+use super::target::{Order, TAIL};
+use crate::image::around;
+use crate::math::{GAMMA, mix};
+use crate::render::{AnyWorld, Counts, DenoisedFilm, Film, OnPixel, ProgressiveFilm};
+
+/// What was found of the error of a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProbedError {
+    /// The root mean square error in grey levels: the best estimate, of what samples met.
+    pub told: f64,
+    /// What it is at most in 90 % of all renders; of what samples met alone, if there is no bound.
+    pub error: f64,
+    /// If there is no bound: how bright, in multiples of white, light may be that no sample met.
+    pub unmet: Option<f64>,
+    /// The pixels that were sampled anew; one that was chosen twice counts twice.
+    pub probes: usize,
+    /// The samples that each of them took.
+    pub samples: u32,
+    /// The rays that took.
+    pub counts: Counts,
+}
+
+/// One probe for so many pixels. Each takes two means of as many samples as a pixel has, or the next
+/// power of two, so that is an eighth to a quarter of the work of the plain picture.
+const SPACING: usize = 16;
+
+/// The least probes of a picture of four times as many pixels, and of one of so many at all: with
+/// fewer a bound holds too seldom. And the most.
+const LEAST: usize = 1024;
+const FEWEST: usize = 256;
+const MOST: usize = 1 << 14;
+
+/// The most samples of a mean.
+const LONGEST: u32 = 1 << 20;
+
+/// The share of probes that lie anywhere; the others lie where denoising changed much.
+const ANYWHERE: f64 = 0.5;
+
+/// The least degrees of freedom that are believed: fewer have no quantile.
+const FREEDOM: f64 = 8.0;
+
+/// The error of a denoised picture of so many samples a pixel; `None` if `on_pixel` said stop. The
+/// seed of the order is that of the probes.
+#[must_use]
+pub fn probe(
+    world: &AnyWorld,
+    order: &Order,
+    picture: &DenoisedFilm,
+    samples: u32,
+    on_pixel: &OnPixel<'_>,
+) -> Option<ProbedError> {
+    let shares = shares(picture, order);
+    let probes = Probes::spread(&shares, order.seed);
+    // Of a power of two, replicates are stratified.
+    let length = samples.min(LONGEST).next_power_of_two();
+    let mut film = ProgressiveFilm::new(order.crop, order.seed);
+    (film.background, film.display) = (order.background, order.display);
+    let wanted = |index: usize| [if probes.hits[index] > 0 { length } else { 0 }, 0];
+    if !world.grow(&mut film, &wanted, on_pixel) {
+        return None;
+    }
+    let found = probes.found(&film, picture, &shares);
+    let (square, most) = mean_and_most(&found);
+    let unmet = order.unmet(world).within(samples / 2);
+    let is_whole = unmet.is_told(most, None);
+    let all = most + if is_whole { unmet.square } else { 0.0 };
+    Some(ProbedError {
+        told: square.max(0.0).sqrt() * LEVELS,
+        error: all.sqrt() * LEVELS,
+        unmet: (!is_whole).then_some(unmet.brightest),
+        probes: probes.count,
+        samples: 2 * length,
+        counts: film.counts,
+    })
+}
+
+/// The share of the probes that each pixel is to have, in sum 1: even, and in proportion to the squares by
+/// which denoising changed what is displayed of 3 × 3 pixels, by noise or by mistake.
+fn shares(picture: &DenoisedFilm, order: &Order) -> Vec<f64> {
+    let (tone, exposure) = order.display;
+    let shown = |pixel: &[f64; 3]| tone.display(pixel.map(|value| value * exposure));
+    let Film { image, .. } = &picture.film;
+    let pixels = image.pixels.iter().zip(&picture.plain.pixels);
+    let squares = pixels.map(|(denoised, plain)| {
+        let [denoised, plain] = [denoised, plain].map(shown);
+        let squares = denoised.iter().zip(plain).map(|(a, b)| (a - b) * (a - b));
+        let sum = squares.sum::<f64>();
+        if sum.is_finite() { sum } else { 0.0 }
+    });
+    let squares: Vec<f64> = squares.collect();
+    let size = [image.width as usize, image.height as usize];
+    let changed = |index: usize| {
+        around(index, size, 1)
+            .map(|near| squares[near])
+            .sum::<f64>()
+    };
+    let changed: Vec<_> = (0..squares.len()).map(changed).collect();
+    let (all, even) = (
+        changed.iter().sum::<f64>(),
+        1.0 / changed.len().max(1) as f64,
+    );
+    let share = |changed: f64| match all > 0.0 {
+        true => ANYWHERE * even + (1.0 - ANYWHERE) * changed / all,
+        false => even,
+    };
+    changed.into_iter().map(share).collect()
+}
+
+/// Which pixels are sampled anew.
+struct Probes {
+    /// How often each was chosen.
+    hits: Vec<u32>,
+    count: usize,
+}
+
+impl Probes {
+    /// Chooses pixels with probabilities in proportion to their shares: one at random in each of as many
+    /// stretches, of equal shares, of the pixels row by row.
+    fn spread(shares: &[f64], seed: u64) -> Self {
+        let pixels = shares.len();
+        let least = LEAST.min(pixels / 4).max(FEWEST.min(pixels));
+        let count = (pixels / SPACING).clamp(least, MOST);
+        let mut hits = vec![0; pixels];
+        let (mut index, mut sum) = (0, shares[0]);
+        for probe in 0..count {
+            let bits = mix((seed << 32 | probe as u64).wrapping_mul(GAMMA));
+            let within = (bits >> 11) as f64 / 9_007_199_254_740_992.0;
+            let place = (probe as f64 + within) / count as f64;
+            while sum < place && index + 1 < pixels {
+                index += 1;
+                sum += shares[index];
+            }
+            hits[index] += 1;
+        }
+        Self { hits, count }
+    }
+
+    /// What the probes of each pixel find.
+    fn found(&self, film: &ProgressiveFilm, picture: &DenoisedFilm, shares: &[f64]) -> Vec<Found> {
+        let pixels = self.hits.len() as f64;
+        let hit = self.hits.iter().enumerate().filter(|(_, hits)| **hits > 0);
+        hit.map(|(index, hits)| {
+            let value = picture.film.image.pixels[index];
+            Found {
+                square: film.pixel(index).square_error(value) / (pixels * shares[index]),
+                hits: f64::from(*hits),
+            }
+        })
+        .collect()
+    }
+}
+
+/// What the probes of a pixel find, all of them the same.
+struct Found {
+    /// Its square error over its share, of a picture of one pixel.
+    square: f64,
+    hits: f64,
+}
+
+/// The mean of what probes found, and what it is at most but for [`TAIL`]: as if it were χ² of as many
+/// degrees of freedom as its spread says, which squares of errors are nearer to than to a normal
+/// variable.
+fn mean_and_most(found: &[Found]) -> (f64, f64) {
+    let probes: f64 = found.iter().map(|one| one.hits).sum();
+    let mean = found.iter().map(|one| one.square * one.hits).sum::<f64>() / probes;
+    let squares = found.iter().map(|one| {
+        let deviation = one.hits * (one.square - mean);
+        deviation * deviation
+    });
+    // Pixels are independent, probes of one pixel are not.
+    let pixels = found.len() as f64;
+    let variance = squares.sum::<f64>() / (probes * probes) * pixels / (pixels - 1.0).max(1.0);
+    // Probes of one pixel alone have no spread.
+    let variance = if variance > 0.0 {
+        variance
+    } else {
+        mean * mean * 2.0 / FREEDOM
+    };
+    let freedom = (2.0 * mean * mean / variance.max(f64::MIN_POSITIVE)).max(FREEDOM);
+    let factor = fisher_quantile(TAIL, 1e12, freedom);
+    let deviations = (factor - 1.0) * (freedom / 2.0).sqrt();
+    (mean, mean.max(0.0) + deviations * variance.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Rng;
+
+    fn uniform(rng: &mut Rng) -> f64 {
+        (rng.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30)
+    }
+
+    /// Squares of errors as pictures have them: most are small, some are a hundred times as large.
+    fn square(rng: &mut Rng) -> f64 {
+        let size = if rng.below(20) == 0 { 100.0 } else { 1.0 };
+        -size * crate::math::ln(uniform(rng))
+    }
+
+    fn once(square: f64) -> Found {
+        Found { square, hits: 1.0 }
+    }
+
+    #[test]
+    fn probes_of_one_pixel_tell_no_more_than_one() {
+        let (one, two) = ([1.0, 4.0].map(once), [1.0, 1.0, 4.0, 4.0].map(once));
+        let twice = [1.0, 4.0].map(|square| Found { square, hits: 2.0 });
+        assert_eq!(mean_and_most(&one), mean_and_most(&twice));
+        assert!(mean_and_most(&two).1 < mean_and_most(&twice).1);
+    }
+
+    #[test]
+    fn the_bound_holds_as_often_as_it_says_where_few_pixels_have_most_of_the_error() {
+        let truth = 0.95 + 0.05 * 100.0;
+        for count in [FEWEST, LEAST] {
+            let mut rng = Rng::new(count as u64);
+            let held = (0..400).filter(|_| {
+                let found: Vec<_> = (0..count).map(|_| once(square(&mut rng))).collect();
+                mean_and_most(&found).1 >= truth
+            });
+            let held = held.count();
+            // 0.9 is promised; a bound that always holds would say nothing.
+            assert!((360..=396).contains(&held), "{held} of 400 by {count}");
+        }
+    }
+
+    #[test]
+    fn what_noise_takes_below_zero_has_a_bound_above() {
+        let (mean, most) = mean_and_most(&[-1.0, 0.5, -0.5, 0.0].map(once));
+        assert!(
+            mean < 0.0 && most > 0.0 && most.is_finite(),
+            "{mean} {most}"
+        );
+        assert_eq!(mean_and_most(&[0.0; 9].map(once)), (0.0, 0.0));
+    }
+
+    #[test]
+    fn shares_say_how_often_a_pixel_is_chosen() {
+        let shares: Vec<_> = (0..4096)
+            .map(|index| if index % 64 == 0 { 32.5 } else { 0.5 } / 4096.0)
+            .collect();
+        let mut hits = vec![0_u32; 4096];
+        for seed in 0..200 {
+            let probes = Probes::spread(&shares, seed);
+            assert_eq!(probes.hits.iter().sum::<u32>() as usize, probes.count);
+            hits.iter_mut()
+                .zip(probes.hits)
+                .for_each(|(sum, hit)| *sum += hit);
+        }
+        let often: u32 = hits.iter().step_by(64).sum();
+        let part = f64::from(often) / f64::from(hits.iter().sum::<u32>());
+        assert!((part - 32.5 / 64.0).abs() < 0.02, "{part}");
+    }
+}

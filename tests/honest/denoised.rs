@@ -1,0 +1,78 @@
+//! The error told of a denoised picture is the true one, and its bound is kept.
+
+use super::on;
+use super::paths::balls;
+use super::scenes::{order, references, world};
+use rtc::internals::color::Tone;
+use rtc::internals::image::Image;
+use rtc::internals::render::{AnyWorld, Job, Seeds};
+use rtc::internals::study::{Goal, LEVELS, Order, ProbedError, probe};
+
+const SAMPLES: u32 = 16;
+
+/// A denoised picture by a seed, linear, and what is told of it.
+fn denoised(world: &AnyWorld, order: &Order, seed: u64) -> (Image, ProbedError) {
+    let job = Job {
+        seeds: Seeds {
+            pixel: seed,
+            lens: seed,
+            path: seed,
+        },
+        ..Job::default()
+    };
+    let picture = world.denoised(SAMPLES, &job, &|_| true, &|| ()).unwrap();
+    // Replicates of other seeds than the picture's.
+    let order = Order {
+        seed: 1000 * seed,
+        ..*order
+    };
+    let told = probe(world, &order, &picture, SAMPLES, &|_| true).unwrap();
+    (picture.film.image, told)
+}
+
+/// The mean square error of a picture, as displayed: the noise of two references cancels.
+fn square(image: &Image, [a, b]: &[Image; 2]) -> f64 {
+    let pixels = image.pixels.iter().zip(&a.pixels).zip(&b.pixels);
+    let products = pixels.flat_map(|((pixel, a), b)| {
+        let shown = Tone::Srgb.display(*pixel);
+        [0, 1, 2].map(|c: usize| (shown[c] - a[c]) * (shown[c] - b[c]))
+    });
+    products.sum::<f64>() / (3 * image.pixels.len()) as f64 * LEVELS * LEVELS
+}
+
+/// Of 20 pictures fewer than 15 keep a bound of 90 of 100 by chance once in 400.
+#[test]
+fn the_error_told_is_the_true_one_and_the_bound_is_kept() {
+    let scene = balls();
+    let (world, order) = (world(&scene), order(&scene, Goal::default(), 0));
+    let references = references(&scene, 2.0);
+    let (mut kept, mut sums, mut said) = (0, [0.0; 3], Vec::new());
+    for seed in 1..=20 {
+        let (image, told) = denoised(&world, &order, seed);
+        let truth = square(&image, &references);
+        kept += u32::from(truth <= told.error * told.error);
+        let squares = [truth, told.told * told.told, told.error * told.error];
+        sums.iter_mut()
+            .zip(squares)
+            .for_each(|(sum, square)| *sum += square);
+        said.push(squares.map(f64::sqrt));
+    }
+    assert!(kept >= 15, "{kept} of 20: {said:.2?}");
+    let [told, bound] = [1, 2].map(|k| (sums[k] / sums[0]).sqrt());
+    assert!(
+        (0.8..1.25).contains(&told),
+        "{told} of the true error: {said:.2?}"
+    );
+    assert!(
+        bound < 2.0,
+        "a bound of {bound} times the error says little: {said:.2?}"
+    );
+}
+
+#[test]
+fn threads_change_no_bit_of_what_is_told() {
+    let scene = balls();
+    let (world, order) = (world(&scene), order(&scene, Goal::default(), 0));
+    let [one, three] = [1, 3].map(|threads| on(threads, || denoised(&world, &order, 3)));
+    assert_eq!(one, three);
+}
