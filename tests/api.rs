@@ -244,6 +244,19 @@ fn a_name_that_leads_up_finds_what_lies_there_in_memory() {
 }
 
 #[test]
+fn a_denoised_picture_says_its_error() {
+    let mut scene = ball();
+    let options = Options::new().size(40, 40).trace_paths(true).samples(4);
+    let plain = scene.render(&options).unwrap();
+    let denoised = scene.render(&options.clone().denoise(true)).unwrap();
+    assert_eq!(plain.error(), None);
+    assert!(denoised.error().is_some_and(|error| error > 0.0));
+    assert!(denoised.pixels() != plain.pixels());
+    let both = options.denoise(true).target_error(2.0);
+    assert!(refusal(&both).contains("no target error"));
+}
+
+#[test]
 fn a_target_error_is_reached_and_said() {
     let scene = path("scenes/mirrors.yaml");
     let options = Options::new().size(40, 40).target_error(2.0);

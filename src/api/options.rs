@@ -152,6 +152,7 @@ pub struct Options {
     environment: Option<[f64; 3]>,
     integrator: Option<IntegratorChoice>,
     pub(super) target_error: Option<f64>,
+    denoise: bool,
 }
 
 impl Options {
@@ -201,6 +202,13 @@ impl Options {
     /// says how good it got.
     pub fn target_error(mut self, levels: f64) -> Self {
         self.target_error = Some(levels);
+        self
+    }
+
+    /// Denoises a picture of traced paths, which takes two paths a pixel at least.
+    /// [`Picture::error`](super::Picture::error) says how good it got.
+    pub fn denoise(mut self, denoise: bool) -> Self {
+        self.denoise = denoise;
         self
     }
 
@@ -306,6 +314,9 @@ impl Options {
         if let Some(fault) = self.fault() {
             return Err(refused(fault));
         }
+        if self.denoise && self.target_error.is_some() {
+            return Err(refused("a denoised picture has no target error"));
+        }
         let kind = self.format.kind();
         let look = OutputLook::new(kind, self.tone, self.exposure, self.background, &self.aovs);
         let mut setup = PictureSetup::new(look.map_err(refused)?);
@@ -313,6 +324,7 @@ impl Options {
         setup.crop = self.crop;
         setup.threads = self.threads;
         setup.goal.error = self.target_error;
+        setup.denoise = self.denoise;
         Ok(setup)
     }
 

@@ -120,7 +120,8 @@ impl Picture {
     }
 
     /// The error in grey levels of 8 bits that it has at most, in 90 % of all pictures, if
-    /// [`Options::target_error`](super::Options::target_error) was asked for; none where light that no
+    /// [`Options::target_error`](super::Options::target_error) or
+    /// [`Options::denoise`](super::Options::denoise) was asked for; none where light that no
     /// sample met may be far brighter than white.
     #[must_use]
     pub fn error(&self) -> Option<f64> {

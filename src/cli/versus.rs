@@ -26,6 +26,8 @@ pub(super) fn run(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
 fn refuse_others(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
     let refused = if args.html.is_some() {
         "`--html` is for the study of one scene"
+    } else if args.maps.is_some() {
+        "`--maps` is for the study of one scene"
     } else if args.checkpoint.is_some() {
         "`--checkpoint` is for the study of one scene"
     } else if args.format == StudyFormat::Csv {

@@ -60,7 +60,7 @@ pub(super) fn command(study: &Study) -> Option<String> {
     };
     let flags = study.used().into_iter();
     let flags = flags.filter(|knob| row.setting.get(*knob) != own.get(*knob));
-    let flags = flags.map(|knob| format!(" {} {}", knob.flag(), knob.cell(row.setting.get(knob))));
+    let flags = flags.map(|knob| format!(" {}", knob.argument(row.setting.get(knob))));
     Some(format!("rtc render {name}{}", flags.collect::<String>()))
 }
 

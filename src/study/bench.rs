@@ -1,5 +1,6 @@
 //! The environment of a study: threads, a clock, and an observer who may say stop.
 
+use super::denoised::film;
 use super::journal::{Entry, Journal};
 use crate::plan::Plan;
 use crate::render::{AnyWorld, Film, Job, OnPixel, SimdLevel, Step};
@@ -160,14 +161,24 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Renders a scene as planned; `None` if the observer said stop.
-    pub(super) fn render(&self, scene: &Proof, plan: &Plan, job: &Job) -> Option<Film> {
-        AnyWorld::prepare_at(scene, plan, self.simd).render(job, self.on_pixel)
+    /// Renders a scene as planned, denoised if that is asked for; `None` if the observer said stop.
+    pub(super) fn render(
+        &self,
+        (scene, plan): (&Proof, &Plan),
+        job: &Job,
+        denoise: bool,
+    ) -> Option<Film> {
+        let world = AnyWorld::prepare_at(scene, plan, self.simd);
+        film(&world, job, denoise, self.on_pixel)
     }
 
-    /// Renders a scene as planned for the rays of each pixel of the whole picture, row by row; `None` if the
-    /// observer said stop.
-    pub(super) fn rays_of_pixels(&self, scene: &Proof, plan: &Plan, job: &Job) -> Option<Vec<u64>> {
+    /// The rays of each pixel of the whole picture, row by row, as [`Self::render`] takes them.
+    pub(super) fn rays_of_pixels(
+        &self,
+        (scene, plan): (&Proof, &Plan),
+        job: &Job,
+        denoise: bool,
+    ) -> Option<Vec<u64>> {
         let [width, height] =
             [scene.camera().width, scene.camera().height].map(|side| side.get() as usize);
         let rays: Vec<_> = (0..width * height).map(|_| AtomicU64::new(0)).collect();
@@ -176,7 +187,8 @@ impl<'a> Bench<'a> {
             rays[y * width + x].fetch_add(step.rays, Relaxed);
             (self.on_pixel)(step)
         };
-        AnyWorld::prepare_at(scene, plan, self.simd).render(job, &on_pixel)?;
+        let world = AnyWorld::prepare_at(scene, plan, self.simd);
+        film(&world, job, denoise, &on_pixel)?;
         Some(rays.into_iter().map(AtomicU64::into_inner).collect())
     }
 

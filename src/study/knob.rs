@@ -20,6 +20,8 @@ pub enum Knob {
     Glossy,
     /// Paths per pixel, where paths are traced.
     Paths,
+    /// Whether the picture is denoised, where paths are traced: 0 or 1.
+    Denoise,
     /// Bounces after the first hit.
     Depth,
     /// The arithmetic by which rays meet shapes: its values number [`Arithmetic::ALL`] from the
@@ -29,12 +31,13 @@ pub enum Knob {
 
 impl Knob {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Supersampling,
         Self::Aperture,
         Self::Lights,
         Self::Glossy,
         Self::Paths,
+        Self::Denoise,
         Self::Depth,
         Self::Precision,
     ];
@@ -48,6 +51,7 @@ impl Knob {
             Self::Lights => "light samples",
             Self::Glossy => "glossy samples",
             Self::Paths => "paths",
+            Self::Denoise => "denoising",
             Self::Depth => "depth",
             Self::Precision => "precision",
         }
@@ -62,6 +66,7 @@ impl Knob {
             Self::Lights => "--light-samples",
             Self::Glossy => "--glossy-samples",
             Self::Paths => "--spp",
+            Self::Denoise => "--denoise",
             Self::Depth => "--depth",
             Self::Precision => "--arithmetic",
         }
@@ -76,8 +81,19 @@ impl Knob {
             Self::Lights => "light",
             Self::Glossy => "gloss",
             Self::Paths => "spp",
+            Self::Denoise => "dn",
             Self::Depth => "depth",
             Self::Precision => "prec",
+        }
+    }
+
+    /// The words of `rtc render` for a value other than that of the scene.
+    #[must_use]
+    pub fn argument(self, value: u32) -> String {
+        if self == Self::Denoise {
+            self.flag().to_owned()
+        } else {
+            format!("{} {}", self.flag(), self.cell(value))
         }
     }
 
@@ -86,6 +102,8 @@ impl Knob {
     pub fn cell(self, value: u32) -> String {
         if self == Self::Precision {
             arithmetic(value).name().to_owned()
+        } else if self == Self::Denoise {
+            ["no", "yes"][usize::from(value > 0)].to_owned()
         } else {
             value.to_string()
         }
@@ -107,6 +125,7 @@ impl Knob {
                     }
                 )
             }
+            Self::Denoise => ["plain", "denoised"][usize::from(value > 0)].to_owned(),
             Self::Depth => format!("depth {value}"),
             Self::Precision => format!("{} arithmetic", self.cell(value)),
         }
@@ -119,6 +138,7 @@ impl Knob {
             Self::Supersampling => (10, |i| [1, 2, 3, 4, 6, 8, 12, 16, 24, 32][i as usize]),
             Self::Aperture | Self::Lights | Self::Glossy => (11, |i| 1 << i),
             Self::Paths => (15, |i| 1 << i),
+            Self::Denoise => (2, |i| i),
             Self::Depth => (DEPTHS, |i| i),
             Self::Precision => (3, |i| i),
         };
@@ -134,7 +154,7 @@ impl Knob {
     /// Whether its values are numbers of samples.
     #[must_use]
     pub fn samples_pixels(self) -> bool {
-        !matches!(self, Self::Depth | Self::Precision)
+        !matches!(self, Self::Denoise | Self::Depth | Self::Precision)
     }
 
     /// The work that a value asks for: samples, or bounces.
@@ -145,7 +165,7 @@ impl Knob {
             Self::Aperture | Self::Lights | Self::Glossy | Self::Paths | Self::Depth => {
                 f64::from(value)
             }
-            Self::Precision => 1.0,
+            Self::Denoise | Self::Precision => 1.0,
         }
     }
 }
@@ -185,6 +205,13 @@ pub fn idle(knob: Knob, scene: &Scene) -> Option<String> {
         .or_else(|| left_out(knob, scene))
 }
 
+/// The same in a study, which looks at the whole picture or at tiles of it.
+pub(super) fn idle_in(knob: Knob, scene: &Scene, is_whole: bool) -> Option<String> {
+    let is_cut = knob == Knob::Denoise && !is_whole;
+    let tiles = "a picture is denoised as a whole, and only tiles were looked at";
+    idle(knob, scene).or_else(|| is_cut.then(|| tiles.to_owned()))
+}
+
 /// The reason of the plan for pruning the effect of a knob, if it does.
 fn left_out(knob: Knob, scene: &Scene) -> Option<String> {
     let effect = match knob {
@@ -193,7 +220,7 @@ fn left_out(knob: Knob, scene: &Scene) -> Option<String> {
         Knob::Lights => Effect::SoftLight,
         Knob::Glossy => Effect::GlossyReflection,
         Knob::Depth if scene.settings.mode == Mode::Phong => Effect::Depth,
-        Knob::Depth | Knob::Paths | Knob::Precision => return None,
+        Knob::Depth | Knob::Paths | Knob::Denoise | Knob::Precision => return None,
     };
     let own = Setting::of(scene);
     let mut turned = scene.clone();
@@ -222,6 +249,7 @@ fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
     let is_dull = |phong: &Phong| phong.ks == 0.0 && phong.kt == 0.0;
     let is_robust =
         |arithmetic: &Arithmetic| *arithmetic == Arithmetic::Robust || !bears(scene, *arithmetic);
+    let tries_none = Setting::of(scene).denoised().next().is_none();
     let cases: &[(bool, &'static str)] = match knob {
         Knob::Supersampling => &[
             counted,
@@ -253,6 +281,7 @@ fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
             ),
         ],
         Knob::Paths => &[(!paths, "the mode follows rays from the eye alone")],
+        Knob::Denoise => &[(tries_none, "no paths are traced, or too few to try fewer")],
         Knob::Depth => &[
             (
                 !phong && !paths,

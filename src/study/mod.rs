@@ -8,6 +8,7 @@
 mod advice;
 mod bench;
 mod budget;
+mod denoised;
 mod difference;
 mod effects;
 mod flip;
@@ -65,6 +66,7 @@ pub use versus::{DifferentTile, Versus, versus};
 
 use crate::ir::{Mode, Scene, Shape, Surface};
 use crate::render::Seeds;
+use knob::idle_in;
 use race::{Runner, race};
 use reference::{Depths, Reference};
 use sample::TileErrors;
@@ -141,6 +143,8 @@ pub fn study(
     }
     let (rows, wall_over_cpu) = scope.rows(&subject, &context, &mut rng)?;
     let effects = effects::costs(&subject, scope.own, scope.hundredths(FOR_EFFECTS), &mut rng)?;
+    let (model, is_whole) = (&context.model, subject.is_whole());
+    let knob = |knob| model.report(knob, idle_in(knob, scene, is_whole));
     let mut study = Study {
         schema: "rtc-cost/2".to_owned(),
         about,
@@ -148,9 +152,7 @@ pub fn study(
         seed,
         part: subject.area(),
         reference: context.report(),
-        knobs: Knob::ALL
-            .map(|knob| context.model.report(knob, idle(knob, scene)))
-            .to_vec(),
+        knobs: Knob::ALL.map(knob).to_vec(),
         bounces: context.depths.map(|depths| depths.more),
         rows,
         effects,
@@ -314,17 +316,20 @@ impl Scope {
             .used
             .iter()
             .copied()
-            .filter(|knob| *knob != Knob::Precision)
+            .filter(|knob| !matches!(knob, Knob::Denoise | Knob::Precision))
             .collect();
         let min = turned
             .iter()
             .fold(self.own, |setting, knob| setting.with(*knob, knob.lowest()));
         let least_error = (3.0 * reference.floor).max(reference::SMALLEST);
         let best = pareto::candidates(model, min, &turned, budget as f64 / 10.0, least_error);
+        // Of tiles alone the pixels around are not known.
+        let is_denoised = self.used.contains(&Knob::Denoise) && subject.is_whole();
         let settings = std::iter::once(self.own)
             .chain(best.into_iter().filter(|setting| *setting != self.own));
         let settings = settings
-            .flat_map(|setting| std::iter::once(setting).chain(pareto::cheaper(model, setting)));
+            .flat_map(|setting| std::iter::once(setting).chain(pareto::cheaper(model, setting)))
+            .chain(self.own.denoised().filter(|_| is_denoised));
         let runners: Vec<_> = settings
             .map(|setting| Runner {
                 subject: subject.clone(),

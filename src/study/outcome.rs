@@ -156,7 +156,7 @@ pub struct Row {
     /// Whether some of its seconds were measured before the study was interrupted.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub resumed: bool,
-    /// The `errors.rmse` that the model predicted.
+    /// The `errors.rmse` that the model predicted; of a denoised row, that of the plain one.
     pub model: f64,
     /// The pixels.
     #[serde(skip)]

@@ -20,6 +20,9 @@ pub struct Setting {
     pub glossy: u32,
     /// Paths of a pixel, 1 where none are traced.
     pub paths: u32,
+    /// Whether the picture is denoised.
+    #[serde(default)]
+    pub denoise: bool,
     /// Bounces after the first hit.
     pub depth: u32,
     /// The arithmetic by which rays meet shapes.
@@ -42,6 +45,7 @@ impl Setting {
             lights: scene.settings.light_samples,
             glossy: lobes(scene).max().unwrap_or(1),
             paths,
+            denoise: false,
             depth: scene.settings.max_depth,
             precision: Arithmetic::Robust,
         }
@@ -56,6 +60,7 @@ impl Setting {
             Knob::Lights => self.lights,
             Knob::Glossy => self.glossy,
             Knob::Paths => self.paths,
+            Knob::Denoise => u32::from(self.denoise),
             Knob::Depth => self.depth,
             Knob::Precision => place(self.precision),
         }
@@ -71,6 +76,10 @@ impl Setting {
             Knob::Glossy => &mut self.glossy,
             Knob::Paths => &mut self.paths,
             Knob::Depth => &mut self.depth,
+            Knob::Denoise => {
+                self.denoise = value > 0;
+                return self;
+            }
             Knob::Precision => {
                 return Self {
                     precision: arithmetic(value),
@@ -82,6 +91,16 @@ impl Setting {
         self
     }
 
+    /// The settings of fewer paths that are tried denoised.
+    pub(super) fn denoised(self) -> impl Iterator<Item = Self> {
+        let tried = [self.paths / 4, self.paths / 16].into_iter();
+        tried.filter(|paths| *paths >= 2).map(move |paths| Self {
+            paths,
+            denoise: true,
+            ..self
+        })
+    }
+
     /// Camera rays of a pixel.
     #[must_use]
     pub fn camera_rays(&self) -> f64 {
@@ -90,7 +109,7 @@ impl Setting {
             * f64::from(self.paths)
     }
 
-    /// Writes the values into a scene, except the precision. Lobes keep their numbers of rays if
+    /// Writes the values into a scene, except the precision and whether it is denoised. Lobes keep their numbers of rays if
     /// the setting has the largest of them.
     pub fn apply(&self, scene: &mut Scene) {
         let Self {
@@ -100,6 +119,7 @@ impl Setting {
             glossy,
             paths,
             depth,
+            denoise: _,
             precision: _,
         } = *self;
         let overrides = Overrides {
@@ -115,11 +135,13 @@ impl Setting {
     }
 
     /// In words, for the knobs given: "4×4 with 16 aperture samples, depth 3". The robust
-    /// arithmetic is not mentioned.
+    /// arithmetic is not mentioned, nor is a picture that is not denoised.
     #[must_use]
     pub fn words(&self, knobs: &[Knob]) -> String {
-        let is_said =
-            |knob: &&Knob| **knob != Knob::Precision || self.precision != Arithmetic::Robust;
+        let is_said = |knob: &&Knob| {
+            (**knob != Knob::Precision || self.precision != Arithmetic::Robust)
+                && (**knob != Knob::Denoise || self.denoise)
+        };
         let words: Vec<_> = knobs
             .iter()
             .filter(is_said)
@@ -187,9 +209,20 @@ mod tests {
             lights: 1,
             glossy: 1,
             paths: 1,
+            denoise: false,
             depth,
             precision,
         }
+    }
+
+    #[test]
+    fn what_is_denoised_is_said() {
+        let setting = setting(1, 1, 3)
+            .with(Knob::Paths, 16)
+            .with(Knob::Denoise, 1);
+        let words = setting.words(&[Knob::Paths, Knob::Denoise, Knob::Depth]);
+        assert_eq!(words, "16 paths, denoised, depth 3");
+        assert_eq!(Knob::Denoise.argument(1), "--denoise");
     }
 
     #[test]

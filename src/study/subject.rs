@@ -7,7 +7,7 @@ use super::outcome::StudyArea;
 use super::setting::Setting;
 use crate::image::Image;
 use crate::ir::{self, Pattern, Scene};
-use crate::plan::{Arithmetic, Plan, Rules};
+use crate::plan::{Plan, Rules};
 use crate::render::{Counts, Crop, Job, Seeds, Tiles};
 use crate::valid::{Proof, revalidate};
 use std::sync::Arc;
@@ -131,7 +131,10 @@ impl<'bench> Subject<'bench> {
         }
         let (scene, job) = (self.prove(setting, Seeds::NONE), self.job(Seeds::NONE));
         let plan = Plan::by(setting.precision, &scene, Rules::ALL);
-        let count = || self.bench.rays_of_pixels(&scene, &plan, &job);
+        let count = || {
+            self.bench
+                .rays_of_pixels((&scene, &plan), &job, setting.denoise)
+        };
         let rays = self.bench.work(count).ok_or(Stopped)?;
         self.bench.note(|| Entry {
             key,
@@ -186,9 +189,7 @@ impl<'bench> Subject<'bench> {
             return Ok(entry.shot);
         }
         let scene = self.prove(setting, seeds);
-        let shot = self
-            .bench
-            .work(|| self.render(&scene, setting.precision, seeds))?;
+        let shot = self.bench.work(|| self.render(&scene, setting, seeds))?;
         self.bench.note(|| Entry {
             key,
             shot: shot.clone(),
@@ -225,7 +226,7 @@ impl<'bench> Subject<'bench> {
         let scene = self.prove(setting, Seeds::NONE);
         let render = || {
             self.bench
-                .measure(|| self.render(&scene, setting.precision, Seeds::NONE))
+                .measure(|| self.render(&scene, setting, Seeds::NONE))
         };
         let (shot, mut time) = render();
         let shot = shot?;
@@ -282,7 +283,7 @@ impl<'bench> Subject<'bench> {
         };
         let seconds = |job| {
             let plan = || Plan::by(setting.precision, &scene, Rules::ALL);
-            let work = || self.bench.render(&scene, &plan(), job);
+            let work = || self.bench.render((&scene, &plan()), job, false);
             self.bench.measure(work).1.cpu
         };
         let round = |_| {
@@ -313,12 +314,13 @@ impl<'bench> Subject<'bench> {
     fn render(
         &self,
         scene: &Proof,
-        arithmetic: Arithmetic,
+        setting: Setting,
         seeds: Seeds,
     ) -> Result<RenderedTiles, Stopped> {
         let job = self.job(seeds);
-        let plan = Plan::by(arithmetic, scene, Rules::ALL);
-        let film = self.bench.render(scene, &plan, &job).ok_or(Stopped)?;
+        let plan = Plan::by(setting.precision, scene, Rules::ALL);
+        let film = self.bench.render((scene, &plan), &job, setting.denoise);
+        let film = film.ok_or(Stopped)?;
         let counts = film.counts;
         if self.is_whole() {
             return Ok(RenderedTiles {

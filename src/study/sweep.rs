@@ -65,7 +65,7 @@ fn others(knob: Knob, number: u64) -> Seeds {
         Knob::Aperture => Seeds { lens: 0, ..seeds },
         Knob::Lights | Knob::Glossy => Seeds { path: 0, ..seeds },
         Knob::Paths => Seeds::NONE,
-        Knob::Depth | Knob::Precision => seeds,
+        Knob::Denoise | Knob::Depth | Knob::Precision => seeds,
     }
 }
 

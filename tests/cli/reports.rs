@@ -168,6 +168,11 @@ fn a_scene_is_held_against_another() {
             "one scene",
         ),
         (
+            &["ball.json", "ball.json", "--maps", "maps"],
+            2,
+            "`--maps` is for the study of one scene",
+        ),
+        (
             &["ball.json", "ball.json", "--gate", "rmse<=2"],
             2,
             "measures are error",

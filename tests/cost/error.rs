@@ -243,6 +243,24 @@ fn tile(image: &Image, [x, y]: [u32; 2]) -> Image {
     }
 }
 
+/// Of 16 paths there is one denoised row, of four, with less noise than the plain one and the rays of guides.
+fn a_quarter_of_the_paths_is_denoised(study: &Study) {
+    let table = study::table(study);
+    let (denoised, plain): (Vec<_>, Vec<_>) =
+        study.rows.iter().partition(|row| row.setting.denoise);
+    let [denoised] = denoised[..] else {
+        panic!("{table}");
+    };
+    let mut plain = plain.iter().filter(|row| row.setting.paths == 4);
+    let plain = plain.next().unwrap();
+    assert!(
+        denoised.setting.paths == 4
+            && denoised.errors.rmse < 0.8 * plain.errors.rmse
+            && denoised.rays.camera > plain.rays.camera,
+        "{table}"
+    );
+}
+
 /// Two balls under a disc that shines and a sky, by paths.
 #[test]
 fn paths_have_a_ladder_and_a_law_of_their_own() {
@@ -251,7 +269,7 @@ fn paths_have_a_ladder_and_a_law_of_their_own() {
     let table = study::table(&study);
     assert_eq!(
         study.used(),
-        [Knob::Paths, Knob::Depth, Knob::Precision],
+        [Knob::Paths, Knob::Denoise, Knob::Depth, Knob::Precision],
         "{table}"
     );
     let law = study
@@ -269,7 +287,9 @@ fn paths_have_a_ladder_and_a_law_of_their_own() {
             && study.rows.iter().any(|row| row.setting.paths > 16),
         "{table}"
     );
-    for row in study.rows.iter().filter(|row| row.judged) {
+    a_quarter_of_the_paths_is_denoised(&study);
+    let is_plain = |row: &&study::Row| !row.setting.denoise;
+    for row in study.rows.iter().filter(|row| row.judged).filter(is_plain) {
         assert!((row.model / row.errors.rmse - 1.0).abs() < 0.3, "{table}");
     }
     assert!(

@@ -12,7 +12,8 @@ use std::time::Duration;
 #[command(
     after_help = "Errors are against the picture of the scene's own depth; what more bounces would add is told apart. Of a large \
 picture some random tiles are looked at: `tiles%` is how much less or more the error of the whole may be, and a row is on the \
-front only if these tiles show that it has less error than cheaper ones.\n\n\
+front only if these tiles show that it has less error than cheaper ones. Where paths are traced and the whole picture is looked \
+at, a quarter and a sixteenth of the scene's paths are tried denoised, too (`dn`), with the time that telling their errors takes.\n\n\
 A scene and its reference are looked at in their own settings: what one takes against the other, and whether their pictures \
 differ by more than noise. Traced paths are coded after they are averaged, which darkens what is noisy: scenes with other numbers of paths \
 differ by that, too.\n\n\

@@ -29,7 +29,8 @@ impl Choice {
     pub(super) fn read(bytes: &[u8]) -> Option<Self> {
         let choice: Self = serde_json::from_slice(bytes).ok()?;
         let is_sound = |(knob, value): (&Knob, &u32)| {
-            *value >= knob.lowest() && (*knob != Knob::Precision || *value < ARITHMETICS)
+            let is_known = *knob != Knob::Precision || *value < ARITHMETICS;
+            turned().any(|own| own == *knob) && *value >= knob.lowest() && is_known
         };
         let is_known = choice.integrator.is_none() || choice.integrator().is_some();
         (is_known && choice.values.iter().all(is_sound)).then_some(choice)
@@ -78,6 +79,12 @@ impl Choice {
     }
 }
 
+/// The knobs that the page turns: a denoised picture is made of a whole one, not shown in steps.
+fn turned() -> impl Iterator<Item = Knob> {
+    let knobs = Knob::ALL.into_iter();
+    knobs.filter(|knob| *knob != Knob::Denoise)
+}
+
 /// The setting of a scene without the values of a choice.
 pub(super) fn own_setting(scene: &Scene, setup: &PictureSetup) -> Setting {
     Setting {
@@ -109,7 +116,8 @@ pub(super) fn told(scene: &Scene, own: &Setting) -> Value {
         Mode::Phong => Some("whitted"),
         Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => None,
     };
-    json!({ "knobs": Knob::ALL.map(knob), "integrator": integrator })
+    let knobs: Vec<_> = turned().map(knob).collect();
+    json!({ "knobs": knobs, "integrator": integrator })
 }
 
 #[cfg(test)]

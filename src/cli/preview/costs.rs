@@ -43,6 +43,7 @@ fn told(study: &Study, own: &Setting) -> Value {
             "isBest": best == Some(row.setting),
         })
     };
-    let rows: Vec<_> = study.rows.iter().map(row).collect();
+    let plain = study.rows.iter().filter(|row| !row.setting.denoise);
+    let rows: Vec<_> = plain.map(row).collect();
     json!({ "rows": rows, "advice": study.advice, "report": study::table(study) })
 }

@@ -113,9 +113,12 @@ pub(super) fn knob(report: &KnobReport) -> String {
     let name = match report.knob {
         Knob::Supersampling => "samples of a pixel",
         Knob::Depth => "depth, 0 at ½",
-        knob @ (Knob::Aperture | Knob::Lights | Knob::Glossy | Knob::Paths | Knob::Precision) => {
-            knob.name()
-        }
+        knob @ (Knob::Aperture
+        | Knob::Lights
+        | Knob::Glossy
+        | Knob::Paths
+        | Knob::Denoise
+        | Knob::Precision) => knob.name(),
     };
     plot((400, 300), |root| {
         let mut chart = axes(

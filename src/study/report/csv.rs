@@ -4,7 +4,7 @@
 use super::super::knob::Knob;
 use super::super::outcome::{Row, Study};
 
-const NAMES: &str = "supersampling,aperture,lights,glossy,paths,depth,precision,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
+const NAMES: &str = "supersampling,aperture,lights,glossy,paths,denoise,depth,precision,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
 refracted_rays,seconds,seconds_low,seconds_high,ratio,ratio_low,ratio_high,rmse,rmse_low,rmse_high,relative_mse,\
 max,visible,flip,delta_e,model";
 

@@ -185,7 +185,10 @@ fn line(row: &Row, used: &[Knob], (columns, fraction): (&[usize], f64)) -> Strin
             digits(row.ratio.value)
         },
         format!("{limit}{}", digits(row.errors.rmse)),
-        digits(row.model),
+        match row.setting.denoise {
+            true => "–".to_owned(),
+            false => digits(row.model),
+        },
         digits(100.0 * row.errors.visible),
         digits(row.errors.flip),
         off(row),
@@ -262,6 +265,9 @@ pub(super) fn knob_line(report: &KnobReport, bounces: Option<&MoreBounces>) -> S
             format!("{name}: error ∝ {samples}^−{p:.3} ± {half:.3}")
         }
         (None, Knob::Depth, Some(bounces)) => depth_line(bounces, last),
+        (None, Knob::Denoise, _) => format!(
+            "{name}: rows of fewer paths are denoised too; their time has that of telling the error"
+        ),
         (None, Knob::Precision, _) => {
             let robust = report.levels.len().saturating_sub(1);
             let words: Vec<_> = report.levels[..robust]

@@ -22,6 +22,7 @@ pub(super) struct Options {
     /// The layer shown, and the values that are black and white in it.
     pub(super) aov: Option<(Aov, [f64; 2])>,
     pub(super) arithmetic: Arithmetic,
+    pub(super) denoise: bool,
     pub(super) integrator: Option<IntegratorChoice>,
     pub(super) view: View,
     pub(super) suns: Vec<Sun>,
@@ -46,6 +47,7 @@ impl Options {
             background: BackgroundFill::Film,
             aov: None,
             arithmetic: Arithmetic::default(),
+            denoise: false,
             integrator: None,
             view: View::default(),
             suns: Vec::new(),
@@ -73,6 +75,7 @@ impl Options {
             "exposure" => self.stops = value.parse().ok()?,
             "background" => self.background = background(value)?,
             "aov" => self.aov = Some(aov(value)?),
+            "denoise" => self.denoise = value.parse().ok()?,
             "arithmetic" => self.arithmetic = arithmetic(value)?,
             "integrator" => self.integrator = Some(integrator(value)?),
             "eye" => self.view.eye = Some(numbers(value)?),

@@ -13,7 +13,7 @@ use rtc::internals::ir::Lowered;
 use rtc::internals::passes::{EnvironmentOverride, Stage};
 use rtc::internals::pipeline::{self, Renderer};
 use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Aov, Background, Job, Values};
+use rtc::internals::render::{AnyWorld, Aov, Background, Job, Values};
 use rtc::internals::source::{Loader, SourceMap};
 use rtc::internals::valid::{Mode, Proof};
 use std::collections::BTreeSet;
@@ -119,7 +119,16 @@ fn colors(renderer: &Renderer, scene: &Proof, options: &Options) -> Picture {
         },
         ..Job::default()
     };
-    let film = renderer.render(&job, &|_| true).unwrap();
+    let film = match *mode {
+        Mode::Path(path) if options.denoise => {
+            let world = AnyWorld::prepare(scene, &Plan::new(scene, Rules::ALL));
+            let picture = world.denoised(path.samples.get(), &job, &|_| true, &|| ());
+            picture.unwrap().film
+        }
+        Mode::Path(_) | Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
+            renderer.render(&job, &|_| true).unwrap()
+        }
+    };
     let look = Look {
         stops: options.stops,
         tone,
