@@ -56,7 +56,7 @@ pub(super) fn front(study: &Study) -> String {
 }
 
 /// The corners of the front: the least error for each time.
-fn front_steps(rows: &[&Row], end: f64) -> Vec<(f64, f64)> {
+pub(super) fn front_steps(rows: &[&Row], end: f64) -> Vec<(f64, f64)> {
     let mut steps: Vec<(f64, f64)> = Vec::new();
     for row in rows.iter().filter(|row| row.front) {
         // Where times do not differ clearly, rows are placed by their rays.

@@ -1,6 +1,7 @@
 //! A study in several forms: a table for a terminal, CSV and JSON for programs, a page for a
 //! browser.
 
+mod braille;
 mod chart;
 mod csv;
 mod html;

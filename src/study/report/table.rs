@@ -4,6 +4,7 @@ use super::super::advice::{digits, seconds};
 use super::super::knob::Knob;
 use super::super::outcome::{BounceCost, KnobReport, MoreBounces, Row, Study};
 use super::super::reference::DepthEnd;
+use super::braille;
 use super::words::{MEANINGS, bought, buys};
 use std::fmt::Write;
 
@@ -34,6 +35,7 @@ pub fn table(study: &Study) -> String {
     for what in buys(study) {
         text += &wrapped(&bought(study, &what));
     }
+    text += &braille::plot(study);
     text += "\n";
     study
         .knobs
