@@ -2,10 +2,9 @@
 
 use crate::math::{Vec3, acos, atan2, sin, sin_cos};
 use crate::render::bsdf::direction_turned;
-use crate::render::sampler::discrete::Distribution2D;
+use crate::render::sampler::discrete::BilinearDistribution;
 use crate::render::texture::sampled::{ColorSpace, sample};
 use crate::render::texture::{Filter, Image, Wrap};
-use std::cell::Cell;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -20,8 +19,10 @@ struct EnvironmentMap {
     image: Arc<Image>,
     /// The value of all pixels, where they are proven to be equal.
     constant: Option<Vec3>,
-    /// The distribution of the pixels by radiance and solid angle.
-    table: Distribution2D,
+    /// The distribution that places are sampled from.
+    table: BilinearDistribution,
+    /// The mean of the strongest channel over all directions.
+    mean: f64,
     /// The strongest channel of all pixels.
     peak: f64,
     image_from_world: [Vec3; 3],
@@ -37,6 +38,9 @@ pub(in crate::render) struct EnvironmentRadiance {
 /// The density of directions that are uniform over the sphere.
 const UNIFORM: f64 = 0.5 / TAU;
 
+/// The least share of its radiance that a direction is sampled by.
+const LEAST: f64 = 0.125;
+
 impl Environment {
     /// An environment of this radiance, times the image if there is one; the rows of
     /// `image_from_world` rotate directions into the image. `is_constant` says that all pixels are
@@ -47,16 +51,7 @@ impl Environment {
         image_from_world: [Vec3; 3],
         is_constant: bool,
     ) -> Self {
-        let map = image.map(|image| {
-            let (table, peak) = table(&image);
-            EnvironmentMap {
-                constant: is_constant.then(|| look_up(&image, [0.5; 2])),
-                table,
-                peak,
-                image,
-                image_from_world,
-            }
-        });
+        let map = image.map(|image| EnvironmentMap::new(image, image_from_world, is_constant));
         Self { radiance, map }
     }
 
@@ -73,11 +68,7 @@ impl Environment {
 
     /// The mean radiance over all directions, in the strongest channel.
     pub(in crate::render) fn mean(&self) -> f64 {
-        // Undo the sine of the colatitude in the table's weights: its mean is 2/π.
-        let mean = self
-            .map
-            .as_ref()
-            .map_or(1.0, |map| map.table.mean() * PI / 2.0);
+        let mean = self.map.as_ref().map_or(1.0, |map| map.mean);
         self.radiance.max_element() * mean
     }
 
@@ -132,6 +123,45 @@ impl Environment {
 }
 
 impl EnvironmentMap {
+    /// Directions are sampled by the strongest channel, less its mean: BSDF sampling finds what is
+    /// as bright everywhere (Karlík, Šik, Vévoda, Skřivan, Křivánek, "MIS compensation", 2019,
+    /// §4.1). A share is kept, so that no direction with light has a density of 0.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a density may be less precise than what it samples"
+    )]
+    fn new(image: Arc<Image>, image_from_world: [Vec3; 3], is_constant: bool) -> Self {
+        let width = image.width as usize;
+        let row = |y: u32| (f64::from(y) + 0.5) / f64::from(image.height);
+        let sines: Vec<_> = (0..image.height).map(|y| sin(row(y) * PI)).collect();
+        let mut weights = Vec::with_capacity(width * sines.len());
+        let (mut sum, mut peak) = (0.0, 0.0_f64);
+        for (y, sine) in (0..image.height).zip(&sines) {
+            for x in 0..image.width {
+                let u = (f64::from(x) + 0.5) / f64::from(image.width);
+                let value = value(&image, [u, row(y)], Filter::Nearest).max_element();
+                sum += value * sine;
+                peak = peak.max(value);
+                weights.push(value as f32);
+            }
+        }
+        let mean = sum / (sines.iter().sum::<f64>() * f64::from(image.width));
+        for (row, sine) in weights.chunks_mut(width).zip(&sines) {
+            for weight in row {
+                let value = f64::from(*weight);
+                *weight = ((value - mean).max(value * LEAST) * sine) as f32;
+            }
+        }
+        Self {
+            constant: is_constant.then(|| look_up(&image, [0.5; 2])),
+            table: BilinearDistribution::new(width, weights),
+            mean,
+            peak,
+            image,
+            image_from_world,
+        }
+    }
+
     /// Maps a direction to the image: −z to its middle, +y to its top, longitude grows towards +x.
     fn place(&self, direction: Vec3) -> [f64; 2] {
         let [x, y, z] = &self.image_from_world;
@@ -150,37 +180,56 @@ impl EnvironmentMap {
     }
 }
 
-/// The value of an image at a point.
+/// The value of an image at a point, filtered linearly.
 fn look_up(image: &Image, place: [f64; 2]) -> Vec3 {
-    let [r, g, b, _] = sample(
-        image,
-        place,
-        [Wrap::Repeat, Wrap::Clamp],
-        Filter::Linear,
-        ColorSpace::Srgb,
-    );
+    value(image, place, Filter::Linear)
+}
+
+fn value(image: &Image, place: [f64; 2], filter: Filter) -> Vec3 {
+    let wrap = [Wrap::Repeat, Wrap::Clamp];
+    let [r, g, b, _] = sample(image, place, wrap, filter, ColorSpace::Srgb);
     Vec3::new(r, g, b)
 }
 
-/// The distribution of pixels by their strongest channel and their solid angle, and the strongest of
-/// all.
-fn table(image: &Image) -> (Distribution2D, f64) {
-    let [width, height] = [image.width, image.height];
-    let peak = Cell::new(0.0_f64);
-    let weight = |x: u32, y: u32| {
-        let v = (f64::from(y) + 0.5) / f64::from(height);
-        let uv = [(f64::from(x) + 0.5) / f64::from(width), v];
-        let [r, g, b, _] = sample(
-            image,
-            uv,
-            [Wrap::Repeat, Wrap::Clamp],
-            Filter::Nearest,
-            ColorSpace::Srgb,
-        );
-        let value = r.max(g).max(b);
-        peak.set(peak.get().max(value));
-        value * sin(v * PI)
-    };
-    let table = Distribution2D::new([width, height], weight);
-    (table, peak.get())
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::Texels;
+
+    /// Radiance over density of a grid of samples of a sky of 1 with one texel, in units of 4π.
+    fn estimates(texel: f32) -> (f64, Vec<f64>) {
+        let mut pixels = vec![1.0_f32; 32 * 16 * 3];
+        pixels[3 * (5 * 32 + 20)..][..3].fill(texel);
+        let bytes: Vec<u8> = pixels.iter().flat_map(|x| x.to_le_bytes()).collect();
+        let image = Image {
+            width: 32,
+            height: 16,
+            texels: Texels::Rgb32f(bytes.into()),
+        };
+        let axes = [Vec3::X, Vec3::Y, Vec3::Z];
+        let sky = Environment::new(Vec3::ONE, Some(Arc::new(image)), axes, false);
+        let number = |k: u32| (f64::from(k) + 0.5) / 256.0;
+        let pairs = (0..256).flat_map(|x| (0..256).map(move |y| [number(x), number(y)]));
+        let estimate = |u| {
+            let (_, found) = sky.sample(u);
+            found.radiance.x / (found.pdf * 2.0 * TAU)
+        };
+        (sky.mean(), pairs.map(estimate).collect())
+    }
+
+    #[test]
+    fn no_sample_beside_the_sun_is_worth_much_more_than_the_mean() {
+        let (mean, estimates) = estimates(1e5);
+        let found = estimates.iter().sum::<f64>() / estimates.len() as f64;
+        assert!((found / mean - 1.0).abs() < 0.02, "{found} {mean}");
+        let most = estimates.iter().copied().fold(0.0, f64::max);
+        assert!(most < 1.1 / LEAST * mean, "{most} {mean}");
+    }
+
+    #[test]
+    fn an_even_sky_is_sampled_evenly() {
+        let (mean, estimates) = estimates(1.0);
+        assert!((mean - 1.0).abs() < 1e-12);
+        assert!(estimates.iter().all(|one| (one - 1.0).abs() < 0.02));
+    }
 }

@@ -77,60 +77,110 @@ impl DiscreteDistribution {
     }
 }
 
-/// A piecewise constant distribution over the unit square.
+/// A distribution over an image whose texels are filtered linearly: bilinear between the middles of
+/// texels, repeated across, and falling to 0 at the upper and the lower edge.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct Distribution2D {
-    rows: DiscreteDistribution,
-    cells: Vec<DiscreteDistribution>,
+pub(in crate::render) struct BilinearDistribution {
+    /// The weights in the middles of the texels, row by row.
+    weights: Vec<f32>,
     width: usize,
+    height: usize,
+    /// The bands between rows of middles; the first and the last are half as high.
+    bands: DiscreteDistribution,
+    /// The cells of each band, between two columns of middles.
+    cells: Vec<DiscreteDistribution>,
 }
 
-impl Distribution2D {
-    /// A table of columns and rows, both at least 1.
-    pub(in crate::render) fn new(
-        [width, height]: [u32; 2],
-        weight: impl Fn(u32, u32) -> f64,
-    ) -> Self {
-        let row = |y: u32| DiscreteDistribution::new((0..width).map(|x| weight(x, y)));
-        let cells = (0..height).map(row).collect::<Vec<_>>();
-        Self {
-            rows: DiscreteDistribution::new(cells.iter().map(DiscreteDistribution::total)),
-            cells,
-            width: width as usize,
-        }
+impl BilinearDistribution {
+    /// The distribution over an image of so many texels across, by its weights row by row; both
+    /// sides are at least 1.
+    pub(in crate::render) fn new(width: usize, weights: Vec<f32>) -> Self {
+        let mut table = Self {
+            height: weights.len() / width,
+            weights,
+            width,
+            bands: DiscreteDistribution::new(std::iter::empty()),
+            cells: Vec::new(),
+        };
+        let cell = |x: usize, y: usize| {
+            let [[a, b], [c, d]] = table.corners(x, y);
+            table.band(y)[1] * (a + b + c + d) / 4.0
+        };
+        let band = |y: usize| DiscreteDistribution::new((0..width).map(|x| cell(x, y)));
+        table.cells = (0..=table.height).map(band).collect();
+        table.bands =
+            DiscreteDistribution::new(table.cells.iter().map(DiscreteDistribution::total));
+        table
     }
 
-    /// The mean weight of a cell.
+    /// The weights at the corners of a cell, the upper ones first.
+    fn corners(&self, x: usize, y: usize) -> [[f64; 2]; 2] {
+        let next = if x + 1 < self.width { x + 1 } else { 0 };
+        let row = |y: Option<usize>| {
+            let start = y.filter(|y| *y < self.height).map(|y| y * self.width);
+            start.map_or([0.0; 2], |start| {
+                [x, next].map(|x| f64::from(self.weights[start + x]))
+            })
+        };
+        [row(y.checked_sub(1)), row(Some(y))]
+    }
+
+    /// Where a band begins and how high it is, in texels.
+    fn band(&self, y: usize) -> [f64; 2] {
+        let [start, end] = [y, y + 1].map(|y| (y as f64 - 0.5).clamp(0.0, self.height as f64));
+        [start, end - start]
+    }
+
+    /// The mean weight.
     pub(in crate::render) fn mean(&self) -> f64 {
-        self.rows.total() / (self.width * self.cells.len()) as f64
+        self.bands.total() / (self.width * self.height) as f64
     }
 
     /// The density at a place.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "clamped to the table"
+        reason = "places are in the unit square"
     )]
     pub(in crate::render) fn pdf(&self, [u, v]: [f64; 2]) -> f64 {
-        let cell =
-            |fraction: f64, count: usize| ((fraction * count as f64) as usize).min(count - 1);
-        let (x, y) = (cell(u, self.width), cell(v, self.cells.len()));
-        self.rows.probability(y)
-            * self.cells[y].probability(x)
-            * (self.width * self.cells.len()) as f64
+        let mean = self.mean();
+        if mean == 0.0 {
+            return 0.0;
+        }
+        // The column of a cell begins half a texel after that of its first corner.
+        let across = u * self.width as f64 + (self.width as f64 - 0.5);
+        let down = v * self.height as f64;
+        let (x, y) = (across as usize, ((down + 0.5) as usize).min(self.height));
+        let (s, [start, height]) = (across - x as f64, self.band(y));
+        let t = (down - start) / height;
+        let [[a, b], [c, d]] = self.corners(x % self.width, y);
+        let (upper, lower) = (a + (b - a) * s, c + (d - c) * s);
+        (upper + (lower - upper) * t) / mean
     }
 
     /// Samples a point with two numbers in [0, 1); uniform if all weights are 0.
     pub(in crate::render) fn sample(&self, u: [f64; 2]) -> [f64; 2] {
         let place = || {
-            let (y, rest_y) = self.rows.choose(u[1])?;
+            let (y, rest_y) = self.bands.choose(u[1])?;
             let (x, rest_x) = self.cells[y].choose(u[0])?;
-            Some([
-                (x as f64 + rest_x) / self.width as f64,
-                (y as f64 + rest_y) / self.cells.len() as f64,
-            ])
+            let ([[a, b], [c, d]], [start, height]) = (self.corners(x, y), self.band(y));
+            let t = linear([a + b, c + d], rest_y);
+            let s = linear([a + (c - a) * t, b + (d - b) * t], rest_x);
+            let across = (x as f64 + 0.5 + s) / self.width as f64;
+            Some([across % 1.0, (start + height * t) / self.height as f64])
         };
         place().unwrap_or(u)
+    }
+}
+
+/// Samples a number in [0, 1] with a density that goes linearly from a to b (Pharr, Jakob,
+/// Humphreys, "Physically Based Rendering", 4th ed., §2.3.2).
+fn linear([a, b]: [f64; 2], u: f64) -> f64 {
+    let root = (a * a + (b * b - a * a) * u).max(0.0).sqrt();
+    if u > 0.0 {
+        (u * (a + b) / (a + root)).min(1.0)
+    } else {
+        0.0
     }
 }
 
@@ -188,25 +238,37 @@ mod tests {
     }
 
     #[test]
-    fn places_have_the_density_of_their_cell() {
-        let table = Distribution2D::new([3, 2], |x, y| f64::from(x + 3 * y));
-        let n = 300;
-        let mut counts = [[0.0; 3]; 2];
+    fn places_come_as_often_as_their_density_says() {
+        // The middle has a bright texel beside dark ones.
+        let weights = [1.0, 0.0, 2.0, 0.0, 9.0, 0.5, 0.0, 3.0, 0.0];
+        let table = BilinearDistribution::new(3, weights.to_vec());
+        let (n, cells) = (600, 12);
+        let fraction = |k: usize, n: usize| (k as f64 + 0.5) / n as f64;
+        let mut counts = vec![0.0; cells * cells];
+        let mut densities = counts.clone();
         for i in 0..n {
             for j in 0..n {
-                let fraction = |k: i32| (f64::from(k) + 0.5) / f64::from(n);
-                let [u, v] = table.sample([fraction(i), fraction(j)]);
-                counts[(v * 2.0) as usize][(u * 3.0) as usize] += 1.0 / f64::from(n * n);
+                let cell = |[u, v]: [f64; 2]| {
+                    let [x, y] = [u, v].map(|u| ((u * cells as f64) as usize).min(cells - 1));
+                    cells * y + x
+                };
+                let u = [fraction(i, n), fraction(j, n)];
+                counts[cell(table.sample(u))] += 1.0 / (n * n) as f64;
+                densities[cell(u)] += table.pdf(u) / (n * n) as f64;
             }
         }
-        for y in 0..2_u8 {
-            for x in 0..3_u8 {
-                let density = table.pdf([(f64::from(x) + 0.5) / 3.0, (f64::from(y) + 0.5) / 2.0]);
-                assert!(
-                    (counts[usize::from(y)][usize::from(x)] - density / 6.0).abs() < 0.005,
-                    "{x} {y}: {counts:?}"
-                );
-            }
+        assert!((densities.iter().sum::<f64>() - 1.0).abs() < 1e-4);
+        for (count, density) in counts.iter().zip(&densities) {
+            assert!((count - density).abs() < 3e-4, "{counts:?} {densities:?}");
         }
+    }
+
+    #[test]
+    fn an_image_of_one_texel_is_even_across() {
+        let table = BilinearDistribution::new(1, vec![4.0]);
+        assert_eq!((table.mean(), table.pdf([0.0, 0.5])), (2.0, 2.0));
+        assert_eq!(table.sample([0.25, 0.0])[1], 0.0);
+        let dark = BilinearDistribution::new(1, vec![0.0]);
+        assert_eq!((dark.pdf([0.5; 2]), dark.sample([0.3; 2])), (0.0, [0.3; 2]));
     }
 }
