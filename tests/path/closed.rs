@@ -127,6 +127,22 @@ fn a_lambert_sphere_in_a_sky_shows_its_albedo() {
 }
 
 #[test]
+fn a_shining_room_is_as_bright_as_its_geometric_series_though_paths_end_at_random() {
+    let mut scene = scene(256);
+    scene.settings.max_depth = 12;
+    let shining = Standard {
+        emissive: [1.0; 3],
+        double_sided: true,
+        ..lambert([0.5, 0.25, 0.125])
+    };
+    // The camera is inside.
+    add_sphere(&mut scene, [0.0; 3], 8.0, shining);
+    let series = |albedo: f64| (1.0 - libm::pow(albedo, 13.0)) / (1.0 - albedo);
+    let expected = Vec3::new(series(0.5), series(0.25), series(0.125));
+    assert_near(mean(&render(&scene)), expected, 0.003);
+}
+
+#[test]
 fn a_shining_square_gives_its_form_factor() {
     // A square of half side a = 1 seen from 1 below its middle: F = 4/π·a/√(1 + a²)·atan(a/√(1 +
     // a²)).

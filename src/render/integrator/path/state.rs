@@ -8,6 +8,9 @@ use crate::render::world::NOWHERE;
 /// Bounces before Russian roulette may end a path.
 const RR_MIN_DEPTH: u32 = 3;
 
+/// The probability that a path survives, over its throughput.
+const RR_SURVIVAL: f64 = 2.0;
+
 /// Pairs of random numbers per vertex.
 const PAIRS: u32 = 4;
 
@@ -76,14 +79,16 @@ impl PathState {
         self.channel = Some(channel);
     }
 
-    /// Russian roulette: ends paths of low throughput at random; false if the path ends.
+    /// Russian roulette: ends paths of low throughput at random; false if the path ends. One that
+    /// goes on has a throughput of at least `1/RR_SURVIVAL`.
     pub(super) fn russian_roulette(&mut self) -> bool {
         let largest = self.beta.max_element();
-        if self.bounces < RR_MIN_DEPTH || largest >= 1.0 {
+        let survival = largest * RR_SURVIVAL;
+        if self.bounces < RR_MIN_DEPTH || survival >= 1.0 {
             return largest > 0.0;
         }
         let u = self.second(3);
-        self.beta /= largest;
-        u < largest
+        self.beta /= survival;
+        u < survival
     }
 }
