@@ -1,8 +1,9 @@
 """Equal-time table of two programs `paths`: BEFORE AFTER ASSETS ENVIRONMENTS.
 
 Each scene is compiled by RTC (environment variable) at SIDE x SIDE pixels. A reference of many paths and
-another seed comes from BEFORE, once. The error is relMSE: the mean of (x - r)^2 / (r^2 + 0.01) over pixels and
-channels. Time is CPU time of sampling alone, of turns by each in turn; efficiency is 1 / (relMSE x time).
+another seed comes from AFTER, once. The error is relMSE: the mean of (x - r)^2 / (r^2 + 0.01) over pixels and
+channels. Time is CPU time of sampling alone, the median of turns by each in turn; efficiency is 1 / (relMSE x time).
+The last column is the mean of all pixels by AFTER over that by BEFORE, with its standard error over the turns.
 """
 
 import array
@@ -74,7 +75,7 @@ def trace(program, scene, samples, seed):
 
 def reference(program, scene):
     """A converged picture of a seed that no turn has."""
-    kept = WORK / f"{scene.stem}-{REFERENCE}.f32"
+    kept = WORK / f"{scene.stem}-{REFERENCE}-{pathlib.Path(program).name}.f32"
     if not kept.exists():
         pixels, _ = trace(program, scene, REFERENCE, 1 << 20)
         kept.write_bytes(pixels.tobytes())
@@ -89,27 +90,32 @@ def error(pixels, truth):
 
 
 def measure(name, scene, programs):
-    truth = reference(programs[0], scene)
-    found = [([], []) for _ in programs]
+    truth = reference(programs[1], scene)
+    found = [([], [], []) for _ in programs]
     for turn in range(TURNS):
-        for program, (errors, times) in zip(programs, found):
+        for program, (errors, times, means) in zip(programs, found):
             pixels, time = trace(program, scene, SAMPLES, 1 + turn)
             errors.append(error(pixels, truth))
             times.append(time)
-    (before, after) = [(statistics.mean(e), statistics.median(t)) for e, t in found]
+            means.append(statistics.fmean(pixels))
+    (before, after) = [(statistics.mean(e), statistics.median(t)) for e, t, _ in found]
     gain = before[0] * before[1] / (after[0] * after[1])
-    print(f"| {name} | {before[0]:.5f} | {after[0]:.5f} | {after[1] / before[1]:.2f} | {gain:.2f} |", flush=True)
+    ratios = [after / before for before, after in zip(found[0][2], found[1][2])]
+    spread = statistics.stdev(ratios) / math.sqrt(TURNS) if TURNS > 1 else math.nan
+    mean = f"{statistics.mean(ratios):.4f} ± {spread:.4f}"
+    row = [name, f"{before[0]:.5f}", f"{after[0]:.5f}", f"{after[1] / before[1]:.2f}", f"{gain:.2f}", mean]
+    print(f"| {' | '.join(row)} |", flush=True)
     return gain
 
 
 def main():
     before, after, assets, environments = sys.argv[1:]
     WORK.mkdir(parents=True, exist_ok=True)
-    print("| scene | relMSE before | after | time, × before | efficiency, × before |")
-    print("| --- | --: | --: | --: | --: |")
+    print("| scene | relMSE before | after | time, × before | efficiency, × before | mean, × before |")
+    print("| --- | --: | --: | --: | --: | --: |")
     gains = [measure(row[0], compile_scene(*row), [before, after]) for row in scenes(assets, environments)]
     mean = math.exp(statistics.mean(map(math.log, gains)))
-    print(f"\nGeometric mean {mean:.2f}, arithmetic {statistics.mean(gains):.2f}, least {min(gains):.2f}.")
+    print(f"\nEfficiency: geometric mean {mean:.2f}, arithmetic {statistics.mean(gains):.2f}, least {min(gains):.2f}.")
 
 
 main()
