@@ -15,6 +15,15 @@ pub fn mix(x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
+/// A number in [0, 1) of the upper 53 bits.
+#[must_use]
+#[inline]
+pub fn fraction(bits: u64) -> f64 {
+    /// 2⁻⁵³.
+    const UNIT: f64 = 1.0 / 9_007_199_254_740_992.0;
+    (bits >> 11) as f64 * UNIT
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -30,5 +39,12 @@ mod tests {
             9_817_491_932_198_370_423,
         ];
         assert_eq!(numbers, expected);
+    }
+
+    #[test]
+    fn a_fraction_is_never_one() {
+        assert_eq!(fraction(0), 0.0);
+        assert_eq!(fraction(1 << 63), 0.5);
+        assert_eq!(fraction(u64::MAX), 1.0f64.next_down());
     }
 }

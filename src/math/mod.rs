@@ -29,7 +29,7 @@ pub use flat::is_flat;
 pub use func::{acos, atan2, cos, exp, ldexp, ln, pow, sin, sin_cos};
 pub use glam::DVec3 as Vec3;
 pub use glam::Vec4 as Lanes;
-pub use hash::{GAMMA, mix};
+pub use hash::{GAMMA, fraction, mix};
 pub use number::{NonNegative, Positive, UnitInterval, shortest};
 pub use onb::Basis;
 pub use rotation::{axis_and_angle, turned_about, turned_to_z};

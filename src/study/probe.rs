@@ -9,7 +9,7 @@ use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
 use super::target::{Order, TAIL};
 use crate::image::around;
-use crate::math::{GAMMA, mix};
+use crate::math::{GAMMA, fraction, mix};
 use crate::render::{AnyWorld, Counts, DenoisedFilm, Film, OnPixel, ProgressiveFilm};
 
 /// What was found of the error of a picture.
@@ -132,8 +132,7 @@ impl Probes {
         let mut hits = vec![0; pixels];
         let (mut index, mut sum) = (0, shares[0]);
         for probe in 0..count {
-            let bits = mix((seed << 32 | probe as u64).wrapping_mul(GAMMA));
-            let within = (bits >> 11) as f64 / 9_007_199_254_740_992.0;
+            let within = fraction(mix((seed << 32 | probe as u64).wrapping_mul(GAMMA)));
             let place = (probe as f64 + within) / count as f64;
             while sum < place && index + 1 < pixels {
                 index += 1;

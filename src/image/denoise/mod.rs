@@ -161,6 +161,7 @@ impl LocalModel<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::{fraction, mix};
 
     const SIDE: u32 = 24;
 
@@ -187,8 +188,7 @@ mod tests {
 
     /// Noise of mean about 0, which differs from pixel to pixel and by a seed.
     fn noise(x: u32, y: u32, seed: u64) -> f64 {
-        let bits = crate::math::mix(u64::from(x) << 40 | u64::from(y) << 8 | seed);
-        (bits >> 11) as f64 / 9_007_199_254_740_992.0 - 0.5
+        fraction(mix(u64::from(x) << 40 | u64::from(y) << 8 | seed)) - 0.5
     }
 
     fn denoised(color: impl Fn(u32, u32, u64) -> f64, guides: &[Guide]) -> Image {

@@ -5,7 +5,7 @@ pub(in crate::render) mod discrete;
 pub(in crate::render) mod sequence;
 pub(in crate::render) mod sobol;
 
-use crate::math::{Basis, NonNegative, Vec3, cos_sin_turns, golden_turns, mix, pow};
+use crate::math::{Basis, NonNegative, Vec3, cos_sin_turns, fraction, golden_turns, mix, pow};
 
 /// The key of one vertex of one path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,9 +44,7 @@ impl Key {
 
     /// A number in [0, 1) for one dimension of this point.
     pub(in crate::render) fn uniform(self, dimension: u64) -> f64 {
-        /// 2⁻⁵³.
-        const UNIT: f64 = 1.0 / 9_007_199_254_740_992.0;
-        (self.bits(dimension) >> 11) as f64 * UNIT
+        fraction(self.bits(dimension))
     }
 }
 
