@@ -172,6 +172,15 @@ pub(super) fn levels(text: &str) -> Result<f64, String> {
     levels.ok_or_else(|| "expected 0.01 to 255 grey levels".to_owned())
 }
 
+/// The limit of a clamp.
+pub(super) fn radiance(text: &str) -> Result<f64, String> {
+    let limit = text
+        .parse()
+        .ok()
+        .filter(|limit| (1e-6..=1e9).contains(limit));
+    limit.ok_or_else(|| "expected a radiance from 1e-6 to 1e9, as 10".to_owned())
+}
+
 pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text
         .parse()

@@ -7,7 +7,7 @@
 use super::Failure;
 use super::args::Explanation;
 use crate::pipeline::{self, Input, Proven};
-use crate::plan::{Plan, Rule, Rules, State, Verdict};
+use crate::plan::{Caustics, PathPlan, Plan, Rule, Rules, State, Verdict};
 use crate::render::{Counts, Job, KERNELS, PATH_KERNELS, Stride, choose, choose_for_paths};
 use crate::valid::{Mode, Proof};
 use indicatif::HumanCount;
@@ -28,6 +28,8 @@ const WIDTH: usize = 80;
 pub(super) struct PlanReport {
     /// The integrator, and out of how many it was chosen.
     kernel: (&'static str, usize),
+    /// How traced paths find caustics, if there are any.
+    caustics: Option<Caustics>,
     counter: Sampled,
     planned: u64,
     unpruned: u64,
@@ -171,6 +173,7 @@ impl PlanReport {
         };
         Ok(Self {
             kernel: kernel(&plan),
+            caustics: plan.paths.as_ref().and_then(PathPlan::caustics),
             planned: planned.rays(),
             unpruned: unpruned.rays(),
             rows: plan
@@ -218,6 +221,9 @@ impl PlanReport {
             "kernel: {kernel} (of {kernels})\n\
              rays a sample: {about}{planned:.2}, without the rules {about}{unpruned:.2}\n"
         );
+        if let Some(caustics) = self.caustics {
+            text += &format!("caustics: {}\n", caustics.told());
+        }
         if !self.counter.is_whole() {
             text += &format!(
                 "counted on {} of {} samples: {} of each pixel in each {} of a row and column\n",
@@ -248,6 +254,7 @@ impl PlanReport {
             "effects": self.rows.iter().map(row).collect::<Vec<_>>(),
             "kernel": self.kernel.0,
             "kernels": self.kernel.1,
+            "caustics": self.caustics.map(Caustics::told),
             "stride": self.counter.stride.get(),
             "samples": self.counter.all,
             "samplesCounted": self.counter.paths,

@@ -27,7 +27,11 @@ impl PictureSetup {
         job: &Job,
         (on_pixel, meter): (&OnPixel<'_>, &Meter),
     ) -> Result<Option<Traced>, RenderError> {
-        let samples = paths(&subject.proven.scene)?;
+        let samples = paths(&subject.proven.scene, "--denoise")?;
+        if samples < 2 {
+            let words = "`--denoise` takes at least `--spp 2`";
+            return Err(RenderError::Refused(words.to_owned()));
+        }
         let window = match job.crop {
             Some(crop) => crop,
             None => self.window(&subject.proven.lowered.scene)?,
@@ -68,14 +72,12 @@ impl Renderer {
     }
 }
 
-/// The paths a pixel of a scene that is denoised.
-fn paths(scene: &Proof) -> Result<u32, RenderError> {
-    let refused = |words: &str| Err(RenderError::Refused(words.to_owned()));
+/// The paths a pixel of a scene, for an option that needs paths.
+pub(super) fn paths(scene: &Proof, option: &str) -> Result<u32, RenderError> {
     match scene.settings().mode {
-        Mode::Path(path) if path.samples.get() >= 2 => Ok(path.samples.get()),
-        Mode::Path(_) => refused("`--denoise` takes at least `--spp 2`"),
-        Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
-            refused("`--denoise` is for traced paths; `--integrator path` traces them")
-        }
+        Mode::Path(path) => Ok(path.samples.get()),
+        Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => Err(RenderError::Refused(
+            format!("`{option}` is for traced paths; `--integrator path` traces them"),
+        )),
     }
 }

@@ -1,10 +1,12 @@
-//! What is found in a picture: nothing, numbers that give way, values that no file holds.
+//! What is found in a picture: nothing, numbers that give way, values that no file holds, a rule that
+//! was wrong.
 
 use super::Proven;
 use crate::diag::{Diagnostic, codes};
 use crate::image::{FileFormat, Lost};
 use crate::ir::{Field, Noun, Place};
-use crate::plan::{self, Symptom};
+use crate::plan::{self, Rule, Symptom};
+use crate::render::Mismatch;
 use crate::source::Span;
 
 /// Remarks that the picture is empty.
@@ -133,4 +135,21 @@ pub(super) fn unholdable(
         finding.hint(format!("they are black in the file; {advice}"))
     });
     beyond.into_iter().chain(unnumbered).collect()
+}
+
+/// What to say of a rule that was wrong.
+pub(super) fn left_out(mismatch: &Mismatch) -> String {
+    let Mismatch {
+        pixel: [x, y],
+        effect,
+        rule,
+        what,
+    } = mismatch;
+    let rule = rule.map_or("no rule", Rule::name);
+    let version = env!("CARGO_PKG_VERSION");
+    format!(
+        "internal error: {}, left out by {rule}: {what} at pixel {x}, {y}\n\
+         This is a fault of rtc {version}, please report it with the scene.",
+        effect.name()
+    )
 }

@@ -1,15 +1,15 @@
 //! A picture as it is asked for: from a scene that was loaded to a film, and to the picture that a
 //! file holds.
 
-use super::denoise::Traced;
+use super::denoise::{Traced, paths};
 use super::light::FirstView;
 use super::{Input, Loaded, Meter, OutputLook, Proven, Provenance, Renderer, findings, hash};
 use crate::diag::Diagnostic;
 use crate::image::{Image, Layers, Origin, Picture};
 use crate::ir::{Field, Mode, Noun, Place, Scene};
 use crate::passes::{self, Framing, Overrides};
-use crate::plan::{self, Plan, Rule, Rules};
-use crate::render::{Counts, Crop, Job, Mismatch, SimdLevel, Step};
+use crate::plan::{self, Plan, Rules};
+use crate::render::{Counts, Crop, Job, SimdLevel, Step};
 use crate::study::Goal;
 use crate::valid::Proof;
 use rayon::ThreadPoolBuildError;
@@ -39,6 +39,8 @@ pub struct PictureSetup {
     pub verify: bool,
     /// Whether the picture is denoised.
     pub denoise: bool,
+    /// The radiance that a traced path brings at most after its first bounce.
+    pub clamp: Option<f64>,
     /// Whether the studio was found to fill in beside the light of the scene.
     pub is_filled: bool,
 }
@@ -95,6 +97,7 @@ impl PictureSetup {
             rules: Rules::ALL,
             verify: false,
             denoise: false,
+            clamp: None,
             is_filled: false,
         }
     }
@@ -200,8 +203,12 @@ impl PictureSetup {
             crop: Some(window),
             values: self.look.values(&subject.proven.scene.settings().mode),
             background: self.look.background(),
+            clamp: self.clamp,
             ..Job::default()
         };
+        if self.clamp.is_some() {
+            paths(&subject.proven.scene, "--clamp")?;
+        }
         let meter = Meter::of_each(rays, window, 1 + usize::from(self.verify));
         let on_pixel = |step| {
             (observer.on_step)(step);
@@ -220,7 +227,7 @@ impl PictureSetup {
         if let Some(finding) = subject.ran_out(&meter, observer) {
             return Err(RenderError::RanOut(finding));
         }
-        let refused = |mismatch| RenderError::Refused(left_out(&mismatch));
+        let refused = |mismatch| RenderError::Refused(findings::left_out(&mismatch));
         traced.ok_or(RenderError::Stopped)?.map_err(refused)
     }
 
@@ -336,6 +343,9 @@ impl PictureSetup {
         if self.denoise {
             settings["denoiser"] = "regression-1".into();
         }
+        if let Some(limit) = self.clamp {
+            settings["clamp"] = limit.into();
+        }
         self.look.describe(&mut settings);
         Origin {
             software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -380,21 +390,4 @@ fn resize(
         _ => {}
     }
     None
-}
-
-/// What to say of a rule that was wrong.
-fn left_out(mismatch: &Mismatch) -> String {
-    let Mismatch {
-        pixel: [x, y],
-        effect,
-        rule,
-        what,
-    } = mismatch;
-    let rule = rule.map_or("no rule", Rule::name);
-    let version = env!("CARGO_PKG_VERSION");
-    format!(
-        "internal error: {}, left out by {rule}: {what} at pixel {x}, {y}\n\
-         This is a fault of rtc {version}, please report it with the scene.",
-        effect.name()
-    )
 }

@@ -29,7 +29,7 @@ mod window;
 pub use effect::{Effect, State, Verdict};
 pub use features::{Features, PathFeatures, Shapes};
 pub use layer::Layer;
-pub use path::{EnvironmentLeft, LightLeft, PathPlan};
+pub use path::{Caustics, EnvironmentLeft, LightLeft, PathPlan};
 pub use precision::{Loss, NEAREST, Symptom, loss};
 pub use region::{PixelClass, Region};
 pub use rules::{Rule, Rules};

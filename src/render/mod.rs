@@ -31,7 +31,7 @@ pub use film::heartbeat::{OnPixel, Step};
 pub use film::partial::{FilmError, PartialFilm};
 pub use film::pixel::BLOCK as SAMPLES_OF_BLOCK;
 pub use film::progressive::{ProgressiveFilm, Replicates};
-pub use film::{Background, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
+pub use film::{Background, ClampedLight, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
 pub use frame::halves::DenoisedFilm;
 pub use frame::verify::Mismatch;
 pub use integrator::aov::Aov;

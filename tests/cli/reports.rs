@@ -231,6 +231,52 @@ fn a_picture_is_told_as_an_object() {
     assert_eq!(quality["probes"], probes, "{denoised}");
 }
 
+/// What a clamp takes is told, the same for any number of threads; one that takes nothing changes nothing.
+#[test]
+fn a_clamp_tells_what_it_takes() {
+    let folder = folder();
+    let picture = |name: &str, more: &str| {
+        let words = format!(
+            "render ball.json --integrator path --spp 9 --no-metadata --message-format json -o {name} {more}"
+        );
+        let output = rtc(&folder, &words.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let said = stderr(&output);
+        let object: serde_json::Value = serde_json::from_str(said.lines().last().unwrap()).unwrap();
+        let bytes = std::fs::read(folder.path().join(name)).unwrap();
+        (bytes, object["rendered"]["clamped"].clone())
+    };
+    let (plain, nothing) = picture("plain.exr", "");
+    let (wide, took_none) = picture("wide.exr", "--clamp 1e6");
+    let (narrow, took) = picture("narrow.exr", "--clamp 0.01 --threads 1");
+    assert!(nothing.is_null(), "{nothing}");
+    assert!(
+        plain == wide,
+        "a clamp above all radiance changed the picture"
+    );
+    assert_eq!(
+        (&took_none["paths"], &took_none["shareOfLight"]),
+        (&0.into(), &0.0.into())
+    );
+    assert!(plain != narrow, "the clamp took nothing");
+    assert!(took["paths"].as_u64() > Some(0), "{took}");
+    let share = took["shareOfLight"].as_f64().unwrap();
+    assert!(share > 0.0 && share < 0.5, "{took}");
+    assert_eq!(
+        (narrow, took),
+        picture("again.exr", "--clamp 0.01 --threads 2")
+    );
+    let output = rtc(
+        &folder,
+        &["render", "ball.json", "--clamp", "1", "-o", "none.png"],
+    );
+    let words = stderr(&output);
+    assert!(
+        code(&output) != 0 && words.contains("is for traced paths"),
+        "{words}"
+    );
+}
+
 /// A picture in the terminal has a line for two of its rows, and its file is there, too.
 #[test]
 fn a_picture_is_shown_in_a_terminal() {

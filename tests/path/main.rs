@@ -148,6 +148,7 @@ const JOB: Job = Job {
     stride: Stride::EVERY,
     background: Background::Environment,
     samples: None,
+    clamp: None,
 };
 
 fn render_by(scene: &Scene, strategy: Strategy) -> Film {

@@ -68,6 +68,7 @@ pub(crate) const WHOLE: Job = Job {
     stride: Stride::EVERY,
     background: Background::Environment,
     samples: None,
+    clamp: None,
 };
 
 pub(crate) fn proven(scene: &Scene) -> Proof {

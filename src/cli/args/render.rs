@@ -1,6 +1,6 @@
 //! What `rtc render` is told.
 
-use super::super::parse::{frames, interval, levels, rule, seconds, share};
+use super::super::parse::{frames, interval, levels, radiance, rule, seconds, share};
 use super::{LookArgs, Reading, StageArgs, TalkArgs, WantedArgs};
 use crate::pipeline::SharedBy;
 use crate::plan::Rule;
@@ -39,6 +39,10 @@ pub(in crate::cli) struct Render {
     /// camera rays; some pixels are sampled anew, which tells the error
     #[arg(long, conflicts_with_all = ["target_error", "time_budget", "part", "checkpoint", "strips", "verify_effects"])]
     pub(in crate::cli) denoise: bool,
+    /// Let a traced path bring no more radiance after its first bounce, in any channel: fewer bright dots,
+    /// and less light, of which the end of the run tells how much
+    #[arg(long, value_name = "LIMIT", value_parser = radiance, conflicts_with_all = ["target_error", "time_budget", "denoise", "part", "checkpoint", "strips", "verify_effects"])]
+    pub(in crate::cli) clamp: Option<f64>,
     /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with
     /// `-%04d`; or is .apng or .gif, one file that shows them all
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects")]

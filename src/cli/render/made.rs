@@ -3,7 +3,7 @@
 use super::super::{progress, system};
 use crate::pipeline::PictureSetup;
 use crate::plan::Effect;
-use crate::render::Counts;
+use crate::render::{ClampedLight, Counts};
 use crate::study::{CrudePicture, ProbedError, Samples};
 use indicatif::{HumanBytes, HumanCount};
 use serde_json::{Map, Value, json};
@@ -22,6 +22,8 @@ pub(in crate::cli) struct MadePicture {
     elapsed: Duration,
     /// Whether it is denoised.
     is_denoised: bool,
+    /// Whether light of its paths is clamped.
+    is_clamped: bool,
     quality: Option<Quality>,
 }
 
@@ -71,6 +73,7 @@ impl MadePicture {
             counts,
             elapsed,
             is_denoised: setup.denoise,
+            is_clamped: setup.clamp.is_some(),
             quality: None,
         }
     }
@@ -88,8 +91,9 @@ impl MadePicture {
         let line = format!("{}: {width}×{height}, {light}{work}", self.output.display());
         let simulated = verbose.then(|| simulated(&self.counts));
         let pages = verbose.then(huge_pages).flatten();
+        let clamped = self.is_clamped.then(|| clamped(&self.counts.clamped));
         let quality = self.quality.as_ref().map(Quality::words);
-        let lines = [Some(line), simulated, pages, quality];
+        let lines = [Some(line), simulated, pages, clamped, quality];
         lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
 
@@ -107,6 +111,7 @@ impl MadePicture {
             "seconds": self.elapsed.as_secs_f64(),
             "quality": quality,
             "denoised": self.is_denoised,
+            "clamped": self.is_clamped.then(|| clamped_object(&self.counts.clamped)),
             "simulated": simulated,
         });
         json!({ "rendered": object }).to_string()
@@ -118,6 +123,17 @@ pub(in crate::cli) fn effects(counts: &Counts) -> impl Iterator<Item = (&'static
     let effects = Effect::OF_PATHS.into_iter().chain(Effect::OF_THE_COURSE);
     let counted = effects.map(|effect| (effect.name(), counts.of(effect)));
     counted.filter(|(_, count)| *count > 0)
+}
+
+/// What a clamp took, in words.
+fn clamped(light: &ClampedLight) -> String {
+    let (share, paths) = (100.0 * light.share(), HumanCount(light.paths));
+    format!("clamped: {paths} paths, which takes {share:.3} % of the light")
+}
+
+/// The same as an object.
+fn clamped_object(light: &ClampedLight) -> Value {
+    json!({ "paths": light.paths, "shareOfLight": light.share() })
 }
 
 fn simulated(counts: &Counts) -> String {

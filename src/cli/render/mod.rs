@@ -121,6 +121,7 @@ impl RenderSetup {
             rules: rules(&args.pruning, goal),
             verify: args.pruning.verify_effects,
             denoise: args.denoise,
+            clamp: args.clamp,
             ..wanted(&args.wanted, &args.look, picture)?
         };
         let is_one_file = args.strips.is_some()

@@ -4,12 +4,14 @@
 //! scene never asked for it, pruned if a rule removed it, and needed otherwise. So the verdicts
 //! always agree with the work that the integrator gets.
 
+mod caustics;
 mod draft;
 mod facts;
 pub(in crate::plan) mod rules;
 mod texture;
 mod verdicts;
 
+pub use caustics::Caustics;
 pub use draft::{EnvironmentLeft, LightLeft};
 pub(super) use texture::Area;
 

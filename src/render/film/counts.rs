@@ -18,8 +18,61 @@ pub struct Counts {
     pub hits: u64,
     /// Camera rays of Whitted's integrator whose colour is no number; a display clamps it to 0.
     pub unnumbered: u64,
+    /// What [`Job::clamp`](super::Job::clamp) took.
+    pub clamped: ClampedLight,
     /// Evaluations of effects that are no rays.
     evaluations: [u64; Effect::COUNT],
+}
+
+/// Light that a clamp took. Whole numbers, so that their sums are the same in any order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ClampedLight {
+    /// The paths that it took light from.
+    pub paths: u64,
+    /// The radiance taken, in all channels, in 2⁻⁴⁰.
+    taken: u128,
+    /// The radiance of all paths before, in the same unit.
+    all: u128,
+}
+
+impl ClampedLight {
+    /// The share of the light of all paths that was taken, from 0 to 1.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        self.taken as f64 / self.all.max(1) as f64
+    }
+
+    /// Counts a path, whose radiance in all channels was so much, by what is taken of it.
+    pub(in crate::render) fn add(&mut self, radiance: f64, taken: f64) {
+        const UNITS: f64 = 1_099_511_627_776.0;
+        /// So much for a path that the sum of 2³² of them is a number.
+        const MOST: f64 = 7.9e28;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "within bounds, or no number, which is 0"
+        )]
+        let whole = |light: f64| (light * UNITS).min(MOST).round() as u128;
+        self.paths += u64::from(taken > 0.0);
+        self.taken += whole(taken);
+        self.all += whole(radiance);
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            paths: self.paths + other.paths,
+            taken: self.taken + other.taken,
+            all: self.all + other.all,
+        }
+    }
+
+    fn since(self, before: Self) -> Self {
+        Self {
+            paths: self.paths - before.paths,
+            taken: self.taken - before.taken,
+            all: self.all - before.all,
+        }
+    }
 }
 
 impl Default for Counts {
@@ -31,6 +84,7 @@ impl Default for Counts {
             refracted: 0,
             hits: 0,
             unnumbered: 0,
+            clamped: ClampedLight::default(),
             evaluations: [0; Effect::COUNT],
         }
     }
@@ -105,13 +159,19 @@ impl Counts {
     /// Both together.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
-        self.by(&other, |a, b| a + b)
+        Self {
+            clamped: self.clamped.plus(other.clamped),
+            ..self.by(&other, |a, b| a + b)
+        }
     }
 
     /// The rays and evaluations since an earlier count.
     #[must_use]
     pub(in crate::render) fn since(self, before: &Self) -> Self {
-        self.by(before, |a, b| a - b)
+        Self {
+            clamped: self.clamped.since(before.clamped),
+            ..self.by(before, |a, b| a - b)
+        }
     }
 
     /// The same counts, each scaled by a fraction of whole numbers.
@@ -123,7 +183,7 @@ impl Counts {
         })
     }
 
-    /// All counts, rays by kind before evaluations.
+    /// All counts but what a clamp took, rays by kind before evaluations.
     pub(super) fn to_array(self) -> [u64; Self::LENGTH] {
         let rays = [
             self.camera,
@@ -139,7 +199,7 @@ impl Counts {
         })
     }
 
-    /// The counts of [`Self::to_array`].
+    /// The counts of [`Self::to_array`]: parts of pictures are never clamped.
     pub(super) fn from_array(counts: [u64; Self::LENGTH]) -> Self {
         let [camera, shadow, mirror, refracted, hits, unnumbered, ..] = counts;
         Self {
@@ -149,6 +209,7 @@ impl Counts {
             refracted,
             hits,
             unnumbered,
+            clamped: ClampedLight::default(),
             evaluations: std::array::from_fn(|effect| counts[Self::RAYS + effect]),
         }
     }
@@ -162,6 +223,7 @@ impl Counts {
             refracted: both(self.refracted, other.refracted),
             hits: both(self.hits, other.hits),
             unnumbered: both(self.unnumbered, other.unnumbered),
+            clamped: ClampedLight::default(),
             evaluations: std::array::from_fn(each),
         }
     }

@@ -10,7 +10,7 @@ pub(in crate::render) mod progressive;
 pub(in crate::render) mod tile;
 pub(in crate::render) mod tiled;
 
-pub use counts::Counts;
+pub use counts::{ClampedLight, Counts};
 
 use crate::color::Tone;
 use crate::image::Image;
@@ -34,6 +34,9 @@ pub struct Job {
     pub background: Background,
     /// The maximum number of samples per pixel. The first samples of the scene are taken.
     pub samples: Option<NonZeroU32>,
+    /// The radiance that a traced path brings at most after its first bounce, in its largest channel, more
+    /// than 0; all of it without.
+    pub clamp: Option<f64>,
 }
 
 /// The value of a camera ray that meets no surface. The light on surfaces does not change.

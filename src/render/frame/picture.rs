@@ -61,8 +61,10 @@ impl<S: Geometry> World<S> {
         let open = |_: [u32; 2], _: usize, _: &PixelSum| {
             (InBlocks::default(), asked(job, samples.clone()))
         };
-        let worker =
-            || PathTracer::<S, F>::new(self, &lights, strategy, on_pixel).before(job.background);
+        let worker = || {
+            let tracer = PathTracer::<S, F>::new(self, &lights, strategy, on_pixel);
+            tracer.before(job.background).clamped(job.clamp)
+        };
         let mut film = self.film(job);
         let counts = run(&mut film, Selection::of(job), worker, &open)?;
         Some((film, counts))

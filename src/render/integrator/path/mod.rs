@@ -48,6 +48,8 @@ pub(in crate::render) struct PathTracer<'world, S, const F: u32> {
     knows_all: bool,
     /// The background for camera rays that hit nothing.
     background: Background,
+    /// The most that a path brings after its first bounce.
+    clamp: Option<f64>,
     /// Whether the environment emits light.
     has_environment: bool,
     /// The maximum number of bounces.
@@ -75,6 +77,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             strategy,
             knows_all: false,
             background: Background::default(),
+            clamp: None,
             has_environment: plan.is_none_or(|plan| plan.environment != EnvironmentLeft::Nothing),
             max_bounces: world.plan.max_depth.saturating_sub(useless),
             planned: plan.map_or(PathFeatures::EVERYTHING, |plan| plan.features),
@@ -86,6 +89,11 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     /// The same tracer with another background.
     pub(in crate::render) fn before(self, background: Background) -> Self {
         Self { background, ..self }
+    }
+
+    /// The same tracer with a clamp.
+    pub(in crate::render) fn clamped(self, clamp: Option<f64>) -> Self {
+        Self { clamp, ..self }
     }
 
     /// Whether this tracer can do it: known at compile time.
@@ -121,14 +129,43 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 tracer.heartbeat.goes_on(&tracer.counts) && tracer.scatter(state, vertex)
             });
             match scattered {
-                Some(true) => state.bounces += 1,
-                Some(false) => return state.radiance,
+                Some(true) => {
+                    if state.bounces == 0 {
+                        state.radiance_of_first = state.radiance;
+                    }
+                    state.bounces += 1;
+                }
+                Some(false) => break,
                 None => {
                     self.add_escaped_radiance(&mut state);
-                    return state.radiance;
+                    break;
                 }
             }
         }
+        self.clamp
+            .map_or(state.radiance, |limit| self.clamp(&state, limit))
+    }
+
+    /// The radiance of a path of which the first vertex brings all its light, and the others no more in
+    /// any channel than the limit.
+    fn clamp(&mut self, state: &PathState, limit: f64) -> Vec3 {
+        let first = match state.bounces {
+            0 => state.radiance,
+            _ => state.radiance_of_first,
+        };
+        let rest = state.radiance - first;
+        let share = limit / rest.max_element();
+        let clamped = if share < 1.0 {
+            first + rest * share
+        } else {
+            state.radiance
+        };
+        let [before, after] = [state.radiance, clamped].map(Vec3::element_sum);
+        // A path that overflowed is dropped.
+        if before.is_finite() {
+            self.counts.clamped.add(before, before - after);
+        }
+        clamped
     }
 }
 

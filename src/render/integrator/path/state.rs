@@ -23,6 +23,8 @@ pub(super) struct PathState {
     pub(super) beta: Vec3,
     /// The radiance found so far.
     pub(super) radiance: Vec3,
+    /// What of it was found at the first vertex, after a bounce.
+    pub(super) radiance_of_first: Vec3,
     pub(super) sobol: Sobol,
     /// The number of bounces so far.
     pub(super) bounces: u32,
@@ -45,6 +47,7 @@ impl PathState {
             from: NOWHERE,
             beta: Vec3::ONE,
             radiance: Vec3::ZERO,
+            radiance_of_first: Vec3::ZERO,
             sobol,
             bounces: 0,
             pdf: None,

@@ -1,0 +1,57 @@
+//! Caustics: light that smooth metal and glass throw onto other surfaces. Paths from the camera find it
+//! by chance, or not at all.
+
+use super::{EnvironmentLeft, LightLeft, PathPlan};
+use crate::math::{UnitInterval, Vec3};
+use crate::valid::Standard;
+
+/// How traced paths find the caustics of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Caustics {
+    /// A path that scatters meets a light by way of a smooth surface: seldom, so they are noise.
+    ByChance,
+    /// Some not at all: no path meets a light without size by way of a perfect mirror or lens.
+    LeftOut,
+}
+
+impl PathPlan {
+    /// How caustics are found; `None` where nothing throws any. Materials count as they are, on a
+    /// surface or not.
+    #[must_use]
+    pub fn caustics(&self) -> Option<Caustics> {
+        let has_punctual = self.lights.contains(&LightLeft::All);
+        let shines = |m: &Standard| !m.unlit && m.emissive != Vec3::ZERO;
+        let has_wide = self.environment != EnvironmentLeft::Nothing;
+        let has_light = has_punctual || has_wide || self.materials.iter().any(shines);
+        let mut throwing = self.materials.iter().filter(|m| throws(m)).peekable();
+        if !has_light || throwing.peek().is_none() {
+            return None;
+        }
+        let is_exact = throwing.any(|m| m.roughness == UnitInterval::ZERO);
+        Some(match is_exact && has_punctual {
+            true => Caustics::LeftOut,
+            false => Caustics::ByChance,
+        })
+    }
+}
+
+impl Caustics {
+    /// How they are found, in words.
+    #[must_use]
+    pub const fn told(self) -> &'static str {
+        match self {
+            Self::ByChance => "found by chance alone, as noise; `--clamp` bounds it",
+            Self::LeftOut => {
+                "by mirrors and glass, of lights without size, left out, as no path finds them"
+            }
+        }
+    }
+}
+
+/// Whether a material mirrors or refracts most light in nearly one direction.
+fn throws(m: &Standard) -> bool {
+    /// So rough, light is spread over tens of degrees.
+    const ROUGH: f64 = 0.2;
+    let is_smooth = m.roughness.get() < ROUGH && !m.unlit;
+    is_smooth && (m.metallic.get() > 0.5 || m.transmission.get() > 0.0)
+}
