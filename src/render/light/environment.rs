@@ -39,7 +39,7 @@ pub(in crate::render) struct EnvironmentRadiance {
 const UNIFORM: f64 = 0.5 / TAU;
 
 /// The least share of its radiance that a direction is sampled by.
-const LEAST: f64 = 0.125;
+const LEAST: f64 = 1.0 / 64.0;
 
 impl Environment {
     /// An environment of this radiance, times the image if there is one; the rows of
