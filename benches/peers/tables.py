@@ -60,8 +60,8 @@ def course(found):
         times = {by: column(scene[by], "cpu_s") for by in ("POV-Ray", "rtc")}
         medians = [f"{statistics.median(seconds):.2f}" for seconds in times.values()]
         gain = ratios(*times.values())
-        rows.append([name, scene["size"], scene["samples"], *medians, gain, "5", f"{scene['apart']:.2f}"])
-    table(["scene", "pixels", "samples", "POV-Ray", "rtc", "POV-Ray ÷ rtc", "wanted", "apart"], rows)
+        rows.append([name, scene["size"], scene["samples"], len(scene["rtc"]), *medians, gain, "5", f"{scene['apart']:.2f}"])
+    table(["scene", "pixels", "samples", "turns", "POV-Ray", "rtc", "POV-Ray ÷ rtc", "wanted", "apart"], rows)
 
 
 def noises(scene, peer, key):
