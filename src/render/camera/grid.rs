@@ -90,13 +90,36 @@ impl Grid {
         [column, row]: [u32; 2],
         seeds: Seeds,
     ) -> Cell {
-        let number = u64::from(row) * u64::from(self.factor) + u64::from(column);
-        let key = || Key::new(pixel, number);
-        let place = self.place([column, row], || key().seeded(seeds.pixel));
+        let key = || self.key(pixel, [column, row]);
         Cell {
-            target: image_point(camera, pixel, place),
+            target: image_point(camera, pixel, self.place_in(pixel, [column, row], seeds)),
             rotated: CranleyPatterson::new(seeds.lens, key),
         }
+    }
+
+    /// The key of a cell.
+    #[inline(always)]
+    fn key(&self, pixel: [u32; 2], [column, row]: [u32; 2]) -> Key {
+        let number = u64::from(row) * u64::from(self.factor) + u64::from(column);
+        Key::new(pixel, number)
+    }
+
+    /// Whether all rays start at the eye of a camera.
+    #[inline(always)]
+    pub(in crate::render) fn starts_at_eye(&self, camera: &Camera, seeds: Seeds) -> bool {
+        self.points == 1 && camera.lens_samples == 1 && seeds.lens == 0
+    }
+
+    /// The offset of a sub-sample within its pixel, each coordinate in [0, 1], by the column and
+    /// the row of its cell.
+    #[inline(always)]
+    pub(in crate::render) fn place_in(
+        &self,
+        pixel: [u32; 2],
+        cell: [u32; 2],
+        seeds: Seeds,
+    ) -> [f64; 2] {
+        self.place(cell, || self.key(pixel, cell).seeded(seeds.pixel))
     }
 
     /// The offset of a sub-sample within its pixel, each coordinate in [0, 1].

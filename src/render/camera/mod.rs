@@ -3,8 +3,11 @@
 pub(in crate::render) mod grid;
 
 use crate::math::{Vec3, cos_sin_turns, golden_turns};
+use crate::render::lanes::{FourRays, LANES, Vectors};
 use crate::render::ray::Ray;
 use crate::render::sampler::Key;
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x4};
 
 /// A camera as its rays see it.
 #[derive(Clone, Debug)]
@@ -65,6 +68,32 @@ pub(in crate::render) fn ray_through(camera: &Camera, lens_point: Vec3, image_po
             camera_ray(lens_point + (image_point - camera.center), image_point)
         }
     }
+}
+
+/// The camera rays from the eye through four points of a pixel: the steps of [`image_point`] and
+/// [`ray_through`] on all at once.
+#[inline(always)]
+pub(in crate::render) fn pinhole_rays<S: Simd>(
+    simd: S,
+    camera: &Camera,
+    [x, y]: [u32; 2],
+    places: [[f64; 2]; LANES],
+) -> FourRays<S> {
+    let number = |x: f64| f64x4::splat(simd, x);
+    let vector = |v: Vec3| Vectors::splat(simd, v);
+    let [left, top] = [0, 1].map(|axis| f64x4::simd_from(simd, places.map(|place| place[axis])));
+    let across = number(f64::from(x)) + left - number(f64::from(camera.size[0]) / 2.0);
+    let upward = number(f64::from(camera.size[1]) / 2.0) - number(f64::from(y)) - top;
+    let target = vector(camera.center)
+        .plus(vector(camera.right).times(across))
+        .plus(vector(camera.up).times(upward));
+    let eye = vector(camera.eye);
+    let origin = match camera.projection {
+        Projection::Perspective => eye,
+        Projection::Orthographic => eye.plus(target.minus(vector(camera.center))),
+    };
+    let (_, direction) = target.minus(origin).normalized();
+    FourRays { origin, direction }
 }
 
 /// Point k of Vogel's spiral on the lens, in steps of `right` and `up`: `r = R·√(k/n)/‖up‖`, `θ =

@@ -44,7 +44,7 @@ pub struct Torus {
     pub(super) major: f64,
     /// Of the tube.
     pub(super) minor: f64,
-    /// The power of two near the outer radius.
+    /// The power of two near the outer radius, a normal number as its reciprocal is.
     pub(super) unit: f64,
 }
 
@@ -222,7 +222,7 @@ impl Torus {
             axis: Normal::new(axis).unit(),
             major,
             minor,
-            unit: ldexp(1.0, libm::ilogb(major + minor)),
+            unit: ldexp(1.0, libm::ilogb(major + minor).clamp(-1000, 1000)),
         }
     }
 

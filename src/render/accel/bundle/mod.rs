@@ -5,6 +5,8 @@
 //! Cones: Amanatides, "Ray tracing with cones" (SIGGRAPH 1984). Shafts: Haines, Wallace, "Shaft
 //! culling for efficient ray-cast radiosity" (1991).
 
+mod four;
+
 use crate::math::Vec3;
 use crate::render::accel::bounds::Ball;
 use crate::render::ray::Ray;
@@ -20,6 +22,9 @@ const MARGIN: f64 = 1.0 / 4_294_967_296.0;
 /// The margin of sines: 2⁻²⁰. A cosine near 1 gives a sine to 10⁻⁸.
 const SINE_MARGIN: f64 = 1.0 / 1_048_576.0;
 
+/// How far the square of a direction's length may be from 1.
+const ONE: f64 = 1.0 / 1_073_741_824.0;
+
 /// The widest cone, by its sine.
 const WIDEST: f64 = 0.5;
 
@@ -29,6 +34,8 @@ pub(in crate::render) struct Balls {
     balls: Vec<(u64, Ball)>,
     /// The items without a ball: every ray may meet them.
     unbounded: u64,
+    /// All items.
+    all: u64,
     /// The smallest radius, the measure of how near is near.
     smallest: f64,
 }
@@ -36,9 +43,11 @@ pub(in crate::render) struct Balls {
 impl Balls {
     /// The balls of some items by their bits, at most [`MAX_ITEMS`].
     pub(in crate::render) fn new(items: impl Iterator<Item = (usize, Option<Ball>)>) -> Self {
-        let (mut balls, mut unbounded, mut smallest) = (Vec::new(), 0, f64::INFINITY);
+        let (mut balls, mut smallest) = (Vec::new(), f64::INFINITY);
+        let (mut unbounded, mut all) = (0, 0);
         for (bit, ball) in items {
             let bit = 1 << bit;
+            all |= bit;
             match ball {
                 Some(ball) => {
                     smallest = smallest.min(ball.radius);
@@ -50,6 +59,7 @@ impl Balls {
         Self {
             balls,
             unbounded,
+            all,
             smallest,
         }
     }
@@ -76,13 +86,22 @@ struct Pace {
     uses: u32,
     /// The width wanted, in radii of the smallest ball.
     width: f64,
+    /// How many rays are yet to go without a bundle, and one more; 0 outside of a pause.
+    pause: u32,
 }
 
 impl Pace {
     const START: Self = Self {
-        uses: 0,
+        uses: Self::FEW,
         width: 0.125,
+        pause: 0,
     };
+
+    /// A bundle of fewer rays costs more than it saves rays that are asked four at a time.
+    const FEW: u32 = 16;
+
+    /// So many rays go without a bundle after one of few.
+    const PAUSE: u32 = 64;
 
     fn next(self) -> Self {
         let width = match self.uses {
@@ -90,7 +109,24 @@ impl Pace {
             8..128 => self.width,
             _ => (self.width * 0.5).max(1.0 / 64.0),
         };
-        Self { uses: 0, width }
+        Self {
+            uses: 0,
+            width,
+            pause: 0,
+        }
+    }
+
+    /// Whether so many rays are to go without a bundle.
+    #[inline(always)]
+    fn pauses(&mut self, rays: u32) -> bool {
+        if self.pause == 0 && self.uses < Self::FEW {
+            self.pause = Self::PAUSE;
+        }
+        let goes_on = self.pause > 1;
+        if goes_on {
+            self.pause -= rays.min(self.pause - 1);
+        }
+        goes_on
     }
 }
 
@@ -128,7 +164,6 @@ impl RayCone {
     /// A cone around a ray, of directions of length 1; `None` for other rays.
     #[inline(never)]
     fn around(&self, ray: &Ray, balls: &Balls) -> Option<Self> {
-        const ONE: f64 = 1.0 / 1_073_741_824.0;
         let length2 = ray.direction.dot(ray.direction);
         if !(ray.origin.is_finite() && (length2 - 1.0).abs() <= ONE) {
             return None;
@@ -291,15 +326,21 @@ impl Bundles {
         from: Vec3,
         target: impl FnOnce() -> Ball,
     ) -> u64 {
-        // Late bounces share a bundle where there are many lights.
-        let levels = (SHAFTS / lights.max(1)).max(1);
-        let slot = bounce.min(levels - 1) * lights + light;
-        let shaft = &mut self.shafts[slot % SHAFTS];
+        let shaft = self.shaft([bounce, light, lights]);
         if !shaft.holds(light, from) {
             *shaft = shaft.around(balls, light, from, &target());
         }
         shaft.pace.uses += 1;
         shaft.items
+    }
+
+    /// The bundle of the shadow rays after so many bounces to a light, one of so many. Late bounces
+    /// share one where there are many lights.
+    #[inline(always)]
+    fn shaft(&mut self, [bounce, light, lights]: [usize; 3]) -> &mut Shaft {
+        let levels = (SHAFTS / lights.max(1)).max(1);
+        let slot = bounce.min(levels - 1) * lights + light;
+        &mut self.shafts[slot % SHAFTS]
     }
 }
 

@@ -1,11 +1,13 @@
 //! No bundle passes over what a ray in it hits.
 
 use super::*;
+use crate::render::lanes::FourRays;
 use crate::render::sampler::Key;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::sphere::{Sphere, TexturedSphere};
 use crate::render::shape::torus::Torus;
 use crate::render::shape::triangle::Shear;
+use fearless_simd::Fallback;
 use rayon::prelude::*;
 
 /// The names of the families of scenes, the size of their shapes, and how far off they stand.
@@ -155,6 +157,54 @@ fn no_shaft_passes_over_what_one_of_its_segments_hits() {
     });
 }
 
+/// Four rays, or the starts of four segments, at a time, near one another or far apart: with bundles
+/// and in the pauses between them.
+#[test]
+fn four_lanes_are_told_of_all_that_each_may_hit() {
+    let simd = Fallback::new();
+    let (mut hits, mut fewer) = (0, 0);
+    for index in 0..1000 {
+        let case = Case::new((index % 2) as usize, index);
+        let (balls, mut bundles) = (case.balls(), Bundles::EMPTY);
+        let spread = [1e-3, 0.1, 1.0][(index % 3) as usize];
+        let target = Ball {
+            center: case.sphere.center * 2.0 - case.ray.origin,
+            radius: 0.0,
+        };
+        for k in 0..16 {
+            let rays = [0, 1, 2, 3].map(|lane| {
+                let place = 30 + 24 * k + 6 * lane;
+                let aside = vector(case.key, place) * spread;
+                Ray {
+                    origin: case.ray.origin + vector(case.key, place + 3) * spread * 0.1,
+                    direction: (case.ray.direction + aside).normalize(),
+                }
+            });
+            let four = FourRays::each(simd, &rays);
+            let (said, items) = bundles.along_each(simd, &balls, 0, &four, 0b1101);
+            assert_eq!(said, 0b1101);
+            let between = bundles.towards_each(&balls, [0, 0, 1], four.origin, 0b1011, || target);
+            assert_eq!(between[2], 0);
+            for (lane, ray) in rays.iter().enumerate() {
+                let segment = Ray {
+                    direction: target.center - ray.origin,
+                    ..*ray
+                };
+                let met = case.hits(ray, f64::INFINITY);
+                let hidden = case.hits(&segment, 1.0);
+                assert!(lane == 1 || met & !items == 0, "{index} {k} {lane}");
+                assert!(
+                    lane == 2 || hidden & !between[lane] == 0,
+                    "{index} {k} {lane}"
+                );
+                hits += u64::from(met != 0) + u64::from(hidden != 0);
+                fewer += u64::from(items != balls.all) + u64::from(between[lane] != balls.all);
+            }
+        }
+    }
+    assert!(hits > 10_000 && fewer > 10_000, "{hits} {fewer}");
+}
+
 #[test]
 fn rays_that_are_not_of_length_one_or_not_finite_have_no_cone() {
     let case = Case::new(0, 0);
@@ -168,6 +218,15 @@ fn rays_that_are_not_of_length_one_or_not_finite_have_no_cone() {
     for (origin, direction) in rays {
         let ray = Ray { origin, direction };
         assert!(RayCone::EMPTY.around(&ray, &balls).is_none());
+        // With a bundle that is asked for, and in a pause.
+        let (simd, mut bundles) = (Fallback::new(), Bundles::EMPTY);
+        let four = FourRays::each(simd, &[ray, case.ray, case.ray, ray]);
+        for pause in [0, Pace::PAUSE] {
+            bundles.cones[0].near = -1.0;
+            bundles.cones[0].pace.pause = pause;
+            let (said, _) = bundles.along_each(simd, &balls, 0, &four, 0b1111);
+            assert_eq!(said, 0b0110);
+        }
     }
     assert!(!RayCone::EMPTY.holds(&case.ray));
 }

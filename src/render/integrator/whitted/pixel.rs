@@ -103,11 +103,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                 .cell(camera, pixel, [0; 2], seeds)
                 .ray(camera, 0);
         }
-        let [column, row, k] = self.pixel.place;
-        self.pixel.place = self.grid.after(self.pixel.place);
-        if column + row > 0 {
-            self.counts.add(Effect::Supersampling);
-        }
+        let [column, row, k] = self.next_place();
         let cell = || self.grid.cell(camera, pixel, [column, row], seeds);
         if !self.grid.has_lens() {
             return cell().ray(camera, 0);
@@ -119,6 +115,17 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         };
         self.pixel.cell = Some(cell);
         cell.ray(camera, k)
+    }
+
+    /// The column and the row of the cell of the next sample, and its point of the lens.
+    #[inline(always)]
+    pub(super) fn next_place(&mut self) -> [u32; 3] {
+        let place = self.pixel.place;
+        self.pixel.place = self.grid.after(place);
+        if place[0] + place[1] > 0 {
+            self.counts.add(Effect::Supersampling);
+        }
+        place
     }
 
     /// The ray of a sample of a sequence without end.

@@ -3,7 +3,6 @@
 use super::Tracer;
 use crate::math::{Basis, Vec3};
 use crate::plan::{Effect, Features, Rule};
-use crate::render::accel::bounds::Ball;
 use crate::render::bsdf::optics::highlight;
 use crate::render::integrator::Integrator;
 use crate::render::light::course::CourseLight;
@@ -243,15 +242,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     pub(super) fn towards(&mut self, few: &Few, light: usize, from: Vec3) -> u64 {
         let lights = &self.world.lights.course;
         let place = [self.bounces as usize, light, lights.len()];
-        let target = || {
-            let CourseLight {
-                position, radius, ..
-            } = lights[light];
-            Ball {
-                center: position,
-                radius: radius.get(),
-            }
-        };
+        let target = || lights[light].ball();
         self.bundles.towards(&few.balls, place, from, target)
     }
 

@@ -41,18 +41,18 @@ impl InLanes<'_> {
         }
     }
 
-    /// The interactions at `t`, where they have a form in lanes.
+    /// The interactions at `t`, in the lanes where that is finite.
     #[inline(always)]
     pub(in crate::render) fn interactions<S: Simd>(
         self,
         simd: S,
         rays: &FourRays<S>,
         t: f64x4<S>,
-    ) -> Option<Interactions<S>> {
+    ) -> Interactions<S> {
         match self {
-            Self::Sphere(sphere) => Some(interactions(simd, sphere, rays, t)),
-            Self::Torus(_) => None,
-            Self::Plane(plane, axis) => Some(plane::interactions(simd, plane, axis, rays, t)),
+            Self::Sphere(sphere) => interactions(simd, sphere, rays, t),
+            Self::Torus(torus) => torus::interactions(simd, torus, rays, t),
+            Self::Plane(plane, axis) => plane::interactions(simd, plane, axis, rays, t),
         }
     }
 }
@@ -196,11 +196,10 @@ fn interactions<S: Simd>(
     let local = rays.origin.minus(center).plus(step);
     let length = local.length();
     let mut normal = local.over(length);
-    let has_none = !length.simd_gt(number(0.0));
+    let has_none = t.simd_lt(number(f64::INFINITY)) & !length.simd_gt(number(0.0));
     if has_none.any_true() {
         for lane in lanes_of(has_none.to_bitmask()) {
-            let Vec3 { x, y, z } = rays.lane(lane).outward(local.lane(lane));
-            (normal.x[lane], normal.y[lane], normal.z[lane]) = (x, y, z);
+            normal.put(lane, rays.lane(lane).outward(local.lane(lane)));
         }
     }
     let along_ray = rays.origin.abs().plus(step.abs()).sum();
@@ -254,11 +253,15 @@ mod tests {
             let torus = Torus::new(Vec3::new(0.1, -0.2, 0.05), axis, major, minor);
             for index in 0..5_000 {
                 let each = rays(index);
-                let t = torus::intersect(simd, &torus, &FourRays::each(simd, &each), all);
+                let four = FourRays::each(simd, &each);
+                let t = torus::intersect(simd, &torus, &four, all);
+                let at = torus::interactions(simd, &torus, &four, t);
                 for (lane, ray) in each.iter().enumerate() {
                     let single = torus.intersect(ray);
                     assert_eq!(single.unwrap_or(f64::INFINITY).to_bits(), t[lane].to_bits());
-                    hits += usize::from(single.is_some());
+                    let Some(t) = single else { continue };
+                    assert_same(&torus.interaction(ray, t), &at, lane);
+                    hits += 1;
                 }
             }
         }
@@ -287,9 +290,7 @@ mod tests {
                 }
                 let four = FourRays::each(simd, &each);
                 let t = lanes.intersect(simd, &four, all);
-                let Some(at) = lanes.interactions(simd, &four, t) else {
-                    panic!("a plane has its interactions in lanes")
-                };
+                let at = lanes.interactions(simd, &four, t);
                 for (lane, ray) in each.iter().enumerate() {
                     let single = plane.intersect(ray);
                     assert_eq!(single.unwrap_or(f64::INFINITY).to_bits(), t[lane].to_bits());

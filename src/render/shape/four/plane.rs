@@ -2,7 +2,6 @@
 //! [`Plane::interaction`] on four rays at once. Other planes are asked lane by lane.
 
 use super::Interactions;
-use crate::math::Vec3;
 use crate::render::lanes::{FourRays, Vectors, lanes_of, two_difference};
 use crate::render::shape::plane::{Axis, Plane};
 use fearless_simd::prelude::*;
@@ -47,8 +46,7 @@ pub(super) fn interactions<S: Simd>(
     let doubted = !is_on & distance.simd_eq(zero);
     if doubted.any_true() {
         for lane in lanes_of(doubted.to_bitmask()) {
-            let Vec3 { x, y, z } = plane.interaction(&rays.lane(lane), t[lane]).point;
-            (point.x[lane], point.y[lane], point.z[lane]) = (x, y, z);
+            point.put(lane, plane.interaction(&rays.lane(lane), t[lane]).point);
         }
     }
     let normal = Vectors::splat(simd, plane.normal());

@@ -1,7 +1,9 @@
 //! The torus in four lanes: the steps of [`Torus::intersect`] on four rays at once. A lane whose
 //! search has ended goes on to no effect until the others have.
 
-use crate::render::lanes::{FourRays, Vectors};
+use super::Interactions;
+use crate::math::Vec3;
+use crate::render::lanes::{FourRays, Vectors, lanes_of};
 use crate::render::shape::torus::{MAX_STEPS, NEARLY_ONE, ROUNDING, TOUCH, Torus};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
@@ -27,19 +29,52 @@ pub(super) fn intersect<S: Simd>(
     if near.all_false() {
         return none;
     }
-    let unit = number(torus.unit);
+    // The reciprocal of a power of two is exact.
+    let per_unit = number(torus.unit.recip());
     let length = length2.sqrt();
-    let line = TorusRays::new(simd, torus, foot.over(unit), d.over(length));
-    let half = half2.sqrt() / unit;
-    let start = -nearest * length / unit;
+    let line = TorusRays::new(simd, torus, foot.times(per_unit), d.over(length));
+    let half = half2.sqrt() * per_unit;
+    let start = -nearest * length * per_unit;
     let low = start.simd_gt(-half).select(start, -half);
     let near = near & !(low.simd_ge(half) | line.passes(simd, low, half));
     if near.all_false() {
         return none;
     }
     let (met, root) = line.first_root(simd, low, half, near);
-    let t = nearest + root * (unit / length);
+    let t = nearest + root * (number(torus.unit) / length);
     (met & t.simd_gt(number(0.0))).select(t, none)
+}
+
+/// As [`Torus::interaction`].
+#[inline(always)]
+pub(super) fn interactions<S: Simd>(
+    simd: S,
+    torus: &Torus,
+    rays: &FourRays<S>,
+    t: f64x4<S>,
+) -> Interactions<S> {
+    let number = |x: f64| f64x4::splat(simd, x);
+    let (center, axis) = (
+        Vectors::splat(simd, torus.center),
+        Vectors::splat(simd, torus.axis),
+    );
+    let local = rays.origin.minus(center).plus(rays.direction.times(t));
+    let beside = local.minus(axis.times(local.dot(axis)));
+    let (is_beside, outward) = beside.normalized();
+    let ring = outward
+        .where_else(is_beside, Vectors::splat(simd, Vec3::ZERO))
+        .times(number(torus.major));
+    let out = local.minus(ring);
+    let (has_normal, mut normal) = out.normalized();
+    let has_none = t.simd_lt(number(f64::INFINITY)) & !has_normal;
+    if has_none.any_true() {
+        for lane in lanes_of(has_none.to_bitmask()) {
+            normal.put(lane, rays.lane(lane).outward(out.lane(lane)));
+        }
+    }
+    let point = center.plus(ring).plus(normal.times(number(torus.minor)));
+    let extent = torus.major + torus.minor;
+    Interactions::new(simd, rays, point, normal, torus.center, extent)
 }
 
 /// A point of each ray and its signed distance from the surface.

@@ -11,6 +11,8 @@ use crate::math::Vec3;
 use crate::plan::Features;
 #[cfg(target_arch = "x86_64")]
 use crate::render::accel::simd::Tokens;
+use crate::render::camera::pinhole_rays;
+use crate::render::film::Seeds;
 use crate::render::film::pixel::{Sample, SampleId, Stream};
 use crate::render::integrator::Integrator;
 use crate::render::lanes::{ALL, FourRays, LANES, Vectors, lanes_of};
@@ -81,14 +83,30 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             return Some(simd.vectorize(
                 #[inline(always)]
                 || {
-                    // Written out: `map` of an array is not inlined here.
-                    let mut next = || self.ray_of_picture(id.pixel, seeds);
-                    let rays = [next(), next(), next(), next()];
-                    self.radiances(simd, FourRays::each(simd, &rays))
+                    let rays = self.rays_of_picture(simd, id.pixel, seeds);
+                    self.radiances(simd, rays)
                 },
             ));
         }
         None
+    }
+
+    /// The rays of the next four samples.
+    #[inline(always)]
+    fn rays_of_picture<V: Simd>(&mut self, simd: V, pixel: [u32; 2], seeds: Seeds) -> FourRays<V> {
+        let camera = &self.world.camera;
+        if !self.grid.starts_at_eye(camera, seeds) {
+            // Written out: `map` of an array is not inlined here.
+            let mut next = || self.ray_of_picture(pixel, seeds);
+            return FourRays::each(simd, &[next(), next(), next(), next()]);
+        }
+        let grid = self.grid;
+        let mut next = || {
+            let [column, row, _] = self.next_place();
+            grid.place_in(pixel, [column, row], seeds)
+        };
+        let places = [next(), next(), next(), next()];
+        pinhole_rays(simd, camera, pixel, places)
     }
 
     /// What four camera rays see.
@@ -154,13 +172,10 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         let Some(few) = &world.few else {
             return hits;
         };
-        let (mut items, mut bundled) = (0, 0);
-        for lane in lanes_of(active) {
-            let bounce = self.bounces as usize;
-            if let Some(along) = self.bundles.along(&few.balls, bounce, &rays.lane(lane)) {
-                (items, bundled) = (items | along, bundled | 1 << lane);
-            }
-        }
+        let bounce = self.bounces as usize;
+        let (bundled, mut items) = self
+            .bundles
+            .along_each(simd, &few.balls, bounce, rays, active);
         let asked = mask64x4::from_bitmask(simd, bundled);
         let mut next = none;
         while let Some(surface) = Few::pop(&mut items) {
@@ -209,10 +224,10 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             let surface = &self.world.surfaces[surface];
             let material = &self.world.phongs[surface.material];
             let shape = &surface.shape;
-            let in_lanes = shape.in_lanes();
-            let at = in_lanes
-                .and_then(|shape| shape.interactions(simd, rays, hits.t))
-                .unwrap_or_else(|| interactions(simd, shape, rays, hits, same));
+            let at = match shape.in_lanes() {
+                Some(shape) => shape.interactions(simd, rays, hits.t),
+                None => interactions(simd, shape, rays, hits, same),
+            };
             let is_back = rays.direction.dot(at.normal).simd_gt(number(0.0));
             let of_surface = Points {
                 at,

@@ -5,6 +5,7 @@ use crate::math::Vec3;
 use crate::plan::{Effect, Features};
 use crate::render::bsdf::optics::highlight;
 use crate::render::integrator::whitted::Tracer;
+use crate::render::lanes::pow::powers;
 use crate::render::lanes::{FourRays, LANES, Vectors, lanes_of};
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::END;
@@ -90,6 +91,22 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             .where_else(mask64x4::from_bitmask(simd, lit), term)
     }
 
+    /// As `Tracer::towards`, from the points of some lanes.
+    #[inline(always)]
+    fn towards_each<V: Simd>(
+        &mut self,
+        few: &Few,
+        light: usize,
+        from: Vectors<V>,
+        asked: u64,
+    ) -> [u64; LANES] {
+        let lights = &self.world.lights.course;
+        let place = [self.bounces as usize, light, lights.len()];
+        let target = || lights[light].ball();
+        self.bundles
+            .towards_each(&few.balls, place, from, asked, target)
+    }
+
     /// The lanes, of some, whose point sees a light.
     #[inline(always)]
     fn unshadowed<V: Simd>(
@@ -107,17 +124,20 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         let (mut hiding, mut all, mut doubted) = ([0; LANES], 0, 0);
         for lane in lanes_of(asked) {
             let surface = points.surfaces[lane];
-            if !plan.shadowed[surface] {
-                continue;
-            }
-            self.counts.shadow += 1;
-            let casters = few.hiding(light, surface);
-            if casters != 0 {
-                let from = points.at.point.lane(lane);
-                hiding[lane] = casters & self.towards(few, light, from);
-                all |= hiding[lane];
+            if plan.shadowed[surface] {
+                self.counts.shadow += 1;
+                hiding[lane] = few.hiding(light, surface);
                 doubted |= u64::from(hiding[lane] != 0) << lane;
             }
+        }
+        if doubted == 0 {
+            return asked;
+        }
+        let between = self.towards_each(few, light, points.at.point, doubted);
+        for lane in lanes_of(doubted) {
+            hiding[lane] &= between[lane];
+            all |= hiding[lane];
+            doubted &= !(u64::from(hiding[lane] == 0) << lane);
         }
         if doubted == 0 {
             return asked;
@@ -164,12 +184,23 @@ fn ends<V: Simd>(simd: V, rays: &FourRays<V>, to: Vectors<V>) -> f64x4<V> {
     number(1.0) - number(END) * (number(1.0) + size / length)
 }
 
-/// Phong's highlight in some lanes, 0 in the others.
+/// As [`highlight`] in some lanes, 0 in the others.
 #[inline(always)]
 fn highlights<V: Simd>(r_dot_v: f64x4<V>, n: f64x4<V>, lanes: u64) -> f64x4<V> {
-    let mut all = f64x4::splat(n.simd, 0.0);
-    for lane in lanes_of(lanes) {
-        all[lane] = highlight(r_dot_v[lane], n[lane]);
+    let zero = f64x4::splat(n.simd, 0.0);
+    let is_dark = r_dot_v.simd_le(zero) & n.simd_gt(zero);
+    let lit = lanes & !is_dark.to_bitmask();
+    if lit == 0 {
+        return zero;
+    }
+    let (known, power) = powers(n.simd, r_dot_v, n);
+    let known = mask64x4::from_bitmask(n.simd, lit) & known;
+    let mut all = known.select(power, zero);
+    let others = lit & !known.to_bitmask();
+    if others != 0 {
+        for lane in lanes_of(others) {
+            all[lane] = highlight(r_dot_v[lane], n[lane]);
+        }
     }
     all
 }

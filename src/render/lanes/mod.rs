@@ -1,6 +1,8 @@
 //! Four vectors at once, one in each lane. Every operation is that of one vector in the same order,
 //! so that each lane has its bits.
 
+pub(in crate::render) mod pow;
+
 use crate::math::{SPLITTER, Vec3};
 use crate::render::ray::Ray;
 use fearless_simd::prelude::*;
@@ -39,6 +41,12 @@ impl<S: Simd> Vectors<S> {
             y: f64x4::simd_from(simd, v.map(|v| v.y)),
             z: f64x4::simd_from(simd, v.map(|v| v.z)),
         }
+    }
+
+    /// Replaces the vector of a lane.
+    #[inline(always)]
+    pub(in crate::render) fn put(&mut self, lane: usize, v: Vec3) {
+        (self.x[lane], self.y[lane], self.z[lane]) = (v.x, v.y, v.z);
     }
 
     /// The vector of a lane.
@@ -142,6 +150,15 @@ impl<S: Simd> Vectors<S> {
     #[inline(always)]
     pub(in crate::render) fn length(self) -> f64x4<S> {
         self.dot(self).sqrt()
+    }
+
+    /// Those of length 1 along them, and in which lanes there is one.
+    #[inline(always)]
+    pub(in crate::render) fn normalized(self) -> (mask64x4<S>, Self) {
+        let number = |x: f64| f64x4::splat(self.x.simd, x);
+        let inverse = number(1.0) / self.length();
+        let has = inverse.simd_gt(number(0.0)) & inverse.simd_lt(number(f64::INFINITY));
+        (has, self.times(inverse))
     }
 
     /// The vectors of `self` in the lanes of a mask, those of `other` elsewhere.

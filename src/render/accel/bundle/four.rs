@@ -1,0 +1,113 @@
+//! Bundles asked for by four rays at once, one in each lane. Shapes that are asked in four lanes cost
+//! less than a bundle of few rays, so after such a one some rays go without.
+
+use super::{Balls, Bundles, LEVELS, ONE, RayCone, Shaft};
+use crate::render::accel::bounds::Ball;
+use crate::render::lanes::{FourRays, LANES, Vectors, lanes_of};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x4};
+
+impl RayCone {
+    /// The lanes whose rays it holds.
+    #[inline(always)]
+    fn holds_each<S: Simd>(&self, simd: S, rays: &FourRays<S>) -> u64 {
+        let from = rays.origin.minus(Vectors::splat(simd, self.origin));
+        let along = rays.direction.minus(Vectors::splat(simd, self.direction));
+        let is_near = from.dot(from).simd_le(f64x4::splat(simd, self.near));
+        let is_alike = along.dot(along).simd_le(f64x4::splat(simd, self.alike));
+        (is_near & is_alike).to_bitmask()
+    }
+}
+
+impl Shaft {
+    /// The lanes whose points it holds.
+    #[inline(always)]
+    fn holds_each<S: Simd>(&self, light: usize, from: Vectors<S>) -> u64 {
+        if self.light != light {
+            return 0;
+        }
+        let step = from.minus(Vectors::splat(from.x.simd, self.from));
+        let is_near = step.dot(step).simd_le(f64x4::splat(from.x.simd, self.near));
+        is_near.to_bitmask()
+    }
+}
+
+impl Bundles {
+    /// As [`Self::along`], of the rays of some lanes: those whose bundle can say, and the items that
+    /// one of them may meet.
+    #[inline(always)]
+    pub(in crate::render) fn along_each<S: Simd>(
+        &mut self,
+        simd: S,
+        balls: &Balls,
+        bounce: usize,
+        rays: &FourRays<S>,
+        asked: u64,
+    ) -> (u64, u64) {
+        let cone = &mut self.cones[bounce % LEVELS];
+        let (mut said, mut items, mut left) = (0, 0, asked);
+        let mut held = asked & cone.holds_each(simd, rays);
+        while left != 0 {
+            if held == 0 && cone.pace.pauses(left.count_ones()) {
+                return (said | (left & are_sound(simd, rays)), balls.all);
+            }
+            if held == 0 {
+                let lane = left.trailing_zeros() as usize;
+                held = 1 << lane;
+                let Some(around) = cone.around(&rays.lane(lane), balls) else {
+                    (left, held) = (left & !held, 0);
+                    continue;
+                };
+                *cone = around;
+                held |= left & cone.holds_each(simd, rays);
+            }
+            cone.pace.uses += held.count_ones();
+            (said, items) = (said | held, items | cone.items);
+            (left, held) = (left & !held, 0);
+        }
+        (said, items)
+    }
+
+    /// As [`Self::towards`], from the points of some lanes: 0 in the others.
+    #[inline(always)]
+    pub(in crate::render) fn towards_each<S: Simd>(
+        &mut self,
+        balls: &Balls,
+        [bounce, light, lights]: [usize; 3],
+        from: Vectors<S>,
+        asked: u64,
+        target: impl Fn() -> Ball,
+    ) -> [u64; LANES] {
+        let shaft = self.shaft([bounce, light, lights]);
+        let mut items = [0; LANES];
+        let mut held = asked & shaft.holds_each(light, from);
+        let mut left = asked;
+        while left != 0 {
+            if held == 0 && shaft.pace.pauses(left.count_ones()) {
+                lanes_of(left).for_each(|lane| items[lane] = balls.all);
+                return items;
+            }
+            if held == 0 {
+                let lane = left.trailing_zeros() as usize;
+                *shaft = shaft.around(balls, light, from.lane(lane), &target());
+                held = 1 << lane | (left & shaft.holds_each(light, from));
+            }
+            for lane in lanes_of(held) {
+                items[lane] = shaft.items;
+            }
+            shaft.pace.uses += held.count_ones();
+            (left, held) = (left & !held, 0);
+        }
+        items
+    }
+}
+
+/// The lanes whose rays a cone can be around.
+#[inline(always)]
+fn are_sound<S: Simd>(simd: S, rays: &FourRays<S>) -> u64 {
+    let number = |x: f64| f64x4::splat(simd, x);
+    let is_finite = rays.origin.abs().sum().simd_lt(number(f64::INFINITY));
+    let length2 = rays.direction.dot(rays.direction);
+    let is_unit = (length2 - number(1.0)).abs().simd_le(number(ONE));
+    (is_finite & is_unit).to_bitmask()
+}
