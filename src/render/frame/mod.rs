@@ -12,8 +12,7 @@ use super::film::tile::{Open, Tile};
 use super::film::tiled::Tiled;
 use super::film::{Counts, Crop, Stride, Tiles};
 use super::integrator::Integrator;
-use rayon::prelude::*;
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Which pixels of a film are rendered.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,12 +23,25 @@ pub(in crate::render) struct Selection {
     pub(in crate::render) stride: Stride,
 }
 
+/// A tile's place in the picture, and what is kept of its pixels.
+type KeptTile<'film, K> = (Crop, &'film mut [K]);
+
+impl Selection {
+    /// The tiles wanted of a film.
+    fn tiles_of<K>(self, film: &mut Tiled<K>) -> Vec<KeptTile<'_, K>> {
+        let is_wanted = |area: &Crop| self.tiles.is_none_or(|own| own.contain([area.x, area.y]));
+        film.tiles_mut()
+            .filter(|(area, _)| is_wanted(area))
+            .collect()
+    }
+}
+
 /// Renders the pixels selected, as `open` begins each of them, by integrators that `worker` makes;
 /// the rays traced, or `None` if the observer said stop.
 pub(in crate::render) fn run<'run, I, A>(
     film: &mut Tiled<A::Kept>,
     selection: Selection,
-    worker: impl Fn() -> I + Sync + Send,
+    worker: impl Fn() -> I + Sync,
     open: &Open<'_, A>,
 ) -> Option<Counts>
 where
@@ -37,20 +49,11 @@ where
     A: Accumulator<Sample = I::Sample>,
 {
     let crop = film.crop();
-    let is_wanted = |[x, y]: [u32; 2]| selection.tiles.is_none_or(|tiles| tiles.contain([x, y]));
-    let tiles = film.tiles_mut();
-    let tiles: Vec<_> = tiles
-        .filter(|(area, _)| is_wanted([area.x, area.y]))
-        .collect();
-    let render = |integrator: &mut I, (area, kept)| {
-        let before = *integrator.counts();
-        let mut tile = Tile::new([area, crop], selection.stride, kept, open);
-        integrator
-            .render(&mut tile)
-            .then(|| integrator.counts().since(&before))
+    let render = |integrator: &mut I, (area, kept): KeptTile<'_, A::Kept>| {
+        integrator.render(&mut Tile::new([area, crop], selection.stride, kept, open))
     };
-    let counts = tiles.into_par_iter().map_init(worker, render);
-    counts.try_reduce(Counts::default, |a, b| Some(a.plus(b)))
+    let (counts, is_done) = share(selection.tiles_of(film), worker, render);
+    is_done.then_some(counts)
 }
 
 /// As [`run`], in tiles all over the picture; if the observer said stop, tiles that are not done are as
@@ -58,7 +61,7 @@ where
 pub(in crate::render) fn run_tiles<'run, I, A>(
     film: &mut Tiled<A::Kept>,
     selection: Selection,
-    worker: impl Fn() -> I + Sync + Send,
+    worker: impl Fn() -> I + Sync,
     open: &Open<'_, A>,
 ) -> (Counts, bool)
 where
@@ -66,29 +69,62 @@ where
     A: Accumulator<Sample = I::Sample>,
     A::Kept: Copy,
 {
-    let (crop, is_stopped) = (film.crop(), AtomicBool::new(false));
-    let is_wanted = |[x, y]: [u32; 2]| selection.tiles.is_none_or(|tiles| tiles.contain([x, y]));
-    let tiles = film.tiles_mut();
-    let mut tiles: Vec<_> = tiles
-        .filter(|(area, _)| is_wanted([area.x, area.y]))
-        .collect();
+    let crop = film.crop();
+    let mut tiles = selection.tiles_of(film);
     tiles.sort_unstable_by_key(|(area, _)| Tiles::rank(0, [area.x, area.y]));
-    let render = |integrator: &mut I, (area, kept): (Crop, &mut [A::Kept])| {
-        if is_stopped.load(Relaxed) {
-            return (Counts::default(), false);
-        }
-        let (counts, before) = (*integrator.counts(), kept.to_vec());
+    let render = |integrator: &mut I, (area, kept): KeptTile<'_, A::Kept>| {
+        let before = kept.to_vec();
         let mut tile = Tile::new([area, crop], selection.stride, &mut *kept, open);
         let is_done = integrator.render(&mut tile);
         if !is_done {
             // A pixel that was cut short is wrong.
-            is_stopped.store(true, Relaxed);
             kept.copy_from_slice(&before);
-            return (Counts::default(), false);
         }
-        (integrator.counts().since(&counts), true)
+        is_done
     };
-    let done = tiles.into_par_iter().map_init(worker, render);
-    let both = |a: (Counts, bool), b: (Counts, bool)| (a.0.plus(b.0), a.1 && b.1);
-    done.reduce(|| (Counts::default(), true), both)
+    share(tiles, worker, render)
+}
+
+/// Shares tiles among the workers of all threads: each renders the next that is left, until none is or
+/// the observer said stop. The rays of the tiles that are done, and whether all are.
+fn share<'run, I: Integrator<'run>, T: Send>(
+    tiles: Vec<T>,
+    worker: impl Fn() -> I + Sync,
+    render: impl Fn(&mut I, T) -> bool + Sync,
+) -> (Counts, bool) {
+    let left = Mutex::new(tiles.into_iter());
+    let next = || locked(&left).next();
+    let done = Mutex::new((Counts::default(), true));
+    on_all_threads(&|| {
+        let mut integrator = worker();
+        let mut counts = Counts::default();
+        while let Some(tile) = next() {
+            let before = *integrator.counts();
+            if !render(&mut integrator, tile) {
+                *locked(&left) = Vec::new().into_iter();
+                locked(&done).1 = false;
+                break;
+            }
+            counts = counts.plus(integrator.counts().since(&before));
+        }
+        let mut done = locked(&done);
+        done.0 = done.0.plus(counts);
+    });
+    *locked(&done)
+}
+
+/// Does some work on all threads of the pool at once. Not generic, so that the code of rayon is
+/// compiled once, not for each integrator.
+fn on_all_threads(work: &(dyn Fn() + Sync)) {
+    rayon::scope(|scope| {
+        for _ in 1..rayon::current_num_threads() {
+            scope.spawn(|_| work());
+        }
+        work();
+    });
+}
+
+/// A thread that panicked leaves nothing half done here.
+fn locked<T>(own: &Mutex<T>) -> MutexGuard<'_, T> {
+    own.lock().unwrap_or_else(PoisonError::into_inner)
 }
