@@ -281,6 +281,12 @@ fn a_value_is_told_with_its_unit_and_as_it_is_in_effect() {
         eye.contains("in scene units") && !eye.contains("in effect"),
         "{eye}"
     );
+    // A map as a whole, with what it does not say.
+    let material = told(5, "material");
+    let (_, effect) = material.split_once("in effect\n```json\n").unwrap();
+    let effect: Value = serde_json::from_str(effect.split_once("```").unwrap().0).unwrap();
+    assert_eq!(effect["phong"]["color"], json!([1, 0.5, 0]), "{material}");
+    assert_eq!(effect["phong"]["kt"], 0, "{material}");
 }
 
 #[test]

@@ -99,11 +99,11 @@ impl Workspace {
     fn laid_out(&self, uri: &Uri) -> Option<Vec<TextEdit>> {
         let document = self.document(uri)?;
         let (options, _) = document.options(&self.reading).ok()?;
-        let bytes = document.text.clone().into_bytes();
+        let bytes = document.text.as_bytes().to_vec();
         let laid_out = Input::edited(&document.path, bytes, options).lay_out();
         let text = laid_out.ok()?;
         let whole = document.lines(self.columns).range(0, document.text.len());
-        let is_same = text == document.text;
+        let is_same = text == *document.text;
         let edit = (!is_same).then(|| TextEdit::new(whole, text));
         Some(edit.into_iter().collect())
     }

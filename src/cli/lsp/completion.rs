@@ -45,7 +45,7 @@ pub(super) fn completions(
         false => vec![format!("{BLANK}: 0"), BLANK.to_owned()],
     };
     for blank in blanks {
-        let mut text = document.text.clone();
+        let mut text = document.text.to_string();
         text.replace_range(start..end, &blank);
         let Some(tree) = tree(&text) else {
             continue;
@@ -197,7 +197,7 @@ fn files(folder: &Path) -> Vec<CompletionItem> {
             }
         }
     }
-    names.sort();
+    names.sort_unstable();
     let item = |label| CompletionItem {
         label,
         kind: Some(CompletionItemKind::FILE),

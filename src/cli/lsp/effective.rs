@@ -12,16 +12,24 @@ use serde_json::Value;
 /// So many bytes of it are told at most.
 const MOST: usize = 1000;
 
-/// What the value of a node comes to, in Markdown; none of a text that is not sound, and of what is in effect
+/// What the value of a key comes to, in Markdown; none of a text that is not sound, and of what is in effect
 /// as it is written.
-pub(super) fn value(document: &OpenText, tree: &Tree<'_>, node: NodeId) -> Option<String> {
+pub(super) fn value(
+    document: &OpenText,
+    tree: &Tree<'_>,
+    [key, value]: [NodeId; 2],
+) -> Option<String> {
     let checked = document.scene()?;
     let lowered = checked.lowered.as_ref()?;
-    let target = tree.target(node);
-    let own = tree.span(target);
-    let span = Span::new(checked.file()?, own.start, own.end);
-    let values = lowered.origins.places(span);
-    let mut values = values.filter_map(|place| of(&lowered.scene, place));
+    let (target, file) = (tree.target(value), checked.file()?);
+    // A map in a scene is known by its key.
+    let key = tree.is_map(target).then_some(key);
+    let spans = std::iter::once(target)
+        .chain(key)
+        .map(|node| tree.span(node));
+    let spans = spans.map(|own| Span::new(file, own.start, own.end));
+    let places = spans.flat_map(|span| lowered.origins.places(span));
+    let mut values = places.filter_map(|place| of(&lowered.scene, place));
     let found = plain(values.next()?);
     let written = tree.written(target);
     let is_same = match serde_json::from_str(written) {

@@ -55,7 +55,7 @@ fn meaning(
     let text = described.get("description").and_then(Value::as_str)?;
     let facts = facts(&schemas);
     let here = aliased(&tree, value);
-    let value = effective::value(document, &tree, value).unwrap_or_default();
+    let value = effective::value(document, &tree, [key, value]).unwrap_or_default();
     let lines = [format!("**`{name}`** {text}"), facts, here, value];
     let lines = lines.into_iter().filter(|line| !line.is_empty());
     let span = tree.span(key);

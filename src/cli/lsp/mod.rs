@@ -17,10 +17,8 @@ mod workspace;
 use super::Failure;
 use super::args;
 use lsp_server::{ErrorCode, Message, Request, Response};
-use lsp_types::{
-    CodeActionKind, CodeActionOptions, CompletionOptions, InitializeParams, OneOf,
-    ServerCapabilities, TextDocumentSyncKind,
-};
+use lsp_types::{CodeActionKind, TextDocumentSyncKind};
+use serde::Deserialize;
 use serde_json::{Value, json};
 use std::io::{self, BufReader, Stdout};
 use std::panic::{self, AssertUnwindSafe};
@@ -125,7 +123,7 @@ impl Server {
         match (self.stretch, request.method.as_str()) {
             (Stretch::Greeting, "initialize") => {
                 self.stretch = Stretch::Talk;
-                Response::new_ok(id, self.greet(request.params))
+                Response::new_ok(id, self.greet(&request.params))
             }
             (Stretch::Greeting, _) => {
                 refused(ErrorCode::ServerNotInitialized, "`initialize` comes first")
@@ -148,10 +146,10 @@ impl Server {
     }
 
     /// What the server can do, said to an editor that says how it counts columns.
-    fn greet(&mut self, params: Value) -> Value {
-        let params: Option<InitializeParams> = serde_json::from_value(params).ok();
-        let general = params.and_then(|own| own.capabilities.general);
-        let offered = general.and_then(|own| own.position_encodings);
+    fn greet(&mut self, params: &Value) -> Value {
+        // Nothing else is asked of what the editor tells.
+        let offered = params.pointer("/capabilities/general/positionEncodings");
+        let offered = offered.and_then(|own| Vec::deserialize(own).ok());
         let columns = Columns::of(&offered.unwrap_or_default());
         self.workspace.count_columns(columns);
         json!({
@@ -161,26 +159,19 @@ impl Server {
     }
 }
 
-fn capabilities(columns: Columns) -> ServerCapabilities {
-    let kinds = [CodeActionKind::QUICKFIX, CodeActionKind::SOURCE_FIX_ALL];
-    let actions = CodeActionOptions {
-        code_action_kinds: Some(kinds.into()),
-        ..CodeActionOptions::default()
-    };
-    ServerCapabilities {
-        position_encoding: Some(columns.kind()),
-        text_document_sync: Some(TextDocumentSyncKind::INCREMENTAL.into()),
-        code_action_provider: Some(actions.into()),
-        hover_provider: Some(true.into()),
-        completion_provider: Some(CompletionOptions {
-            trigger_characters: Some([" ", "/", "*", "\""].map(str::to_owned).to_vec()),
-            ..CompletionOptions::default()
-        }),
-        document_formatting_provider: Some(OneOf::Left(true)),
-        document_symbol_provider: Some(OneOf::Left(true)),
-        definition_provider: Some(OneOf::Left(true)),
-        color_provider: Some(true.into()),
-        inlay_hint_provider: Some(OneOf::Left(true)),
-        ..ServerCapabilities::default()
-    }
+fn capabilities(columns: Columns) -> Value {
+    json!({
+        "positionEncoding": columns.kind(),
+        "textDocumentSync": TextDocumentSyncKind::INCREMENTAL,
+        "codeActionProvider": {
+            "codeActionKinds": [CodeActionKind::QUICKFIX, CodeActionKind::SOURCE_FIX_ALL],
+        },
+        "hoverProvider": true,
+        "completionProvider": { "triggerCharacters": [" ", "/", "*", "\""] },
+        "documentFormattingProvider": true,
+        "documentSymbolProvider": true,
+        "definitionProvider": true,
+        "colorProvider": true,
+        "inlayHintProvider": true,
+    })
 }

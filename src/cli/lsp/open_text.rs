@@ -15,13 +15,15 @@ use crate::source::{EditedFiles, FileId, SourceMap};
 use lsp_types::{TextDocumentContentChangeEvent, Uri};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A text that an editor has open.
 pub(super) struct OpenText {
     pub(super) uri: Uri,
     pub(super) path: PathBuf,
     pub(super) version: i32,
-    pub(super) text: String,
+    /// Shared with the others that name it.
+    pub(super) text: Arc<String>,
     /// The other texts that are open, which stand in place of files that it names.
     pub(super) others: EditedFiles,
     /// What was found in the text as it is; none until it is checked.
@@ -74,7 +76,7 @@ impl OpenText {
             path: place::path(&uri),
             uri,
             version,
-            text,
+            text: Arc::new(text),
             others: EditedFiles::default(),
             checked: None,
             told: Vec::new(),
@@ -106,12 +108,12 @@ impl OpenText {
     ) {
         for change in changes {
             match change.range {
-                None => self.text = change.text,
+                None => self.text = Arc::new(change.text),
                 Some(range) => {
                     let lines = TextLines::of(&self.text, columns);
                     let start = lines.offset(range.start);
                     let end = lines.offset(range.end).max(start);
-                    self.text.replace_range(start..end, &change.text);
+                    Arc::make_mut(&mut self.text).replace_range(start..end, &change.text);
                 }
             }
         }
@@ -147,7 +149,7 @@ impl OpenText {
 
     fn checked_anew(&self, reading: &Reading) -> Result<CheckedScene, Failure> {
         let (options, project) = self.options(reading)?;
-        let bytes = self.text.clone().into_bytes();
+        let bytes = self.text.as_bytes().to_vec();
         let mut input = Input::edited(&self.path, bytes, options);
         if let Some(project) = project {
             project.tell(&mut input);

@@ -18,6 +18,7 @@ use lsp_types::{
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The texts that are open, and what is needed to answer questions about them.
 pub(super) struct Workspace {
@@ -136,7 +137,7 @@ impl Workspace {
             .iter()
             .enumerate()
             .filter(|(own, _)| *own != at);
-        let others = others.map(|(_, own)| (own.path.clone(), own.text.clone().into_bytes()));
+        let others = others.map(|(_, own)| (own.path.clone(), Arc::clone(&own.text)));
         let others = EditedFiles::new(others);
         if let Some(document) = self.documents.get_mut(at) {
             document.others = others;
@@ -189,7 +190,7 @@ impl Workspace {
 
     /// All that is found in some files, in whatever text it shows.
     fn published(&self, mut files: Vec<Uri>) -> Vec<Message> {
-        files.sort_by(|a, b| a.as_str().cmp(b.as_str()));
+        files.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
         files.dedup();
         let publish = |file: Uri| {
             let mut all: Vec<Diagnostic> = Vec::new();
