@@ -90,7 +90,7 @@ fn below(folder: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
 /// Links to folders are not followed: they may lead round in circles.
 fn walk(folder: &Path, is_meant: NameTest, found: &mut Vec<PathBuf>) -> io::Result<()> {
     let mut entries = fs::read_dir(folder)?.collect::<io::Result<Vec<_>>>()?;
-    entries.sort_by_key(fs::DirEntry::file_name);
+    entries.sort_unstable_by_key(fs::DirEntry::file_name);
     for entry in entries {
         let (name, path) = (entry.file_name(), entry.path());
         let name = name.to_string_lossy();

@@ -134,7 +134,7 @@ fn channels(head: &PictureHead) -> Vec<(&'static str, ChannelSource)> {
     let layers = head.layers.iter().enumerate();
     let layers = layers.map(|(k, name)| (*name, ChannelSource::Layer(k)));
     let mut all: Vec<_> = colors.chain(alpha).chain(layers).collect();
-    all.sort_by_key(|(name, _)| *name);
+    all.sort_unstable_by_key(|(name, _)| *name);
     all
 }
 

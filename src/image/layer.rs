@@ -50,7 +50,7 @@ fn ranges<'v>(pixels: impl Iterator<Item = &'v [f32]>, channels: usize) -> Vec<[
     let surfaces: Vec<_> = pixels.filter(|values| is_surface(values)).collect();
     let range = |channel: usize| {
         let mut values: Vec<f32> = surfaces.iter().map(|values| values[channel]).collect();
-        values.sort_by(f32::total_cmp);
+        values.sort_unstable_by(f32::total_cmp);
         let out = if channels > 1 { values.len() / 50 } else { 0 };
         let least = values.get(out).copied();
         least.zip(values.iter().rev().nth(out).copied())

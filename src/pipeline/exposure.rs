@@ -83,7 +83,7 @@ fn stops(film: &Film) -> f64 {
     let is_lit = |pixel: &[f64; 3]| luminance(*pixel) > 0.0 && luminance(*pixel).is_finite();
     let lit: Vec<[f64; 3]> = shown.filter(is_lit).collect();
     let mut brightest: Vec<f64> = lit.iter().map(|[r, g, b]| r.max(*g).max(*b)).collect();
-    brightest.sort_by(f64::total_cmp);
+    brightest.sort_unstable_by(f64::total_cmp);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -305,7 +305,7 @@ impl Search {
         let wanted = tail.file_name()?.to_str()?.to_lowercase();
         let names = folder.names(folder.resolved.join(tail).parent()?);
         let mut alike: Vec<String> = names.filter(|name| name.to_lowercase() == wanted).collect();
-        alike.sort();
+        alike.sort_unstable();
         alike.into_iter().find_map(|name| {
             let tail = tail.with_file_name(name);
             match self.at(place, &tail, kind) {

@@ -98,7 +98,7 @@ pub fn median(values: &[f64], rng: &mut Rng) -> Estimate {
     let mut draws: Vec<_> = (0..DRAWS)
         .map(|_| middle(&mut resample(&sorted, rng)))
         .collect();
-    draws.sort_by(f64::total_cmp);
+    draws.sort_unstable_by(f64::total_cmp);
     Estimate {
         value,
         low: draws[DRAWS / 40],
@@ -115,7 +115,7 @@ fn resample(values: &[f64], rng: &mut Rng) -> Vec<f64> {
 
 /// The median of values, which it sorts.
 fn middle(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
+    values.sort_unstable_by(f64::total_cmp);
     let n = values.len();
     match n {
         0 => f64::NAN,

@@ -185,7 +185,7 @@ pub(in crate::render) fn split(
         .max_by(|a, b| size[*a].total_cmp(&size[*b]))
         .unwrap_or(0);
     let middle = items.len() / 2;
-    items.sort_by(|a, b| {
+    items.sort_unstable_by(|a, b| {
         a.bounds.center()[axis]
             .total_cmp(&b.bounds.center()[axis])
             .then(a.index.cmp(&b.index))

@@ -28,7 +28,7 @@ pub(super) fn all() -> impl Iterator<Item = &'static Extension> {
 /// A row of Markdown for each extension, by their names: what carries it, and the properties that are read.
 pub(in super::super) fn rows() -> String {
     let mut sorted: Vec<_> = all().collect();
-    sorted.sort_by_key(|extension| extension.name);
+    sorted.sort_unstable_by_key(|extension| extension.name);
     sorted.into_iter().map(row).collect()
 }
 
