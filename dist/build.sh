@@ -10,8 +10,12 @@ targets=("${@:-x86_64-unknown-linux-musl}")
 [[ $# -gt 0 ]] || targets+=(aarch64-unknown-linux-musl x86_64-pc-windows-gnu)
 version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 out=target/dist-files
-# The linker of the toolchain is enough where all code is Rust.
-export CARGO_TARGET_AARCH64_UNKNOWN_LINUX_MUSL_LINKER=rust-lld
+# The linker of the toolchain is enough where all code is Rust. It keeps functions of the same code once, and takes a bit for
+# each address that is relocated.
+for machine in X86_64 AARCH64; do
+    export "CARGO_TARGET_${machine}_UNKNOWN_LINUX_MUSL_LINKER=rust-lld"
+    export "CARGO_TARGET_${machine}_UNKNOWN_LINUX_MUSL_RUSTFLAGS=-C link-arg=--icf=all -C link-arg=--pack-dyn-relocs=relr"
+done
 
 # `runner TARGET`: how a program of the target runs here, on the last line; fails if it can't.
 runner() {
