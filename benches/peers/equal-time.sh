@@ -9,6 +9,6 @@ benches/peers/setup.sh || echo "not all peers are there" >&2
 folder=target/peers python=target/peers/venv/bin/python
 RTC=$(rtc) PATHS=${PATHS:-$(driver paths)}
 export RTC PATHS
-[ -e "$folder/Courtyard.json" ] || "$python" benches/peers/scenes.py "$folder"
+[ -e "$folder/Courtyard.yaml" ] || "$python" benches/peers/scenes.py "$folder"
 "$python" benches/peers/equal_time.py "$folder" "${TURNS:-3}" >"$folder/equal-time.md"
 python3 benches/page.py equal-time <"$folder/equal-time.md"

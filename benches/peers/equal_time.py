@@ -13,7 +13,7 @@ import sys
 
 import numpy as np
 from PIL import Image
-from turns import FOLDER, HERE, RUNS, by_turns, run
+from turns import FOLDER, HERE, RUNS, by_turns, emit, run
 
 SECONDS = float(os.environ.get("SECONDS_EACH", "1"))
 TRUTH = 16  # The samples of a truth, of those of a picture.
@@ -30,7 +30,7 @@ def by_rtc(scene, samples, seed, out):
 
 
 def by_mitsuba(scene, samples, seed, out):
-    told = run(sys.executable, f"{HERE}/paths_mitsuba.py", f"{FOLDER}/{scene}.json", str(samples), str(seed), out, "multijitter")["told"]
+    told = run(sys.executable, f"{HERE}/paths_mitsuba.py", f"{FOLDER}/{scene}.xml", str(samples), str(seed), out, "multijitter")["told"]
     return json.loads(told)["render_cpu_s"]
 
 
@@ -84,8 +84,7 @@ def row(scene, name, samples, turns):
 def course(path):
     """Rows of a scene of the course: n × n samples in a grid, so that each renderer has one picture for a time."""
     scene, pov = os.path.basename(path).removesuffix(".yaml"), f"{FOLDER}/equal.pov"
-    with open(pov, "w") as file:
-        subprocess.run([sys.executable, f"{HERE}/to_povray.py", path], stdout=file, check=True)
+    emit(path, pov)
 
     def rtc(side, out):
         return run(os.environ["RTC"], "render", path, "--supersampling", str(side), "--threads", "1", "-q", "-o", out)["cpu_s"]
@@ -132,6 +131,7 @@ def main():
     if has("bpy"):
         peers["Cycles"] = by_cycles
     lambert = {**peers, "Mitsuba": by_mitsuba} if has("mitsuba") else peers
+    emit(f"{FOLDER}/Courtyard.yaml", f"{FOLDER}/Courtyard.xml")
     rows = paths("Courtyard", {"rtc": by_rtc, **lambert}) if lambert else []
     if peers and os.path.exists(f"{FOLDER}/CornellLambert.json"):
         rows += paths("CornellLambert", {"rtc": by_rtc, **peers})

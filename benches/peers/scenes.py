@@ -1,8 +1,8 @@
 """What the peers and rtc are measured with, made into a folder: `scenes.py FOLDER`.
 
 globe.glb, globe.vertices.f32, globe.corners.u32: a bumpy globe of 1 045 458 triangles. coherent.f32, incoherent.f32: 2^20 rays
-each, six numbers a ray: origin, direction. courtyard.glb, courtyard.N.ply: a courtyard, and its parts by material. NAME.json: set-ups
-of assets, in metres and radiance: camera, surroundings, suns, bounces, pixels."""
+each, six numbers a ray: origin, direction. courtyard.glb: a courtyard. NAME.json: set-ups of assets, in metres and radiance: camera,
+surroundings, suns, bounces, pixels; NAME.yaml: the same as a scene of rtc."""
 import json
 import os
 import struct
@@ -147,22 +147,16 @@ def write_glb(path, parts):
         file.write(struct.pack("<I4s", len(binary), b"BIN\0") + binary)
 
 
-def write_ply(path, triangles):
-    corners = np.empty(len(triangles), [("count", "u1"), ("corners", "<u4", 3)])
-    corners["count"], corners["corners"] = 3, np.arange(3 * len(triangles)).reshape(-1, 3)
-    with open(path, "wb") as file:
-        file.write(f"ply\nformat binary_little_endian 1.0\nelement vertex {3 * len(triangles)}\n".encode())
-        file.write(b"property float x\nproperty float y\nproperty float z\n")
-        file.write(f"element face {len(triangles)}\nproperty list uchar uint vertex_indices\nend_header\n".encode())
-        file.write(triangles.tobytes() + corners.tobytes())
-
-
-def write_set_up(folder, name, asset, side, bounces, camera, radiance, suns, **more):
+def write_set_up(folder, name, asset, side, bounces, camera, radiance, suns):
     position, look_at, angle = camera
     view = {"position": position, "look_at": look_at, "up": [0, 1, 0], "yfov_deg": angle}
     lights = {"env_radiance": radiance, "suns": [{"direction_to_light": to, "irradiance": e} for to, e in suns]}
-    set_up = {"asset": asset, "width": side, "height": side, "max_bounces": bounces, "camera": view, "lights": lights, **more}
+    set_up = {"asset": asset, "width": side, "height": side, "max_bounces": bounces, "camera": view, "lights": lights}
     json.dump(set_up, open(f"{folder}/{name}.json", "w"), indent=1)
+    view = {"eye": position, "center": look_at, "up": [0, 1, 0], "fov": angle, "viewSize": [side, side]}
+    lights = [{"type": "sun", "direction": to, "irradiance": e} for to, e in suns]
+    scene = {"RenderMode": "path", "MaxRecursionDepth": bounces, "Camera": view, "Environment": {"color": radiance}}
+    json.dump({**scene, "Lights": lights, "Objects": [{"type": "gltf", "file": asset}]}, open(f"{folder}/{name}.yaml", "w"), indent=1)
 
 
 def write_others(folder):
@@ -192,13 +186,9 @@ def main(folder):
     parts = [(color, triangles_of(quads)) for color, quads in courtyard()]
     one_by_one = [(color, part.reshape(-1, 3), np.arange(part.size // 3, dtype=np.uint32)) for color, part in parts]
     write_glb(f"{folder}/courtyard.glb", one_by_one)
-    plys = [f"courtyard.{k}.ply" for k in range(len(parts))]
-    for ply, (_, part) in zip(plys, parts):
-        write_ply(f"{folder}/{ply}", part)
     sun = (unit(np.array([0.45, 0.8, 0.3])).tolist(), [3, 2.8, 2.4])
-    meshes = [{"ply": ply, "reflectance": color} for ply, (color, _) in zip(plys, parts)]
     view = ([4.6, 2.4, 5.2], [-1.4, 1.5, -2.2], 58)
-    write_set_up(folder, "Courtyard", "courtyard.glb", 256, 32, view, [0.3, 0.4, 0.55], [sun], meshes=meshes)
+    write_set_up(folder, "Courtyard", "courtyard.glb", 256, 32, view, [0.3, 0.4, 0.55], [sun])
     print(f"globe: {len(corners)} triangles; courtyard: {sum(len(part) for _, part in parts)}")
     write_others(folder)
 

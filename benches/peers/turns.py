@@ -31,6 +31,11 @@ def run(*command):
     return {"wall_s": clock, "cpu_s": cpu, "peak_mb": usage.ru_maxrss / 1024, "told": told}
 
 
+def emit(scene, path):
+    """The scene as a file of another renderer, by the ending of the path."""
+    subprocess.run([os.environ["RTC"], "compile", scene, "-q", "-o", path], check=True)
+
+
 def by_turns(contestants, runs=RUNS):
     """What each contestant returns for each turn, by name."""
     results = {name: [] for name in contestants}
@@ -72,8 +77,7 @@ def course():
     ):
         width, height = side.split("x")
         pov = f"{FOLDER}/{name}.pov"
-        with open(pov, "w") as file:
-            subprocess.run([sys.executable, f"{HERE}/to_povray.py", scene], stdout=file, check=True)
+        emit(scene, pov)
         pictures = [f"{FOLDER}/{name}.{by}.png" for by in ("rtc", "povray")]
         rtc = [os.environ["RTC"], "render", scene, "--size", side, "--threads", "1", "-q", "-o", pictures[0]]
         povray = ["povray", f"+I{pov}", f"+O{pictures[1]}", f"+W{width}", f"+H{height}", "+FN", "File_Gamma=1.0"]
@@ -117,12 +121,13 @@ def courtyard():
     def by_mitsuba(sampler):
         def one(turn):
             out = picture("Courtyard", f"Mitsuba, {sampler}", turn)
-            arguments = [f"{FOLDER}/Courtyard.json", str(SAMPLES["Courtyard"]), str(turn + 1), out, sampler]
+            arguments = [f"{FOLDER}/Courtyard.xml", str(SAMPLES["Courtyard"]), str(turn + 1), out, sampler]
             ran = run(sys.executable, f"{HERE}/paths_mitsuba.py", *arguments)
             return {**ran, **json.loads(ran.pop("told"))}
 
         return one
 
+    emit(f"{FOLDER}/Courtyard.yaml", f"{FOLDER}/Courtyard.xml")
     contestants = {f"Mitsuba, {sampler}": by_mitsuba(sampler) for sampler in ("independent", "multijitter")}
     return measured("Courtyard", {"rtc": by_rtc("Courtyard"), **contestants})
 

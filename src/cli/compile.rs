@@ -1,4 +1,5 @@
-//! `rtc compile`: a scene to the IR as text or binary, back to its canonical spelling, or to glTF.
+//! `rtc compile`: a scene to the IR as text or binary, back to its canonical spelling, to glTF, or to
+//! the files of other renderers.
 
 use super::Failure;
 use super::args::{Compile, Emit, Explanation, MessageFormat};
@@ -47,6 +48,7 @@ fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure>
         Emit::Ir | Emit::Yaml => Form::Text,
         Emit::IrBin => Form::Binary,
         Emit::Glb | Emit::Gltf => return write_gltf(args, emit, target, &proven, (input, talk)),
+        Emit::Mitsuba | Emit::Pov => return write_twin(emit, target, &proven, (input, talk)),
     };
     let encoded = codec::prepare(form, scene);
     let encoded = encoded.map_err(|codec::NotFinite| cannot(&input, "a number is not finite"))?;
@@ -63,25 +65,64 @@ fn write_gltf(
     (mut input, talk): (Input, &mut Talk),
 ) -> Result<(), Failure> {
     let output = Output::open(target, &input)?;
-    let folder = (emit == Emit::Gltf).then(|| {
-        let refuse = || cannot(&input, NO_FOLDER);
-        output.folder_beside(target).ok_or_else(refuse)
-    });
-    let folder = folder.transpose()?;
+    let folder = folder_of((emit == Emit::Gltf).then_some(target), &output, &input)?;
     let asset = input.gltf(&proven.lowered, args.tolerance, folder.as_deref());
     let asset = input::unless_refused(asset, &mut input, talk)?;
     let interrupt = Interrupt::listen()?;
-    let mut companions = Companions::beside(target);
-    for (name, bytes) in asset.files() {
-        companions.put(name, bytes, &interrupt)?;
-    }
+    let companions = put_beside(target, asset.files(), &interrupt)?;
     output.commit_by(&|out| asset.write(out), &interrupt)?;
     companions.keep();
     Ok(())
 }
 
-/// Why a text of glTF is not written to standard output.
+/// Why a text with files beside it is not written to standard output.
 const NO_FOLDER: &str = "its vertices and pictures are to be files beside the text: give `-o FILE`";
+
+/// Writes the scene for another renderer, whose meshes are files beside it or stand in the text.
+fn write_twin(
+    emit: Emit,
+    target: &Path,
+    proven: &Proven,
+    (mut input, talk): (Input, &mut Talk),
+) -> Result<(), Failure> {
+    let output = Output::open(target, &input)?;
+    let folder = folder_of((emit == Emit::Mitsuba).then_some(target), &output, &input)?;
+    let twin = input.twin(&proven.lowered, folder.as_deref());
+    let twin = input::unless_refused(twin, &mut input, talk)?;
+    let interrupt = Interrupt::listen()?;
+    let files = twin.files.iter();
+    let files = files.map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
+    let companions = put_beside(target, files, &interrupt)?;
+    output.commit(twin.text.as_bytes(), &interrupt)?;
+    companions.keep();
+    Ok(())
+}
+
+/// The name of the folder of files beside a target, if it has one.
+fn folder_of(
+    target: Option<&Path>,
+    output: &Output,
+    input: &Input,
+) -> Result<Option<String>, Failure> {
+    let folder = |target| {
+        let folder = output.folder_beside(target);
+        folder.ok_or_else(|| cannot(input, NO_FOLDER))
+    };
+    target.map(folder).transpose()
+}
+
+/// Writes the files beside a target, by their paths from its folder.
+fn put_beside<'f>(
+    target: &Path,
+    files: impl IntoIterator<Item = (&'f str, &'f [u8])>,
+    interrupt: &Interrupt,
+) -> Result<Companions, Failure> {
+    let mut companions = Companions::beside(target);
+    for (name, bytes) in files {
+        companions.put(name, bytes, interrupt)?;
+    }
+    Ok(companions)
+}
 
 /// The same for the canonical spelling, which says how a picture is shown too.
 fn carry_out_text(args: &Compile, mut input: Input, talk: &mut Talk) -> Result<(), Failure> {
@@ -168,8 +209,10 @@ fn by_extension(output: &Path) -> Result<Emit, Failure> {
         Some("yaml" | "yml") => Ok(Emit::Yaml),
         Some("glb") => Ok(Emit::Glb),
         Some("gltf") => Ok(Emit::Gltf),
+        Some("xml") => Ok(Emit::Mitsuba),
+        Some("pov") => Ok(Emit::Pov),
         _ => Err(Failure::Trouble(format!(
-            "can't tell from `{}` what to write; name it .json, .rtir, .yaml, .glb or .gltf, or give `--emit`",
+            "can't tell from `{}` what to write; name it .json, .rtir, .yaml, .glb, .gltf, .xml or .pov, or give `--emit`",
             output.display()
         ))),
     }

@@ -2,4 +2,13 @@
 
 mod beside;
 pub mod course;
+mod flat;
 pub mod gltf;
+pub mod mitsuba;
+mod nearest;
+mod ply;
+pub mod pov;
+mod told;
+mod twin;
+
+pub use twin::TwinScene;

@@ -3,7 +3,7 @@
 use super::{Options, load, prove, stage};
 use crate::codec;
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::emit::{self, gltf::GltfAsset};
+use crate::emit::{self, TwinScene, gltf::GltfAsset};
 use crate::front::{gltf, mesh, pixels};
 use crate::ir::{Field, Light, Lowered, Noun, Place, Scene};
 use crate::passes::{EnvironmentOverride, FillLight, Framing, Stage};
@@ -250,6 +250,16 @@ impl Input {
     ) -> Option<GltfAsset> {
         let (Lowered { scene, origins }, budget) = (lowered, self.map.budget());
         emit::gltf::emit(scene, origins, tolerance, folder, budget, &mut self.sink)
+    }
+
+    /// The scene as one of Mitsuba, whose meshes are files in the folder, or without a folder as one of
+    /// POV-Ray; `None` if that is not possible, with a finding that says why.
+    pub fn twin(&mut self, lowered: &Lowered, folder: Option<&str>) -> Option<TwinScene> {
+        let (Lowered { scene, origins }, budget) = (lowered, self.map.budget());
+        match folder {
+            Some(folder) => emit::mitsuba::emit(scene, origins, folder, budget, &mut self.sink),
+            None => emit::pov::emit(scene, origins, budget, &mut self.sink),
+        }
     }
 
     /// What was found since the last time.

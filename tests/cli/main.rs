@@ -46,6 +46,7 @@ mod strips;
 mod studio;
 mod texts;
 mod to_gltf;
+mod twins;
 #[cfg(unix)]
 mod unix;
 mod words;

@@ -150,7 +150,7 @@ pub(super) struct Compile {
     /// Say which effects the picture needs, and why it does without the others
     #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true, default_missing_value = "human")]
     pub(super) explain: Option<Explanation>,
-    /// What to write [default: by the extension of the output (.json, .rtir, .yaml, .glb, .gltf), or `ir`]
+    /// What to write [default: by the extension of the output (.json, .rtir, .yaml, .glb, .gltf, .xml for Mitsuba, .pov), or `ir`]
     #[arg(long, value_enum)]
     pub(super) emit: Option<Emit>,
     /// How far a mesh of the glTF may be from the curved shape it stands for, in scene units
@@ -214,6 +214,10 @@ pub(super) enum Emit {
     Glb,
     /// The same as text, with its vertices and pictures in a folder beside it
     Gltf,
+    /// A scene of Mitsuba 3 (XML), with meshes in a folder beside it; warnings name what has no exact twin there
+    Mitsuba,
+    /// A scene of POV-Ray 3.7; warnings name what has no exact twin there
+    Pov,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

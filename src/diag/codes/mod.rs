@@ -1,7 +1,7 @@
 //! The table of codes, one row each, in families that are the passes; a code is stable for ever.
 //!
 //! `IO` files, `SY` YAML syntax, `SC` shape and keys, `RE` files named by a scene, `VA` values,
-//! `GL` glTF, `IR` the container, `RD` what a render found.
+//! `GL` glTF, `IR` the container, `RD` what a render found, `EX` what is written for other renderers.
 
 use std::fmt;
 
@@ -12,6 +12,7 @@ mod picture;
 mod references;
 mod shape;
 mod syntax;
+mod twins;
 mod values;
 
 pub use container::*;
@@ -21,6 +22,7 @@ pub use picture::*;
 pub use references::*;
 pub use shape::*;
 pub use syntax::*;
+pub use twins::*;
 pub use values::*;
 
 /// How bad it is. Only errors stop the work.
@@ -89,7 +91,7 @@ use codes;
 
 /// Every code there is, family by family.
 pub fn all() -> impl Iterator<Item = &'static Code> {
-    [IO, SY, SC, RE, VA, GL, IR, RD]
+    [IO, SY, SC, RE, VA, GL, IR, RD, EX]
         .into_iter()
         .flatten()
         .copied()

@@ -1,7 +1,7 @@
 //! The files that a text names: those that images and meshes came from, or new ones beside the text.
 
-use super::{ply, quoted};
-use crate::emit::beside;
+use super::quoted;
+use crate::emit::{beside, ply};
 use crate::image::{FileFormat, Image as Radiances, Picture, png_bytes};
 use crate::ir::{Image, ImageId, Material, Mesh, MeshId, Pixels, Scene};
 use std::collections::BTreeMap;

@@ -5,7 +5,6 @@ mod camera;
 mod files;
 mod light;
 mod material;
-mod ply;
 mod shape;
 mod standard;
 

@@ -1,7 +1,7 @@
 //! Materials: glTF's own from the table of its parameters, Phong's by the one that comes nearest.
 
-use super::phong;
 use super::writer::{GltfWriter, extras, single};
+use crate::emit::nearest::nearest;
 use crate::ir::{Alpha, Field, Map, Material, MaterialId, MeshId, Noun, Place, Standard};
 use crate::standard::{self, parameters};
 use gltf::json;
@@ -31,7 +31,7 @@ impl GltfWriter<'_> {
             Material::Standard(standard) => ((**standard).clone(), Block::new()),
             Material::Phong(phong) => {
                 let own = self.phong(phong, key.1[0], place);
-                (phong::nearest(phong), own)
+                (nearest(phong), own)
             }
         };
         drop_maps(&mut standard, key.1);

@@ -15,6 +15,7 @@ mod texture;
 mod told;
 mod writer;
 
+use super::told::Told;
 use crate::diag::{Sink, codes};
 use crate::ir::{Field, Noun, Origins, Place, Scene};
 use crate::source::{Budget, Resource};
@@ -24,7 +25,6 @@ use json::validation::USize64;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-use told::Told;
 use writer::GltfWriter;
 
 /// An asset, ready to be written.

@@ -2,48 +2,9 @@
 
 use super::writer::GltfWriter;
 use crate::diag::codes;
-use crate::ir::{Bump, Map, Phong, Place, Standard, TextureId};
-use crate::standard::{PhongTerms, fit_phong};
+use crate::ir::{Bump, Phong, Place};
 use gltf::json::Value;
 use serde_json::{Map as Block, json};
-
-/// The material of glTF that comes nearest, as traced paths show Phong's model. But for what
-/// refracts, its index of refraction is that of glTF's dielectric: Phong's speaks of rays that go
-/// through, and where none do it would be a surface without highlights.
-pub(super) fn nearest(phong: &Phong) -> Standard {
-    let fit = fit_phong(&PhongTerms {
-        color: phong.color,
-        kd: phong.kd,
-        ks: phong.ks,
-        n: phong.n,
-        kt: phong.kt,
-        eta: phong.eta,
-    });
-    let [r, g, b] = fit.base_color;
-    let map = |texture: Option<TextureId>| {
-        texture.map(|texture| Map {
-            texture,
-            set: 0,
-            texture_from_surface: None,
-        })
-    };
-    let default = Standard::default();
-    let refracts = fit.transmission > 0.0;
-    Standard {
-        base_color: [r, g, b, 1.0],
-        base_color_map: map(phong.color_map),
-        normal_map: map(phong.normal_map),
-        metallic: fit.metallic,
-        roughness: fit.roughness,
-        specular: fit.specular,
-        transmission: fit.transmission,
-        thickness: fit.thickness,
-        ior: if refracts { fit.ior } else { default.ior },
-        // A volume has one side, and both of anything else are seen.
-        double_sided: !refracts,
-        ..default
-    }
-}
 
 impl GltfWriter<'_> {
     /// The weights and maps of Phong's model for `extras.rtc`.

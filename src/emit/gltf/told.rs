@@ -1,39 +1,13 @@
-//! What is told of a scene that is written as glTF.
+//! What is told of values that only rtc reads from an asset.
 
-use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
-use crate::ir::{Origins, Place};
+use crate::diag::codes;
+use crate::emit::told::Told;
+use crate::ir::Place;
 
-/// Takes the findings about a scene.
-pub(super) struct Told<'t> {
-    origins: &'t Origins,
-    sink: &'t mut Sink,
-}
-
-impl<'t> Told<'t> {
-    pub(super) fn new(origins: &'t Origins, sink: &'t mut Sink) -> Self {
-        Self { origins, sink }
-    }
-
-    /// Tells of something in the scene.
-    pub(super) fn tell(&mut self, code: &'static Code, message: &str, place: Place) {
-        self.push(Diagnostic::new(code, message), place);
-    }
-
-    /// Tells why the scene is not written.
-    pub(super) fn refuse(&mut self, code: &'static Code, message: &str, place: Place) {
-        let finding = Diagnostic::new(code, message).severity(Severity::Error);
-        self.push(finding, place);
-    }
-
+impl Told<'_> {
     /// Tells of a value that stands in `extras.rtc`; `what` says what the value is.
     pub(super) fn own_words(&mut self, what: &str, place: Place) {
         let message = format!("{what} stands in `extras.rtc`, where only rtc reads it");
         self.tell(&codes::GLTF_OWN_WORDS, &message, place);
-    }
-
-    fn push(&mut self, finding: Diagnostic, place: Place) {
-        let span = self.origins.span(place);
-        self.sink
-            .push(finding.at(span, "this").pointer(place.to_string()));
     }
 }

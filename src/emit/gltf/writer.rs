@@ -3,8 +3,8 @@
 
 use super::material::MaterialKey;
 use super::mesh::MeshAccessors;
-use super::told::Told;
 use crate::emit::beside;
+use crate::emit::told::Told;
 use crate::ir::{ImageId, Scene};
 use crate::source::{Budget, uri_path};
 use gltf::json;

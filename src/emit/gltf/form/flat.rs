@@ -5,30 +5,12 @@
 use super::ShapeForm;
 use super::draft::{DraftVertex, MeshDraft, fraction};
 use super::fineness::Fineness;
+use crate::emit::flat::{split, square};
 use crate::ir::{Ball, Column, Mesh, Plane, Quad, Triangle};
-use crate::math::{Basis, Vec3, cross, is_flat, unit};
+use crate::math::{Vec3, is_flat};
 
-/// How far a plane goes on, in radii of the scene.
-const PLANE: f64 = 4.0;
-
-/// Half the side of the square that a plane is cut to.
-pub(super) fn side(around: Ball) -> f64 {
-    PLANE * around.radius
-}
-
-/// A square around the point of the plane that is nearest to the middle of the scene.
 pub(super) fn plane(plane: &Plane, around: Ball) -> ShapeForm {
-    let Plane { center, normal } = plane;
-    let basis = Basis::around(unit(Vec3::from_array(*normal)).unwrap_or(Vec3::Z));
-    let above = (around.center - Vec3::from_array(*center)).dot(basis.normal);
-    let middle = around.center - basis.normal * above;
-    let (x, y) = (basis.tangent * side(around), basis.bitangent * side(around));
-    let corners = [
-        middle - x - y,
-        middle + x - y,
-        middle + x + y,
-        middle - x + y,
-    ];
+    let corners = square(plane, around);
     flat(&corners, Vec::new(), vec![[0, 1, 2], [0, 2, 3]])
 }
 
@@ -69,18 +51,6 @@ pub(super) fn quad(quad: &Quad, steps: u32) -> ShapeForm {
         }
     });
     ShapeForm::Own(Box::new(draft.mesh(true)))
-}
-
-/// The halves of a flat quadrilateral along the diagonal that lies in it.
-fn split(corners: [Vec3; 4]) -> Vec<[u32; 3]> {
-    let normal = |[a, b, c]: [u32; 3]| {
-        let [a, b, c] = [a, b, c].map(|corner| corners[corner as usize]);
-        cross(b - a, c - a)
-    };
-    let splits = [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]];
-    let inside = |split: &[[u32; 3]; 2]| normal(split[0]).dot(normal(split[1])) >= 0.0;
-    let split = splits.into_iter().find(inside).unwrap_or(splits[0]);
-    split.to_vec()
 }
 
 /// A mesh without normals, which is flat.

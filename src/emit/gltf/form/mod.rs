@@ -8,12 +8,13 @@ mod fineness;
 mod flat;
 mod round;
 
-use super::told::Told;
 use crate::diag::codes;
+use crate::emit::flat::{around, side};
+use crate::emit::told::Told;
 use crate::ir::{
     Ball, Field, Instance, Mesh, MeshId, Noun, Place, Scene, Shape, ShapeKind, Surface,
 };
-use crate::math::{Vec3, shortest};
+use crate::math::shortest;
 use crate::source::{Budget, Resource};
 use fineness::Fineness;
 use glam::DAffine3;
@@ -60,20 +61,6 @@ pub(super) fn only_meshes(
         meshes: maker.meshes,
         ..scene.clone()
     })
-}
-
-/// A ball around all that has an end, and the eye: what planes are cut by.
-fn around(scene: &Scene) -> Ball {
-    let eye = Vec3::from_array(scene.camera.eye);
-    let gaze = Vec3::from_array(scene.camera.center) - eye;
-    let ball = scene.ball().unwrap_or(Ball {
-        center: eye,
-        radius: gaze.length(),
-    });
-    Ball {
-        radius: ball.radius.max(ball.center.distance(eye)),
-        ..ball
-    }
 }
 
 /// Makes meshes of shapes.
@@ -154,7 +141,7 @@ impl Maker<'_> {
             ShapeKind::Triangle | ShapeKind::Instance => return,
             ShapeKind::Plane => format!(
                 "glTF has no plane: what is written is a square {} wide",
-                shortest(2.0 * flat::side(self.around))
+                shortest(2.0 * side(self.around))
             ),
             ShapeKind::Sphere
             | ShapeKind::Quad

@@ -1,0 +1,53 @@
+//! What has corners or no end: squares in place of planes, triangles in place of quadrilaterals.
+
+use crate::ir::{Ball, Plane, Scene};
+use crate::math::{Basis, Vec3, cross, unit};
+
+/// How far a plane goes on, in radii of the scene.
+const PLANE: f64 = 4.0;
+
+/// Half the side of the square that a plane is cut to.
+pub(super) fn side(around: Ball) -> f64 {
+    PLANE * around.radius
+}
+
+/// A ball around all that has an end, and the eye: what planes are cut by.
+pub(super) fn around(scene: &Scene) -> Ball {
+    let eye = Vec3::from_array(scene.camera.eye);
+    let gaze = Vec3::from_array(scene.camera.center) - eye;
+    let ball = scene.ball().unwrap_or(Ball {
+        center: eye,
+        radius: gaze.length(),
+    });
+    Ball {
+        radius: ball.radius.max(ball.center.distance(eye)),
+        ..ball
+    }
+}
+
+/// A square around the point of a plane that is nearest to the middle of the scene.
+pub(super) fn square(plane: &Plane, around: Ball) -> [Vec3; 4] {
+    let Plane { center, normal } = plane;
+    let basis = Basis::around(unit(Vec3::from_array(*normal)).unwrap_or(Vec3::Z));
+    let above = (around.center - Vec3::from_array(*center)).dot(basis.normal);
+    let middle = around.center - basis.normal * above;
+    let (x, y) = (basis.tangent * side(around), basis.bitangent * side(around));
+    [
+        middle - x - y,
+        middle + x - y,
+        middle + x + y,
+        middle - x + y,
+    ]
+}
+
+/// The halves of a flat quadrilateral along the diagonal that lies in it.
+pub(super) fn split(corners: [Vec3; 4]) -> Vec<[u32; 3]> {
+    let normal = |[a, b, c]: [u32; 3]| {
+        let [a, b, c] = [a, b, c].map(|corner| corners[corner as usize]);
+        cross(b - a, c - a)
+    };
+    let splits = [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]];
+    let inside = |split: &[[u32; 3]; 2]| normal(split[0]).dot(normal(split[1])) >= 0.0;
+    let split = splits.into_iter().find(inside).unwrap_or(splits[0]);
+    split.to_vec()
+}

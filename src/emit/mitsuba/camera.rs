@@ -1,0 +1,141 @@
+//! The camera: any frustum of square pixels, a thin lens, or rays side by side.
+
+use super::MitsubaWriter;
+use crate::emit::flat::{around, side};
+use crate::emit::twin::joined;
+use crate::ir::{Camera, Field, Noun, Place, Projection};
+use crate::math::{Vec3, length, shortest, unit};
+
+/// How far the sides of a pixel may differ, as a share, for it to be square.
+const SQUARE: f64 = 1e-9;
+/// How far the middle of the picture may be from the axis to be on it, in halves of the picture.
+const CENTERED: f64 = 1e-12;
+
+impl MitsubaWriter<'_> {
+    /// Mitsuba's camera looks along its z axis, y up, x to the left.
+    pub(super) fn camera(&mut self) {
+        let scene = self.scene;
+        let Camera {
+            eye,
+            center,
+            right,
+            up,
+            size: [width, height],
+            lens,
+            projection,
+        } = &scene.camera;
+        let [eye, center, right, up] = [*eye, *center, *right, *up].map(Vec3::from_array);
+        let [x, y] = [right, up].map(|step| unit(step).unwrap_or(Vec3::X));
+        let across = unit(x.cross(y)).unwrap_or(Vec3::Z);
+        let z = if across.dot(center - eye) < 0.0 {
+            -across
+        } else {
+            across
+        };
+        self.square_pixels(length(right), length(up));
+        let distance = (center - eye).dot(z);
+        let half = [
+            length(right) * f64::from(*width) / 2.0,
+            length(up) * f64::from(*height) / 2.0,
+        ];
+        let middle = center - (eye + z * distance);
+        let shift = [middle.dot(x) / half[0], middle.dot(y) / half[1]];
+        let is_lens = lens.radius > 0.0;
+        match projection {
+            Projection::Perspective => {
+                self.perspective(is_lens, shift);
+                if is_lens {
+                    self.value(2, "float", "aperture_radius", &shortest(lens.radius));
+                    self.value(2, "float", "focus_distance", &shortest(distance));
+                }
+                self.placed([-x, y, z, eye]);
+            }
+            Projection::Orthographic => self.orthographic([x, y, z], half[0], (eye, center)),
+        }
+        self.clips();
+        self.film([*width, *height]);
+    }
+
+    /// Mitsuba cuts rays off near the camera and far from it: within a millionth of the scene, and
+    /// beyond the squares that stand for planes.
+    fn clips(&mut self) {
+        let around = around(self.scene);
+        self.value(2, "float", "near_clip", &shortest(1e-6 * around.radius));
+        self.value(2, "float", "far_clip", &shortest(4.0 * side(around)));
+    }
+
+    fn square_pixels(&mut self, right: f64, up: f64) {
+        if (right / up - 1.0).abs() > SQUARE {
+            let message = "pixels are not square: Mitsuba's are, as high as these";
+            let place = Place::new(Noun::Camera, 0, Field::Whole);
+            self.told.no_twin(message, place);
+        }
+    }
+
+    /// Opens the sensor; its picture may have its middle beside the axis, by halves of the picture.
+    fn perspective(&mut self, is_lens: bool, [x, y]: [f64; 2]) {
+        let kind = if is_lens { "thinlens" } else { "perspective" };
+        self.line(1, &format!(r#"<sensor type="{kind}">"#));
+        let degrees = self.scene.camera.yfov().map_or(0.0, f64::to_degrees);
+        self.value(2, "string", "fov_axis", "y");
+        self.value(2, "float", "fov", &shortest(degrees));
+        match (x.abs().max(y.abs()) > CENTERED, is_lens) {
+            (false, _) => {}
+            (true, false) => {
+                let (x, y) = (shortest(x / 2.0), shortest(-y / 2.0));
+                self.value(2, "float", "principal_point_offset_x", &x);
+                self.value(2, "float", "principal_point_offset_y", &y);
+            }
+            (true, true) => {
+                let message = "a lens looks past the middle of the picture: Mitsuba's does not";
+                let place = Place::new(Noun::Camera, 0, Field::Whole);
+                self.told.no_twin(message, place);
+            }
+        }
+    }
+
+    /// Mitsuba's picture goes from −1 to 1 across.
+    fn orthographic(&mut self, [x, y, z]: [Vec3; 3], half: f64, (eye, center): (Vec3, Vec3)) {
+        if unit(center - eye).is_some_and(|gaze| gaze.distance(z) > SQUARE) {
+            let message = "rays come slantwise through the picture: Mitsuba's come straight";
+            let place = Place::new(Noun::Camera, 0, Field::Whole);
+            self.told.no_twin(message, place);
+        }
+        self.line(1, r#"<sensor type="orthographic">"#);
+        self.placed([-x * half, y * half, z, eye]);
+    }
+
+    /// The map from what is written to the world, by its columns.
+    pub(super) fn placed(&mut self, columns: [Vec3; 4]) {
+        self.line(2, r#"<transform name="to_world">"#);
+        self.line(3, &matrix(columns));
+        self.line(2, "</transform>");
+    }
+
+    fn film(&mut self, [width, height]: [u32; 2]) {
+        self.line(2, r#"<film type="hdrfilm">"#);
+        self.value(3, "integer", "width", &width.to_string());
+        self.value(3, "integer", "height", &height.to_string());
+        self.value(3, "string", "pixel_format", "rgb");
+        self.value(3, "string", "component_format", "float32");
+        self.line(3, r#"<rfilter type="box"/>"#);
+        self.line(2, "</film>");
+        self.line(2, r#"<sampler type="$sampler">"#);
+        self.value(3, "integer", "sample_count", "$spp");
+        self.line(2, "</sampler>");
+        self.line(1, "</sensor>");
+    }
+}
+
+/// An affine map by its columns, as rows.
+fn matrix(columns: [Vec3; 4]) -> String {
+    let row = |k: usize| {
+        let [a, b, c, d] = columns.map(|column| column[k]);
+        [a, b, c, d]
+    };
+    let rows = [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]];
+    format!(
+        r#"<matrix value="{}"/>"#,
+        joined(rows.into_iter().flatten(), " ")
+    )
+}

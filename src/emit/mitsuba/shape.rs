@@ -1,0 +1,226 @@
+//! Surfaces: spheres, cylinders, discs, meshes; what has corners is one mesh for each material.
+
+use super::MitsubaWriter;
+use super::material::standard;
+use crate::emit::flat::{around, side, split, square};
+use crate::emit::twin::{joined, word};
+use crate::emit::{beside, ply};
+use crate::ir::{
+    Ball, Column, Cylinder, Disc, Field, Instance, Mesh, MeshId, Noun, Place, Shape, Sphere,
+    Surface,
+};
+use crate::math::{Basis, Vec3, is_flat, shortest, unit};
+use xxhash_rust::xxh3::xxh3_64;
+
+/// Bytes of the head of a PLY, and of what it has for a triangle.
+const HEAD: u64 = 512;
+const TRIANGLE: u64 = 13;
+
+/// Triangles with corners of their own, in the world.
+#[derive(Default)]
+pub(super) struct Soup {
+    corners: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Soup {
+    fn add(&mut self, corners: &[Vec3], triangles: &[[u32; 3]]) {
+        let first = u32::try_from(self.corners.len()).unwrap_or(u32::MAX);
+        self.corners.extend(corners.iter().map(Vec3::to_array));
+        let moved = triangles
+            .iter()
+            .map(|corners| corners.map(|corner| first.saturating_add(corner)));
+        self.triangles.extend(moved);
+    }
+}
+
+impl MitsubaWriter<'_> {
+    /// Writes all surfaces; `None` if a mesh takes too much, which is told.
+    pub(super) fn surfaces(&mut self) -> Option<()> {
+        let (scene, around) = (self.scene, around(self.scene));
+        for (index, surface) in scene.surfaces.iter().enumerate() {
+            let place = Place::new(Noun::Surface, index, Field::Whole);
+            self.surface(surface, around, place)?;
+        }
+        for (material, Soup { corners, triangles }) in std::mem::take(&mut self.soups) {
+            let mesh = Mesh {
+                positions: Column::from(corners),
+                triangles: triangles.into(),
+                ..Mesh::default()
+            };
+            let place = Place::new(Noun::Material, material as usize, Field::Whole);
+            let name = self.ply("triangles", &mesh, place)?;
+            self.mesh(&name, true, None, material);
+        }
+        Some(())
+    }
+
+    fn surface(&mut self, surface: &Surface, around: Ball, place: Place) -> Option<()> {
+        let material = surface.material.0;
+        match &surface.shape {
+            Shape::Sphere(sphere) => self.sphere(sphere, material),
+            Shape::Cylinder(cylinder) => self.cylinder(cylinder, material),
+            Shape::Disc(disc) => self.disc(disc, material),
+            Shape::Plane(plane) => {
+                let width = shortest(2.0 * side(around));
+                let message = format!("Mitsuba has no plane: a square {width} wide stands for it");
+                self.told.no_twin(&message, place);
+                self.corners(&square(plane, around), &[[0, 1, 2], [0, 2, 3]], material);
+            }
+            Shape::Triangle(triangle) => {
+                let corners = triangle.vertices.map(Vec3::from_array);
+                self.corners(&corners, &[[0, 1, 2]], material);
+            }
+            Shape::Quad(quad) if is_flat(quad.vertices.map(Vec3::from_array)) => {
+                let corners = quad.vertices.map(Vec3::from_array);
+                self.corners(&corners, &split(corners), material);
+            }
+            Shape::Instance(instance) => return self.instance(instance, material, place),
+            Shape::Quad(_) | Shape::Cone(_) | Shape::Paraboloid(_) | Shape::Torus(_) => {
+                let message = format!("Mitsuba has no {}: it is left out", word(&surface.shape));
+                self.told.no_twin(&message, place);
+                return Some(());
+            }
+        }
+        self.shines_outwards(material, place);
+        Some(())
+    }
+
+    /// Tells of a surface that shines: on both sides here.
+    fn shines_outwards(&mut self, material: u32, place: Place) {
+        if self.emitted(material) != [0.0; 3] {
+            let message = "Mitsuba's emitters shine to the front alone, or outwards: this one shines \
+                           both ways";
+            self.told.no_twin(message, place);
+        }
+    }
+
+    fn emitted(&self, material: u32) -> [f64; 3] {
+        standard(&self.scene.materials[material as usize]).emissive
+    }
+
+    fn corners(&mut self, corners: &[Vec3], triangles: &[[u32; 3]], material: u32) {
+        let soup = self.soups.entry(material).or_default();
+        soup.add(corners, triangles);
+    }
+
+    /// Opens a shape, has its own values written, and ends it with what all have.
+    fn shape(&mut self, kind: &str, material: u32, own: impl FnOnce(&mut Self)) {
+        self.line(1, &format!(r#"<shape type="{kind}">"#));
+        own(self);
+        self.line(2, &format!(r#"<ref id="m{material}"/>"#));
+        let emitted = self.emitted(material);
+        if emitted != [0.0; 3] {
+            self.line(2, r#"<emitter type="area">"#);
+            self.rgb(3, "radiance", emitted);
+            self.line(2, "</emitter>");
+        }
+        self.line(1, "</shape>");
+    }
+
+    fn sphere(&mut self, sphere: &Sphere, material: u32) {
+        self.shape("sphere", material, |text| {
+            text.value(2, "point", "center", &joined(sphere.center, ", "));
+            text.value(2, "float", "radius", &shortest(sphere.radius));
+        });
+    }
+
+    /// Mitsuba's cylinder is open at both ends.
+    fn cylinder(&mut self, cylinder: &Cylinder, material: u32) {
+        let Cylinder {
+            base,
+            axis,
+            height,
+            radius,
+        } = cylinder;
+        let base = Vec3::from_array(*base);
+        let axis = unit(Vec3::from_array(*axis)).unwrap_or(Vec3::Z);
+        let top = base + axis * *height;
+        self.shape("cylinder", material, |text| {
+            text.value(2, "point", "p0", &joined(base.to_array(), ", "));
+            text.value(2, "point", "p1", &joined(top.to_array(), ", "));
+            text.value(2, "float", "radius", &shortest(*radius));
+        });
+        for (center, normal) in [(base, -axis), (top, axis)] {
+            let cap = Disc {
+                center: center.to_array(),
+                normal: normal.to_array(),
+                radius: *radius,
+            };
+            self.disc(&cap, material);
+        }
+    }
+
+    /// Mitsuba's disc has the radius 1, about the z axis.
+    fn disc(&mut self, disc: &Disc, material: u32) {
+        let normal = unit(Vec3::from_array(disc.normal)).unwrap_or(Vec3::Z);
+        let basis = Basis::around(normal);
+        let columns = [
+            basis.tangent * disc.radius,
+            basis.bitangent * disc.radius,
+            normal,
+            Vec3::from_array(disc.center),
+        ];
+        self.shape("disk", material, |text| text.placed(columns));
+    }
+
+    fn instance(&mut self, instance: &Instance, material: u32, place: Place) -> Option<()> {
+        let Instance {
+            mesh: id,
+            world_from_object,
+        } = instance;
+        let mesh = &self.scene.meshes[id.0 as usize];
+        if mesh.triangles.is_empty() {
+            return Some(());
+        }
+        if !mesh.colors.is_empty() {
+            let message = "the colours of the corners of a mesh are left out";
+            self.told.no_twin(message, place);
+        }
+        let name = self.file_of(*id)?;
+        let columns = world_from_object.map(Vec3::from_array);
+        self.mesh(&name, mesh.normals.is_empty(), Some(columns), material);
+        self.shines_outwards(material, place);
+        Some(())
+    }
+
+    fn mesh(&mut self, name: &str, is_flat: bool, world: Option<[Vec3; 4]>, material: u32) {
+        self.shape("ply", material, |text| {
+            text.value(2, "string", "filename", name);
+            if is_flat {
+                text.value(2, "boolean", "face_normals", "true");
+            }
+            if let Some(columns) = world {
+                text.placed(columns);
+            }
+        });
+    }
+
+    /// The file of a mesh, which is written once.
+    fn file_of(&mut self, id: MeshId) -> Option<String> {
+        if let Some(name) = self.meshes.get(&id.0) {
+            return Some(name.clone());
+        }
+        let mesh = &self.scene.meshes[id.0 as usize];
+        let bare = Mesh {
+            positions: mesh.positions.clone(),
+            normals: mesh.normals.clone(),
+            triangles: mesh.triangles.clone(),
+            ..Mesh::default()
+        };
+        let place = Place::new(Noun::Mesh, id.0 as usize, Field::Whole);
+        let name = self.ply(&mesh.name, &bare, place)?;
+        self.meshes.insert(id.0, name.clone());
+        Some(name)
+    }
+
+    fn ply(&mut self, of: &str, mesh: &Mesh, place: Place) -> Option<String> {
+        let columns = mesh.positions.bytes() + mesh.normals.bytes();
+        let bytes = columns as u64 + TRIANGLE * mesh.triangles.len() as u64 + HEAD;
+        self.told.charge(bytes, self.budget, place)?;
+        let bytes = ply::encode(mesh);
+        let name = beside::path(self.folder, of, "mesh", xxh3_64(&bytes), "ply");
+        self.files.insert(name.clone(), bytes);
+        Some(name)
+    }
+}

@@ -1,0 +1,167 @@
+//! The IR as a scene of POV-Ray 3.7: the parts of the course's scenes that POV-Ray shows just so,
+//! in Phong's model. What has no exact twin there is told, with what stands for it.
+
+mod material;
+mod shape;
+
+use super::TwinScene;
+use super::told::Told;
+use super::twin::joined;
+use crate::diag::Sink;
+use crate::ir::{
+    Camera, Display, Field, Light, Mode, Noun, Origins, Pattern, Place, PointLight, Projection,
+    Scene, Settings,
+};
+use crate::math::Vec3;
+use crate::source::Budget;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// Writes a proven scene. `None` if its meshes take too much, which the sink says. It also has a
+/// warning for each part that has no exact twin.
+pub fn emit(
+    scene: &Scene,
+    origins: &Origins,
+    budget: &Budget,
+    sink: &mut Sink,
+) -> Option<TwinScene> {
+    let mut writer = PovWriter {
+        scene,
+        budget,
+        told: Told::new(origins, sink),
+        text: String::new(),
+    };
+    writer.settings();
+    writer.camera();
+    writer.lights();
+    writer.materials();
+    writer.surfaces()?;
+    Some(TwinScene {
+        text: writer.text,
+        files: BTreeMap::new(),
+    })
+}
+
+/// The scene so far.
+struct PovWriter<'w> {
+    scene: &'w Scene,
+    budget: &'w Budget,
+    told: Told<'w>,
+    text: String,
+}
+
+impl PovWriter<'_> {
+    fn line(&mut self, content: &str) {
+        writeln!(self.text, "{content}").expect("a string takes all that is written to it");
+    }
+
+    /// POV-Ray counts the ray of the camera as a level, and ends rays that would add less than
+    /// `adc_bailout`.
+    fn settings(&mut self) {
+        /// Of levels of reflection, and of samples across a pixel.
+        const MOST: [u32; 2] = [256, 9];
+        let Settings {
+            mode,
+            shadows: _,
+            max_depth,
+            supersampling,
+            pattern,
+            light_samples: _,
+            toon,
+        } = &self.scene.settings;
+        let [width, height] = self.scene.camera.size;
+        let across = (*supersampling).min(MOST[1]);
+        let samples = match (across, pattern) {
+            (1, _) => String::new(),
+            (factor, Pattern::Grid) => format!(" +A0.0 +AM1 +R{factor} -J"),
+            (factor, _) => format!(" +A0.0 +AM1 +R{factor} +J"),
+        };
+        let place = Place::new(Noun::Settings, 0, Field::Mode);
+        if *mode != Mode::Phong || *toon {
+            let message = "POV-Ray shows Phong's model, and this scene is shown in another way";
+            self.told.no_twin(message, place);
+        }
+        let levels = max_depth.saturating_add(1);
+        if levels > MOST[0] || *supersampling > MOST[1] {
+            let message = "POV-Ray follows at most 256 levels, and takes at most 9 × 9 samples";
+            self.told.no_twin(message, place);
+        }
+        let Display { exposure, tone } = &self.scene.display;
+        if *exposure != 0.0 || tone.is_some() {
+            let message = "exposure and tone map are left out";
+            self.told.no_twin(message, place);
+        }
+        self.line(&format!(
+            "// povray +W{width} +H{height} +FN File_Gamma=1.0{samples}\n#version 3.7;"
+        ));
+        let levels = levels.min(MOST[0]);
+        self.line(&format!(
+            "global_settings {{ assumed_gamma 1 ambient_light rgb 1 max_trace_level {levels} \
+             adc_bailout 0 }}"
+        ));
+    }
+
+    /// POV-Ray's camera takes the picture by its sides, so any frustum is said exactly.
+    fn camera(&mut self) {
+        let Camera {
+            eye,
+            center,
+            right,
+            up,
+            size: [width, height],
+            lens,
+            projection,
+        } = &self.scene.camera;
+        let [right, up] = [(right, width), (up, height)]
+            .map(|(step, count)| Vec3::from_array(*step) * f64::from(*count));
+        let gaze = Vec3::from_array(*center) - Vec3::from_array(*eye);
+        let kind = match projection {
+            Projection::Perspective => "perspective",
+            Projection::Orthographic => "orthographic",
+        };
+        if lens.radius > 0.0 {
+            let message = "the lens is left out: POV-Ray blurs by another pattern";
+            let place = Place::new(Noun::Camera, 0, Field::Whole);
+            self.told.no_twin(message, place);
+        }
+        let [right, up, gaze] = [right, up, gaze].map(|v| vector(v.to_array()));
+        let eye = vector(*eye);
+        self.line(&format!(
+            "camera {{ {kind} location {eye} direction {gaze} right {right} up {up} }}"
+        ));
+    }
+
+    fn lights(&mut self) {
+        let scene = self.scene;
+        if scene.environment.is_some() {
+            let message = "the surroundings are left out";
+            let place = Place::new(Noun::Environment, 0, Field::Whole);
+            self.told.no_twin(message, place);
+        }
+        let shining = scene.lights.iter().enumerate();
+        for (index, light) in shining.filter(|(_, light)| light.shines()) {
+            let place = Place::new(Noun::Light, index, Field::Whole);
+            let Light::Point(PointLight {
+                position,
+                color,
+                radius,
+            }) = light
+            else {
+                let message = "a light in physical units is left out";
+                self.told.no_twin(message, place);
+                continue;
+            };
+            if *radius > 0.0 && scene.settings.light_samples > 1 {
+                let message = "a soft light is written as the point in its middle";
+                self.told.no_twin(message, place);
+            }
+            let (position, color) = (vector(*position), vector(*color));
+            self.line(&format!("light_source {{ {position}, rgb {color} }}"));
+        }
+    }
+}
+
+/// A vector of POV-Ray's.
+fn vector(numbers: impl IntoIterator<Item = f64>) -> String {
+    format!("<{}>", joined(numbers, ", "))
+}

@@ -1,0 +1,177 @@
+//! Surfaces: all shapes but bilinear patches and paraboloids; meshes with all their corners.
+
+use super::{PovWriter, vector};
+use crate::emit::flat::split;
+use crate::emit::twin::word;
+use crate::ir::{
+    Column, Cone, Cylinder, Disc, Field, Instance, Mesh, Noun, Place, Plane, Quad, Shape, Sphere,
+    Surface, Torus, Triangle,
+};
+use crate::math::{Basis, Vec3, is_flat, shortest, unit};
+use std::fmt::Write as _;
+
+/// The most bytes that three numbers, or three indices, take as text.
+const TRIPLE: u64 = 80;
+
+impl PovWriter<'_> {
+    /// Writes all surfaces; `None` if a mesh takes too much, which is told.
+    pub(super) fn surfaces(&mut self) -> Option<()> {
+        let scene = self.scene;
+        let mut declared = vec![false; scene.meshes.len()];
+        for (index, surface) in scene.surfaces.iter().enumerate() {
+            let place = Place::new(Noun::Surface, index, Field::Whole);
+            if let Shape::Instance(Instance { mesh, .. }) = &surface.shape {
+                let at = mesh.0 as usize;
+                if !std::mem::replace(&mut declared[at], true) {
+                    self.declare(at, &scene.meshes[at])?;
+                }
+            }
+            self.surface(surface, place);
+        }
+        Some(())
+    }
+
+    fn surface(&mut self, surface: &Surface, place: Place) {
+        let Surface {
+            shape,
+            material,
+            casts_no_shadow,
+        } = surface;
+        if self.is_empty(shape) {
+            return;
+        }
+        let Some(form) = self.form(shape) else {
+            let message = format!("POV-Ray has no {}: it is left out", word(shape));
+            self.told.no_twin(&message, place);
+            return;
+        };
+        let is_dark = self.scene.settings.shadows && !casts_no_shadow;
+        let shadow = if is_dark { "" } else { " no_shadow" };
+        self.line(&format!("{form} texture {{ M{} }}{shadow} }}", material.0));
+    }
+
+    /// Whether it is of a mesh without triangles.
+    fn is_empty(&self, shape: &Shape) -> bool {
+        let meshes = &self.scene.meshes;
+        matches!(shape, Shape::Instance(own) if meshes[own.mesh.0 as usize].triangles.is_empty())
+    }
+
+    /// A shape but for its end; none if POV-Ray has no such shape.
+    fn form(&self, shape: &Shape) -> Option<String> {
+        Some(match shape {
+            Shape::Sphere(Sphere { center, radius, .. }) => {
+                format!("sphere {{ {}, {}", vector(*center), shortest(*radius))
+            }
+            Shape::Plane(Plane { center, normal }) => {
+                let normal = direction(*normal);
+                let distance = normal.dot(Vec3::from_array(*center));
+                let normal = vector(normal.to_array());
+                format!("plane {{ {normal}, {}", shortest(distance))
+            }
+            Shape::Triangle(Triangle { vertices, .. }) => {
+                format!("triangle {{ {}", corners(vertices))
+            }
+            Shape::Quad(quad) => self::quad(quad)?,
+            Shape::Disc(Disc {
+                center,
+                normal,
+                radius,
+            }) => {
+                let (center, normal) = (vector(*center), vector(*normal));
+                format!("disc {{ {center}, {normal}, {}", shortest(*radius))
+            }
+            Shape::Cylinder(cylinder) => self::cylinder(cylinder),
+            Shape::Cone(Cone { base, up, radius }) => {
+                let base = Vec3::from_array(*base);
+                let apex = vector((base + Vec3::from_array(*up)).to_array());
+                let base = vector(base.to_array());
+                format!("cone {{ {base}, {}, {apex}, 0", shortest(*radius))
+            }
+            Shape::Torus(torus) => self::torus(torus),
+            Shape::Instance(Instance {
+                mesh,
+                world_from_object,
+            }) => {
+                let columns = vector(world_from_object.iter().flatten().copied());
+                format!("object {{ Mesh{} matrix {columns}", mesh.0)
+            }
+            Shape::Paraboloid(_) => return None,
+        })
+    }
+
+    /// Writes a mesh, to be placed by its instances; `None` if it takes too much, which is told.
+    fn declare(&mut self, index: usize, mesh: &Mesh) -> Option<()> {
+        let place = Place::new(Noun::Mesh, index, Field::Whole);
+        if !mesh.colors.is_empty() {
+            let message = "the colours of the corners of a mesh are left out";
+            self.told.no_twin(message, place);
+        }
+        let lines = mesh.positions.len() + mesh.normals.len() + mesh.triangles.len();
+        self.told
+            .charge(TRIPLE * lines as u64, self.budget, place)?;
+        if mesh.triangles.is_empty() {
+            return Some(());
+        }
+        self.line(&format!("#declare Mesh{index} = mesh2 {{"));
+        self.vectors("vertex_vectors", &mesh.positions);
+        if !mesh.normals.is_empty() {
+            self.vectors("normal_vectors", &mesh.normals);
+        }
+        let faces = mesh.triangles.iter();
+        let faces = faces.map(|[a, b, c]| format!("<{a}, {b}, {c}>"));
+        self.list("face_indices", mesh.triangles.len(), faces);
+        self.line("}");
+        Some(())
+    }
+
+    fn vectors(&mut self, key: &str, column: &Column<3>) {
+        let each = (0..column.len()).map(|index| vector(column.at(index)));
+        self.list(key, column.len(), each);
+    }
+
+    fn list(&mut self, key: &str, count: usize, each: impl Iterator<Item = String>) {
+        write!(self.text, "{key} {{ {count}").expect("a string takes all that is written to it");
+        for item in each {
+            self.text += ",\n";
+            self.text += &item;
+        }
+        self.line(" }");
+    }
+}
+
+fn direction(numbers: [f64; 3]) -> Vec3 {
+    unit(Vec3::from_array(numbers)).unwrap_or(Vec3::Z)
+}
+
+fn corners(corners: &[[f64; 3]]) -> String {
+    let corners: Vec<_> = corners.iter().map(|corner| vector(*corner)).collect();
+    corners.join(", ")
+}
+
+/// Two triangles, if it is flat.
+fn quad(quad: &Quad) -> Option<String> {
+    let places = quad.vertices.map(Vec3::from_array);
+    let halves = split(places);
+    let halves = halves.iter().map(|half| {
+        let half = half.map(|corner| quad.vertices[corner as usize]);
+        format!("triangle {{ {} }}", corners(&half))
+    });
+    is_flat(places).then(|| format!("mesh {{ {}", halves.collect::<Vec<_>>().join(" ")))
+}
+
+fn cylinder(cylinder: &Cylinder) -> String {
+    let base = Vec3::from_array(cylinder.base);
+    let top = base + direction(cylinder.axis) * cylinder.height;
+    let (base, top) = (vector(base.to_array()), vector(top.to_array()));
+    format!("cylinder {{ {base}, {top}, {}", shortest(cylinder.radius))
+}
+
+/// POV-Ray's torus lies about the y axis.
+fn torus(torus: &Torus) -> String {
+    let basis = Basis::around(direction(torus.axis));
+    let columns = [basis.bitangent, basis.normal, basis.tangent];
+    let columns = columns.iter().flat_map(Vec3::to_array);
+    let columns = vector(columns.chain(torus.center));
+    let (major, minor) = (shortest(torus.major), shortest(torus.minor));
+    format!("torus {{ {major}, {minor} matrix {columns}")
+}

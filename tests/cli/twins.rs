@@ -1,0 +1,149 @@
+//! `rtc compile --emit mitsuba` and `--emit pov`: what is written, and that all else is told.
+
+use super::*;
+
+/// A scene as a file of another renderer, and what was said of it.
+fn written(scene: &str, target: &str) -> (TempDir, String, String) {
+    let folder = folder();
+    fs::write(folder.path().join("scene.yaml"), scene).unwrap();
+    let done = rtc(&folder, &["compile", "scene.yaml", "-o", target]);
+    let told = stderr(&done);
+    assert_eq!(code(&done), 0, "{told}");
+    let text = fs::read_to_string(folder.path().join(target)).unwrap();
+    (folder, text, told)
+}
+
+#[test]
+fn a_scene_of_the_course_becomes_one_of_pov_ray() {
+    let folder = folder();
+    let done = rtc(&folder, &["compile", "ball.json", "--emit", "pov"]);
+    assert_eq!((code(&done), stderr(&done)), (0, String::new()));
+    let expected = "\
+// povray +W40 +H30 +FN File_Gamma=1.0 +A0.0 +AM1 +R2 -J
+#version 3.7;
+global_settings { assumed_gamma 1 ambient_light rgb 1 max_trace_level 2 adc_bailout 0 }
+camera { perspective location <0, 0, 50> direction <0, 0, -50> right <40, 0, 0> up <0, 30, 0> }
+light_source { <30, 40, 60>, rgb <1, 1, 1> }
+#declare M0 = texture { pigment { rgb <1, 0, 0> } finish { ambient rgb <0.2, 0.2, 0.2> diffuse 0.7 phong 0.5 phong_size 16 reflection 0.5 } }
+#declare M1 = texture { pigment { rgb <0.5, 0.5, 0.5> } finish { ambient rgb <0.2, 0.2, 0.2> diffuse 0.7 phong 0 phong_size 1 reflection 0 } }
+sphere { <0, 0, 0>, 10 texture { M0 } }
+plane { <0, 0, 1>, -20 texture { M1 } }
+";
+    assert_eq!(String::from_utf8(done.stdout).unwrap(), expected);
+}
+
+/// Traced paths between shapes that Mitsuba has.
+const PATHS: &str = "\
+Camera: {eye: [0, 1, 5], center: [0.5, 1, 0], up: [0, 0.1, 0], right: [0.1, 0, 0], viewSize: [40, 30]}
+RenderMode: path
+MaxRecursionDepth: 3
+PathParameters: {samples: 16}
+Environment: {color: [0.5, 0.6, 0.7]}
+Lights:
+- {type: sun, direction: [0, 2, 0], irradiance: [3, 2, 1]}
+- {type: point, position: [1, 2, 3], intensity: [4, 5, 6]}
+Objects:
+- {type: sphere, position: [0, 1, 0], radius: 1, material: &a {color: [0.5, 0.6, 0.8], ka: 0, kd: 0.5, ks: 0, n: 1}}
+- {type: sphere, position: [2, 1, 0], radius: 1, material: {color: [1, 1, 1], ka: 0, kd: 0, ks: 1, n: 1}}
+- {type: triangle, v0: [0, 0, 0], v1: [1, 0, 0], v2: [0, 0, 1], material: *a}
+- {type: quad, v0: [0, 0, 0], v1: [0, 0, 1], v2: [0, 1, 1], v3: [0, 1, 0], material: *a}
+";
+
+#[test]
+fn traced_paths_become_a_scene_of_mitsuba() {
+    let (folder, text, told) = written(PATHS, "scene.xml");
+    assert_eq!(told, "");
+    let squeezed = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in [
+        r#"<default name="spp" value="16"/>"#,
+        // Three bounces are four edges after the first.
+        r#"<integer name="max_depth" value="4"/>"#,
+        // The middle of the picture is half a unit to the right, and half the picture is 2 units.
+        r#"<float name="principal_point_offset_x" value="0.125"/>"#,
+        r#"<matrix value="-1 0 0 0 "#,
+        r#"<emitter type="constant"> <rgb name="radiance" value="0.5 0.6 0.7"/>"#,
+        r#"<rgb name="irradiance" value="3 2 1"/>"#,
+        r#"<emitter type="point"> <point name="position" value="1, 2, 3"/> <rgb name="intensity" value="4 5 6"/>"#,
+        r#"<bsdf type="diffuse"> <rgb name="reflectance" value="0.25 0.3 0.4"/> </bsdf>"#,
+        r#"<bsdf type="conductor"> <string name="material" value="none"/>"#,
+    ] {
+        assert!(squeezed.contains(part), "{part} is missing: {text}");
+    }
+    // What has corners is one mesh for each material.
+    let files: Vec<_> = fs::read_dir(folder.path().join("scene.files"))
+        .unwrap()
+        .collect();
+    let [Ok(file)] = &files[..] else {
+        panic!("{files:?}");
+    };
+    let name = file.file_name().into_string().unwrap();
+    assert!(text.contains(&format!("scene.files/{name}")), "{text}");
+    let mesh = rtc(&folder, &["info", &format!("scene.files/{name}"), "--json"]);
+    let told = String::from_utf8(mesh.stdout).unwrap();
+    assert!(
+        told.contains(r#""triangles": 3"#) || told.contains(r#""triangles":3"#),
+        "{told}"
+    );
+}
+
+#[test]
+fn what_has_no_twin_is_told_part_by_part() {
+    let more = "\
+- {type: torus, position: [0, 3, 0], radius: 1, alpha: 0.2, material: &b {color: [1, 1, 1], ka: 0, kd: 1, ks: 0, n: 1}}
+- {type: quad, v0: [0, 0, 0], v1: [1, 0, 0], v2: [1, 1, 1], v3: [0, 1, 0], material: *b}
+- {type: plane, position: [0, 0, 0], normal: [0, 1, 0], material: *b}
+- {type: sphere, position: [0, 5, 0], radius: 1, material: {type: standard, metallic: 0.5, clearcoat: 1}}
+- {type: triangle, v0: [0, 7, 0], v1: [1, 7, 0], v2: [0, 7, 1], material: {type: standard, emissive: [1, 1, 1], specular: 0, metallic: 0, doubleSided: true}}
+";
+    let spot = "Objects:";
+    let lit = "- {type: spot, position: [0, 9, 0], direction: [0, -1, 0], innerAngle: 0.2, outerAngle: 0.4, intensity: [1, 1, 1]}\nObjects:";
+    let scene = format!("{}{more}", PATHS.replace(spot, lit));
+    let (_, text, told) = written(&scene, "scene.xml");
+    let words = [
+        "a spot is left out",
+        "Mitsuba has no torus: it is left out",
+        "Mitsuba has no bilinear patch: it is left out",
+        "Mitsuba has no plane: a square",
+        "without one-sidedness for the camera and its layers, volume or dispersion",
+        "`principled` stands for the metallic-roughness material",
+        "this one shines both ways",
+    ];
+    for words in words {
+        assert!(told.contains(words), "{words} is missing: {told}");
+    }
+    assert_eq!(
+        told.matches("warning[EX001]").count(),
+        words.len(),
+        "{told}"
+    );
+    assert!(
+        !text.contains("torus") && text.contains("principled"),
+        "{text}"
+    );
+
+    // POV-Ray has the torus and the plane, but neither paths nor physical lights.
+    let (_, text, told) = written(&scene, "scene.pov");
+    for words in [
+        "this scene is shown in another way",
+        "the surroundings are left out",
+        "a light in physical units is left out",
+        "POV-Ray has no bilinear patch: it is left out",
+        "a material of glTF is written as matt",
+    ] {
+        assert!(told.contains(words), "{words} is missing: {told}");
+    }
+    assert!(text.contains("torus { 1, 0.2 matrix <") && text.contains("plane { <0, 1, 0>, 0"));
+}
+
+#[test]
+fn meshes_of_mitsuba_are_files_so_it_needs_a_place() {
+    let folder = folder();
+    let nowhere = rtc(&folder, &["compile", "ball.json", "--emit", "mitsuba"]);
+    assert_eq!((code(&nowhere), nowhere.stdout.len()), (1, 0));
+    assert!(stderr(&nowhere).contains("give `-o FILE`"));
+    let refused = rtc(
+        &folder,
+        &["compile", "ball.json", "-o", "x.pov", "--tolerance", "1"],
+    );
+    assert_eq!(code(&refused), 2, "{}", stderr(&refused));
+}
