@@ -61,7 +61,7 @@ pub(super) fn costs(
         names.push((left_out.kind, left_out.name));
         runners.push(runner(subject.with_scene(left_out.scene), setting));
     }
-    let race = race(&runners, budget * 3 / RENDERS, rng)?;
+    let race = race(&runners, budget * 3 / RENDERS, None, rng)?;
     let pairs = runners.iter().map(SampledPair::of);
     let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
     let (with, all) = (&pairs[0], Rays::from(race.runs[0].shot.counts).all());

@@ -18,7 +18,7 @@ use xxhash_rust::xxh3::xxh3_64;
 /// What the bytes begin with.
 const MAGIC: [u8; 8] = *b"rtc cost";
 
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The study that renders are of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,8 +29,8 @@ struct JournalHead {
     seed: u64,
 }
 
-/// One render: what it showed, if that is still wanted, and the seconds it took; of a map of rays, those of each
-/// pixel instead.
+/// One render: what it showed, if that is still wanted, and the seconds it took, then the errors of its repeats; of a
+/// map of rays, those of each pixel instead.
 #[derive(Clone)]
 pub(super) struct Entry {
     pub(super) key: u64,

@@ -27,8 +27,10 @@ mod race;
 mod reference;
 #[cfg(feature = "cli")]
 mod report;
+mod rows;
 mod sample;
 mod setting;
+mod spread;
 mod statistics;
 mod stretch;
 mod subject;
@@ -58,6 +60,7 @@ pub use reference::{DepthEnd, Level};
 #[cfg(feature = "cli")]
 pub use report::{SliderPage, csv, html, json, maps_page, slider_page, table, told, versus_table};
 pub use setting::Setting;
+pub use spread::ErrorSpread;
 pub use statistics::{Estimate, PowerLaw, Rng, median};
 pub use stretch::WorkStretch;
 pub use subject::Stopped;
@@ -67,9 +70,7 @@ pub use versus::{DifferentTile, Versus, versus};
 use crate::ir::{Mode, Scene, Shape, Surface};
 use crate::render::Seeds;
 use knob::idle_in;
-use race::{Runner, race};
 use reference::{Depths, Reference};
-use sample::TileErrors;
 use serde::{Deserialize, Serialize};
 use subject::Subject;
 use sweep::{Model, sweep};
@@ -146,7 +147,7 @@ pub fn study(
     let (model, is_whole) = (&context.model, subject.is_whole());
     let knob = |knob| model.report(knob, idle_in(knob, scene, is_whole));
     let mut study = Study {
-        schema: "rtc-cost/2".to_owned(),
+        schema: "rtc-cost/3".to_owned(),
         about,
         effort,
         seed,
@@ -298,85 +299,6 @@ impl Scope {
             model,
         })
     }
-
-    /// The scene's own setting and the best ones by the model, rendered, timed and judged.
-    fn rows(
-        &self,
-        subject: &Subject<'_>,
-        context: &Context,
-        rng: &mut Rng,
-    ) -> Result<(Vec<Row>, f64), Stopped> {
-        let Context {
-            reference,
-            depths: _,
-            model,
-        } = context;
-        let budget = self.hundredths(FOR_ROWS);
-        let turned: Vec<_> = self
-            .used
-            .iter()
-            .copied()
-            .filter(|knob| !matches!(knob, Knob::Denoise | Knob::Precision))
-            .collect();
-        let min = turned
-            .iter()
-            .fold(self.own, |setting, knob| setting.with(*knob, knob.lowest()));
-        let least_error = (3.0 * reference.floor).max(reference::SMALLEST);
-        let best = pareto::candidates(model, min, &turned, budget as f64 / 10.0, least_error);
-        // Of tiles alone the pixels around are not known.
-        let is_denoised = self.used.contains(&Knob::Denoise) && subject.is_whole();
-        let settings = std::iter::once(self.own)
-            .chain(best.into_iter().filter(|setting| *setting != self.own));
-        let settings = settings
-            .flat_map(|setting| std::iter::once(setting).chain(pareto::cheaper(model, setting)))
-            .chain(self.own.denoised().filter(|_| is_denoised));
-        let runners: Vec<_> = settings
-            .map(|setting| Runner {
-                subject: subject.clone(),
-                setting,
-            })
-            .collect();
-        let race = race(&runners, budget, rng)?;
-        let row = |(runner, run): (&Runner<'_>, race::TimedRun)| {
-            let errors = Errors::of(&run.shot.tiles, &reference.tiles, subject.fraction());
-            Row {
-                setting: runner.setting,
-                own: runner.setting == self.own,
-                front: false,
-                rays: run.shot.counts.into(),
-                seconds: run.seconds,
-                ratio: run.ratio,
-                judged: reference.floor <= JUDGE * errors.rmse || reference.floor == 0.0,
-                errors,
-                resumed: run.is_resumed,
-                model: model.error(runner.setting),
-                tiles: run.shot.tiles,
-            }
-        };
-        let rows: Vec<_> = runners.iter().zip(race.runs).map(row).collect();
-        Ok((
-            ranked(rows, reference, subject.fraction()),
-            race.wall_over_cpu,
-        ))
-    }
-}
-
-/// The rows in ascending order of cost, those on the front marked: of a `fraction` of the picture, those
-/// that surely have less error than what is there and costs less.
-fn ranked(rows: Vec<Row>, reference: &Reference, fraction: f64) -> Vec<Row> {
-    let points: Vec<_> = rows.iter().map(Row::point).collect();
-    let errors = |row: &Row| TileErrors::of(&row.tiles, &reference.tiles, fraction);
-    let errors: Vec<_> = rows.iter().map(errors).collect();
-    let is_better = |a: usize, b: usize| errors[a].is_clearly_below(&errors[b], pareto::SAME);
-    let mut rows: Vec<_> = rows.into_iter().map(Some).collect();
-    let ranked = pareto::ranking(&points, is_better).into_iter();
-    let ranked = ranked.filter_map(|(place, front)| {
-        Some(Row {
-            front,
-            ..rows[place].take()?
-        })
-    });
-    ranked.collect()
 }
 
 impl Context {
@@ -384,15 +306,6 @@ impl Context {
         ReferenceReport {
             setting: self.reference.setting,
             floor: self.reference.floor,
-        }
-    }
-}
-
-impl Row {
-    fn point(&self) -> pareto::Point {
-        pareto::Point {
-            seconds: [self.seconds.low, self.seconds.high],
-            rays: self.rays.all(),
         }
     }
 }

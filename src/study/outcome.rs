@@ -5,6 +5,7 @@ use super::maps::PixelRays;
 use super::metrics::Errors;
 use super::reference::{DepthEnd, Level};
 use super::setting::Setting;
+use super::spread::ErrorSpread;
 use super::statistics::{Estimate, PowerLaw};
 use super::{EffectCost, Effort, PrecisionCost};
 use crate::image::Image;
@@ -151,6 +152,8 @@ pub struct Row {
     pub ratio: Estimate,
     /// Its errors.
     pub errors: Errors,
+    /// The error over renders by other random numbers.
+    pub spread: ErrorSpread,
     /// Whether the reference is accurate enough: if not, the errors are upper limits.
     pub judged: bool,
     /// Whether some of its seconds were measured before the study was interrupted.
@@ -167,7 +170,7 @@ pub struct Row {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Study {
-    /// The form of this report: `rtc-cost/2`.
+    /// The form of this report: `rtc-cost/3`.
     pub schema: String,
     /// The subject, and the machine.
     pub about: About,

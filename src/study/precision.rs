@@ -59,7 +59,7 @@ pub(super) fn costs(
             ..setting
         },
     };
-    let race = race(&Arithmetic::ALL.map(runner), budget, rng)?;
+    let race = race(&Arithmetic::ALL.map(runner), budget, None, rng)?;
     let robust = &race.runs[0].shot.tiles;
     let cost = |(arithmetic, run): (Arithmetic, &TimedRun)| PrecisionCost {
         arithmetic,

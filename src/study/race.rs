@@ -4,8 +4,11 @@
 
 use super::bench::Time;
 use super::setting::Setting;
+use super::spread::Afresh;
 use super::statistics::{Estimate, Rng, median};
 use super::subject::{RenderedTiles, Stopped, Subject};
+use crate::image::Image;
+use crate::ir;
 
 /// A runner.
 pub(super) struct Runner<'a> {
@@ -20,6 +23,8 @@ pub(super) struct TimedRun {
     pub(super) seconds: Estimate,
     /// Seconds over those of the first runner.
     pub(super) ratio: Estimate,
+    /// The mean square error of each render against the truth, if one was given.
+    pub(super) squares: Vec<f64>,
     /// Whether some of its renders were done before the study was interrupted.
     pub(super) is_resumed: bool,
 }
@@ -39,68 +44,133 @@ const MOST_ROUNDS: u64 = 9;
 const MOST_REPEATS: u64 = 8;
 
 /// Times all runners in at least three rounds, those that take few rays in more and several times
-/// in each, of about `budget` rays in all.
-pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result<Race, Stopped> {
-    let mut shots: Vec<Option<RenderedTiles>> = runners.iter().map(|_| None).collect();
-    let mut times: Vec<Vec<Option<Time>>> = vec![Vec::new(); runners.len()];
-    let mut resumed = vec![false; runners.len()];
-    let (mut rounds, mut repeats) = (vec![FEWEST_ROUNDS; runners.len()], vec![1; runners.len()]);
+/// in each, of about `budget` rays in all. With a truth, each render of a runner after the first has
+/// random numbers of its own.
+pub(super) fn race(
+    runners: &[Runner<'_>],
+    budget: u64,
+    truth: Option<&[Image]>,
+    rng: &mut Rng,
+) -> Result<Race, Stopped> {
+    let mut laps: Vec<_> = runners.iter().map(|_| Laps::default()).collect();
     for round in 0..MOST_ROUNDS {
         let mut order: Vec<_> = (0..runners.len())
-            .filter(|index| rounds[*index] > round || *index == 0)
+            .filter(|index| laps[*index].rounds > round || *index == 0)
             .collect();
         if round >= FEWEST_ROUNDS && order.len() < 2 {
             break;
         }
         rng.shuffle(&mut order);
-        times.iter_mut().for_each(|times| times.push(None));
+        laps.iter_mut().for_each(|laps| laps.times.push(None));
         for index in order {
-            let Runner { subject, setting } = &runners[index];
-            let is_first = shots[index].is_none();
-            let timed = subject.time(*setting, is_first, |shot| {
-                if is_first {
-                    let work = subject.preparing() + shot.counts.rays();
-                    let fair = budget / runners.len() as u64 / work.max(1);
-                    repeats[index] = (fair / MOST_ROUNDS).clamp(1, MOST_REPEATS);
-                    rounds[index] = (fair / repeats[index]).clamp(FEWEST_ROUNDS, MOST_ROUNDS);
-                }
-                repeats[index]
-            })?;
-            resumed[index] |= timed.is_resumed;
-            shots[index].get_or_insert(timed.shot);
-            if let Some(place) = times[index].last_mut() {
-                *place = Some(timed.time);
-            }
+            laps[index].add(&runners[index], budget / runners.len() as u64, truth)?;
         }
     }
     let mut overheads = Overheads::default();
     let wholes: Vec<Vec<Option<f64>>> = runners
         .iter()
-        .zip(&times)
-        .map(|(runner, times)| overheads.whole_picture(runner, times, rng))
+        .zip(&laps)
+        .map(|(runner, laps)| overheads.whole_picture(runner, &laps.times, rng))
         .collect();
-    let runs = shots.into_iter().flatten().zip(&wholes).zip(resumed).map(
-        |((shot, seconds), is_resumed)| {
-            let ratios: Vec<_> = seconds
-                .iter()
-                .zip(&wholes[0])
-                .filter_map(|(ours, first)| Some((*ours)? / (*first)?))
-                .collect();
-            let seconds: Vec<_> = seconds.iter().flatten().copied().collect();
-            TimedRun {
-                shot,
-                seconds: median(&seconds, rng),
-                ratio: median(&ratios, rng),
-                is_resumed,
-            }
-        },
-    );
-    let runs = runs.collect();
-    let total = |of: fn(&Time) -> f64| times.iter().flatten().flatten().map(of).sum::<f64>();
+    let times = laps.iter().flat_map(|laps| laps.times.iter().flatten());
+    let total = |of: fn(&Time) -> f64| times.clone().map(of).sum::<f64>();
+    let wall_over_cpu = total(|time| time.wall) / total(|time| time.cpu).max(1e-9);
+    let run = |(laps, seconds): (Laps, &Vec<Option<f64>>)| {
+        let ratios: Vec<_> = seconds
+            .iter()
+            .zip(&wholes[0])
+            .filter_map(|(ours, first)| Some((*ours)? / (*first)?))
+            .collect();
+        let seconds: Vec<_> = seconds.iter().flatten().copied().collect();
+        Some(TimedRun {
+            shot: laps.shot?,
+            seconds: median(&seconds, rng),
+            ratio: median(&ratios, rng),
+            squares: laps.squares,
+            is_resumed: laps.is_resumed,
+        })
+    };
     Ok(Race {
-        runs,
-        wall_over_cpu: total(|time| time.wall) / total(|time| time.cpu).max(1e-9),
+        runs: laps.into_iter().zip(&wholes).filter_map(run).collect(),
+        wall_over_cpu,
     })
+}
+
+impl Subject<'_> {
+    /// What a render takes beside its rays, in rays, roughly: a triangle is as much work to prepare as a ray,
+    /// and so are many pixels of images, and some of a picture, which is as large if only tiles are rendered.
+    fn preparing(&self) -> u64 {
+        const PIXELS: u64 = 512;
+        const SHOWN: u64 = 8;
+        let triangles = self
+            .scene
+            .meshes
+            .iter()
+            .map(|mesh| mesh.triangles.len() as u64);
+        let pixels = |image: &ir::Image| u64::from(image.width) * u64::from(image.height);
+        let [width, height] = self.scene.camera.size.map(u64::from);
+        let shown = if self.is_whole() {
+            0
+        } else {
+            width * height / SHOWN
+        };
+        triangles.sum::<u64>() + self.scene.images.iter().map(pixels).sum::<u64>() / PIXELS + shown
+    }
+}
+
+/// What a runner has done so far.
+struct Laps {
+    shot: Option<RenderedTiles>,
+    /// The times of each round; none where it rested.
+    times: Vec<Option<Time>>,
+    squares: Vec<f64>,
+    is_resumed: bool,
+    /// The rounds that it is to run, and its renders in each.
+    rounds: u64,
+    repeats: u64,
+}
+
+impl Default for Laps {
+    fn default() -> Self {
+        Self {
+            shot: None,
+            times: Vec::new(),
+            squares: Vec::new(),
+            is_resumed: false,
+            rounds: FEWEST_ROUNDS,
+            repeats: 1,
+        }
+    }
+}
+
+impl Laps {
+    /// Runs once more; the first time says how often within the budget.
+    fn add(
+        &mut self,
+        runner: &Runner<'_>,
+        budget: u64,
+        truth: Option<&[Image]>,
+    ) -> Result<(), Stopped> {
+        let Runner { subject, setting } = runner;
+        let is_first = self.shot.is_none();
+        let before = self.squares.len() as u64;
+        let timed = subject.time(*setting, is_first, Afresh { truth, before }, |shot| {
+            if is_first {
+                let work = subject.preparing() + shot.counts.rays();
+                let fair = budget / work.max(1);
+                self.repeats = (fair / MOST_ROUNDS).clamp(1, MOST_REPEATS);
+                self.rounds = (fair / self.repeats).clamp(FEWEST_ROUNDS, MOST_ROUNDS);
+            }
+            self.repeats
+        })?;
+        self.is_resumed |= timed.is_resumed;
+        self.squares.extend(timed.squares);
+        self.shot.get_or_insert(timed.shot);
+        if let Some(place) = self.times.last_mut() {
+            *place = Some(timed.time);
+        }
+        Ok(())
+    }
 }
 
 /// The seconds for preparing a scene and for skipping all pixels, of those that were timed: they hardly depend

@@ -5,8 +5,9 @@ use super::bench::{Bench, Time};
 use super::journal::Entry;
 use super::outcome::StudyArea;
 use super::setting::Setting;
+use super::spread::Afresh;
 use crate::image::Image;
-use crate::ir::{self, Pattern, Scene};
+use crate::ir::{Pattern, Scene};
 use crate::plan::{Plan, Rules};
 use crate::render::{Counts, Crop, Job, Seeds, Tiles};
 use crate::valid::{Proof, revalidate};
@@ -34,6 +35,8 @@ pub(super) struct RenderedTiles {
 pub(super) struct Timed {
     pub(super) shot: RenderedTiles,
     pub(super) time: Time,
+    /// The mean square error of each render, if they were held against something.
+    pub(super) squares: Vec<f64>,
     /// Whether it was rendered before the study was interrupted.
     pub(super) is_resumed: bool,
 }
@@ -86,19 +89,6 @@ impl<'bench> Subject<'bench> {
     /// The number of tiles.
     pub(super) fn count(&self) -> usize {
         self.tiles.len()
-    }
-
-    /// What preparing the scene takes before each render, in rays, roughly: a triangle is as much work as a
-    /// ray, and so are many pixels of images.
-    pub(super) fn preparing(&self) -> u64 {
-        const PIXELS: u64 = 512;
-        let triangles = self
-            .scene
-            .meshes
-            .iter()
-            .map(|mesh| mesh.triangles.len() as u64);
-        let pixels = |image: &ir::Image| u64::from(image.width) * u64::from(image.height);
-        triangles.sum::<u64>() + self.scene.images.iter().map(pixels).sum::<u64>() / PIXELS
     }
 
     /// Where the tiles lie.
@@ -204,36 +194,40 @@ impl<'bench> Subject<'bench> {
         xxh3_64(format!("{kind} {setting:?} {seeds:?} {tiles}").as_bytes())
     }
 
-    /// Renders in a setting on one thread, `repeats` times as decided from the first result. If its
-    /// picture is not wanted, it may be missing.
+    /// Renders in a setting on one thread, `repeats` times as decided from the first result, each as
+    /// `afresh` says. If the picture of the first is not wanted, it may be missing.
     pub(super) fn time(
         &self,
         setting: Setting,
         is_wanted: bool,
+        afresh: Afresh<'_>,
         repeats: impl FnOnce(&RenderedTiles) -> u64,
     ) -> Result<Timed, Stopped> {
-        let key = self.key("time", setting, Seeds::NONE);
+        let key = self.key("time", setting, afresh.seeds(0, &self.scene.settings));
         if let Some(Entry { shot, seconds, .. }) = self.bench.recall(key)
-            && let [cpu, wall] = seconds[..]
+            && let [cpu, wall, squares @ ..] = &seconds[..]
         {
             repeats(&shot);
+            let (cpu, wall) = (*cpu, *wall);
             return Ok(Timed {
                 shot,
                 time: Time { cpu, wall },
+                squares: squares.to_vec(),
                 is_resumed: true,
             });
         }
-        let scene = self.prove(setting, Seeds::NONE);
-        let render = || {
-            self.bench
-                .measure(|| self.render(&scene, setting, Seeds::NONE))
+        let scene = self.prove_with(setting, None);
+        let render = |number| {
+            let seeds = afresh.seeds(number, &self.scene.settings);
+            self.bench.measure(|| self.render(&scene, setting, seeds))
         };
-        let (shot, mut time) = render();
+        let (shot, mut time) = render(0);
         let shot = shot?;
+        let mut squares = Vec::from_iter(afresh.square(&shot));
         let count = repeats(&shot);
-        for _ in 1..count {
-            let (again, more) = render();
-            again?;
+        for number in 1..count {
+            let (again, more) = render(number);
+            squares.extend(afresh.square(&again?));
             time = time.plus(more);
         }
         let time = time.over(count as f64);
@@ -246,11 +240,12 @@ impl<'bench> Subject<'bench> {
                 },
                 counts: shot.counts,
             },
-            seconds: vec![time.cpu, time.wall],
+            seconds: [&[time.cpu, time.wall], &squares[..]].concat(),
         });
         Ok(Timed {
             shot,
             time,
+            squares,
             is_resumed: false,
         })
     }
@@ -302,11 +297,17 @@ impl<'bench> Subject<'bench> {
         seconds
     }
 
+    /// The scene in a setting, with sub-samples in a pattern that seeds change.
     fn prove(&self, setting: Setting, seeds: Seeds) -> Proof {
+        self.prove_with(setting, (seeds.pixel != 0).then_some(Pattern::Jitter))
+    }
+
+    /// The scene in a setting, in its own pattern or in another.
+    fn prove_with(&self, setting: Setting, pattern: Option<Pattern>) -> Proof {
         let mut scene = Scene::clone(&self.scene);
         setting.apply(&mut scene);
-        if seeds.pixel != 0 {
-            scene.settings.pattern = Pattern::Jitter;
+        if let Some(pattern) = pattern {
+            scene.settings.pattern = pattern;
         }
         revalidate(&scene)
     }

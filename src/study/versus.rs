@@ -127,7 +127,7 @@ pub fn versus(
         setting: Setting::of(&subject.scene),
     });
     let rounds = (budget * ROUNDS / RENDERS) as u64;
-    let race = race(&runners, rounds, &mut Rng::new(seed))?;
+    let race = race(&runners, rounds, None, &mut Rng::new(seed))?;
     let [first, second] = [1, 0].map(|which| &race.runs[which]);
     let cells = subjects[0].cells();
     let [scene, reference] = subjects

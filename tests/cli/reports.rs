@@ -47,7 +47,7 @@ fn a_study_is_written_in_the_form_asked_for() {
         serde_json::from_slice(&fs::read(folder.path().join("cost.json")).unwrap()).unwrap();
     assert_eq!(
         (json["schema"].as_str(), json["about"]["scene"].as_str()),
-        (Some("rtc-cost/2"), Some("depth.json"))
+        (Some("rtc-cost/3"), Some("depth.json"))
     );
     assert_eq!(code(&rtc(&folder, &["cost", "bad.json"])), 1);
 }

@@ -38,6 +38,81 @@ fn the_table_fits_a_terminal() {
     }
 }
 
+/// What is sampled at random errs by other amounts in other renders; a grid errs by the same each time, and has no
+/// columns for that.
+#[test]
+fn errors_are_told_over_renders_where_renders_differ() {
+    for row in &WHOLE.rows {
+        let ErrorSpread {
+            renders,
+            expected,
+            deviation,
+        } = row.spread;
+        assert!(renders >= 3 && deviation == 0.0, "{:?}", row.spread);
+        assert!((expected - row.errors.rmse).abs() < 1e-9, "{row:?}");
+    }
+    assert!(!study::table(&WHOLE).contains("σ%"));
+
+    let jitter = [(
+        "\"supersampling\": 2",
+        "\"supersampling\": 2, \"pattern\": \"jitter\"",
+    )];
+    let study = study_of(&scene(&jitter), 8_000_000, 0);
+    for row in &study.rows {
+        let (
+            ErrorSpread {
+                expected,
+                deviation,
+                ..
+            },
+            rmse,
+        ) = (row.spread, row.errors.rmse);
+        assert!(
+            deviation > 0.0 && deviation < 0.5 * expected,
+            "{:?}",
+            row.spread
+        );
+        assert!(
+            (rmse - expected).abs() < 5.0 * deviation,
+            "{rmse}: {:?}",
+            row.spread
+        );
+    }
+    let (table, page) = (study::table(&study), study::html(&study));
+    assert!(table.contains("σ%: how far") && page.contains("<dt>over renders</dt>"));
+    assert!(page.contains(" renders ("), "{page}");
+    let csv = study::csv(&study);
+    assert!(
+        csv.lines()
+            .next()
+            .unwrap()
+            .ends_with(",renders,expected_rmse,rmse_deviation")
+    );
+}
+
+/// Each mark of the plot of the front says its values to the pointer and to the keyboard.
+#[test]
+fn marks_of_plots_say_their_values() {
+    let page = study::html(&WHOLE);
+    let (_, plot) = page.split_once("<div class=\"plot\">").unwrap();
+    let (plot, _) = plot.split_once("</svg>").unwrap();
+    let shown = WHOLE
+        .rows
+        .iter()
+        .filter(|row| row.errors.rmse > 0.0)
+        .count();
+    let marks = plot.matches("<circle class=\"spot\"").count();
+    assert_eq!(
+        (marks, plot.matches("tabindex=\"0\"").count()),
+        (shown, shown)
+    );
+    // Renders without random numbers are all alike, of which nothing is said.
+    assert!(
+        plot.contains(" grey levels (") && !plot.contains(" renders ("),
+        "{plot}"
+    );
+}
+
 /// Each column of the table is explained under it and on the page, and what a time buys is a row of the front that
 /// is done in that time.
 #[test]

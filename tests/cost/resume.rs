@@ -36,8 +36,8 @@ fn timeless(study: &Study) -> String {
         .iter()
         .map(|row| {
             format!(
-                "{:?} {:?} {:?} {}",
-                row.setting, row.errors, row.rays, row.model
+                "{:?} {:?} {:?} {:?} {}",
+                row.setting, row.errors, row.spread, row.rays, row.model
             )
         })
         .collect();

@@ -1,9 +1,12 @@
-//! Plots as SVG, both axes logarithmic. Text stays text, and black follows the page: its style
+//! Plots as SVG, both axes logarithmic, whose marks say their values. Text stays text, and black follows the page: its style
 //! turns that for the dark.
 
 use super::super::advice::{digits, seconds};
 use super::super::knob::Knob;
 use super::super::outcome::{KnobReport, Row, Study};
+use super::super::reference::Level;
+use super::html::escaped;
+use super::words;
 use crate::math::{exp, pow};
 use plotters::coord::Shift;
 use plotters::coord::combinators::{IntoLogRange, LogCoord};
@@ -15,7 +18,14 @@ const MUTED: RGBColor = RGBColor(0x80, 0x80, 0x80);
 const FLOOR: RGBColor = RGBColor(0xd0, 0x60, 0x30);
 
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
-type Outcome = Result<(), Box<dyn Error>>;
+type Outcome<T = ()> = Result<T, Box<dyn Error>>;
+
+/// A point of a plot that says its values when the pointer is over it, or the keyboard gets to it.
+struct Spot {
+    /// Where it is, in units of the plot.
+    at: (i32, i32),
+    words: String,
+}
 
 /// A span of values that fits on a logarithmic axis.
 type AxisRange = std::ops::Range<f64>;
@@ -48,10 +58,19 @@ pub(super) fn front(study: &Study) -> String {
             let label = Text::new("error of the reference", (6, -14), font(11));
             chart.draw_series([EmptyElement::at((xs.start, floor)) + label])?;
         }
-        for row in rows {
-            draw_row(&mut chart, row, &study.used())?;
+        let used = study.used();
+        let mut labels = Vec::new();
+        for row in &rows {
+            draw_row(&mut chart, row)?;
+            if row.front || row.own {
+                draw_label(&mut chart, row, &used, &mut labels)?;
+            }
         }
-        Ok(())
+        let spot = |row: &&Row| Spot {
+            at: chart.backend_coord(&(row.seconds.value, row.errors.rmse)),
+            words: words::measured(row, &used),
+        };
+        Ok(rows.iter().map(spot).collect())
     })
 }
 
@@ -71,7 +90,7 @@ pub(super) fn front_steps(rows: &[&Row], end: f64) -> Vec<(f64, f64)> {
     steps
 }
 
-fn draw_row(chart: &mut Chart<'_, '_>, row: &Row, used: &[Knob]) -> Outcome {
+fn draw_row(chart: &mut Chart<'_, '_>, row: &Row) -> Outcome {
     let (x, y) = (row.seconds.value, row.errors.rmse);
     let color = if row.front { ACCENT } else { MUTED };
     let errors = &row.errors;
@@ -86,15 +105,39 @@ fn draw_row(chart: &mut Chart<'_, '_>, row: &Row, used: &[Knob]) -> Outcome {
         color.stroke_width(1)
     };
     chart.draw_series([Circle::new((x, y), 4, fill)])?;
-    if row.front || row.own {
-        let values: Vec<_> = used
-            .iter()
-            .map(|knob| knob.cell(row.setting.get(*knob)))
-            .collect();
-        let own = if row.own { " (own)" } else { "" };
-        let label = Text::new(format!("{}{own}", values.join("·")), (6, -15), font(11));
-        chart.draw_series([EmptyElement::at((x, y)) + label])?;
-    }
+    Ok(())
+}
+
+/// The values of a setting above its mark, or below it where another label stands above; where both
+/// places are taken the mark alone says them. `labels` are where labels stand.
+fn draw_label(
+    chart: &mut Chart<'_, '_>,
+    row: &Row,
+    used: &[Knob],
+    labels: &mut Vec<(i32, i32)>,
+) -> Outcome {
+    /// About as wide and high as a label.
+    const SIZE: (i32, i32) = (110, 13);
+    const ABOVE_OR_BELOW: [i32; 2] = [-15, 6];
+    let at = (row.seconds.value, row.errors.rmse);
+    let (x, y) = chart.backend_coord(&at);
+    let is_free = |up: &&i32| {
+        let is_near = |other: &(i32, i32)| {
+            (x - other.0).abs() < SIZE.0 && (y + **up - other.1).abs() < SIZE.1
+        };
+        !labels.iter().any(is_near)
+    };
+    let Some(up) = ABOVE_OR_BELOW.iter().find(is_free).copied() else {
+        return Ok(());
+    };
+    labels.push((x, y + up));
+    let values: Vec<_> = used
+        .iter()
+        .map(|knob| knob.cell(row.setting.get(*knob)))
+        .collect();
+    let own = if row.own { " (own)" } else { "" };
+    let label = Text::new(format!("{}{own}", values.join("·")), (6, up), font(11));
+    chart.draw_series([EmptyElement::at(at) + label])?;
     Ok(())
 }
 
@@ -136,7 +179,7 @@ pub(super) fn knob(report: &KnobReport) -> String {
             let line = line.filter(|(_, y)| ys.contains(y)).collect::<Vec<_>>();
             chart.draw_series([PathElement::new(line, ACCENT.mix(0.6).stroke_width(1))])?;
         }
-        let mark = |(x, level): &(f64, &super::super::reference::Level)| {
+        let mark = |(x, level): &(f64, &Level)| {
             let style = if level.resolved {
                 ACCENT.filled()
             } else {
@@ -145,7 +188,15 @@ pub(super) fn knob(report: &KnobReport) -> String {
             Circle::new((*x, level.error), 4, style)
         };
         chart.draw_series(points.iter().map(mark))?;
-        Ok(())
+        let spot = |(x, level): &(f64, &Level)| Spot {
+            at: chart.backend_coord(&(*x, level.error)),
+            words: format!(
+                "{name} {}: error {} grey levels",
+                report.knob.cell(level.value),
+                digits(level.error)
+            ),
+        };
+        Ok(points.iter().map(spot).collect())
     })
 }
 
@@ -165,15 +216,42 @@ fn span(values: impl Iterator<Item = f64>) -> AxisRange {
 
 fn plot(
     size: (u32, u32),
-    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Outcome,
+    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Outcome<Vec<Spot>>,
 ) -> String {
     let mut svg = String::new();
     let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
-    let drawn = draw(&root).and_then(|()| Ok(root.present()?));
+    let drawn = draw(&root).and_then(|spots| {
+        root.present()?;
+        Ok(spots)
+    });
     drop(root);
     // Drawing into a string cannot fail; if it did, the page has no plot.
-    drawn.map_or_else(|error| format!("<p>no plot: {error}</p>"), |()| svg)
+    match drawn {
+        Ok(spots) => with_spots(&svg, &spots),
+        Err(error) => format!("<p>no plot: {error}</p>"),
+    }
 }
+
+/// A plot with its spots on top, and a line below it for what the last one says.
+fn with_spots(svg: &str, spots: &[Spot]) -> String {
+    let spot = |Spot { at: (x, y), words }: &Spot| {
+        let words = escaped(words);
+        format!(
+            "<circle class=\"spot\" cx=\"{x}\" cy=\"{y}\" r=\"10\" tabindex=\"0\" role=\"img\" \
+             aria-label=\"{words}\"><title>{words}</title></circle>\n"
+        )
+    };
+    let spots: String = spots.iter().map(spot).collect();
+    let drawing = svg.trim_end().trim_end_matches("</svg>");
+    format!(
+        "<div onpointerover=\"{TELL}\" onfocusin=\"{TELL}\">{drawing}{spots}</svg>\n\
+         <p class=\"said\">Point at a mark to see its values.</p></div>"
+    )
+}
+
+/// Shows below a plot what the mark says that the pointer or the keyboard got to.
+const TELL: &str = "const words = event.target.getAttribute('aria-label'); \
+                    if (words) this.lastElementChild.textContent = words";
 
 fn axes<'a, 'b>(
     root: &'a DrawingArea<SVGBackend<'b>, Shift>,

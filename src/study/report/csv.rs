@@ -6,7 +6,7 @@ use super::super::outcome::{Row, Study};
 
 const NAMES: &str = "supersampling,aperture,lights,glossy,paths,denoise,depth,precision,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
 refracted_rays,seconds,seconds_low,seconds_high,ratio,ratio_low,ratio_high,rmse,rmse_low,rmse_high,relative_mse,\
-max,visible,flip,delta_e,model";
+max,visible,flip,delta_e,model,renders,expected_rmse,rmse_deviation";
 
 /// All rows.
 #[must_use]
@@ -27,6 +27,7 @@ fn line(row: &Row) -> String {
         seconds,
         ratio,
         errors,
+        spread,
         judged,
         resumed: _,
         model,
@@ -49,6 +50,9 @@ fn line(row: &Row) -> String {
         errors.flip,
         errors.delta_e,
         *model,
+        f64::from(spread.renders),
+        spread.expected,
+        spread.deviation,
     ];
     // The shortest digits that read back as the same number.
     let numbers = times.chain(errors).map(|number| number.to_string());

@@ -68,6 +68,7 @@ fn front(study: &Study) -> String {
         "time",
         "×&nbsp;own",
         "error",
+        "over renders",
         "expected",
         "largest",
         "pixels off",
@@ -146,6 +147,11 @@ fn cells(row: &Row, used: &[Knob], fraction: f64) -> Vec<String> {
             "{limit}{}{}",
             digits(row.errors.rmse),
             interval(&row.errors)
+        ),
+        format!(
+            "{} ± {}",
+            digits(row.spread.expected),
+            digits(row.spread.deviation)
         ),
         digits(row.model),
         digits(row.errors.max),

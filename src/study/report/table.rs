@@ -135,32 +135,42 @@ fn clipped(name: &str) -> String {
 }
 
 /// The columns after those of the knobs, with their widths.
-const COLUMNS: [(&str, usize); 9] = [
+const COLUMNS: [(&str, usize); 11] = [
     ("rays", 8),
     ("time", 8),
     ("±%", 5),
     ("×own", 6),
     ("error", 7),
+    ("mean", 6),
+    ("σ%", 5),
     ("model", 6),
     (">1lv%", 6),
     ("FLIP", 6),
     ("tiles%", 8),
 ];
 
-/// The place of the model in them.
-const MODEL: usize = 5;
+/// The places of those that make room for others, the first to go first.
+const MODEL: usize = 7;
+const MEAN: usize = 5;
+const SPREAD: usize = 6;
+const FLIP: usize = 9;
 
-/// The places of the columns that are shown. Of a part of the picture that is also what the tiles leave
-/// open of the error; the model makes room for it.
+/// The places of the columns that are shown, as far as there is room: those of what the tiles leave open
+/// of the error only if tiles were looked at, those of other renders only if any differs.
 fn columns(study: &Study, used: &[Knob]) -> Vec<usize> {
-    if study.part.tiles == 0 {
-        return (0..COLUMNS.len() - 1).collect();
-    }
+    let is_alike = study.rows.iter().all(|row| row.spread.deviation == 0.0);
+    let mut shown: Vec<_> = (0..COLUMNS.len())
+        .filter(|place| *place != COLUMNS.len() - 1 || study.part.tiles > 0)
+        .filter(|place| !(is_alike && [MEAN, SPREAD].contains(place)))
+        .collect();
     let knobs = used.iter().map(|knob| width(*knob)).sum::<usize>();
-    let taken = 1 + knobs + COLUMNS.iter().map(|column| column.1).sum::<usize>();
-    (0..COLUMNS.len())
-        .filter(|column| *column != MODEL || taken <= WIDTH)
-        .collect()
+    for place in [MODEL, MEAN, FLIP, SPREAD] {
+        let columns = shown.iter().map(|place| COLUMNS[*place].1).sum::<usize>();
+        if 1 + knobs + columns > WIDTH {
+            shown.retain(|other| *other != place);
+        }
+    }
+    shown
 }
 
 /// The width of the column of a knob.
@@ -187,6 +197,8 @@ fn line(row: &Row, used: &[Knob], (columns, fraction): (&[usize], f64)) -> Strin
             digits(row.ratio.value)
         },
         format!("{limit}{}", digits(row.errors.rmse)),
+        digits(row.spread.expected),
+        format!("{:.1}", 100.0 * row.spread.relative()),
         match row.setting.denoise {
             true => "–".to_owned(),
             false => digits(row.model),

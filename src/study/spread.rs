@@ -1,0 +1,120 @@
+//! How the error of a setting differs between renders: what a picture's error is expected to be, and how far
+//! one picture may be off that.
+
+use super::metrics::{LEVELS, mean_product};
+use super::subject::RenderedTiles;
+use crate::image::Image;
+use crate::ir::{Mode, Pattern, Settings};
+use crate::render::Seeds;
+use serde::{Deserialize, Serialize};
+
+/// The error over renders by other random numbers (Celarek, Jakob, Wimmer, Lehtinen, "Quantifying the error
+/// of light transport algorithms", Computer Graphics Forum 38(4), 2019): the expectation of the mean
+/// square error, and how far it spreads. What a scene samples in a fixed pattern is the same in all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct ErrorSpread {
+    /// How many renders there were.
+    pub renders: u32,
+    /// The root of the expected mean square error, in grey levels.
+    pub expected: f64,
+    /// The standard deviation of the error of a render (its `rmse`), in grey levels; 0 if all are alike.
+    pub deviation: f64,
+}
+
+impl ErrorSpread {
+    /// Of the mean square errors of some renders, for a white of 1.
+    pub(super) fn of(squares: &[f64]) -> Self {
+        let count = squares.len().max(1) as f64;
+        let mean = |values: &dyn Fn(f64) -> f64| {
+            let values = squares.iter().map(|square| values(*square));
+            values.sum::<f64>() / count
+        };
+        // From the first on, so that none is exactly how far alike ones are off.
+        let first = squares.first().copied().unwrap_or_default().sqrt();
+        let off = mean(&|square: f64| square.sqrt() - first);
+        let square =
+            mean(&|square: f64| (square.sqrt() - first - off) * (square.sqrt() - first - off));
+        let unbiased = square * count / (count - 1.0).max(1.0);
+        Self {
+            renders: u32::try_from(squares.len()).unwrap_or(u32::MAX),
+            expected: mean(&|square| square).sqrt() * LEVELS,
+            deviation: unbiased.sqrt() * LEVELS,
+        }
+    }
+
+    /// The deviation as a share of the expected error; 0 if there is none.
+    #[must_use]
+    pub fn relative(&self) -> f64 {
+        match self.expected {
+            0.0 => 0.0,
+            expected => self.deviation / expected,
+        }
+    }
+}
+
+/// The random numbers of the renders of a row, and what each is held against.
+#[derive(Clone, Copy)]
+pub(super) struct Afresh<'t> {
+    /// The reference; without one all renders are alike.
+    pub(super) truth: Option<&'t [Image]>,
+    /// How many renders of the row there were before.
+    pub(super) before: u64,
+}
+
+impl Afresh<'_> {
+    /// The seeds of a render: those of `rtc render` for the first one.
+    pub(super) fn seeds(&self, number: u64, settings: &Settings) -> Seeds {
+        /// Other than those of references and sweeps.
+        const FIRST: u64 = 0xAF7E;
+        let number = self.before + number;
+        if self.truth.is_none() || number == 0 {
+            return Seeds::NONE;
+        }
+        let seed = FIRST + number;
+        let path = Seeds {
+            path: seed,
+            ..Seeds::NONE
+        };
+        match (&settings.mode, settings.pattern) {
+            (Mode::Path(_), _) => Seeds {
+                pixel: seed,
+                lens: seed,
+                ..path
+            },
+            (_, Pattern::Grid) => path,
+            (_, Pattern::Jitter | Pattern::Random) => Seeds {
+                pixel: seed,
+                ..path
+            },
+        }
+    }
+
+    /// The mean square error of a render.
+    pub(super) fn square(&self, shot: &RenderedTiles) -> Option<f64> {
+        let truth = self.truth?;
+        Some(mean_product([&shot.tiles, truth], [&shot.tiles, truth]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_spread_of_four_errors_by_hand() {
+        let squares = [1.0, 4.0, 1.0, 4.0].map(|levels: f64| levels / (LEVELS * LEVELS));
+        let ErrorSpread {
+            renders,
+            expected,
+            deviation,
+        } = ErrorSpread::of(&squares);
+        // The errors are 1, 2, 1 and 2 grey levels.
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
+        assert!(renders == 4 && near(expected, 2.5_f64.sqrt()));
+        assert!(near(deviation, (1.0_f64 / 3.0).sqrt()), "{deviation}");
+        let alike = ErrorSpread::of(&[squares[0]]);
+        assert!(near(alike.expected, 1.0) && alike.deviation == 0.0);
+        assert_eq!(ErrorSpread::of(&[]).relative(), 0.0);
+    }
+}
