@@ -6,17 +6,15 @@
 
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
-import puppeteer from "puppeteer-core";
+import { launch, shoot, shots } from "./shots.mjs";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
 const rtc = process.env.RTC ?? join(here, "../../target/debug/rtc");
-const browserPath = process.env.CHROMIUM;
-if (!browserPath) throw new Error("CHROMIUM is to name a browser, as /usr/bin/chromium");
 
 const SCENE = `# Three balls.
 Camera:
@@ -36,8 +34,6 @@ Objects:
 const folder = mkdtempSync(join(tmpdir(), "rtc-preview-"));
 const scene = join(folder, "balls.yaml");
 const text = () => readFileSync(scene, "utf8");
-const shots = join(here, "shots");
-mkdirSync(shots, { recursive: true });
 writeFileSync(scene, SCENE);
 const other = join(folder, "other.yaml");
 writeFileSync(other, SCENE.replace("[0.9, 0.3, 0.2]", "[0.9, 0.9, 0.2]"));
@@ -55,10 +51,7 @@ const ended = new Promise((done) => program.once("exit", done));
 const [address] = await new Promise((done) => {
   createInterface({ input: program.stdout }).once("line", (line) => done([line]));
 });
-const browser = await puppeteer.launch({
-  executablePath: browserPath,
-  args: ["--no-sandbox", "--disable-gpu"],
-});
+const browser = await launch();
 
 try {
   const page = await browser.newPage();
@@ -97,19 +90,6 @@ try {
     return Buffer.from(await page.evaluate(read, path), "base64");
   };
   const command = () => page.$eval("#command", (own) => own.value);
-  // All of the page, at three widths, light and dark; nothing is cut off.
-  const shoot = async (name, { fullPage = true } = {}) => {
-    for (const [width, height] of [[390, 844], [1280, 900], [1920, 1080]]) {
-      for (const scheme of ["light", "dark"]) {
-        await page.setViewport({ width, height });
-        await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
-        await page.screenshot({ path: join(shots, `${name}-${width}-${scheme}.png`), fullPage });
-        const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-        assert.ok(wide <= 0, `nothing is cut off at ${width}: ${wide}`);
-      }
-    }
-    await page.setViewport({ width: 1280, height: 900 });
-  };
   const pixels = () => page.$eval("#picture", (canvas) => canvas.toDataURL());
 
   let number = await finished(0);
@@ -124,7 +104,7 @@ try {
   await until(() => !document.getElementById("overlay").hidden);
   const told = await page.$eval("#errors", (errors) => errors.textContent);
   assert.match(told, /error\[/, "the fault is told");
-  await shoot("fault", { fullPage: false });
+  await shoot(page, "fault", { fullPage: false });
   // By keys alone: the first button, which mends its finding.
   const before = text();
   await page.focus("#errors button");
@@ -164,7 +144,7 @@ try {
   await until(() => document.getElementById("pixel").textContent.includes("value"));
   await until(() => /took part: surfaces \d+×, direct light/.test(document.getElementById("taken").textContent));
   assert.match(await page.$eval("#pixel", (own) => own.textContent), /surface \d: sphere \(.*balls.yaml:\d+\)/);
-  await shoot("turned");
+  await shoot(page, "turned");
 
   // The panel measures when it is opened, and not before; by keys alone a setting is chosen.
   assert.equal(await page.evaluate(() => state.costs), null);
@@ -195,7 +175,7 @@ try {
     return name;
   });
   assert.equal(moving, "none", "nothing moves for who wants that");
-  await shoot("settings");
+  await shoot(page, "settings");
   await page.click("#own");
   number = await finished(number);
   assert.ok(!(await command()).includes("--supersampling"));
