@@ -147,15 +147,17 @@ impl CranleyPatterson {
 /// Makes the random numbers of the lens independent of those of sub-samples and paths.
 const LENS: u64 = u64::MAX - 1;
 
-/// Maps the unit square uniformly to the lens.
+/// Maps a point of the unit square uniformly to the lens; a pinhole does not ask for it.
 #[must_use]
-pub(in crate::render) fn lens_at(camera: &Camera, [fraction, turn]: [f64; 2]) -> Vec3 {
+#[inline]
+pub(in crate::render) fn lens_at(camera: &Camera, point: impl FnOnce() -> [f64; 2]) -> Vec3 {
     /// 2⁶⁴.
     const TURN: f64 = 18_446_744_073_709_551_616.0;
     let radius = camera.lens_radius;
     if radius == 0.0 {
         return camera.eye;
     }
+    let [fraction, turn] = point();
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

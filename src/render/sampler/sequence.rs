@@ -4,27 +4,20 @@
 //! The first n points are unbiased for every n, and stratified if n is a power of two.
 
 use crate::render::sampler::Key;
+use crate::render::sampler::sobol::pascal;
 
-const DIMENSIONS: usize = 4;
-
-/// The direction numbers (Joe and Kuo, "Constructing Sobol sequences with better two-dimensional
-/// projections", SIAM Journal on Scientific Computing 30 (2008)).
-const DIRECTIONS: [[u32; 32]; DIMENSIONS] = [
-    directions(0, 0, [0; 3]),
-    directions(1, 0, [1, 0, 0]),
-    directions(2, 1, [1, 3, 0]),
-    directions(3, 1, [1, 3, 1]),
-];
+/// The direction numbers of the dimensions of the lens (Joe and Kuo, "Constructing Sobol sequences with better
+/// two-dimensional projections", SIAM Journal on Scientific Computing 30 (2008)). Those of the pixel are
+/// van der Corput's, which turns the index round, and Pascal's matrix.
+const LENS: [[u32; 32]; 2] = [directions(2, 1, [1, 3, 0]), directions(3, 1, [1, 3, 1])];
 
 /// The direction numbers of a primitive polynomial, given by its degree and its inner coefficients
-/// as bits. Degree 0 is van der Corput's sequence.
+/// as bits.
 const fn directions(degree: usize, inner: u32, first: [u32; 3]) -> [u32; 32] {
     let mut v = [0; 32];
     let mut k = 0;
     while k < 32 {
-        if degree == 0 {
-            v[k] = 1 << (31 - k);
-        } else if k < degree {
+        if k < degree {
             v[k] = first[k] << (31 - k);
         } else {
             v[k] = v[k - degree] ^ (v[k - degree] >> degree);
@@ -43,24 +36,35 @@ const fn directions(degree: usize, inner: u32, first: [u32; 3]) -> [u32; 32] {
 
 /// A sequence of its own for each key.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Sequence([u64; DIMENSIONS]);
+pub(in crate::render) struct Sequence(Key);
 
 impl Sequence {
     /// The sequence of a key.
     #[must_use]
     pub(in crate::render) fn new(key: Key) -> Self {
-        Self([0, 1, 2, 3].map(|dimension| key.bits(dimension)))
+        Self(key)
     }
 
-    /// Point `index`, each coordinate in (0, 1).
+    /// The place in the pixel of point `index`, each coordinate in (0, 1).
     #[must_use]
-    pub(in crate::render) fn point(&self, index: u32) -> [f64; DIMENSIONS] {
+    #[inline]
+    pub(in crate::render) fn film(&self, index: u32) -> [f64; 2] {
+        [self.number(0, index), self.number(1, pascal(index))]
+    }
+
+    /// The place on the lens, in the same way.
+    #[must_use]
+    pub(in crate::render) fn lens(&self, index: u32) -> [f64; 2] {
+        let [x, y] = [0, 1].map(|which| sobol(&LENS[which], index).reverse_bits());
+        [self.number(2, x), self.number(3, y)]
+    }
+
+    /// The coordinate of a dimension, of its bits from the lowest on.
+    #[inline]
+    fn number(&self, dimension: u64, bits: u32) -> f64 {
         /// 2⁻³².
         const UNIT: f64 = 1.0 / 4_294_967_296.0;
-        [0, 1, 2, 3].map(|dimension| {
-            let x = scrambled(sobol(&DIRECTIONS[dimension], index), self.0[dimension]);
-            (f64::from(x) + 0.5) * UNIT
-        })
+        (f64::from(scrambled(bits, self.0.bits(dimension))) + 0.5) * UNIT
     }
 }
 
@@ -75,14 +79,14 @@ fn sobol(directions: &[u32; 32], index: u32) -> u32 {
 
 /// Owen scrambling by a hash (Burley, "Practical hash-based Owen scrambling", JCGT 9 (2020), with
 /// the constants of Vegdahl, "Building a better LK hash" (2021)), then a digital shift, which makes
-/// each point uniform by itself.
+/// each point uniform by itself. Takes the bits from the lowest on.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the halves of the seed are meant"
 )]
-fn scrambled(x: u32, seed: u64) -> u32 {
+#[inline]
+fn scrambled(mut x: u32, seed: u64) -> u32 {
     let (shift, seed) = ((seed >> 32) as u32, seed as u32);
-    let mut x = x.reverse_bits();
     x ^= x.wrapping_mul(0x3D20_ADEA);
     x = x.wrapping_add(seed);
     x = x.wrapping_mul((seed >> 16) | 1);
@@ -101,18 +105,23 @@ mod tests {
             .unwrap_or(0)
     }
 
+    fn point(sequence: &Sequence, index: u32) -> [f64; 4] {
+        let ([x, y], [u, v]) = (sequence.film(index), sequence.lens(index));
+        [x, y, u, v]
+    }
+
     #[test]
     fn powers_of_two_fill_every_stratum_once() {
         for seed in 0..8 {
             let sequence = Sequence::new(Key::new([3, 9], seed));
-            for dimension in 0..DIMENSIONS {
+            for dimension in 0..4 {
                 let mut seen = [0; 64];
-                (0..64).for_each(|k| seen[cell(sequence.point(k)[dimension], 64)] += 1);
+                (0..64).for_each(|k| seen[cell(point(&sequence, k)[dimension], 64)] += 1);
                 assert_eq!(seen, [1; 64], "dimension {dimension}");
             }
             let mut seen = [0; 16];
             for k in 0..16 {
-                let [x, y, ..] = sequence.point(k);
+                let [x, y] = sequence.film(k);
                 seen[4 * cell(x, 4) + cell(y, 4)] += 1;
             }
             assert_eq!(seen, [1; 16], "the pixel, in squares");
@@ -122,7 +131,7 @@ mod tests {
     #[test]
     fn every_point_is_uniform_over_the_keys() {
         for index in [0, 1, 5] {
-            let points = (0..4096).map(|seed| Sequence::new(Key::new([1, 2], seed)).point(index));
+            let points = (0..4096).map(|seed| point(&Sequence::new(Key::new([1, 2], seed)), index));
             let sum = points.fold([0.0; 8], |mut sum, point| {
                 (0..4).for_each(|d| {
                     sum[d] += point[d] / 4096.0;

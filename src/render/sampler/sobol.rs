@@ -129,7 +129,7 @@ fn scrambled(x: u32, seed: u32) -> u32 {
 /// Pascal's matrix modulo 2, the generator of the second dimension: bit i is the parity of the bits
 /// j that have all bits of i.
 #[inline]
-fn pascal(mut x: u32) -> u32 {
+pub(super) fn pascal(mut x: u32) -> u32 {
     for (step, mask) in [
         (1, 0x5555_5555),
         (2, 0x3333_3333),

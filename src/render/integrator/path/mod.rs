@@ -116,7 +116,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             return ray_through(camera, camera.eye, target);
         }
         self.counts.add(Effect::Lens);
-        ray_through(camera, lens_at(camera, sobol.pair(LENS)), target)
+        ray_through(camera, lens_at(camera, || sobol.pair(LENS)), target)
     }
 
     /// The radiance along one path.

@@ -132,10 +132,9 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     fn ray_of_replicate(&self, id: &SampleId, number: u64) -> Ray {
         let camera = &self.world.camera;
         let sequence = Sequence::new(Key::new(id.pixel, number).child(REPLICATE));
-        let [x, y, u, v] = sequence.point(id.index);
         camera_ray(
-            lens_at(camera, [u, v]),
-            image_point(camera, id.pixel, [x, y]),
+            lens_at(camera, || sequence.lens(id.index)),
+            image_point(camera, id.pixel, sequence.film(id.index)),
         )
     }
 
