@@ -10,6 +10,7 @@ mod hierarchy;
 mod layers;
 mod leaves;
 mod levels;
+mod lights;
 mod sides;
 mod surfaces;
 

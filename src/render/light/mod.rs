@@ -1,11 +1,12 @@
-//! The lights for next-event estimation, each chosen by its power: punctual lights, emissive
-//! triangles, and the environment.
+//! The lights for next-event estimation: punctual lights, emissive triangles, and the environment.
+//! Each is chosen by its power, or, where many have a place, by a tree over these.
 //!
 //! A light of weight 0 is never chosen; only BSDF sampling finds it.
 
 pub(in crate::render) mod course;
 pub(in crate::render) mod environment;
 pub(in crate::render) mod punctual;
+mod tree;
 mod triangle;
 
 use crate::math::{Bounds, Vec3};
@@ -13,6 +14,7 @@ use crate::plan::LightLeft;
 use crate::render::integrator::path::Strategy;
 use crate::render::light::environment::EnvironmentRadiance;
 use crate::render::light::punctual::Punctual;
+use crate::render::light::tree::{LightTree, TreeLight};
 use crate::render::light::triangle::TriangleLight;
 use crate::render::material::point::uvs;
 use crate::render::material::standard::StandardMaterial;
@@ -23,14 +25,19 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
 use std::f64::consts::PI;
 
+/// Fewer lights with a place are chosen by power alone, so that pictures of such scenes stay as they are.
+const LEAST_FOR_TREE: usize = 64;
+
 /// All lights of a world.
 pub(in crate::render) struct Lights<'world, S> {
     world: &'world World<S>,
     lights: Vec<Light>,
+    /// Over the lights, those of the tree with weight 0; the tree itself, if any, comes last.
     by_power: DiscreteDistribution,
+    tree: Option<LightTree>,
     /// The one light that is ever chosen, if it is one.
     only: Option<usize>,
-    /// The probability of choosing each light.
+    /// The probabilities of `by_power`.
     probabilities: Vec<f64>,
     /// The index of the first light of each surface that has some.
     firsts: Vec<Option<usize>>,
@@ -85,20 +92,75 @@ impl<'world, S: Geometry> Lights<'world, S> {
             world,
             lights,
             by_power: DiscreteDistribution::new(std::iter::empty()),
+            tree: None,
             only: None,
             probabilities: Vec::new(),
             firsts,
         };
-        let disc = PI * all.radius_squared();
-        all.by_power = DiscreteDistribution::new(
-            all.lights
-                .iter()
-                .map(|light| all.weight(light, disc, strategy)),
-        );
-        all.only = all.by_power.only();
-        let probability = |index| all.by_power.probability(index);
-        all.probabilities = (0..all.lights.len()).map(probability).collect();
+        all.weigh(strategy);
         all
+    }
+
+    /// Finds the probabilities of lights, and makes a tree over those that have a place if they are
+    /// many.
+    fn weigh(&mut self, strategy: Strategy) {
+        let disc = PI * self.radius_squared();
+        let weight = |light| self.weight(light, disc, strategy);
+        let mut weights = self.lights.iter().map(weight).collect::<Vec<_>>();
+        let numbered = weights.iter().enumerate();
+        let emitters = numbered.filter_map(|(light, power)| self.emitter(light, *power));
+        let emitters = emitters.collect::<Vec<_>>();
+        if emitters.len() >= LEAST_FOR_TREE {
+            for emitter in &emitters {
+                weights[emitter.light] = 0.0;
+            }
+            weights.push(emitters.iter().map(|emitter| emitter.power).sum());
+            self.tree = Some(LightTree::new(emitters, self.lights.len()));
+        }
+        self.by_power = DiscreteDistribution::new(weights.iter().copied());
+        let is_light = |index: &usize| *index < self.lights.len();
+        self.only = self.by_power.only().filter(is_light);
+        let probability = |index| self.by_power.probability(index);
+        self.probabilities = (0..weights.len()).map(probability).collect();
+    }
+
+    /// A light as a tree holds it; `None` for one without a place or power.
+    fn emitter(&self, light: usize, power: f64) -> Option<TreeLight> {
+        let (bounds, normal) = match &self.lights[light] {
+            Light::Punctual(light, _) => (Bounds::around(light.place_of_falloff()?, 0.0), None),
+            Light::Triangle(triangle) => (Bounds::of(triangle.corners), Some(triangle.normal())),
+            Light::Environment => return None,
+        };
+        (power > 0.0).then_some(TreeLight {
+            light,
+            bounds,
+            power,
+            normal,
+        })
+    }
+
+    /// Chooses a light for a point: its index and its probability.
+    fn choose(&self, from: Vec3, u: f64) -> Option<(usize, f64)> {
+        if let Some(only) = self.only {
+            return Some((only, self.probabilities[only]));
+        }
+        let (index, rest) = self.by_power.choose(u)?;
+        let probability = self.probabilities[index];
+        Some(match &self.tree {
+            Some(tree) if index == self.lights.len() => {
+                let (light, share) = tree.choose(from, rest);
+                (light, probability * share)
+            }
+            _ => (index, probability),
+        })
+    }
+
+    /// The probability of choosing a light for a point.
+    fn probability(&self, light: usize, from: Vec3) -> f64 {
+        let by_power = self.probabilities[light];
+        self.tree.as_ref().map_or(by_power, |tree| {
+            by_power + self.probabilities[self.lights.len()] * tree.probability(light, from)
+        })
     }
 
     /// The square of the radius of a sphere around all bounded surfaces.
@@ -196,10 +258,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
         u_light: f64,
         u: impl FnOnce() -> [f64; 2],
     ) -> Option<Incident> {
-        // Choose a light by its power.
-        let chosen = || self.by_power.choose(u_light).map(|(index, _)| index);
-        let index = self.only.or_else(chosen)?;
-        let probability = self.probabilities[index];
+        let (index, probability) = self.choose(from, u_light)?;
         match &self.lights[index] {
             Light::Punctual(_, LightLeft::Place | LightLeft::Nothing) => None,
             Light::Punctual(light, LightLeft::All) => light.sample(from, probability),
@@ -230,14 +289,14 @@ impl<'world, S: Geometry> Lights<'world, S> {
         }
     }
 
-    /// The density with which [`Lights::sample`] samples the direction `wi` to a primitive of a
-    /// surface at the given squared distance.
+    /// The density with which [`Lights::sample`] samples the direction `wi` to a point of a
+    /// primitive of a surface, from a point at the given distance.
     pub(in crate::render) fn pdf_of_surface(
         &self,
-        surface: usize,
-        prim_id: u32,
+        (surface, prim_id): (usize, u32),
+        place: Vec3,
         wi: Vec3,
-        distance_squared: f64,
+        distance: f64,
     ) -> f64 {
         let Some(first) = self.firsts[surface] else {
             return 0.0;
@@ -245,7 +304,8 @@ impl<'world, S: Geometry> Lights<'world, S> {
         let index = first + prim_id as usize;
         match &self.lights[index] {
             Light::Triangle(triangle) => {
-                self.probabilities[index] * triangle.pdf(wi, distance_squared)
+                let probability = self.probability(index, place - wi * distance);
+                probability * triangle.pdf(wi, distance * distance)
             }
             Light::Punctual(..) | Light::Environment => 0.0,
         }

@@ -53,6 +53,14 @@ impl Punctual {
         }
     }
 
+    /// Where the light stands, if its strength falls with the square of the distance.
+    pub(super) fn place_of_falloff(&self) -> Option<Vec3> {
+        match self {
+            Self::Point(point) if !matches!(point.falloff, Falloff::None) => Some(point.position),
+            Self::Point(_) | Self::Directional(_) => None,
+        }
+    }
+
     /// The light that a point receives, divided by the probability of choosing this light.
     pub(super) fn sample(&self, from: Vec3, probability: f64) -> Option<Incident> {
         let (wi, place, intensity, strength) = match self {

@@ -99,9 +99,8 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             self.counts.add(Effect::Textures);
         }
         let (hit, wo) = (vertex.hit, -state.ray.direction);
-        let square = state.travelled * state.travelled;
-        let lights = self.lights;
-        let light_pdf = || lights.pdf_of_surface(hit.surface, hit.prim_id, -wo, square);
+        let (lights, part) = (self.lights, (hit.surface, hit.prim_id));
+        let light_pdf = || lights.pdf_of_surface(part, vertex.at.point, -wo, state.travelled);
         let weight = self.weight_of_scattering(state.pdf, light_pdf);
         state.radiance += state.beta * emission * weight;
     }
