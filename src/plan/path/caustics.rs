@@ -41,9 +41,7 @@ impl Caustics {
     pub const fn told(self) -> &'static str {
         match self {
             Self::ByChance => "found by chance alone, as noise; `--clamp` bounds it",
-            Self::LeftOut => {
-                "by mirrors and glass, of lights without size, left out, as no path finds them"
-            }
+            Self::LeftOut => "those of lights without size are left out, as no path finds them",
         }
     }
 }
