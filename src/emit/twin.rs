@@ -2,10 +2,10 @@
 
 use super::told::Told;
 use crate::diag::codes;
-use crate::ir::{Place, Shape, ShapeKind};
+use crate::ir::{Field, Material, Noun, Place, Scene, Shape, ShapeKind};
 use crate::math::shortest;
 use crate::source::{Budget, Resource};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A scene for another renderer.
 #[derive(Debug)]
@@ -32,6 +32,15 @@ impl Told<'_> {
             })
             .ok()
     }
+}
+
+/// The materials that surfaces have, with their indices and places.
+pub(super) fn worn(scene: &Scene) -> impl Iterator<Item = (usize, &Material, Place)> {
+    let worn = scene.surfaces.iter().map(|own| own.material.0 as usize);
+    let worn: BTreeSet<_> = worn.collect();
+    let place = |index| Place::new(Noun::Material, index, Field::Whole);
+    let material = move |index| Some((index, scene.materials.get(index)?, place(index)));
+    worn.into_iter().filter_map(material)
 }
 
 /// Numbers, each the shortest that reads back, with something between them; −0 as 0.

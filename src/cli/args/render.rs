@@ -39,8 +39,8 @@ pub(in crate::cli) struct Render {
     /// camera rays; some pixels are sampled anew, which tells the error
     #[arg(long, conflicts_with_all = ["target_error", "time_budget", "part", "checkpoint", "strips", "verify_effects"])]
     pub(in crate::cli) denoise: bool,
-    /// Let a traced path bring no more radiance after its first bounce, in any channel: fewer bright dots,
-    /// and less light, of which the end of the run tells how much
+    /// Let a traced path bring no more radiance than this after its first bounce, in any channel: fewer
+    /// bright dots, but less light; the end of the run tells how much less
     #[arg(long, value_name = "LIMIT", value_parser = radiance, conflicts_with_all = ["target_error", "time_budget", "denoise", "part", "checkpoint", "strips", "verify_effects"])]
     pub(in crate::cli) clamp: Option<f64>,
     /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with

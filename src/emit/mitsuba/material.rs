@@ -2,8 +2,8 @@
 
 use super::MitsubaWriter;
 use crate::emit::nearest::nearest;
-use crate::emit::twin::listed;
-use crate::ir::{Alpha, Field, Material, Noun, Place, Standard};
+use crate::emit::twin::{listed, worn};
+use crate::ir::{Alpha, Material, Place, Standard};
 use crate::math::shortest;
 use std::borrow::Cow;
 
@@ -14,13 +14,8 @@ const PRINCIPLED: f64 = 0.08;
 impl MitsubaWriter<'_> {
     /// Writes the materials that surfaces have.
     pub(super) fn materials(&mut self) {
-        let scene = self.scene;
-        for (index, material) in scene.materials.iter().enumerate() {
-            let id = u32::try_from(index).unwrap_or(u32::MAX);
-            if scene.surfaces.iter().any(|own| own.material.0 == id) {
-                let place = Place::new(Noun::Material, index, Field::Whole);
-                self.material(index, &standard(material), place);
-            }
+        for (index, material, place) in worn(self.scene) {
+            self.material(index, &standard(material), place);
         }
     }
 

@@ -2,20 +2,15 @@
 //! ambient term is becomes one colour.
 
 use super::{PovWriter, vector};
-use crate::emit::twin::listed;
-use crate::ir::{Field, Light, Material, Noun, Phong, Place, Standard};
+use crate::emit::twin::{listed, worn};
+use crate::ir::{Light, Material, Phong, Place, Standard};
 use crate::math::shortest;
 
 impl PovWriter<'_> {
     /// Writes the materials that surfaces have.
     pub(super) fn materials(&mut self) {
-        let scene = self.scene;
-        for (index, material) in scene.materials.iter().enumerate() {
-            let id = u32::try_from(index).unwrap_or(u32::MAX);
-            if scene.surfaces.iter().any(|own| own.material.0 == id) {
-                let place = Place::new(Noun::Material, index, Field::Whole);
-                self.material(index, material, place);
-            }
+        for (index, material, place) in worn(self.scene) {
+            self.material(index, material, place);
         }
     }
 

@@ -23,12 +23,10 @@ impl PathPlan {
         let shines = |m: &Standard| !m.unlit && m.emissive != Vec3::ZERO;
         let has_wide = self.environment != EnvironmentLeft::Nothing;
         let has_light = has_punctual || has_wide || self.materials.iter().any(shines);
-        let mut throwing = self.materials.iter().filter(|m| throws(m)).peekable();
-        if !has_light || throwing.peek().is_none() {
-            return None;
-        }
-        let is_exact = throwing.any(|m| m.roughness == UnitInterval::ZERO);
-        Some(match is_exact && has_punctual {
+        let is_thrown = has_light && self.materials.iter().any(throws);
+        let is_exact = |m: &Standard| throws(m) && m.roughness == UnitInterval::ZERO;
+        let is_missed = has_punctual && self.materials.iter().any(is_exact);
+        is_thrown.then_some(match is_missed {
             true => Caustics::LeftOut,
             false => Caustics::ByChance,
         })
