@@ -1,7 +1,7 @@
 //! Samples fall as their density says: it integrates to what is sampled, and a χ² test finds no
 //! difference.
 
-use crate::{lattice, variety, view};
+use crate::{lattice, sampled, variety, view};
 use rtc::internals::math::Vec3;
 use rtc::internals::render::{Bsdf, StandardParameters};
 use std::f64::consts::{PI, TAU};
@@ -61,7 +61,7 @@ fn observed(bsdf: &Bsdf, seed: u64) -> (Vec<f64>, f64) {
     let mut taken = 0;
     for _ in 0..SAMPLES {
         let u = [random.next(), random.next(), random.next()];
-        if let Some(sample) = bsdf.sample(u).filter(|sample| !sample.delta) {
+        if let Some(sample) = sampled(bsdf, u).filter(|sample| !sample.delta) {
             bins[bin_of(sample.wi)] += 1.0;
             taken += 1;
         }
@@ -152,7 +152,7 @@ fn a_sample_carries_what_evaluation_gives() {
         for cosine in [0.9, 0.3, -0.5] {
             let bsdf = Bsdf::new(&standard, view(cosine));
             for sample in (0..500)
-                .filter_map(|k| bsdf.sample(lattice(k)))
+                .filter_map(|k| sampled(&bsdf, lattice(k)))
                 .filter(|sample| !sample.delta)
             {
                 let value = bsdf.evaluate(sample.wi);
@@ -173,7 +173,7 @@ fn a_diffuse_surface_samples_by_the_cosine() {
     };
     let bsdf = Bsdf::new(&lambert, view(0.4));
     for k in 0..100 {
-        let sample = bsdf.sample(lattice(k)).unwrap();
+        let sample = sampled(&bsdf, lattice(k)).unwrap();
         assert!((sample.pdf - sample.wi.z / PI).abs() < 1e-12 && !sample.delta);
     }
 }

@@ -12,7 +12,8 @@ mod known;
 
 use rtc::internals::math::Vec3;
 use rtc::internals::render::{
-    Anisotropy, Bsdf, Clearcoat, DiffuseTransmission, Iridescence, Sheen, StandardParameters,
+    Anisotropy, Bsdf, BsdfSample, Clearcoat, DiffuseTransmission, Iridescence, Sheen,
+    StandardParameters,
 };
 use std::f64::consts::FRAC_1_PI;
 
@@ -45,12 +46,16 @@ fn lattice_of(k: u32, n: u32) -> [f64; 3] {
     ]
 }
 
+/// A sample by three numbers, of which the last is not always needed.
+fn sampled(bsdf: &Bsdf, [u, v, third]: [f64; 3]) -> Option<BsdfSample> {
+    bsdf.sample([u, v], || third)
+}
+
 /// How much of a uniform sky the material sends to a viewer, by sampling.
 fn albedo(standard: &StandardParameters, wo: Vec3, samples: u32) -> Vec3 {
     let bsdf = Bsdf::new(standard, wo);
     let value = |k: u32| {
-        bsdf.sample(lattice_of(k, samples))
-            .map_or(Vec3::ZERO, |s| s.f * (s.wi.z.abs() / s.pdf))
+        sampled(&bsdf, lattice_of(k, samples)).map_or(Vec3::ZERO, |s| s.f * (s.wi.z.abs() / s.pdf))
     };
     (0..samples).map(value).sum::<Vec3>() / f64::from(samples)
 }

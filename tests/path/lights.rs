@@ -6,10 +6,10 @@ use rtc::internals::math::Vec3;
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Job, Seeds};
 
-const GROUPS: usize = 8;
+const GROUPS: usize = 16;
 
 /// A floor and a ball among 64 points and 32 shining squares (which are 128 lights), with the light
-/// of one group of 16, or of all.
+/// of one group, which are 8, or of all.
 fn room(group: Option<usize>) -> Scene {
     let mut scene = scene(64);
     add_square(&mut scene, -1.0, 3.0, lambert([0.7, 0.6, 0.5]));

@@ -275,8 +275,14 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// Samples a direction by a visible normal; `None` if the direction is on the wrong side.
-    pub(super) fn sample(&self, wo: Vec3, u_lobe: f64, u: [f64; 2]) -> Option<ScatteredDirection> {
+    /// Samples a direction by a visible normal; `None` if the direction is on the wrong side. The
+    /// number of `u_lobe` is asked for where light both reflects and goes through.
+    pub(super) fn sample(
+        &self,
+        wo: Vec3,
+        u: [f64; 2],
+        u_lobe: impl FnOnce() -> f64,
+    ) -> Option<ScatteredDirection> {
         // Sample the visible normal.
         let h = if self.smooth {
             Vec3::Z
@@ -287,7 +293,7 @@ impl<const F: u32> Microfacet<F> {
         let weights = self.weights(cosine);
         let lobe_pdf = weights.lobe_pdf();
         // Reflect at the microfacet.
-        if u_lobe < lobe_pdf {
+        if lobe_pdf >= 1.0 || u_lobe() < lobe_pdf {
             let wi = h * (2.0 * cosine) - wo;
             let way = if self.smooth {
                 ScatteredDirection::Single(wi, weights.reflected, lobe_pdf)

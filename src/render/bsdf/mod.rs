@@ -9,6 +9,7 @@ mod coat;
 mod compensation;
 mod fresnel;
 mod ggx;
+mod lobe_pdf;
 mod microfacet;
 pub(in crate::render) mod optics;
 mod sheen;
@@ -23,7 +24,8 @@ use crate::math::Vec3;
 use crate::plan::PathFeatures;
 use coat::Coat;
 use compensation::Compensation;
-use microfacet::{LobeWeights, Microfacet, ScatteredDirection};
+use lobe_pdf::LobePdf;
+use microfacet::{Microfacet, ScatteredDirection};
 use sheen::Fibres;
 use side::Side;
 use standard::{DiffuseTransmission, StandardParameters};
@@ -74,6 +76,9 @@ pub struct BsdfSample {
     pub delta: bool,
 }
 
+/// The greatest number below 1.
+const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
+
 /// The BSDF with all lobes.
 pub type Bsdf = Lobes<{ PathFeatures::EVERYTHING.0 }>;
 
@@ -92,45 +97,6 @@ pub struct Lobes<const F: u32> {
     sheen: Option<Fibres>,
     coat: Option<Coat>,
     lobe_pdf: LobePdf,
-}
-
-/// The probability of sampling each lobe. They sum to 1, or to 0 for a black surface.
-#[derive(Clone, Copy, Debug)]
-struct LobePdf {
-    cosine: f64,
-    microfacet: f64,
-    through: f64,
-    coat: f64,
-}
-
-impl LobePdf {
-    /// Probabilities proportional to the estimated albedo of each lobe: the diffuse base, reflecting
-    /// and transmitting, and the microfacets, below sheen and coat.
-    #[inline]
-    fn new(
-        base: Vec3,
-        mut through: f64,
-        weights: &LobeWeights,
-        sheen: Option<&Fibres>,
-        coat: Option<&Coat>,
-    ) -> Self {
-        let mut cosine = base.max_element().max(0.0);
-        let mut microfacet = weights.reflected.max_element() + weights.through.max_element();
-        if let Some(sheen) = sheen {
-            (cosine, microfacet) = (cosine * sheen.left + sheen.albedo, microfacet * sheen.left);
-            through *= sheen.left;
-        }
-        let coat = coat.map_or(0.0, |coat| coat.weight);
-        let whole = (cosine + microfacet + through) * (1.0 - coat) + coat;
-        let scale = if whole > 0.0 { 1.0 / whole } else { 0.0 };
-        let below = scale * (1.0 - coat);
-        Self {
-            cosine: cosine * below,
-            microfacet: microfacet * below,
-            through: through * below,
-            coat: coat * scale,
-        }
-    }
 }
 
 impl<const F: u32> Lobes<F> {
@@ -186,7 +152,7 @@ impl<const F: u32> Lobes<F> {
         let sheen = sheen.and_then(|sheen| Fibres::new(&sheen, wo));
         let lobe_pdf = LobePdf::new(
             base,
-            through.map_or(0.0, |through| through.max_element() * entering),
+            through.map_or(Vec3::ZERO, |through| through * entering),
             &microfacet.weights(wo.z),
             sheen.as_ref(),
             coat.as_ref(),
@@ -244,11 +210,6 @@ impl<const F: u32> Lobes<F> {
         let coat = self.coat().is_none_or(Coat::is_smooth);
         let is_diffuse = self.lobe_pdf.cosine + self.lobe_pdf.through != 0.0;
         !is_diffuse && self.microfacet.is_smooth() && coat
-    }
-
-    /// Whether [`Bsdf::sample`] samples the diffuse lobe for all first numbers up to `u_lobe`.
-    pub(super) fn is_diffuse_up_to(&self, u_lobe: f64) -> bool {
-        u_lobe < self.lobe_pdf.cosine
     }
 
     /// The BSDF for light from `wi`, and the density with which [`Bsdf::sample`] samples `wi`.
@@ -334,25 +295,29 @@ impl<const F: u32> Lobes<F> {
         sum
     }
 
-    /// Samples a direction with three numbers in [0, 1); `None` if the direction is invalid.
+    /// Samples a direction with two numbers in [0, 1); `None` if the direction is invalid.
+    ///
+    /// The first one chooses the lobe, too, so that the points of each lobe stay stratified. A third
+    /// one, also in [0, 1), is asked for where microfacets both reflect and transmit.
     #[must_use]
     #[inline(always)]
-    pub fn sample(&self, u: [f64; 3]) -> Option<BsdfSample> {
+    pub fn sample(&self, u: [f64; 2], third: impl FnOnce() -> f64) -> Option<BsdfSample> {
         let LobePdf {
             cosine,
             microfacet,
             through,
             coat,
         } = self.lobe_pdf;
-        let rest = [u[1], u[2]];
+        let rest = |left: f64, probability: f64| [(left / probability).min(BELOW_ONE), u[1]];
         // Sample the diffuse lobe.
         if u[0] < cosine {
-            return self.in_lobe(cosine_direction(rest));
+            return self.in_lobe(cosine_direction(rest(u[0], cosine)));
         }
         // Sample the microfacets: reflection or transmission.
         let left = u[0] - cosine;
         if left < microfacet {
-            return match self.microfacet.sample(self.wo, left / microfacet, rest)? {
+            let u = rest(left, microfacet);
+            return match self.microfacet.sample(self.wo, u, third)? {
                 ScatteredDirection::Lobe(wi) => self.in_lobe(wi),
                 ScatteredDirection::Single(wi, weight, pdf) => {
                     let left = self.sheen().map_or(1.0, |sheen| sheen.left_for(wi));
@@ -364,11 +329,11 @@ impl<const F: u32> Lobes<F> {
         // Sample the diffuse transmission.
         let left = left - microfacet;
         if self.through().is_some() && left < through {
-            return self.in_lobe(mirrored(cosine_direction(rest)));
+            return self.in_lobe(mirrored(cosine_direction(rest(left, through))));
         }
         // Sample the coat.
         let layer = self.coat()?;
-        let wi = layer.sample(rest);
+        let wi = layer.sample(rest(left - through, coat));
         match layer.is_smooth() {
             _ if wi.z <= 0.0 => None,
             true => self.single(wi, Vec3::splat(layer.weight), coat),

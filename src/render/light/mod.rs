@@ -25,8 +25,12 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
 use std::f64::consts::PI;
 
-/// Fewer lights with a place are chosen by power alone, so that pictures of such scenes stay as they are.
-const LEAST_FOR_TREE: usize = 64;
+/// Fewer lights with a place are chosen by power alone: among 8 a tree loses (benches/sampling.md).
+const LEAST_FOR_TREE: usize = 16;
+
+/// The most triangles that are listed as lights, which takes some 300 bytes each: instances may show a mesh more often
+/// than there is memory for.
+const MOST_TRIANGLES: usize = 1 << 21;
 
 /// All lights of a world.
 pub(in crate::render) struct Lights<'world, S> {
@@ -41,6 +45,11 @@ pub(in crate::render) struct Lights<'world, S> {
     probabilities: Vec<f64>,
     /// The index of the first light of each surface that has some.
     firsts: Vec<Option<usize>>,
+}
+
+/// Whether a surface of so many triangles is listed after so many lights. One that is not is found by BSDF sampling.
+fn is_room_for(triangles: usize, listed: usize) -> bool {
+    listed.saturating_add(triangles) <= MOST_TRIANGLES
 }
 
 enum Light {
@@ -77,9 +86,10 @@ impl<'world, S: Geometry> Lights<'world, S> {
         for (index, surface) in world.surfaces.iter().enumerate() {
             let material = &world.standards[surface.material];
             let shines = !material.is_unlit && material.emission.factor != Vec3::ZERO;
-            if shines && surface.shape.triangles() > 0 {
+            let triangles = surface.shape.triangles();
+            if shines && triangles > 0 && is_room_for(triangles, lights.len()) {
                 firsts[index] = Some(lights.len());
-                let parts = u32::try_from(surface.shape.triangles()).unwrap_or(u32::MAX);
+                let parts = u32::try_from(triangles).unwrap_or(u32::MAX);
                 let corners = (0..parts)
                     .filter_map(|prim_id| Some((prim_id, surface.shape.corners(prim_id)?)));
                 lights.extend(corners.map(|(prim_id, corners)| {
@@ -139,19 +149,25 @@ impl<'world, S: Geometry> Lights<'world, S> {
         })
     }
 
-    /// Chooses a light for a point: its index and its probability.
-    fn choose(&self, from: Vec3, u: f64) -> Option<(usize, f64)> {
+    /// Chooses a light for a point: its index, its probability, and the numbers for a place on it.
+    fn choose(&self, from: Vec3, u: impl Fn() -> [f64; 2]) -> Option<(usize, f64, [f64; 2])> {
         if let Some(only) = self.only {
-            return Some((only, self.probabilities[only]));
+            let u = if matches!(self.lights[only], Light::Punctual(..)) {
+                [0.0; 2]
+            } else {
+                u()
+            };
+            return Some((only, self.probabilities[only], u));
         }
+        let [u, v] = u();
         let (index, rest) = self.by_power.choose(u)?;
         let probability = self.probabilities[index];
         Some(match &self.tree {
             Some(tree) if index == self.lights.len() => {
-                let (light, share) = tree.choose(from, rest);
-                (light, probability * share)
+                let (light, share, rest) = tree.choose(from, rest);
+                (light, probability * share, [rest, v])
             }
-            _ => (index, probability),
+            _ => (index, probability, [rest, v]),
         })
     }
 
@@ -245,26 +261,20 @@ impl<'world, S: Geometry> Lights<'world, S> {
         &self.world.standards[self.world.surfaces[surface].material]
     }
 
-    /// Whether [`Lights::sample`] depends on the number that chooses a light.
-    pub(in crate::render) fn has_choice(&self) -> bool {
-        self.only.is_none()
-    }
-
-    /// Samples the light that reaches a point: `u_light` chooses the light, `u` a point on it or a
-    /// direction to it.
+    /// Samples the light that reaches a point: two numbers in [0, 1), asked for where they are
+    /// needed, choose a point on it or a direction to it; the first one chooses the light, too.
     pub(in crate::render) fn sample(
         &self,
         from: Vec3,
-        u_light: f64,
-        u: impl FnOnce() -> [f64; 2],
+        u: impl Fn() -> [f64; 2],
     ) -> Option<Incident> {
-        let (index, probability) = self.choose(from, u_light)?;
+        let (index, probability, u) = self.choose(from, u)?;
         match &self.lights[index] {
             Light::Punctual(_, LightLeft::Place | LightLeft::Nothing) => None,
             Light::Punctual(light, LightLeft::All) => light.sample(from, probability),
             Light::Triangle(triangle) => {
                 // Sample a point of the triangle, and convert from area to solid angle.
-                let point = triangle.point(u());
+                let point = triangle.point(u);
                 let wi = (point - from).try_normalize()?;
                 let pdf = probability * triangle.pdf(wi, point.distance_squared(from));
                 let radiance = self.emission(triangle, point) / pdf;
@@ -277,7 +287,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
             }
             Light::Environment => {
                 let (wi, EnvironmentRadiance { radiance, pdf }) =
-                    self.world.lights.environment.sample(u());
+                    self.world.lights.environment.sample(u);
                 let pdf = probability * pdf;
                 (pdf > 0.0).then_some(Incident {
                     wi,
@@ -318,5 +328,16 @@ impl<'world, S: Geometry> Lights<'world, S> {
         let (radiance, place) = environment.seen(wi);
         let probability = self.probabilities[self.lights.len() - 1];
         (radiance, move || probability * environment.pdf(wi, place))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn instances_do_not_fill_memory_with_lights() {
+        assert!(is_room_for(MOST_TRIANGLES, 0));
+        assert!(!is_room_for(MOST_TRIANGLES, 1) && !is_room_for(usize::MAX, 1));
     }
 }

@@ -83,12 +83,13 @@ impl LightTree {
         self.add(right, way | 1 << depth, depth + 1);
     }
 
-    /// Chooses a light for a point with a number in [0, 1): its index and its probability.
-    pub(super) fn choose(&self, from: Vec3, mut u: f64) -> (usize, f64) {
+    /// Chooses a light for a point with a number in [0, 1): its index, its probability, and the
+    /// number remapped to [0, 1) for the next decision.
+    pub(super) fn choose(&self, from: Vec3, mut u: f64) -> (usize, f64, f64) {
         let (mut index, mut probability) = (0, 1.0);
         loop {
             let right = match self.nodes[index].below {
-                Below::Light(light) => return (light, probability),
+                Below::Light(light) => return (light, probability, u),
                 Below::Right(right) => right,
             };
             let left = self.share_of_left(from, index + 1, right);
@@ -272,7 +273,7 @@ mod tests {
         {
             let mut counts = vec![0.0; 110];
             for k in 0..NUMBERS {
-                let (light, probability) = tree.choose(from, (k as f64 + 0.5) / NUMBERS as f64);
+                let (light, probability, _) = tree.choose(from, (k as f64 + 0.5) / NUMBERS as f64);
                 counts[light] += 1.0 / NUMBERS as f64;
                 assert!((tree.probability(light, from) - probability).abs() < 1e-15);
             }

@@ -2,6 +2,7 @@
 //! order of calls.
 
 pub(in crate::render) mod discrete;
+mod owen;
 pub(in crate::render) mod sequence;
 pub(in crate::render) mod sobol;
 

@@ -4,7 +4,7 @@
 //! The first n points are unbiased for every n, and stratified if n is a power of two.
 
 use crate::render::sampler::Key;
-use crate::render::sampler::sobol::pascal;
+use crate::render::sampler::owen::{first_two, scrambled};
 
 /// The direction numbers of the dimensions of the lens (Joe and Kuo, "Constructing Sobol sequences with better
 /// two-dimensional projections", SIAM Journal on Scientific Computing 30 (2008)). Those of the pixel are
@@ -49,7 +49,8 @@ impl Sequence {
     #[must_use]
     #[inline]
     pub(in crate::render) fn film(&self, index: u32) -> [f64; 2] {
-        [self.number(0, index), self.number(1, pascal(index))]
+        let [x, y] = first_two(index);
+        [self.number(0, x), self.number(1, y)]
     }
 
     /// The place on the lens, in the same way.
@@ -59,12 +60,19 @@ impl Sequence {
         [self.number(2, x), self.number(3, y)]
     }
 
-    /// The coordinate of a dimension, of its bits from the lowest on.
+    /// The coordinate of a dimension, of its bits from the lowest on: scrambled, then shifted, which
+    /// makes each point uniform by itself.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the halves of the hash are meant"
+    )]
     #[inline]
     fn number(&self, dimension: u64, bits: u32) -> f64 {
         /// 2⁻³².
         const UNIT: f64 = 1.0 / 4_294_967_296.0;
-        (f64::from(scrambled(bits, self.0.bits(dimension))) + 0.5) * UNIT
+        let hash = self.0.bits(dimension);
+        let number = scrambled(bits, hash as u32).reverse_bits() ^ (hash >> 32) as u32;
+        (f64::from(number) + 0.5) * UNIT
     }
 }
 
@@ -75,24 +83,6 @@ fn sobol(directions: &[u32; 32], index: u32) -> u32 {
         left &= left - 1;
     }
     x
-}
-
-/// Owen scrambling by a hash (Burley, "Practical hash-based Owen scrambling", JCGT 9 (2020), with
-/// the constants of Vegdahl, "Building a better LK hash" (2021)), then a digital shift, which makes
-/// each point uniform by itself. Takes the bits from the lowest on.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the halves of the seed are meant"
-)]
-#[inline]
-fn scrambled(mut x: u32, seed: u64) -> u32 {
-    let (shift, seed) = ((seed >> 32) as u32, seed as u32);
-    x ^= x.wrapping_mul(0x3D20_ADEA);
-    x = x.wrapping_add(seed);
-    x = x.wrapping_mul((seed >> 16) | 1);
-    x ^= x.wrapping_mul(0x0552_6C56);
-    x ^= x.wrapping_mul(0x53A2_2864);
-    x.reverse_bits() ^ shift
 }
 
 #[cfg(test)]

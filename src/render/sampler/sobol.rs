@@ -1,23 +1,45 @@
-//! Numbers for paths: Owen-scrambled Sobol' points, padded: each pair of dimensions is the first
-//! two of the sequence, with its own shuffling and scrambling.
+//! Numbers for paths: Owen-scrambled points, padded: four dimensions belong together, each such group has
+//! its own shuffling and scrambling.
 //!
-//! After Burley, "Practical hash-based Owen scrambling" (JCGT 9, 2020). A pair depends on pixel,
-//! sample and dimension alone.
+//! After Burley, "Practical hash-based Owen scrambling" (JCGT 9, 2020). Numbers depend on pixel, sample and
+//! dimension alone, and in a picture of a given number of samples on that number.
 
+use super::Key;
+use super::owen::{first_two, last_two, scrambled};
+use crate::math::mix;
 use crate::render::film::Seeds;
-use crate::render::sampler::Key;
 
-/// The pair of the place in the pixel.
-pub(in crate::render) const FILM: u32 = 0;
+/// A pair of dimensions: the first or the second one of a group, for numbers that are even or odd.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::render) struct Pair(u32);
 
-/// The pair of the place on the lens.
-pub(in crate::render) const LENS: u32 = 1;
+impl Pair {
+    /// The place in the pixel.
+    pub(in crate::render) const FILM: Self = Self(0);
+    /// The place on the lens.
+    pub(in crate::render) const LENS: Self = Self(2);
 
-/// The first pair for the bounces.
-pub(in crate::render) const CORNERS: u32 = 2;
+    /// The light of vertex `bounces`: grouped with what leads there, the place in the pixel or the
+    /// direction from the vertex before.
+    pub(in crate::render) fn light(bounces: u32) -> Self {
+        Self(4 * bounces + 1)
+    }
 
-/// The largest number of a pair, 1 − 2⁻³².
-pub(in crate::render) const MAX: f64 = 1.0 - UNIT;
+    /// The direction from a vertex.
+    pub(in crate::render) fn direction(bounces: u32) -> Self {
+        Self(4 * bounces + 4)
+    }
+
+    /// Which wavelength a vertex picks, and whether the path goes on.
+    pub(in crate::render) fn fate(bounces: u32) -> Self {
+        Self(4 * bounces + 6)
+    }
+
+    /// Whether microfacets of a vertex reflect or transmit.
+    pub(in crate::render) fn lobe(bounces: u32) -> Self {
+        Self(4 * bounces + 7)
+    }
+}
 
 /// 2⁻³².
 const UNIT: f64 = 1.0 / 4_294_967_296.0;
@@ -26,7 +48,7 @@ const UNIT: f64 = 1.0 / 4_294_967_296.0;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct Sobol {
     pixel: Key,
-    /// The key of the bounces.
+    /// The key of all but the place in the pixel and on the lens.
     path: Key,
     seeds: Seeds,
     index: u32,
@@ -35,7 +57,7 @@ pub(in crate::render) struct Sobol {
 }
 
 impl Sobol {
-    /// The numbers of path `index` of a pixel.
+    /// The numbers of path `index` of a pixel that has a sequence of its own.
     pub(in crate::render) fn new(pixel: [u32; 2], index: u32, seeds: Seeds) -> Self {
         let pixel = Key::new(pixel, 0);
         Self {
@@ -47,35 +69,54 @@ impl Sobol {
         }
     }
 
-    /// Pair `dimension` of this path, both numbers from 0 to [`MAX`].
-    #[inline]
-    pub(in crate::render) fn pair(&self, dimension: u32) -> [f64; 2] {
-        let point = self.point(dimension);
-        // Reversed together, they change places.
-        let both = (u64::from(point.first()) << 32 | u64::from(point.second())).reverse_bits();
-        [number(both as u32), number((both >> 32) as u32)]
+    /// The numbers of path `index` of a pixel in a picture of so many paths a pixel, at least 1.
+    ///
+    /// Its pixels share a sequence along a curve that fills squares one after another, so that the errors of
+    /// neighbours cancel: that of a pixel is as large as by [`Self::new`], that of a blurred picture is less
+    /// (Ahmed, Wonka, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical
+    /// ordering of pixels", SIGGRAPH Asia 2020).
+    pub(in crate::render) fn in_picture(
+        pixel: [u32; 2],
+        index: u32,
+        seeds: Seeds,
+        samples: u32,
+    ) -> Self {
+        // Of the bits of an index the lowest count samples; as many of the others as fit are a place on the curve.
+        let low = u32::BITS - (samples - 1).leading_zeros();
+        let side = (u32::BITS - low) / 2;
+        let [tile, place] = [pixel.map(|x| x >> side), pixel.map(|x| x & !(!0 << side))];
+        let place = spread(place[1]) << 1 | spread(place[0]);
+        let index = place.checked_shl(low).unwrap_or(0) | index;
+        Self::new(tile, index, seeds)
     }
 
-    /// The second number of a pair.
+    /// A pair of numbers of this path, both from 0 to 1 − 2⁻³².
     #[inline]
-    pub(in crate::render) fn second(&self, dimension: u32) -> f64 {
-        number(self.point(dimension).second().reverse_bits())
-    }
-
-    /// The point of the sequence that a pair takes.
-    #[inline]
-    fn point(&self, dimension: u32) -> Point {
-        let key = match dimension {
-            FILM => self.pixel.seeded(self.seeds.pixel),
-            LENS => self.pixel.seeded(self.seeds.lens),
+    pub(in crate::render) fn pair(&self, pair: Pair) -> [f64; 2] {
+        let group = u64::from(pair.0 / 2);
+        let [film, lens] = [self.seeds.pixel, self.seeds.lens];
+        let bits = match group {
+            0 => self.pixel.seeded(film),
+            1 => self.pixel.seeded(lens),
             _ => self.path,
-        };
-        let bits = key.bits(u64::from(dimension));
-        let (low, high) = (bits as u32, (bits >> 32) as u32);
+        }
+        .bits(group);
         // Scrambled from its highest bit on, the index shuffles the points and keeps each first 2^k
         // of them together.
-        let index = scrambled(self.reversed, low).reverse_bits();
-        Point { index, low, high }
+        let index = scrambled(self.reversed, bits as u32).reverse_bits();
+        let is_first = pair.0.is_multiple_of(2);
+        let (point, seeds) = if is_first {
+            (first_two(index), bits.rotate_left(16))
+        } else if group == 0 {
+            (last_two(index), mix(self.path.bits(group)))
+        } else {
+            (last_two(index), mix(bits))
+        };
+        let [x, y] = [(seeds >> 32) as u32, seeds as u32];
+        // Reversed together, they change places.
+        let both = (u64::from(scrambled(point[0], x)) << 32 | u64::from(scrambled(point[1], y)))
+            .reverse_bits();
+        [both as u32, (both >> 32) as u32].map(|bits| f64::from(bits) * UNIT)
     }
 
     /// An independent number in [0, 1) for decisions that use no dimension of the sequence, such as
@@ -88,56 +129,15 @@ impl Sobol {
     }
 }
 
-/// A point of the sequence, and the halves of the hash that scrambles it.
-struct Point {
-    index: u32,
-    low: u32,
-    high: u32,
-}
-
-impl Point {
-    /// The first coordinate, from its lowest bit on.
-    #[inline]
-    fn first(&self) -> u32 {
-        scrambled(self.index, self.high)
-    }
-
-    /// The second coordinate, from its lowest bit on.
-    #[inline]
-    fn second(&self) -> u32 {
-        scrambled(pascal(self.index), self.low.rotate_left(16) ^ self.high)
-    }
-}
-
-/// The number of a coordinate.
-#[inline]
-fn number(bits: u32) -> f64 {
-    f64::from(bits) * UNIT
-}
-
-/// Owen's nested scrambling from the lowest bit up: each bit is flipped by a hash of those below it
-/// (Laine, Karras, 2011, with Burley's constants).
-#[inline]
-fn scrambled(x: u32, seed: u32) -> u32 {
-    let mut x = x.wrapping_add(seed);
-    for factor in [0x6C50_B47C, 0xB82F_1E52, 0xC7AF_E638, 0x8D22_F6E6_u32] {
-        x ^= x.wrapping_mul(factor);
-    }
-    x
-}
-
-/// Pascal's matrix modulo 2, the generator of the second dimension: bit i is the parity of the bits
-/// j that have all bits of i.
-#[inline]
-pub(super) fn pascal(mut x: u32) -> u32 {
+/// A number of 16 bits with a 0 above each of them.
+fn spread(mut x: u32) -> u32 {
     for (step, mask) in [
-        (1, 0x5555_5555),
-        (2, 0x3333_3333),
-        (4, 0x0F0F_0F0F),
         (8, 0x00FF_00FF),
-        (16, 0xFFFF_u32),
+        (4, 0x0F0F_0F0F),
+        (2, 0x3333_3333),
+        (1, 0x5555_5555),
     ] {
-        x ^= (x >> step) & mask;
+        x = (x | x << step) & mask;
     }
     x
 }
@@ -146,50 +146,112 @@ pub(super) fn pascal(mut x: u32) -> u32 {
 mod tests {
     use super::*;
 
+    const PAIRS: [Pair; 4] = [Pair::FILM, Pair::LENS, Pair(5), Pair(12)];
+
+    /// How many of 2^(a+b) squares of a pair of dimensions have a point.
+    fn filled(points: &[[f64; 2]], across: u32, down: u32) -> usize {
+        let cell = |[x, y]: &[f64; 2]| {
+            let place = |x: f64, log: u32| (x * f64::from(1_u32 << log)) as u32;
+            [place(*x, across), place(*y, down)]
+        };
+        let mut cells = points.iter().map(cell).collect::<Vec<_>>();
+        cells.sort_unstable();
+        cells.dedup();
+        cells.len()
+    }
+
     #[test]
     fn the_first_points_of_every_power_of_two_fill_all_elementary_intervals() {
         for log in 1..=8_u32 {
-            let count = 1_u32 << log;
-            let points = (0..count)
-                .map(|k| Sobol::new([3, 5], k, Seeds::NONE).pair(2))
-                .collect::<Vec<_>>();
-            for across in 0..=log {
-                let (columns, rows) = (1_u32 << across, 1_u32 << (log - across));
-                let mut cells = points
-                    .iter()
-                    .map(|[x, y]| {
-                        (
-                            (x * f64::from(columns)) as u32,
-                            (y * f64::from(rows)) as u32,
-                        )
-                    })
-                    .collect::<Vec<_>>();
-                cells.sort_unstable();
-                cells.dedup();
-                assert_eq!(cells.len(), count as usize, "{columns} × {rows}");
+            for pair in PAIRS {
+                let point = |k| Sobol::new([3, 5], k, Seeds::NONE).pair(pair);
+                let points = (0..1 << log).map(point).collect::<Vec<_>>();
+                for across in 0..=log {
+                    assert_eq!(
+                        filled(&points, across, log - across),
+                        points.len(),
+                        "{pair:?}"
+                    );
+                }
             }
         }
     }
 
     #[test]
-    fn a_second_number_alone_is_that_of_its_pair() {
-        for index in 0..64 {
-            let sobol = Sobol::new([7, 9], index, Seeds::NONE);
-            assert_eq!(sobol.second(index), sobol.pair(index)[1]);
-            assert!(sobol.pair(index).iter().all(|u| (0.0..=MAX).contains(u)));
+    fn so_do_those_of_a_pixel_in_a_picture_and_those_of_a_square_of_pixels() {
+        for (side, samples) in [(1, 16), (2, 16), (4, 4), (8, 1)] {
+            let pixels = (0..side * side).map(|k| [8 + k % side, 24 + k / side]);
+            for pair in PAIRS {
+                let point =
+                    |(pixel, k)| Sobol::in_picture(pixel, k, Seeds::NONE, samples).pair(pair);
+                let points = pixels
+                    .clone()
+                    .flat_map(|pixel| (0..samples).map(move |k| (pixel, k)));
+                let points = points.map(point).collect::<Vec<_>>();
+                let log = points.len().trailing_zeros();
+                for across in 0..=log {
+                    assert_eq!(
+                        filled(&points, across, log - across),
+                        points.len(),
+                        "{pair:?} {side}"
+                    );
+                }
+            }
         }
     }
 
     #[test]
-    fn pairs_are_independent_of_each_other() {
-        // The covariance of two dimensions of different pairs vanishes as that of random numbers
+    fn a_picture_has_room_for_all_its_pixels_and_samples() {
+        // Pixels far apart, and pixels of very many samples, have numbers of their own.
+        for samples in [1, 3, 1 << 20, u32::MAX] {
+            let pixels = [
+                [0, 0],
+                [1, 0],
+                [0, 1],
+                [1 << 16, 0],
+                [0, 1 << 16],
+                [u32::MAX; 2],
+            ];
+            let first = |pixel| {
+                Sobol::in_picture(pixel, samples - 1, Seeds::NONE, samples).pair(Pair::FILM)
+            };
+            let mut firsts = pixels.map(first).map(|pair| pair.map(f64::to_bits));
+            firsts.sort_unstable();
+            assert!(firsts.windows(2).all(|two| two[0] != two[1]), "{samples}");
+        }
+    }
+
+    #[test]
+    fn groups_are_independent_of_each_other() {
+        // The covariance of two dimensions of different groups vanishes as that of random numbers
         // does.
         let (n, at) = (4096, |k| Sobol::new([0, 0], k, Seeds::NONE));
-        let product = |k| (at(k).pair(0)[0] - 0.5) * (at(k).pair(1)[0] - 0.5);
+        let product =
+            |k| (at(k).pair(Pair::FILM)[0] - 0.5) * (at(k).pair(Pair::direction(0))[0] - 0.5);
         let covariance = (0..n).map(product).sum::<f64>() / f64::from(n);
         assert!(
             covariance.abs() < 8.0 / 12.0 / f64::from(n).sqrt(),
             "{covariance}"
         );
+    }
+
+    #[test]
+    fn no_two_uses_share_a_pair() {
+        let uses = (0..9).flat_map(|k| {
+            [
+                Pair::light(k),
+                Pair::direction(k),
+                Pair::fate(k),
+                Pair::lobe(k),
+            ]
+        });
+        let mut uses = uses
+            .chain([Pair::FILM, Pair::LENS])
+            .map(|pair| pair.0)
+            .collect::<Vec<_>>();
+        let count = uses.len();
+        uses.sort_unstable();
+        uses.dedup();
+        assert_eq!(uses.len(), count);
     }
 }

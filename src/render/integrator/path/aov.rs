@@ -8,7 +8,6 @@ use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::SampleId;
 use crate::render::integrator::aov::{CameraHit, First, FirstHit, FirstHits};
 use crate::render::light::Lights;
-use crate::render::sampler::sobol::Sobol;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
 
@@ -31,7 +30,7 @@ impl<'world, S: Geometry> FirstHitsOfPaths<'world, S> {
 
 impl<'run, S: Geometry, const F: u32> FirstHit<'run> for PathTracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {
-        let sobol = Sobol::new(id.pixel, id.index, id.stream.seeds());
+        let sobol = self.numbers(id);
         self.counts.camera += 1;
         let mut state = PathState::new(self.camera_ray(id.pixel, &sobol), sobol);
         let first = self.at_closest_hit(&mut state, |tracer, state, vertex| {

@@ -15,20 +15,21 @@ use crate::math::Vec3;
 use crate::plan::{Effect, EnvironmentLeft, PathFeatures};
 use crate::render::camera::{image_point, lens_at, ray_through};
 use crate::render::film::heartbeat::{Heartbeat, OnPixel};
-use crate::render::film::pixel::{Sample, SampleId};
+use crate::render::film::pixel::{Sample, SampleId, Stream};
 use crate::render::film::{Background, Counts};
 use crate::render::light::Lights;
 use crate::render::ray::Ray;
-use crate::render::sampler::sobol::{FILM, LENS, Sobol};
+use crate::render::sampler::sobol::{Pair, Sobol};
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
+use crate::render::world::settings::Mode;
 pub(in crate::render) use aov::FirstHitsOfPaths;
 use state::PathState;
 
 /// The sampling strategy. All strategies have the same expected value; only the noise differs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategy {
-    /// Both, weighted by the power heuristic (Veach, Guibas, 1995).
+    /// Both, weighted by the balance heuristic (Veach, Guibas, 1995).
     #[default]
     Mis,
     /// Next-event estimation, except for delta lobes.
@@ -108,15 +109,27 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         Self::can(feature) && self.planned.contains(feature)
     }
 
+    /// The numbers of a sample. In pictures of a given number of samples neighbours share a sequence; a sample
+    /// beyond that number is of the pixel's own.
+    fn numbers(&self, id: &SampleId) -> Sobol {
+        let (pixel, index, seeds) = (id.pixel, id.index, id.stream.seeds());
+        match (id.stream, self.world.settings.mode) {
+            (Stream::Picture(_), Mode::Path(samples)) if index < samples => {
+                Sobol::in_picture(pixel, index, seeds, samples)
+            }
+            _ => Sobol::new(pixel, index, seeds),
+        }
+    }
+
     /// The ray from the camera that a path of a pixel begins with.
     fn camera_ray(&mut self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
         let camera = &self.world.camera;
-        let target = image_point(camera, pixel, sobol.pair(FILM));
+        let target = image_point(camera, pixel, sobol.pair(Pair::FILM));
         if camera.lens_radius == 0.0 {
             return ray_through(camera, camera.eye, target);
         }
         self.counts.add(Effect::Lens);
-        ray_through(camera, lens_at(camera, || sobol.pair(LENS)), target)
+        ray_through(camera, lens_at(camera, || sobol.pair(Pair::LENS)), target)
     }
 
     /// The radiance along one path.
@@ -176,7 +189,7 @@ impl<'world, S: Geometry, const F: u32> Integrator<'world> for PathTracer<'world
         if id.index > 0 {
             self.counts.add(Effect::Supersampling);
         }
-        let sobol = Sobol::new(id.pixel, id.index, id.stream.seeds());
+        let sobol = self.numbers(id);
         let (ray, hits) = (self.camera_ray(id.pixel, &sobol), self.counts.hits);
         let radiance = self.radiance(ray, sobol);
         let hit = self.counts.hits > hits;

@@ -9,7 +9,7 @@ use crate::render::bsdf::Lobes;
 use crate::render::bsdf::standard::StandardParameters;
 use crate::render::light::Incident;
 use crate::render::material::point::{MaterialPoint, ShadingFrame};
-use crate::render::sampler::sobol;
+use crate::render::sampler::sobol::Pair;
 use crate::render::shape::geometry::Geometry;
 
 /// The BSDF at a vertex, in its frame of shading.
@@ -78,14 +78,11 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             bsdf: &bsdf,
             wo,
         };
-        // Draw numbers only where lights or lobes are to be chosen from.
-        let is_open = self.lights.has_choice() || !bsdf.is_diffuse_up_to(sobol::MAX);
-        let [choice, light] = if is_open { state.pair(0) } else { [0.0; 2] };
         // Sample one light.
         if self.does(PathFeatures::AIM) && !bsdf.is_delta() {
-            state.radiance += state.beta * self.direct(state, vertex, &shading, light);
+            state.radiance += state.beta * self.direct(state, vertex, &shading);
         }
-        state.bounces < self.max_bounces && self.turn(state, vertex, &shading, choice)
+        state.bounces < self.max_bounces && self.turn(state, vertex, &shading)
     }
 
     /// Adds the emitted radiance of a surface.
@@ -115,11 +112,10 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             bsdf,
             wo: local,
         }: &Shading<'_, F>,
-        choice: f64,
     ) -> bool {
         let (PathVertex { at, point, hit, .. }, wo) = (vertex, -state.ray.direction);
-        let [u, v] = state.pair(1);
-        let Some(sample) = bsdf.sample([choice, u, v]) else {
+        let Some(sample) = bsdf.sample(state.pair(Pair::direction), || state.pair(Pair::lobe)[0])
+        else {
             return false;
         };
         let wi = frame.to_world(sample.wi).normalize();
@@ -190,7 +186,6 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         state: &PathState,
         vertex: &PathVertex<'_, 'world>,
         Shading { frame, bsdf, wo }: &Shading<'_, F>,
-        choice: f64,
     ) -> Vec3 {
         let at = vertex.at;
         let Some(Incident {
@@ -198,7 +193,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             radiance,
             pdf,
             place,
-        }) = self.lights.sample(at.point, choice, || state.pair(2))
+        }) = self.lights.sample(at.point, || state.pair(Pair::light))
         else {
             return Vec3::ZERO;
         };
@@ -216,7 +211,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             (Some(light_pdf), Strategy::Mis) => {
                 self.counts.add(Effect::Mis);
                 let value = bsdf.evaluate(local);
-                (value.f, power_heuristic(light_pdf, value.pdf))
+                (value.f, balance_heuristic(light_pdf, value.pdf))
             }
             _ => (bsdf.f(local), 1.0),
         };
@@ -240,7 +235,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 if light_pdf > 0.0 {
                     self.counts.add(Effect::Mis);
                 }
-                power_heuristic(pdf, light_pdf)
+                balance_heuristic(pdf, light_pdf)
             }
             Strategy::Nee if light_pdf() > 0.0 => 0.0,
             Strategy::Nee | Strategy::BsdfSampling => 1.0,
@@ -248,8 +243,8 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     }
 }
 
-/// Veach's power heuristic with exponent 2.
-fn power_heuristic(own: f64, other: f64) -> f64 {
-    let ratio = other / own;
-    1.0 / (1.0 + ratio * ratio)
+/// Veach's balance heuristic. Both densities follow the light closely here, so that higher powers, which keep the
+/// better one alone, lose more than they gain (benches/sampling.md).
+fn balance_heuristic(own: f64, other: f64) -> f64 {
+    1.0 / (1.0 + other / own)
 }

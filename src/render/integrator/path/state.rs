@@ -2,7 +2,7 @@
 
 use crate::math::Vec3;
 use crate::render::ray::Ray;
-use crate::render::sampler::sobol::{CORNERS, Sobol};
+use crate::render::sampler::sobol::{Pair, Sobol};
 use crate::render::world::NOWHERE;
 
 /// Bounces before Russian roulette may end a path.
@@ -10,9 +10,6 @@ const RR_MIN_DEPTH: u32 = 3;
 
 /// The probability that a path survives, over its throughput.
 const RR_SURVIVAL: f64 = 2.0;
-
-/// Pairs of random numbers per vertex.
-const PAIRS: u32 = 4;
 
 /// The state of a path.
 pub(super) struct PathState {
@@ -58,13 +55,8 @@ impl PathState {
     }
 
     /// A pair of numbers of this vertex.
-    pub(super) fn pair(&self, pair: u32) -> [f64; 2] {
-        self.sobol.pair(CORNERS + PAIRS * self.bounces + pair)
-    }
-
-    /// The second number of a pair of this vertex.
-    fn second(&self, pair: u32) -> f64 {
-        self.sobol.second(CORNERS + PAIRS * self.bounces + pair)
+    pub(super) fn pair(&self, of: impl FnOnce(u32) -> Pair) -> [f64; 2] {
+        self.sobol.pair(of(self.bounces))
     }
 
     /// Picks one colour channel, weighted by 3.
@@ -74,7 +66,7 @@ impl PathState {
         reason = "one of three"
     )]
     pub(super) fn pick_wavelength(&mut self) {
-        let [u, _] = self.pair(3);
+        let [u, _] = self.pair(Pair::fate);
         let channel = ((u * 3.0) as usize).min(2);
         let mut kept = [0.0; 3];
         kept[channel] = 3.0;
@@ -90,7 +82,7 @@ impl PathState {
         if self.bounces < RR_MIN_DEPTH || survival >= 1.0 {
             return largest > 0.0;
         }
-        let u = self.second(3);
+        let [_, u] = self.pair(Pair::fate);
         self.beta /= survival;
         u < survival
     }
