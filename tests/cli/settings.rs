@@ -44,10 +44,15 @@ fn a_setting_that_is_chosen_is_rendered_as_its_command_says() {
     assert!(live.picture(&state) == commanded(&folder, &state) && state["choice"] == choice);
     let traced = json!({ "values": { "paths": 3 }, "integrator": "path" });
     let state = after(&live, &live.post("/settings", &traced).json(), "picture");
-    assert!(live.picture(&state) == commanded(&folder, &state));
+    let plain = live.picture(&state);
+    assert!(plain == commanded(&folder, &state));
+    let denoised = json!({ "values": { "paths": 3, "denoise": 1 }, "integrator": "path" });
+    let state = after(&live, &live.post("/settings", &denoised).json(), "picture");
+    assert!(live.picture(&state) == commanded(&folder, &state) && live.picture(&state) != plain);
     for wrong in [
         json!({ "values": { "supersampling": 0 }, "integrator": null }),
         json!({ "values": { "size": 1 }, "integrator": null }),
+        json!({ "values": { "denoise": 2 }, "integrator": null }),
         json!({ "values": [], "integrator": null }),
         json!(null),
     ] {

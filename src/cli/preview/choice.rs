@@ -5,15 +5,11 @@ use crate::cli::args::IntegratorArg;
 use crate::ir::{Mode, Scene};
 use crate::passes::{IntegratorChoice, Overrides};
 use crate::pipeline::PictureSetup;
-use crate::plan::Arithmetic;
 use crate::study::{Knob, Setting, arithmetic, idle};
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-
-/// The number of arithmetics, by which the values of the precision end.
-const ARITHMETICS: u32 = Arithmetic::ALL.len() as u32;
 
 /// Values of knobs in place of those of the scene, and how light is followed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -29,8 +25,8 @@ impl Choice {
     pub(super) fn read(bytes: &[u8]) -> Option<Self> {
         let choice: Self = serde_json::from_slice(bytes).ok()?;
         let is_sound = |(knob, value): (&Knob, &u32)| {
-            let is_known = *knob != Knob::Precision || *value < ARITHMETICS;
-            turned().any(|own| own == *knob) && *value >= knob.lowest() && is_known
+            let is_known = words(*knob).is_none_or(|words| (*value as usize) < words.len());
+            *value >= knob.lowest() && is_known
         };
         let is_known = choice.integrator.is_none() || choice.integrator().is_some();
         (is_known && choice.values.iter().all(is_sound)).then_some(choice)
@@ -66,29 +62,36 @@ impl Choice {
         PictureSetup {
             overrides: chosen.or(setup.overrides),
             arithmetic: of(Knob::Precision).map_or(setup.arithmetic, arithmetic),
+            denoise: of(Knob::Denoise).map_or(setup.denoise, |value| value > 0),
             ..setup.clone()
         }
     }
 
-    /// The flags of `rtc render` with their values.
-    pub(super) fn flags(&self) -> Vec<(&'static str, String)> {
-        let values = self.values.iter();
-        let values = values.map(|(knob, value)| (knob.flag(), knob.cell(*value)));
-        let integrator = self.integrator.clone().map(|word| ("--integrator", word));
+    /// The flags of `rtc render`, with their values if they take one.
+    pub(super) fn flags(&self) -> Vec<(&'static str, Option<String>)> {
+        let said = |(knob, value): (&Knob, &u32)| match (*knob, *value) {
+            (Knob::Denoise, 0) => None,
+            (Knob::Denoise, _) => Some((knob.flag(), None)),
+            _ => Some((knob.flag(), Some(knob.cell(*value)))),
+        };
+        let values = self.values.iter().filter_map(said);
+        let integrator = self.integrator.clone();
+        let integrator = integrator.map(|word| ("--integrator", Some(word)));
         values.chain(integrator).collect()
     }
 }
 
-/// The knobs that the page turns: a denoised picture is made of a whole one, not shown in steps.
-fn turned() -> impl Iterator<Item = Knob> {
-    let knobs = Knob::ALL.into_iter();
-    knobs.filter(|knob| *knob != Knob::Denoise)
+/// The words of the values of a knob, for one that does not count.
+fn words(knob: Knob) -> Option<Vec<String>> {
+    let is_named = matches!(knob, Knob::Precision | Knob::Denoise);
+    is_named.then(|| knob.levels().map(|value| knob.cell(value)).collect())
 }
 
 /// The setting of a scene without the values of a choice.
 pub(super) fn own_setting(scene: &Scene, setup: &PictureSetup) -> Setting {
     Setting {
         precision: setup.arithmetic,
+        denoise: setup.denoise,
         ..Setting::of(scene)
     }
 }
@@ -97,17 +100,12 @@ pub(super) fn own_setting(scene: &Scene, setup: &PictureSetup) -> Setting {
 /// knob with its own value, and why it is to be left alone, if it is.
 pub(super) fn told(scene: &Scene, own: &Setting) -> Value {
     let knob = |knob: Knob| {
-        let words = (knob == Knob::Precision).then(|| {
-            (0..ARITHMETICS)
-                .map(|value| knob.cell(value))
-                .collect::<Vec<_>>()
-        });
         json!({
             "knob": knob,
             "name": knob.name(),
             "lowest": knob.lowest(),
             "own": own.get(knob),
-            "words": words,
+            "words": words(knob),
             "idle": idle(knob, scene),
         })
     };
@@ -116,7 +114,7 @@ pub(super) fn told(scene: &Scene, own: &Setting) -> Value {
         Mode::Phong => Some("whitted"),
         Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => None,
     };
-    let knobs: Vec<_> = turned().map(knob).collect();
+    let knobs = Knob::ALL.map(knob);
     json!({ "knobs": knobs, "integrator": integrator })
 }
 
@@ -129,11 +127,18 @@ mod tests {
         let read = |text: &str| Choice::read(text.as_bytes());
         let choice = r#"{"values": {"supersampling": 2, "precision": 0}, "integrator": "path"}"#;
         let flags = [
-            ("--supersampling", "2".to_owned()),
-            ("--arithmetic", "f32".to_owned()),
-            ("--integrator", "path".to_owned()),
+            ("--supersampling", Some("2".to_owned())),
+            ("--arithmetic", Some("f32".to_owned())),
+            ("--integrator", Some("path".to_owned())),
         ];
         assert_eq!(read(choice).unwrap().flags(), flags);
+        let denoised = |value: u32| {
+            let text = format!(r#"{{"values": {{"denoise": {value}}}, "integrator": null}}"#);
+            read(&text).map(|choice| choice.flags())
+        };
+        assert_eq!(denoised(0), Some(Vec::new()));
+        assert_eq!(denoised(1), Some(vec![("--denoise", None)]));
+        assert_eq!(denoised(2), None);
         for wrong in [
             r#"{"values": {"supersampling": 0}, "integrator": null}"#,
             r#"{"values": {"precision": 3}, "integrator": null}"#,

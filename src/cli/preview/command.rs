@@ -27,13 +27,17 @@ impl RenderWords {
 
     /// With the flags of a view, and a choice, in place of those that were typed.
     pub(super) fn command(&self, view: &[(&str, String)], choice: &Choice) -> String {
-        let more: Vec<_> = view.iter().cloned().chain(choice.flags()).collect();
+        let view = view
+            .iter()
+            .map(|(name, value)| (*name, Some(value.clone())));
+        let more: Vec<_> = view.chain(choice.flags()).collect();
         let orbit = more.iter().any(|(name, _)| *name == EYE).then_some(ORBIT);
         let replaced: Vec<_> = more.iter().map(|(name, _)| *name).chain(orbit).collect();
         let kept = without(&self.0, &replaced).into_iter();
         let more = more
             .iter()
-            .flat_map(|(name, value)| [(*name).to_owned(), value.clone()]);
+            .flat_map(|(name, value)| [Some((*name).to_owned()), value.clone()])
+            .flatten();
         let words = kept.chain(more).map(|word| quoted(&word));
         let words: Vec<_> = words.collect();
         format!("rtc {}", words.join(" "))
@@ -59,6 +63,11 @@ mod tests {
         assert_eq!(
             words.command(&view, &choice),
             "rtc render my.yaml --spp 4 --eye 1,2,3 --depth 1"
+        );
+        let choice = Choice::read(br#"{"values": {"denoise": 1, "depth": 1}, "integrator": null}"#);
+        assert_eq!(
+            words.command(&[], &choice.unwrap()),
+            "rtc render my.yaml --orbit 30,20 --spp 4 --denoise --depth 1"
         );
     }
 }

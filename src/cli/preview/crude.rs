@@ -86,7 +86,7 @@ fn coarsen(scene: &mut Scene) -> u32 {
     k
 }
 
-/// The same part of a picture of which every k-th pixel is left.
+/// The same part of a picture of which every k-th pixel is left; not denoised.
 fn coarse(setup: &PictureSetup, k: u32) -> PictureSetup {
     let crop = setup.crop.map(|crop| Crop {
         x: crop.x / k,
@@ -96,6 +96,7 @@ fn coarse(setup: &PictureSetup, k: u32) -> PictureSetup {
     });
     PictureSetup {
         crop,
+        denoise: false,
         ..setup.clone()
     }
 }

@@ -76,7 +76,11 @@ pub(super) fn pixel(
         width: 1,
         height: 1,
     };
-    let traced = setup.trace(subject, (own, input.rays()), observer)?;
+    let plain = PictureSetup {
+        denoise: false,
+        ..setup.clone()
+    };
+    let traced = plain.trace(subject, (own, input.rays()), observer)?;
     Ok(Some(traced.film.counts))
 }
 
