@@ -274,14 +274,19 @@ fn through_stdout(write: Writer<'_>) -> io::Result<()> {
 }
 
 /// Where standard output is closed, as by `>&-`, the runtime opens `/dev/null` for it, to be read
-/// and written; `>/dev/null` opens it to be written.
+/// and written; `>/dev/null` opens it to be written. Who starts a program with all its streams
+/// ignored may open all of them so, standard input too: then none is missed.
 #[cfg(unix)]
 fn is_closed_stdout() -> bool {
+    is_null_to_read_and_write(&io::stdout()) && !is_null_to_read_and_write(&io::stdin())
+}
+
+#[cfg(unix)]
+fn is_null_to_read_and_write(stream: &impl std::os::fd::AsFd) -> bool {
     use rustix::fs::{OFlags, fcntl_getfl, fstat};
     use std::os::unix::fs::MetadataExt;
-    let stdout = io::stdout();
-    let is_both = fcntl_getfl(&stdout).is_ok_and(|flags| flags & OFlags::RWMODE == OFlags::RDWR);
-    let device = fstat(&stdout).map(|stat| stat.st_rdev);
+    let is_both = fcntl_getfl(stream).is_ok_and(|flags| flags & OFlags::RWMODE == OFlags::RDWR);
+    let device = fstat(stream).map(|stat| stat.st_rdev);
     let null = fs::metadata("/dev/null").map(|null| null.rdev());
     is_both && matches!((device, null), (Ok(device), Ok(null)) if device == null && null != 0)
 }

@@ -347,6 +347,9 @@ fn a_closed_standard_output_is_said() {
     }
     assert_eq!(code(&sh(&folder, "RTC compile ball.json >/dev/null")), 0);
     assert_eq!(code(&sh(&folder, "RTC compile ball.json -o x.json >&-")), 0);
+    // All streams ignored, as by `stdio: "ignore"` of Node.
+    let ignored = sh(&folder, "RTC compile ball.json <>/dev/null 1<>/dev/null");
+    assert_eq!(code(&ignored), 0, "{}", stderr(&ignored));
 }
 
 #[test]
