@@ -72,8 +72,13 @@ impl Renderer {
     }
 }
 
+/// Refuses an option that needs traced paths for a scene without.
+pub(super) fn require_paths(scene: &Proof, option: &str) -> Result<(), RenderError> {
+    paths(scene, option).map(drop)
+}
+
 /// The paths a pixel of a scene, for an option that needs paths.
-pub(super) fn paths(scene: &Proof, option: &str) -> Result<u32, RenderError> {
+fn paths(scene: &Proof, option: &str) -> Result<u32, RenderError> {
     match scene.settings().mode {
         Mode::Path(path) => Ok(path.samples.get()),
         Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => Err(RenderError::Refused(

@@ -1,7 +1,7 @@
 //! A picture as it is asked for: from a scene that was loaded to a film, and to the picture that a
 //! file holds.
 
-use super::denoise::{Traced, paths};
+use super::denoise::{Traced, require_paths};
 use super::light::FirstView;
 use super::{Input, Loaded, Meter, OutputLook, Proven, Provenance, Renderer, findings, hash};
 use crate::diag::Diagnostic;
@@ -207,7 +207,7 @@ impl PictureSetup {
             ..Job::default()
         };
         if self.clamp.is_some() {
-            paths(&subject.proven.scene, "--clamp")?;
+            require_paths(&subject.proven.scene, "--clamp")?;
         }
         let meter = Meter::of_each(rays, window, 1 + usize::from(self.verify));
         let on_pixel = |step| {
