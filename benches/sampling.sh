@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Traced paths at equal time, before and after a change: `benches/sampling.sh BEFORE`, where BEFORE is the program `paths` of another
 # commit (`cargo build --release --bench paths` there); AFTER, if set, is that of this one. Prints relMSE, CPU time and efficiency
-# of 10 scenes as Markdown, as in sampling.md; SIDE, SAMPLES, REFERENCE, TURNS and ONLY (names, by `;`) set how much is measured.
+# of 10 scenes and of streets of lamps as Markdown, as in sampling.md; SIDE, SAMPLES, REFERENCE, TURNS, STREETS (how many lamps each) and
+# ONLY (names, by `;`) set how much is measured.
 # Reads ../shared/gltf.
 set -euo pipefail
 cd "$(dirname "$0")/.."

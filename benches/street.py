@@ -1,4 +1,4 @@
-"""Writes a glTF of a street with many lamps: `street.py LIGHTS OUT.gltf`.
+"""Writes a glTF of a street with 6 lamps or more: `street.py LIGHTS OUT.gltf`.
 
 Half of the lights are points (KHR_lights_punctual), half are small shining triangles that face the
 street, in three colours. The same number gives the same bytes.
