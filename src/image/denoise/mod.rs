@@ -26,7 +26,7 @@ pub struct NoisyHalf<'a> {
 }
 
 /// Pixels on each side of a pixel that its model is fitted to.
-const REACH: usize = 5;
+const REACH: usize = 3;
 /// Pixels on each side that colours are compared over.
 const PATCH: usize = 1;
 /// How fast weights fall with the square of the distance of guides.
