@@ -90,11 +90,16 @@ impl Knob {
     /// The words of `rtc render` for a value other than that of the scene.
     #[must_use]
     pub fn argument(self, value: u32) -> String {
-        if self == Self::Denoise {
-            self.flag().to_owned()
-        } else {
-            format!("{} {}", self.flag(), self.cell(value))
+        match self.flag_value(value) {
+            Some(value) => format!("{} {value}", self.flag()),
+            None => self.flag().to_owned(),
         }
+    }
+
+    /// What follows the flag for a value; nothing for a flag that stands alone.
+    #[must_use]
+    pub fn flag_value(self, value: u32) -> Option<String> {
+        (self != Self::Denoise).then(|| self.cell(value))
     }
 
     /// A value in short form, as "4" or "plain".

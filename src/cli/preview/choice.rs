@@ -69,12 +69,9 @@ impl Choice {
 
     /// The flags of `rtc render`, with their values if they take one.
     pub(super) fn flags(&self) -> Vec<(&'static str, Option<String>)> {
-        let said = |(knob, value): (&Knob, &u32)| match (*knob, *value) {
-            (Knob::Denoise, 0) => None,
-            (Knob::Denoise, _) => Some((knob.flag(), None)),
-            _ => Some((knob.flag(), Some(knob.cell(*value)))),
-        };
-        let values = self.values.iter().filter_map(said);
+        let is_said = |(knob, value): &(&Knob, &u32)| **knob != Knob::Denoise || **value > 0;
+        let values = self.values.iter().filter(is_said);
+        let values = values.map(|(knob, value)| (knob.flag(), knob.flag_value(*value)));
         let integrator = self.integrator.clone();
         let integrator = integrator.map(|word| ("--integrator", Some(word)));
         values.chain(integrator).collect()

@@ -35,9 +35,8 @@ impl RenderWords {
         let replaced: Vec<_> = more.iter().map(|(name, _)| *name).chain(orbit).collect();
         let kept = without(&self.0, &replaced).into_iter();
         let more = more
-            .iter()
-            .flat_map(|(name, value)| [Some((*name).to_owned()), value.clone()])
-            .flatten();
+            .into_iter()
+            .flat_map(|(name, value)| [name.to_owned()].into_iter().chain(value));
         let words = kept.chain(more).map(|word| quoted(&word));
         let words: Vec<_> = words.collect();
         format!("rtc {}", words.join(" "))

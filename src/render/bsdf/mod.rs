@@ -22,6 +22,7 @@ pub use fresnel::dispersed;
 
 use crate::math::Vec3;
 use crate::plan::PathFeatures;
+use crate::render::sampler::remapped;
 use coat::Coat;
 use compensation::Compensation;
 use lobe_pdf::LobePdf;
@@ -75,9 +76,6 @@ pub struct BsdfSample {
     /// Whether the direction comes from a delta lobe, which light sampling cannot find.
     pub delta: bool,
 }
-
-/// The greatest number below 1.
-const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
 
 /// The BSDF with all lobes.
 pub type Bsdf = Lobes<{ PathFeatures::EVERYTHING.0 }>;
@@ -308,7 +306,7 @@ impl<const F: u32> Lobes<F> {
             through,
             coat,
         } = self.lobe_pdf;
-        let rest = |left: f64, probability: f64| [(left / probability).min(BELOW_ONE), u[1]];
+        let rest = |left: f64, probability: f64| [remapped(left, probability), u[1]];
         // Sample the diffuse lobe.
         if u[0] < cosine {
             return self.in_lobe(cosine_direction(rest(u[0], cosine)));

@@ -28,9 +28,9 @@ use std::f64::consts::PI;
 /// Fewer lights with a place are chosen by power alone: among 8 a tree loses (benches/sampling.md).
 const LEAST_FOR_TREE: usize = 16;
 
-/// The most triangles that are listed as lights, which takes some 300 bytes each: instances may show a mesh more often
-/// than there is memory for.
-const MOST_TRIANGLES: usize = 1 << 21;
+/// At most so many lights are listed, of some 300 bytes each: instances may show the triangles of a mesh more
+/// often than there is memory for.
+const MOST_LISTED: usize = 1 << 21;
 
 /// All lights of a world.
 pub(in crate::render) struct Lights<'world, S> {
@@ -45,11 +45,6 @@ pub(in crate::render) struct Lights<'world, S> {
     probabilities: Vec<f64>,
     /// The index of the first light of each surface that has some.
     firsts: Vec<Option<usize>>,
-}
-
-/// Whether a surface of so many triangles is listed after so many lights. One that is not is found by BSDF sampling.
-fn is_room_for(triangles: usize, listed: usize) -> bool {
-    listed.saturating_add(triangles) <= MOST_TRIANGLES
 }
 
 enum Light {
@@ -68,6 +63,12 @@ pub(in crate::render) struct Incident {
     pub(in crate::render) pdf: Option<f64>,
     /// The sampled point, unless it is infinitely far away.
     pub(in crate::render) place: Option<Vec3>,
+}
+
+/// Whether so many triangles of a surface are listed after so many lights. If not, only BSDF sampling
+/// finds them.
+fn is_room_for(triangles: usize, listed: usize) -> bool {
+    listed.saturating_add(triangles) <= MOST_LISTED
 }
 
 impl<'world, S: Geometry> Lights<'world, S> {
@@ -150,12 +151,12 @@ impl<'world, S: Geometry> Lights<'world, S> {
     }
 
     /// Chooses a light for a point: its index, its probability, and the numbers for a place on it.
-    fn choose(&self, from: Vec3, u: impl Fn() -> [f64; 2]) -> Option<(usize, f64, [f64; 2])> {
+    fn choose(&self, from: Vec3, u: impl FnOnce() -> [f64; 2]) -> Option<(usize, f64, [f64; 2])> {
         if let Some(only) = self.only {
-            let u = if matches!(self.lights[only], Light::Punctual(..)) {
-                [0.0; 2]
-            } else {
-                u()
+            // A light without size needs no numbers, if it is the only one.
+            let u = match self.lights[only] {
+                Light::Punctual(..) => [0.0; 2],
+                Light::Triangle(_) | Light::Environment => u(),
             };
             return Some((only, self.probabilities[only], u));
         }
@@ -266,7 +267,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
     pub(in crate::render) fn sample(
         &self,
         from: Vec3,
-        u: impl Fn() -> [f64; 2],
+        u: impl FnOnce() -> [f64; 2],
     ) -> Option<Incident> {
         let (index, probability, u) = self.choose(from, u)?;
         match &self.lights[index] {
@@ -337,7 +338,7 @@ mod tests {
 
     #[test]
     fn instances_do_not_fill_memory_with_lights() {
-        assert!(is_room_for(MOST_TRIANGLES, 0));
-        assert!(!is_room_for(MOST_TRIANGLES, 1) && !is_room_for(usize::MAX, 1));
+        assert!(is_room_for(MOST_LISTED, 0));
+        assert!(!is_room_for(MOST_LISTED, 1) && !is_room_for(usize::MAX, 1));
     }
 }

@@ -6,6 +6,7 @@
 //! than once in 2³² times is met as often as the bits of a number allow.
 
 use crate::math::{Bounds, Vec3};
+use crate::render::sampler::remapped;
 
 /// The least factor of orientation: the bound is never trusted to be 0.
 const LEAST_FACING: f64 = 1.0 / 16.0;
@@ -93,14 +94,12 @@ impl LightTree {
                 Below::Right(right) => right,
             };
             let left = self.share_of_left(from, index + 1, right);
-            let share = if u < left {
-                (index, u) = (index + 1, u / left);
-                left
+            let (child, above, share) = if u < left {
+                (index + 1, u, left)
             } else {
-                (index, u) = (right, (u - left) / (1.0 - left));
-                1.0 - left
+                (right, u - left, 1.0 - left)
             };
-            u = u.min(1.0 - f64::EPSILON);
+            (index, u) = (child, remapped(above, share));
             probability *= share;
         }
     }

@@ -1,6 +1,8 @@
 //! Tabulated distributions: an index, or a point of the unit square, with a probability
 //! proportional to its weight.
 
+use super::remapped;
+
 /// Indices per part of a guide: enough for it to be small beside the sums.
 const PER_PART: usize = 4;
 
@@ -68,12 +70,7 @@ impl DiscreteDistribution {
         let index = index.min(self.last);
         let before = if index > 0 { self.sums[index - 1] } else { 0.0 };
         let width = self.sums.get(index)? - before;
-        (width > 0.0).then(|| {
-            (
-                index,
-                ((place - before) / width).clamp(0.0, 1.0 - f64::EPSILON),
-            )
-        })
+        (width > 0.0).then(|| (index, remapped(place - before, width)))
     }
 }
 

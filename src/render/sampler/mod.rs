@@ -49,6 +49,14 @@ impl Key {
     }
 }
 
+/// The number of the next decision, in [0, 1), where a number was found in an interval: how far above
+/// its lower end, over its width. An interval of no width gives a number, too.
+#[expect(clippy::manual_clamp, reason = "0/0 becomes a number")]
+#[inline]
+pub(in crate::render) fn remapped(above: f64, width: f64) -> f64 {
+    (above / width).min(1.0 - f64::EPSILON).max(0.0)
+}
+
 /// Points spread evenly over a disc of radius 1: a golden spiral, turned by a number of the key.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct DiscPoints {

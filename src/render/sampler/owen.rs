@@ -9,15 +9,14 @@
 /// Each 2ᵐ points from a multiple of 2ᵐ on have one in each elementary interval.
 #[inline]
 pub(in crate::render) fn first_two(index: u32) -> [u32; 2] {
-    let x = index ^ ((index >> 1) & EVEN as u32);
-    [index, pascal(u64::from(x)) as u32]
+    [index, within_digits(pascal(u64::from(index)) as u32)]
 }
 
 /// The other two coordinates: with each other they are as good as the first two, and each 4ᵐ points have
 /// one in each elementary interval in base 4 of all four dimensions.
 ///
 /// With D = diag(1, ω, ω², …) over digits of two bits, the third matrix is D⁻¹·P·D, the fourth D⁻²·P·D²; P is
-/// Pascal's matrix of digits.
+/// Pascal's matrix of digits. In the second and the fourth coordinate it is applied to the bits of each digit, too.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "the halves are meant")]
 pub(in crate::render) fn last_two(index: u32) -> [u32; 2] {
@@ -26,7 +25,13 @@ pub(in crate::render) fn last_two(index: u32) -> [u32; 2] {
     let both = times(both, UP, DOWN);
     let both = times(pascal(both), DOWN, UP);
     let fourth = (both >> 32) as u32;
-    [both as u32, fourth ^ ((fourth >> 1) & EVEN as u32)]
+    [both as u32, within_digits(fourth)]
+}
+
+/// Pascal's matrix of the two bits of each digit: the lower one becomes the sum of both.
+#[inline]
+fn within_digits(x: u32) -> u32 {
+    x ^ ((x >> 1) & EVEN as u32)
 }
 
 /// Every second bit, from the lowest on.

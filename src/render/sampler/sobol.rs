@@ -9,7 +9,7 @@ use super::owen::{first_two, last_two, scrambled};
 use crate::math::mix;
 use crate::render::film::Seeds;
 
-/// A pair of dimensions: the first or the second one of a group, for numbers that are even or odd.
+/// A pair of dimensions: 2·g is the first one of group g, 2·g + 1 the second one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::render) struct Pair(u32);
 
@@ -104,18 +104,18 @@ impl Sobol {
         // Scrambled from its highest bit on, the index shuffles the points and keeps each first 2^k
         // of them together.
         let index = scrambled(self.reversed, bits as u32).reverse_bits();
-        let is_first = pair.0.is_multiple_of(2);
-        let (point, seeds) = if is_first {
+        // The second pair of a group is always one of the path.
+        let ([x, y], seeds) = if pair.0.is_multiple_of(2) {
             (first_two(index), bits.rotate_left(16))
-        } else if group == 0 {
-            (last_two(index), mix(self.path.bits(group)))
         } else {
-            (last_two(index), mix(bits))
+            (last_two(index), mix(self.path.bits(group)))
         };
-        let [x, y] = [(seeds >> 32) as u32, seeds as u32];
+        let (x, y) = (
+            scrambled(x, (seeds >> 32) as u32),
+            scrambled(y, seeds as u32),
+        );
         // Reversed together, they change places.
-        let both = (u64::from(scrambled(point[0], x)) << 32 | u64::from(scrambled(point[1], y)))
-            .reverse_bits();
+        let both = (u64::from(x) << 32 | u64::from(y)).reverse_bits();
         [both as u32, (both >> 32) as u32].map(|bits| f64::from(bits) * UNIT)
     }
 
@@ -148,16 +148,28 @@ mod tests {
 
     const PAIRS: [Pair; 4] = [Pair::FILM, Pair::LENS, Pair(5), Pair(12)];
 
-    /// How many of 2^(a+b) squares of a pair of dimensions have a point.
-    fn filled(points: &[[f64; 2]], across: u32, down: u32) -> usize {
-        let cell = |[x, y]: &[f64; 2]| {
-            let place = |x: f64, log: u32| (x * f64::from(1_u32 << log)) as u32;
-            [place(*x, across), place(*y, down)]
-        };
-        let mut cells = points.iter().map(cell).collect::<Vec<_>>();
-        cells.sort_unstable();
-        cells.dedup();
-        cells.len()
+    /// Demands that points, of which there is a power of two, are in [0, 1) and fill all elementary intervals.
+    fn assert_filled(points: &[[f64; 2]], of: &str) {
+        let numbers = points.iter().flatten();
+        assert!(
+            numbers.clone().all(|u| (0.0..=1.0 - UNIT).contains(u)),
+            "{of}"
+        );
+        let log = points.len().trailing_zeros();
+        for across in 0..=log {
+            let cell = |[x, y]: &[f64; 2]| {
+                let place = |x: f64, log: u32| (x * f64::from(1_u32 << log)) as u32;
+                [place(*x, across), place(*y, log - across)]
+            };
+            let mut cells = points.iter().map(cell).collect::<Vec<_>>();
+            cells.sort_unstable();
+            cells.dedup();
+            assert_eq!(
+                cells.len(),
+                points.len(),
+                "{of}, {across} of {log} bits across"
+            );
+        }
     }
 
     #[test]
@@ -166,13 +178,7 @@ mod tests {
             for pair in PAIRS {
                 let point = |k| Sobol::new([3, 5], k, Seeds::NONE).pair(pair);
                 let points = (0..1 << log).map(point).collect::<Vec<_>>();
-                for across in 0..=log {
-                    assert_eq!(
-                        filled(&points, across, log - across),
-                        points.len(),
-                        "{pair:?}"
-                    );
-                }
+                assert_filled(&points, &format!("{pair:?}"));
             }
         }
     }
@@ -188,14 +194,7 @@ mod tests {
                     .clone()
                     .flat_map(|pixel| (0..samples).map(move |k| (pixel, k)));
                 let points = points.map(point).collect::<Vec<_>>();
-                let log = points.len().trailing_zeros();
-                for across in 0..=log {
-                    assert_eq!(
-                        filled(&points, across, log - across),
-                        points.len(),
-                        "{pair:?} {side}"
-                    );
-                }
+                assert_filled(&points, &format!("{pair:?}, {side} × {side} pixels"));
             }
         }
     }

@@ -109,8 +109,8 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         Self::can(feature) && self.planned.contains(feature)
     }
 
-    /// The numbers of a sample. In pictures of a given number of samples neighbours share a sequence; a sample
-    /// beyond that number is of the pixel's own.
+    /// The numbers of a sample. In a picture of a given number of samples a pixel shares its sequence with
+    /// its neighbours; samples beyond that number come from a sequence of its own.
     fn numbers(&self, id: &SampleId) -> Sobol {
         let (pixel, index, seeds) = (id.pixel, id.index, id.stream.seeds());
         match (id.stream, self.world.settings.mode) {

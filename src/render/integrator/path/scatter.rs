@@ -243,8 +243,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     }
 }
 
-/// Veach's balance heuristic. Both densities follow the light closely here, so that higher powers, which keep the
-/// better one alone, lose more than they gain (benches/sampling.md).
+/// Veach's balance heuristic: by trial, higher powers leave more noise in most scenes (decision 16).
 fn balance_heuristic(own: f64, other: f64) -> f64 {
     1.0 / (1.0 + other / own)
 }
