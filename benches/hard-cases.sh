@@ -14,11 +14,11 @@ run() {
         exit 1
     }
 }
-run --test hardcases hardcases::families::our_own
-run --test hardcases hardcases::leaks::closed
-run --test hardcases hardcases::leaks::placed
-run --test hardcases hardcases::self_hits
-run --test hardcases hardcases::gaps
+run --test suites hardcases::families::our_own
+run --test suites hardcases::leaks::closed
+run --test suites hardcases::leaks::placed
+run --test suites hardcases::self_hits
+run --test suites hardcases::gaps
 run --lib no_box_is_missed
 
 # Rows of one table: those of a group, each with what others reach there.

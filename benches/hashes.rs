@@ -9,9 +9,9 @@
     reason = "a comparison stops at the first surprise, and prints what it finds"
 )]
 
-#[path = "../tests/hashed/mod.rs"]
+#[path = "../tests/hashed.rs"]
 mod hashed;
-#[path = "../tests/small/mod.rs"]
+#[path = "../tests/small.rs"]
 mod small;
 
 fn main() {

@@ -21,8 +21,9 @@ CHOICES, ALONE = Path("target/mutants/choices"), Path("target/mutants/alone")
 # Unit tests of a file, or those of the plan, then its suite, what takes longest last: (program, arguments).
 SLOW = ["law::", "validation::", "counters::", "paths::"]
 STAGES = [
-    ("file", []), ("rtc", ["plan::"]), ("plan", ["path_"]), ("plan", [f"--skip={name}" for name in ["path_", *SLOW]]),
-    ("plan", SLOW), ("shared", ["plan: "]),
+    ("file", []), ("rtc_plan", []), ("suites", ["plan::path_"]),
+    ("suites", ["plan::", *(f"--skip=plan::{name}" for name in ["path_", *SLOW])]),
+    ("suites", [f"plan::{name}" for name in SLOW]), ("files", ["plan: "]),
 ]
 CHOICE = """//! Which mutant runs.
 /// Its number, or 0.
@@ -105,6 +106,11 @@ def write(path, text):
         path.write_text(text)
 
 
+def with_choice(file, text):
+    """A file of the copy: the root of the plan has a module with the choice, too."""
+    return text + ("pub mod mutant;\n" if file == "src/plan/lib.rs" else "")
+
+
 def copy_tree(tree, texts):
     """Copies the library, but for the texts, and the suites; what else they read is seen through links."""
     tracked = subprocess.check_output(["git", "ls-files"], text=True).splitlines()
@@ -113,15 +119,15 @@ def copy_tree(tree, texts):
         if not (tree / name).is_symlink():
             (tree / name).symlink_to(Path(name).resolve())
     for file in tracked:
-        if file.startswith("src/") and file != "src/main.rs" and file not in texts:
-            write(tree / file, Path(file).read_text() + ("pub mod mutant;\n" if file == "src/lib.rs" else ""))
-        elif file.startswith("tests/"):
+        if file.startswith("src/") and file.endswith(".rs") and file not in texts:
+            write(tree / file, with_choice(file, Path(file).read_text()))
+        elif file.startswith(("src/", "tests/")) and file not in texts:
             (tree / file).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(file, tree / file)
-    write(tree / "src/mutant.rs", CHOICE)
+    write(tree / "src/plan/mutant.rs", CHOICE)
     toml = Path("Cargo.toml").read_text()
     lints = ["arithmetic_overflow", "unconditional_panic", "unconditional_recursion"]
-    toml = toml.replace("[lints.rust]\n", "[lints.rust]\n" + "".join(f'{lint} = "allow"\n' for lint in lints))
+    toml = toml.replace("[workspace.lints.rust]\n", "[workspace.lints.rust]\n" + "".join(f'{lint} = "allow"\n' for lint in lints))
     write(tree / "Cargo.toml", toml)
 
 
@@ -130,9 +136,9 @@ def build(tree):
 
     A mutant alone runs once: it is not optimised, which builds it in a third of the time.
     """
-    command = ["cargo", "test", "-j1", "--no-run", "--lib", "--test", "plan", "--test", "shared", "--message-format=json"]
+    command = ["cargo", "test", "-j1", "--no-run", "-p", "rtc-plan", "-p", "rtc", "--lib", "--test", "suites", "--test", "files", "--message-format=json"]
     command.append(f"--target-dir={Path('target').resolve()}")
-    command.append(f"--config=profile.dev.package.rtc.opt-level={1 if tree == CHOICES else 0}")
+    command.append(f"--config=profile.dev.package.rtc-plan.opt-level={1 if tree == CHOICES else 0}")
     said = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     programs, errors = {}, []
     for message in map(json.loads, said.stdout.splitlines()):
@@ -159,7 +165,7 @@ def build_all(mutants, texts):
     while True:
         for file, text in texts.items():
             own = [mutant for mutant in mutants if mutant.file == file]
-            write(CHOICES / file, mutated(text, own))
+            write(CHOICES / file, with_choice(file, mutated(text, own)))
         programs, errors = build(CHOICES)
         if not errors:
             return programs
@@ -176,7 +182,7 @@ def build_one(mutant, texts):
     if not re.search(r"crate::|super::(?!\*)", re.sub(r"//.*", "", texts[mutant.file])):
         return build_file(mutant, texts[mutant.file])
     for file, text in texts.items():
-        write(ALONE / file, mutant.apply(text, 0, len(text)) if file == mutant.file else text)
+        write(ALONE / file, with_choice(file, mutant.apply(text, 0, len(text)) if file == mutant.file else text))
     programs, errors = build(ALONE)
     mutant.is_viable = not errors
     return programs

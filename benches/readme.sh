@@ -3,5 +3,5 @@
 # lines of the same form are looked for; where there are none all is put in, to be cut by hand.
 set -eu
 cd "$(dirname "$0")/.."
-RTC_UPDATE=1 cargo test --quiet --release --test readme the_readme -- --nocapture
+RTC_UPDATE=1 cargo test --quiet --release --test suites readme::the_readme -- --nocapture
 git diff --stat README.md

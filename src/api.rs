@@ -1,6 +1,6 @@
 //! The library's door: [`Scene::open`], [`Scene::check`], [`Scene::render`], [`Picture::save`].
 //!
-//! It holds no rule about scenes: it hands what is asked for to [`crate::pipeline`], as the command
+//! It holds no rule about scenes: it hands what is asked for to [`rtc_pipeline`], as the command
 //! line does, so both find the same and render the same bytes.
 
 mod effect;
@@ -11,14 +11,14 @@ mod options;
 mod picture;
 mod scene;
 
-pub use crate::color::Tone;
-pub use crate::diag::Severity;
-pub use crate::plan::State as EffectState;
-pub use crate::render::Aov;
 pub use effect::Effect;
 pub use error::Error;
 pub use finding::{Finding, Hint, Label, Location};
 pub use light::Light;
 pub use options::{Format, Options, Reading};
 pub use picture::{Picture, Statistics};
+pub use rtc_color::Tone;
+pub use rtc_diag::Severity;
+pub use rtc_plan::State as EffectState;
+pub use rtc_render::Aov;
 pub use scene::Scene;

@@ -60,88 +60,34 @@
 
 #![forbid(unsafe_code)]
 
-// First, since the rooms below use its table of shapes.
-#[macro_use]
-mod ir;
-
 mod api;
-#[cfg(feature = "cli")]
-mod cli;
-mod codec;
-mod color;
-mod diag;
-mod emit;
-mod front;
-mod image;
-mod math;
-mod passes;
-mod pipeline;
-mod plan;
-mod profile;
-mod render;
-mod source;
-mod standard;
-mod study;
-mod valid;
 
 pub use api::{
     Aov, Effect, EffectState, Error, Finding, Format, Hint, Label, Light, Location, Options,
     Picture, Reading, Scene, Severity, Statistics, Tone,
 };
 #[cfg(feature = "cli")]
-pub use cli::run;
+pub use rtc_cli::run;
 
 /// The rooms, for the binary and for what judges them beside this crate: tests, benches, fuzzing.
 /// Nothing here is promised to stay as it is.
 #[doc(hidden)]
 pub mod internals {
     #[cfg(feature = "cli")]
-    pub mod cli {
-        pub use crate::cli::*;
-    }
-    pub mod codec {
-        pub use crate::codec::*;
-    }
-    pub mod color {
-        pub use crate::color::*;
-    }
-    pub mod diag {
-        pub use crate::diag::*;
-    }
-    pub mod emit {
-        pub use crate::emit::*;
-    }
-    pub mod front {
-        pub use crate::front::*;
-    }
-    pub mod image {
-        pub use crate::image::*;
-    }
-    pub mod ir {
-        pub use crate::ir::*;
-    }
-    pub mod math {
-        pub use crate::math::*;
-    }
-    pub mod passes {
-        pub use crate::passes::*;
-    }
-    pub mod pipeline {
-        pub use crate::pipeline::*;
-    }
-    pub mod plan {
-        pub use crate::plan::*;
-    }
-    pub mod render {
-        pub use crate::render::*;
-    }
-    pub mod source {
-        pub use crate::source::*;
-    }
-    pub mod study {
-        pub use crate::study::*;
-    }
-    pub mod valid {
-        pub use crate::valid::*;
-    }
+    pub use rtc_cli as cli;
+    pub use rtc_codec as codec;
+    pub use rtc_color as color;
+    pub use rtc_diag as diag;
+    pub use rtc_emit as emit;
+    pub use rtc_front as front;
+    pub use rtc_image as image;
+    pub use rtc_ir as ir;
+    pub use rtc_math as math;
+    pub use rtc_passes as passes;
+    pub use rtc_pipeline as pipeline;
+    pub use rtc_plan as plan;
+    pub use rtc_render as render;
+    pub use rtc_source as source;
+    pub use rtc_study as study;
+    pub use rtc_valid as valid;
 }

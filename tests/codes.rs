@@ -1,6 +1,6 @@
 //! The table of codes is sound, and `schema/diagnostics.md` is what `rtc explain --all` prints.
 //!
-//! `RTC_UPDATE=1 cargo test --test codes` rewrites the page.
+//! `RTC_UPDATE=1 cargo test --test suites codes::` rewrites the page.
 
 #![expect(clippy::disallowed_methods, reason = "reads and renews what it checks")]
 use rtc::internals::diag::codes;

@@ -65,7 +65,7 @@ fn the_file_in_the_schema_folder_is_current() {
     let file = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
         file == schema,
-        "schema/ir.schema.json is out of date; RTC_UPDATE=1 cargo test --test ir_schema writes it"
+        "schema/ir.schema.json is out of date; RTC_UPDATE=1 cargo test --test suites ir_schema writes it"
     );
 }
 

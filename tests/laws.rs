@@ -3,14 +3,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
-#[path = "small/laws.rs"]
-mod every;
-#[path = "small/parts.rs"]
+use crate::small;
 mod parts;
-mod scale;
-mod small;
 
-use every::{is_the_same_in_any_order, is_the_same_laid_out, makes_the_same_picture_times, powers};
+use crate::scene_laws::{
+    is_the_same_in_any_order, is_the_same_laid_out, makes_the_same_picture_times, powers,
+};
 use rtc::internals::codec::{self, Form};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Lowered, Origins, Scene};

@@ -7,9 +7,6 @@
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 
-mod names;
-
-use names::{House, Named};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,7 +15,7 @@ use std::path::{Path, PathBuf};
 const FLOORS: &[(&str, u32)] = &[
     ("math", 0),
     ("color", 0),
-    ("standard", 0),
+    ("tables", 0),
     ("image", 1),
     ("profile", 1),
     ("source", 1),
@@ -47,9 +44,6 @@ const FORBIDDEN: &[(&str, &str)] = &[
     ("render", "emit"),
     ("render", "passes"),
 ];
-
-/// What rooms still name against the rules, through what other rooms re-export; to become less.
-const REMAINS: &[(&str, &str)] = &[];
 
 const MAX_LINES: usize = 400;
 
@@ -100,129 +94,55 @@ fn all_files() -> Vec<(String, String)> {
     .collect()
 }
 
-/// The floor of a room; none for the names of things in the root of the crate.
-fn floor_of(room: &str) -> Option<u32> {
-    let known = FLOORS.iter().find(|(name, _)| *name == room);
-    known.map(|(_, floor)| *floor)
-}
-
-/// What a room names and may not, as `render` and `ir::Camera`, and the files that name it.
-fn faults(named: BTreeSet<Named>) -> BTreeMap<(String, String), BTreeSet<String>> {
-    let mut faults: BTreeMap<(String, String), BTreeSet<String>> = BTreeMap::new();
-    for Named {
-        file,
-        module,
-        place,
-    } in named
-    {
-        let Some((room, own)) = module
-            .first()
-            .and_then(|room| Some((room.clone(), floor_of(room)?)))
-        else {
-            continue;
-        };
-        let other = &place[0];
-        let is_fault = other != &room
-            && floor_of(other).is_some_and(|floor| {
-                floor >= own || FORBIDDEN.contains(&(room.as_str(), other.as_str()))
-            });
-        // What lies deeper in the room is named by way of this.
-        if is_fault && place.len() == 2 {
-            let files = faults.entry((room, place.join("::"))).or_default();
-            files.insert(file);
+/// The rooms, each with its manifest; the library itself is the one that stands above them.
+fn manifests() -> Vec<(String, String)> {
+    let mut manifests = vec![("api".to_owned(), root().join("Cargo.toml"))];
+    for entry in fs::read_dir(root().join("src")).unwrap() {
+        let folder = entry.unwrap().path();
+        if folder.join("Cargo.toml").exists() {
+            let room = folder.file_name().unwrap().to_string_lossy().into_owned();
+            manifests.push((room, folder.join("Cargo.toml")));
         }
     }
-    faults
+    let read = |(room, path)| (room, fs::read_to_string(path).unwrap());
+    manifests.into_iter().map(read).collect()
+}
+
+/// The rooms that a manifest names as dependencies: cargo lets a room name no others.
+fn dependencies(manifest: &str) -> BTreeSet<&str> {
+    let tables = manifest.split("\n[").filter(|table| {
+        let name = table.split(']').next().unwrap_or_default();
+        name.ends_with("dependencies") && !name.contains("workspace") && !name.contains("dev")
+    });
+    let lines = tables.flat_map(str::lines);
+    let rooms = lines.filter_map(|line| line.strip_prefix("rtc-")?.split(['.', ' ']).next());
+    rooms.collect()
 }
 
 #[test]
 fn every_room_has_a_floor() {
-    let rooms: BTreeSet<String> = rust_files("src")
-        .into_iter()
-        .filter_map(|(path, _)| {
-            Some(
-                path.strip_prefix("src/")?
-                    .split(['/', '.'])
-                    .next()?
-                    .to_owned(),
-            )
-        })
-        .filter(|room| room != "lib" && room != "main")
-        .collect();
+    let rooms: BTreeSet<String> = manifests().into_iter().map(|(room, _)| room).collect();
     let known: BTreeSet<String> = FLOORS.iter().map(|(room, _)| (*room).to_owned()).collect();
     assert_eq!(rooms, known);
 }
 
 #[test]
-fn rooms_name_only_lower_floors() {
-    let mut faults = faults(House::read(&rust_files("src")).named());
-    let is_gone = |(room, place): &&(&str, &str)| {
-        faults
-            .remove(&((*room).to_owned(), (*place).to_owned()))
-            .is_none()
-    };
-    let gone: Vec<_> = REMAINS.iter().filter(is_gone).collect();
-    let told: Vec<_> = faults
-        .into_iter()
-        .map(|((room, place), files)| format!("{room} names `{place}` in {files:?}"))
-        .collect();
-    assert!(told.is_empty(), "{}", told.join("\n"));
-    assert!(
-        gone.is_empty(),
-        "no longer named, so no longer to be listed: {gone:?}"
-    );
-}
-
-#[test]
-fn rooms_are_named_in_lists_by_super_and_through_others() {
-    let files = [
-        ("src/lib.rs", ""),
-        ("src/source/mod.rs", ""),
-        ("src/diag/mod.rs", ""),
-        ("src/codec/mod.rs", ""),
-        ("src/ir/mod.rs", "pub struct Camera; pub struct Lens;"),
-        (
-            "src/valid/mod.rs",
-            "mod lens; pub use crate::ir::Camera as Eye; pub use lens::*;",
-        ),
-        ("src/valid/lens.rs", "pub use super::super::ir::Lens;"),
-        (
-            "src/render/a.rs",
-            "use crate::{math::{self, Vec3}, valid::{Eye}};",
-        ),
-        (
-            "src/render/b.rs",
-            "use crate::valid as proof; fn f() -> proof::Lens { proof::Lens }",
-        ),
-        (
-            "src/render/c.rs",
-            "fn f() { assert!(super::super::diag::is_fine()) }",
-        ),
-        (
-            "src/render/d.rs",
-            "macro_rules! m { () => { $crate::source::Span } }",
-        ),
-        ("src/render/e.rs", "mod inner { use rtc::codec::decode; }"),
-        ("src/render/g.rs", "use super::super::valid::*;"),
-        (
-            "src/render/f.rs",
-            "//! See crate::ir::Camera.\n#[cfg(test)]\nmod tests { use crate::ir::Lens; }",
-        ),
-    ];
-    let files = files.map(|(path, text)| (path.to_owned(), text.to_owned()));
-    let named: BTreeMap<_, _> = faults(House::read(&files).named())
-        .into_iter()
-        .map(|((_, place), files)| (place, files.into_iter().collect::<Vec<_>>().join(" ")))
-        .collect();
-    let expected = [
-        ("codec::decode", "src/render/e.rs"),
-        ("diag::is_fine", "src/render/c.rs"),
-        ("ir::Camera", "src/render/a.rs src/render/g.rs"),
-        ("ir::Lens", "src/render/b.rs src/render/g.rs"),
-        ("source::Span", "src/render/d.rs"),
-    ];
-    let expected = expected.map(|(place, file)| (place.to_owned(), file.to_owned()));
-    assert_eq!(named, BTreeMap::from(expected));
+fn rooms_depend_on_lower_floors_alone() {
+    let floors: BTreeMap<&str, u32> = FLOORS.iter().copied().collect();
+    let mut faults = Vec::new();
+    for (room, manifest) in &manifests() {
+        let others = dependencies(manifest);
+        assert!(room != "render" || others.contains("plan"), "{others:?}");
+        for other in others {
+            // The library hands out the program, which stands above it.
+            let is_program = room == "api" && other == "cli";
+            let is_below = floors[other] < floors[room.as_str()];
+            if !is_program && !is_below || FORBIDDEN.contains(&(room, other)) {
+                faults.push(format!("{room} depends on {other}"));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults:?}");
 }
 
 /// The room of `render` that sees the proof: all others see what was prepared from it.
@@ -230,12 +150,10 @@ const PREPARING: &str = "src/render/world/";
 
 #[test]
 fn the_world_alone_knows_the_proof() {
-    let named = House::read(&rust_files("src")).named().into_iter();
-    let knowing = named
-        .filter(|named| named.place[0] == "valid")
-        .map(|named| named.file);
-    let knowing: BTreeSet<_> = knowing
-        .filter(|file| file.starts_with("src/render/"))
+    let files = rust_files("src/render").into_iter();
+    let knowing: BTreeSet<_> = files
+        .filter(|(_, text)| text.contains("rtc_valid::"))
+        .map(|(path, _)| path)
         .collect();
     let (world, others): (Vec<_>, Vec<_>) =
         knowing.iter().partition(|file| file.starts_with(PREPARING));
@@ -247,7 +165,7 @@ fn the_world_alone_knows_the_proof() {
 fn the_proof_passes_on_nothing_of_the_representation() {
     for (path, text) in rust_files("src/valid") {
         let exports = text.split("pub use ").skip(1);
-        let of_ir = exports.filter(|rest| rest.starts_with("crate::ir")).count();
+        let of_ir = exports.filter(|rest| rest.starts_with("rtc_ir")).count();
         assert_eq!(of_ir, 0, "{path}");
     }
 }
@@ -268,9 +186,11 @@ fn shared_types(text: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn no_two_types_have_one_name() {
     let files = rust_files("src").into_iter();
-    // The door has the names that its callers use; what it hands out stands for what lies within.
+    // The door has the names that its callers use; what it hands out stands for what lies within. The document that is
+    // written has those of glTF.
+    let apart = ["src/api", "src/emit/gltf/document.rs"];
     let files: Vec<_> = files
-        .filter(|(path, _)| !path.starts_with("src/api"))
+        .filter(|(path, _)| !apart.iter().any(|own| path.starts_with(own)))
         .collect();
     let mut homes: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for (path, text) in &files {

@@ -1,6 +1,6 @@
 //! What a picture needs, and what is left out of it with the reason.
 
-use crate::plan::{State, Verdict};
+use rtc_plan::{State, Verdict};
 
 /// An effect of light or of the film, and whether pictures of a scene simulate it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,7 +25,7 @@ impl Effect {
             name: verdict.effect.name(),
             of: verdict.of.map(|place| place.to_string()),
             state: verdict.state,
-            rule: verdict.rule.map(crate::plan::Rule::name),
+            rule: verdict.rule.map(rtc_plan::Rule::name),
             because: verdict.because.clone(),
         }
     }

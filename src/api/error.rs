@@ -1,7 +1,7 @@
 //! Why there is no scene, or no picture of it.
 
 use super::{Finding, Severity};
-use crate::pipeline::RenderError;
+use rtc_pipeline::RenderError;
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ impl Error {
     /// The same, of a render; `finding` makes public what was found.
     pub(super) fn of_render(
         error: RenderError,
-        finding: impl FnOnce(crate::diag::Diagnostic) -> Finding,
+        finding: impl FnOnce(rtc_diag::Diagnostic) -> Finding,
     ) -> Self {
         match error {
             RenderError::Stopped => Self::Stopped,

@@ -1,8 +1,8 @@
 //! What was found about a scene, with no reference to it.
 
 use super::Severity;
-use crate::diag::{self, Diagnostic};
-use crate::source::{SourceMap, Span};
+use rtc_diag::{self as diag, Diagnostic};
+use rtc_source::{SourceMap, Span};
 use std::fmt;
 use std::ops::Range;
 

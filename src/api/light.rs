@@ -1,6 +1,6 @@
 //! Lights that a caller adds to a scene.
 
-use crate::ir::{self, Emitter, PointLight, Punctual};
+use rtc_ir::{self as ir, Emitter, PointLight, Punctual};
 
 /// A light. Colours are linear red, green and blue, each at least 0; lengths are those of the scene.
 ///

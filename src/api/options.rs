@@ -1,12 +1,12 @@
 //! What a caller asks for: how a scene is read, and how its picture is made.
 
 use super::{Aov, Error, Scene, Tone};
-use crate::image::BackgroundFill;
-use crate::image::FileFormat;
-use crate::passes::{EnvironmentOverride, IntegratorChoice, Orbit, Overrides, Stage, View};
-use crate::pipeline::{self, Exposure, Input, OutputLook, PictureSetup};
-use crate::render::Crop;
-use crate::source::MemoryFiles;
+use rtc_image::BackgroundFill;
+use rtc_image::FileFormat;
+use rtc_passes::{EnvironmentOverride, IntegratorChoice, Orbit, Overrides, Stage, View};
+use rtc_pipeline::{self as pipeline, Exposure, Input, OutputLook, PictureSetup};
+use rtc_render::Crop;
+use rtc_source::MemoryFiles;
 use std::path::{Path, PathBuf};
 
 /// How a scene is read, and what of it.

@@ -1,10 +1,10 @@
 //! A picture that was rendered.
 
 use super::{Aov, Error, Finding, Format, Tone};
-use crate::color::quantize8;
-use crate::image::{self, Origin};
-use crate::pipeline::SettledLook;
-use crate::render::Counts;
+use rtc_color::quantize8;
+use rtc_image::{self as image, Origin};
+use rtc_pipeline::SettledLook;
+use rtc_render::Counts;
 
 /// A picture: rows from the top, each from the left.
 #[derive(Clone, Debug)]
@@ -161,7 +161,7 @@ impl Picture {
             )));
         }
         let bytes = self.encode()?;
-        crate::pipeline::NewFile::save(path, &bytes).map_err(|error| Error::Unwritable {
+        rtc_pipeline::NewFile::save(path, &bytes).map_err(|error| Error::Unwritable {
             path: path.to_owned(),
             error,
         })

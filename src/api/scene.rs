@@ -1,11 +1,13 @@
 //! A scene that a caller holds.
 
 use super::{Effect, Error, Finding, Light, Options, Picture, Reading};
-use crate::diag::{Diagnostic, Sink};
-use crate::passes;
-use crate::pipeline::{self, Input, Loaded, Observer, PictureSetup, RenderSubject, Traced};
-use crate::plan::{Plan, Rules};
-use crate::render::Film;
+use rtc_diag::{Diagnostic, Sink};
+use rtc_passes as passes;
+use rtc_pipeline::{
+    self as pipeline, Input, Loaded, Observer, PictureSetup, RenderSubject, Traced,
+};
+use rtc_plan::{Plan, Rules};
+use rtc_render::Film;
 use std::fmt;
 use std::path::Path;
 

@@ -9,11 +9,11 @@ use super::output::{self, Companions, Output};
 use super::report::PlanReport;
 use super::simd;
 use super::talk::Talk;
-use crate::codec::{self, Form};
-use crate::emit;
-use crate::emit::course::WrittenScene;
-use crate::image::{BackgroundFill, FileFormat};
-use crate::pipeline::{Input, Observer, OutputLook, PictureSetup, Proven};
+use rtc_codec::{self as codec, Form};
+use rtc_emit as emit;
+use rtc_emit::course::WrittenScene;
+use rtc_image::{BackgroundFill, FileFormat};
+use rtc_pipeline::{Input, Observer, OutputLook, PictureSetup, Proven};
 use std::path::Path;
 
 /// Compiles the scene and writes it.

@@ -1,8 +1,8 @@
 //! A text file that is changed: shown as a unified diff, or written.
 
 use super::Failure;
-use crate::pipeline::NewFile;
-use crate::source::{Loader, SourceMap};
+use rtc_pipeline::NewFile;
+use rtc_source::{Loader, SourceMap};
 use similar::TextDiff;
 use std::io;
 use std::path::Path;

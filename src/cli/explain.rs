@@ -2,8 +2,8 @@
 
 use super::args::Explain;
 use super::{Failure, output};
-use crate::diag::{Code, clip, codes};
-use crate::plan::Rule;
+use rtc_diag::{Code, clip, codes};
+use rtc_plan::Rule;
 
 /// Columns of the text.
 const WIDTH: usize = 80;

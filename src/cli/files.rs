@@ -1,8 +1,8 @@
 //! Scenes by folders and patterns: which files are meant.
 
 use super::Failure;
-use crate::front::{is_scene_name, is_scene_text_name};
 use glob::MatchOptions;
+use rtc_front::{is_scene_name, is_scene_text_name};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};

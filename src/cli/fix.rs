@@ -4,7 +4,7 @@ use super::args::CheckArgs;
 use super::project::Project;
 use super::talk::{self, Talk};
 use super::{Failure, edit, input, output};
-use crate::pipeline::{self, FixWish, FixedText, Input};
+use rtc_pipeline::{self as pipeline, FixWish, FixedText, Input};
 use std::path::Path;
 
 /// Fixes the scene that was read from `path`, or shows how that would be: the scene as it is then.

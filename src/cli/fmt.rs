@@ -3,7 +3,7 @@
 use super::args::Fmt;
 use super::talk::{self, Talk};
 use super::{Failure, edit, files, input, output};
-use crate::pipeline::{Input, LaidOutFault, Options};
+use rtc_pipeline::{Input, LaidOutFault, Options};
 use std::path::Path;
 
 /// Lays out the files, or tells which are not laid out.

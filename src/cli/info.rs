@@ -3,12 +3,12 @@
 use super::args::Info;
 use super::talk::Talk;
 use super::{Failure, input, output};
-use crate::front::gltf::AssetSummary;
-use crate::ir::{Light, Mesh, Mode, Projection, Scene, Shape};
-use crate::math::{Vec3, shortest};
-use crate::pipeline::{Input, Proven};
-use crate::plan::{Plan, Rule, Rules};
 use indicatif::{BinaryBytes, HumanCount};
+use rtc_front::gltf::AssetSummary;
+use rtc_ir::{Light, Mesh, Mode, Projection, Scene, Shape};
+use rtc_math::{Vec3, shortest};
+use rtc_pipeline::{Input, Proven};
+use rtc_plan::{Plan, Rule, Rules};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 

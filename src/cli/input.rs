@@ -4,11 +4,12 @@ use super::Failure;
 use super::args::{self, GroundArg, Reading};
 use super::project::Project;
 use super::talk::Talk;
-use crate::ir::Lowered;
-use crate::passes::{self, EnvironmentOverride, FillLight, Stage, StudioChoice, View};
-use crate::pipeline::{Input, Options, PictureSetup, Proven, Provenance, RenderSubject};
-use crate::source::EditedFiles;
-use crate::{front, valid};
+use rtc_front as front;
+use rtc_ir::Lowered;
+use rtc_passes::{self as passes, EnvironmentOverride, FillLight, Stage, StudioChoice, View};
+use rtc_pipeline::{Input, Options, PictureSetup, Proven, Provenance, RenderSubject};
+use rtc_source::EditedFiles;
+use rtc_valid as valid;
 use std::io;
 use std::path::Path;
 

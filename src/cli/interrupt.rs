@@ -5,7 +5,7 @@
 //! the second.
 
 use super::Failure;
-use crate::pipeline::WriteObserver;
+use rtc_pipeline::WriteObserver;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};

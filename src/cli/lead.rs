@@ -4,13 +4,13 @@
 use super::args::{Cli, Command};
 use super::input;
 use super::parse::size;
-use crate::diag::clip_words;
-use crate::front::is_scene_name;
-use crate::ir::{Mode, Scene};
-use crate::passes::Overrides;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Error, Parser};
+use rtc_diag::clip_words;
+use rtc_front::is_scene_name;
+use rtc_ir::{Mode, Scene};
+use rtc_passes::Overrides;
 use std::ffi::OsString;
 use std::path::Path;
 

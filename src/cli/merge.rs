@@ -6,9 +6,9 @@ use super::output::Output;
 use super::render::kind;
 use super::talk::{self, Talk};
 use super::{Failure, progress};
-use crate::diag::Sink;
-use crate::pipeline::{PartError, PicturePart};
-use crate::source::{Limits, Loader, Resource, SourceMap};
+use rtc_diag::Sink;
+use rtc_pipeline::{PartError, PicturePart};
+use rtc_source::{Limits, Loader, Resource, SourceMap};
 use std::fmt;
 use std::path::Path;
 

@@ -2,8 +2,8 @@
 
 use super::Failure;
 use super::interrupt::Interrupt;
-use crate::pipeline::{Input, NewFile};
-use crate::source::{Loader, SourceMap};
+use rtc_pipeline::{Input, NewFile};
+use rtc_source::{Loader, SourceMap};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};

@@ -1,13 +1,13 @@
 //! Values of arguments: the words people type to the values they mean, or what was expected.
 
 use super::args::BackgroundArg;
-use crate::image::BackgroundFill;
-use crate::passes::{Orbit, Sun};
-use crate::pipeline::{Exposure, MOST_SHARES};
-use crate::plan::Rule;
-use crate::render::Crop;
-use crate::source::Resource;
-use crate::valid;
+use rtc_image::BackgroundFill;
+use rtc_passes::{Orbit, Sun};
+use rtc_pipeline::{Exposure, MOST_SHARES};
+use rtc_plan::Rule;
+use rtc_render::Crop;
+use rtc_source::Resource;
+use rtc_valid as valid;
 use std::path::PathBuf;
 use std::time::Duration;
 

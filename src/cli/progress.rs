@@ -1,9 +1,9 @@
 //! How far a long render is: a bar on a terminal, nothing elsewhere; and how long it took.
 
-use crate::render::Step;
 use indicatif::{
     HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle,
 };
+use rtc_render::Step;
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
 use std::sync::Arc;

@@ -6,11 +6,11 @@
 
 use super::Failure;
 use super::args::Explanation;
-use crate::pipeline::{self, Input, Proven};
-use crate::plan::{Caustics, PathPlan, Plan, Rule, Rules, State, Verdict};
-use crate::render::{Counts, Job, KERNELS, PATH_KERNELS, Stride, choose, choose_for_paths};
-use crate::valid::{Mode, Proof};
 use indicatif::HumanCount;
+use rtc_pipeline::{self as pipeline, Input, Proven};
+use rtc_plan::{Caustics, PathPlan, Plan, Rule, Rules, State, Verdict};
+use rtc_render::{Counts, Job, KERNELS, PATH_KERNELS, Stride, choose, choose_for_paths};
+use rtc_valid::{Mode, Proof};
 use serde_json::{Value, json};
 use std::num::NonZeroU32;
 

@@ -1,7 +1,7 @@
 //! Which vector instructions the user wants: the variable `RTC_SIMD` names them.
 
 use super::Failure;
-use crate::render::SimdLevel;
+use rtc_render::SimdLevel;
 
 /// Those that `RTC_SIMD` names, or the best of this machine.
 pub(super) fn level() -> Result<SimdLevel, Failure> {

@@ -1,6 +1,6 @@
 //! What the system tells in its files; nothing where there are none.
 
-use crate::source::{Loader, SourceMap};
+use rtc_source::{Loader, SourceMap};
 use std::path::Path;
 
 /// The name of the processor.

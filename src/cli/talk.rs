@@ -3,9 +3,9 @@
 
 use super::render::MadePicture;
 use super::{Failure, args, output};
-use crate::diag::{Format, PrintOptions, Printer, Severity, Sink};
-use crate::source::SourceMap;
 use anstream::{AutoStream, ColorChoice};
+use rtc_diag::{Format, PrintOptions, Printer, Severity, Sink};
+use rtc_source::SourceMap;
 use std::io::{self, IsTerminal, Write};
 
 /// Where the terminal does not say how wide it is.

@@ -2,10 +2,10 @@
 
 use super::args::{Cli, Completions, Man, Schema, SchemaFormat};
 use super::{Failure, output};
-use crate::codec;
-use crate::front::{course, gltf};
-use crate::source::budget;
 use clap::CommandFactory;
+use rtc_codec as codec;
+use rtc_front::{course, gltf};
+use rtc_source::budget;
 
 /// Prints the JSON Schema of a format, or its page.
 pub(super) fn schema(args: &Schema) -> Result<(), Failure> {

@@ -1,9 +1,9 @@
 //! A turntable: views all around a scene, which is proven once; and what their files are called.
 
 use super::Failure;
-use crate::ir::{Camera, Scene};
-use crate::math::{Vec3, unit};
-use crate::pipeline::Proven;
+use rtc_ir::{Camera, Scene};
+use rtc_math::{Vec3, unit};
+use rtc_pipeline::Proven;
 use std::f64::consts::TAU;
 use std::ops::Range;
 use std::path::{Path, PathBuf};

@@ -8,9 +8,9 @@ use super::input;
 use super::interrupt::Interrupt;
 use super::output::Output;
 use super::talk::Talk;
-use crate::ir::Scene;
-use crate::pipeline::Input;
-use crate::study::{About, Stopped, Versus, versus, versus_table};
+use rtc_ir::Scene;
+use rtc_pipeline::Input;
+use rtc_study::{About, Stopped, Versus, versus, versus_table};
 use std::path::Path;
 
 /// Compares the scenes and writes the report.

@@ -11,9 +11,9 @@ use super::section::{self, ALIGNMENT, SectionEntry, SectionWriter};
 use super::{
     CHECKSUMS_COUNT, Decoded, NotFinite, image, mesh, newer, span, tree, typed, wrong_shape,
 };
-use crate::diag::{Code, Diagnostic, codes};
-use crate::ir::{Column, Display, Mesh, Scene, Surface, VERSION};
-use crate::source::{FileId, Span};
+use rtc_diag::{Code, Diagnostic, codes};
+use rtc_ir::{Column, Display, Mesh, Scene, Surface, VERSION};
+use rtc_source::{FileId, Span};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::io::{self, Write};

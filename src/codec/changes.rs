@@ -2,7 +2,7 @@
 //! Of vertices and pixels their number and hash are compared.
 
 use super::{NotFinite, tree};
-use crate::ir::{Column, Image, Mesh, Scene};
+use rtc_ir::{Column, Image, Mesh, Scene};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;

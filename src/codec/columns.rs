@@ -9,7 +9,7 @@ use super::binary::Container;
 use super::run::{self, Run};
 use super::section::{Content, ElementType, Section, SectionWriter};
 use super::{Decoded, NotFinite, tree};
-use crate::diag::codes;
+use rtc_diag::codes;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;

@@ -3,7 +3,7 @@
 
 use super::columns::Stock;
 use super::section::{Content, ElementType, SectionWriter};
-use crate::ir::{Image, Pixels};
+use rtc_ir::{Image, Pixels};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 

@@ -2,7 +2,7 @@
 //!
 //! Runs only when something is wrong with a text that is JSON, so its tree holds the culprit.
 
-use crate::source::tree::{NodeId, Tree};
+use rtc_source::tree::{NodeId, Tree};
 
 /// The culprit: its bytes and its JSON pointer, empty for the whole document.
 #[derive(Debug, PartialEq, Eq)]
@@ -59,8 +59,8 @@ pub(super) fn culprit(tree: Option<&Tree<'_>>, text: &str, read: usize) -> Culpr
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::SourceMap;
-    use crate::source::tree::json;
+    use rtc_source::SourceMap;
+    use rtc_source::tree::json;
 
     #[test]
     fn finds_values_keys_and_containers() {

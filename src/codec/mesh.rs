@@ -3,7 +3,7 @@
 
 use super::columns::Stock;
 use super::section::{Content, ElementType, Section, SectionWriter};
-use crate::ir::{Column, Mesh};
+use rtc_ir::{Column, Mesh};
 use serde::{Deserialize, Serialize};
 
 /// A mesh, with the section of each column in place of its numbers; none where the column is empty.

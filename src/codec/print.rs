@@ -3,7 +3,7 @@
 //! So an entity is a line, a setting is a line, and a change to one is a change of one line.
 
 use super::NotFinite;
-use crate::ir::{Scene, VERSION};
+use rtc_ir::{Scene, VERSION};
 use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::Formatter;

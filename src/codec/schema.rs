@@ -1,6 +1,6 @@
 //! The JSON Schema of the text form, from the same types the decoder fills.
 
-use crate::ir::{Scene, VERSION};
+use rtc_ir::{Scene, VERSION};
 use serde_json::{Map, Value, json};
 
 /// The JSON Schema (2020-12) of the text form.

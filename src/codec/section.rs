@@ -7,7 +7,7 @@
 
 use super::binary::Container;
 use super::{CHECKSUMS_COUNT, Decoded};
-use crate::diag::codes;
+use rtc_diag::codes;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::io::{self, Write};

@@ -5,13 +5,13 @@
 //! located errors.
 
 use super::{Decoded, faults, locate, newer, span, typed, wrong_shape};
-use crate::diag::{Diagnostic, codes};
-use crate::ir::{
+use rtc_diag::{Diagnostic, codes};
+use rtc_ir::{
     Camera, Display, Environment, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture,
     VERSION,
 };
-use crate::source::tree::{Tree, json};
-use crate::source::{Budget, FileId, Resource};
+use rtc_source::tree::{Tree, json};
+use rtc_source::{Budget, FileId, Resource};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::Value;
@@ -286,6 +286,6 @@ fn covers(fault: &Diagnostic, first: &Diagnostic, is_data: bool) -> bool {
     }
 }
 
-fn not_json(how: &str, what: &str, place: crate::source::Span) -> Diagnostic {
+fn not_json(how: &str, what: &str, place: rtc_source::Span) -> Diagnostic {
     Diagnostic::new(&codes::NOT_JSON, format!("{how}: {what}")).at(place, "here")
 }

@@ -3,7 +3,7 @@
 //!
 //! A new version is one function here, one entry in `STEPS`, and one frozen file in `tests/codec`.
 
-use crate::ir::VERSION;
+use rtc_ir::VERSION;
 use serde_json::Value;
 
 /// `STEPS[n]` brings version n to version n + 1.

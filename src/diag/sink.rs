@@ -2,7 +2,7 @@
 //! to make.
 
 use super::{Code, Diagnostic, FindingLevels, Severity};
-use crate::source::{Limits, Resource};
+use rtc_source::{Limits, Resource};
 
 /// Where every stage pushes its findings.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! What has corners or no end: squares in place of planes, triangles in place of quadrilaterals.
 
-use crate::ir::{Ball, Plane, Scene};
-use crate::math::{Basis, Vec3, cross, unit};
+use rtc_ir::{Ball, Plane, Scene};
+use rtc_math::{Basis, Vec3, cross, unit};
 
 /// How far a plane goes on, in radii of the scene.
 const PLANE: f64 = 4.0;

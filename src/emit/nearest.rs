@@ -1,7 +1,7 @@
 //! The material of glTF that stands for Phong's model.
 
-use crate::ir::{Map, Phong, Standard, TextureId};
-use crate::standard::{PhongTerms, fit_phong};
+use rtc_ir::{Map, Phong, Standard, TextureId};
+use rtc_tables::{PhongTerms, fit_phong};
 
 /// The material of glTF that comes nearest, as traced paths show Phong's model. But for what
 /// refracts, its index of refraction is that of glTF's dielectric: Phong's speaks of rays that go

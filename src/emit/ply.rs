@@ -5,7 +5,7 @@
 //! `tx ty tz tw` the tangent with the side of growing v, and `linear_red` to `linear_alpha` the colour
 //! as no display codes it.
 
-use crate::ir::{Column, Mesh};
+use rtc_ir::{Column, Mesh};
 use std::fmt::Write as _;
 
 /// The file of a mesh.

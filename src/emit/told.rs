@@ -1,7 +1,7 @@
 //! What is told of a scene that is written in another format.
 
-use crate::diag::{Code, Diagnostic, Severity, Sink};
-use crate::ir::{Origins, Place};
+use rtc_diag::{Code, Diagnostic, Severity, Sink};
+use rtc_ir::{Origins, Place};
 
 /// Takes the findings about a scene.
 pub(super) struct Told<'t> {

@@ -1,10 +1,10 @@
 //! A scene as another renderer reads it: what every writer of such files needs.
 
 use super::told::Told;
-use crate::diag::codes;
-use crate::ir::{Field, Material, Noun, Place, Scene, Shape, ShapeKind};
-use crate::math::shortest;
-use crate::source::{Budget, Resource};
+use rtc_diag::codes;
+use rtc_ir::{Field, Material, Noun, Place, Scene, Shape, ShapeKind};
+use rtc_math::shortest;
+use rtc_source::{Budget, Resource};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A scene for another renderer.

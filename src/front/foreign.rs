@@ -1,7 +1,7 @@
 //! Files that are no scenes: what they are, by their first bytes, and what a scene has to do with
 //! them.
 
-use crate::diag::{Diagnostic, clip_path, codes};
+use rtc_diag::{Diagnostic, clip_path, codes};
 
 /// A kind of file that is no scene: what it is, how it begins, and what to do with it.
 type ForeignFile = (&'static str, fn(&[u8]) -> bool, &'static str);

@@ -2,12 +2,12 @@
 //! decoded.
 
 use super::over_limit;
-use crate::diag::{Diagnostic, codes};
-use crate::image::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, Radiance, RadianceFile};
-use crate::ir;
-use crate::source::{Budget, Exceeded, Resource};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use rtc_diag::{Diagnostic, codes};
+use rtc_image::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, Radiance, RadianceFile};
+use rtc_ir as ir;
+use rtc_source::{Budget, Exceeded, Resource};
 
 /// Why there is no picture.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! Lines of words with their places, for files of meshes and of lamps: bytes in any encoding,
 //! comments gone, lines joined by `\`.
 
-use crate::source::{Exceeded, FileId, Span};
+use rtc_source::{Exceeded, FileId, Span};
 use std::ops::Range;
 
 /// A word of a file.

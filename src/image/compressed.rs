@@ -3,10 +3,9 @@
 
 use super::file::{PictureHead, StripSource};
 use super::png::pack;
-use ::image::codecs::jpeg::JpegEncoder;
-use ::image::codecs::webp::WebPEncoder;
-use ::image::{ExtendedColorType, ImageError};
 use ::png::BitDepth;
+use image_webp::WebPEncoder;
+use jpeg_encoder::{Encoder, SamplingFactor};
 use std::io::{self, Write};
 
 /// The quality of a JPEG, of 100: the tables of ITU-T T.81, annex K, divided by 6.25.
@@ -39,28 +38,39 @@ pub(super) fn write(
             pixels.extend_from_slice(&row);
         }
     }
-    let color = if head.has_alpha {
-        ExtendedColorType::Rgba8
-    } else {
-        ExtendedColorType::Rgb8
-    };
     let mut bytes = Vec::new();
-    let encoded = match form {
-        CompressedForm::Jpeg => {
-            JpegEncoder::new_with_quality(&mut bytes, QUALITY).encode(&pixels, width, height, color)
-        }
+    match form {
+        CompressedForm::Jpeg if head.has_alpha => Err(io::Error::other("a JPEG has no opacity")),
+        CompressedForm::Jpeg => jpeg(&mut bytes, &pixels, head.size),
         CompressedForm::Webp => {
-            WebPEncoder::new_lossless(&mut bytes).encode(&pixels, width, height, color)
+            let color = match head.has_alpha {
+                true => image_webp::ColorType::Rgba8,
+                false => image_webp::ColorType::Rgb8,
+            };
+            WebPEncoder::new(&mut bytes)
+                .encode(&pixels, width, height, color)
+                .map_err(io::Error::other)
         }
-    };
-    encoded.map_err(|error: ImageError| io::Error::other(error.to_string()))?;
+    }?;
     out.write_all(&bytes)
+}
+
+/// Writes a JPEG of opaque pixels, in which colour is as fine as brightness.
+fn jpeg(bytes: &mut Vec<u8>, pixels: &[u8], size: [u32; 2]) -> io::Result<()> {
+    let [Ok(width), Ok(height)] = size.map(u16::try_from) else {
+        return Err(io::Error::other("a JPEG has at most 65535 pixels a side"));
+    };
+    let mut encoder = Encoder::new(bytes, QUALITY);
+    encoder.set_sampling_factor(SamplingFactor::F_1_1);
+    encoder
+        .encode(pixels, width, height, jpeg_encoder::ColorType::Rgb)
+        .map_err(io::Error::other)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::{FileFormat, Image, Picture};
-    use crate::color;
+    use rtc_color as color;
 
     /// A picture of smooth colours, half of it transparent if that is wanted.
     fn picture(is_clear: bool) -> Picture {
@@ -103,6 +113,58 @@ mod tests {
         let jpeg = read(FileFormat::Jpeg);
         let apart = jpeg.iter().zip(&bytes).map(|(a, b)| a.abs_diff(*b)).max();
         assert!(apart.unwrap() <= 12, "{apart:?}");
+    }
+
+    #[test]
+    fn the_witness_writes_the_same_webp_and_nearly_the_same_jpeg() {
+        use ::image::ExtendedColorType::{Rgb8, Rgba8};
+        use ::image::codecs::{jpeg::JpegEncoder, webp::WebPEncoder};
+        let (width, height) = (67, 41);
+        let wave = |at: u32| (at * at / 7 % 256) as u8;
+        let pixels: Vec<u8> = (0..width * height * 3).map(wave).collect();
+        for (color, of) in [
+            (Rgb8, image_webp::ColorType::Rgb8),
+            (Rgba8, image_webp::ColorType::Rgba8),
+        ] {
+            let (mut own, mut witness) = (Vec::new(), Vec::new());
+            let height = if color == Rgba8 { 30 } else { height };
+            let bytes = &pixels[..(width * height) as usize * if color == Rgba8 { 4 } else { 3 }];
+            super::WebPEncoder::new(&mut own)
+                .encode(bytes, width, height, of)
+                .unwrap();
+            WebPEncoder::new_lossless(&mut witness)
+                .encode(bytes, width, height, color)
+                .unwrap();
+            assert_eq!(own, witness);
+        }
+        let smooth = |at: u32| {
+            ((at / 3 % width * 3 + at / 3 / width * 2) % 256 + at % 3 * 20).min(255) as u8
+        };
+        let pixels: Vec<u8> = (0..width * height * 3).map(smooth).collect();
+        let (mut own, mut witness) = (Vec::new(), Vec::new());
+        super::jpeg(&mut own, &pixels, [width, height]).unwrap();
+        let mut encoder = JpegEncoder::new_with_quality(&mut witness, super::QUALITY);
+        encoder.encode(&pixels, width, height, Rgb8).unwrap();
+        let read = |file: &[u8]| {
+            ::image::load_from_memory(file)
+                .unwrap()
+                .to_rgb8()
+                .into_raw()
+        };
+        let error = |file: &[u8]| {
+            let pairs = read(file).into_iter().zip(&pixels);
+            pairs
+                .map(|(a, b)| u64::from(a.abs_diff(*b)).pow(2))
+                .sum::<u64>()
+        };
+        assert!(error(&own) * 100 <= error(&witness) * 102, "it is as near");
+        assert!(own.len() * 100 <= witness.len() * 102, "it is as small");
+    }
+
+    #[test]
+    fn a_jpeg_has_sides_of_16_bits() {
+        let too_wide = super::jpeg(&mut Vec::new(), &[0; 65_536 * 3], [65_536, 1]);
+        assert!(too_wide.unwrap_err().to_string().contains("65535"));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! distances from white to black, surfaces in colours of their own.
 
 use super::{Image, Picture};
-use crate::color::srgb_encoded;
+use rtc_color::srgb_encoded;
 
 /// Distances from so far on are those of no surface.
 const FAR: f32 = 1e10;

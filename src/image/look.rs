@@ -2,7 +2,7 @@
 //! background.
 
 use super::{Image, Layers, Picture};
-use crate::color::Tone;
+use rtc_color::Tone;
 use serde::{Deserialize, Serialize};
 
 /// The background.

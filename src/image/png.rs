@@ -3,8 +3,8 @@
 
 use super::Picture;
 use super::file::{PictureHead, StripSource};
-use crate::color;
 use ::png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
+use rtc_color as color;
 use std::io::{self, Write};
 
 /// Bytes of a chunk of pixels, compressed: so much is held before it is written.

@@ -2,11 +2,11 @@
 //! file is opened first, as a [`super::PixelFile`] is.
 
 use super::decode::{DecodeCost, DecodeError, ImageSize};
+use super::format::PictureFormat;
+use super::hdr::Hdr;
 use ::exr::meta::MetaData;
 use ::exr::meta::header::Header;
 use ::exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
-use ::image::ImageDecoder;
-use ::image::codecs::hdr::HdrDecoder;
 use std::io::Cursor;
 
 /// Bytes of a pixel.
@@ -33,7 +33,7 @@ pub struct RadianceFile<'a> {
 }
 
 enum RowDecoder<'a> {
-    Hdr(HdrDecoder<Cursor<&'a [u8]>>),
+    Hdr(Hdr<'a>),
     Exr(&'a [u8]),
 }
 
@@ -48,9 +48,8 @@ impl<'a> RadianceFile<'a> {
             (true, _) => open_exr(bytes, most_pixels),
             (false, true) => open_hdr(bytes, most_pixels),
             (false, false) => {
-                let format = ::image::guess_format(bytes).ok();
-                let name = format.map(|format| format.to_mime_type().trim_start_matches("image/"));
-                Err(DecodeError::Format(name))
+                let format = PictureFormat::of(bytes);
+                Err(DecodeError::Format(format.map(PictureFormat::name)))
             }
         }
     }
@@ -79,9 +78,7 @@ impl<'a> RadianceFile<'a> {
         } = self;
         let mut bytes = size.buffer(PIXEL)?;
         match decoder {
-            RowDecoder::Hdr(decoder) => decoder
-                .read_image(&mut bytes)
-                .map_err(DecodeError::damaged)?,
+            RowDecoder::Hdr(decoder) => decoder.decode(&mut bytes)?,
             RowDecoder::Exr(file) => (size, bytes) = decode_exr(file, bytes)?,
         }
         let mut is_finite = true;
@@ -116,15 +113,10 @@ fn is_hdr(head: &[u8]) -> bool {
 }
 
 fn open_hdr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeError> {
-    // Only files that begin so pass the strict reader; the others differ in nothing else.
-    let is_strict = bytes.starts_with(b"#?RADIANCE");
-    let decoder =
-        HdrDecoder::with_strictness(Cursor::new(bytes), is_strict).map_err(DecodeError::damaged)?;
-    let (width, height) = decoder.dimensions();
-    let size = ImageSize::within(most_pixels, width, height)?;
+    let decoder = Hdr::open(bytes, most_pixels)?;
     Ok(RadianceFile {
-        size,
-        block: u64::from(width) * 4,
+        size: decoder.size,
+        block: decoder.scratch(),
         decoder: RowDecoder::Hdr(decoder),
     })
 }

@@ -1,10 +1,9 @@
 //! Pictures made small, and a contact sheet of many with their names beneath.
 
 use super::Image;
-use crate::color::quantize16;
-use ::image::imageops::thumbnail;
-use ::image::{ImageBuffer, Rgb};
 use font8x8::{BASIC_FONTS, UnicodeFonts};
+use rtc_color::quantize16;
+use std::ops::Range;
 
 /// A picture of display values, of at most so many pixels across and down, of the same shape: each pixel the mean of those
 /// it stands for. One that fits stays as it is.
@@ -21,17 +20,42 @@ pub fn shrunk(image: Image, [width, height]: [u32; 2]) -> Image {
         false => [sides[0] * most[1] / sides[1], most[1]],
     };
     let [width, height] = fitted.map(|side| u32::try_from(side.max(1)).unwrap_or(u32::MAX));
-    // The crate rounds up floats as if they were whole numbers, so it is given those.
-    let channels = image.pixels.into_iter().flatten().map(quantize16);
-    let whole: Option<ImageBuffer<Rgb<u16>, Vec<u16>>> =
-        ImageBuffer::from_raw(image.width, image.height, channels.collect());
-    let small = thumbnail(&whole.unwrap_or_default(), width, height);
-    let value = |channel: u16| f64::from(channel) / 65535.0;
+    let columns: Vec<_> = (0..width).map(|x| span(image.width, width, x)).collect();
+    let mut pixels = Vec::with_capacity(columns.len() * height as usize);
+    for y in 0..height {
+        let rows = span(image.height, height, y);
+        let small = columns.iter().map(|columns| mean(&image, columns, &rows));
+        pixels.extend(small);
+    }
     Image {
         width,
         height,
-        pixels: small.pixels().map(|pixel| pixel.0.map(value)).collect(),
+        pixels,
     }
+}
+
+/// The places of a side that one of fewer places stands for; at least one.
+fn span(from: u32, to: u32, place: u32) -> Range<usize> {
+    let ratio = from as f32 / to as f32;
+    let start = place as f32 * ratio;
+    let [start, end] = [start, start + ratio].map(|at| at.ceil() as usize);
+    let from = from as usize;
+    let start = start.min(from.saturating_sub(1));
+    start..end.clamp(start + 1, from.max(start + 1))
+}
+
+/// The mean of a block of pixels, in whole numbers of 16 bits.
+fn mean(image: &Image, columns: &Range<usize>, rows: &Range<usize>) -> [f64; 3] {
+    let mut sums = [0_u64; 3];
+    for y in rows.clone() {
+        let row = image.pixels.iter().skip(y * image.width as usize);
+        for pixel in row.skip(columns.start).take(columns.len()) {
+            let channels = sums.iter_mut().zip(pixel);
+            channels.for_each(|(sum, channel)| *sum += u64::from(quantize16(*channel)));
+        }
+    }
+    let count = (columns.len() * rows.len()) as u64;
+    sums.map(|sum| ((sum + count / 2) / count) as f64 / 65535.0)
 }
 
 /// The side of a glyph in pixels.
@@ -143,6 +167,45 @@ mod tests {
                 .iter()
                 .all(|pixel| pixel.iter().all(|value| (value - 0.5).abs() < 1e-4))
         );
+    }
+
+    #[test]
+    fn the_witness_shrinks_to_the_same_pixels() {
+        use ::image::{ImageBuffer, Rgb, imageops::thumbnail};
+        for [width, height] in [
+            [161, 3],
+            [200, 333],
+            [321, 120],
+            [640, 481],
+            [1919, 1],
+            [5, 997],
+        ] {
+            let count = u64::from(width * height);
+            let value = |at: u64| ((at * 2_654_435_761) % 65_536) as u16;
+            let whole: Vec<u16> = (0..count * 3).map(value).collect();
+            let pixels = whole.as_chunks::<3>().0;
+            let pixels = pixels
+                .iter()
+                .map(|pixel| pixel.map(|v| f64::from(v) / 65535.0));
+            let own = shrunk(
+                Image {
+                    width,
+                    height,
+                    pixels: pixels.collect(),
+                },
+                [160, 120],
+            );
+            let whole: ImageBuffer<Rgb<u16>, _> =
+                ImageBuffer::from_raw(width, height, whole).unwrap();
+            let small = thumbnail(&whole, own.width, own.height);
+            let small: Vec<_> = small.pixels().map(|pixel| pixel.0).collect();
+            let own: Vec<_> = own
+                .pixels
+                .iter()
+                .map(|pixel| pixel.map(quantize16))
+                .collect();
+            assert_eq!(own, small, "{width}×{height}");
+        }
     }
 
     #[test]

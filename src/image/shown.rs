@@ -3,7 +3,7 @@
 
 use super::decode::{DecodeError, PixelFile};
 use super::{Image, Opacity, RadianceFile, is_radiance};
-use crate::color::Tone;
+use rtc_color::Tone;
 
 /// A picture as it is shown on black.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Texels: the pixels of a picture that is looked up, as bytes that are shared with its scene.
 
-use crate::math::{Shared, Vec3};
+use rtc_math::{Shared, Vec3};
 
 /// Texels in rows from the top.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 //! target look at.
 
 use super::{Column, Scene, Shape};
-use crate::math::Vec3;
+use rtc_math::Vec3;
 
 /// A ball.
 #[derive(Clone, Copy, Debug, PartialEq)]

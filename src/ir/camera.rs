@@ -1,7 +1,7 @@
 //! The camera: an eye, an image plane, and a lens.
 
-use crate::math::{Vec3, atan2, cos, length, sin, turned_about, unit, unit_scale};
 use arbitrary::Arbitrary;
+use rtc_math::{Vec3, atan2, cos, length, sin, turned_about, unit, unit_scale};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;

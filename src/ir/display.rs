@@ -1,7 +1,7 @@
 //! The display settings: how a picture of 8 or 16 bits shows the values of its film.
 
-use crate::color::Tone;
 use arbitrary::Arbitrary;
+use rtc_color::Tone;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

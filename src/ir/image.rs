@@ -1,8 +1,8 @@
 //! The images: pixels, as textures look them up.
 
 use super::Scene;
-use crate::math::Shared;
 use arbitrary::Arbitrary;
+use rtc_math::Shared;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,8 +1,8 @@
 //! The lights.
 
-use crate::math::{Vec3, unit};
-use crate::profile::{MeasuredAngles, Profile};
 use arbitrary::Arbitrary;
+use rtc_math::{Vec3, unit};
+use rtc_profile::{MeasuredAngles, Profile};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

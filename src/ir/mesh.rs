@@ -1,7 +1,7 @@
 //! The meshes: triangles that share corners.
 
-use crate::math::{Column, Shared};
 use arbitrary::Arbitrary;
+use rtc_math::{Column, Shared};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! Where each value of a scene was written: kept beside the scene, never serialised.
 
 use super::ShapeKind;
-use crate::source::Span;
+use rtc_source::Span;
 use std::fmt;
 
 /// A kind of entity of the scene.
@@ -256,7 +256,7 @@ mod tests {
 
     #[test]
     fn a_default_falls_back_to_its_entity() {
-        let file = crate::source::SourceMap::default().add("x", Vec::new());
+        let file = rtc_source::SourceMap::default().add("x", Vec::new());
         let mut origins = Origins::default();
         let [center, radius] =
             ["center", "radius"].map(|way| Field::of_shape(ShapeKind::Sphere, way));

@@ -1,82 +1,16 @@
-//! The table of shapes, and what each is made of.
+//! What each kind of shape is made of.
 //!
-//! A shape is one row of `shapes!` here; every stage makes its enums and its dispatch of the rows.
+//! A shape is one row of `rtc_tables::shapes!`; every stage makes its enums and its dispatch of the rows.
 //! What a stage has to say of one shape alone stands in the file of that shape, or in one `impl`.
 
 use super::bounds::box_corners;
 use super::standard::is_default;
 use super::{MaterialId, MeshId};
-use crate::math::{Vec3, unit};
 use arbitrary::Arbitrary;
 use glam::DAffine3;
+use rtc_math::{Vec3, unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// Calls a macro with the table of shapes; all stages list them in its order.
-///
-/// A row holds the type, its word in the IR, how enums store it, and its values in one of two ways:
-/// - `ruled { "type" value: rule "key" "words"; … }`: each value follows a rule, by which it is
-///   proven, prepared and written. The rules are `point`; `direction`, of any length but 0; `step`,
-///   a direction with a length; `length`, above 0. The type and the keys are what `emit` writes,
-///   the words name the value in a finding.
-/// - `own { "value" … }`: the ways to the values in the IR; each stage has an `impl` for the shape.
-macro_rules! shapes {
-    ($stage:ident) => {
-        $stage! {
-            /// A sphere.
-            Sphere sphere Inline own { "center" "radius" }
-            /// An infinite plane.
-            Plane plane Inline ruled {
-                "plane"
-                center: point "position";
-                normal: direction "normal" "normal of a plane";
-            }
-            /// A triangle.
-            Triangle triangle Inline own { "vertices/0" "vertices/1" "vertices/2" }
-            /// A quadrilateral.
-            Quad quad Box own { "vertices/0" "vertices/1" "vertices/2" "vertices/3" }
-            /// A disc.
-            Disc disc Inline ruled {
-                "circle"
-                center: point "center";
-                normal: direction "normal" "normal of a disc";
-                radius: length "radius" "radius";
-            }
-            /// A cylinder with two caps.
-            Cylinder cylinder Inline ruled {
-                "cylinder"
-                base: point "position";
-                axis: direction "direction" "axis of a cylinder";
-                height: length "height" "height";
-                radius: length "radius" "radius";
-            }
-            /// A cone with a cap at its base.
-            Cone cone Inline ruled {
-                "cone"
-                base: point "position";
-                up: step "up" "height of a cone";
-                radius: length "radius" "radius";
-            }
-            /// A paraboloid with a cap at its base.
-            Paraboloid paraboloid Inline ruled {
-                "paraboloid"
-                base: point "position";
-                up: step "up" "height of a paraboloid";
-                radius: length "radius" "radius";
-            }
-            /// A torus.
-            Torus torus Inline ruled {
-                "torus"
-                center: point "position";
-                axis: direction "direction" "axis of a torus";
-                major: length "radius" "radius";
-                minor: length "alpha" "radius of the tube";
-            }
-            /// A mesh, placed.
-            Instance instance Box own { "mesh" "worldFromObject" }
-        }
-    };
-}
 
 /// Declares the shapes of the IR.
 macro_rules! declare {
@@ -137,7 +71,7 @@ macro_rules! values {
     };
 }
 
-shapes!(declare);
+rtc_tables::shapes!(declare);
 
 /// A shape whose place can be asked.
 pub(super) trait Bounded {

@@ -1,8 +1,8 @@
 //! The material of glTF 2.0: metallic-roughness with the layers of its extensions.
 
 use super::TextureId;
-use crate::standard::{map_of, parameters};
 use arbitrary::Arbitrary;
+use rtc_tables::{map_of, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -120,7 +120,7 @@ mod tests {
             prop_assert_eq!(length(scaled), ldexp(length(v), k));
             if v != Vec3::ZERO {
                 prop_assert_eq!(unit(v), Some(v.normalize()), "the bits of the plain formula");
-                prop_assert!((unit(v).unwrap().length() - 1.0).abs() < 4.0 * crate::math::U);
+                prop_assert!((unit(v).unwrap().length() - 1.0).abs() < 4.0 * crate::U);
             }
         }
     }

@@ -1,8 +1,8 @@
 //! Framing: a camera that shows all of a scene, as large as it fits.
 
-use crate::ir::{Alpha, Camera, Lens, Material, Mesh, Projection, Scene, Shape, Surface};
-use crate::math::{Vec3, acos, atan2, cos, sin};
 use glam::DAffine3;
+use rtc_ir::{Alpha, Camera, Lens, Material, Mesh, Projection, Scene, Shape, Surface};
+use rtc_math::{Vec3, acos, atan2, cos, sin};
 use std::f64::consts::FRAC_PI_2;
 
 /// So much of the picture the subject spans, in the direction in which it fills more of it.

@@ -2,10 +2,10 @@
 //! out to all sides.
 
 use super::studio::smooth;
-use crate::ir::{
+use rtc_ir::{
     Alpha, Instance, Material, MaterialId, Mesh, MeshId, Scene, Shape, Standard, Surface,
 };
-use crate::math::{Vec3, cos, sin};
+use rtc_math::{Vec3, cos, sin};
 use std::f64::consts::TAU;
 
 /// Its radius, and that within which it hides all behind it, in half diagonals of what stands on

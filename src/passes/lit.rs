@@ -1,9 +1,9 @@
 //! Whether a scene brings light: a light, an environment, or surfaces that glow enough.
 
-use crate::color::srgb_decoded;
-use crate::ir::{Image, Light, Material, Pixels, Scene, Shape, Surface, Texture};
-use crate::math::Vec3;
 use glam::DAffine3;
+use rtc_color::srgb_decoded;
+use rtc_ir::{Image, Light, Material, Pixels, Scene, Shape, Surface, Texture};
+use rtc_math::Vec3;
 use std::f64::consts::TAU;
 
 /// Surfaces that glow less than this light nothing: a white surface would look black, a twentieth

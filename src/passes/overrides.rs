@@ -1,6 +1,6 @@
 //! Settings for one occasion: values that replace those of a scene before it is proven.
 
-use crate::ir::{Material, Mode, Scene};
+use rtc_ir::{Material, Mode, Scene};
 
 /// Values that replace those of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! One setting replaced, by the name that the text form of the IR gives it.
 
-use crate::diag::{clip, clip_words};
-use crate::ir::Settings;
+use rtc_diag::{clip, clip_words};
+use rtc_ir::Settings;
 
 /// The names of the settings in the text form.
 const NAMES: [&str; 7] = [
@@ -63,7 +63,7 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{Mode, PathSettings, Pattern};
+    use rtc_ir::{Mode, PathSettings, Pattern};
 
     fn paths() -> Settings {
         Settings {

@@ -3,11 +3,11 @@
 
 use super::framing::{Framing, Orbit};
 use super::{framing, ground, lit, studio};
-use crate::ir::{
+use rtc_ir::{
     Ball, Camera, Emitter, Environment, Image, Light, Lowered, Mode, Noun, PathSettings,
     PointLight, Projection, Punctual, Scene,
 };
-use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
+use rtc_math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
 use std::f64::consts::PI;
 
 /// The view and the light; what is not given stays as it is in the scene.

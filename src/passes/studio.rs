@@ -5,8 +5,8 @@
 //! from the front (+z), 1.2 at most, from above; so a white of 0.8 is nowhere blown. The mean
 //! radiance is 0.57.
 
-use crate::ir::{Environment, Image, Pixels, Scene};
-use crate::math::{Vec3, acos, atan2, cos, pow, sin};
+use rtc_ir::{Environment, Image, Pixels, Scene};
+use rtc_math::{Vec3, acos, atan2, cos, pow, sin};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Width and height of the picture of the studio: a pixel spans less than 6°, half of the edge of a

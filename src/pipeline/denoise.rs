@@ -1,9 +1,9 @@
 //! Denoised pictures, with their errors: of traced paths alone, of two samples a pixel at least.
 
 use super::{Meter, PictureSetup, RenderError, RenderSubject, Renderer};
-use crate::render::{DenoisedFilm, Film, Job, OnPixel};
-use crate::study::{Order, ProbedError, probe};
-use crate::valid::{Mode, Proof};
+use rtc_render::{DenoisedFilm, Film, Job, OnPixel};
+use rtc_study::{Order, ProbedError, probe};
+use rtc_valid::{Mode, Proof};
 
 /// A picture in the setting of its scene.
 pub struct Traced {

@@ -5,11 +5,11 @@
 //! does not depend on those of the picture, nor on the part of it that is rendered.
 
 use super::Renderer;
-use crate::color::luminance;
-use crate::ir::{Camera, Mode, Scene};
-use crate::math::{exp, ln, pow};
-use crate::render::{Background, Film, Job, OnPixel, Values};
-use crate::valid::{Proof, revalidate};
+use rtc_color::luminance;
+use rtc_ir::{Camera, Mode, Scene};
+use rtc_math::{exp, ln, pow};
+use rtc_render::{Background, Film, Job, OnPixel, Values};
+use rtc_valid::{Proof, revalidate};
 
 /// The small render: its sides in pixels, and the paths of each.
 const SIDE: u32 = 64;
@@ -123,8 +123,8 @@ fn surfaces(film: &Film) -> impl Iterator<Item = [f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::Image;
-    use crate::render::Counts;
+    use rtc_image::Image;
+    use rtc_render::Counts;
 
     fn exposed(pixels: Vec<[f64; 3]>, coverage: Vec<f32>) -> f64 {
         let image = Image {

@@ -2,12 +2,12 @@
 //! was wrong.
 
 use super::Proven;
-use crate::diag::{Diagnostic, codes};
-use crate::image::{FileFormat, Lost};
-use crate::ir::{Field, Noun, Place};
-use crate::plan::{self, Rule, Symptom};
-use crate::render::Mismatch;
-use crate::source::Span;
+use rtc_diag::{Diagnostic, codes};
+use rtc_image::{FileFormat, Lost};
+use rtc_ir::{Field, Noun, Place};
+use rtc_plan::{self as plan, Rule, Symptom};
+use rtc_render::Mismatch;
+use rtc_source::Span;
 
 /// Remarks that the picture is empty.
 pub(super) fn nothing_in_view(camera: Option<Span>) -> Diagnostic {

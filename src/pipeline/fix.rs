@@ -7,7 +7,7 @@
 //! tried alone.
 
 use super::{Input, Options};
-use crate::diag::{Diagnostic, Severity};
+use rtc_diag::{Diagnostic, Severity};
 use std::collections::BTreeMap;
 use std::path::Path;
 

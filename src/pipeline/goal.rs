@@ -1,8 +1,8 @@
 //! A picture that grows until it is as good as was asked.
 
 use super::{Meter, Observer, PictureSetup, RenderError, RenderSubject};
-use crate::render::Crop;
-use crate::study::{Goal, Order, Reached, Watch};
+use rtc_render::Crop;
+use rtc_study::{Goal, Order, Reached, Watch};
 use std::time::Duration;
 
 impl PictureSetup {

@@ -1,14 +1,14 @@
 //! A scene from its files to its proof, with what was found about it on the way.
 
 use super::{Options, load, prove, stage};
-use crate::codec;
-use crate::diag::{Diagnostic, Sink, codes};
-use crate::emit::{self, TwinScene, gltf::GltfAsset};
-use crate::front::{gltf, mesh, pixels};
-use crate::ir::{Field, Light, Lowered, Noun, Place, Scene};
-use crate::passes::{EnvironmentOverride, FillLight, Framing, Stage};
-use crate::source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
-use crate::valid::Proof;
+use rtc_codec as codec;
+use rtc_diag::{Diagnostic, Sink, codes};
+use rtc_emit::{self as emit, TwinScene, gltf::GltfAsset};
+use rtc_front::{gltf, mesh, pixels};
+use rtc_ir::{Field, Light, Lowered, Noun, Place, Scene};
+use rtc_passes::{EnvironmentOverride, FillLight, Framing, Stage};
+use rtc_source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
+use rtc_valid::Proof;
 use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;

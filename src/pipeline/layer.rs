@@ -1,8 +1,8 @@
 //! A layer of a picture as a PNG, for people.
 
 use super::{PictureSetup, RenderError, RenderSubject};
-use crate::image::{Origin, Picture, PictureHead};
-use crate::render::Aov;
+use rtc_image::{Origin, Picture, PictureHead};
+use rtc_render::Aov;
 
 impl PictureSetup {
     /// The bytes of the PNG of a layer that was asked for, with as many bits as the picture has; it says

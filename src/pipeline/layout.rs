@@ -1,10 +1,11 @@
 //! The text of a scene as it is laid out; scenes that are no texts of people are not.
 
 use super::Input;
-use crate::front::course;
-use crate::front::{self, gltf, mesh};
-use crate::source::tree::yaml::LayoutFault;
-use crate::{codec, diag};
+use rtc_codec as codec;
+use rtc_diag as diag;
+use rtc_front::course;
+use rtc_front::{self as front, gltf, mesh};
+use rtc_source::tree::yaml::LayoutFault;
 
 /// Why a scene is not laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

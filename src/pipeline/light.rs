@@ -3,9 +3,9 @@
 
 use super::setup::{Observer, PictureSetup, RenderError, RenderSubject};
 use super::{Input, OwnLight, findings};
-use crate::ir::Camera;
-use crate::passes::{self, FillLight};
-use crate::valid::revalidate;
+use rtc_ir::Camera;
+use rtc_passes::{self as passes, FillLight};
+use rtc_valid::revalidate;
 
 /// The light of a scene shows most of it if that part of its surfaces is seen.
 const MOST: f64 = 0.5;

@@ -1,16 +1,16 @@
 //! From film to file: which kind of file, which values the film must hold for it, and the bytes.
 
 use super::findings;
-use crate::color::Tone;
-use crate::diag::Diagnostic;
-use crate::image::{
-    self, Association, BackgroundFill, EncodeError, FileFormat, Image, Layers, Lost, Origin,
-    Picture, PictureHead,
+use rtc_color::Tone;
+use rtc_diag::Diagnostic;
+use rtc_image::{
+    self as image, Association, BackgroundFill, EncodeError, FileFormat, Image, Layers, Lost,
+    Origin, Picture, PictureHead,
 };
-use crate::ir::Display;
-use crate::plan::Arithmetic;
-use crate::render::{Aov, Background, Values};
-use crate::valid::Mode;
+use rtc_ir::Display;
+use rtc_plan::Arithmetic;
+use rtc_render::{Aov, Background, Values};
+use rtc_valid::Mode;
 use serde::{Deserialize, Serialize};
 
 /// An exposure.

@@ -4,9 +4,9 @@
 //! limit: the same on any number of threads. A thread that is ahead of that pixel works on until
 //! those behind have come there, so that in all no more is traced than the limit for each thread.
 
-use crate::diag::{Diagnostic, codes};
-use crate::ir::{Field, Light, Lowered, Material, Mode, Noun, Place};
-use crate::render::{Crop, Step};
+use rtc_diag::{Diagnostic, codes};
+use rtc_ir::{Field, Light, Lowered, Material, Mode, Noun, Place};
+use rtc_render::{Crop, Step};
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering};
 
 /// Branches that a path may put off: so many of them never end within a limit, and each takes

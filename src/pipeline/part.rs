@@ -10,10 +10,10 @@ pub(super) use file::mended;
 pub use file::{MOST, hash_of_file};
 
 use super::{SettledLook, SharedBy, Shares, findings};
-use crate::diag::Diagnostic;
-use crate::image::{Layers, Origin, Picture, WorldToCamera};
-use crate::plan::Arithmetic;
-use crate::render::{Aov, Counts, Crop, FilmError, PartialFilm, Tiles};
+use rtc_diag::Diagnostic;
+use rtc_image::{Layers, Origin, Picture, WorldToCamera};
+use rtc_plan::Arithmetic;
+use rtc_render::{Aov, Counts, Crop, FilmError, PartialFilm, Tiles};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;

@@ -4,15 +4,15 @@
 use super::denoise::{Traced, require_paths};
 use super::light::FirstView;
 use super::{Input, Loaded, Meter, OutputLook, Proven, Provenance, Renderer, findings, hash};
-use crate::diag::Diagnostic;
-use crate::image::{Image, Layers, Origin, Picture};
-use crate::ir::{Field, Mode, Noun, Place, Scene};
-use crate::passes::{self, Framing, Overrides};
-use crate::plan::{self, Plan, Rules};
-use crate::render::{Counts, Crop, Job, SimdLevel, Step};
-use crate::study::Goal;
-use crate::valid::Proof;
 use rayon::ThreadPoolBuildError;
+use rtc_diag::Diagnostic;
+use rtc_image::{Image, Layers, Origin, Picture};
+use rtc_ir::{Field, Mode, Noun, Place, Scene};
+use rtc_passes::{self as passes, Framing, Overrides};
+use rtc_plan::{self as plan, Plan, Rules};
+use rtc_render::{Counts, Crop, Job, SimdLevel, Step};
+use rtc_study::Goal;
+use rtc_valid::Proof;
 
 /// How a picture is made, beside what its scene says.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! Shares of a picture: which of its tiles, or which of its samples, one of several renders takes.
 //! Together they are all of it, and no two have anything in common.
 
-use crate::render::{SAMPLES_OF_BLOCK, Tiles};
+use rtc_render::{SAMPLES_OF_BLOCK, Tiles};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

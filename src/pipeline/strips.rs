@@ -3,10 +3,10 @@
 
 use super::look::{Losses, SettledLook};
 use super::{Input, Meter, Observer, PictureSetup, RenderError, RenderSubject};
-use crate::image::{BLOCK_ROWS, FileFormat, Picture, StripSource};
-use crate::render::{Counts, Crop, Film, Job};
-use crate::study::Goal;
-use crate::valid::Mode;
+use rtc_image::{BLOCK_ROWS, FileFormat, Picture, StripSource};
+use rtc_render::{Counts, Crop, Film, Job};
+use rtc_study::Goal;
+use rtc_valid::Mode;
 use std::borrow::Cow;
 use std::io::{self, BufWriter, Seek, Write};
 

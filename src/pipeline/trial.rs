@@ -4,17 +4,17 @@
 //! None may panic, whatever the bytes are. What a stage promises beyond that is asserted here.
 
 use super::{Options, PicturePart, load, prove, render};
-use crate::codec::{self, Form};
-use crate::color::Tone;
-use crate::diag::{self, Format, Printer, Severity, Sink};
-use crate::front::course;
-use crate::ir::{Lowered, Material, Mode, Origins, Scene};
-use crate::plan::{Plan, Rules};
-use crate::render::{Background, Job, Values};
-use crate::source::{FileId, Loader, SourceMap};
-use crate::study::{Goal, Growth, Order};
-use crate::valid;
 use arbitrary::{Arbitrary, Unstructured};
+use rtc_codec::{self as codec, Form};
+use rtc_color::Tone;
+use rtc_diag::{self as diag, Format, Printer, Severity, Sink};
+use rtc_front::course;
+use rtc_ir::{Lowered, Material, Mode, Origins, Scene};
+use rtc_plan::{Plan, Rules};
+use rtc_render::{Background, Job, Values};
+use rtc_source::{FileId, Loader, SourceMap};
+use rtc_study::{Goal, Growth, Order};
+use rtc_valid as valid;
 use std::path::Path;
 
 /// The most of anything a scene under trial is rendered with.

@@ -2,13 +2,13 @@
 
 use super::shape::shape_facts;
 use super::space::{Flat, MARGIN, Margins, Sides};
-use crate::math::{Bounds, Vec3, cross, unit};
-use crate::valid::{Instance, Mesh, Proof};
+use rtc_math::{Bounds, Vec3, cross, unit};
+use rtc_valid::{Instance, Mesh, Proof};
 use std::sync::Arc;
 
 /// The bounds of a surface.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::plan) enum Extent {
+pub(crate) enum Extent {
     /// Inside a box.
     Within(Bounds),
     /// In an unbounded plane.
@@ -19,14 +19,14 @@ pub(in crate::plan) enum Extent {
 
 /// The shape and the bounds of a surface, as far as the rules use them.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::plan) struct Body {
-    pub(in crate::plan) extent: Extent,
-    pub(in crate::plan) form: Hull,
+pub(crate) struct Body {
+    pub(crate) extent: Extent,
+    pub(crate) form: Hull,
 }
 
 /// A shape with a property that rules use.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::plan) enum Hull {
+pub(crate) enum Hull {
     /// A bounded piece of a plane.
     Flat(Flat),
     /// A ball.
@@ -38,7 +38,7 @@ pub(in crate::plan) enum Hull {
 }
 
 impl Body {
-    pub(in crate::plan) fn within(space: Bounds, form: Hull) -> Self {
+    pub(crate) fn within(space: Bounds, form: Hull) -> Self {
         Self {
             extent: Extent::Within(space),
             form,
@@ -58,7 +58,7 @@ impl Body {
     }
 
     /// The box around it, if it has one.
-    pub(in crate::plan) fn space(&self) -> Option<&Bounds> {
+    pub(crate) fn space(&self) -> Option<&Bounds> {
         match &self.extent {
             Extent::Within(space) => Some(space),
             Extent::Plane(_) | Extent::Anywhere => None,
@@ -66,7 +66,7 @@ impl Body {
     }
 
     /// The sides of it that face a box, or anything.
-    pub(in crate::plan) fn sides_seen_from(&self, from: Option<&Bounds>) -> Sides {
+    pub(crate) fn sides_seen_from(&self, from: Option<&Bounds>) -> Sides {
         let Some(from) = from else { return Sides::BOTH };
         match self.form {
             Hull::Flat(flat) => flat.sides(from),
@@ -76,7 +76,7 @@ impl Body {
     }
 
     /// Whether a convex solid certainly does not overlap a box.
-    pub(in crate::plan) fn is_clear_of(&self, other: &Bounds) -> bool {
+    pub(crate) fn is_clear_of(&self, other: &Bounds) -> bool {
         let Some(space) = self.space() else {
             return false;
         };
@@ -91,7 +91,7 @@ impl Body {
 
 /// The bodies of all surfaces, grown by the rounding of rays: a ray starts at the eye or on another
 /// surface, and rounds by its coordinates.
-pub(in crate::plan) fn bodies(scene: &Proof) -> Vec<Body> {
+pub(crate) fn bodies(scene: &Proof) -> Vec<Body> {
     let extent = |mesh: &Arc<Mesh>| Bounds::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
     let surfaces = || scene.surfaces().iter().map(|surface| &surface.shape);
@@ -111,7 +111,7 @@ pub(in crate::plan) fn bodies(scene: &Proof) -> Vec<Body> {
 }
 
 /// The plane of a triangle, unless its corners are too nearly in line for a reliable normal.
-pub(in crate::plan) fn face([a, b, c]: [Vec3; 3]) -> Hull {
+pub(crate) fn face([a, b, c]: [Vec3; 3]) -> Hull {
     /// The least sine between two edges: the normal is then right to within 2⁻³⁶.
     const SLIVER: f64 = 1.0 / 65536.0;
     let normal = || {
@@ -123,7 +123,7 @@ pub(in crate::plan) fn face([a, b, c]: [Vec3; 3]) -> Hull {
 }
 
 /// The box of a circle around an axis, with a tube around it.
-pub(in crate::plan) fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Bounds {
+pub(crate) fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Bounds {
     let axis = unit(axis).unwrap_or(Vec3::ZERO);
     let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + MARGIN * (radius + tube);
     Bounds::about(
@@ -134,7 +134,7 @@ pub(in crate::plan) fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) ->
 
 /// The box of a mesh in the world. Rays are transformed to its own space and back: a flat transform
 /// has larger rounding errors.
-pub(in crate::plan) fn placed(instance: &Instance, mesh: &Bounds) -> Bounds {
+pub(crate) fn placed(instance: &Instance, mesh: &Bounds) -> Bounds {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
     let axes = [x, y, z].map(|axis| unit(axis).unwrap_or(Vec3::ZERO));

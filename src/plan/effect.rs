@@ -2,7 +2,7 @@
 
 use super::layer::Layer;
 use super::rules::Rule;
-use crate::ir::Place;
+use rtc_ir::Place;
 
 /// The effects, each with its name, as in the books; layers have names of their own.
 macro_rules! effects {
@@ -122,7 +122,7 @@ macro_rules! of_paths {
     };
 }
 
-crate::standard::layers!(of_paths);
+rtc_tables::layers!(of_paths);
 
 impl State {
     /// The state in a word.

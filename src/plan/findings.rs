@@ -6,8 +6,8 @@ use super::rules::{Rule, Rules};
 use super::summary::{MaterialSummary, constants};
 use super::visibility::Visibility;
 use super::{Features, facts, summary};
-use crate::math::Vec3;
-use crate::valid::{CourseLight, Mode, Pattern, Phong, Proof, Shape, Surface};
+use rtc_math::Vec3;
+use rtc_valid::{CourseLight, Mode, Pattern, Phong, Proof, Shape, Surface};
 
 /// The facts before any rule.
 pub(super) struct Facts<'scene> {

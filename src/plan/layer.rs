@@ -1,7 +1,7 @@
 //! The layers of the glTF material, as the rules see them: made from the table of layers.
 
-use crate::math::Weight;
-use crate::valid::{Map, Standard};
+use rtc_math::Weight;
+use rtc_valid::{Map, Standard};
 use std::ops::Range;
 
 /// The layers, from their table.
@@ -84,4 +84,4 @@ macro_rules! kinds {
     };
 }
 
-crate::standard::layers!(kinds);
+rtc_tables::layers!(kinds);

@@ -5,8 +5,8 @@ use super::rules::Rule;
 use super::space::{Flat, MARGIN, Margins, Sides};
 use super::visibility::Visibility;
 use super::{Facts, LightPlan, MAX_PAIRS};
-use crate::math::{Bounds, Vec3};
-use crate::valid::{CourseLight, Mode};
+use rtc_math::{Bounds, Vec3};
+use rtc_valid::{CourseLight, Mode};
 
 /// What is left of the lights.
 pub(super) struct LightFindings {

@@ -6,7 +6,7 @@
 
 use super::shape::shape_facts;
 use super::{Arithmetic, facts};
-use crate::valid::{Mode, Phong, Proof, Surface};
+use rtc_valid::{Mode, Phong, Proof, Surface};
 
 /// The plain arithmetics ignore hits nearer than this, in units of the world: they take them for
 /// the start of the ray.

@@ -10,7 +10,7 @@ use super::shape::shape_facts;
 use super::space::Sides;
 use super::window::{Rect, Shown, Window};
 use super::{Facts, Findings};
-use crate::valid::{Mode, Shape};
+use rtc_valid::{Mode, Shape};
 
 /// The maximum number of cells of a picture.
 const MAX_CELLS: u64 = 1 << 18;

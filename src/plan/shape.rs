@@ -5,8 +5,8 @@ use super::body::{Body, Extent, Hull, face, placed, ring};
 use super::path::Area;
 use super::precision::Formula;
 use super::space::Flat;
-use crate::math::{Basis, Bounds, Vec3, cos_sin_turns, unit};
-use crate::valid::{
+use rtc_math::{Basis, Bounds, Vec3, cos_sin_turns, unit};
+use rtc_valid::{
     Cone, Cylinder, Disc, Instance, Paraboloid, Plane, Proof, Quad, Shape, Sphere, Torus, Triangle,
 };
 
@@ -53,7 +53,7 @@ macro_rules! facts {
     };
 }
 
-shapes!(facts);
+rtc_tables::shapes!(facts);
 
 impl ShapeFacts for Sphere {
     fn body(&self, _: &[Bounds]) -> Body {

@@ -3,13 +3,13 @@
 //! Hits are accurate to about 10² units of rounding of the coordinates. The rules use [`MARGIN`],
 //! 2²¹ units, so that boxes they find disjoint are disjoint for rays, too.
 
-use crate::math::{Bounds, Vec3};
+use rtc_math::{Bounds, Vec3};
 
 /// The margin, as a fraction of the coordinates it is for: 2⁻³².
-pub(in crate::plan) const MARGIN: f64 = 1.0 / 4_294_967_296.0;
+pub(crate) const MARGIN: f64 = 1.0 / 4_294_967_296.0;
 
 /// What the rules ask of boxes, with margins.
-pub(in crate::plan) trait Margins {
+pub(crate) trait Margins {
     /// Whether the two certainly have no common point.
     fn is_apart_from(&self, other: &Self) -> bool;
 
@@ -65,42 +65,42 @@ impl Margins for Bounds {
 
 /// A plane, by a point of it and its unit normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::plan) struct Flat {
-    pub(in crate::plan) point: Vec3,
-    pub(in crate::plan) normal: Vec3,
+pub(crate) struct Flat {
+    pub(crate) point: Vec3,
+    pub(crate) normal: Vec3,
 }
 
 /// The sides of a surface that are seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::plan) struct Sides {
+pub(crate) struct Sides {
     /// The side of the normal: the outside of a closed shape.
-    pub(in crate::plan) front: bool,
+    pub(crate) front: bool,
     /// The other side.
-    pub(in crate::plan) back: bool,
+    pub(crate) back: bool,
 }
 
 impl Sides {
-    pub(in crate::plan) const BOTH: Self = Self {
+    pub(crate) const BOTH: Self = Self {
         front: true,
         back: true,
     };
-    pub(in crate::plan) const FRONT: Self = Self {
+    pub(crate) const FRONT: Self = Self {
         front: true,
         back: false,
     };
-    pub(in crate::plan) const BACK: Self = Self {
+    pub(crate) const BACK: Self = Self {
         front: false,
         back: true,
     };
 
-    pub(in crate::plan) fn opposite(self) -> Self {
+    pub(crate) fn opposite(self) -> Self {
         Self {
             front: self.back,
             back: self.front,
         }
     }
 
-    pub(in crate::plan) fn with(self, other: Self) -> Self {
+    pub(crate) fn with(self, other: Self) -> Self {
         Self {
             front: self.front || other.front,
             back: self.back || other.back,
@@ -110,7 +110,7 @@ impl Sides {
 
 impl Flat {
     /// The sides of the plane on which a box lies; both if that is uncertain.
-    pub(in crate::plan) fn sides(&self, space: &Bounds) -> Sides {
+    pub(crate) fn sides(&self, space: &Bounds) -> Sides {
         let margin = 4.0 * MARGIN * (space.reach() + self.point.abs().max_element());
         let heights = space
             .corners()
@@ -128,11 +128,11 @@ impl Flat {
 }
 
 #[cfg(test)]
-pub(in crate::plan) mod tests {
+pub(crate) mod tests {
     use super::*;
 
     /// A statement that holds with the margin does not hold with a slightly smaller one.
-    pub(in crate::plan) fn has_margin(margin: f64, is_sure: impl Fn(f64) -> bool) {
+    pub(crate) fn has_margin(margin: f64, is_sure: impl Fn(f64) -> bool) {
         assert!(
             !is_sure((1.0 - 1e-5) * margin),
             "the margin is smaller than {margin:e}"
@@ -144,7 +144,7 @@ pub(in crate::plan) mod tests {
     }
 
     /// A box, by its corners.
-    pub(in crate::plan) fn span(min: [f64; 3], max: [f64; 3]) -> Bounds {
+    pub(crate) fn span(min: [f64; 3], max: [f64; 3]) -> Bounds {
         Bounds {
             min: Vec3::from_array(min),
             max: Vec3::from_array(max),

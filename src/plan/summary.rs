@@ -1,8 +1,8 @@
 //! Summaries of materials, with maps and constant textures considered.
 
 use super::shape::shape_facts;
-use crate::math::Vec3;
-use crate::valid::{Maps, Mesh, Phong, Proof, Shape, Surface, Texture};
+use rtc_math::Vec3;
+use rtc_valid::{Maps, Mesh, Phong, Proof, Shape, Surface, Texture};
 
 /// A summary of the material of a surface.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@ use super::body::{Body, Extent, bodies};
 use super::findings::is_pinhole;
 use super::window::{Shown, Window};
 use super::{Plan, Rules};
-use crate::valid::{Material, Mode, Projection, Proof};
+use rtc_valid::{Material, Mode, Projection, Proof};
 
 /// The maximum number of pairs of a surface outside the picture and any other, for which shadows
 /// and mirrors are looked at.

@@ -1,13 +1,13 @@
 //! The compiled integrators, and the choice of the smallest one with all features that a plan needs.
 
-use crate::plan::{Features, PathFeatures};
-use crate::render::film::heartbeat::OnPixel;
-use crate::render::film::{Film, Job};
-use crate::render::frame::picture::Sums;
-use crate::render::integrator::path::Strategy;
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::World;
-use crate::render::world::settings::Mode;
+use crate::film::heartbeat::OnPixel;
+use crate::film::{Film, Job};
+use crate::frame::picture::Sums;
+use crate::integrator::path::Strategy;
+use crate::shape::geometry::Geometry;
+use crate::world::World;
+use crate::world::settings::Mode;
+use rtc_plan::{Features, PathFeatures};
 use std::ops::Range;
 
 /// An integrator compiled for a set of features.
@@ -52,25 +52,35 @@ pub fn choose(needed: Features) -> usize {
         .unwrap_or(KERNELS.len() - 1)
 }
 
+/// Calls a method of a world with the features of one kernel of a table: of the one chosen, or of the last one, which can
+/// do everything, where the shapes have no kernels of their own. The indices name all kernels of the table.
+macro_rules! call_kernel {
+    ($table:ident [$($index:literal)* / $last:literal], $chosen:expr, $world:ident.$method:ident $arguments:tt) => {{
+        const { assert!([$($index,)* $last].len() == $table.len() && $last + 1 == $table.len()) };
+        if S::HAS_KERNELS {
+            match $chosen {
+                $($index => $crate::kernel::call_kernel!(@ $table $index $world.$method $arguments),)*
+                _ => $crate::kernel::call_kernel!(@ $table $last $world.$method $arguments),
+            }
+        } else {
+            $crate::kernel::call_kernel!(@ $table $last $world.$method $arguments)
+        }
+    }};
+    (@ $table:ident $index:literal $world:ident.$method:ident ($($argument:expr),*)) => {
+        $world.$method::<{ $table[$index].features.0 }>($($argument),*)
+    };
+}
+pub(crate) use call_kernel;
+
 /// Calls a method of a world with the features of the integrator chosen.
 macro_rules! dispatch {
     ($world:ident.$method:ident $arguments:tt) => {{
-        use $crate::render::kernel::{KERNELS, choose};
-        match choose($world.plan.features) {
-            0 => $crate::render::kernel::dispatch!(@ 0 $world.$method $arguments),
-            1 => $crate::render::kernel::dispatch!(@ 1 $world.$method $arguments),
-            2 => $crate::render::kernel::dispatch!(@ 2 $world.$method $arguments),
-            3 => $crate::render::kernel::dispatch!(@ 3 $world.$method $arguments),
-            4 => $crate::render::kernel::dispatch!(@ 4 $world.$method $arguments),
-            5 => $crate::render::kernel::dispatch!(@ 5 $world.$method $arguments),
-            _ => $crate::render::kernel::dispatch!(@ 6 $world.$method $arguments),
-        }
+        use $crate::kernel::{KERNELS, choose};
+        let chosen = choose($world.plan.features);
+        $crate::kernel::call_kernel!(KERNELS[0 1 2 3 4 5 / 6], chosen, $world.$method $arguments)
     }};
-    (@ $index:literal $world:ident.$method:ident ($($argument:expr),*)) => {
-        $world.$method::<{ KERNELS[$index].features.0 }>($($argument),*)
-    };
 }
-pub(in crate::render) use dispatch;
+pub(crate) use dispatch;
 
 /// The sets of features that the path integrator is compiled for: diffuse surfaces, reflecting ones
 /// without layers, and all.
@@ -109,21 +119,15 @@ pub fn choose_for_paths(needed: PathFeatures) -> usize {
         .unwrap_or(PATH_KERNELS.len() - 1)
 }
 
-/// Calls a method of a world with the features of the path integrator chosen, by its index.
+/// Calls a method of a world with the features of the path integrator chosen.
 macro_rules! dispatch_paths {
     ($world:ident.$method:ident $arguments:tt) => {{
-        use $crate::render::kernel::{PATH_KERNELS, choose_for_paths};
-        let everything = $crate::plan::PathFeatures::EVERYTHING;
+        use $crate::kernel::{PATH_KERNELS, choose_for_paths};
+        let everything = rtc_plan::PathFeatures::EVERYTHING;
         let needed = $world.plan.paths.as_ref().map_or(everything, |plan| plan.features);
-        match choose_for_paths(needed) {
-            0 => $crate::render::kernel::dispatch_paths!(@ 0 $world.$method $arguments),
-            1 => $crate::render::kernel::dispatch_paths!(@ 1 $world.$method $arguments),
-            _ => $crate::render::kernel::dispatch_paths!(@ 2 $world.$method $arguments),
-        }
+        let chosen = choose_for_paths(needed);
+        $crate::kernel::call_kernel!(PATH_KERNELS[0 1 / 2], chosen, $world.$method $arguments)
     }};
-    (@ $index:literal $world:ident.$method:ident ($($argument:expr),*)) => {
-        $world.$method::<{ PATH_KERNELS[$index].features.0 }>($($argument),*)
-    };
 }
 pub(super) use dispatch_paths;
 
@@ -149,7 +153,7 @@ impl<S: Geometry> World<S> {
 
     /// Sums samples of the pixels, where their number is that of the scene, else all; `None` if
     /// `on_pixel` said stop.
-    pub(in crate::render) fn sum(
+    pub(crate) fn sum(
         &self,
         samples: &Range<u32>,
         job: &Job,

@@ -1,10 +1,10 @@
 //! Rays, and interactions of rays with surfaces.
 
-use crate::math::{U, Vec3, ldexp, unit_scale};
+use rtc_math::{U, Vec3, ldexp, unit_scale};
 
 /// How far from a surface rays start, in units of its rounding error: enough for the error of the
 /// point, of the surface's own numbers, and of the sum that moves the point.
-pub(in crate::render) const OFFSET: f64 = 8.0;
+pub(crate) const OFFSET: f64 = 8.0;
 
 /// A half-line; `t` counts in lengths of `direction`, which need not be a unit vector.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +36,7 @@ impl Ray {
     /// Whether [`Self::rescaled`] leaves it as it is.
     #[must_use]
     #[inline]
-    pub(in crate::render) fn is_scaled(&self) -> bool {
+    pub(crate) fn is_scaled(&self) -> bool {
         const MOST: f64 = 18_446_744_073_709_551_616.0;
         let size = self.direction.abs().max_element();
         (1.0 / MOST..=MOST).contains(&size)
@@ -46,7 +46,7 @@ impl Ray {
     /// times as far as the surface is large, rounding may leave that no length: then the
     /// surface faces the ray.
     #[must_use]
-    pub(in crate::render) fn outward(&self, out: Vec3) -> Vec3 {
+    pub(crate) fn outward(&self, out: Vec3) -> Vec3 {
         out.normalize_or(-self.direction.normalize())
     }
 }

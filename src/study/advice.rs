@@ -4,8 +4,8 @@ use super::knob::Knob;
 use super::metrics::Errors;
 use super::outcome::{MoreBounces, Row, Study};
 use super::setting::Setting;
-use crate::math::pow;
-use crate::plan::Arithmetic;
+use rtc_math::pow;
+use rtc_plan::Arithmetic;
 
 /// An invisible error, in grey levels.
 const ENOUGH: f64 = 0.5;

@@ -2,10 +2,10 @@
 
 use super::denoised::film;
 use super::journal::{Entry, Journal};
-use crate::plan::Plan;
-use crate::render::{AnyWorld, Film, Job, OnPixel, SimdLevel, Step};
-use crate::valid::Proof;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use rtc_plan::Plan;
+use rtc_render::{AnyWorld, Film, Job, OnPixel, SimdLevel, Step};
+use rtc_valid::Proof;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;

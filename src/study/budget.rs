@@ -6,8 +6,8 @@ use super::noise::{Bound, Noise};
 use super::subject::Stopped;
 use super::target::{Order, Progress, Reached, TAIL, Watch, begin, first_round, light_samples};
 use super::target::{next_round, spread, tail_of};
-use crate::ir::Scene;
-use crate::render::{AnyWorld, Step};
+use rtc_ir::Scene;
+use rtc_render::{AnyWorld, Step};
 use std::time::Duration;
 
 /// The sides of blocks of which one pixel is sampled, from the crudest picture to the whole one.

@@ -3,9 +3,9 @@
 
 use super::probe::probe;
 use super::target::{Goal, Order};
-use crate::color::Tone;
-use crate::render::{AnyWorld, Crop, DenoisedFilm, Film, Job, OnPixel, Values};
-use crate::valid::Mode;
+use rtc_color::Tone;
+use rtc_render::{AnyWorld, Crop, DenoisedFilm, Film, Job, OnPixel, Values};
+use rtc_valid::Mode;
 
 /// How [`Values::Display`] shows paths.
 const DISPLAY: (Tone, f64) = (Tone::Srgb, 1.0);

@@ -2,7 +2,7 @@
 
 use super::flip::{PIXELS_PER_DEGREE, flip};
 use super::metrics::{LEVELS, relative_mse, rmse};
-use crate::image::{Image, ShownPicture};
+use rtc_image::{Image, ShownPicture};
 use serde::Serialize;
 
 /// The difference of a picture from a reference.

@@ -10,7 +10,7 @@ use super::reference::independent;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng};
 use super::subject::{Stopped, Subject};
-use crate::image::Image;
+use rtc_image::Image;
 use serde::{Deserialize, Serialize};
 
 /// A scene without one of its effects, lights, objects or materials.

@@ -4,7 +4,7 @@
 use super::noise::Bound;
 use super::stretch::WorkStretch;
 use super::target::{Order, Reached, Samples};
-use crate::render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
+use rtc_render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
 use std::time::Duration;
 
 /// What is known of a picture that grows.

@@ -9,8 +9,8 @@
 use super::Effort;
 use super::outcome::About;
 use super::subject::RenderedTiles;
-use crate::image::Image;
-use crate::render::Counts;
+use rtc_image::Image;
+use rtc_render::Counts;
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use xxhash_rust::xxh3::xxh3_64;

@@ -1,9 +1,9 @@
 //! The knobs of accuracy: numbers that trade work for error, and which of them a scene has.
 
 use super::setting::Setting;
-use crate::ir::{Light, Material, Mode, Phong, Scene};
-use crate::plan::{Arithmetic, Effect, Plan, Rules, State, Verdict, loss};
-use crate::valid::revalidate;
+use rtc_ir::{Light, Material, Mode, Phong, Scene};
+use rtc_plan::{Arithmetic, Effect, Plan, Rules, State, Verdict, loss};
+use rtc_valid::revalidate;
 use serde::{Deserialize, Serialize};
 
 /// A number that trades work for accuracy.

@@ -1,8 +1,8 @@
 //! What of a scene may be left out to see what it costs: an effect, a light, an object, and what makes a
 //! material more than matt.
 
-use crate::ir::{Light, Material, Mode, Phong, Scene, Shape, Standard, Surface};
-use crate::math::Vec3;
+use rtc_ir::{Light, Material, Mode, Phong, Scene, Shape, Standard, Surface};
+use rtc_math::Vec3;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

@@ -7,7 +7,7 @@ use super::metrics::LEVELS;
 use super::outcome::{Row, Study};
 use super::setting::Setting;
 use super::subject::{Stopped, Subject};
-use crate::image::Image;
+use rtc_image::Image;
 
 /// The rays of each pixel of the whole picture in a setting, row by row; 0 where nothing was looked at.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 
 use super::flip::{PIXELS_PER_DEGREE, delta_e, flip};
 use super::sample::TileErrors;
-use crate::image::Image;
+use rtc_image::Image;
 use serde::{Deserialize, Serialize};
 
 /// The full brightness in grey levels of 8 bits.

@@ -3,7 +3,7 @@
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
 use super::unmet::{Unmet, UnmetError};
-use crate::render::{ProgressiveFilm, Replicates};
+use rtc_render::{ProgressiveFilm, Replicates};
 
 /// The noise of a whole film.
 #[derive(Clone, Copy, Debug)]

@@ -8,8 +8,8 @@ use super::setting::Setting;
 use super::spread::ErrorSpread;
 use super::statistics::{Estimate, PowerLaw};
 use super::{EffectCost, Effort, PrecisionCost};
-use crate::image::Image;
-use crate::render::{Counts, Crop};
+use rtc_image::Image;
+use rtc_render::{Counts, Crop};
 use serde::{Deserialize, Serialize};
 
 /// The subject of a study, and the machine it ran on.

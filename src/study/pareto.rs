@@ -3,7 +3,7 @@
 use super::knob::Knob;
 use super::setting::Setting;
 use super::sweep::Model;
-use crate::math::ln;
+use rtc_math::ln;
 
 /// The least relative reduction of the error for a new row.
 const WORTH: f64 = 0.99;

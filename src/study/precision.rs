@@ -9,7 +9,7 @@ use super::setting::Setting;
 use super::statistics::{Estimate, Rng};
 use super::subject::{Stopped, Subject};
 use super::sweep::Levels;
-use crate::plan::Arithmetic;
+use rtc_plan::Arithmetic;
 use serde::{Deserialize, Serialize};
 
 /// A scene rendered by one arithmetic.

@@ -8,9 +8,9 @@
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
 use super::target::{Order, TAIL};
-use crate::image::around;
-use crate::math::{GAMMA, fraction, mix};
-use crate::render::{AnyWorld, Counts, DenoisedFilm, Film, OnPixel, ProgressiveFilm};
+use rtc_image::around;
+use rtc_math::{GAMMA, fraction, mix};
+use rtc_render::{AnyWorld, Counts, DenoisedFilm, Film, OnPixel, ProgressiveFilm};
 
 /// What was found of the error of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -193,7 +193,7 @@ fn mean_and_most(found: &[Found]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::Rng;
+    use crate::Rng;
 
     fn uniform(rng: &mut Rng) -> f64 {
         (rng.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30)
@@ -202,7 +202,7 @@ mod tests {
     /// Squares of errors as pictures have them: most are small, some are a hundred times as large.
     fn square(rng: &mut Rng) -> f64 {
         let size = if rng.below(20) == 0 { 100.0 } else { 1.0 };
-        -size * crate::math::ln(uniform(rng))
+        -size * rtc_math::ln(uniform(rng))
     }
 
     fn once(square: f64) -> Found {

@@ -7,8 +7,8 @@ use super::setting::Setting;
 use super::spread::Afresh;
 use super::statistics::{Estimate, Rng, median};
 use super::subject::{RenderedTiles, Stopped, Subject};
-use crate::image::Image;
-use crate::ir;
+use rtc_image::Image;
+use rtc_ir as ir;
 
 /// A runner.
 pub(super) struct Runner<'a> {

@@ -7,8 +7,8 @@ use super::metrics::{LEVELS, mean, mean_product, rmse};
 use super::outcome::{BounceCost, MoreBounces};
 use super::setting::Setting;
 use super::subject::{RenderedTiles, Stopped, Subject};
-use crate::image::Image;
-use crate::render::Seeds;
+use rtc_image::Image;
+use rtc_render::Seeds;
 use serde::{Deserialize, Serialize};
 
 /// The smallest error worth a row, in grey levels: a twentieth of a level is beyond any eye.

@@ -3,8 +3,8 @@
 
 use super::metrics::mean_square;
 use super::statistics::student;
-use crate::image::Image;
-use crate::math::exp;
+use rtc_image::Image;
+use rtc_math::exp;
 
 /// The mean square error of each of some tiles.
 #[derive(Clone, Debug)]

@@ -1,9 +1,9 @@
 //! A setting: a value for each knob, read from a scene and written into one.
 
 use super::knob::{Knob, arithmetic, place};
-use crate::ir::{Material, Mode, Scene};
-use crate::passes::Overrides;
-use crate::plan::Arithmetic;
+use rtc_ir::{Material, Mode, Scene};
+use rtc_passes::Overrides;
+use rtc_plan::Arithmetic;
 use serde::{Deserialize, Serialize};
 
 /// A value for each knob.

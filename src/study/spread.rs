@@ -3,9 +3,9 @@
 
 use super::metrics::{LEVELS, mean_product};
 use super::subject::RenderedTiles;
-use crate::image::Image;
-use crate::ir::{Mode, Pattern, Settings};
-use crate::render::Seeds;
+use rtc_image::Image;
+use rtc_ir::{Mode, Pattern, Settings};
+use rtc_render::Seeds;
 use serde::{Deserialize, Serialize};
 
 /// The error over renders by other random numbers (Celarek, Jakob, Wimmer, Lehtinen, "Quantifying the error

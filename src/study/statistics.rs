@@ -1,7 +1,7 @@
 //! Statistics for studies: medians with confidence intervals, power laws, and repeatable random
 //! numbers.
 
-use crate::math::{GAMMA, exp, ln, mix, pow};
+use rtc_math::{GAMMA, exp, ln, mix, pow};
 use serde::{Deserialize, Serialize};
 
 /// A number with its 95 % confidence interval.

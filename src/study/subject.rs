@@ -6,11 +6,11 @@ use super::journal::Entry;
 use super::outcome::StudyArea;
 use super::setting::Setting;
 use super::spread::Afresh;
-use crate::image::Image;
-use crate::ir::{Pattern, Scene};
-use crate::plan::{Plan, Rules};
-use crate::render::{Counts, Crop, Job, Seeds, Tiles};
-use crate::valid::{Proof, revalidate};
+use rtc_image::Image;
+use rtc_ir::{Pattern, Scene};
+use rtc_plan::{Plan, Rules};
+use rtc_render::{Counts, Crop, Job, Seeds, Tiles};
+use rtc_valid::{Proof, revalidate};
 use std::sync::Arc;
 use xxhash_rust::xxh3::xxh3_64;
 

@@ -8,9 +8,9 @@ use super::reference::{Depths, Level, Reference, independent};
 use super::setting::Setting;
 use super::statistics::PowerLaw;
 use super::subject::{Stopped, Subject};
-use crate::image::Image;
-use crate::math::{exp, ln};
-use crate::render::Seeds;
+use rtc_image::Image;
+use rtc_math::{exp, ln};
+use rtc_render::Seeds;
 
 /// A knob at each of its values, all others as in the reference.
 pub(super) struct Levels {

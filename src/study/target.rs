@@ -11,13 +11,13 @@ use super::knob::{Knob, idle};
 use super::noise::{Allotment, Noise};
 use super::subject::Stopped;
 use super::unmet::Unmet;
-use crate::color::Tone;
-use crate::image::Image;
-use crate::ir::{Pattern, Scene};
-use crate::render::{
+use rtc_color::Tone;
+use rtc_image::Image;
+use rtc_ir::{Pattern, Scene};
+use rtc_render::{
     AnyWorld, Background, Counts, Crop, Film, Job, OnPixel, ProgressiveFilm, Tiles, Values,
 };
-use crate::valid::revalidate;
+use rtc_valid::revalidate;
 use std::time::Duration;
 
 /// When to stop; with both, whichever comes first.

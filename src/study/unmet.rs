@@ -1,7 +1,7 @@
 //! What no sample may have met: no estimate from samples knows of it, but their number bounds it.
 
 use super::metrics::LEVELS;
-use crate::render::ProgressiveFilm;
+use rtc_render::ProgressiveFilm;
 
 /// The expected meetings that do not stay out, but with a probability of 5 %.
 const MEETINGS: f64 = 3.0;

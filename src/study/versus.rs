@@ -14,9 +14,9 @@ use super::setting::Setting;
 use super::statistics::{Estimate, Rng, normal_quantile, paired};
 use super::subject::{Stopped, Subject};
 use super::{Bench, Effort};
-use crate::image::Image;
-use crate::ir::Scene;
-use crate::render::Crop;
+use rtc_image::Image;
+use rtc_ir::Scene;
+use rtc_render::Crop;
 use serde::Serialize;
 
 /// The renders of each scene with independent samples.

@@ -1,10 +1,10 @@
 //! The proof of the camera: a frustum with an inside, steps at right angles, an image with pixels.
 
 use super::check::{Check, SMALLEST};
-use crate::diag::Diagnostic;
-use crate::diag::codes;
-use crate::ir::{self, Field, Noun, Place};
-use crate::math::{NonNegative, Vec3};
+use rtc_diag::Diagnostic;
+use rtc_diag::codes;
+use rtc_ir::{self as ir, Field, Noun, Place};
+use rtc_math::{NonNegative, Vec3};
 use std::num::NonZeroU32;
 
 /// The largest cosine between `right` and `up` that counts as a right angle.
@@ -127,8 +127,8 @@ fn frustum(eye: Vec3, center: Vec3, right: Vec3, up: Vec3, check: &mut Check<'_>
         );
         return None;
     }
-    let normal = crate::math::cross(right.normalize(), up.normalize());
-    if crate::math::dot(normal, center - eye) == 0.0 {
+    let normal = rtc_math::cross(right.normalize(), up.normalize());
+    if rtc_math::dot(normal, center - eye) == 0.0 {
         let finding = Diagnostic::new(
             &codes::EYE_IN_IMAGE_PLANE,
             "the eye lies in the image plane",

@@ -1,10 +1,10 @@
 //! The checks of single values: each takes a number and returns a number with a range, or reports a
 //! finding at its place.
 
-use crate::diag::codes::{self, Code};
-use crate::diag::{Diagnostic, Severity, Sink};
-use crate::ir::{Field, Noun, Origins, Place};
-use crate::math::{NonNegative, Positive, Vec3, unit_scale};
+use rtc_diag::codes::{self, Code};
+use rtc_diag::{Diagnostic, Severity, Sink};
+use rtc_ir::{Field, Noun, Origins, Place};
+use rtc_math::{NonNegative, Positive, Vec3, unit_scale};
 use std::num::NonZeroU32;
 
 /// The largest absolute value of a coordinate: the sphere test takes fourth powers of lengths, and
@@ -57,7 +57,7 @@ impl<'run> Check<'run> {
     }
 
     /// Where the value was written, for secondary labels and replacements.
-    pub(super) fn span(&self, place: Place) -> Option<crate::source::Span> {
+    pub(super) fn span(&self, place: Place) -> Option<rtc_source::Span> {
         self.origins.span(place)
     }
 

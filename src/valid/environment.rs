@@ -1,9 +1,9 @@
 //! The proof of the environment.
 
 use super::check::Check;
-use crate::diag::{Diagnostic, codes};
-use crate::ir::{self, Field, Noun, Place};
-use crate::math::Vec3;
+use rtc_diag::{Diagnostic, codes};
+use rtc_ir::{self as ir, Field, Noun, Place};
+use rtc_math::Vec3;
 
 /// The radiance from directions without a surface.
 #[derive(Clone, Copy, Debug)]

@@ -1,10 +1,10 @@
 //! The proof of the images: every image has a pixel for each column and row.
 
 use super::check::{Check, place};
-use crate::diag::Diagnostic;
-use crate::diag::codes;
-use crate::image::Texels;
-use crate::ir::{self, Field, Noun};
+use rtc_diag::Diagnostic;
+use rtc_diag::codes;
+use rtc_image::Texels;
+use rtc_ir::{self as ir, Field, Noun};
 use std::num::NonZeroU32;
 
 /// A picture of at least one pixel.

@@ -1,11 +1,11 @@
 //! The proof of the lights.
 
 use super::check::{Check, place};
-use crate::diag::Diagnostic;
-use crate::diag::codes;
-use crate::ir::{self, Field, Noun, Place};
-use crate::math::{NonNegative, Positive, Vec3, unit};
-use crate::profile::Profile;
+use rtc_diag::Diagnostic;
+use rtc_diag::codes;
+use rtc_ir::{self as ir, Field, Noun, Place};
+use rtc_math::{NonNegative, Positive, Vec3, unit};
+use rtc_profile::Profile;
 
 /// A light of any kind.
 #[derive(Clone, Debug)]

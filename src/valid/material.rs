@@ -3,7 +3,7 @@
 use super::check::{Check, EntityCounts};
 use super::phong::{self, Phong};
 use super::standard::{self, Standard};
-use crate::ir;
+use rtc_ir as ir;
 
 /// A material of any family.
 #[derive(Clone, Debug)]

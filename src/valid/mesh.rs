@@ -3,10 +3,10 @@
 
 use super::check::{Check, LARGEST, place};
 use super::shape::has_area;
-use crate::diag::Diagnostic;
-use crate::diag::codes;
-use crate::ir::{self, Field, Noun};
-use crate::math::{Column, Shared, Vec3, unit};
+use rtc_diag::Diagnostic;
+use rtc_diag::codes;
+use rtc_ir::{self as ir, Field, Noun};
+use rtc_math::{Column, Shared, Vec3, unit};
 
 /// A mesh has at most so many triangles: a hierarchy over them takes 21 GB.
 pub const MOST_TRIANGLES: usize = 1 << 29;

@@ -1,9 +1,9 @@
 //! The proof of Phong's model.
 
 use super::check::{Check, EntityCounts, place};
-use crate::diag::codes;
-use crate::ir::{self, Field, Noun, Place, TextureId};
-use crate::math::{NonNegative, Positive, Vec3};
+use rtc_diag::codes;
+use rtc_ir::{self as ir, Field, Noun, Place, TextureId};
+use rtc_math::{NonNegative, Positive, Vec3};
 use std::num::NonZeroU32;
 
 /// Phong's model with mirror and refraction; see [`ir::Phong`] for the formula.

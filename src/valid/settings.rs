@@ -1,11 +1,11 @@
 //! The proof of the settings, and the limits on pixels and rays.
 
 use super::check::Check;
-use crate::color::Tone;
-use crate::diag::Diagnostic;
-use crate::diag::codes;
-use crate::ir::{self, Field, Noun, Place};
-use crate::source::Resource;
+use rtc_color::Tone;
+use rtc_diag::Diagnostic;
+use rtc_diag::codes;
+use rtc_ir::{self as ir, Field, Noun, Place};
+use rtc_source::Resource;
 use std::num::NonZeroU32;
 
 /// The largest number of bounces: a path keeps a few bytes for each.

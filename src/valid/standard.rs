@@ -2,10 +2,10 @@
 
 use super::check::{Check, EntityCounts, LARGEST, place};
 use super::texture::{self, Map};
-use crate::diag::{Diagnostic, codes};
-use crate::ir::{self, Field, Noun, Place};
-use crate::math::{NonNegative, Positive, UnitInterval, Vec3};
-use crate::standard::{camel_case, map_of, parameters};
+use rtc_diag::{Diagnostic, codes};
+use rtc_ir::{self as ir, Field, Noun, Place};
+use rtc_math::{NonNegative, Positive, UnitInterval, Vec3};
+use rtc_tables::{camel_case, map_of, parameters};
 
 /// The type of a proven parameter of a kind of the table.
 macro_rules! proven {

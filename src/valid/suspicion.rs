@@ -2,8 +2,8 @@
 //! surfaces, and colours that look like bytes.
 
 use super::check::{Check, place};
-use crate::diag::{Diagnostic, codes};
-use crate::ir::{self, Field, Noun};
+use rtc_diag::{Diagnostic, codes};
+use rtc_ir::{self as ir, Field, Noun};
 
 /// Warns of what is hardly meant, in a scene without errors: what could not be read is missing here.
 pub(super) fn suspicions(scene: &ir::Scene, check: &mut Check<'_>) {

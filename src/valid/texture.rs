@@ -1,8 +1,8 @@
 //! The proof of the textures and of the maps: the images and textures they refer to exist.
 
 use super::check::{Check, EntityCounts, place};
-use crate::diag::{Diagnostic, codes};
-use crate::ir::{self, Field, Noun, Place};
+use rtc_diag::{Diagnostic, codes};
+use rtc_ir::{self as ir, Field, Noun, Place};
 
 /// A texture of any kind.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! A scene of everything that an asset may hold, as a text with files beside it.
 
-use super::texts::assert_comes_back;
+use crate::texts::assert_comes_back;
 use rtc::internals::color::Tone;
 use rtc::internals::emit::course::emit_beside;
 use rtc::internals::front::course;

@@ -1,7 +1,7 @@
 //! Samples fall as their density says: it integrates to what is sampled, and a χ² test finds no
 //! difference.
 
-use crate::{lattice, sampled, variety, view};
+use super::{lattice, sampled, variety, view};
 use rtc::internals::math::Vec3;
 use rtc::internals::render::{Bsdf, StandardParameters};
 use std::f64::consts::{PI, TAU};

@@ -1,6 +1,6 @@
 //! No material makes light, a white one loses none, and reflection is the same both ways.
 
-use crate::{albedo, lattice, sampled, variety, view};
+use super::{albedo, lattice, sampled, variety, view};
 use rtc::internals::math::Vec3;
 use rtc::internals::render::{Bsdf, Clearcoat, StandardParameters};
 

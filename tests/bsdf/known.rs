@@ -1,7 +1,7 @@
 //! Values known otherwise: Lambert, smooth metal and glass, and a table integrated from the
 //! formulas of glTF's appendix B.
 
-use crate::{albedo, sampled, view};
+use super::{albedo, sampled, view};
 use rtc::internals::math::Vec3;
 use rtc::internals::render::{Bsdf, StandardParameters};
 use std::f64::consts::PI;

@@ -5,7 +5,7 @@
 #[path = "../../fuzz/src/lib.rs"]
 mod inputs;
 
-use super::suite::{root, trial};
+use crate::suite::{root, trial};
 use libtest_mimic::Trial;
 use rtc::internals::cli;
 use rtc::internals::pipeline::trial as run;

@@ -5,7 +5,7 @@
 //! in a binary file `byte N`; `# options: strict lenient` sets options. A file that can't hold
 //! comments has them beside it, in `<case>.expect`.
 
-use super::suite::{files, name, root, trial, updates};
+use crate::suite::{files, name, root, trial, updates};
 use libtest_mimic::{Failed, Trial};
 use rtc::internals::diag::{Diagnostic, Severity, Sink, codes};
 use rtc::internals::source::{FileId, Loader, SourceMap};

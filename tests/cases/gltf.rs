@@ -1,7 +1,7 @@
 //! Files of glTF that others made: each broken one ends in the finding it must, each sound one is
 //! lowered to what it holds.
 
-use super::suite::{files, name, root, trial};
+use crate::suite::{files, name, root, trial};
 use libtest_mimic::Trial;
 use rtc::internals::diag::{Severity, Sink};
 use rtc::internals::ir::{Mesh, Scene};

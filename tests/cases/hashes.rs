@@ -1,10 +1,10 @@
 //! The table of pictures: for each scene the hash of its values, the same for 1, 2 and 7 threads,
-//! in debug and release, and on every machine. `RTC_UPDATE=1 cargo test --test cases hashes/`
+//! in debug and release, and on every machine. `RTC_UPDATE=1 cargo test --test files hashes/`
 //! rewrites `tests/hashes.txt`. `benches/hashes.sh` compares it on other machines.
 
-use super::hashed::{Source, hash, sources};
-use super::small::{WHOLE, bits, film};
-use super::suite::{root, trial, updates};
+use crate::hashed::{Source, hash, sources};
+use crate::small::{WHOLE, bits, film};
+use crate::suite::{root, trial, updates};
 use libtest_mimic::Trial;
 use std::collections::BTreeMap;
 use std::path::PathBuf;

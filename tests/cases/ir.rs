@@ -1,6 +1,6 @@
 //! The IR text of every scene in `scenes/`, and of one for each shape, beside the last one
 //! approved; and laws that hold for each of them.
-use super::suite::{files, name, root, trial};
+use crate::suite::{files, name, root, trial};
 use libtest_mimic::Trial;
 use rtc::internals::codec::{self, Form};
 use rtc::internals::diag::Sink;

@@ -23,7 +23,7 @@ fn a_folder_that_takes_nothing_is_said_before_the_render() -> Result<Completion,
     if fs::write(locked.join("probe"), "").is_ok() {
         return Ok(Completion::ignored_with("this user may write everywhere"));
     }
-    let scene = super::suite::root("scenes/globe.yaml");
+    let scene = crate::suite::root("scenes/globe.yaml");
     let refused = Command::new(env!("CARGO_BIN_EXE_rtc"))
         .args(["render", "-o", "locked/x.png"])
         .arg(scene)

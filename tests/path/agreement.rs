@@ -1,6 +1,6 @@
 //! All ways of looking for light find the same; the picture does not depend on threads.
 
-use crate::{
+use super::{
     add_light, add_quad, add_sphere, add_square, lambert, mean, prove, render, render_by, scene,
 };
 use rtc::internals::ir::{Emitter, Environment, Image, ImageId, Pixels, Punctual, Scene, Standard};
@@ -104,7 +104,7 @@ fn aiming_and_scattering_agree_on_surroundings() {
 #[test]
 fn aiming_and_scattering_agree_on_a_white_sky() {
     let mut scene = room(1024);
-    scene.environment = crate::sky(0.5);
+    scene.environment = super::sky(0.5);
     assert_agree(&scene, 0.015);
 }
 

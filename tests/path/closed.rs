@@ -1,6 +1,6 @@
 //! Scenes whose radiance is known in closed form.
 
-use crate::{add_light, add_sphere, add_square, lambert, mean, middle, render, scene, sky};
+use super::{add_light, add_sphere, add_square, lambert, mean, middle, render, scene, sky};
 use rtc::internals::ir::{Emitter, Mode, PathSettings, Punctual, Standard};
 use rtc::internals::math::Vec3;
 use std::f64::consts::PI;

@@ -1,6 +1,6 @@
 //! Diffuse transmission along paths: light from behind, what stands in its way, a medium inside.
 
-use crate::{
+use super::{
     add_light, add_sphere, add_square, lambert, mean, middle, render, render_by, scene, sky,
 };
 use rtc::internals::ir::{Emitter, Punctual, Scene, Standard};

@@ -1,6 +1,6 @@
 //! Alpha, textures, corners' colours, normal maps, dispersion, and the orthographic camera.
 
-use crate::{add_light, add_quad, add_square, lambert, material, mean, middle, render, scene, sky};
+use super::{add_light, add_quad, add_square, lambert, material, mean, middle, render, scene, sky};
 use rtc::internals::ir::{
     Alpha, Emitter, Filter, Image, ImageId, Instance, Map, Mesh, MeshId, Pixels, Projection,
     Punctual, Sampled, Scene, Shape, Standard, Surface, Texture, TextureId, Wrap,
@@ -289,7 +289,7 @@ fn dispersion_keeps_white_white() {
     let mut scene = scene(512);
     scene.environment = sky(1.0);
     scene.settings.max_depth = 32;
-    crate::add_sphere(&mut scene, [0.0; 3], 0.8, glass);
+    super::add_sphere(&mut scene, [0.0; 3], 0.8, glass);
     let found = mean(&render(&scene));
     assert!((found - Vec3::ONE).abs().max_element() < 0.02, "{found}");
 }

@@ -1,6 +1,6 @@
 //! Plans as approved: for each made-up scene what the picture needs and by which rules the rest is
 //! left out, beside a hash of all that its plans say, with all rules, with every other one and with
-//! none. `RTC_UPDATE=1 cargo test --test plan` rewrites `tests/plan/approved.txt`: what then
+//! none. `RTC_UPDATE=1 cargo test --test suites plan::` rewrites `tests/plan/approved.txt`: what then
 //! differs is what changed.
 
 use super::dice::Dice;

@@ -1,8 +1,8 @@
 //! Counters: the class of rays of an effect that was left out is 0.
 
 use super::dice::Dice;
-use super::told::lies;
 use super::{film, proven};
+use crate::told::lies;
 use rtc::internals::plan::{Effect, Plan, Rules, State};
 use rtc::internals::render::Values;
 

@@ -4,7 +4,7 @@
 use super::path_rules::{lamp, traced, white};
 use super::proven;
 use super::stage::{ball, disc};
-use super::told::{film, lies};
+use crate::told::{film, lies};
 use rtc::internals::ir::{Alpha, Scene, Standard};
 use rtc::internals::plan::{Effect, Layer, PathFeatures, Plan, Rules, State};
 

@@ -4,7 +4,7 @@
 use super::path_rules::{across, add, fires, lamp, placed, traced, white};
 use super::proven;
 use super::stage::ball;
-use super::told::film;
+use crate::told::film;
 use rtc::internals::ir::{
     self, Alpha, ImageId, Map, Mode, Pixels, Punctual, Scene, Standard, Texture, TextureId,
 };

@@ -3,7 +3,7 @@
 
 use super::proven;
 use super::stage::{ball, disc, stage};
-use super::told::{difference, film};
+use crate::told::{difference, film};
 use rtc::internals::ir::{
     self, Alpha, Emitter, Environment, ImageId, Material, MaterialId, Mode, PathSettings, Pixels,
     Punctual, Scene, Shape, Standard, Surface,

@@ -2,13 +2,13 @@
 //! and an explanation names no effect that the picture shows as absent.
 
 use super::dice::Dice;
-use super::told::{difference, film, lies, traced, unmet};
 use super::{file_name, files, proven, scene};
+use crate::told::{difference, film, lies, traced, unmet};
 use rtc::internals::ir::Scene;
 use rtc::internals::plan::{Plan, Rule, Rules, State};
 use std::env;
 
-/// How many made-up scenes are tried: `RTC_SCENES=1000 cargo test --test plan paths` tries more.
+/// How many made-up scenes are tried: `RTC_SCENES=1000 cargo test --test suites plan::paths` tries more.
 fn scenes() -> u64 {
     env::var("RTC_SCENES").map_or(64, |count| count.parse().unwrap())
 }

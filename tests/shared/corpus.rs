@@ -1,6 +1,6 @@
 //! The corpus of the Khronos validator: the same errors as its reports say, for every model.
 
-use super::suite::{absent, files, name, shared, trial};
+use crate::suite::{absent, files, name, shared, trial};
 use libtest_mimic::Trial;
 use rtc::internals::diag::{Severity, Sink};
 use rtc::internals::pipeline::{self, Options};

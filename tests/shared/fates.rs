@@ -1,8 +1,8 @@
 //! A table of what becomes of the scenes that people wrote, printed by
-//! `cargo test --test shared -- fates --nocapture`.
+//! `cargo test --test files -- fates --nocapture`.
 
 use super::scenes::COURSE;
-use super::suite::{files, needs, shared};
+use crate::suite::{files, needs, shared};
 use libtest_mimic::Trial;
 use rtc::internals::diag::{Severity, Sink};
 use rtc::internals::pipeline::{self, Options};

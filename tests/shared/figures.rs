@@ -3,7 +3,7 @@
 //! Where a figure was printed with other sampling than its scene says, the sampling of the figure
 //! is set here.
 
-use super::suite::needs;
+use crate::suite::needs;
 use libtest_mimic::Trial;
 use rtc::internals::color::quantize8;
 use rtc::internals::diag::Sink;

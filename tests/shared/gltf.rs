@@ -1,7 +1,7 @@
 //! The sound assets of `../shared`: each is lowered and proven; and one torus in three forms.
 
 use super::scenes::{accepted, each};
-use super::suite::needs;
+use crate::suite::needs;
 use libtest_mimic::Trial;
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::Mesh;

@@ -1,12 +1,12 @@
 //! The laws of `tests/laws.rs` for the scenes of the course, and that of the layout for those that
 //! people published for it.
 
-use super::every::{
+use super::scenes::{COURSE, each};
+use crate::scene_laws::{
     is_the_same_in_any_order, is_the_same_laid_out, makes_the_same_picture_times, powers,
 };
-use super::scenes::{COURSE, each};
-use super::small::scenes_in;
-use super::suite::shared;
+use crate::small::scenes_in;
+use crate::suite::shared;
 use libtest_mimic::Trial;
 use std::path::Path;
 

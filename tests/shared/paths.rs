@@ -2,8 +2,8 @@
 //! is counted.
 
 use super::scenes::{accepted, each, proven};
-use super::suite::{files, needs};
-use super::told::{difference, film, traced, unmet};
+use crate::suite::{files, needs};
+use crate::told::{difference, film, traced, unmet};
 use libtest_mimic::Trial;
 use rtc::internals::plan::Rules;
 use std::path::Path;

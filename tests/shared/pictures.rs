@@ -1,7 +1,7 @@
 //! The curved shapes of the course show neither acne nor cracks.
 
 use super::scenes::{at, course, proven, whole};
-use super::suite::trial;
+use crate::suite::trial;
 use libtest_mimic::Trial;
 use rtc::internals::image::Image;
 use rtc::internals::ir::Scene;

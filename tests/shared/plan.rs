@@ -3,7 +3,7 @@
 
 use super::oracle;
 use super::scenes::{COURSE, accepted, course, each, film, proven, whole};
-use super::small::bits;
+use crate::small::bits;
 use libtest_mimic::Trial;
 use rtc::internals::ir::Scene;
 use rtc::internals::passes::Overrides;

@@ -1,6 +1,6 @@
 //! Scenes of `../shared`: a trial for each file of a folder, and each read, proven, rendered.
 
-use super::suite::{absent, files, shared, trial};
+use crate::suite::{absent, files, shared, trial};
 use libtest_mimic::Trial;
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Lowered, Origins, Scene};
@@ -37,7 +37,7 @@ pub(crate) fn course(
     check: impl FnOnce(Scene) + Send + 'static,
 ) -> Trial {
     let path = format!("{COURSE}/{file}");
-    super::suite::needs(format!("{suite}/{path}"), &path, |path| check(read(path)))
+    crate::suite::needs(format!("{suite}/{path}"), &path, |path| check(read(path)))
 }
 
 /// A scene as it is; none if it is refused.

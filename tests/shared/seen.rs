@@ -3,7 +3,7 @@
 //! shows.
 
 use super::scenes::{COURSE, each};
-use super::suite::{files, root, trial};
+use crate::suite::{files, root, trial};
 use libtest_mimic::Trial;
 use rtc::internals::diag::{Sink, codes};
 use rtc::internals::passes::Overrides;

@@ -2,7 +2,7 @@
 //! course renders, or is refused for a fault of its own, which this test names.
 
 use super::scenes::{COURSE, each};
-use super::suite::{files, needs};
+use crate::suite::{files, needs};
 use libtest_mimic::Trial;
 use rtc::internals::diag::{Severity, Sink};
 use rtc::internals::passes::Overrides;

@@ -2,7 +2,7 @@
 //! it, with its own camera and light or in the studio.
 
 use super::scenes::each;
-use super::texts::assert_comes_back;
+use crate::texts::assert_comes_back;
 use libtest_mimic::Trial;
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Field, Noun, Place};

@@ -1,8 +1,8 @@
 //! Meshes that stand for shapes: no point of them is farther from its shape than the tolerance,
 //! their normals point outwards, and they are whole.
 
-use super::suite::trial;
 use super::{read, scene, write};
+use crate::suite::trial;
 use libtest_mimic::Trial;
 use rtc::internals::ir::{Lowered, Mesh, Shape};
 use std::collections::BTreeMap;

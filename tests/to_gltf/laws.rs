@@ -1,7 +1,7 @@
 //! Scenes written as .glb and read back.
 
-use super::suite::{absent, files, name, root, shared, trial, trial_if};
 use super::{emitted, is_near, open, read, read_text, scene, with_files, write};
+use crate::suite::{absent, files, name, root, shared, trial, trial_if};
 use libtest_mimic::Trial;
 use rtc::internals::diag::{Severity, Sink};
 use rtc::internals::ir::{

@@ -1,8 +1,8 @@
 //! What front/gltf lowers, beside what the crate `gltf` reads of the same file: where the nodes stand,
 //! the contents of accessors, the factors of materials.
 
-use super::suite::{absent, files, name, root, shared, trial_if};
 use super::{is_near, open};
+use crate::suite::{absent, files, name, root, shared, trial_if};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::json::Value;
 use gltf::scene::Transform;

@@ -3,8 +3,8 @@
 use super::super::gate::{Gates, of_scenes};
 use super::super::parse::interval;
 use super::{Reading, StageArgs, TalkArgs};
-use crate::study;
 use clap::{Args, ValueEnum, ValueHint};
+use rtc_study as study;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -20,58 +20,58 @@ differ by that, too.\n\n\
 Examples:\n  rtc cost scene.yaml --html cost.html\n  rtc cost scene.yaml --maps maps\n  rtc cost model.glb --effort quick\n  \
 rtc cost new.yaml old.yaml --effort quick --gate 'error<=1.0,time<=1.2x'"
 )]
-pub(in crate::cli) struct Cost {
+pub(crate) struct Cost {
     /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input. With a second one as reference: what
     /// the scene costs and shows against that
     #[arg(value_name = "FILE", required = true, num_args = 1..=2, value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) files: Vec<PathBuf>,
+    pub(crate) files: Vec<PathBuf>,
     /// With a reference: what must hold, or the exit code is 1: `MEASURE<=VALUE`, several with commas between;
     /// measures are error (in grey levels, beyond noise), and as ratios time, rays and noise
     #[arg(long, value_name = "GATES", value_parser = of_scenes)]
-    pub(in crate::cli) gate: Option<Gates>,
+    pub(crate) gate: Option<Gates>,
     /// Where to write; `-` is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) output: PathBuf,
+    pub(crate) output: PathBuf,
     /// The form of the report
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
-    pub(in crate::cli) format: StudyFormat,
+    pub(crate) format: StudyFormat,
     /// Also write a page for a browser, with plots and pictures
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) html: Option<PathBuf>,
+    pub(crate) html: Option<PathBuf>,
     /// Also write maps into this folder, which is made if there is none: PNGs of the size of the picture with the rays
     /// and the error of each pixel, in the scene's own setting and in the recommended one, and `maps.html` with their scales
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub(in crate::cli) maps: Option<PathBuf>,
+    pub(crate) maps: Option<PathBuf>,
     /// How much work the study may be
     #[arg(long, value_enum, default_value_t)]
-    pub(in crate::cli) effort: EffortArg,
+    pub(crate) effort: EffortArg,
     /// Which tiles of the picture are looked at, in which order settings are timed, and with which random
     /// numbers two scenes are compared
     #[arg(long, value_name = "N", default_value = "1")]
-    pub(in crate::cli) seed: u64,
+    pub(crate) seed: u64,
     /// Keep what is rendered in this file, now and then and when told to end; the same command goes on from
     /// there, with the seconds measured before
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) checkpoint: Option<PathBuf>,
+    pub(crate) checkpoint: Option<PathBuf>,
     /// How often to save, in seconds
     #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = interval, requires = "checkpoint")]
-    pub(in crate::cli) every: Duration,
+    pub(crate) every: Duration,
     /// Begin anew, whatever was saved
     #[arg(long, requires = "checkpoint")]
-    pub(in crate::cli) restart: bool,
+    pub(crate) restart: bool,
     /// Threads for what is not timed [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(in crate::cli) threads: Option<u16>,
+    pub(crate) threads: Option<u16>,
     #[command(flatten)]
-    pub(in crate::cli) stage: StageArgs,
+    pub(crate) stage: StageArgs,
     #[command(flatten)]
-    pub(in crate::cli) reading: Reading,
+    pub(crate) reading: Reading,
     #[command(flatten)]
-    pub(in crate::cli) talk: TalkArgs,
+    pub(crate) talk: TalkArgs,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum StudyFormat {
+pub(crate) enum StudyFormat {
     /// A table of 80 columns
     #[default]
     Table,
@@ -82,7 +82,7 @@ pub(in crate::cli) enum StudyFormat {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum EffortArg {
+pub(crate) enum EffortArg {
     /// Seconds
     Quick,
     /// About a minute for a simple scene

@@ -12,36 +12,36 @@ at 1, and `relmse` by what they hold: highlights beyond 1 show in it alone. Of a
 0, and no opacity. Colours count as on black; opacity of its own shows in `max` and `share`.\n\n\
 Examples:\n  rtc diff new.png golden.png\n  rtc diff new.png golden.png --gate 'rmse<=1,share<=0.1%' -o map.png\n  rtc diff new.yaml old.yaml --html page.html"
 )]
-pub(in crate::cli) struct Diff {
+pub(crate) struct Diff {
     /// The picture (PNG, JPEG, WebP, EXR or HDR), or the scene
     #[arg(value_name = "NEW", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) new: PathBuf,
+    pub(crate) new: PathBuf,
     /// What it is compared with: a picture of the same size, or a scene, which is seen by the camera of the
     /// new one
     #[arg(value_name = "OLD", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) old: PathBuf,
+    pub(crate) old: PathBuf,
     /// Pixels count as different if a channel is off by more than so many grey levels of 8 bits
     #[arg(long, value_name = "LEVELS", default_value = "1", value_parser = levels)]
-    pub(in crate::cli) levels: f64,
+    pub(crate) levels: f64,
     /// What must hold, or the exit code is 1: `MEASURE<=VALUE`, several with commas between; measures are rmse, max, relmse, flip
     /// and share (as `0.5%` or 0.005)
     #[arg(long, value_name = "GATES", value_parser = of_pictures)]
-    pub(in crate::cli) gate: Option<Gates>,
+    pub(crate) gate: Option<Gates>,
     /// Write where they differ, as perceived (FLIP), from black to white: a PNG
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) output: Option<PathBuf>,
+    pub(crate) output: Option<PathBuf>,
     /// Write a page with a slider between the two
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) html: Option<PathBuf>,
+    pub(crate) html: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
-    pub(in crate::cli) json: bool,
+    pub(crate) json: bool,
     #[command(flatten)]
-    pub(in crate::cli) wanted: WantedArgs,
+    pub(crate) wanted: WantedArgs,
     #[command(flatten)]
-    pub(in crate::cli) reading: Reading,
+    pub(crate) reading: Reading,
     #[command(flatten)]
-    pub(in crate::cli) talk: TalkArgs,
+    pub(crate) talk: TalkArgs,
 }
 
 fn levels(text: &str) -> Result<f64, String> {

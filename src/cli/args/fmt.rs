@@ -10,17 +10,17 @@ use std::path::PathBuf;
 JSON is laid out likewise; assets, meshes and IR are not.\n\n\
 Examples:\n  rtc fmt scene.yaml\n  rtc fmt --check scenes\n  rtc fmt --diff 'scenes/*.yaml'"
 )]
-pub(in crate::cli) struct Fmt {
+pub(crate) struct Fmt {
     /// Scene texts, as YAML or JSON; folders, all YAML below them; or patterns, as 'a/*.yaml'. `-` is
     /// standard input, laid out on standard output
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) files: Vec<PathBuf>,
+    pub(crate) files: Vec<PathBuf>,
     /// Write nothing; name the files that are not laid out, and end with 1 if there are any
     #[arg(long)]
-    pub(in crate::cli) check: bool,
+    pub(crate) check: bool,
     /// Write nothing; show what would change
     #[arg(long)]
-    pub(in crate::cli) diff: bool,
+    pub(crate) diff: bool,
     #[command(flatten)]
-    pub(in crate::cli) talk: TalkArgs,
+    pub(crate) talk: TalkArgs,
 }

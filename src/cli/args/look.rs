@@ -2,44 +2,44 @@
 //! with which layers.
 
 use super::super::parse::{background, exposure};
-use crate::color::{Tone, srgb_decoded};
-use crate::image::{BackgroundFill, FileFormat};
-use crate::pipeline::Exposure;
-use crate::render::Aov;
 use clap::{Args, ValueEnum};
+use rtc_color::{Tone, srgb_decoded};
+use rtc_image::{BackgroundFill, FileFormat};
+use rtc_pipeline::Exposure;
+use rtc_render::Aov;
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct LookArgs {
+pub(crate) struct LookArgs {
     /// How a PNG shows linear values; an EXR holds them as they are [default: pbr-neutral for a
     /// glTF asset, srgb where else paths are traced, else none]
     #[arg(long, value_enum, value_name = "MAP")]
-    pub(in crate::cli) tonemap: Option<Tonemap>,
+    pub(crate) tonemap: Option<Tonemap>,
     /// Exposure in stops, of EXR too: each doubles the values; or `auto`, by what is seen
     /// [default: auto for the PNG of a glTF asset with lights of its own, else 0]
     #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
-    pub(in crate::cli) exposure: Option<Exposure>,
+    pub(crate) exposure: Option<Exposure>,
     /// What is behind all surfaces of any scene: `env`, the surroundings of the scene;
     /// `transparent`; `white`, `black` or #rrggbb, as a screen shows it; or a colour R,G,B in the
     /// values that the file is to hold. Light stays as it is
     #[arg(long, value_name = "WHAT", default_value = "env", value_parser = background)]
-    pub(in crate::cli) background: BackgroundArg,
+    pub(crate) background: BackgroundArg,
     /// Layers beside the colours: means over what the camera rays of a pixel meet first. An EXR holds
     /// their numbers; beside a PNG each is a picture of its own, as `picture.depth.png`
     #[arg(long, value_enum, value_name = "LAYERS", value_delimiter = ',')]
-    pub(in crate::cli) aov: Vec<Layer>,
+    pub(crate) aov: Vec<Layer>,
     /// Bits a channel: 8 or 16 of a PNG, 16 or 32 of an EXR, whose layers of distances, places and
     /// numbers keep 32 [default: 8, of an EXR 32]
     #[arg(long)]
-    pub(in crate::cli) bits: Option<BitDepth>,
+    pub(crate) bits: Option<BitDepth>,
     /// Leave out of a PNG or an EXR what made it: the program, the hash of the scene and the settings
     /// that decide the pixels
     #[arg(long)]
-    pub(in crate::cli) no_metadata: bool,
+    pub(crate) no_metadata: bool,
 }
 
 /// A background as typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::cli) enum BackgroundArg {
+pub(crate) enum BackgroundArg {
     /// That of the picture.
     Fill(BackgroundFill),
     /// A colour as a screen shows it: sRGB in 8 bits a channel.
@@ -48,7 +48,7 @@ pub(in crate::cli) enum BackgroundArg {
 
 impl BackgroundArg {
     /// That of a picture in a kind of file: an EXR holds linear values, other kinds those of sRGB.
-    pub(in crate::cli) fn fill(self, kind: FileFormat) -> BackgroundFill {
+    pub(crate) fn fill(self, kind: FileFormat) -> BackgroundFill {
         match self {
             Self::Fill(fill) => fill,
             Self::Shown(color) => {
@@ -64,7 +64,7 @@ impl BackgroundArg {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum BitDepth {
+pub(crate) enum BitDepth {
     #[value(name = "8")]
     Eight,
     #[value(name = "16")]
@@ -74,7 +74,7 @@ pub(in crate::cli) enum BitDepth {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum Layer {
+pub(crate) enum Layer {
     /// Channels albedo.R, .G, .B: base colours, linear
     Albedo,
     /// Channels normal.X, .Y, .Z: shading normals in the world, towards the viewer
@@ -103,7 +103,7 @@ impl From<Layer> for Aov {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum Tonemap {
+pub(crate) enum Tonemap {
     /// As they are
     None,
     /// Cut off at 1, coded by sRGB

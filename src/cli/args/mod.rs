@@ -25,9 +25,9 @@ pub(super) use stage::{GroundArg, IntegratorArg, StageArgs};
 pub(super) use wanted::{ArithmeticArg, WantedArgs};
 
 use super::parse::length;
-use crate::ir;
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
+use rtc_ir as ir;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 

@@ -10,31 +10,31 @@ use std::path::PathBuf;
 same options. Ctrl-C ends it.\n\n\
 Examples:\n  rtc preview scene.yaml --open\n  rtc preview scene.yaml --size 320x240 --port 8080\n  rtc preview scene.yaml --against golden.png\n  rtc preview scene.yaml --against HEAD~1"
 )]
-pub(in crate::cli) struct Preview {
+pub(crate) struct Preview {
     /// The scene, as YAML, glTF, a mesh or IR
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) file: PathBuf,
+    pub(crate) file: PathBuf,
     /// The port to listen on; 0 is any that is free
     #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(in crate::cli) port: u16,
+    pub(crate) port: u16,
     /// Open the page in the browser
     #[arg(long)]
-    pub(in crate::cli) open: bool,
+    pub(crate) open: bool,
     /// What the page lays over the picture of the scene, behind a slider: a picture file (PNG, JPEG, WebP, EXR, HDR), another
     /// scene, or a commit of git, whose text of the scene is taken; scenes are looked at as the first one
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) against: Option<PathBuf>,
+    pub(crate) against: Option<PathBuf>,
     /// Threads to work on [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(in crate::cli) threads: Option<u16>,
+    pub(crate) threads: Option<u16>,
     #[command(flatten)]
-    pub(in crate::cli) wanted: WantedArgs,
+    pub(crate) wanted: WantedArgs,
     #[command(flatten)]
-    pub(in crate::cli) look: LookArgs,
+    pub(crate) look: LookArgs,
     #[command(flatten)]
-    pub(in crate::cli) stage: StageArgs,
+    pub(crate) stage: StageArgs,
     #[command(flatten)]
-    pub(in crate::cli) reading: Reading,
+    pub(crate) reading: Reading,
     #[command(flatten)]
-    pub(in crate::cli) talk: TalkArgs,
+    pub(crate) talk: TalkArgs,
 }

@@ -2,11 +2,11 @@
 
 use super::super::args::{ArithmeticArg, BackgroundArg, Farm};
 use super::frames::Frames;
-use crate::image::BackgroundFill;
-use crate::pipeline::Exposure;
-use crate::render::Crop;
-use crate::source::Resource;
 use clap::ValueEnum;
+use rtc_image::BackgroundFill;
+use rtc_pipeline::Exposure;
+use rtc_render::Crop;
+use rtc_source::Resource;
 
 /// The words of the commands, without those that differ from task to task.
 pub(super) struct Commands<'a> {

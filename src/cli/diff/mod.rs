@@ -10,9 +10,9 @@ use super::gate::{self, JudgedGate};
 use super::input;
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
-use crate::codec::Change;
-use crate::image::{FileFormat, Image, Picture, ShownPicture};
-use crate::study::{Difference, SliderPage, heat_map, slider_page, told};
+use rtc_codec::Change;
+use rtc_image::{FileFormat, Image, Picture, ShownPicture};
+use rtc_study::{Difference, SliderPage, heat_map, slider_page, told};
 use serde_json::Value;
 
 /// The results of a comparison, each fit to be written.

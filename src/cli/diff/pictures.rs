@@ -5,8 +5,8 @@ use super::super::args::Diff;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
 use super::{DiffOutputs, report};
-use crate::image::ShownPicture;
-use crate::source::{Loader, SourceMap};
+use rtc_image::ShownPicture;
+use rtc_source::{Loader, SourceMap};
 use std::path::Path;
 
 /// The largest picture file that is read, in bytes.

@@ -8,11 +8,11 @@ use super::super::render::ended;
 use super::super::talk::Talk;
 use super::super::{input, simd};
 use super::{DiffOutputs, report};
-use crate::codec::changes;
-use crate::image::{BackgroundFill, FileFormat, Picture, ShownPicture};
-use crate::ir::{Camera, Scene};
-use crate::pipeline::{Input, Observer, OutputLook, PictureSetup, RenderSubject};
-use crate::render::Film;
+use rtc_codec::changes;
+use rtc_image::{BackgroundFill, FileFormat, Picture, ShownPicture};
+use rtc_ir::{Camera, Scene};
+use rtc_pipeline::{Input, Observer, OutputLook, PictureSetup, RenderSubject};
+use rtc_render::Film;
 use std::path::Path;
 
 /// A scene to be compared, as its picture is set up.

@@ -1,17 +1,16 @@
 //! Requests of an editor and their answers.
 
 use super::open_text::OpenText;
+use super::protocol::{
+    CodeAction, CodeActionParams, ColorPresentationParams, InlayHintParams, TextDocumentParams,
+    TextDocumentPositionParams, TextEdit,
+};
+use super::uri::DocumentUri;
 use super::way::Vocabulary;
 use super::workspace::Workspace;
-use super::{completion, findings, hover, outline};
-use crate::pipeline::Input;
+use super::{completion, findings, hover, method, outline};
 use lsp_server::{ErrorCode, Request, RequestId, Response};
-use lsp_types::request::{self, Request as _};
-use lsp_types::{
-    CodeActionParams, ColorPresentationParams, CompletionParams, DocumentColorParams,
-    DocumentFormattingParams, DocumentSymbolParams, GotoDefinitionParams, HoverParams,
-    InlayHintParams, TextEdit, Uri,
-};
+use rtc_pipeline::Input;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -21,23 +20,20 @@ impl Workspace {
     pub(super) fn answer(&mut self, request: Request) -> Response {
         let Request { id, method, params } = request;
         match method.as_str() {
-            request::CodeActionRequest::METHOD => reply(id, params, |params| self.actions(&params)),
-            request::Formatting::METHOD => reply(id, params, |params: DocumentFormattingParams| {
+            method::CODE_ACTION => reply(id, params, |params| self.actions(&params)),
+            method::FORMATTING => reply(id, params, |params: TextDocumentParams| {
                 self.laid_out(&params.text_document.uri)
             }),
-            request::HoverRequest::METHOD => reply(id, params, |params: HoverParams| {
-                let at = params.text_document_position_params;
+            method::HOVER => reply(id, params, |at: TextDocumentPositionParams| {
                 let (document, words) = self.known(&at.text_document.uri)?;
                 hover::hover(document, at.position, words, self.columns)
             }),
-            request::Completion::METHOD => reply(id, params, |params: CompletionParams| {
-                let at = params.text_document_position;
+            method::COMPLETION => reply(id, params, |at: TextDocumentPositionParams| {
                 let (document, words) = self.known(&at.text_document.uri)?;
                 let items = completion::completions(document, at.position, words, self.columns);
                 Some(items)
             }),
-            request::GotoDefinition::METHOD => reply(id, params, |params: GotoDefinitionParams| {
-                let at = params.text_document_position_params;
+            method::DEFINITION => reply(id, params, |at: TextDocumentPositionParams| {
                 let (document, words) = self.known(&at.text_document.uri)?;
                 outline::definition(document, at.position, words, self.columns)
             }),
@@ -48,23 +44,19 @@ impl Workspace {
     /// The answer to a request for what a text holds.
     fn answer_of_whole(&self, id: RequestId, method: &str, params: Value) -> Response {
         match method {
-            request::DocumentSymbolRequest::METHOD => {
-                reply(id, params, |params: DocumentSymbolParams| {
-                    let document = self.document(&params.text_document.uri)?;
-                    Some(outline::symbols(document, self.columns))
-                })
-            }
-            request::DocumentColor::METHOD => reply(id, params, |params: DocumentColorParams| {
+            method::DOCUMENT_SYMBOL => reply(id, params, |params: TextDocumentParams| {
+                let document = self.document(&params.text_document.uri)?;
+                Some(outline::symbols(document, self.columns))
+            }),
+            method::DOCUMENT_COLOR => reply(id, params, |params: TextDocumentParams| {
                 let document = self.document(&params.text_document.uri);
                 // The protocol has no null here.
                 Some(document.map_or_else(Vec::new, |own| outline::colors(own, self.columns)))
             }),
-            request::ColorPresentationRequest::METHOD => {
-                reply(id, params, |params: ColorPresentationParams| {
-                    Some(outline::presentation(params.color))
-                })
-            }
-            request::InlayHintRequest::METHOD => reply(id, params, |params: InlayHintParams| {
+            method::COLOR_PRESENTATION => reply(id, params, |params: ColorPresentationParams| {
+                Some(outline::presentation(params.color))
+            }),
+            method::INLAY_HINT => reply(id, params, |params: InlayHintParams| {
                 let (document, words) = self.known(&params.text_document.uri)?;
                 Some(outline::hints(document, params.range, words, self.columns))
             }),
@@ -76,13 +68,13 @@ impl Workspace {
     }
 
     /// A text that is open, and the words of its format.
-    fn known(&self, uri: &Uri) -> Option<(&OpenText, &Vocabulary)> {
+    fn known(&self, uri: &DocumentUri) -> Option<(&OpenText, &Vocabulary)> {
         let document = self.document(uri)?;
         Some((document, self.vocabulary(document)))
     }
 
     /// The fixes of what is found in a range.
-    fn actions(&mut self, params: &CodeActionParams) -> Option<Vec<findings::Action>> {
+    fn actions(&mut self, params: &CodeActionParams) -> Option<Vec<CodeAction>> {
         let (reading, columns) = (self.reading.clone(), self.columns);
         let document = self.checked(&params.text_document.uri)?;
         let only = params.context.only.as_deref();
@@ -96,7 +88,7 @@ impl Workspace {
     }
 
     /// The text as `rtc fmt` lays it out.
-    fn laid_out(&self, uri: &Uri) -> Option<Vec<TextEdit>> {
+    fn laid_out(&self, uri: &DocumentUri) -> Option<Vec<TextEdit>> {
         let document = self.document(uri)?;
         let (options, _) = document.options(&self.reading).ok()?;
         let bytes = document.text.as_bytes().to_vec();

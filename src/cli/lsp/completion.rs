@@ -2,11 +2,11 @@
 
 use super::hover::{default, plain};
 use super::open_text::{OpenText, tree};
+use super::protocol::{CompletionItem, CompletionItemKind, InsertTextFormat, Position};
 use super::text::Columns;
 use super::way::{Vocabulary, WayStep, way};
-use crate::front::course;
-use crate::source::tree::Tree;
-use lsp_types::{CompletionItem, CompletionItemKind, Documentation, InsertTextFormat, Position};
+use rtc_front::course;
+use rtc_source::tree::Tree;
 use serde_json::{Map, Value};
 use std::fs;
 use std::path::Path;
@@ -82,7 +82,7 @@ impl Quotes {
 
     fn around(self, item: CompletionItem) -> CompletionItem {
         let name = &item.label;
-        let is_key = item.kind == Some(CompletionItemKind::PROPERTY);
+        let is_key = item.kind == CompletionItemKind::PROPERTY;
         let is_text = serde_json::from_str::<Value>(name).is_err();
         let insert_text = match self {
             Self::None => return item,
@@ -136,13 +136,11 @@ fn proposed(
 fn key_item((name, schema): (&str, &Value)) -> CompletionItem {
     let text = schema.get("description").and_then(Value::as_str);
     CompletionItem {
-        label: name.to_owned(),
-        kind: Some(CompletionItemKind::PROPERTY),
         detail: default(schema).map(|default| format!("default {default}")),
-        documentation: text.map(|text| Documentation::String(text.to_owned())),
+        documentation: text.map(str::to_owned),
         insert_text: Some(format!("{name}: ")),
         insert_text_format: Some(InsertTextFormat::PLAIN_TEXT),
-        ..CompletionItem::default()
+        ..CompletionItem::new(name.to_owned(), CompletionItemKind::PROPERTY)
     }
 }
 
@@ -164,11 +162,7 @@ fn words(schemas: &[&Map<String, Value>]) -> Vec<CompletionItem> {
             }
         }
     }
-    let item = |label| CompletionItem {
-        label,
-        kind: Some(CompletionItemKind::VALUE),
-        ..CompletionItem::default()
-    };
+    let item = |label| CompletionItem::new(label, CompletionItemKind::VALUE);
     found.into_iter().map(item).collect()
 }
 
@@ -198,11 +192,7 @@ fn files(folder: &Path) -> Vec<CompletionItem> {
         }
     }
     names.sort_unstable();
-    let item = |label| CompletionItem {
-        label,
-        kind: Some(CompletionItemKind::FILE),
-        ..CompletionItem::default()
-    };
+    let item = |label| CompletionItem::new(label, CompletionItemKind::FILE);
     names.into_iter().map(item).collect()
 }
 
@@ -231,10 +221,6 @@ fn anchors(text: &str) -> Vec<CompletionItem> {
             names.push(name);
         }
     }
-    let item = |name: &str| CompletionItem {
-        label: format!("*{name}"),
-        kind: Some(CompletionItemKind::REFERENCE),
-        ..CompletionItem::default()
-    };
+    let item = |name: &str| CompletionItem::new(format!("*{name}"), CompletionItemKind::REFERENCE);
     names.into_iter().map(item).collect()
 }

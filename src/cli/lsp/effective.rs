@@ -2,10 +2,10 @@
 //! renderer.
 
 use super::open_text::OpenText;
-use crate::ir::{Field, Noun, Place, Scene};
-use crate::math::shortest;
-use crate::source::Span;
-use crate::source::tree::{NodeId, Tree};
+use rtc_ir::{Field, Noun, Place, Scene};
+use rtc_math::shortest;
+use rtc_source::Span;
+use rtc_source::tree::{NodeId, Tree};
 use serde::Serialize;
 use serde_json::Value;
 

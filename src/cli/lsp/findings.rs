@@ -4,21 +4,22 @@
 use super::super::args::Reading;
 use super::open_text::{CheckedScene, CheckedText, OpenText};
 use super::place;
-use super::text::{Columns, TextLines};
-use crate::diag::{self, Severity};
-use crate::pipeline::{self, FixWish};
-use crate::source::Span;
-use lsp_types::{
-    CodeAction, CodeActionKind, CodeActionOrCommand, Diagnostic, DiagnosticRelatedInformation,
-    DiagnosticSeverity, Location, NumberOrString, Range, TextEdit, Uri, WorkspaceEdit,
+use super::protocol::{
+    CodeAction, CodeActionKind, DiagnosticRelatedInformation, DiagnosticSeverity, EditorDiagnostic,
+    Location, Range, TextEdit, WorkspaceEdit,
 };
+use super::text::{Columns, TextLines};
+use super::uri::DocumentUri;
+use rtc_diag::{self as diag, Severity};
+use rtc_pipeline::{self as pipeline, FixWish};
+use rtc_source::Span;
 use std::path::Path;
 
-/// A fix that an editor offers.
-pub(super) type Action = CodeActionOrCommand;
+/// Who says what is found.
+const SOURCE: &str = "rtc";
 
 /// A file and what is found in it.
-pub(super) type FileFindings = (Uri, Vec<Diagnostic>);
+pub(super) type FileFindings = (DocumentUri, Vec<EditorDiagnostic>);
 
 /// The diagnostics of a text, by the files that they stand in; those without a place stand at the beginning
 /// of the text.
@@ -26,11 +27,13 @@ pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileFind
     let mut own = Vec::new();
     let mut others: Vec<FileFindings> = Vec::new();
     if let Some(CheckedText::Trouble(words)) = &document.checked {
-        own.push(Diagnostic {
-            severity: Some(DiagnosticSeverity::ERROR),
-            source: Some("rtc".to_owned()),
+        own.push(EditorDiagnostic {
+            range: Range::default(),
+            severity: DiagnosticSeverity::ERROR,
+            code: None,
+            source: SOURCE,
             message: words.clone(),
-            ..Diagnostic::default()
+            related_information: None,
         });
     }
     let (scene, lines) = (document.scene(), document.lines(columns));
@@ -54,7 +57,7 @@ fn diagnostic(
     checked: &CheckedScene,
     finding: &diag::Diagnostic,
     lines: &TextLines<'_>,
-) -> (Uri, Diagnostic) {
+) -> (DocumentUri, EditorDiagnostic) {
     let locate = |span| location(document, checked, span, lines);
     let primary = finding.primary.as_ref().map(|label| locate(label.span));
     let start = || Location::new(document.uri.clone(), Range::default());
@@ -66,18 +69,17 @@ fn diagnostic(
             location: locate(label.span),
             message: label.text.clone(),
         });
-    let diagnostic = Diagnostic {
+    let diagnostic = EditorDiagnostic {
         range,
-        severity: Some(match finding.severity {
+        severity: match finding.severity {
             Severity::Error => DiagnosticSeverity::ERROR,
             Severity::Warning => DiagnosticSeverity::WARNING,
             Severity::Note => DiagnosticSeverity::HINT,
-        }),
-        code: Some(NumberOrString::String(finding.code.id.to_owned())),
-        source: Some("rtc".to_owned()),
+        },
+        code: Some(finding.code.id),
+        source: SOURCE,
         message: message(finding),
         related_information: Some(related.collect()),
-        ..Diagnostic::default()
     };
     (uri, diagnostic)
 }
@@ -125,7 +127,7 @@ pub(super) fn actions(
     only: Option<&[CodeActionKind]>,
     reading: &Reading,
     columns: Columns,
-) -> Vec<Action> {
+) -> Vec<CodeAction> {
     let lines = document.lines(columns);
     if let Some(kinds) = only
         && !kinds.contains(&CodeActionKind::QUICKFIX)
@@ -163,20 +165,19 @@ fn quick_fix(
     title: String,
     is_sure: bool,
     edit: TextEdit,
-    mended: Diagnostic,
-) -> Action {
-    CodeActionOrCommand::CodeAction(CodeAction {
+    mended: EditorDiagnostic,
+) -> CodeAction {
+    CodeAction {
         title,
-        kind: Some(CodeActionKind::QUICKFIX),
+        kind: CodeActionKind::QUICKFIX,
         diagnostics: Some(vec![mended]),
-        edit: Some(change_of(document, edit)),
+        edit: change_of(document, edit),
         is_preferred: Some(is_sure),
-        ..CodeAction::default()
-    })
+    }
 }
 
 /// What `rtc check --fix` does to the text, if that is anything.
-fn fix_all(document: &OpenText, reading: &Reading, lines: &TextLines<'_>) -> Option<Action> {
+fn fix_all(document: &OpenText, reading: &Reading, lines: &TextLines<'_>) -> Option<CodeAction> {
     let (options, _) = document.options(reading).ok()?;
     let wish = FixWish::default();
     let fixed = pipeline::fix(&document.path, &document.text, &options, &wish);
@@ -184,16 +185,19 @@ fn fix_all(document: &OpenText, reading: &Reading, lines: &TextLines<'_>) -> Opt
         return None;
     }
     let edit = TextEdit::new(lines.range(0, document.text.len()), fixed.text);
-    Some(CodeActionOrCommand::CodeAction(CodeAction {
+    Some(CodeAction {
         title: "do all that is sure to be meant, as `rtc check --fix`".to_owned(),
-        kind: Some(CodeActionKind::SOURCE_FIX_ALL),
-        edit: Some(change_of(document, edit)),
-        ..CodeAction::default()
-    }))
+        kind: CodeActionKind::SOURCE_FIX_ALL,
+        diagnostics: None,
+        edit: change_of(document, edit),
+        is_preferred: None,
+    })
 }
 
 fn change_of(document: &OpenText, edit: TextEdit) -> WorkspaceEdit {
-    WorkspaceEdit::new([(document.uri.clone(), vec![edit])].into())
+    WorkspaceEdit {
+        changes: [(document.uri.clone(), vec![edit])].into(),
+    }
 }
 
 fn touch(a: Range, b: Range) -> bool {

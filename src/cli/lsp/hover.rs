@@ -3,10 +3,10 @@
 use super::super::explain;
 use super::effective;
 use super::open_text::OpenText;
+use super::protocol::{Hover, MarkupContent, MarkupKind, Position, Range};
 use super::text::Columns;
 use super::way::{Vocabulary, WayStep, way};
-use crate::source::tree::Tree;
-use lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind, Position, Range};
+use rtc_source::tree::Tree;
 use serde_json::{Map, Value};
 
 /// What is to be said at a place.
@@ -18,18 +18,18 @@ pub(super) fn hover(
 ) -> Option<Hover> {
     let (lines, mut parts) = (document.lines(columns), Vec::new());
     let offset = lines.offset(place);
-    let mut range = None;
+    let mut range = Range::new(place, place);
     if let Some((told, (start, end))) = meaning(document, offset, vocabulary) {
         parts.push(told);
-        range = Some(lines.range(start, end));
+        range = lines.range(start, end);
     }
     parts.extend(codes(document, offset));
     (!parts.is_empty()).then(|| Hover {
-        contents: HoverContents::Markup(MarkupContent {
+        contents: MarkupContent {
             kind: MarkupKind::Markdown,
             value: parts.join("\n\n---\n\n"),
-        }),
-        range: range.or(Some(Range::new(place, place))),
+        },
+        range,
     })
 }
 
@@ -116,7 +116,7 @@ pub(super) fn plain(value: &Value) -> String {
 }
 
 /// What an alias stands for.
-fn aliased(tree: &Tree<'_>, value: crate::source::tree::NodeId) -> String {
+fn aliased(tree: &Tree<'_>, value: rtc_source::tree::NodeId) -> String {
     /// So many bytes of it at most.
     const MOST: usize = 400;
     let target = tree.target(value);
@@ -132,7 +132,7 @@ fn aliased(tree: &Tree<'_>, value: crate::source::tree::NodeId) -> String {
 fn codes(document: &OpenText, offset: usize) -> Vec<String> {
     let checked = document.scene().into_iter();
     let findings = checked.flat_map(|checked| {
-        let own = |span: crate::source::Span| {
+        let own = |span: rtc_source::Span| {
             let (start, end) = (span.start as usize, span.end as usize);
             checked.is_own(span.file) && (start..=end).contains(&offset)
         };

@@ -6,20 +6,21 @@ use super::super::input;
 use super::super::project::Project;
 use super::findings::FileFindings;
 use super::place;
+use super::protocol::TextDocumentContentChangeEvent;
 use super::text::{Columns, TextLines};
-use crate::diag::{Diagnostic, Severity};
-use crate::ir::Lowered;
-use crate::pipeline::{Input, Options, SourceKind};
-use crate::source::tree::{Tree, yaml};
-use crate::source::{EditedFiles, FileId, SourceMap};
-use lsp_types::{TextDocumentContentChangeEvent, Uri};
+use super::uri::DocumentUri;
+use rtc_diag::{Diagnostic, Severity};
+use rtc_ir::Lowered;
+use rtc_pipeline::{Input, Options, SourceKind};
+use rtc_source::tree::{Tree, yaml};
+use rtc_source::{EditedFiles, FileId, SourceMap};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A text that an editor has open.
 pub(super) struct OpenText {
-    pub(super) uri: Uri,
+    pub(super) uri: DocumentUri,
     pub(super) path: PathBuf,
     pub(super) version: i32,
     /// Shared with the others that name it.
@@ -71,7 +72,7 @@ impl CheckedScene {
 }
 
 impl OpenText {
-    pub(super) fn new(uri: Uri, version: i32, text: String) -> Self {
+    pub(super) fn new(uri: DocumentUri, version: i32, text: String) -> Self {
         Self {
             path: place::path(&uri),
             uri,

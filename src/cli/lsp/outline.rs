@@ -4,22 +4,18 @@ use super::completion::is_file;
 use super::hover::default;
 use super::open_text::OpenText;
 use super::place;
+use super::protocol::{
+    ColorInformation, ColorPresentation, DocumentSymbol, EditorColor, InlayHint, Location,
+    Position, Range, SymbolKind,
+};
 use super::text::{Columns, TextLines};
 use super::way::{Vocabulary, way};
-use crate::source::tree::{NodeContent, NodeId, Tree};
-use lsp_types::{
-    Color, ColorInformation, ColorPresentation, DocumentSymbol, InlayHint, InlayHintLabel,
-    Location, Position, Range, SymbolKind,
-};
+use rtc_source::tree::{NodeContent, NodeId, Tree};
 
 /// So many of a kind are told at most.
 const MOST: usize = 5000;
 
 /// The keys of the scene, and what their lists hold.
-#[expect(
-    deprecated,
-    reason = "the protocol has a field of old that must be filled"
-)]
 pub(super) fn symbols(document: &OpenText, columns: Columns) -> Vec<DocumentSymbol> {
     let Some(tree) = document.tree() else {
         return Vec::new();
@@ -28,13 +24,10 @@ pub(super) fn symbols(document: &OpenText, columns: Columns) -> Vec<DocumentSymb
     let range = |id: NodeId| range(&tree, id, &lines);
     let symbol = |name: String, kind, whole: Range, own: Range, children| DocumentSymbol {
         name,
-        detail: None,
         kind,
-        tags: None,
-        deprecated: None,
         range: whole,
         selection_range: own,
-        children: Some(children),
+        children,
     };
     let item = |(at, id): (usize, NodeId)| {
         let name = named(&tree, id).unwrap_or_else(|| format!("{at}"));
@@ -81,7 +74,7 @@ pub(super) fn colors(document: &OpenText, columns: Columns) -> Vec<ColorInformat
             .collect();
         let [red, green, blue] = values.try_into().ok().filter(|_| is_color)?;
         let [red, green, blue] = [red, green, blue].map(|v: f32| v.clamp(0.0, 1.0));
-        let color = Color {
+        let color = EditorColor {
             red,
             green,
             blue,
@@ -107,8 +100,8 @@ fn number(tree: &Tree<'_>, id: NodeId) -> Option<f32> {
 }
 
 /// How a colour is written.
-pub(super) fn presentation(color: Color) -> Vec<ColorPresentation> {
-    let Color {
+pub(super) fn presentation(color: EditorColor) -> Vec<ColorPresentation> {
+    let EditorColor {
         red, green, blue, ..
     } = color;
     let channels = [red, green, blue].map(|v| {
@@ -118,7 +111,6 @@ pub(super) fn presentation(color: Color) -> Vec<ColorPresentation> {
     });
     vec![ColorPresentation {
         label: format!("[{}]", channels.join(", ")),
-        ..ColorPresentation::default()
     }]
 }
 
@@ -186,13 +178,8 @@ pub(super) fn hints(
         let label = format!("{}{end}", defaults.join(", "));
         (!defaults.is_empty()).then(|| InlayHint {
             position: lines.position(lines.line_end(start)),
-            label: InlayHintLabel::String(label),
-            kind: None,
-            text_edits: None,
-            tooltip: None,
-            padding_left: Some(true),
-            padding_right: None,
-            data: None,
+            label,
+            padding_left: true,
         })
     };
     maps(&tree).filter_map(hint).take(MOST).collect()

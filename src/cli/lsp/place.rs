@@ -1,19 +1,15 @@
 //! The URIs of editors as paths, and back.
 
-use crate::source::uri_path;
-use lsp_types::Uri;
+use super::uri::DocumentUri;
+use percent_encoding::percent_decode_str;
+use rtc_source::uri_path;
 use std::path::{Path, PathBuf};
 
 /// The path of a file; of what is no file, as a text that was not saved yet, its last component in the
 /// current folder.
-pub(super) fn path(uri: &Uri) -> PathBuf {
-    let decoded = uri
-        .path()
-        .as_estr()
-        .decode()
-        .into_string_lossy()
-        .into_owned();
-    if uri.scheme().is_some_and(|scheme| scheme.as_str() == "file") {
+pub(super) fn path(uri: &DocumentUri) -> PathBuf {
+    let decoded = percent_decode_str(uri.path()).decode_utf8_lossy();
+    if uri.scheme() == Some("file") {
         return PathBuf::from(without_drive_slash(&decoded));
     }
     let name = decoded.rsplit('/').next().unwrap_or_default();
@@ -35,7 +31,7 @@ fn without_drive_slash(path: &str) -> &str {
 }
 
 /// The URI of a file.
-pub(super) fn uri(path: &Path) -> Option<Uri> {
+pub(super) fn uri(path: &Path) -> Option<DocumentUri> {
     let path = std::path::absolute(path).ok()?;
     let path = path.to_string_lossy().replace('\\', "/");
     let slash = if path.starts_with('/') { "" } else { "/" };

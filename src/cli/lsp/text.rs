@@ -1,6 +1,6 @@
 //! Places in a text as editors count them: lines, and columns in UTF-16 or UTF-8.
 
-use lsp_types::{Position, PositionEncodingKind, Range};
+use super::protocol::{Position, PositionEncodingKind, Range};
 
 /// The units of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

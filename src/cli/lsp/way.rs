@@ -1,7 +1,7 @@
 //! Where in a tree a byte stands: the keys and items that lead there, and what the schema of scenes says of
 //! each.
 
-use crate::source::tree::{NodeId, Tree};
+use rtc_source::tree::{NodeId, Tree};
 use serde_json::{Map, Value};
 
 /// A step from a list or a map to what it holds.

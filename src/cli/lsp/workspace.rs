@@ -2,19 +2,20 @@
 
 use super::super::args::Reading;
 use super::findings::{self, FileFindings};
+use super::method;
 use super::open_text::OpenText;
-use super::text::Columns;
-use super::way::Vocabulary;
-use crate::codec;
-use crate::front::{course, gltf};
-use crate::pipeline::SourceKind;
-use crate::source::EditedFiles;
-use lsp_server::{Message, Notification};
-use lsp_types::notification::{self, Notification as _};
-use lsp_types::{
-    Diagnostic, DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
-    PublishDiagnosticsParams, Uri,
+use super::protocol::{
+    DidChangeTextDocumentParams, DidOpenTextDocumentParams, EditorDiagnostic,
+    PublishDiagnosticsParams, TextDocumentParams,
 };
+use super::text::Columns;
+use super::uri::DocumentUri;
+use super::way::Vocabulary;
+use lsp_server::{Message, Notification};
+use rtc_codec as codec;
+use rtc_front::{course, gltf};
+use rtc_pipeline::SourceKind;
+use rtc_source::EditedFiles;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::path::Path;
@@ -51,12 +52,12 @@ impl Workspace {
     }
 
     /// A text that is open.
-    pub(super) fn document(&self, uri: &Uri) -> Option<&OpenText> {
+    pub(super) fn document(&self, uri: &DocumentUri) -> Option<&OpenText> {
         self.documents.iter().find(|own| own.uri == *uri)
     }
 
     /// A text that is open, to be changed.
-    pub(super) fn document_mut(&mut self, uri: &Uri) -> Option<&mut OpenText> {
+    pub(super) fn document_mut(&mut self, uri: &DocumentUri) -> Option<&mut OpenText> {
         self.documents.iter_mut().find(|own| own.uri == *uri)
     }
 
@@ -75,15 +76,14 @@ impl Workspace {
     pub(super) fn note(&mut self, own: Notification) -> Vec<Message> {
         let Notification { method, params } = own;
         match method.as_str() {
-            notification::DidOpenTextDocument::METHOD => self.open(params),
-            notification::DidChangeTextDocument::METHOD => self.change(params),
-            notification::DidCloseTextDocument::METHOD => {
-                let closed: Option<DidCloseTextDocumentParams> = read(params);
+            method::DID_OPEN => self.open(params),
+            method::DID_CHANGE => self.change(params),
+            method::DID_CLOSE => {
+                let closed: Option<TextDocumentParams> = read(params);
                 return closed.map_or_else(Vec::new, |own| self.close(&own.text_document.uri));
             }
             // Other files may have changed with one that was saved.
-            notification::DidSaveTextDocument::METHOD
-            | notification::DidChangeWatchedFiles::METHOD => {
+            method::DID_SAVE | method::DID_CHANGE_WATCHED_FILES => {
                 self.documents.iter_mut().for_each(OpenText::forget);
             }
             _ => {}
@@ -145,7 +145,7 @@ impl Workspace {
     }
 
     /// A text that is open, checked as it is.
-    pub(super) fn checked(&mut self, uri: &Uri) -> Option<&OpenText> {
+    pub(super) fn checked(&mut self, uri: &DocumentUri) -> Option<&OpenText> {
         let at = self.documents.iter().position(|own| own.uri == *uri)?;
         self.check(at);
         self.documents.get(at)
@@ -162,7 +162,7 @@ impl Workspace {
     }
 
     /// Closes a text and takes back what was found in it.
-    fn close(&mut self, uri: &Uri) -> Vec<Message> {
+    fn close(&mut self, uri: &DocumentUri) -> Vec<Message> {
         let Some(at) = self.documents.iter().position(|own| own.uri == *uri) else {
             return Vec::new();
         };
@@ -183,17 +183,17 @@ impl Workspace {
         let document = self.documents.get_mut(at)?;
         let found = findings::diagnostics(document, columns);
         let before = std::mem::replace(&mut document.told, found);
-        let mut files: Vec<Uri> = before.into_iter().map(|(file, _)| file).collect();
+        let mut files: Vec<DocumentUri> = before.into_iter().map(|(file, _)| file).collect();
         files.extend(document.told.iter().map(|(file, _)| file.clone()));
         Some(self.published(files))
     }
 
     /// All that is found in some files, in whatever text it shows.
-    fn published(&self, mut files: Vec<Uri>) -> Vec<Message> {
+    fn published(&self, mut files: Vec<DocumentUri>) -> Vec<Message> {
         files.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
         files.dedup();
-        let publish = |file: Uri| {
-            let mut all: Vec<Diagnostic> = Vec::new();
+        let publish = |file: DocumentUri| {
+            let mut all: Vec<EditorDiagnostic> = Vec::new();
             let told = self.documents.iter().flat_map(|own| &own.told);
             let of_file = told.filter(|(own, _): &&FileFindings| *own == file);
             for diagnostic in of_file.flat_map(|(_, list)| list) {
@@ -203,15 +203,19 @@ impl Workspace {
                 }
             }
             let version = self.document(&file).map(|own| own.version);
-            let params = PublishDiagnosticsParams::new(file, all, version);
-            let method = notification::PublishDiagnostics::METHOD.to_owned();
+            let params = PublishDiagnosticsParams {
+                uri: file,
+                diagnostics: all,
+                version,
+            };
+            let method = method::PUBLISH_DIAGNOSTICS.to_owned();
             Message::Notification(Notification::new(method, params))
         };
         files.into_iter().map(publish).collect()
     }
 }
 
-fn is_same(a: &Diagnostic, b: &Diagnostic) -> bool {
+fn is_same(a: &EditorDiagnostic, b: &EditorDiagnostic) -> bool {
     (&a.range, &a.code, &a.message) == (&b.range, &b.code, &b.message)
 }
 

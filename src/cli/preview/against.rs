@@ -4,12 +4,12 @@
 use super::board::{Manner, Shot};
 use super::scene::{self, ReadScene, ShownScene};
 use super::{Failure, args, input, shots};
-use crate::cli::project::Project;
-use crate::cli::talk::Talk;
-use crate::image::{FileFormat, Picture, PictureHead, ShownPicture};
-use crate::ir::Camera;
-use crate::pipeline::{Input, Observer, PictureSetup, RenderError};
-use crate::source::{Loader, SourceMap};
+use crate::project::Project;
+use crate::talk::Talk;
+use rtc_image::{FileFormat, Picture, PictureHead, ShownPicture};
+use rtc_ir::Camera;
+use rtc_pipeline::{Input, Observer, PictureSetup, RenderError};
+use rtc_source::{Loader, SourceMap};
 use std::io::Read as _;
 use std::path::Path;
 use std::process::{Command, Stdio};

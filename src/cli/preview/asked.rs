@@ -4,10 +4,10 @@
 use super::board::{Manner, Work};
 use super::session::Session;
 use super::{Failure, choice, costs, shots};
-use crate::cli::render::effects;
-use crate::cli::report::PlanReport;
-use crate::ir::Scene;
-use crate::pipeline::{Observer, PictureSetup};
+use crate::render::effects;
+use crate::report::PlanReport;
+use rtc_ir::Scene;
+use rtc_pipeline::{Observer, PictureSetup};
 use serde_json::json;
 
 impl Session<'_> {

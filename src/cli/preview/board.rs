@@ -6,7 +6,7 @@ use super::interrupt;
 use super::news::{self, News};
 use super::pixels::PixelTable;
 use super::view::{Gaze, Sight};
-use crate::pipeline::Complaint;
+use rtc_pipeline::Complaint;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -1,12 +1,12 @@
 //! Settings that the page chooses in place of those of the scene: what the scene has of them, and the
 //! same as flags of `rtc render`.
 
-use crate::cli::args::IntegratorArg;
-use crate::ir::{Mode, Scene};
-use crate::passes::{IntegratorChoice, Overrides};
-use crate::pipeline::PictureSetup;
-use crate::study::{Knob, Setting, arithmetic, idle};
+use crate::args::IntegratorArg;
 use clap::ValueEnum;
+use rtc_ir::{Mode, Scene};
+use rtc_passes::{IntegratorChoice, Overrides};
+use rtc_pipeline::PictureSetup;
+use rtc_study::{Knob, Setting, arithmetic, idle};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

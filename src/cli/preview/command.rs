@@ -2,7 +2,7 @@
 //! view and the settings.
 
 use super::choice::Choice;
-use crate::cli::typed::{quoted, without};
+use crate::typed::{quoted, without};
 use std::ffi::OsString;
 
 /// The options of the preview that `rtc render` has not: those with a value, and that without.

@@ -2,9 +2,9 @@
 //! each with its seconds and its error.
 
 use super::Failure;
-use crate::cli::cost::{about, on_bench};
-use crate::ir::Scene;
-use crate::study::{self, Effort, Knob, Row, Setting, Study};
+use crate::cost::{about, on_bench};
+use rtc_ir::Scene;
+use rtc_study::{self as study, Effort, Knob, Row, Setting, Study};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 

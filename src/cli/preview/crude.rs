@@ -2,12 +2,12 @@
 
 use super::board::Shot;
 use super::shots::shot;
-use crate::diag::Sink;
-use crate::ir::{Mode, Origins, Scene};
-use crate::pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject, Traced};
-use crate::render::Crop;
-use crate::source::Limits;
-use crate::valid::{self, ProofOptions};
+use rtc_diag::Sink;
+use rtc_ir::{Mode, Origins, Scene};
+use rtc_pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject, Traced};
+use rtc_render::Crop;
+use rtc_source::Limits;
+use rtc_valid::{self as valid, ProofOptions};
 
 /// About so many pixels.
 const PIXELS: u64 = 20_000;

@@ -1,9 +1,9 @@
 //! What a pixel of the finished picture shows: its value, which surface is met there and how far away,
 //! what it is called, and the line that says it.
 
-use crate::image::{Image, Layers};
-use crate::ir::{Field, Noun, Place};
-use crate::pipeline::{Input, Proven};
+use rtc_image::{Image, Layers};
+use rtc_ir::{Field, Noun, Place};
+use rtc_pipeline::{Input, Proven};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 

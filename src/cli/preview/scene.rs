@@ -3,10 +3,10 @@
 use super::board::{Manner, Shot};
 use super::view::{self, Sight};
 use super::{Failure, args, crude, input, render};
-use crate::diag::Sink;
-use crate::ir::Camera;
-use crate::passes::{IntegratorChoice, View};
-use crate::pipeline::{Input, Loaded, Observer, PictureSetup, RenderError, RenderSubject};
+use rtc_diag::Sink;
+use rtc_ir::Camera;
+use rtc_passes::{IntegratorChoice, View};
+use rtc_pipeline::{Input, Loaded, Observer, PictureSetup, RenderError, RenderSubject};
 
 /// A scene that was read.
 pub(super) struct ReadScene {

@@ -8,9 +8,9 @@ use super::scene::{self, ReadScene, ShownScene};
 use super::view::Sight;
 use super::watch::Watched;
 use super::{Failure, args, crude, shots};
-use crate::cli::talk::Talk;
-use crate::diag::{self, Diagnostic, Severity};
-use crate::pipeline::{self, Input, Observer, PictureSetup, RenderError, RenderSubject};
+use crate::talk::Talk;
+use rtc_diag::{self as diag, Diagnostic, Severity};
+use rtc_pipeline::{self as pipeline, Input, Observer, PictureSetup, RenderError, RenderSubject};
 use serde_json::Value;
 use std::sync::Arc;
 

@@ -3,10 +3,10 @@
 use super::board::Shot;
 use super::pixels::PixelTable;
 use super::{Failure, args, render};
-use crate::cli::project;
-use crate::pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};
-use crate::render::{Aov, Counts, Crop, Film, Job};
-use crate::study::Goal;
+use crate::project;
+use rtc_pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};
+use rtc_render::{Aov, Counts, Crop, Film, Job};
+use rtc_study::Goal;
 use std::num::NonZeroU32;
 use std::path::Path;
 use std::sync::Arc;

@@ -1,12 +1,12 @@
 //! Where the page looks from: as flags of `rtc render`, and written into the scene, whose keys are
 //! found by their spans. Nothing but their values is changed.
 
-use crate::cli::parse;
-use crate::ir::{Camera, Field, Lowered, Noun, Place};
-use crate::math::{Vec3, shortest, unit};
-use crate::passes::{Stage, StudioChoice, View};
-use crate::pipeline::{Input, Options};
-use crate::source::{SourceMap, Span};
+use crate::parse;
+use rtc_ir::{Camera, Field, Lowered, Noun, Place};
+use rtc_math::{Vec3, shortest, unit};
+use rtc_passes::{Stage, StudioChoice, View};
+use rtc_pipeline::{Input, Options};
+use rtc_source::{SourceMap, Span};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::ops::Range;

@@ -4,11 +4,11 @@
 mod read;
 
 use super::Failure;
-use crate::diag::{Code, Diagnostic, FindingLevels, clip_path, codes};
-use crate::passes::Overrides;
-use crate::pipeline::Input;
-use crate::source::{Limits, Loader, Resource, SourceMap, Span};
-use crate::study::Goal;
+use rtc_diag::{Code, Diagnostic, FindingLevels, clip_path, codes};
+use rtc_passes::Overrides;
+use rtc_pipeline::Input;
+use rtc_source::{Limits, Loader, Resource, SourceMap, Span};
+use rtc_study::Goal;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 

@@ -2,8 +2,8 @@
 
 use super::super::parse;
 use super::{ProjectFault, ProjectSettings};
-use crate::diag::{Code, FindingLevel, LevelSubject, clip, codes, nearest};
-use crate::source::Resource;
+use rtc_diag::{Code, FindingLevel, LevelSubject, clip, codes, nearest};
+use rtc_source::Resource;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;

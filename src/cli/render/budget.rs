@@ -1,8 +1,8 @@
 //! The time that a picture may take, from the start of the command to its file.
 
-use crate::diag::{Diagnostic, codes};
-use crate::render::Crop;
-use crate::study::CrudePicture;
+use rtc_diag::{Diagnostic, codes};
+use rtc_render::Crop;
+use rtc_study::CrudePicture;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 

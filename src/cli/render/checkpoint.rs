@@ -7,14 +7,14 @@ use super::super::progress::RenderProgress;
 use super::super::{Failure, args, input, interrupt::Interrupt, talk, talk::Talk};
 use super::shot::{KeptGrowth, workers};
 use super::{MadePicture, RenderSetup, halted};
-use crate::image::Picture;
-use crate::pipeline::{
+use rtc_image::Picture;
+use rtc_pipeline::{
     Input, MOST_SHARES, NewFile, Observer, PicturePart, RenderError, RenderSubject, SharedBy,
     Shares, hash_of_file,
 };
-use crate::render::{Crop, Tiles};
-use crate::source::{Resource, SourceMap};
-use crate::study::{Goal, WorkStretch};
+use rtc_render::{Crop, Tiles};
+use rtc_source::{Resource, SourceMap};
+use rtc_study::{Goal, WorkStretch};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -28,7 +28,7 @@ pub(super) struct Checkpoint {
 }
 
 /// What to do about a file that can't be gone on from.
-pub(in crate::cli) fn or_restart(failure: Failure) -> Failure {
+pub(crate) fn or_restart(failure: Failure) -> Failure {
     match failure {
         Failure::Input(words) => Failure::Input(format!("{words}; `--restart` begins anew")),
         other @ (Failure::Findings
@@ -261,7 +261,7 @@ impl RenderSetup {
 }
 
 /// Why a command ends whose render came to no end.
-pub(in crate::cli) fn ended(error: RenderError, input: &mut Input, talk: &mut Talk) -> Failure {
+pub(crate) fn ended(error: RenderError, input: &mut Input, talk: &mut Talk) -> Failure {
     halted(error, input, talk)
         .err()
         .unwrap_or(Failure::Findings)
@@ -304,7 +304,7 @@ impl Checkpoint {
 }
 
 /// Says what was saved, and how to go on.
-pub(in crate::cli) fn say_saved(file: &Path, what: &str) {
+pub(crate) fn say_saved(file: &Path, what: &str) {
     let file = file.display();
     talk::say(&format!(
         "saved {what} in `{file}`; the same command goes on from there"
@@ -312,7 +312,7 @@ pub(in crate::cli) fn say_saved(file: &Path, what: &str) {
 }
 
 /// Saves what is done, whole or not at all, and says so if that fails: the work goes on.
-pub(in crate::cli) fn try_save(file: &Path, bytes: &[u8]) -> bool {
+pub(crate) fn try_save(file: &Path, bytes: &[u8]) -> bool {
     let saved = NewFile::save(file, bytes);
     if let Err(error) = &saved {
         let file = file.display();

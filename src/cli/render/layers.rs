@@ -3,9 +3,9 @@
 use super::super::Failure;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
-use crate::image::Picture;
-use crate::pipeline::{Input, OutputLook, PictureSetup, RenderSubject};
-use crate::render::Aov;
+use rtc_image::Picture;
+use rtc_pipeline::{Input, OutputLook, PictureSetup, RenderSubject};
+use rtc_render::Aov;
 use std::path::Path;
 
 /// Where the layers of a picture go; nowhere, if its own file holds them.

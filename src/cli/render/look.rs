@@ -2,10 +2,10 @@
 
 use super::super::Failure;
 use super::super::args::{BitDepth, LookArgs};
-use crate::color::Tone;
-use crate::image::FileFormat;
-use crate::pipeline::{OutputLook, PictureSetup};
-use crate::render::Aov;
+use rtc_color::Tone;
+use rtc_image::FileFormat;
+use rtc_pipeline::{OutputLook, PictureSetup};
+use rtc_render::Aov;
 use std::path::Path;
 
 /// The look that is asked for.
@@ -24,7 +24,7 @@ pub(super) fn look(args: &LookArgs, output: &Path) -> Result<OutputLook, Failure
 }
 
 /// Refuses layers that would be files beside a picture, where it is the only file.
-pub(in crate::cli) fn refuse_layers(setup: &PictureSetup) -> Result<(), Failure> {
+pub(crate) fn refuse_layers(setup: &PictureSetup) -> Result<(), Failure> {
     if setup.look.kind.is_linear() || setup.look.aovs.is_empty() {
         return Ok(());
     }
@@ -36,7 +36,7 @@ pub(in crate::cli) fn refuse_layers(setup: &PictureSetup) -> Result<(), Failure>
 }
 
 /// The kind of pixel file that a name stands for.
-pub(in crate::cli) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<FileFormat, Failure> {
+pub(crate) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<FileFormat, Failure> {
     let extension = output
         .extension()
         .map(|extension| extension.to_string_lossy().to_lowercase());

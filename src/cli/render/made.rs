@@ -1,17 +1,17 @@
 //! A picture that was made: what is told of it, in words for people and as an object for programs.
 
 use super::super::{progress, system};
-use crate::pipeline::PictureSetup;
-use crate::plan::Effect;
-use crate::render::{ClampedLight, Counts};
-use crate::study::{CrudePicture, ProbedError, Samples};
 use indicatif::{HumanBytes, HumanCount};
+use rtc_pipeline::PictureSetup;
+use rtc_plan::Effect;
+use rtc_render::{ClampedLight, Counts};
+use rtc_study::{CrudePicture, ProbedError, Samples};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// A picture that was made.
-pub(in crate::cli) struct MadePicture {
+pub(crate) struct MadePicture {
     output: PathBuf,
     size: [u32; 2],
     /// The stops by which it was exposed, if they were found.
@@ -85,7 +85,7 @@ impl MadePicture {
 
     /// In words: its size, its light, its rays and how long they took; if `verbose`, how often each effect
     /// was simulated and what is on huge pages; how good it is.
-    pub(in crate::cli) fn words(&self, verbose: bool) -> String {
+    pub(crate) fn words(&self, verbose: bool) -> String {
         let ([width, height], light) = (self.size, &self.light);
         let work = progress::summary(self.counts.rays(), self.elapsed);
         let line = format!("{}: {width}×{height}, {light}{work}", self.output.display());
@@ -98,7 +98,7 @@ impl MadePicture {
     }
 
     /// As an object of one line, `{"rendered": …}`.
-    pub(in crate::cli) fn object(&self) -> String {
+    pub(crate) fn object(&self) -> String {
         let simulated: Map<String, Value> = effects(&self.counts)
             .map(|(name, count)| (name.to_owned(), json!(count)))
             .collect();
@@ -119,7 +119,7 @@ impl MadePicture {
 }
 
 /// How often each effect was simulated: its rays, or its evaluations.
-pub(in crate::cli) fn effects(counts: &Counts) -> impl Iterator<Item = (&'static str, u64)> {
+pub(crate) fn effects(counts: &Counts) -> impl Iterator<Item = (&'static str, u64)> {
     let effects = Effect::OF_PATHS.into_iter().chain(Effect::OF_THE_COURSE);
     let counted = effects.map(|effect| (effect.name(), counts.of(effect)));
     counted.filter(|(_, count)| *count > 0)

@@ -3,7 +3,7 @@
 use super::super::progress::{self, RenderProgress};
 use super::super::{Failure, args, interrupt::Interrupt, talk, talk::Talk, typed};
 use super::{RenderSetup, beside_here, halted};
-use crate::pipeline::{Input, Observer, RenderSubject, SharedBy, Shares};
+use rtc_pipeline::{Input, Observer, RenderSubject, SharedBy, Shares};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 

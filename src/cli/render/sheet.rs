@@ -4,8 +4,8 @@ use super::super::Failure;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
 use super::RenderSetup;
-use crate::image::{FileFormat, Picture, ShownPicture, contact_sheet, for_sheet};
-use crate::source::{Loader, SourceMap};
+use rtc_image::{FileFormat, Picture, ShownPicture, contact_sheet, for_sheet};
+use rtc_source::{Loader, SourceMap};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

@@ -6,10 +6,10 @@ use super::super::progress::RenderProgress;
 use super::RenderSetup;
 use super::budget::PictureClock;
 use super::made::{KnownBy, Quality, error};
-use crate::image::Image;
-use crate::pipeline::{Meter, Observer, RenderError, RenderSubject, Traced};
-use crate::render::{Counts, Crop, Film};
-use crate::study::{CrudePicture, Growth, Keep, Order, Reached, Stopped, Watch};
+use rtc_image::Image;
+use rtc_pipeline::{Meter, Observer, RenderError, RenderSubject, Traced};
+use rtc_render::{Counts, Crop, Film};
+use rtc_study::{CrudePicture, Growth, Keep, Order, Reached, Stopped, Watch};
 use std::time::Duration;
 
 /// What was rendered, and what is said of it.

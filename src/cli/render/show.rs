@@ -1,8 +1,8 @@
 //! A picture as text for a terminal: each letter is two pixels, one above the other, in 24-bit colours.
 
 use super::super::{Failure, output};
-use crate::image::{Image, ShownPicture, shrunk};
-use crate::source::{Loader, SourceMap};
+use rtc_image::{Image, ShownPicture, shrunk};
+use rtc_source::{Loader, SourceMap};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -48,7 +48,7 @@ fn half_blocks(image: &Image) -> String {
 /// A colour as terminals are told.
 fn code(color: &[f64; 3]) -> String {
     color
-        .map(|value| crate::color::quantize8(value).to_string())
+        .map(|value| rtc_color::quantize8(value).to_string())
         .join(";")
 }
 

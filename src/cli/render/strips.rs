@@ -3,7 +3,7 @@
 use super::super::progress::RenderProgress;
 use super::super::{Failure, input, interrupt::Interrupt, output::Output, talk::Talk};
 use super::{MadePicture, RenderSetup, halted};
-use crate::pipeline::{Input, Observer, PictureSetup, RenderSubject};
+use rtc_pipeline::{Input, Observer, PictureSetup, RenderSubject};
 use std::fs::File;
 use std::io::ErrorKind;
 use std::path::Path;

@@ -5,8 +5,8 @@ use super::super::output::Output;
 use super::super::turntable::{self, Turntable, Views};
 use super::RenderSetup;
 use super::checkpoint::{Desk, Saving};
-use crate::pipeline::{RenderSubject, hash_of_file};
-use crate::source::{Loader, SourceMap};
+use rtc_pipeline::{RenderSubject, hash_of_file};
+use rtc_source::{Loader, SourceMap};
 use std::ops::Range;
 use std::path::Path;
 

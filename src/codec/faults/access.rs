@@ -4,7 +4,7 @@
 use super::error::Error;
 use super::reader::NodeReader;
 use super::{FaultPart, Fields, Notes};
-use crate::source::tree::{NodeId, NodeKind};
+use rtc_source::tree::{NodeId, NodeKind};
 use serde::de::value::StrDeserializer;
 use serde::de::{
     DeserializeSeed, Deserializer, EnumAccess, Error as _, Expected, IntoDeserializer, MapAccess,

@@ -1,7 +1,7 @@
 //! Why a value can't be decoded, in the words of `serde_json`.
 
 use super::Fields;
-use crate::source::tree::NodeId;
+use rtc_source::tree::NodeId;
 use serde::de::{self, Expected, Unexpected};
 use std::fmt::{self, Display, Formatter};
 

@@ -7,10 +7,10 @@ mod access;
 mod error;
 mod reader;
 
-use crate::source::Span;
-use crate::source::tree::{NodeId, Tree};
 use error::Error;
 use reader::NodeReader;
+use rtc_source::Span;
+use rtc_source::tree::{NodeId, Tree};
 use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};

@@ -4,7 +4,7 @@
 use super::access::{Items, Members, Variant};
 use super::error::Error;
 use super::{FaultPart, Fields, Notes};
-use crate::source::tree::{NodeId, NodeKind};
+use rtc_source::tree::{NodeId, NodeKind};
 use serde::de::{Deserializer, Error as _, Expected, Unexpected, Visitor};
 
 /// Decodes one node, or stands in for one that is not there.

@@ -75,16 +75,16 @@ macro_rules! codes {
         $(, [$($alias:literal),*])?;)*) => {
         $(
             #[doc = $summary]
-            pub static $name: $crate::diag::Code = $crate::diag::Code {
+            pub static $name: $crate::Code = $crate::Code {
                 id: $id,
-                severity: $crate::diag::Severity::$severity,
+                severity: $crate::Severity::$severity,
                 summary: $summary,
                 explanation: $explanation,
                 aliases: &[$($($alias),*)?],
             };
         )*
         /// The rows of this family, in order.
-        pub static $family: &[&$crate::diag::Code] = &[$(&$name),*];
+        pub static $family: &[&$crate::Code] = &[$(&$name),*];
     };
 }
 use codes;

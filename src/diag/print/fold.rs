@@ -1,8 +1,8 @@
 //! Folding: many findings that say the same are shown once, with the places of the others.
 
 use super::text::clean;
-use crate::diag::Diagnostic;
-use crate::source::SourceMap;
+use crate::Diagnostic;
+use rtc_source::SourceMap;
 use std::collections::BTreeMap;
 
 /// So many equal findings are shown one by one.

@@ -2,8 +2,8 @@
 
 use super::place::{FilePlace, TextPosition};
 use super::text::clean_except;
-use crate::diag::{Diagnostic, Severity};
-use crate::source::SourceMap;
+use crate::{Diagnostic, Severity};
+use rtc_source::SourceMap;
 
 /// One finding; `name` stands for its file where it has no place.
 pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {

@@ -6,12 +6,12 @@ use super::place::FilePlace;
 use super::text::{clean, clean_except};
 use super::window::{self, SourceWindow};
 use super::{PrintOptions, text};
-use crate::diag::{Diagnostic, Hint, Label, Replacement, Severity};
-use crate::source::SourceMap;
+use crate::{Diagnostic, Hint, Label, Replacement, Severity};
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{
     Annotation, AnnotationKind, Element, Group, Level, Origin, Patch, Renderer, Snippet,
 };
+use rtc_source::SourceMap;
 
 /// A label and whether it is the culprit.
 type Mark<'a> = (&'a Label, AnnotationKind);

@@ -5,8 +5,8 @@
 
 use super::place::FilePlace;
 use super::text;
-use crate::diag::{Diagnostic, Hint, Label, Replacement};
-use crate::source::{SourceMap, Span};
+use crate::{Diagnostic, Hint, Label, Replacement};
+use rtc_source::{SourceMap, Span};
 use serde::Serialize;
 
 /// One finding.

@@ -17,8 +17,8 @@ mod window;
 mod tests;
 
 use super::{Diagnostic, Severity, Sink};
-use crate::source::SourceMap;
 use fold::Fold;
+use rtc_source::SourceMap;
 
 /// The form of the text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 //! text.
 
 use super::text::clean;
-use crate::source::{SourceMap, Span};
+use rtc_source::{SourceMap, Span};
 use serde::Serialize;
 use std::fmt;
 

@@ -2,8 +2,8 @@
 
 use super::place::FilePlace;
 use super::text;
-use crate::diag::{Diagnostic, Label, Severity, codes};
-use crate::source::{SourceMap, Span, uri_path};
+use crate::{Diagnostic, Label, Severity, codes};
+use rtc_source::{SourceMap, Span, uri_path};
 use serde_json::{Value, json};
 
 /// The whole log, of the results given; `omitted` findings were left out.
@@ -105,7 +105,7 @@ fn fixes(diagnostic: &Diagnostic, map: &SourceMap) -> Vec<Value> {
         .hints
         .iter()
         .filter_map(|hint| Some((hint, hint.replacement.as_ref()?)));
-    let fix = |(hint, change): (&crate::diag::Hint, &crate::diag::Replacement)| {
+    let fix = |(hint, change): (&crate::Hint, &crate::Replacement)| {
         json!({
             "description": { "text": hint.text },
             "artifactChanges": [{

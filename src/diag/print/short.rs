@@ -2,8 +2,8 @@
 
 use super::place::FilePlace;
 use super::text::clean;
-use crate::diag::Diagnostic;
-use crate::source::SourceMap;
+use crate::Diagnostic;
+use rtc_source::SourceMap;
 
 /// One finding; `name` stands for its file where it has no place.
 pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {

@@ -2,10 +2,10 @@
 //! command through.
 
 use super::*;
-use crate::diag::codes;
-use crate::source::Span;
+use crate::codes;
 use insta::assert_snapshot;
 use proptest::prelude::*;
+use rtc_source::Span;
 
 const PLAIN: PrintOptions = PrintOptions {
     color: false,

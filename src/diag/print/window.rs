@@ -5,7 +5,7 @@
 //! what they are.
 
 use super::text;
-use crate::source::{SourceMap, Span};
+use rtc_source::{SourceMap, Span};
 use std::ops::Range;
 
 /// A line is clipped this many bytes after its last mark, or after its start.

@@ -1,8 +1,8 @@
 //! The camera back to text.
 
 use super::Text;
-use crate::ir::{Camera, Lens, Projection};
-use crate::math::{Vec3, camera_basis, length, unit};
+use rtc_ir::{Camera, Lens, Projection};
+use rtc_math::{Vec3, camera_basis, length, unit};
 
 impl Text<'_> {
     pub(super) fn camera(&mut self, camera: &Camera) {

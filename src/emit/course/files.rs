@@ -1,9 +1,9 @@
 //! The files that a text names: those that images and meshes came from, or new ones beside the text.
 
 use super::quoted;
-use crate::emit::{beside, ply};
-use crate::image::{FileFormat, Image as Radiances, Picture, png_bytes};
-use crate::ir::{Image, ImageId, Material, Mesh, MeshId, Pixels, Scene};
+use crate::{beside, ply};
+use rtc_image::{FileFormat, Image as Radiances, Picture, png_bytes};
+use rtc_ir::{Image, ImageId, Material, Mesh, MeshId, Pixels, Scene};
 use std::collections::BTreeMap;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 

@@ -2,7 +2,7 @@
 
 use super::Text;
 use super::files::file_name;
-use crate::ir::{Environment, Light, PointLight, Punctual, Scene};
+use rtc_ir::{Environment, Light, PointLight, Punctual, Scene};
 
 impl<'s> Text<'s> {
     pub(super) fn light(&mut self, light: &Light) -> Result<(), String> {

@@ -1,7 +1,7 @@
 //! The materials back to text.
 
 use super::Text;
-use crate::ir::{Bump, Material, Phong, Scene, Texture, TextureId};
+use rtc_ir::{Bump, Material, Phong, Scene, Texture, TextureId};
 
 impl<'s> Text<'s> {
     pub(super) fn material(

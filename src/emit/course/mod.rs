@@ -10,11 +10,11 @@ mod standard;
 
 pub use files::Attachment;
 
-use crate::ir::{
+use files::FileNames;
+use rtc_ir::{
     Display, Gooch, Light, MaterialId, Mode, PathSettings, Pattern, Scene, Settings, Shape, Surface,
 };
-use crate::math::shortest;
-use files::FileNames;
+use rtc_math::shortest;
 use std::fmt::Write as _;
 
 /// A text, and the files beside it that it names.

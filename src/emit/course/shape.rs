@@ -1,8 +1,8 @@
 //! The shapes back to text.
 
 use super::{Text, quoted, triple};
-use crate::ir::{self, Instance, Quad, Scene, Shape, Sphere, Triangle};
-use crate::math::{Vec3, axis_and_angle, shortest, turned_to_z, unit};
+use rtc_ir::{self as ir, Instance, Quad, Scene, Shape, Sphere, Triangle};
+use rtc_math::{Vec3, axis_and_angle, shortest, turned_to_z, unit};
 
 /// A shape as the scene format writes it.
 trait Emit {
@@ -43,7 +43,7 @@ macro_rules! by_keys {
     };
 }
 
-shapes!(emit);
+rtc_tables::shapes!(emit);
 
 impl Text<'_> {
     fn kind(&mut self, word: &str) {

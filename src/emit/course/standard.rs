@@ -2,9 +2,9 @@
 
 use super::material::exists;
 use super::{Text, quoted};
-use crate::ir::{Alpha, Filter, Map, Sampled, Scene, Standard, Texture, Wrap};
-use crate::math::shortest;
-use crate::standard::{camel_case, parameters};
+use rtc_ir::{Alpha, Filter, Map, Sampled, Scene, Standard, Texture, Wrap};
+use rtc_math::shortest;
+use rtc_tables::{camel_case, parameters};
 
 /// Writes all parameters that are not as by default: the kind of each names its way.
 macro_rules! material {

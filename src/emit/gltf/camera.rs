@@ -1,13 +1,11 @@
 //! The camera: perspective or orthographic, and in `extras.rtc` what glTF has no words for: the
 //! size of the picture, the plane of focus, where its middle lies, the lens.
 
+use super::document::{self, Index, Node};
 use super::writer::{GltfWriter, extras, single};
-use crate::ir::{Camera, Field, Lens, Noun, Place, Projection};
-use crate::math::{Vec3, atan2, length, unit};
-use gltf::json;
-use json::camera::{Orthographic, Perspective, Type};
-use json::validation::Checked;
-use serde_json::{Map as Block, json};
+use rtc_ir::{Camera, Field, Lens, Noun, Place, Projection};
+use rtc_math::{Vec3, atan2, length, unit};
+use serde_json::{Map as Block, Value, json};
 
 /// The near plane, as a share of the distance to the plane of focus.
 const NEAR: f64 = 1e-3;
@@ -38,17 +36,18 @@ impl GltfWriter<'_> {
         let middle = center - (eye - z * distance);
         let shift = [middle.dot(x) / half[0], middle.dot(y) / half[1]];
         let own = self.own_words_of_camera(distance, shift, lens);
-        let camera = match projection {
-            Projection::Perspective => self.perspective(half, distance),
-            Projection::Orthographic => self.orthographic(half, distance),
+        let (kind, projection) = match projection {
+            Projection::Perspective => ("perspective", perspective(half, distance)),
+            Projection::Orthographic => ("orthographic", self.orthographic(half, distance)),
         };
-        let camera = json::Camera {
+        let camera = document::Camera {
+            projection,
+            kind,
             extras: extras(own),
-            ..camera
         };
-        let node = json::Node {
-            camera: Some(self.root.push(camera)),
-            ..json::Node::default()
+        let node = Node {
+            camera: Some(Index::push(&mut self.root.cameras, camera)),
+            ..Node::default()
         };
         self.node(node, [x, y, z, eye].map(|column| column.to_array()));
     }
@@ -58,7 +57,7 @@ impl GltfWriter<'_> {
         distance: f64,
         shift: [f64; 2],
         lens: &Lens,
-    ) -> Block<String, json::Value> {
+    ) -> Block<String, Value> {
         let place = Place::new(Noun::Camera, 0, Field::Whole);
         let [width, height] = self.scene.camera.size;
         let mut own = Block::new();
@@ -83,54 +82,24 @@ impl GltfWriter<'_> {
         own
     }
 
-    fn perspective(&mut self, [width, height]: [f64; 2], distance: f64) -> json::Camera {
-        let yfov = 2.0 * atan2(height, distance);
-        let at = format!("/cameras/{}/perspective", self.root.cameras.len());
-        self.exact.push((format!("{at}/yfov"), yfov.into()));
-        self.exact
-            .push((format!("{at}/aspectRatio"), (width / height).into()));
-        json::Camera {
-            perspective: Some(Perspective {
-                aspect_ratio: Some(single(width / height)),
-                yfov: single(yfov),
-                zfar: None,
-                znear: single(NEAR * distance),
-                extensions: None,
-                extras: None,
-            }),
-            ..camera(Type::Perspective)
-        }
-    }
-
-    fn orthographic(&mut self, [width, height]: [f64; 2], distance: f64) -> json::Camera {
-        let at = format!("/cameras/{}/orthographic", self.root.cameras.len());
-        self.exact.push((format!("{at}/xmag"), width.into()));
-        self.exact.push((format!("{at}/ymag"), height.into()));
+    fn orthographic(&self, [xmag, ymag]: [f64; 2], distance: f64) -> document::Projection {
         let eye = Vec3::from_array(self.scene.camera.eye);
         let far = self.scene.ball().map_or(distance, |ball| {
             ball.center.distance(eye) + ball.radius + distance
         });
-        json::Camera {
-            orthographic: Some(Orthographic {
-                xmag: single(width),
-                ymag: single(height),
-                zfar: single(far),
-                znear: 0.0,
-                extensions: None,
-                extras: None,
-            }),
-            ..camera(Type::Orthographic)
+        document::Projection::Orthographic {
+            xmag,
+            ymag,
+            zfar: f64::from(single(far)),
+            znear: 0.0,
         }
     }
 }
 
-fn camera(kind: Type) -> json::Camera {
-    json::Camera {
-        name: None,
-        orthographic: None,
-        perspective: None,
-        type_: Checked::Valid(kind),
-        extensions: None,
-        extras: None,
+fn perspective([width, height]: [f64; 2], distance: f64) -> document::Projection {
+    document::Projection::Perspective {
+        aspect_ratio: width / height,
+        yfov: 2.0 * atan2(height, distance),
+        znear: f64::from(single(NEAR * distance)),
     }
 }

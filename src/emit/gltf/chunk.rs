@@ -1,36 +1,25 @@
 //! The one buffer: buffer views and accessors, each written once.
 
+use super::document::{
+    ARRAY_BUFFER, Accessor, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT, Index, UNSIGNED_INT,
+    UNSIGNED_SHORT,
+};
 use super::writer::GltfWriter;
-use crate::ir::Image;
-use gltf::json;
-use json::accessor::{ComponentType, GenericComponentType, Type};
-use json::buffer::Target;
-use json::validation::{Checked, USize64};
-use json::{Accessor, Index};
-
-/// The least and greatest values of each component.
-type Extent<const N: usize> = [[f32; N]; 2];
+use rtc_ir::Image;
 
 impl GltfWriter<'_> {
     /// Adds bytes as a buffer view, whose length is filled up to whole words.
-    pub(super) fn view(
-        &mut self,
-        bytes: &[u8],
-        target: Option<Target>,
-    ) -> Index<json::buffer::View> {
+    pub(super) fn view(&mut self, bytes: &[u8], target: Option<u32>) -> Index<BufferView> {
         let offset = self.bin.len();
         self.bin.extend_from_slice(bytes);
         self.bin.resize(self.bin.len().next_multiple_of(4), 0);
-        self.root.push(json::buffer::View {
-            buffer: Index::new(0),
-            byte_length: USize64::from(bytes.len()),
-            byte_offset: Some(USize64::from(offset)),
-            byte_stride: None,
-            name: None,
-            target: target.map(Checked::Valid),
-            extensions: None,
-            extras: None,
-        })
+        let view = BufferView {
+            buffer: 0,
+            byte_length: bytes.len(),
+            byte_offset: offset,
+            target,
+        };
+        Index::push(&mut self.root.buffer_views, view)
     }
 
     /// Adds vectors of floats, one a vertex. Positions need their extent.
@@ -44,20 +33,22 @@ impl GltfWriter<'_> {
             .flatten()
             .flat_map(|number| number.to_le_bytes())
             .collect();
-        let view = self.view(&bytes, Some(Target::ArrayBuffer));
-        let type_ = match N {
-            2 => Type::Vec2,
-            3 => Type::Vec3,
-            _ => Type::Vec4,
+        let view = self.view(&bytes, Some(ARRAY_BUFFER));
+        let kind = match N {
+            2 => "VEC2",
+            3 => "VEC3",
+            _ => "VEC4",
         };
-        let extent = needs_extent.then(|| extent(vectors));
-        let bound = |at: usize| extent.map(|extent| json::Value::from(extent[at].to_vec()));
+        let [min, max] = match needs_extent {
+            true => extent(vectors).map(Some),
+            false => [None, None],
+        };
         let accessor = Accessor {
-            min: bound(0),
-            max: bound(1),
-            ..accessor(view, vectors.len(), ComponentType::F32, type_)
+            min,
+            max,
+            ..accessor(view, vectors.len(), FLOAT, kind)
         };
-        self.root.push(accessor)
+        Index::push(&mut self.root.accessors, accessor)
     }
 
     /// Adds the pixels of an image of floats, in rows from the top.
@@ -66,9 +57,9 @@ impl GltfWriter<'_> {
         let count = image.pixels.len() / image.kind.bytes();
         let accessor = Accessor {
             name: Some(image.name.clone()).filter(|name| !name.is_empty()),
-            ..accessor(view, count, ComponentType::F32, Type::Vec3)
+            ..accessor(view, count, FLOAT, "VEC3")
         };
-        self.root.push(accessor)
+        Index::push(&mut self.root.accessors, accessor)
     }
 
     /// Adds the corners of triangles, in the smallest type that counts so many vertices.
@@ -82,42 +73,37 @@ impl GltfWriter<'_> {
             words.flat_map(u16::to_le_bytes).collect()
         });
         let (bytes, component) = match short {
-            Some(bytes) => (bytes, ComponentType::U16),
+            Some(bytes) => (bytes, UNSIGNED_SHORT),
             None => (
                 corners.flat_map(|corner| corner.to_le_bytes()).collect(),
-                ComponentType::U32,
+                UNSIGNED_INT,
             ),
         };
-        let view = self.view(&bytes, Some(Target::ElementArrayBuffer));
-        let count = 3 * triangles.len();
-        self.root
-            .push(accessor(view, count, component, Type::Scalar))
+        let view = self.view(&bytes, Some(ELEMENT_ARRAY_BUFFER));
+        let accessor = accessor(view, 3 * triangles.len(), component, "SCALAR");
+        Index::push(&mut self.root.accessors, accessor)
     }
 }
 
 fn accessor(
-    view: Index<json::buffer::View>,
+    buffer_view: Index<BufferView>,
     count: usize,
-    component: ComponentType,
-    type_: Type,
+    component_type: u32,
+    kind: &'static str,
 ) -> Accessor {
     Accessor {
-        buffer_view: Some(view),
-        byte_offset: None,
-        count: USize64::from(count),
-        component_type: Checked::Valid(GenericComponentType(component)),
-        extensions: None,
-        extras: None,
-        type_: Checked::Valid(type_),
+        buffer_view,
+        count,
+        component_type,
+        kind,
         min: None,
         max: None,
         name: None,
-        normalized: false,
-        sparse: None,
     }
 }
 
-fn extent<const N: usize>(vectors: &[[f32; N]]) -> Extent<N> {
+/// The least and greatest values of each component.
+fn extent<const N: usize>(vectors: &[[f32; N]]) -> [Vec<f64>; 2] {
     let mut extent = [[f32::INFINITY; N], [f32::NEG_INFINITY; N]];
     for vector in vectors {
         for (at, number) in vector.iter().enumerate() {
@@ -125,5 +111,5 @@ fn extent<const N: usize>(vectors: &[[f32; N]]) -> Extent<N> {
             extent[1][at] = extent[1][at].max(*number);
         }
     }
-    extent
+    extent.map(|bound| bound.map(f64::from).to_vec())
 }

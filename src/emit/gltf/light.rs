@@ -1,24 +1,17 @@
 //! Lights: `KHR_lights_punctual`, and in `extras.rtc` what it has no words for.
 
+use super::document::{self, Index, Spot};
 use super::material::strength;
-use super::writer::{GltfWriter, extras, lit, single};
-use crate::diag::codes;
-use crate::ir::{Emitter, Field, Light, Noun, Photometry, Place, PointLight, Punctual};
-use crate::math::{Basis, Vec3, unit};
-use gltf::json;
-use json::Value;
-use json::extensions::root::Root as RootExtensions;
-use json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Spot, Type};
-use json::validation::Checked;
-use serde_json::{Map as Block, json};
+use super::writer::{GltfWriter, extras, lit};
+use rtc_diag::codes;
+use rtc_ir::{Emitter, Field, Light, Noun, Photometry, Place, PointLight, Punctual};
+use rtc_math::{Basis, Vec3, unit};
+use serde_json::{Map as Block, Value, json};
 use std::f64::consts::PI;
-
-/// The name of the extension.
-const PUNCTUAL: &str = "KHR_lights_punctual";
 
 /// A light as glTF has it.
 struct Lamp {
-    kind: Type,
+    kind: &'static str,
     intensity: [f64; 3],
     range: Option<f64>,
     /// The inner and the outer angle.
@@ -62,7 +55,7 @@ impl GltfWriter<'_> {
         let square = middle.distance_squared(Vec3::from_array(*position));
         let own = json!({ "color": color, "radius": radius });
         Lamp {
-            kind: Type::Point,
+            kind: "point",
             intensity: color.map(|channel| channel * PI * square),
             range: None,
             angles: None,
@@ -82,11 +75,10 @@ impl GltfWriter<'_> {
             columns,
         };
         match emitter {
-            Emitter::Sun { direction } => lamp(
-                Type::Directional,
-                shining(middle.to_array(), *direction, None),
-            ),
-            Emitter::Point { position, range: _ } => lamp(Type::Point, placed(*position)),
+            Emitter::Sun { direction } => {
+                lamp("directional", shining(middle.to_array(), *direction, None))
+            }
+            Emitter::Point { position, range: _ } => lamp("point", placed(*position)),
             Emitter::Spot {
                 position,
                 direction,
@@ -96,7 +88,7 @@ impl GltfWriter<'_> {
             } => Lamp {
                 angles: Some([*inner_angle, *outer_angle]),
                 ..lamp(
-                    Type::Spot,
+                    "spot",
                     shining(*position, direction.map(|along| -along), None),
                 )
             },
@@ -108,7 +100,7 @@ impl GltfWriter<'_> {
             } => {
                 let back = direction.map(|along| -along);
                 let columns = shining(*position, back, Some(*horizontal));
-                self.measured(lamp(Type::Point, columns), photometry, place)
+                self.measured(lamp("point", columns), photometry, place)
             }
         }
     }
@@ -148,43 +140,22 @@ impl GltfWriter<'_> {
             own,
             columns,
         } = lamp;
-        self.used.insert(PUNCTUAL);
-        let extensions = self
-            .root
-            .extensions
-            .get_or_insert_with(RootExtensions::default);
-        let lights = extensions.khr_lights_punctual.get_or_insert_default();
-        let index = lights.lights.len();
+        self.root.extensions_used.insert("KHR_lights_punctual");
         let strength = strength(intensity);
-        let color = intensity.map(|channel| channel / strength);
-        let at = format!("/extensions/{PUNCTUAL}/lights/{index}");
-        let spot = angles.map(|[inner, outer]| Spot {
-            inner_cone_angle: single(inner),
-            outer_cone_angle: single(outer),
-        });
-        lights.lights.push(JsonLight {
-            color: color.map(single),
-            extensions: None,
+        let light = document::Light {
+            color: intensity.map(|channel| channel / strength),
             extras: extras(own),
-            intensity: single(strength),
-            name: None,
-            range: range.map(single),
-            spot,
-            type_: Checked::Valid(kind),
-        });
-        let mut exact = vec![
-            ("color", Value::from(color.to_vec())),
-            ("intensity", strength.into()),
-        ];
-        exact.extend(range.map(|range| ("range", range.into())));
-        if let Some([inner, outer]) = angles {
-            exact.push(("spot/innerConeAngle", inner.into()));
-            exact.push(("spot/outerConeAngle", outer.into()));
-        }
-        let exact = exact.into_iter();
-        self.exact
-            .extend(exact.map(|(key, value)| (format!("{at}/{key}"), value)));
-        self.node(lit(u32::try_from(index).unwrap_or(u32::MAX)), columns);
+            intensity: strength,
+            range,
+            spot: angles.map(|[inner_cone_angle, outer_cone_angle]| Spot {
+                inner_cone_angle,
+                outer_cone_angle,
+            }),
+            kind,
+        };
+        let extensions = self.root.extensions.get_or_insert_default();
+        let light = Index::push(&mut extensions.punctual.lights, light);
+        self.node(lit(light), columns);
     }
 }
 

@@ -1,18 +1,11 @@
 //! Materials: glTF's own from the table of its parameters, Phong's by the one that comes nearest.
 
-use super::writer::{GltfWriter, extras, single};
-use crate::emit::nearest::nearest;
-use crate::ir::{Alpha, Field, Map, Material, MaterialId, MeshId, Noun, Place, Standard};
-use crate::standard::{self, parameters};
-use gltf::json;
-use json::extensions::material::Material as MaterialExtensions;
-use json::material::{
-    AlphaCutoff, AlphaMode, EmissiveFactor, NormalTexture, PbrBaseColorFactor,
-    PbrMetallicRoughness, StrengthFactor,
-};
-use json::validation::Checked;
-use json::{Index, Value};
-use serde_json::{Map as Block, json};
+use super::document::{self, Index, PbrMetallicRoughness, TextureInfo};
+use super::writer::{GltfWriter, extras};
+use crate::nearest::nearest;
+use rtc_ir::{Alpha, Field, Map, Material, MaterialId, MeshId, Noun, Place, Standard};
+use rtc_tables::{self as standard, parameters};
+use serde_json::{Map as Block, Value, json};
 
 /// A material of the scene, on meshes with or without each set of texture coordinates: without one,
 /// the maps that ask for it have no effect, and are left out.
@@ -20,7 +13,7 @@ pub(super) type MaterialKey = (u32, [bool; 2]);
 
 impl GltfWriter<'_> {
     /// The material as it shows on a mesh.
-    pub(super) fn material(&mut self, id: MaterialId, mesh: MeshId) -> Index<json::Material> {
+    pub(super) fn material(&mut self, id: MaterialId, mesh: MeshId) -> Index<document::Material> {
         let mesh = &self.scene.meshes[mesh.0 as usize];
         let key = (id.0, [!mesh.uvs.is_empty(), !mesh.second_uvs.is_empty()]);
         if let Some(known) = self.materials.get(&key) {
@@ -36,85 +29,59 @@ impl GltfWriter<'_> {
         };
         drop_maps(&mut standard, key.1);
         let material = self.standard(&standard, place);
-        let index = self.root.push(json::Material {
+        let material = document::Material {
             extras: extras(own),
             ..material
-        });
+        };
+        let index = Index::push(&mut self.root.materials, material);
         self.materials.insert(key, index);
         index
     }
 
-    fn standard(&mut self, own: &Standard, place: Place) -> json::Material {
-        let at = format!("/materials/{}", self.root.materials.len());
-        let pbr = self.metallic_roughness(own, &at, place);
+    fn standard(&mut self, own: &Standard, place: Place) -> document::Material {
+        let pbr_metallic_roughness = self.metallic_roughness(own, place);
         let mut blocks = Block::new();
         self.blocks(own, &mut blocks, place);
         self.other_blocks(own, &mut blocks, place);
-        let (mode, cutoff) = match own.alpha {
-            Alpha::Opaque => (AlphaMode::Opaque, None),
-            Alpha::Mask(cutoff) => (AlphaMode::Mask, Some(AlphaCutoff(single(cutoff)))),
-            Alpha::Blend => (AlphaMode::Blend, None),
+        let (alpha_mode, alpha_cutoff) = match own.alpha {
+            Alpha::Opaque => ("OPAQUE", None),
+            Alpha::Mask(cutoff) => ("MASK", Some(cutoff)),
+            Alpha::Blend => ("BLEND", None),
         };
-        if let Alpha::Mask(cutoff) = own.alpha {
-            self.exact
-                .push((format!("{at}/alphaCutoff"), cutoff.into()));
-        }
         let strength = strength(own.emissive);
-        let emissive = own.emissive.map(|channel| channel / strength);
-        self.exact
-            .push((format!("{at}/emissiveFactor"), emissive.to_vec().into()));
-        json::Material {
-            alpha_cutoff: cutoff,
-            alpha_mode: Checked::Valid(mode),
+        document::Material {
+            alpha_cutoff,
+            alpha_mode,
             double_sided: own.double_sided,
             name: Some(own.name.clone()).filter(|name| !name.is_empty()),
-            pbr_metallic_roughness: pbr,
-            normal_texture: own.normal_map.as_ref().map(|map| {
-                let at = format!("{at}/normalTexture/scale");
-                self.exact.push((at, own.normal_scale.into()));
-                typed::<NormalTexture>(self.texture_info(map, place))
+            pbr_metallic_roughness,
+            normal_texture: own.normal_map.as_ref().map(|map| TextureInfo {
+                scale: Some(own.normal_scale),
+                ..self.texture_info(map, place)
             }),
-            occlusion_texture: None,
             emissive_texture: self.info(own.emissive_map.as_ref(), place),
-            emissive_factor: EmissiveFactor(emissive.map(single)),
-            extensions: (!blocks.is_empty()).then(|| MaterialExtensions {
-                others: blocks,
-                ..MaterialExtensions::default()
-            }),
+            emissive_factor: own.emissive.map(|channel| channel / strength),
+            extensions: blocks,
             extras: None,
         }
     }
 
     /// The core of the material. That of `KHR_materials_pbrSpecularGlossiness` has its colour
     /// elsewhere.
-    fn metallic_roughness(
-        &mut self,
-        own: &Standard,
-        at: &str,
-        place: Place,
-    ) -> PbrMetallicRoughness {
+    fn metallic_roughness(&mut self, own: &Standard, place: Place) -> PbrMetallicRoughness {
         let is_core = own.specular_glossiness.is_none();
-        let color = if is_core { own.base_color } else { [1.0; 4] };
-        let at = format!("{at}/pbrMetallicRoughness");
-        self.exact.extend([
-            (format!("{at}/baseColorFactor"), color.to_vec().into()),
-            (format!("{at}/metallicFactor"), own.metallic.into()),
-            (format!("{at}/roughnessFactor"), own.roughness.into()),
-        ]);
         let color_map = own.base_color_map.as_ref().filter(|_| is_core);
         PbrMetallicRoughness {
-            base_color_factor: PbrBaseColorFactor(color.map(single)),
+            base_color_factor: if is_core { own.base_color } else { [1.0; 4] },
             base_color_texture: self.info(color_map, place),
-            metallic_factor: StrengthFactor(single(own.metallic)),
-            roughness_factor: StrengthFactor(single(own.roughness)),
+            metallic_factor: own.metallic,
+            roughness_factor: own.roughness,
             metallic_roughness_texture: self.info(own.metallic_roughness_map.as_ref(), place),
-            extensions: None,
-            extras: None,
         }
     }
 
-    fn info(&mut self, map: Option<&Map>, place: Place) -> Option<json::texture::Info> {
-        map.map(|map| typed(self.texture_info(map, place)))
+    fn info(&mut self, map: Option<&Map>, place: Place) -> Option<TextureInfo> {
+        map.map(|map| self.texture_info(map, place))
     }
 
     /// The extensions whose properties are not parameters as they stand.
@@ -173,13 +140,13 @@ impl GltfWriter<'_> {
     fn maps(&mut self, block: &mut Value, maps: &[(&str, &Option<Map>)], place: Place) {
         for (key, map) in maps {
             if let Some(map) = map {
-                block[*key] = self.texture_info(map, place);
+                block[*key] = json!(self.texture_info(map, place));
             }
         }
     }
 
     fn block(&mut self, name: &'static str, block: Value, blocks: &mut Block<String, Value>) {
-        self.used.insert(name);
+        self.root.extensions_used.insert(name);
         blocks.insert(name.to_owned(), block);
     }
 }
@@ -189,11 +156,11 @@ macro_rules! written {
     (map, $own:ident.$field:ident, $writer:ident, $place:ident) => {
         $own.$field
             .as_ref()
-            .map(|map| $writer.texture_info(map, $place))
+            .map(|map| json!($writer.texture_info(map, $place)))
     };
     (normal_map, $own:ident.$field:ident, $writer:ident, $place:ident) => {
         $own.$field.as_ref().map(|map| {
-            let mut info = $writer.texture_info(map, $place);
+            let mut info = json!($writer.texture_info(map, $place));
             info["scale"] = $own.clearcoat_normal_scale.into();
             info
         })
@@ -257,12 +224,4 @@ pub(super) fn strength(color: [f64; 3]) -> f64 {
     std::iter::successors(Some(1.0), |strength| Some(strength * 2.0))
         .find(|strength| greatest <= *strength)
         .unwrap_or(f64::MAX)
-}
-
-/// The value in the type of `gltf::json`.
-fn typed<T: serde::de::DeserializeOwned>(value: Value) -> T {
-    match serde_json::from_value(value) {
-        Ok(typed) => typed,
-        Err(fault) => unreachable!("what is written has the shape of glTF: {fault}"),
-    }
 }

@@ -1,21 +1,18 @@
 //! Meshes and where they stand: attributes once for each mesh of the scene, a mesh of glTF for each
 //! material that it has, a node for each surface.
 
+use super::document::{self, Accessor, Attributes, Index, Node, Primitive};
 use super::writer::{GltfWriter, extras, single};
-use crate::diag::codes;
-use crate::ir::{Column, Field, Instance, Mesh, MeshId, Noun, Place, Shape};
-use crate::math::{Vec3, cross, unit};
-use crate::source::Resource;
-use gltf::json;
-use json::mesh::{Primitive, Semantic};
-use json::validation::Checked;
-use json::{Accessor, Index};
+use rtc_diag::codes;
+use rtc_ir::{Column, Field, Instance, Mesh, MeshId, Noun, Place, Shape};
+use rtc_math::{Vec3, cross, unit};
+use rtc_source::Resource;
 use std::collections::BTreeMap;
 
 /// The accessors of a mesh.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub(super) struct MeshAccessors {
-    of_vertices: BTreeMap<Checked<Semantic>, Index<Accessor>>,
+    of_vertices: Attributes,
     triangles: Index<Accessor>,
 }
 
@@ -46,11 +43,11 @@ impl GltfWriter<'_> {
             self.told.own_words("that a surface casts no shadow", place);
         }
         let name = scene.names.get(index).filter(|name| !name.is_empty());
-        let node = json::Node {
+        let node = Node {
             mesh: Some(mesh),
             name: name.cloned(),
             extras: extras(own),
-            ..json::Node::default()
+            ..Node::default()
         };
         self.node(node, *world_from_object);
         Some(())
@@ -60,9 +57,9 @@ impl GltfWriter<'_> {
     fn mesh(
         &mut self,
         id: MeshId,
-        material: Index<json::Material>,
+        material: Index<document::Material>,
         place: Place,
-    ) -> Option<Index<json::Mesh>> {
+    ) -> Option<Index<document::Mesh>> {
         let key = (id.0, material.value());
         if let Some(known) = self.meshes.get(&key) {
             return Some(*known);
@@ -73,21 +70,15 @@ impl GltfWriter<'_> {
         } = self.attributes(id, place)?;
         let primitive = Primitive {
             attributes,
-            extensions: None,
-            extras: None,
-            indices: Some(triangles),
-            material: Some(material),
-            mode: Checked::Valid(json::mesh::Mode::Triangles),
-            targets: None,
+            indices: triangles,
+            material,
         };
         let name = &self.scene.meshes[id.0 as usize].name;
-        let mesh = self.root.push(json::Mesh {
-            extensions: None,
-            extras: None,
+        let mesh = document::Mesh {
             name: Some(name.clone()).filter(|name| !name.is_empty()),
-            primitives: vec![primitive],
-            weights: None,
-        });
+            primitives: [primitive],
+        };
+        let mesh = Index::push(&mut self.root.meshes, mesh);
         self.meshes.insert(key, mesh);
         Some(mesh)
     }
@@ -95,7 +86,7 @@ impl GltfWriter<'_> {
     /// The accessors of a mesh of the scene.
     fn attributes(&mut self, id: MeshId, place: Place) -> Option<MeshAccessors> {
         if let Some(known) = self.attributes.get(&id.0) {
-            return Some(known.clone());
+            return Some(*known);
         }
         let mesh = &self.scene.meshes[id.0 as usize];
         self.charge(mesh, place)?;
@@ -111,34 +102,36 @@ impl GltfWriter<'_> {
             triangles,
         } = mesh;
         let corners = self.rounded(positions, place)?;
-        let mut of_vertices = BTreeMap::new();
-        let mut add = |semantic, accessor| {
-            of_vertices.insert(Checked::Valid(semantic), accessor);
+        let mut of_vertices = Attributes {
+            position: Some(self.floats(&corners, true)),
+            ..Attributes::default()
         };
-        add(Semantic::Positions, self.floats(&corners, true));
         if !normals.is_empty() {
             let normals = self.directions(normals, &corners, triangles, place)?;
-            add(Semantic::Normals, self.floats(&normals, false));
+            of_vertices.normal = Some(self.floats(&normals, false));
         }
-        for (set, uvs) in [(0, uvs), (1, second_uvs)] {
+        for (uvs, attribute) in [
+            (uvs, &mut of_vertices.texcoord_0),
+            (second_uvs, &mut of_vertices.texcoord_1),
+        ] {
             if !uvs.is_empty() {
                 let uvs = self.rounded(uvs, place)?;
-                add(Semantic::TexCoords(set), self.floats(&uvs, false));
+                *attribute = Some(self.floats(&uvs, false));
             }
         }
         if !tangents.is_empty() && !normals.is_empty() {
             let tangents = self.rounded(tangents, place)?;
-            add(Semantic::Tangents, self.floats(&tangents, false));
+            of_vertices.tangent = Some(self.floats(&tangents, false));
         }
         if !colors.is_empty() {
             let colors = self.rounded(colors, place)?;
-            add(Semantic::Colors(0), self.floats(&colors, false));
+            of_vertices.color_0 = Some(self.floats(&colors, false));
         }
         let made = MeshAccessors {
             of_vertices,
             triangles: self.indices(triangles, positions.len()),
         };
-        self.attributes.insert(id.0, made.clone());
+        self.attributes.insert(id.0, made);
         Some(made)
     }
 

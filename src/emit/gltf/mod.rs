@@ -1,10 +1,11 @@
-//! The IR to glTF 2.0, as one binary file or as several, in the types of `gltf::json`.
+//! The IR to glTF 2.0, as one binary file or as several.
 //!
 //! Shapes become meshes, Phong's model the nearest metallic-roughness material. What glTF has no
 //! words for goes into `extras.rtc`, value by value; each such place is told.
 
 mod camera;
 mod chunk;
+mod document;
 mod form;
 mod light;
 mod material;
@@ -16,13 +17,10 @@ mod told;
 mod writer;
 
 use super::told::Told;
-use crate::diag::{Sink, codes};
-use crate::ir::{Field, Noun, Origins, Place, Scene};
-use crate::source::{Budget, Resource};
-use gltf::binary::{Glb, Header};
-use gltf::json;
-use json::validation::USize64;
-use std::borrow::Cow;
+use document::{Asset, Buffer, Index};
+use rtc_diag::{Sink, codes};
+use rtc_ir::{Field, Noun, Origins, Place, Scene};
+use rtc_source::{Budget, Resource};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use writer::GltfWriter;
@@ -82,41 +80,22 @@ fn charge_pictures(scene: &Scene, budget: &Budget, told: &mut Told<'_>) -> Optio
 
 impl GltfWriter<'_> {
     fn finish(mut self) -> Option<GltfAsset> {
-        let nodes = std::mem::take(&mut self.nodes);
-        let scene = json::Scene {
-            extensions: None,
-            extras: None,
-            name: None,
-            nodes,
+        self.root.asset = Asset {
+            generator: concat!("rtc ", env!("CARGO_PKG_VERSION")),
+            version: "2.0",
         };
-        self.root.scene = Some(self.root.push(scene));
-        self.root.asset.generator = Some(concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned());
-        self.root.extensions_used = self.used.iter().map(|name| (*name).to_owned()).collect();
         if !self.bin.is_empty() {
-            let byte_length = USize64::from(self.bin.len());
+            let byte_length = self.bin.len();
             let uri = self.folder.map(|folder| {
                 let bytes = std::mem::take(&mut self.bin);
                 self.file(folder, ("", "buffer", "bin"), bytes)
             });
-            self.root.push(json::Buffer {
-                byte_length,
-                name: None,
-                uri,
-                extensions: None,
-                extras: None,
-            });
+            Index::push(&mut self.root.buffers, Buffer { byte_length, uri });
         }
-        let text = self.root.to_value().and_then(|mut document| {
-            for (pointer, number) in self.exact.drain(..) {
-                if let Some(place) = document.pointer_mut(&pointer) {
-                    *place = number;
-                }
-            }
-            match self.folder {
-                Some(_) => serde_json::to_vec_pretty(&document),
-                None => serde_json::to_vec(&document),
-            }
-        });
+        let text = match self.folder {
+            Some(_) => serde_json::to_vec_pretty(&self.root),
+            None => serde_json::to_vec(&self.root),
+        };
         let Ok(json) = text else {
             unreachable!("a proven scene holds finite numbers, which JSON can say");
         };
@@ -154,15 +133,25 @@ impl GltfAsset {
             out.write_all(&self.json)?;
             return out.write_all(b"\n");
         }
-        let glb = Glb {
-            header: Header {
-                magic: *b"glTF",
-                version: 2,
-                length: 0,
-            },
-            json: Cow::Borrowed(&self.json),
-            bin: (!self.bin.is_empty()).then_some(Cow::Borrowed(&self.bin)),
-        };
-        glb.to_writer(out).map_err(io::Error::other)
+        let chunks = [(b"JSON", &self.json, b' '), (b"BIN\0", &self.bin, 0)];
+        let chunks = chunks.iter().filter(|(_, bytes, _)| !bytes.is_empty());
+        let filled = |bytes: &[u8]| bytes.len().next_multiple_of(4);
+        let total: usize = chunks.clone().map(|(_, bytes, _)| 8 + filled(bytes)).sum();
+        out.write_all(b"glTF")?;
+        out.write_all(&2_u32.to_le_bytes())?;
+        out.write_all(&word(12 + total)?)?;
+        for (kind, bytes, filler) in chunks {
+            out.write_all(&word(filled(bytes))?)?;
+            out.write_all(*kind)?;
+            out.write_all(bytes)?;
+            out.write_all(&vec![*filler; filled(bytes) - bytes.len()])?;
+        }
+        Ok(())
     }
+}
+
+/// A length in a .glb.
+fn word(length: usize) -> io::Result<[u8; 4]> {
+    let length = u32::try_from(length).map_err(io::Error::other)?;
+    Ok(length.to_le_bytes())
 }

@@ -1,10 +1,9 @@
 //! Phong's model: the material of glTF that comes nearest, and its own weights in `extras.rtc`.
 
 use super::writer::GltfWriter;
-use crate::diag::codes;
-use crate::ir::{Bump, Phong, Place};
-use gltf::json::Value;
-use serde_json::{Map as Block, json};
+use rtc_diag::codes;
+use rtc_ir::{Bump, Phong, Place};
+use serde_json::{Map as Block, Value, json};
 
 impl GltfWriter<'_> {
     /// The weights and maps of Phong's model for `extras.rtc`.

@@ -1,8 +1,8 @@
 //! How the picture is made, and what surrounds the scene, in `extras.rtc` of the asset.
 
 use super::writer::{GltfWriter, extras, number};
-use crate::color::Tone;
-use crate::ir::{
+use rtc_color::Tone;
+use rtc_ir::{
     Display, Environment, Field, Gooch, Mode, Noun, PathSettings, Pattern, Pixels, Place, Settings,
 };
 use serde_json::{Map as Block, Value, json};

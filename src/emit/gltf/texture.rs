@@ -1,16 +1,15 @@
 //! Textures: images as PNG, samplers, and how the materials look them up.
 
+use super::document::{
+    CLAMP_TO_EDGE, Image, Index, LINEAR, LINEAR_MIPMAP_LINEAR, MIRRORED_REPEAT, NEAREST, REPEAT,
+    Sampler, Texture, TextureInfo,
+};
 use super::writer::{GltfWriter, number};
-use crate::diag::codes;
-use crate::image::png_bytes;
-use crate::ir::{self, Field, Filter, Map, Noun, Pixels, Place, Sampled, TextureId, Wrap};
-use crate::math::{atan2, cos, sin};
-use gltf::json;
-use json::image::MimeType;
-use json::texture::{MagFilter, MinFilter, Sampler, WrappingMode};
-use json::validation::Checked;
-use json::{Index, Value};
-use serde_json::json;
+use rtc_diag::codes;
+use rtc_image::png_bytes;
+use rtc_ir::{self as ir, Field, Filter, Map, Noun, Pixels, Place, Sampled, TextureId, Wrap};
+use rtc_math::{atan2, cos, sin};
+use serde_json::{Value, json};
 
 /// Pixels along the side of the picture that shows the colours (u, 0, v).
 const UV_SIDE: u32 = 256;
@@ -22,7 +21,7 @@ const SHEAR: f64 = 1e-9;
 impl GltfWriter<'_> {
     /// What a material says of a map: the index of its texture, the set of coordinates, and their
     /// transformation.
-    pub(super) fn texture_info(&mut self, map: &Map, place: Place) -> Value {
+    pub(super) fn texture_info(&mut self, map: &Map, place: Place) -> TextureInfo {
         let Map {
             texture,
             set,
@@ -37,21 +36,26 @@ impl GltfWriter<'_> {
             (true, None) => Some(UPWARDS),
             (true, Some([u, [a, b, c]])) => Some([*u, [-a, -b, 1.0 - c]]),
         };
-        let mut info = json!({ "index": self.texture(*texture, place).value(), "texCoord": set });
-        if let Some(map) = map {
-            self.used.insert("KHR_texture_transform");
+        let index = self.texture(*texture, place);
+        let extensions = map.map(|map| {
+            self.root.extensions_used.insert("KHR_texture_transform");
             let transform = transform(map).unwrap_or_else(|| {
                 let message = "a texture is sheared, for which glTF has no words";
                 self.told.tell(&codes::GLTF_UNSAID, message, place);
                 json!({})
             });
-            info["extensions"] = json!({ "KHR_texture_transform": transform });
+            json!({ "KHR_texture_transform": transform })
+        });
+        TextureInfo {
+            index,
+            scale: None,
+            tex_coord: *set,
+            extensions,
         }
-        info
     }
 
     /// A texture of the scene.
-    pub(super) fn texture(&mut self, id: TextureId, place: Place) -> Index<json::Texture> {
+    pub(super) fn texture(&mut self, id: TextureId, place: Place) -> Index<Texture> {
         if let Some(known) = self.textures.get(&id.0) {
             return *known;
         }
@@ -72,43 +76,35 @@ impl GltfWriter<'_> {
                 filter,
             }) => (self.image(number(*image)), *wrap, *filter),
         };
-        let texture = json::Texture {
-            name: None,
-            sampler: Some(self.sampler(wrap, filter)),
-            source,
-            extensions: None,
-            extras: None,
-        };
-        let index = self.root.push(texture);
+        let sampler = self.sampler(wrap, filter);
+        let index = Index::push(&mut self.root.textures, Texture { sampler, source });
         self.textures.insert(id.0, index);
         index
     }
 
     fn sampler(&mut self, wrap: [Wrap; 2], filter: Filter) -> Index<Sampler> {
-        let [across, down] = wrap.map(wrapping);
-        let (mag, min) = match filter {
-            Filter::Linear => (MagFilter::Linear, MinFilter::LinearMipmapLinear),
-            Filter::Nearest => (MagFilter::Nearest, MinFilter::Nearest),
+        let [wrap_s, wrap_t] = wrap.map(wrapping);
+        let [mag_filter, min_filter] = match filter {
+            Filter::Linear => [LINEAR, LINEAR_MIPMAP_LINEAR],
+            Filter::Nearest => [NEAREST, NEAREST],
         };
-        let key = [across as u8, down as u8, mag as u8];
+        let key = [wrap_s, wrap_t, mag_filter];
         if let Some(known) = self.samplers.get(&key) {
             return *known;
         }
-        let sampler = self.root.push(Sampler {
-            mag_filter: Some(Checked::Valid(mag)),
-            min_filter: Some(Checked::Valid(min)),
-            name: None,
-            wrap_s: Checked::Valid(across),
-            wrap_t: Checked::Valid(down),
-            extensions: None,
-            extras: None,
-        });
+        let sampler = Sampler {
+            mag_filter,
+            min_filter,
+            wrap_s,
+            wrap_t,
+        };
+        let sampler = Index::push(&mut self.root.samplers, sampler);
         self.samplers.insert(key, sampler);
         sampler
     }
 
     /// An image of the scene, with 8 bits a channel.
-    pub(super) fn image(&mut self, id: u32) -> Index<json::Image> {
+    pub(super) fn image(&mut self, id: u32) -> Index<Image> {
         if let Some(known) = self.images.get(&id) {
             return *known;
         }
@@ -135,7 +131,7 @@ impl GltfWriter<'_> {
     }
 
     /// The picture of the colours (u, 0, v), v upwards.
-    fn uv_image(&mut self) -> Index<json::Image> {
+    fn uv_image(&mut self) -> Index<Image> {
         if let Some(known) = self.uv_image {
             return known;
         }
@@ -149,27 +145,26 @@ impl GltfWriter<'_> {
         image
     }
 
-    fn png(&mut self, png: Vec<u8>, name: &str) -> Index<json::Image> {
+    fn png(&mut self, png: Vec<u8>, name: &str) -> Index<Image> {
         let (uri, buffer_view) = match self.folder {
             Some(folder) => (Some(self.file(folder, (name, "image", "png"), png)), None),
             None => (None, Some(self.view(&png, None))),
         };
-        self.root.push(json::Image {
+        let image = Image {
             buffer_view,
-            mime_type: Some(MimeType("image/png".to_owned())),
+            mime_type: "image/png",
             name: Some(name.to_owned()).filter(|name| !name.is_empty()),
             uri,
-            extensions: None,
-            extras: None,
-        })
+        };
+        Index::push(&mut self.root.images, image)
     }
 }
 
-fn wrapping(wrap: Wrap) -> WrappingMode {
+fn wrapping(wrap: Wrap) -> u32 {
     match wrap {
-        Wrap::Repeat => WrappingMode::Repeat,
-        Wrap::Mirror => WrappingMode::MirroredRepeat,
-        Wrap::Clamp => WrappingMode::ClampToEdge,
+        Wrap::Repeat => REPEAT,
+        Wrap::Mirror => MIRRORED_REPEAT,
+        Wrap::Clamp => CLAMP_TO_EDGE,
     }
 }
 

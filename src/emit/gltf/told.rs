@@ -1,8 +1,8 @@
 //! What is told of values that only rtc reads from an asset.
 
-use crate::diag::codes;
-use crate::emit::told::Told;
-use crate::ir::Place;
+use crate::told::Told;
+use rtc_diag::codes;
+use rtc_ir::Place;
 
 impl Told<'_> {
     /// Tells of a value that stands in `extras.rtc`; `what` says what the value is.

@@ -1,17 +1,17 @@
-//! The asset in the making: the document in the types of `gltf::json`, the binary chunk, and what
-//! was written already.
+//! The asset in the making: the document, the binary chunk, and what was written already.
 
+use super::document::{
+    Extras, Image, Index, Light, LightReference, Material, Mesh, Node, NodeExtensions, Root,
+    Sampler, Texture,
+};
 use super::material::MaterialKey;
 use super::mesh::MeshAccessors;
-use crate::emit::beside;
-use crate::emit::told::Told;
-use crate::ir::{ImageId, Scene};
-use crate::source::{Budget, uri_path};
-use gltf::json;
-use json::extensions::scene::Node as NodeExtensions;
-use json::{Index, Node, Root, Value};
-use serde_json::value::to_raw_value;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::beside;
+use crate::told::Told;
+use rtc_ir::{ImageId, Scene};
+use rtc_source::{Budget, uri_path};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 use xxhash_rust::xxh3::xxh3_64;
 
 /// Writes a scene of meshes.
@@ -24,22 +24,15 @@ pub(super) struct GltfWriter<'w> {
     /// The folder of files beside the asset, and what they hold; none if all is in one file.
     pub(super) folder: Option<&'w str>,
     pub(super) files: BTreeMap<String, Vec<u8>>,
-    /// Numbers that `gltf::json` rounds to 32 bits, as they are, by JSON pointers to where they
-    /// stand.
-    pub(super) exact: Vec<(String, Value)>,
-    /// The extensions that are used.
-    pub(super) used: BTreeSet<&'static str>,
-    /// The nodes that the scene shows.
-    pub(super) nodes: Vec<Index<Node>>,
     /// What was written of each kind, by what it was written for.
-    pub(super) images: BTreeMap<u32, Index<json::Image>>,
-    pub(super) textures: BTreeMap<u32, Index<json::Texture>>,
-    pub(super) samplers: BTreeMap<[u8; 3], Index<json::texture::Sampler>>,
-    pub(super) materials: BTreeMap<MaterialKey, Index<json::Material>>,
+    pub(super) images: BTreeMap<u32, Index<Image>>,
+    pub(super) textures: BTreeMap<u32, Index<Texture>>,
+    pub(super) samplers: BTreeMap<[u32; 3], Index<Sampler>>,
+    pub(super) materials: BTreeMap<MaterialKey, Index<Material>>,
     pub(super) attributes: BTreeMap<u32, MeshAccessors>,
-    pub(super) meshes: BTreeMap<(u32, usize), Index<json::Mesh>>,
+    pub(super) meshes: BTreeMap<(u32, u32), Index<Mesh>>,
     /// The picture that stands for the colours (u, 0, v).
-    pub(super) uv_image: Option<Index<json::Image>>,
+    pub(super) uv_image: Option<Index<Image>>,
 }
 
 impl<'w> GltfWriter<'w> {
@@ -57,9 +50,6 @@ impl<'w> GltfWriter<'w> {
             told,
             folder,
             files: BTreeMap::new(),
-            exact: Vec::new(),
-            used: BTreeSet::new(),
-            nodes: Vec::new(),
             images: BTreeMap::new(),
             textures: BTreeMap::new(),
             samplers: BTreeMap::new(),
@@ -88,21 +78,11 @@ impl<'w> GltfWriter<'w> {
     pub(super) fn node(&mut self, node: Node, columns: [[f64; 3]; 4]) {
         const IDENTITY: [[f64; 3]; 4] =
             [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
-        let mut matrix = None;
-        if columns != IDENTITY {
-            let [x, y, z, origin] = columns;
-            let rows = [(x, 0.0), (y, 0.0), (z, 0.0), (origin, 1.0)];
-            let numbers: Vec<f64> = rows
-                .into_iter()
-                .flat_map(|([x, y, z], w)| [x, y, z, w])
-                .collect();
-            let pointer = format!("/nodes/{}/matrix", self.root.nodes.len());
-            matrix =
-                <[f32; 16]>::try_from(numbers.iter().map(|n| single(*n)).collect::<Vec<_>>()).ok();
-            self.exact.push((pointer, numbers.into()));
-        }
-        let index = self.root.push(Node { matrix, ..node });
-        self.nodes.push(index);
+        let [[a, b, c], [d, e, f], [g, h, i], [x, y, z]] = columns;
+        let matrix = (columns != IDENTITY)
+            .then_some([a, b, c, 0.0, d, e, f, 0.0, g, h, i, 0.0, x, y, z, 1.0]);
+        let index = Index::push(&mut self.root.nodes, Node { matrix, ..node });
+        self.root.scenes[0].nodes.push(index);
     }
 }
 
@@ -116,22 +96,15 @@ pub(super) fn single(number: f64) -> f32 {
 }
 
 /// An object of `extras` that holds this under `rtc`; none if there is nothing to hold.
-pub(super) fn extras(rtc: serde_json::Map<String, Value>) -> json::Extras {
-    if rtc.is_empty() {
-        return None;
-    }
-    to_raw_value(&serde_json::json!({ "rtc": rtc })).ok()
+pub(super) fn extras(rtc: Map<String, Value>) -> Extras {
+    (!rtc.is_empty()).then(|| json!({ "rtc": rtc }))
 }
 
 /// A node that a light hangs on.
-pub(super) fn lit(light: u32) -> Node {
-    let reference = json::extensions::scene::khr_lights_punctual::KhrLightsPunctual {
-        light: Index::new(light),
-    };
+pub(super) fn lit(light: Index<Light>) -> Node {
     Node {
         extensions: Some(NodeExtensions {
-            khr_lights_punctual: Some(reference),
-            ..NodeExtensions::default()
+            punctual: LightReference { light },
         }),
         ..Node::default()
     }

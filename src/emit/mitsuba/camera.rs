@@ -1,10 +1,10 @@
 //! The camera: any frustum of square pixels, a thin lens, or rays side by side.
 
 use super::MitsubaWriter;
-use crate::emit::flat::{around, side};
-use crate::emit::twin::joined;
-use crate::ir::{Camera, Field, Noun, Place, Projection};
-use crate::math::{Vec3, length, shortest, unit};
+use crate::flat::{around, side};
+use crate::twin::joined;
+use rtc_ir::{Camera, Field, Noun, Place, Projection};
+use rtc_math::{Vec3, length, shortest, unit};
 
 /// How far the sides of a pixel may differ, as a share, for it to be square.
 const SQUARE: f64 = 1e-9;

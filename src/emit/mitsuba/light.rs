@@ -1,9 +1,9 @@
 //! Suns and points without an end; other lights have no exact twin.
 
 use super::MitsubaWriter;
-use crate::emit::twin::joined;
-use crate::ir::{Emitter, Field, Light, Noun, Place, Punctual};
-use crate::math::{Vec3, unit};
+use crate::twin::joined;
+use rtc_ir::{Emitter, Field, Light, Noun, Place, Punctual};
+use rtc_math::{Vec3, unit};
 
 impl MitsubaWriter<'_> {
     pub(super) fn lights(&mut self) {

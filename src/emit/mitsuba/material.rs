@@ -1,10 +1,10 @@
 //! Materials: matt ones and perfect mirrors have exact twins; for others stands what comes near.
 
 use super::MitsubaWriter;
-use crate::emit::nearest::nearest;
-use crate::emit::twin::{listed, worn};
-use crate::ir::{Alpha, Material, Place, Standard};
-use crate::math::shortest;
+use crate::nearest::nearest;
+use crate::twin::{listed, worn};
+use rtc_ir::{Alpha, Material, Place, Standard};
+use rtc_math::shortest;
 use std::borrow::Cow;
 
 /// The reflectance of a dielectric along the normal that the parameter `specular` of Mitsuba's

@@ -2,14 +2,14 @@
 
 use super::MitsubaWriter;
 use super::material::standard;
-use crate::emit::flat::{around, side, split, square};
-use crate::emit::twin::{joined, word};
-use crate::emit::{beside, ply};
-use crate::ir::{
+use crate::flat::{around, side, split, square};
+use crate::twin::{joined, word};
+use crate::{beside, ply};
+use rtc_ir::{
     Ball, Column, Cylinder, Disc, Field, Instance, Mesh, MeshId, Noun, Place, Shape, Sphere,
     Surface,
 };
-use crate::math::{Basis, Vec3, is_flat, shortest, unit};
+use rtc_math::{Basis, Vec3, is_flat, shortest, unit};
 use xxhash_rust::xxh3::xxh3_64;
 
 /// Bytes of the head of a PLY, and of what it has for a triangle.

@@ -2,9 +2,9 @@
 //! ambient term is becomes one colour.
 
 use super::{PovWriter, vector};
-use crate::emit::twin::{listed, worn};
-use crate::ir::{Light, Material, Phong, Place, Standard};
-use crate::math::shortest;
+use crate::twin::{listed, worn};
+use rtc_ir::{Light, Material, Phong, Place, Standard};
+use rtc_math::shortest;
 
 impl PovWriter<'_> {
     /// Writes the materials that surfaces have.

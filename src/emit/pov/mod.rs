@@ -7,13 +7,13 @@ mod shape;
 use super::TwinScene;
 use super::told::Told;
 use super::twin::joined;
-use crate::diag::Sink;
-use crate::ir::{
+use rtc_diag::Sink;
+use rtc_ir::{
     Camera, Display, Field, Light, Mode, Noun, Origins, Pattern, Place, PointLight, Projection,
     Scene, Settings,
 };
-use crate::math::Vec3;
-use crate::source::Budget;
+use rtc_math::Vec3;
+use rtc_source::Budget;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 

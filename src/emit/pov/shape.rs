@@ -1,13 +1,13 @@
 //! Surfaces: all shapes but bilinear patches and paraboloids; meshes with all their corners.
 
 use super::{PovWriter, vector};
-use crate::emit::flat::split;
-use crate::emit::twin::word;
-use crate::ir::{
+use crate::flat::split;
+use crate::twin::word;
+use rtc_ir::{
     Column, Cone, Cylinder, Disc, Field, Instance, Mesh, Noun, Place, Plane, Quad, Shape, Sphere,
     Surface, Torus, Triangle,
 };
-use crate::math::{Basis, Vec3, is_flat, shortest, unit};
+use rtc_math::{Basis, Vec3, is_flat, shortest, unit};
 use std::fmt::Write as _;
 
 /// The most bytes that three numbers, or three indices, take as text.

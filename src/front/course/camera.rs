@@ -7,11 +7,11 @@ use super::picture::PictureSize;
 use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::value::{Point, Vector, word, word_schema};
-use crate::diag::{Severity, codes};
-use crate::ir::{self, Field};
-use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, unit};
-use crate::source::Span;
-use crate::source::tree::NodeId;
+use rtc_diag::{Severity, codes};
+use rtc_ir::{self as ir, Field};
+use rtc_math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, unit};
+use rtc_source::Span;
+use rtc_source::tree::NodeId;
 use serde_json::Value as Json;
 
 record! {

@@ -3,11 +3,11 @@
 use super::meant;
 use super::schema::Definitions;
 use super::spelling::is_same_but_for_signs;
-use crate::diag::clip;
-use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
-use crate::front::FrontOptions;
-use crate::source::tree::{NodeContent, NodeId, Tree};
-use crate::source::{Budget, Resource, Span};
+use crate::FrontOptions;
+use rtc_diag::clip;
+use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
+use rtc_source::tree::{NodeContent, NodeId, Tree};
+use rtc_source::{Budget, Resource, Span};
 use serde_json::Value as Json;
 use std::collections::BTreeSet;
 use std::marker::PhantomData;

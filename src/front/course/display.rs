@@ -6,9 +6,9 @@ use super::record::FieldOutcome;
 use super::schema::Definitions;
 use super::settings::Scene;
 use super::value::{word, word_schema};
-use crate::color::Tone;
-use crate::ir;
-use crate::source::tree::NodeId;
+use rtc_color::Tone;
+use rtc_ir as ir;
+use rtc_source::tree::NodeId;
 use serde_json::Value as Json;
 
 /// A tone map.

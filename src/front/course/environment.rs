@@ -6,9 +6,9 @@ use super::object::solid::turned;
 use super::record::{FieldOutcome, keys, record};
 use super::turn::RotationRows;
 use super::value::{Channels, FileName, Vector};
-use crate::diag::{Severity, codes};
-use crate::ir::{self, Field, Noun};
-use crate::source::Span;
+use rtc_diag::{Severity, codes};
+use rtc_ir::{self as ir, Field, Noun};
+use rtc_source::Span;
 
 record! {
     /// What surrounds the scene: light from every direction where nothing stands. A scene with one is shown by its paths.

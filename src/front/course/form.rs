@@ -3,8 +3,8 @@
 use super::decode::Context;
 use super::record::{Field, Need, Record};
 use super::spelling::list;
-use crate::diag::{Severity, codes};
-use crate::source::Span;
+use rtc_diag::{Severity, codes};
+use rtc_source::Span;
 
 /// The field that `--lenient` leaves out where a form has none.
 const ROTATION: &str = "rotation";

@@ -1,9 +1,9 @@
 //! The text of a scene in the layout of the house.
 
 use super::syntax;
-use crate::diag::Sink;
-use crate::source::tree::yaml::{self, LayoutFault, Mistake};
-use crate::source::{FileId, SourceMap};
+use rtc_diag::Sink;
+use rtc_source::tree::yaml::{self, LayoutFault, Mistake};
+use rtc_source::{FileId, SourceMap};
 
 /// The text of a file as it is laid out. What is wrong with it is told only if there is no tree.
 ///

@@ -7,10 +7,10 @@ use super::number::{HalfAngle, NonNegative, Positive};
 use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::value::{Channels, Color, FileName, Point, Vector, word, word_schema};
-use crate::diag::{Severity, codes};
-use crate::ir::{self, Field, Noun, Photometry};
-use crate::source::Span;
-use crate::source::tree::NodeId;
+use rtc_diag::{Severity, codes};
+use rtc_ir::{self as ir, Field, Noun, Photometry};
+use rtc_source::Span;
+use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {

@@ -9,12 +9,12 @@ use super::record::FieldOutcome;
 use super::settings::Scene;
 use super::syntax;
 use super::texture::Files;
-use crate::diag::{Diagnostic, Sink, clip, codes};
-use crate::front::FrontOptions;
-use crate::ir::{self, Field, Lowered, MaterialId, Noun, Origins, Place};
-use crate::source::tree::yaml::{self, Mistake};
-use crate::source::tree::{NodeContent, NodeId};
-use crate::source::{FileId, SourceMap, Span};
+use crate::FrontOptions;
+use rtc_diag::{Diagnostic, Sink, clip, codes};
+use rtc_ir::{self as ir, Field, Lowered, MaterialId, Noun, Origins, Place};
+use rtc_source::tree::yaml::{self, Mistake};
+use rtc_source::tree::{NodeContent, NodeId};
+use rtc_source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
 
 /// Reads a scene text and lowers it, but for the files it names. `None` if the text is no scene at

@@ -8,10 +8,10 @@ use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::standard::{self, StandardMaterial};
 use super::value::{Color, FileName, word, word_schema};
-use crate::diag::{Severity, codes};
-use crate::ir::{self, Field, MaterialId, Noun};
-use crate::source::Span;
-use crate::source::tree::NodeId;
+use rtc_diag::{Severity, codes};
+use rtc_ir::{self as ir, Field, MaterialId, Noun};
+use rtc_source::Span;
+use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {

@@ -1,9 +1,9 @@
 //! What was meant by a value of the wrong type: colours as the web writes them, units, fractions,
 //! decimal commas, round brackets, missing dashes.
 
-use crate::math::shortest;
-use crate::source::Span;
-use crate::source::tree::{NodeContent, NodeId, Tree};
+use rtc_math::shortest;
+use rtc_source::Span;
+use rtc_source::tree::{NodeContent, NodeId, Tree};
 
 /// A hint, and the text to put in place of the value of a key, if that is known; `what` are the words
 /// for what the value must be.

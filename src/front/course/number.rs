@@ -5,10 +5,10 @@
 
 use super::decode::{Context, Value, describe};
 use super::schema::Definitions;
-use crate::diag::clip;
-use crate::diag::codes;
-use crate::ir::Display;
-use crate::source::tree::{NodeContent, NodeId};
+use rtc_diag::clip;
+use rtc_diag::codes;
+use rtc_ir::Display;
+use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 use std::f64::consts::FRAC_PI_2;
 
@@ -244,7 +244,7 @@ macro_rules! ranged {
     ($(#[doc = $doc:literal])+ $name:ident($inner:ty), $decode:expr, $schema:tt) => {
         $(#[doc = $doc])+
         #[derive(Clone, Copy, Debug)]
-        pub(in crate::front::course) struct $name(pub(in crate::front::course) $inner);
+        pub(in crate::course) struct $name(pub(in crate::course) $inner);
 
         impl Value for $name {
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {

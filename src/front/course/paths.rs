@@ -6,7 +6,7 @@ use super::lower::Lowering;
 use super::number::Count;
 use super::record::{FieldOutcome, keys, record};
 use super::settings::{Mode, Scene};
-use crate::ir;
+use rtc_ir as ir;
 
 record! {
     /// How the light along all paths is followed.

@@ -7,8 +7,8 @@ use super::record::{FieldOutcome, record};
 use super::schema::Definitions;
 use super::settings::Scene;
 use super::value::tuple;
-use crate::diag::{Severity, codes};
-use crate::source::tree::NodeId;
+use rtc_diag::{Severity, codes};
+use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {

@@ -5,9 +5,9 @@ use super::decode::{Context, MapEntry, ValueKey, describe};
 use super::form;
 use super::record::{Field, FieldOutcome, Need, Record, Slot};
 use super::spelling::{is_same_but_for_signs, list};
-use crate::diag::{Diagnostic, clip, codes, nearest};
-use crate::source::Span;
-use crate::source::tree::NodeId;
+use rtc_diag::{Diagnostic, clip, codes, nearest};
+use rtc_source::Span;
+use rtc_source::tree::NodeId;
 use std::collections::BTreeSet;
 
 /// So many findings get a suggestion.

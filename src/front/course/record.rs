@@ -7,7 +7,7 @@
 
 use super::decode::{Context, MapEntry, Spanned, Value, ValueKey};
 use super::schema::Definitions;
-use crate::source::tree::NodeId;
+use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 /// Rows of keys, the canonical one first; all rows of a field have the same length.
@@ -65,58 +65,58 @@ macro_rules! record {
         $(lowered_forms { $([$($lowered:ident)+])+ })?
     ) => {
         $(#[doc = $doc])+
-        pub(in crate::front::course) struct $name {
-            $($(#[doc = $field_doc])+ pub(in crate::front::course) $field: record!(@type $need $type),)+
+        pub(in crate::course) struct $name {
+            $($(#[doc = $field_doc])+ pub(in crate::course) $field: record!(@type $need $type),)+
         }
 
         impl $name {
             /// The declaration.
-            pub(in crate::front::course) const RECORD: $crate::front::course::record::Record = $crate::front::course::record::Record {
+            pub(in crate::course) const RECORD: $crate::course::record::Record = $crate::course::record::Record {
                 word: $word,
                 doc: concat!($($doc),+),
-                fields: &[$($crate::front::course::record::Field {
+                fields: &[$($crate::course::record::Field {
                     name: stringify!($field),
                     doc: concat!($($field_doc),+),
                     rows: $rows,
                     json: &[$($json),*],
                     need: record!(@need $need $type $(, $default)?),
-                    schema: <$type as $crate::front::course::record::Slot>::schema,
+                    schema: <$type as $crate::course::record::Slot>::schema,
                 }),+],
                 forms: &[$($(&[$(stringify!($member)),+]),+)? $($(&[$(stringify!($lowered)),+]),+)?],
                 forms_are_lowered: !<[&str]>::is_empty(&[$($($(stringify!($lowered)),+),+)?]),
             };
         }
 
-        impl $crate::front::course::decode::Value for $name {
+        impl $crate::course::decode::Value for $name {
             fn decode(
-                node: $crate::source::tree::NodeId,
-                context: &mut $crate::front::course::decode::Context<'_>,
+                node: rtc_source::tree::NodeId,
+                context: &mut $crate::course::decode::Context<'_>,
             ) -> Option<Self> {
-                let mut reader = $crate::front::course::reader::Reader::open(&Self::RECORD, node, context)?;
+                let mut reader = $crate::course::reader::Reader::open(&Self::RECORD, node, context)?;
                 $(let $field = reader.next::<$type>(context);)+
                 reader.close(context).then_some(())?;
                 Some(Self { $($field: record!(@value $need $field $(, $default)?)),+ })
             }
 
-            fn schema(definitions: &mut $crate::front::course::schema::Definitions) -> serde_json::Value {
-                $crate::front::course::schema::record(&Self::RECORD, definitions)
+            fn schema(definitions: &mut $crate::course::schema::Definitions) -> serde_json::Value {
+                $crate::course::schema::record(&Self::RECORD, definitions)
             }
         }
     };
-    (@type optional $type:ty) => { $crate::front::course::record::FieldOutcome<$type> };
-    (@type unless $type:ty) => { $crate::front::course::record::FieldOutcome<$type> };
+    (@type optional $type:ty) => { $crate::course::record::FieldOutcome<$type> };
+    (@type unless $type:ty) => { $crate::course::record::FieldOutcome<$type> };
     (@type $need:ident $type:ty) => { $type };
-    (@need required $type:ty) => { $crate::front::course::record::Need::Required };
-    (@need optional $type:ty) => { $crate::front::course::record::Need::Optional };
-    (@need unless $type:ty, $other:expr) => { $crate::front::course::record::Need::Unless($other) };
+    (@need required $type:ty) => { $crate::course::record::Need::Required };
+    (@need optional $type:ty) => { $crate::course::record::Need::Optional };
+    (@need unless $type:ty, $other:expr) => { $crate::course::record::Need::Unless($other) };
     (@need default $type:ty, $default:expr) => {
-        $crate::front::course::record::Need::Default(|| $crate::front::course::decode::Value::json(&$default))
+        $crate::course::record::Need::Default(|| $crate::course::decode::Value::json(&$default))
     };
     (@value required $found:ident) => { $found.ok()? };
     (@value optional $found:ident) => { $found };
     (@value unless $found:ident, $other:expr) => { $found };
     (@value default $found:ident, $default:expr) => {
-        $found.ok().unwrap_or_else(|| $crate::front::course::decode::Spanned::unwritten($default))
+        $found.ok().unwrap_or_else(|| $crate::course::decode::Spanned::unwritten($default))
     };
 }
 

@@ -5,9 +5,9 @@ use super::number::{Count, is_number, plain_number};
 use super::record::{keys, record};
 use super::schema::Definitions;
 use super::value::{word, word_schema};
-use crate::diag::codes;
-use crate::ir;
-use crate::source::tree::{NodeContent, NodeId};
+use rtc_diag::codes;
+use rtc_ir as ir;
+use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 record! {

@@ -14,9 +14,9 @@ use super::record::{FieldOutcome, keys, record};
 use super::sampling::SuperSampling;
 use super::schema::Definitions;
 use super::value::{Point, Switch, Text, word, word_schema};
-use crate::diag::{Severity, codes};
-use crate::ir::{self, Field, Noun};
-use crate::source::tree::NodeId;
+use rtc_diag::{Severity, codes};
+use rtc_ir::{self as ir, Field, Noun};
+use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {

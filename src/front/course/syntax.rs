@@ -1,8 +1,8 @@
 //! Mistakes in a YAML text as findings.
 
-use crate::diag::{Code, Diagnostic, Severity, clip, codes};
-use crate::source::Span;
-use crate::source::tree::yaml::{MAX_DEPTH, Mistake};
+use rtc_diag::{Code, Diagnostic, Severity, clip, codes};
+use rtc_source::Span;
+use rtc_source::tree::yaml::{MAX_DEPTH, Mistake};
 
 /// The finding about a mistake.
 pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {

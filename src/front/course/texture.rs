@@ -4,7 +4,7 @@ use super::assets::{Asset, Wanted};
 use super::decode::Spanned;
 use super::value::FileName;
 
-use crate::ir::{
+use rtc_ir::{
     Filter, Image, ImageId, Mesh, MeshId, Pixels, Sampled, Scene, Texture, TextureId, Wrap,
 };
 use std::collections::BTreeMap;

@@ -4,8 +4,8 @@ use super::decode::{Context, Value};
 use super::number::{number, plain_number};
 use super::schema::Definitions;
 use super::value::tuple;
-use crate::diag::{Severity, clip, codes};
-use crate::source::tree::NodeId;
+use rtc_diag::{Severity, clip, codes};
+use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 /// How something is turned: a quaternion (x, y, z, w) of any length.

@@ -5,9 +5,9 @@ use super::meant::listed;
 use super::number::{in_radians, is_number, json_number, number, plain_number};
 use super::schema::Definitions;
 use super::spelling::list;
-use crate::diag::codes;
-use crate::diag::{clip, nearest};
-use crate::source::tree::{NodeContent, NodeId};
+use rtc_diag::codes;
+use rtc_diag::{clip, nearest};
+use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 /// Reads a list of exactly `N` items, each with `item`; mistakes in one do not hide those in the

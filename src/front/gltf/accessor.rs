@@ -5,8 +5,8 @@ use super::document::Document;
 use super::field::Fields;
 use super::layout::{Component, ElementLayout};
 use super::report::AssetReport;
-use crate::diag::codes;
-use crate::source::tree::{NodeId, NodeKind};
+use rtc_diag::codes;
+use rtc_source::tree::{NodeId, NodeKind};
 
 /// The most bytes of all accessors together that have no data of their own and stand for zeros.
 const MAX_ZEROS: u64 = 1 << 24;

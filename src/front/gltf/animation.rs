@@ -9,8 +9,8 @@ use super::field::Fields;
 use super::layout::{Component, ElementLayout};
 use super::report::AssetReport;
 use super::usage::{Usage, Usages};
-use crate::diag::codes;
-use crate::source::tree::NodeId;
+use rtc_diag::codes;
+use rtc_source::tree::NodeId;
 use std::collections::BTreeMap;
 
 /// An animation.

@@ -7,8 +7,8 @@ use super::field::Fields;
 use super::layout::{Component, ElementLayout};
 use super::primitive::Primitive;
 use super::report::{AssetReport, shown};
-use crate::diag::codes;
-use crate::source::tree::NodeId;
+use rtc_diag::codes;
+use rtc_source::tree::NodeId;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What an accessor is to the vertices.

@@ -4,8 +4,8 @@
 use super::document::Document;
 use super::field::Fields;
 use super::report::AssetReport;
-use crate::diag::codes;
-use crate::source::tree::NodeId;
+use rtc_diag::codes;
+use rtc_source::tree::NodeId;
 use std::borrow::Cow;
 use std::rc::Rc;
 

@@ -3,7 +3,7 @@
 use super::document::Document;
 use super::field::Fields;
 use super::report::AssetReport;
-use crate::diag::codes;
+use rtc_diag::codes;
 
 /// How a camera makes a picture; it looks along its negative z axis, y is up.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,8 +10,8 @@ use super::mesh::Mesh;
 use super::node::Transform;
 use super::pointer;
 use super::report::AssetReport;
-use crate::diag::codes;
-use crate::source::tree::NodeId;
+use rtc_diag::codes;
+use rtc_source::tree::NodeId;
 
 /// The extension whose channels name what they move by a pointer.
 const POINTER: &str = "KHR_animation_pointer";

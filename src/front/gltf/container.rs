@@ -2,8 +2,8 @@
 //! `.gltf` alike.
 
 use super::header::CONVERT;
-use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
-use crate::source::{FileId, Span};
+use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
+use rtc_source::{FileId, Span};
 use std::ops::Range;
 
 /// The first bytes of a `.glb` file.
@@ -294,7 +294,7 @@ fn shown(kind: [u8; 4]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::SourceMap;
+    use rtc_source::SourceMap;
 
     fn open_bytes(bytes: &[u8]) -> (Option<Parts>, Vec<&'static str>) {
         let mut map = SourceMap::default();

@@ -6,7 +6,7 @@ use super::document::Document;
 use super::elements::Elements;
 use super::report::AssetReport;
 use super::unused::Readers;
-use crate::diag::codes;
+use rtc_diag::codes;
 
 /// Components that are looked at, for each byte of the buffers and beside that.
 const LOOKS: u64 = 16;

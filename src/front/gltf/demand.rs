@@ -3,8 +3,8 @@
 use super::elements::Elements;
 use super::node::LAST_ROW;
 use super::report::AssetReport;
-use crate::diag::codes;
-use crate::source::tree::NodeId;
+use rtc_diag::codes;
+use rtc_source::tree::NodeId;
 
 /// How far a vector of three or four components may be from length 1: what 8 bits a component
 /// allow.

@@ -11,7 +11,7 @@ use super::node::Node;
 use super::primitive::Primitive;
 use super::skin::Skin;
 use super::texture::{Texture, TextureSampler};
-use crate::source::tree::{NodeId, Tree};
+use rtc_source::tree::{NodeId, Tree};
 use std::collections::BTreeSet;
 
 /// An asset.
@@ -22,7 +22,7 @@ pub(super) struct Document<'s> {
     pub(super) accessors: Vec<Accessor>,
     pub(super) images: Vec<Image>,
     /// What the images were decoded to, without names.
-    pub(super) pictures: Vec<crate::ir::Image>,
+    pub(super) pictures: Vec<rtc_ir::Image>,
     pub(super) samplers: Vec<TextureSampler>,
     pub(super) textures: Vec<Texture>,
     /// Where each material was written; its many optional parts are read when it is lowered.

@@ -3,7 +3,7 @@
 use super::accessor::Accessor;
 use super::document::Document;
 use super::layout::{Component, ElementLayout};
-use crate::ir::Column;
+use rtc_ir::Column;
 
 /// The components of an element; a matrix has the most.
 pub(super) type Element = [f64; 16];

@@ -2,7 +2,7 @@
 //! simply not there.
 
 use super::pointer::Moved;
-use crate::source::tree::{NodeId, NodeKind, Tree};
+use rtc_source::tree::{NodeId, NodeKind, Tree};
 
 /// The object at a node.
 #[derive(Clone, Copy)]

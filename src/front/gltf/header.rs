@@ -3,8 +3,8 @@
 use super::field::Fields;
 use super::report::{AssetReport, shown};
 use super::schema;
-use crate::diag::codes;
-use crate::source::tree::{NodeId, NodeKind, Tree};
+use rtc_diag::codes;
+use rtc_source::tree::{NodeId, NodeKind, Tree};
 use std::collections::BTreeSet;
 
 /// Prefixes of extensions that the registry of Khronos knows, beside those of Khronos and of
@@ -152,7 +152,7 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
     major == 2
 }
 
-fn version(asset: Fields<'_, '_>, key: &str) -> Option<(crate::source::tree::NodeId, (u64, u64))> {
+fn version(asset: Fields<'_, '_>, key: &str) -> Option<(rtc_source::tree::NodeId, (u64, u64))> {
     let text = asset.text(key)?;
     let (major, minor) = text.split_once('.')?;
     let number = |digits: &str| {

@@ -5,12 +5,12 @@ use super::document::Document;
 use super::features;
 use super::field::Fields;
 use super::report::AssetReport;
-use crate::diag::{Code, codes};
-use crate::front::pixels::{self, Admitted, Refused};
-use crate::image::{DecodeError, Opacity, Pixels};
-use crate::ir;
-use crate::source::tree::{NodeId, NodeKind};
-use crate::source::{Budget, Exceeded};
+use crate::pixels::{self, Admitted, Refused};
+use rtc_diag::{Code, codes};
+use rtc_image::{DecodeError, Opacity, Pixels};
+use rtc_ir as ir;
+use rtc_source::tree::{NodeId, NodeKind};
+use rtc_source::{Budget, Exceeded};
 use std::collections::BTreeMap;
 
 /// An image.

@@ -3,9 +3,9 @@
 use super::document::Document;
 use super::elements::Elements;
 use super::report::AssetReport;
-use crate::diag::codes;
-use crate::source::Resource;
-use crate::source::tree::NodeId;
+use rtc_diag::codes;
+use rtc_source::Resource;
+use rtc_source::tree::NodeId;
 use std::collections::BTreeSet;
 
 /// What is wrong with the joints of some vertex, and where it was seen first.

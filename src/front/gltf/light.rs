@@ -3,7 +3,7 @@
 use super::document::Document;
 use super::field::Fields;
 use super::report::AssetReport;
-use crate::diag::codes;
+use rtc_diag::codes;
 
 /// Checks all lights.
 pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {

@@ -3,8 +3,8 @@
 use super::document::Document;
 use super::field::Fields;
 use super::report::AssetReport;
-use crate::diag::codes;
-use crate::source::tree::{NodeId, NodeKind, Tree};
+use rtc_diag::codes;
+use rtc_source::tree::{NodeId, NodeKind, Tree};
 
 /// Each texture of a material with the set of texture coordinates it asks for.
 pub(super) fn texture_coordinates(

@@ -7,8 +7,8 @@ use super::field::Fields;
 use super::primitive::{self, Primitive};
 use super::report::AssetReport;
 use super::usage::Usages;
-use crate::diag::codes;
-use crate::source::tree::NodeId;
+use rtc_diag::codes;
+use rtc_source::tree::NodeId;
 use std::collections::BTreeMap;
 
 /// A mesh.

@@ -45,16 +45,16 @@ pub(super) use lower::{SURFACE, empty, looking_at};
 pub use summary::{AnimationSummary, AssetSummary, summary};
 
 use super::FrontOptions;
-use crate::diag::{Diagnostic, Sink, codes};
-use crate::ir::Lowered;
-use crate::source::tree::{Tree, json};
-use crate::source::{FileId, Resource, Search, SourceMap, Span};
 use buffer::Purposes;
 use container::Parts;
 use demand::Demands;
 use document::Document;
 use report::AssetReport;
 use resource::Resources;
+use rtc_diag::{Diagnostic, Sink, codes};
+use rtc_ir::Lowered;
+use rtc_source::tree::{Tree, json};
+use rtc_source::{FileId, Resource, Search, SourceMap, Span};
 use usage::Usages;
 
 /// `schema/gltf-extensions.md`: the extensions that are read and drawn.

@@ -3,9 +3,9 @@
 use super::document::Document;
 use super::field::Fields;
 use super::report::AssetReport;
-use crate::diag::codes;
-use crate::math::unit;
-use crate::source::tree::{NodeId, Tree};
+use rtc_diag::codes;
+use rtc_math::unit;
+use rtc_source::tree::{NodeId, Tree};
 use std::collections::BTreeSet;
 
 /// How far a rotation may be from length 1.

@@ -3,7 +3,7 @@
 
 use super::channel::Path;
 use super::document::Document;
-use crate::source::tree::{NodeId, NodeKind, Tree};
+use rtc_source::tree::{NodeId, NodeKind, Tree};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
@@ -129,7 +129,7 @@ macro_rules! of_extensions {
     };
 }
 
-crate::standard::extensions!(of_extensions);
+rtc_tables::extensions!(of_extensions);
 
 /// The node and the path that a pointer names, as channels without pointers do.
 pub(super) fn of_node(pointer: &str) -> Option<(usize, Path)> {

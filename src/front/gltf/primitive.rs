@@ -12,8 +12,8 @@ use super::material;
 use super::mesh::MeshLinks;
 use super::report::AssetReport;
 use super::usage::Usage;
-use crate::diag::codes;
-use crate::source::tree::NodeId;
+use rtc_diag::codes;
+use rtc_source::tree::NodeId;
 
 /// The mode of triangles.
 pub(super) const TRIANGLES: u64 = 4;

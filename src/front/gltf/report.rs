@@ -1,10 +1,10 @@
 //! Findings about an asset, each with its bytes, its JSON pointer, and the name that the validator
 //! of Khronos has for it.
 
-use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
-use crate::front::FrontOptions;
-use crate::source::tree::{NodeId, NodeKind, Tree};
-use crate::source::{Budget, Exceeded, Resource};
+use crate::FrontOptions;
+use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
+use rtc_source::tree::{NodeId, NodeKind, Tree};
+use rtc_source::{Budget, Exceeded, Resource};
 
 /// Takes the findings about one asset.
 pub(super) struct AssetReport<'r, 's> {

@@ -10,8 +10,8 @@ use super::layout::{Component, ElementLayout};
 use super::node::{Forest, Node, Transform};
 use super::report::AssetReport;
 use super::usage::{Usage, Usages};
-use crate::diag::codes;
-use crate::source::tree::NodeId;
+use rtc_diag::codes;
+use rtc_source::tree::NodeId;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A skin.

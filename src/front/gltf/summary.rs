@@ -2,9 +2,9 @@
 
 use super::field::Fields;
 use super::{parts, text};
-use crate::diag::Sink;
-use crate::source::tree::json;
-use crate::source::{FileId, SourceMap};
+use rtc_diag::Sink;
+use rtc_source::tree::json;
+use rtc_source::{FileId, SourceMap};
 
 /// What an asset holds by its own text.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,8 +4,8 @@ use super::document::Document;
 use super::field::Fields;
 use super::image::ImageCoding;
 use super::report::{AssetReport, shown};
-use crate::diag::codes;
-use crate::source::tree::NodeId;
+use rtc_diag::codes;
+use rtc_source::tree::NodeId;
 
 /// An image and the way it is looked up.
 #[derive(Debug)]

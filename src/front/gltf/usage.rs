@@ -1,8 +1,8 @@
 //! What each accessor is used for: one purpose only.
 
 use super::report::AssetReport;
-use crate::diag::codes;
-use crate::source::tree::NodeId;
+use rtc_diag::codes;
+use rtc_source::tree::NodeId;
 
 /// What an accessor is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

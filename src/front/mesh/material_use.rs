@@ -2,7 +2,7 @@
 //! (`usemtl`).
 
 use super::WordSpan;
-use crate::front::words::Word;
+use crate::words::Word;
 use std::collections::BTreeMap;
 use std::ops::Range;
 

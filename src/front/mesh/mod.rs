@@ -10,12 +10,12 @@ mod off;
 mod ply;
 mod stl;
 
-pub use crate::front::words::{Unread, WordFault, WordSpan};
+pub use crate::words::{Unread, WordFault, WordSpan};
 pub use material_use::{MaterialUse, Named};
 
-use crate::front::words::{Lines, Word};
-use crate::ir::Mesh;
-use crate::source::{Budget, Exceeded, Resource};
+use crate::words::{Lines, Word};
+use rtc_ir::Mesh;
+use rtc_source::{Budget, Exceeded, Resource};
 
 /// So many faults of one file are told.
 pub const MAX_FAULTS: usize = 10;

@@ -5,8 +5,8 @@
 
 use super::material_use::name;
 use super::{MAX_FAULTS, Unread, WordSpan, first_lines};
-use crate::front::words::{Lines, Word, WordFault};
-use crate::source::{Budget, Resource};
+use crate::words::{Lines, Word, WordFault};
+use rtc_source::{Budget, Resource};
 use std::collections::BTreeMap;
 
 /// The materials of a file, and what is wrong with it.

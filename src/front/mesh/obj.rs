@@ -6,10 +6,10 @@
 //! without a normal, where others have one, are shaded flat.
 
 use super::{MAX_FAULTS, MaterialUse, Parsed, Unread};
-use crate::front::words::{Lines, Word, WordFault, numbers};
-use crate::ir::Mesh;
-use crate::math::Column;
-use crate::source::{Budget, Resource};
+use crate::words::{Lines, Word, WordFault, numbers};
+use rtc_ir::Mesh;
+use rtc_math::Column;
+use rtc_source::{Budget, Resource};
 
 /// How many there are of what corners refer to: positions, texture coordinates, normals.
 type Counts = [usize; 3];

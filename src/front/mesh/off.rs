@@ -3,8 +3,8 @@
 //! Nothing is allocated by a count: the lines that are there are read.
 
 use super::{MAX_FAULTS, Parsed, Unread, charge};
-use crate::front::words::{Lines, Word, WordFault, numbers};
-use crate::source::{Budget, Resource};
+use crate::words::{Lines, Word, WordFault, numbers};
+use rtc_source::{Budget, Resource};
 
 /// True if the word opens an OFF file of any kind.
 pub(super) fn is_head(word: &Word<'_>) -> bool {

@@ -7,10 +7,10 @@ mod head;
 mod vertex;
 
 use super::{MAX_FAULTS, Parsed, Unread, charge};
-use crate::front::words::{Word, WordFault};
-use crate::source::{Budget, Resource};
+use crate::words::{Word, WordFault};
 use body::PlyBody;
 use head::PlyElement;
+use rtc_source::{Budget, Resource};
 
 /// True if a file that begins so is a PLY.
 pub(super) fn is_head(head: &[u8]) -> bool {

@@ -4,9 +4,9 @@
 //! The normals of the file are not read: the order of the corners says the same.
 
 use super::{MAX_FAULTS, Parsed, Unread, charge, first_lines};
-use crate::front::words::{Lines, Word, WordFault, numbers};
-use crate::ir::Mesh;
-use crate::source::{Budget, Resource};
+use crate::words::{Lines, Word, WordFault, numbers};
+use rtc_ir::Mesh;
+use rtc_source::{Budget, Resource};
 
 /// What stands before the triangles of a binary file: 80 bytes of any kind, and their count.
 const HEAD: usize = 84;

@@ -10,7 +10,7 @@ mod png;
 mod webp;
 
 use super::Image;
-use ::image::ImageFormat;
+use super::format::PictureFormat;
 use layout::PixelLayout;
 use std::fmt;
 
@@ -143,12 +143,10 @@ impl ImageSize {
 /// Whether a file that begins so is one that [`PixelFile`] reads.
 #[must_use]
 pub fn is_picture(head: &[u8]) -> bool {
-    ::image::guess_format(head).is_ok_and(|format| {
-        matches!(
-            format,
-            ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP
-        )
-    })
+    match PictureFormat::of(head) {
+        Some(PictureFormat::Png | PictureFormat::Jpeg | PictureFormat::WebP) => true,
+        Some(PictureFormat::Other(_)) | None => false,
+    }
 }
 
 impl<'a> PixelFile<'a> {
@@ -158,19 +156,16 @@ impl<'a> PixelFile<'a> {
     /// If the bytes are no such file, the header is damaged, or it tells of more pixels than are
     /// allowed.
     pub fn open(bytes: &'a [u8], opacity: Opacity, most_pixels: u64) -> Result<Self, DecodeError> {
-        let format = ::image::guess_format(bytes).map_err(|_| DecodeError::Format(None))?;
-        let (size, decoder) = if format == ImageFormat::Png {
-            png::open(bytes, most_pixels).map(|(size, png)| (size, Decoder::Png(Box::new(png))))?
-        } else if format == ImageFormat::Jpeg {
-            jpeg::open(bytes, most_pixels)
-                .map(|(size, jpeg)| (size, Decoder::Jpeg(Box::new(jpeg))))?
-        } else if format == ImageFormat::WebP {
-            webp::open(bytes, most_pixels)
-                .map(|(size, webp)| (size, Decoder::WebP(Box::new(webp))))?
-        } else {
-            return Err(DecodeError::Format(Some(
-                format.to_mime_type().trim_start_matches("image/"),
-            )));
+        let (size, decoder) = match PictureFormat::of(bytes) {
+            Some(PictureFormat::Png) => png::open(bytes, most_pixels)
+                .map(|(size, png)| (size, Decoder::Png(Box::new(png))))?,
+            Some(PictureFormat::Jpeg) => jpeg::open(bytes, most_pixels)
+                .map(|(size, jpeg)| (size, Decoder::Jpeg(Box::new(jpeg))))?,
+            Some(PictureFormat::WebP) => webp::open(bytes, most_pixels)
+                .map(|(size, webp)| (size, Decoder::WebP(Box::new(webp))))?,
+            other @ (Some(PictureFormat::Other(_)) | None) => {
+                return Err(DecodeError::Format(other.map(PictureFormat::name)));
+            }
         };
         Ok(Self {
             size,

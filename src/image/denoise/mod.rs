@@ -6,8 +6,8 @@
 mod solve;
 
 use super::Image;
-use crate::math::exp;
 use rayon::prelude::*;
+use rtc_math::exp;
 use solve::{TERMS, Terms, solve};
 
 /// The numbers of a guide: coverage, then albedo, normal and distance, each multiplied by it.
@@ -161,7 +161,7 @@ impl LocalModel<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{fraction, mix};
+    use rtc_math::{fraction, mix};
 
     const SIDE: u32 = 24;
 

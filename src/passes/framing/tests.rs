@@ -1,7 +1,7 @@
 //! What is framed, and how large it shows.
 
 use super::*;
-use crate::ir::{Instance, MaterialId, MeshId, Mode, Pattern, Settings, Triangle};
+use rtc_ir::{Instance, MaterialId, MeshId, Mode, Pattern, Settings, Triangle};
 use std::f64::consts::PI;
 
 fn empty() -> Scene {

@@ -3,7 +3,7 @@
 //! the xxh3 of all before. Numbers are little-endian.
 
 use super::{PartError, PartHead, PicturePart};
-use crate::render::{Crop, PartialFilm};
+use rtc_render::{Crop, PartialFilm};
 use std::collections::BTreeMap;
 use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
 
@@ -90,7 +90,7 @@ pub fn hash_of_file(bytes: &[u8]) -> String {
 
 /// The same bytes with checksums that fit, where they are long enough to have some: so that a trial comes to
 /// what lies behind them.
-pub(in crate::pipeline) fn mended(bytes: &[u8]) -> Vec<u8> {
+pub(crate) fn mended(bytes: &[u8]) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     let film = |bytes: &[u8]| {
         let length = number(bytes, 12).ok()? as usize;

@@ -4,9 +4,9 @@ use super::super::{
     Meter, Observer, PicturePart, PictureSetup, RenderError, RenderSubject, SharedBy, Shares,
 };
 use super::Made;
-use crate::ir::{self, Scene};
-use crate::render::{Crop, Job};
-use crate::valid;
+use rtc_ir::{self as ir, Scene};
+use rtc_render::{Crop, Job};
+use rtc_valid as valid;
 
 /// Why a picture has no parts by samples.
 const INSEPARABLE: &str = "only pictures of traced paths have parts by samples; \

@@ -2,7 +2,7 @@
 //! it has grown as a whole.
 
 use super::PicturePart;
-use crate::render::Crop;
+use rtc_render::Crop;
 
 impl PicturePart {
     /// The pixels of its picture that are wanted.

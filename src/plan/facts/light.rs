@@ -1,7 +1,7 @@
 //! Lights as each integrator sees them: Whitted's integrator sees lights of the course, paths see physical ones.
 
-use crate::profile::Profile;
-use crate::valid::{CourseLight, Falloff, Light, PointLight, Punctual};
+use rtc_profile::Profile;
+use rtc_valid::{CourseLight, Falloff, Light, PointLight, Punctual};
 use std::f64::consts::PI;
 
 /// The lights that Whitted's integrator sees: those of the course, in the order of the scene.
@@ -33,8 +33,8 @@ pub fn punctual(lights: &[Light]) -> Vec<Punctual> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{NonNegative, Vec3};
-    use crate::valid::{CourseLight, DirectionalLight};
+    use rtc_math::{NonNegative, Vec3};
+    use rtc_valid::{CourseLight, DirectionalLight};
 
     #[test]
     fn each_integrator_sees_its_lights_in_the_order_of_the_scene() {

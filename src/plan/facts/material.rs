@@ -1,8 +1,8 @@
 //! Materials as each integrator sees them: Whitted's integrator sees Phong's model, paths see glTF's.
 
-use crate::math::{NonNegative, Positive, UnitInterval, Vec3};
-use crate::standard::{PhongTerms, fit_phong};
-use crate::valid::{Map, Material, Phong, Standard, UvSet};
+use rtc_math::{NonNegative, Positive, UnitInterval, Vec3};
+use rtc_tables::{PhongTerms, fit_phong};
+use rtc_valid::{Map, Material, Phong, Standard, UvSet};
 use std::num::NonZeroU32;
 
 /// The material as Whitted's integrator sees it. Of glTF's material it takes the colour, without the emission.
@@ -83,7 +83,7 @@ pub const WHITE: Standard = Standard {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::valid::Maps;
+    use rtc_valid::Maps;
 
     fn matt() -> Phong {
         phong_of_standard(&WHITE)

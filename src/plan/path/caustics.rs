@@ -2,8 +2,8 @@
 //! by chance, or not at all.
 
 use super::{EnvironmentLeft, LightLeft, PathPlan};
-use crate::math::{UnitInterval, Vec3};
-use crate::valid::Standard;
+use rtc_math::{UnitInterval, Vec3};
+use rtc_valid::Standard;
 
 /// How traced paths find the caustics of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

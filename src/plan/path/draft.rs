@@ -4,13 +4,13 @@
 use super::facts::{Presence, Uses};
 use super::rules::PathRule;
 use super::texture::TextureValues;
-use crate::ir::{Field, Noun, Place};
-use crate::math::{UnitInterval, Vec3};
-use crate::plan::body::Body;
-use crate::plan::effect::Effect;
-use crate::plan::layer::Layer;
-use crate::plan::window::Shown;
-use crate::valid::{Alpha, Map, Mesh, PathSettings, Proof, Punctual, Shape, Standard, Surface};
+use crate::body::Body;
+use crate::effect::Effect;
+use crate::layer::Layer;
+use crate::window::Shown;
+use rtc_ir::{Field, Noun, Place};
+use rtc_math::{UnitInterval, Vec3};
+use rtc_valid::{Alpha, Map, Mesh, PathSettings, Proof, Punctual, Shape, Standard, Surface};
 use std::ops::Range;
 
 /// The part of a scene that is still in the plan.

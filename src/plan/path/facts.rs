@@ -2,10 +2,10 @@
 //! the values of their textures there.
 
 use super::texture::{Area, TextureValues};
-use crate::math::UnitInterval;
-use crate::plan::Layer;
-use crate::plan::shape::shape_facts;
-use crate::valid::{Map, Proof, Shape, Standard};
+use crate::Layer;
+use crate::shape::shape_facts;
+use rtc_math::UnitInterval;
+use rtc_valid::{Map, Proof, Shape, Standard};
 
 /// Facts of all surfaces of one material.
 #[derive(Clone, Debug)]

@@ -7,7 +7,7 @@
 mod caustics;
 mod draft;
 mod facts;
-pub(in crate::plan) mod rules;
+pub(crate) mod rules;
 mod texture;
 mod verdicts;
 
@@ -22,10 +22,10 @@ use super::features::PathFeatures;
 use super::layer::Layer;
 use super::rules::Rules;
 use super::window::{Shown, Window};
-use crate::math::Vec3;
-use crate::valid::{Map, PathSettings, Projection, Proof, Standard, UvSet};
 use draft::{Applied, Draft};
 use facts::Uses;
+use rtc_math::Vec3;
+use rtc_valid::{Map, PathSettings, Projection, Proof, Standard, UvSet};
 use texture::TextureValues;
 
 /// The work that traced paths need.

@@ -1,13 +1,13 @@
 //! The values that a texture shows within a rectangle of texture coordinates.
 
-use crate::image::Texel;
-use crate::valid::{Image, Map, Proof, Texture, Wrap};
+use rtc_image::Texel;
+use rtc_valid::{Image, Map, Proof, Texture, Wrap};
 use std::cell::OnceCell;
 use std::ops::Range;
 
 /// A rectangle of texture coordinates, from minimum to maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::plan) struct Area([[f64; 2]; 2]);
+pub(crate) struct Area([[f64; 2]; 2]);
 
 /// The margin in texels, for rounding and for the neighbours that filters blend in.
 const MARGIN: f64 = 2.0;
@@ -20,10 +20,10 @@ impl Area {
     pub(super) const NONE: Self = Self([[f64::INFINITY, f64::NEG_INFINITY]; 2]);
 
     /// The unit square.
-    pub(in crate::plan) const UNIT: Self = Self([[0.0, 1.0]; 2]);
+    pub(crate) const UNIT: Self = Self([[0.0, 1.0]; 2]);
 
     /// The bounding rectangle of points.
-    pub(in crate::plan) fn of(places: impl Iterator<Item = [f64; 2]>) -> Self {
+    pub(crate) fn of(places: impl Iterator<Item = [f64; 2]>) -> Self {
         places.fold(Self::NONE, |area, [u, v]| {
             area.around(Self([[u, u], [v, v]]))
         })
@@ -215,7 +215,7 @@ fn texels([low, high]: [f64; 2], count: u32, wrap: Wrap) -> Range<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::Texels;
+    use rtc_image::Texels;
     use std::cell::Cell;
     use std::num::NonZeroU32;
 

@@ -1,9 +1,9 @@
 //! The verdict on each effect of traced paths, derived from the final draft.
 
 use super::draft::{Applied, Draft, is_asked_by};
-use crate::ir::{Field, Noun, Place};
-use crate::plan::effect::{Effect, State, Verdict};
-use crate::valid::Standard;
+use crate::effect::{Effect, State, Verdict};
+use rtc_ir::{Field, Noun, Place};
+use rtc_valid::Standard;
 
 /// The most places named for one verdict.
 const FEW: usize = 3;

@@ -1,12 +1,12 @@
 //! Verdicts on lights, shadows and highlights.
 
 use super::{MAX_DETAILS, few, light, settings};
-use crate::ir::{Field, Place};
-use crate::plan::effect::{Effect, Verdict};
-use crate::plan::light::Shadow;
-use crate::plan::rules::Rule;
-use crate::plan::{Findings, MaterialSummary};
-use crate::valid::Mode;
+use crate::effect::{Effect, Verdict};
+use crate::light::Shadow;
+use crate::rules::Rule;
+use crate::{Findings, MaterialSummary};
+use rtc_ir::{Field, Place};
+use rtc_valid::Mode;
 
 pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<Verdict> {
     let mut all = vec![direct(findings)];

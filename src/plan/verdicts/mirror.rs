@@ -1,11 +1,11 @@
 //! Verdicts on bounces: mirrors, lobes, refraction, depth.
 
 use super::{MAX_DETAILS, few, settings};
-use crate::ir::Field;
-use crate::plan::effect::{Effect, Verdict};
-use crate::plan::rules::Rule;
-use crate::plan::{Findings, MaterialSummary};
-use crate::valid::Phong;
+use crate::effect::{Effect, Verdict};
+use crate::rules::Rule;
+use crate::{Findings, MaterialSummary};
+use rtc_ir::Field;
+use rtc_valid::Phong;
 
 pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<Verdict> {
     let mut all = vec![depth(findings), mirror(findings)];

@@ -9,8 +9,8 @@ use super::effect::{Effect, State, Verdict};
 use super::region::Region;
 use super::rules::Rule;
 use super::{Findings, MaterialSummary};
-use crate::ir::{Field, Noun, Place};
-use crate::valid::Mode;
+use rtc_ir::{Field, Noun, Place};
+use rtc_valid::Mode;
 
 /// The maximum number of verdicts on single lights or materials for one effect.
 const MAX_DETAILS: usize = 24;

@@ -1,12 +1,12 @@
 //! Verdicts on buffers and surfaces, on maps and normals, on lens and samples.
 
 use super::{camera, few, settings};
-use crate::ir::Field;
-use crate::plan::effect::{Effect, Verdict};
-use crate::plan::region::Region;
-use crate::plan::rules::Rule;
-use crate::plan::{Findings, MaterialSummary};
-use crate::valid::{Mode, Pattern};
+use crate::effect::{Effect, Verdict};
+use crate::region::Region;
+use crate::rules::Rule;
+use crate::{Findings, MaterialSummary};
+use rtc_ir::Field;
+use rtc_valid::{Mode, Pattern};
 
 /// Depth and normal buffers, and the surfaces in the world.
 pub(super) fn buffers(findings: &Findings<'_>, region: &Region) -> Vec<Verdict> {
@@ -100,7 +100,7 @@ fn textures(findings: &Findings<'_>) -> Verdict {
         ];
         return Verdict::needed(effect, "a texture scales the ks of a surface", facts);
     }
-    let has_map = |material: &&crate::valid::Phong| {
+    let has_map = |material: &&rtc_valid::Phong| {
         material
             .maps
             .as_deref()
@@ -183,7 +183,7 @@ fn mapping(findings: &Findings<'_>) -> Verdict {
         ];
         return Verdict::needed(effect, "a map bends the normals of a surface", facts);
     }
-    let maps = |material: &crate::valid::Phong| {
+    let maps = |material: &rtc_valid::Phong| {
         material
             .maps
             .as_deref()

@@ -1,23 +1,23 @@
 //! Projection of boxes through the lens to rectangles of pixels, with a margin.
 
-use crate::math::{Bounds, U, Vec3, cross, dot};
-use crate::plan::body::{Body, Extent};
-use crate::plan::space::{Flat, MARGIN};
-use crate::valid::Camera;
+use crate::body::{Body, Extent};
+use crate::space::{Flat, MARGIN};
+use rtc_math::{Bounds, U, Vec3, cross, dot};
+use rtc_valid::Camera;
 
 /// The largest rounding error of a projected point, in pixels, that is accepted.
 const DOUBT: f64 = 0.25;
 
 /// A rectangle of pixels: columns and rows, each from the first to before the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::plan) struct Rect {
-    pub(in crate::plan) x: [u32; 2],
-    pub(in crate::plan) y: [u32; 2],
+pub(crate) struct Rect {
+    pub(crate) x: [u32; 2],
+    pub(crate) y: [u32; 2],
 }
 
 /// The rectangle of a surface in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::plan) enum Shown {
+pub(crate) enum Shown {
     /// Outside the picture: no camera ray meets it.
     Nowhere,
     /// Only in these pixels.
@@ -27,7 +27,7 @@ pub(in crate::plan) enum Shown {
 }
 
 /// The camera as a map from the world to the picture.
-pub(in crate::plan) struct Window {
+pub(crate) struct Window {
     camera: Camera,
     /// The normal of the image plane, scaled so that the plane is at distance 1 from the eye.
     depth: Vec3,
@@ -48,7 +48,7 @@ pub(in crate::plan) struct Window {
 }
 
 impl Window {
-    pub(in crate::plan) fn new(camera: &Camera, pinhole: bool) -> Self {
+    pub(crate) fn new(camera: &Camera, pinhole: bool) -> Self {
         let (right, up) = (camera.right.length(), camera.up.length());
         let normal = cross(camera.right / right, camera.up / up);
         let forward = camera.center - camera.eye;
@@ -90,12 +90,12 @@ impl Window {
     }
 
     /// The box of all points of the lens.
-    pub(in crate::plan) fn lens(&self) -> Bounds {
+    pub(crate) fn lens(&self) -> Bounds {
         self.lens_box
     }
 
     /// The rectangle of a surface in the picture.
-    pub(in crate::plan) fn shown(&self, body: &Body) -> Shown {
+    pub(crate) fn shown(&self, body: &Body) -> Shown {
         match &body.extent {
             Extent::Within(space) if !self.blurred => self.project(space),
             Extent::Within(_) | Extent::Plane(_) | Extent::Anywhere => Shown::Anywhere,
@@ -104,7 +104,7 @@ impl Window {
 
     /// Whether no camera ray meets a plane: from all of the lens, the rays through all of the picture
     /// lead away from it. Both are convex, and the distance from the plane is linear in each.
-    pub(in crate::plan) fn is_behind(&self, plane: &Flat) -> bool {
+    pub(crate) fn is_behind(&self, plane: &Flat) -> bool {
         let Camera {
             center, right, up, ..
         } = &self.camera;
@@ -125,7 +125,7 @@ impl Window {
     }
 
     /// The projection of a point through the centre of the lens, in pixels; `None` if it is uncertain.
-    pub(in crate::plan) fn middle(&self, point: Vec3) -> Option<[f64; 2]> {
+    pub(crate) fn middle(&self, point: Vec3) -> Option<[f64; 2]> {
         let size = point.abs().max_element() + self.lens_box.reach();
         let depth = (point - self.camera.eye).dot(self.depth);
         let error_bound = 64.0 * U * size * self.steepness;

@@ -1,10 +1,10 @@
 //! Where things show, to within rounding.
 
 use super::*;
-use crate::math::NonNegative;
-use crate::plan::body::Hull;
-use crate::plan::space::tests::{has_margin, span};
-use crate::valid::{Lens, Projection};
+use crate::body::Hull;
+use crate::space::tests::{has_margin, span};
+use rtc_math::NonNegative;
+use rtc_valid::{Lens, Projection};
 use std::num::NonZeroU32;
 
 /// A camera of 100 × 80 pixels that looks along −z.

@@ -4,8 +4,8 @@
 //! the scale of the scene. Rays are brought to the cube in f64; a bound on what rounding does to
 //! each widens every comparison. The hit itself is decided elsewhere, in f64.
 
-use crate::math::{Bounds, U, Vec3, ldexp};
-use crate::render::ray::Ray;
+use crate::ray::Ray;
+use rtc_math::{Bounds, U, Vec3, ldexp};
 
 /// The unit round-off of f32, 2⁻²⁴.
 const ROUND: f64 = 0.5 * f32::EPSILON as f64;
@@ -25,7 +25,7 @@ const OFF_CENTER: f64 = 16.0;
 
 /// Where the cube [−1, 1]³ lies in space.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct QuantizationFrame {
+pub(crate) struct QuantizationFrame {
     center: Vec3,
     /// A power of two.
     scale: f64,
@@ -40,11 +40,7 @@ impl QuantizationFrame {
     /// Where that costs few bits the cube lies about the origin: then corners of 32 bits stay as
     /// they are but for a power of two. Else it is finest where most of the boxes are, about the
     /// mean of their centres.
-    pub(in crate::render) fn around(
-        whole: Bounds,
-        mean: impl FnOnce() -> Vec3,
-        error_bound: f64,
-    ) -> Self {
+    pub(crate) fn around(whole: Bounds, mean: impl FnOnce() -> Vec3, error_bound: f64) -> Self {
         let extent_about = |center: Vec3| {
             let far = (whole.min - center).abs().max((whole.max - center).abs());
             far.max_element()
@@ -66,17 +62,17 @@ impl QuantizationFrame {
     }
 
     /// A point in the cube.
-    pub(in crate::render::accel) fn enter(&self, point: Vec3) -> Vec3 {
+    pub(in crate::accel) fn enter(&self, point: Vec3) -> Vec3 {
         (point - self.center) * self.scale
     }
 
     /// What a number of a cube about the origin was before, exactly; `None` for other cubes.
-    pub(in crate::render::accel) fn unit(&self) -> Option<f64> {
+    pub(in crate::accel) fn unit(&self) -> Option<f64> {
         (self.center == Vec3::ZERO).then(|| self.scale.recip())
     }
 
     /// A box in the cube, rounded outward: its lowest and its highest corner.
-    pub(in crate::render::accel) fn rounded_outward(&self, bounds: Bounds) -> [[f32; 3]; 2] {
+    pub(in crate::accel) fn rounded_outward(&self, bounds: Bounds) -> [[f32; 3]; 2] {
         let (min, max) = (self.enter(bounds.min), self.enter(bounds.max));
         [
             min.to_array().map(rounded_down),
@@ -97,7 +93,7 @@ fn rounded_down(x: f64) -> f32 {
 
 /// Why there is no beam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) enum NoBeam {
+pub(crate) enum NoBeam {
     /// The ray misses the cube.
     Missed,
     /// The arithmetic can't tell: anything may be hit.
@@ -107,21 +103,21 @@ pub(in crate::render) enum NoBeam {
 /// A ray in a cube. Its own t counts from where it comes near the cube, in units in which it moves
 /// along its main axis as fast as t.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Beam {
+pub(crate) struct Beam {
     /// The axes with the main one last, and where it starts along them.
-    pub(in crate::render::accel) axes: [usize; 3],
-    pub(in crate::render::accel) origin: [f32; 3],
+    pub(in crate::accel) axes: [usize; 3],
+    pub(in crate::accel) origin: [f32; 3],
     /// Shifted for the nearer and the farther ends of boxes.
-    pub(in crate::render::accel) near_origin: [f32; 3],
-    pub(in crate::render::accel) far_origin: [f32; 3],
-    pub(in crate::render::accel) inverse: [f32; 3],
+    pub(in crate::accel) near_origin: [f32; 3],
+    pub(in crate::accel) far_origin: [f32; 3],
+    pub(in crate::accel) inverse: [f32; 3],
     /// Whether the upper end of a box is the nearer one.
-    pub(in crate::render::accel) down: [bool; 3],
+    pub(in crate::accel) down: [bool; 3],
     /// Its direction along the main axis, ±1, and the slopes of the others along it.
-    pub(in crate::render::accel) main: f32,
-    pub(in crate::render::accel) slopes: [f32; 2],
+    pub(in crate::accel) main: f32,
+    pub(in crate::accel) slopes: [f32; 2],
     /// The error of a coordinate relative to the ray.
-    pub(in crate::render::accel) error: f32,
+    pub(in crate::accel) error: f32,
     /// What 1 of the ray's t is in `self`, and where `self` starts.
     rate: f64,
     start: f64,
@@ -134,7 +130,7 @@ impl Beam {
         clippy::cast_possible_truncation,
         reason = "single precision is meant; errors are bounded"
     )]
-    pub(in crate::render) fn new(frame: &QuantizationFrame, ray: &Ray) -> Result<Self, NoBeam> {
+    pub(crate) fn new(frame: &QuantizationFrame, ray: &Ray) -> Result<Self, NoBeam> {
         let size = ray.direction.abs();
         let speed = size.max_element();
         let main = if size.x == speed {
@@ -190,7 +186,7 @@ impl Beam {
     /// The end of the beam for a `t_max` of the ray, rounded up by more than a root may be wrong.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
-    pub(in crate::render) fn limit(&self, t_max: f64) -> f32 {
+    pub(crate) fn limit(&self, t_max: f64) -> f32 {
         let end = t_max * self.rate * (1.0 + ROUNDED) - self.start;
         end as f32 * (1.0 + 2.0 * f32::EPSILON) + self.error
     }
@@ -198,7 +194,7 @@ impl Beam {
     /// Where the beam is surely before a `t_max` of the ray.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounded down")]
-    pub(in crate::render::accel) fn sure_limit(&self, t_max: f64) -> f32 {
+    pub(in crate::accel) fn sure_limit(&self, t_max: f64) -> f32 {
         let end = t_max * self.rate * (1.0 - ROUNDED) - self.start;
         end as f32 * (1.0 - 4.0 * f32::EPSILON) - 2.0 * self.error
     }

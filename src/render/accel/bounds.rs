@@ -1,7 +1,7 @@
 //! A slab test that never misses what the shape inside a box would hit; and balls.
 
-use crate::math::{Bounds, U, Vec3};
-use crate::render::ray::Ray;
+use crate::ray::Ray;
+use rtc_math::{Bounds, U, Vec3};
 
 /// A ball.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +14,7 @@ pub struct Ball {
 
 /// What of a ray the slab test needs.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Slabs {
+pub(crate) struct Slabs {
     origin: Vec3,
     inverse: Vec3,
 }
@@ -22,7 +22,7 @@ pub(in crate::render) struct Slabs {
 impl Slabs {
     /// The slabs of a ray.
     #[must_use]
-    pub(in crate::render) fn new(ray: &Ray) -> Self {
+    pub(crate) fn new(ray: &Ray) -> Self {
         Self {
             origin: ray.origin,
             inverse: ray.direction.recip(),
@@ -31,7 +31,7 @@ impl Slabs {
 
     /// True for the axes along which the ray runs downwards.
     #[must_use]
-    pub(in crate::render) fn runs_down(&self, axis: usize) -> bool {
+    pub(crate) fn runs_down(&self, axis: usize) -> bool {
         self.inverse[axis] < 0.0
     }
 
@@ -44,7 +44,7 @@ impl Slabs {
     /// over.
     #[must_use]
     #[inline]
-    pub(in crate::render) fn meet(&self, bounds: &Bounds, t_max: f64) -> bool {
+    pub(crate) fn meet(&self, bounds: &Bounds, t_max: f64) -> bool {
         const GROWN: f64 = 1.0 + 2.0 * (4.0 * U / (1.0 - 4.0 * U));
         const ROUNDED: f64 = 1.0 + 1.0 / 1_048_576.0;
         let (mut near, mut far) = (0.0, t_max * ROUNDED);
@@ -71,8 +71,8 @@ impl Slabs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::sampler::Key;
-    use crate::render::shape::triangle::{Shear, Triangle};
+    use crate::sampler::Key;
+    use crate::shape::triangle::{Shear, Triangle};
     use rayon::prelude::*;
 
     /// Corners anywhere, at one z, with the ray in the plane of a face of the box, and far from the

@@ -3,9 +3,9 @@
 //! Built by the binned surface area heuristic (Wald, "On fast construction of SAH-based bounding
 //! volume hierarchies", 2007). A few boxes make a single leaf, which is the plain loop.
 
-use crate::math::Bounds;
-use crate::render::accel::bounds::Slabs;
-use crate::render::ray::Ray;
+use crate::accel::bounds::Slabs;
+use crate::ray::Ray;
+use rtc_math::Bounds;
 
 /// Boxes in one leaf at most, where splitting helps.
 const LEAF: usize = 4;
@@ -33,7 +33,7 @@ struct Node {
 
 /// The hierarchy.
 #[derive(Debug)]
-pub(in crate::render) struct Bvh {
+pub(crate) struct Bvh {
     nodes: Vec<Node>,
     order: Vec<u32>,
 }
@@ -41,7 +41,7 @@ pub(in crate::render) struct Bvh {
 impl Bvh {
     /// Builds the hierarchy of the boxes given; an item is known by its index.
     #[must_use]
-    pub(in crate::render) fn build(boxes: &[Bounds]) -> Self {
+    pub(crate) fn build(boxes: &[Bounds]) -> Self {
         let items = (0_u32..)
             .zip(boxes)
             .map(|(index, bounds)| Item {
@@ -66,12 +66,7 @@ impl Bvh {
     /// roughly first; `visit` returns the new `t_max`, which ends the walk when it falls below
     /// 0.
     #[inline]
-    pub(in crate::render) fn walk(
-        &self,
-        ray: &Ray,
-        mut t_max: f64,
-        mut visit: impl FnMut(u32, f64) -> f64,
-    ) {
+    pub(crate) fn walk(&self, ray: &Ray, mut t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
         let mut visit_leaf = |node: &Node, mut t_max: f64| {
             for item in &self.order[node.link as usize..(node.link + node.count) as usize] {
                 t_max = visit(*item, t_max);
@@ -111,9 +106,9 @@ impl Bvh {
 
 /// What a hierarchy is built of.
 #[derive(Clone, Copy)]
-pub(in crate::render) struct Item {
-    pub(in crate::render) index: u32,
-    pub(in crate::render) bounds: Bounds,
+pub(crate) struct Item {
+    pub(crate) index: u32,
+    pub(crate) bounds: Bounds,
 }
 
 struct Builder {
@@ -152,11 +147,7 @@ impl Builder {
 /// Orders the items, at least two, into two groups and returns the axis and the size of the first,
 /// neither group empty: by the heuristic where it is asked for and finds a border, else in the
 /// middle. So many items are tested `at_once`.
-pub(in crate::render) fn split(
-    items: &mut [Item],
-    at_once: u32,
-    by_heuristic: bool,
-) -> (usize, usize) {
+pub(crate) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (usize, usize) {
     let center = |bounds: Bounds, item: &Item| {
         let center = item.bounds.center();
         Bounds {
@@ -237,7 +228,7 @@ fn partition(items: &mut [Item], first: impl Fn(&Item) -> bool) -> usize {
     front.len()
 }
 
-pub(in crate::render) fn to_u32(count: usize) -> u32 {
+pub(crate) fn to_u32(count: usize) -> u32 {
     u32::try_from(count).unwrap_or(u32::MAX)
 }
 

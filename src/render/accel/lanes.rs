@@ -4,30 +4,30 @@
 //! Each level of [`super::simd`] does the same operations in the same order, and none of them is a
 //! fused one: so all find the same.
 
-use crate::render::accel::beam::Beam;
+use crate::accel::beam::Beam;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x4, f32x8};
 use std::hint::black_box;
 
 /// Children of a node.
-pub(in crate::render::accel) const WIDTH: usize = 8;
+pub(in crate::accel) const WIDTH: usize = 8;
 
 /// Triangles of a leaf.
-pub(in crate::render::accel) const TRIANGLES: usize = 4;
+pub(in crate::accel) const TRIANGLES: usize = 4;
 
 /// A node: for each axis the lower and the upper ends of eight boxes, then eight links as the bits of
 /// numbers; four cache lines.
-pub(in crate::render::accel) type WideNode = [f32; 64];
+pub(in crate::accel) type WideNode = [f32; 64];
 
 /// Where the links of a node are.
-pub(in crate::render::accel) const LINKS: usize = 6 * WIDTH;
+pub(in crate::accel) const LINKS: usize = 6 * WIDTH;
 
 /// What a hierarchy keeps of a triangle: the nine coordinates of its corners, and its item as the bits
 /// of a number. The triangles of a leaf share their rows.
-pub(in crate::render::accel) type TriangleRow = [f32; ITEM + 1];
+pub(in crate::accel) type TriangleRow = [f32; ITEM + 1];
 
 /// So many rows at least follow the first row of each leaf.
-pub(in crate::render::accel) const ROWS_AFTER: usize = 6;
+pub(in crate::accel) const ROWS_AFTER: usize = 6;
 
 /// So many numbers are seen of a leaf at most.
 const SEEN: usize = 64;
@@ -35,7 +35,7 @@ const SEEN: usize = 64;
 /// A leaf of one to four triangles: for each corner and axis the coordinates of all of them, then
 /// their items.
 #[derive(Clone, Copy)]
-pub(in crate::render::accel) struct WideLeaf<'rows> {
+pub(in crate::accel) struct WideLeaf<'rows> {
     /// Its numbers, and some of the leaves after it: so four can be read wherever one may be, and no
     /// place needs to be checked.
     numbers: &'rows [f32],
@@ -45,30 +45,26 @@ pub(in crate::render::accel) struct WideLeaf<'rows> {
 impl<'rows> WideLeaf<'rows> {
     /// The leaf of so many triangles from a row on.
     #[inline(always)]
-    pub(in crate::render::accel) fn new(
-        rows: &'rows [TriangleRow],
-        first: usize,
-        count: usize,
-    ) -> Self {
+    pub(in crate::accel) fn new(rows: &'rows [TriangleRow], first: usize, count: usize) -> Self {
         let numbers = rows[first..][..=ROWS_AFTER].as_flattened();
         Self { numbers, count }
     }
 
     /// How many triangles it has.
     #[inline(always)]
-    pub(in crate::render::accel) fn count(&self) -> usize {
+    pub(in crate::accel) fn count(&self) -> usize {
         self.count
     }
 
     /// A number of one of its triangles.
     #[inline(always)]
-    pub(in crate::render::accel) fn number(&self, place: usize, lane: usize) -> f32 {
+    pub(in crate::accel) fn number(&self, place: usize, lane: usize) -> f32 {
         self.numbers[(place * self.count + lane) & (SEEN - 1)]
     }
 
     /// The item of one of its triangles.
     #[inline(always)]
-    pub(in crate::render::accel) fn item(&self, lane: usize) -> u32 {
+    pub(in crate::accel) fn item(&self, lane: usize) -> u32 {
         self.number(ITEM, lane).to_bits()
     }
 
@@ -81,20 +77,20 @@ impl<'rows> WideLeaf<'rows> {
 
     /// Asks for its memory.
     #[inline(always)]
-    pub(in crate::render::accel) fn touch(&self) {
+    pub(in crate::accel) fn touch(&self) {
         black_box([self.numbers[0], self.numbers[16], self.numbers[32]]);
     }
 }
 
 /// By how much the far ends of boxes grow: more than the relative errors of both ends.
-pub(in crate::render::accel) const GROWN: f32 = 1.0 + 16.0 * f32::EPSILON;
+pub(in crate::accel) const GROWN: f32 = 1.0 + 16.0 * f32::EPSILON;
 
 /// Which of the numbers of a triangle is its item.
-pub(in crate::render::accel) const ITEM: usize = 9;
+pub(in crate::accel) const ITEM: usize = 9;
 
 /// Which of the numbers of a triangle is a coordinate of a corner.
 #[inline(always)]
-pub(in crate::render::accel) const fn place(corner: usize, axis: usize) -> usize {
+pub(in crate::accel) const fn place(corner: usize, axis: usize) -> usize {
     3 * corner + axis
 }
 
@@ -118,14 +114,14 @@ fn fours<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x4<S>; 3] {
 
 /// Where the nearer ends of boxes are among those of an axis.
 #[inline(always)]
-pub(in crate::render::accel) fn nearer_ends([x, y, z]: [bool; 3]) -> [usize; 3] {
+pub(in crate::accel) fn nearer_ends([x, y, z]: [bool; 3]) -> [usize; 3] {
     let nearer = |down: bool| if down { WIDTH } else { 0 };
     [nearer(x), nearer(y), nearer(z)]
 }
 
 /// What of a beam boxes are met by.
 #[derive(Clone, Copy)]
-pub(in crate::render::accel) struct BoxLanes<S: Simd> {
+pub(in crate::accel) struct BoxLanes<S: Simd> {
     near_origin: [f32x8<S>; 3],
     far_origin: [f32x8<S>; 3],
     inverse: [f32x8<S>; 3],
@@ -135,7 +131,7 @@ pub(in crate::render::accel) struct BoxLanes<S: Simd> {
 
 impl<S: Simd> BoxLanes<S> {
     #[inline(always)]
-    pub(in crate::render::accel) fn new(simd: S, beam: &Beam) -> Self {
+    pub(in crate::accel) fn new(simd: S, beam: &Beam) -> Self {
         Self {
             near_origin: eights(simd, beam.near_origin),
             far_origin: eights(simd, beam.far_origin),
@@ -164,7 +160,7 @@ impl<S: Simd> BoxLanes<S> {
     ///
     /// As in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end is [`GROWN`].
     #[inline(always)]
-    pub(in crate::render::accel) fn meet(
+    pub(in crate::accel) fn meet(
         &self,
         simd: S,
         node: &WideNode,
@@ -187,7 +183,7 @@ impl<S: Simd> BoxLanes<S> {
 /// The bits of at most 32 lanes.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "there are 8 lanes at most")]
-pub(in crate::render::accel) fn bits(mask: u64) -> u32 {
+pub(in crate::accel) fn bits(mask: u64) -> u32 {
     mask as u32
 }
 
@@ -197,25 +193,25 @@ type Sheared<V> = [V; 3];
 /// What of beams triangles are hit by: one beam in all lanes, or one in each. All have the same
 /// main axis.
 #[derive(Clone, Copy)]
-pub(in crate::render::accel) struct TriangleLanes<V> {
-    pub(in crate::render::accel) axes: [usize; 3],
-    pub(in crate::render::accel) origin: [V; 3],
-    pub(in crate::render::accel) main: V,
-    pub(in crate::render::accel) slopes: [V; 2],
-    pub(in crate::render::accel) error: V,
+pub(in crate::accel) struct TriangleLanes<V> {
+    pub(in crate::accel) axes: [usize; 3],
+    pub(in crate::accel) origin: [V; 3],
+    pub(in crate::accel) main: V,
+    pub(in crate::accel) slopes: [V; 2],
+    pub(in crate::accel) error: V,
 }
 
 /// Which lanes may be hits, and which of them are hits for sure, as bits.
 #[derive(Clone, Copy)]
-pub(in crate::render::accel) struct LeafVerdict {
-    pub(in crate::render::accel) may: u32,
-    pub(in crate::render::accel) sure: u32,
+pub(in crate::accel) struct LeafVerdict {
+    pub(in crate::accel) may: u32,
+    pub(in crate::accel) sure: u32,
 }
 
 impl<S: Simd> TriangleLanes<f32x4<S>> {
     /// One beam.
     #[inline(always)]
-    pub(in crate::render::accel) fn new(simd: S, beam: &Beam) -> Self {
+    pub(in crate::accel) fn new(simd: S, beam: &Beam) -> Self {
         let [x, y] = beam.slopes;
         Self {
             axes: beam.axes,
@@ -229,7 +225,7 @@ impl<S: Simd> TriangleLanes<f32x4<S>> {
     /// Which triangles of a leaf the beam may hit before `limit`; if `SURE`, also which it surely
     /// hits before `sure_limit`.
     #[inline(always)]
-    pub(in crate::render::accel) fn judge<const SURE: bool>(
+    pub(in crate::accel) fn judge<const SURE: bool>(
         &self,
         simd: S,
         leaf: WideLeaf<'_>,
@@ -273,7 +269,7 @@ impl<V> TriangleLanes<V> {
     /// their error: a triangle with two sure signs that differ is missed, one with three that agree
     /// is hit.
     #[inline(always)]
-    pub(in crate::render::accel) fn verdict<const SURE: bool, S: Simd>(
+    pub(in crate::accel) fn verdict<const SURE: bool, S: Simd>(
         &self,
         coordinate: impl Fn(usize) -> V,
         [limit, sure_limit]: [V; 2],

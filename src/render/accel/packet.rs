@@ -4,21 +4,21 @@
 //! Rounding keeps order: what is found for the ends of an interval bounds what is found for each
 //! ray in it, so that intervals need no error bounds beyond those of a single ray.
 
-use crate::render::accel::beam::Beam;
-use crate::render::accel::lanes::{
+use crate::accel::beam::Beam;
+use crate::accel::lanes::{
     GROWN, LeafVerdict, TriangleLanes, WIDTH, WideLeaf, WideNode, bits, nearer_ends,
 };
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
 /// Rays of a packet.
-pub(in crate::render::accel) const RAYS: usize = 8;
+pub(in crate::accel) const RAYS: usize = 8;
 
 /// A number of each ray.
 type OfRays = [f32; RAYS];
 
 /// Eight beams that have the same main axis, and the same signs along all axes.
-pub(in crate::render::accel) struct Packet<S: Simd> {
+pub(in crate::accel) struct Packet<S: Simd> {
     /// Where the nearer ends of boxes are among those of an axis.
     near: [usize; 3],
     /// The origins that let boxes be entered first, and left last.
@@ -57,7 +57,7 @@ fn are_alike(beams: &[Beam; RAYS]) -> bool {
 impl<S: Simd> Packet<S> {
     /// The packet of eight beams; `None` if they don't go the same way.
     #[inline(always)]
-    pub(in crate::render::accel) fn new(simd: S, beams: &[Beam; RAYS]) -> Option<Self> {
+    pub(in crate::accel) fn new(simd: S, beams: &[Beam; RAYS]) -> Option<Self> {
         if !are_alike(beams) {
             return None;
         }
@@ -132,7 +132,7 @@ impl<S: Simd> Packet<S> {
     /// Which boxes of a node any of the beams may meet before `limit`, as bits, and where at the
     /// earliest.
     #[inline(always)]
-    pub(in crate::render::accel) fn meet(
+    pub(in crate::accel) fn meet(
         &self,
         simd: S,
         node: &WideNode,
@@ -153,7 +153,7 @@ impl<S: Simd> Packet<S> {
 
     /// Whether any beam meets the box of a child before its own limit.
     #[inline(always)]
-    pub(in crate::render::accel) fn is_met(
+    pub(in crate::accel) fn is_met(
         &self,
         simd: S,
         node: &WideNode,
@@ -177,7 +177,7 @@ impl<S: Simd> Packet<S> {
     /// Which beams may hit a triangle of a leaf before their limits; if `SURE`, also which surely
     /// hit it before the second ones.
     #[inline(always)]
-    pub(in crate::render::accel) fn judge<const SURE: bool>(
+    pub(in crate::accel) fn judge<const SURE: bool>(
         &self,
         simd: S,
         leaf: WideLeaf<'_>,

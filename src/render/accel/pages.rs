@@ -13,7 +13,7 @@ const RETURNED: usize = 1 << 18;
 
 /// A list of rows of numbers.
 #[derive(Debug)]
-pub(in crate::render::accel) enum Pages<T> {
+pub(in crate::accel) enum Pages<T> {
     /// A list as any other.
     List(Vec<T>),
     /// In memory asked of the system, where huge pages are wanted.
@@ -22,7 +22,7 @@ pub(in crate::render::accel) enum Pages<T> {
 
 impl<T: Pod> Pages<T> {
     /// So many rows of zeros.
-    pub(in crate::render::accel) fn zeroed(count: usize) -> Self {
+    pub(in crate::accel) fn zeroed(count: usize) -> Self {
         let pages = Self::mapped_from(WORTH, count);
         // Without huge pages it is slower, and no less right.
         #[cfg(target_os = "linux")]
@@ -43,14 +43,14 @@ impl<T: Pod> Pages<T> {
     }
 
     /// The rows of a list, in memory that the system has back when they are dropped.
-    pub(in crate::render::accel) fn put_aside(list: &[T]) -> Self {
+    pub(in crate::accel) fn put_aside(list: &[T]) -> Self {
         let mut pages = Self::mapped_from(RETURNED, list.len());
         pages.rows_mut().copy_from_slice(list);
         pages
     }
 
     /// The rows of some lists, one after the other; each list is freed when its rows are copied.
-    pub(in crate::render::accel) fn joined(lists: Vec<Self>) -> Self {
+    pub(in crate::accel) fn joined(lists: Vec<Self>) -> Self {
         let mut pages = Self::zeroed(lists.iter().map(|list| list.rows().len()).sum());
         let mut rest = pages.rows_mut();
         for list in lists {
@@ -62,7 +62,7 @@ impl<T: Pod> Pages<T> {
     }
 
     /// The rows, to be written.
-    pub(in crate::render::accel) fn rows_mut(&mut self) -> &mut [T] {
+    pub(in crate::accel) fn rows_mut(&mut self) -> &mut [T] {
         match self {
             Self::List(list) => list,
             Self::Mapped(map, _) => bytemuck::cast_slice_mut(map),
@@ -71,7 +71,7 @@ impl<T: Pod> Pages<T> {
 
     /// The rows.
     #[inline]
-    pub(in crate::render::accel) fn rows(&self) -> &[T] {
+    pub(in crate::accel) fn rows(&self) -> &[T] {
         match self {
             Self::List(list) => list,
             Self::Mapped(map, _) => bytemuck::cast_slice(map),

@@ -8,7 +8,7 @@ pub struct SimdLevel(Tokens);
 
 /// Proofs that the machine has the instructions.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) enum Tokens {
+pub(crate) enum Tokens {
     /// None: one lane after the other.
     Scalar(Fallback),
     /// SSE2 of x86.
@@ -85,7 +85,7 @@ impl SimdLevel {
 
     /// The proof that the machine has it.
     #[inline]
-    pub(in crate::render) fn tokens(self) -> Tokens {
+    pub(crate) fn tokens(self) -> Tokens {
         self.0
     }
 }
@@ -95,7 +95,7 @@ macro_rules! at_level {
     ($level:expr, $simd:ident => $what:expr) => {{
         #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
         use fearless_simd::Simd;
-        use $crate::render::accel::simd::Tokens;
+        use $crate::accel::simd::Tokens;
         match $level.tokens() {
             Tokens::Scalar($simd) => $what,
             #[cfg(target_arch = "x86_64")]
@@ -121,7 +121,7 @@ macro_rules! at_level {
         }
     }};
 }
-pub(in crate::render::accel) use at_level;
+pub(in crate::accel) use at_level;
 
 #[cfg(test)]
 mod tests {

@@ -3,7 +3,7 @@
 use super::fresnel::schlick;
 use super::ggx::Ggx;
 use super::standard::Clearcoat;
-use crate::math::{Basis, Vec3};
+use rtc_math::{Basis, Vec3};
 
 /// The layer as one viewer sees it.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@
 
 use super::albedo::{Split, tables};
 use super::fresnel::Fresnel;
-use crate::math::Vec3;
+use rtc_math::Vec3;
 use std::f64::consts::PI;
 
 /// The compensation at one point for one direction to the viewer.

@@ -2,7 +2,7 @@
 //! film.
 
 use super::thin_film::ThinFilm;
-use crate::math::Vec3;
+use rtc_math::Vec3;
 
 /// The reflectance at normal incidence of a boundary between air and a medium with the index given.
 ///

@@ -6,7 +6,7 @@
 //! (JCGT 3, 2014).
 
 use super::warp::direction_turned;
-use crate::math::Vec3;
+use rtc_math::Vec3;
 use std::f64::consts::PI;
 
 /// Surfaces with an α below this are mirrors: their lobes are narrower than a pixel can resolve.

@@ -3,7 +3,7 @@
 use super::coat::Coat;
 use super::microfacet::LobeWeights;
 use super::sheen::Fibres;
-use crate::math::Vec3;
+use rtc_math::Vec3;
 
 /// The mean of the channels: what a lobe is worth, as far as its probability goes.
 fn mean(color: Vec3) -> f64 {

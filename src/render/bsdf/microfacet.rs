@@ -7,7 +7,7 @@ use super::ggx::Ggx;
 use super::standard::StandardParameters;
 use super::thin_film::ThinFilm;
 use super::{Evaluation, LAYERS, MICROFACETS, TRANSMISSION, can};
-use crate::math::Vec3;
+use rtc_math::Vec3;
 
 /// The boundary seen from one side, with z towards that side.
 #[derive(Clone, Copy, Debug)]

@@ -11,22 +11,22 @@ mod fresnel;
 mod ggx;
 mod lobe_pdf;
 mod microfacet;
-pub(in crate::render) mod optics;
+pub(crate) mod optics;
 mod sheen;
 mod side;
-pub(in crate::render) mod standard;
+pub(crate) mod standard;
 mod thin_film;
 mod warp;
 
 pub use fresnel::dispersed;
 
-use crate::math::Vec3;
-use crate::plan::PathFeatures;
-use crate::render::sampler::remapped;
+use crate::sampler::remapped;
 use coat::Coat;
 use compensation::Compensation;
 use lobe_pdf::LobePdf;
 use microfacet::{Microfacet, ScatteredDirection};
+use rtc_math::Vec3;
+use rtc_plan::PathFeatures;
 use sheen::Fibres;
 use side::Side;
 use standard::{DiffuseTransmission, StandardParameters};
@@ -34,12 +34,12 @@ use std::f64::consts::FRAC_1_PI;
 pub(super) use warp::direction_turned;
 use warp::{cosine_density, cosine_direction};
 
-pub(in crate::render) const LAYERS: PathFeatures = PathFeatures::LAYERS;
-pub(in crate::render) const MICROFACETS: PathFeatures = PathFeatures::MICROFACETS;
-pub(in crate::render) const TRANSMISSION: PathFeatures = PathFeatures::TRANSMISSION;
+pub(crate) const LAYERS: PathFeatures = PathFeatures::LAYERS;
+pub(crate) const MICROFACETS: PathFeatures = PathFeatures::MICROFACETS;
+pub(crate) const TRANSMISSION: PathFeatures = PathFeatures::TRANSMISSION;
 
 /// Whether the features `F` hold one: known at compile time.
-pub(in crate::render) const fn can<const F: u32>(feature: PathFeatures) -> bool {
+pub(crate) const fn can<const F: u32>(feature: PathFeatures) -> bool {
     PathFeatures(F).contains(feature)
 }
 

@@ -1,6 +1,6 @@
 //! Reflection, refraction and Phong's highlight.
 
-use crate::math::{Vec3, cross, pow};
+use rtc_math::{Vec3, cross, pow};
 
 /// The mirror direction of the unit vector `d` at a surface with unit normal `n`.
 #[must_use]

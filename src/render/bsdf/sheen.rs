@@ -5,7 +5,7 @@
 
 use super::albedo::tables;
 use super::standard::Sheen;
-use crate::math::{Vec3, exp, pow};
+use rtc_math::{Vec3, exp, pow};
 use std::f64::consts::TAU;
 
 /// The fibres on a surface as one viewer sees them.

@@ -1,6 +1,6 @@
 //! The side of a surface that is looked at, brought above.
 
-use crate::math::Vec3;
+use rtc_math::Vec3;
 
 /// The rotation of the frame that brings the viewer above and the anisotropy along x.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! The parameters of the glTF material at one point, after all texture lookups.
 
 use super::fresnel::normal_reflectance;
-use crate::math::Vec3;
-use crate::plan::Layer;
+use rtc_math::Vec3;
+use rtc_plan::Layer;
 
 /// The material of glTF 2.0 and its KHR extensions at one point, but for emission, alpha and the
 /// volume inside.
@@ -126,11 +126,11 @@ macro_rules! layers {
         impl StandardParameters {
             /// Each layer, and whether the material has it here.
             #[inline]
-            pub(in crate::render) fn layers(&self) -> [(Layer, bool); Layer::ALL.len()] {
+            pub(crate) fn layers(&self) -> [(Layer, bool); Layer::ALL.len()] {
                 [$((Layer::$layer, self.$slot.is_some())),*]
             }
         }
     };
 }
 
-crate::standard::layers!(layers);
+rtc_tables::layers!(layers);

@@ -5,7 +5,7 @@
 //! closed form with the eye's sensitivities.
 
 use super::fresnel::{normal_reflectance, schlick};
-use crate::math::{Vec3, cos, exp};
+use rtc_math::{Vec3, cos, exp};
 use std::f64::consts::{PI, TAU};
 
 /// A film.

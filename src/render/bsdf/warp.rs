@@ -1,6 +1,6 @@
 //! From the unit square to directions.
 
-use crate::math::{Vec3, cos_sin_turns};
+use rtc_math::{Vec3, cos_sin_turns};
 use std::f64::consts::PI;
 
 /// The unit vector with the z given and the azimuth in turns, in [0, 1).
@@ -11,7 +11,7 @@ use std::f64::consts::PI;
     clippy::cast_sign_loss,
     reason = "a share of a turn; the cast saturates"
 )]
-pub(in crate::render) fn direction_turned(z: f64, turns: f64) -> Vec3 {
+pub(crate) fn direction_turned(z: f64, turns: f64) -> Vec3 {
     /// 2⁶⁴.
     const TURN: f64 = 18_446_744_073_709_551_616.0;
     let sine = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt();

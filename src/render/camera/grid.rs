@@ -2,14 +2,14 @@
 //! sub-sample.
 
 use super::{Camera, CranleyPatterson, image_point, lens_point, ray_through};
-use crate::math::Vec3;
-use crate::render::film::Seeds;
-use crate::render::ray::Ray;
-use crate::render::sampler::Key;
+use crate::film::Seeds;
+use crate::ray::Ray;
+use crate::sampler::Key;
+use rtc_math::Vec3;
 
 /// Where in its cell of the pixel each sub-sample lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) enum Pattern {
+pub(crate) enum Pattern {
     /// In the middle.
     Grid,
     /// Anywhere in its cell, seeded by pixel and sample.
@@ -20,7 +20,7 @@ pub(in crate::render) enum Pattern {
 
 /// How the samples of a pixel are laid out.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Grid {
+pub(crate) struct Grid {
     /// Cells along each side of a pixel.
     factor: u32,
     /// Points of the lens for each cell.
@@ -30,21 +30,21 @@ pub(in crate::render) struct Grid {
 
 /// A sub-sample: a point of the image plane, and the rotation of its lens points.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Cell {
+pub(crate) struct Cell {
     target: Vec3,
     rotated: CranleyPatterson,
 }
 
 impl Grid {
     /// One ray through the middle of a pixel.
-    pub(in crate::render) const MIDDLE: Self = Self {
+    pub(crate) const MIDDLE: Self = Self {
         factor: 1,
         points: 1,
         pattern: Pattern::Grid,
     };
 
     /// `factor × factor` cells, each with so many points of the lens.
-    pub(in crate::render) fn new(factor: u32, points: u32, pattern: Pattern) -> Self {
+    pub(crate) fn new(factor: u32, points: u32, pattern: Pattern) -> Self {
         Self {
             factor,
             points,
@@ -53,25 +53,25 @@ impl Grid {
     }
 
     /// Whether rays start at several points of a lens.
-    pub(in crate::render) fn has_lens(&self) -> bool {
+    pub(crate) fn has_lens(&self) -> bool {
         self.points > 1
     }
 
     /// How many samples a pixel takes.
-    pub(in crate::render) fn samples(&self) -> u32 {
+    pub(crate) fn samples(&self) -> u32 {
         let cells = self.factor.saturating_mul(self.factor);
         cells.saturating_mul(self.points)
     }
 
     /// The column and the row of the cell of a sample, and which point of the lens it takes.
-    pub(in crate::render) fn place_of(&self, sample: u32) -> [u32; 3] {
+    pub(crate) fn place_of(&self, sample: u32) -> [u32; 3] {
         let cell = sample / self.points;
         [cell % self.factor, cell / self.factor, sample % self.points]
     }
 
     /// Those of the sample after one, without a division.
     #[inline]
-    pub(in crate::render) fn after(&self, [column, row, k]: [u32; 3]) -> [u32; 3] {
+    pub(crate) fn after(&self, [column, row, k]: [u32; 3]) -> [u32; 3] {
         if k + 1 < self.points {
             [column, row, k + 1]
         } else if column + 1 < self.factor {
@@ -83,7 +83,7 @@ impl Grid {
 
     /// A cell of a pixel, by its column and row.
     #[inline(always)]
-    pub(in crate::render) fn cell(
+    pub(crate) fn cell(
         &self,
         camera: &Camera,
         pixel: [u32; 2],
@@ -106,19 +106,14 @@ impl Grid {
 
     /// Whether all rays start at the eye of a camera.
     #[inline(always)]
-    pub(in crate::render) fn starts_at_eye(&self, camera: &Camera, seeds: Seeds) -> bool {
+    pub(crate) fn starts_at_eye(&self, camera: &Camera, seeds: Seeds) -> bool {
         self.points == 1 && camera.lens_samples == 1 && seeds.lens == 0
     }
 
     /// The offset of a sub-sample within its pixel, each coordinate in [0, 1], by the column and
     /// the row of its cell.
     #[inline(always)]
-    pub(in crate::render) fn place_in(
-        &self,
-        pixel: [u32; 2],
-        cell: [u32; 2],
-        seeds: Seeds,
-    ) -> [f64; 2] {
+    pub(crate) fn place_in(&self, pixel: [u32; 2], cell: [u32; 2], seeds: Seeds) -> [f64; 2] {
         self.place(cell, || self.key(pixel, cell).seeded(seeds.pixel))
     }
 
@@ -143,7 +138,7 @@ impl Grid {
 impl Cell {
     /// The ray from point k of the lens.
     #[inline]
-    pub(in crate::render) fn ray(&self, camera: &Camera, k: u32) -> Ray {
+    pub(crate) fn ray(&self, camera: &Camera, k: u32) -> Ray {
         ray_through(camera, lens_point(camera, k, self.rotated), self.target)
     }
 }

@@ -1,13 +1,13 @@
 //! Camera rays: from points of the lens through points of the image plane.
 
-pub(in crate::render) mod grid;
+pub(crate) mod grid;
 
-use crate::math::{Vec3, cos_sin_turns, golden_turns};
-use crate::render::lanes::{FourRays, LANES, Vectors};
-use crate::render::ray::Ray;
-use crate::render::sampler::Key;
+use crate::lanes::{FourRays, LANES, Vectors};
+use crate::ray::Ray;
+use crate::sampler::Key;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4};
+use rtc_math::{Vec3, cos_sin_turns, golden_turns};
 
 /// A camera as its rays see it.
 #[derive(Clone, Debug)]
@@ -61,7 +61,7 @@ pub fn camera_ray(origin: Vec3, image_point: Vec3) -> Ray {
 /// The camera ray through a point of the lens and a point of the image plane; the rays of an
 /// orthographic camera are parallel.
 #[must_use]
-pub(in crate::render) fn ray_through(camera: &Camera, lens_point: Vec3, image_point: Vec3) -> Ray {
+pub(crate) fn ray_through(camera: &Camera, lens_point: Vec3, image_point: Vec3) -> Ray {
     match camera.projection {
         Projection::Perspective => camera_ray(lens_point, image_point),
         Projection::Orthographic => {
@@ -73,7 +73,7 @@ pub(in crate::render) fn ray_through(camera: &Camera, lens_point: Vec3, image_po
 /// The camera rays from the eye through four points of a pixel: the steps of [`image_point`] and
 /// [`ray_through`] on all at once.
 #[inline(always)]
-pub(in crate::render) fn pinhole_rays<S: Simd>(
+pub(crate) fn pinhole_rays<S: Simd>(
     simd: S,
     camera: &Camera,
     [x, y]: [u32; 2],
@@ -108,7 +108,7 @@ pub fn vogel(k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
 
 /// A random rotation and radial shift of the spiral: a Cranley-Patterson rotation on the lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::render) struct CranleyPatterson {
+pub(crate) struct CranleyPatterson {
     /// In units of 2⁻⁶⁴ turns.
     rotation: u64,
     /// In [0, 1), as a fraction of the area of one point; a uniform shift makes the spiral
@@ -126,7 +126,7 @@ impl CranleyPatterson {
     /// The rotation of a sub-sample; seed 0 gives [`Self::NONE`].
     #[must_use]
     #[inline]
-    pub(in crate::render) fn new(seed: u64, key: impl Fn() -> Key) -> Self {
+    pub(crate) fn new(seed: u64, key: impl Fn() -> Key) -> Self {
         if seed == 0 {
             return Self::NONE;
         }
@@ -150,7 +150,7 @@ const LENS: u64 = u64::MAX - 1;
 /// Maps a point of the unit square uniformly to the lens; a pinhole does not ask for it.
 #[must_use]
 #[inline]
-pub(in crate::render) fn lens_at(camera: &Camera, point: impl FnOnce() -> [f64; 2]) -> Vec3 {
+pub(crate) fn lens_at(camera: &Camera, point: impl FnOnce() -> [f64; 2]) -> Vec3 {
     /// 2⁶⁴.
     const TURN: f64 = 18_446_744_073_709_551_616.0;
     let radius = camera.lens_radius;
@@ -171,7 +171,7 @@ pub(in crate::render) fn lens_at(camera: &Camera, point: impl FnOnce() -> [f64; 
 /// The origin of ray k of a sub-sample.
 #[inline(always)]
 #[must_use]
-pub(in crate::render) fn lens_point(camera: &Camera, k: u32, rotated: CranleyPatterson) -> Vec3 {
+pub(crate) fn lens_point(camera: &Camera, k: u32, rotated: CranleyPatterson) -> Vec3 {
     let n = camera.lens_samples;
     if n == 1 && rotated == CranleyPatterson::NONE {
         return camera.eye;

@@ -10,7 +10,7 @@ use super::partial::{FilmError, FilmLayout, PartialFilm, SumNode, Summation, ins
 use super::pixel::PixelSum;
 use super::tiled::tiles_of;
 use super::{Counts, Crop, Values};
-use crate::math::Vec3;
+use rtc_math::Vec3;
 
 /// What the bytes of a film begin with.
 const MAGIC: [u8; 8] = *b"rtc film";

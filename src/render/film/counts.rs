@@ -1,7 +1,7 @@
 //! How many rays were traced and how often each effect was evaluated: counted where the ray or the
 //! lobe is made.
 
-use crate::plan::Effect;
+use rtc_plan::Effect;
 
 /// Rays by kind, and evaluations by effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +43,7 @@ impl ClampedLight {
     }
 
     /// Counts a path, whose radiance in all channels was so much, by what is taken of it.
-    pub(in crate::render) fn add(&mut self, radiance: f64, taken: f64) {
+    pub(crate) fn add(&mut self, radiance: f64, taken: f64) {
         const UNITS: f64 = 1_099_511_627_776.0;
         /// So much for a path that the sum of 2³² of them is a number.
         const MOST: f64 = 7.9e28;
@@ -111,13 +111,13 @@ impl Counts {
 
     /// Counts an evaluation of an effect.
     #[inline]
-    pub(in crate::render) fn add(&mut self, effect: Effect) {
+    pub(crate) fn add(&mut self, effect: Effect) {
         self.evaluations[effect.index()] += 1;
     }
 
     /// Counts so many evaluations of an effect.
     #[inline]
-    pub(in crate::render) fn add_several(&mut self, effect: Effect, count: u32) {
+    pub(crate) fn add_several(&mut self, effect: Effect, count: u32) {
         self.evaluations[effect.index()] += u64::from(count);
     }
 
@@ -167,7 +167,7 @@ impl Counts {
 
     /// The rays and evaluations since an earlier count.
     #[must_use]
-    pub(in crate::render) fn since(self, before: &Self) -> Self {
+    pub(crate) fn since(self, before: &Self) -> Self {
         Self {
             clamped: self.clamped.since(before.clamped),
             ..self.by(before, |a, b| a - b)

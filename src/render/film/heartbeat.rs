@@ -4,7 +4,7 @@
 //! A stopped thread leaves its pixel with a wrong value. The film is then dropped, so no finished
 //! picture has such a pixel.
 
-use crate::render::film::Counts;
+use crate::film::Counts;
 
 /// The work of a thread since its last call.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,7 +26,7 @@ pub type OnPixel<'a> = dyn Fn(Step) -> bool + Sync + 'a;
 const EVERY: u32 = 1 << 12;
 
 /// The calls of one thread to the observer.
-pub(in crate::render) struct Heartbeat<'run> {
+pub(crate) struct Heartbeat<'run> {
     on_pixel: &'run OnPixel<'run>,
     pixel: [u32; 2],
     /// The rays of this thread reported so far.
@@ -39,7 +39,7 @@ pub(in crate::render) struct Heartbeat<'run> {
 }
 
 impl<'run> Heartbeat<'run> {
-    pub(in crate::render) fn new(on_pixel: &'run OnPixel<'run>) -> Self {
+    pub(crate) fn new(on_pixel: &'run OnPixel<'run>) -> Self {
         Self {
             on_pixel,
             pixel: [0; 2],
@@ -51,31 +51,31 @@ impl<'run> Heartbeat<'run> {
     }
 
     /// The pixel under way.
-    pub(in crate::render) fn pixel(&self) -> [u32; 2] {
+    pub(crate) fn pixel(&self) -> [u32; 2] {
         self.pixel
     }
 
     /// Begins another pixel.
-    pub(in crate::render) fn begin(&mut self, pixel: [u32; 2]) {
+    pub(crate) fn begin(&mut self, pixel: [u32; 2]) {
         self.pixel = pixel;
     }
 
     /// Records the number of pending branches.
     #[inline]
-    pub(in crate::render) fn put_off(&mut self, open: usize) {
+    pub(crate) fn put_off(&mut self, open: usize) {
         self.open = open;
     }
 
     /// Whether to go on. Call it once per step of work: a path, a bounce, a sample, a point of a
     /// light.
     #[inline]
-    pub(in crate::render) fn goes_on(&mut self, counts: &Counts) -> bool {
+    pub(crate) fn goes_on(&mut self, counts: &Counts) -> bool {
         self.left -= 1;
         self.left > 0 || self.ask(counts.rays(), false)
     }
 
     /// Reports the end of the pixel, given the rays traced so far. Returns whether to go on.
-    pub(in crate::render) fn done(&mut self, rays: u64) -> bool {
+    pub(crate) fn done(&mut self, rays: u64) -> bool {
         self.ask(rays, true)
     }
 

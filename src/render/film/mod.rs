@@ -2,19 +2,19 @@
 
 mod bytes;
 mod counts;
-pub(in crate::render) mod growing;
-pub(in crate::render) mod heartbeat;
-pub(in crate::render) mod partial;
-pub(in crate::render) mod pixel;
-pub(in crate::render) mod progressive;
-pub(in crate::render) mod tile;
-pub(in crate::render) mod tiled;
+pub(crate) mod growing;
+pub(crate) mod heartbeat;
+pub(crate) mod partial;
+pub(crate) mod pixel;
+pub(crate) mod progressive;
+pub(crate) mod tile;
+pub(crate) mod tiled;
 
 pub use counts::{ClampedLight, Counts};
 
-use crate::color::Tone;
-use crate::image::Image;
-use crate::math::mix;
+use rtc_color::Tone;
+use rtc_image::Image;
+use rtc_math::mix;
 use std::num::NonZeroU32;
 
 /// What to render of a world.
@@ -205,12 +205,12 @@ pub enum Values {
 }
 
 /// The tone map of [`Values::Display`] where paths are traced.
-pub(in crate::render) const DISPLAY: Tone = Tone::Srgb;
+pub(crate) const DISPLAY: Tone = Tone::Srgb;
 
 /// The fraction of rays that hit something; 0 without rays.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "a share, rounded")]
-pub(in crate::render) fn coverage(hits: u64, rays: u64) -> f32 {
+pub(crate) fn coverage(hits: u64, rays: u64) -> f32 {
     (hits as f64 / rays.max(1) as f64) as f32
 }
 

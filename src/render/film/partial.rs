@@ -5,13 +5,13 @@
 use super::pixel::{BLOCK, PixelSum};
 use super::tiled::{Tiled, tiles_of};
 use super::{Counts, Crop, DISPLAY, Film, Values};
-use crate::image::Image;
+use rtc_image::Image;
 use std::fmt;
 use std::ops::Range;
 
 /// How the samples of a pixel are summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) enum Summation {
+pub(crate) enum Summation {
     /// One after the other: all of them are one part.
     InOrder,
     /// So many samples in aligned blocks along a binary tree.
@@ -22,13 +22,13 @@ pub(in crate::render) enum Summation {
 
 /// What the films of one picture have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) struct FilmLayout {
+pub(crate) struct FilmLayout {
     /// The rectangle of pixels.
-    pub(in crate::render) crop: Crop,
+    pub(crate) crop: Crop,
     /// What the pixels show in the end.
-    pub(in crate::render) values: Values,
+    pub(crate) values: Values,
     /// How their samples are summed.
-    pub(in crate::render) summation: Summation,
+    pub(crate) summation: Summation,
 }
 
 /// A film of a part of a picture.
@@ -106,7 +106,7 @@ impl FilmLayout {
     }
 
     /// The samples of a node; of a picture of one node, as many as there are.
-    pub(in crate::render) fn samples_of(&self, blocks: &Range<u32>) -> Range<u32> {
+    pub(crate) fn samples_of(&self, blocks: &Range<u32>) -> Range<u32> {
         let Summation::InBlocks(samples) = self.summation else {
             return 0..u32::MAX;
         };
@@ -115,7 +115,7 @@ impl FilmLayout {
     }
 
     /// All samples.
-    pub(in crate::render) fn all_samples(&self) -> Range<u32> {
+    pub(crate) fn all_samples(&self) -> Range<u32> {
         self.samples_of(&(0..self.blocks()))
     }
 
@@ -123,7 +123,7 @@ impl FilmLayout {
     ///
     /// # Errors
     /// If the range is not of whole blocks, or the samples are not summed in blocks.
-    pub(in crate::render) fn nodes_of(
+    pub(crate) fn nodes_of(
         &self,
         samples: Option<Range<u32>>,
     ) -> Result<Vec<Range<u32>>, FilmError> {
@@ -178,7 +178,7 @@ impl FilmLayout {
     }
 
     /// The picture of all sums.
-    pub(in crate::render) fn develop(&self, film: &Tiled<PixelSum>, counts: Counts) -> Film {
+    pub(crate) fn develop(&self, film: &Tiled<PixelSum>, counts: Counts) -> Film {
         let (pixels, coverage) = match (self.summation, self.values) {
             (Summation::Distance, _) => shown(film, depths(film)),
             (Summation::InBlocks(_), Values::Display) => {
@@ -242,7 +242,7 @@ impl PartialFilm {
     }
 
     /// A film without samples.
-    pub(in crate::render) fn new(layout: FilmLayout) -> Self {
+    pub(crate) fn new(layout: FilmLayout) -> Self {
         Self {
             layout,
             counts: Counts::default(),
@@ -251,7 +251,7 @@ impl PartialFilm {
     }
 
     /// A node of the tiles that a film holds, as rendered.
-    pub(in crate::render) fn of(
+    pub(crate) fn of(
         layout: FilmLayout,
         blocks: &Range<u32>,
         film: Tiled<PixelSum>,

@@ -4,23 +4,23 @@
 //! samples, so that a picture is the same bytes however its samples are shared out.
 
 use super::{Seeds, Values, coverage};
-use crate::math::Vec3;
+use rtc_math::Vec3;
 use std::ops::{Add, Range};
 
 /// One sample of a pixel. It is a function of these three alone.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct SampleId {
+pub(crate) struct SampleId {
     /// The pixel, from the upper left.
-    pub(in crate::render) pixel: [u32; 2],
+    pub(crate) pixel: [u32; 2],
     /// To which sequence it belongs.
-    pub(in crate::render) stream: Stream,
+    pub(crate) stream: Stream,
     /// Its place in that sequence.
-    pub(in crate::render) index: u32,
+    pub(crate) index: u32,
 }
 
 /// A sequence of samples of a pixel.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) enum Stream {
+pub(crate) enum Stream {
     /// The samples that the scene asks for.
     Picture(Seeds),
     /// One of three sequences without end that are independent of each other: two replicates and
@@ -35,7 +35,7 @@ pub(in crate::render) enum Stream {
 
 impl Stream {
     /// The seeds of its samples.
-    pub(in crate::render) fn seeds(self) -> Seeds {
+    pub(crate) fn seeds(self) -> Seeds {
         match self {
             Self::Picture(seeds) => seeds,
             Self::Replicate { number, .. } => Seeds {
@@ -49,17 +49,17 @@ impl Stream {
 
 /// What one sample of a pixel shows.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Sample {
+pub(crate) struct Sample {
     /// The radiance, finite where paths are traced.
-    pub(in crate::render) radiance: Vec3,
+    pub(crate) radiance: Vec3,
     /// Whether the camera ray met a surface.
-    pub(in crate::render) hit: bool,
+    pub(crate) hit: bool,
 }
 
 /// Adds up the samples of one pixel.
-pub(in crate::render) trait Accumulator {
+pub(crate) trait Accumulator {
     /// What a sample is.
-    type Sample;
+    type Sample: Copy;
 
     /// What the film keeps of a pixel.
     type Kept: Send;
@@ -73,7 +73,7 @@ pub(in crate::render) trait Accumulator {
 
 /// The samples that a pixel is to take.
 #[derive(Clone, Debug)]
-pub(in crate::render) enum SampleRanges {
+pub(crate) enum SampleRanges {
     /// A range of those that the scene asks for.
     Picture(Seeds, Range<u32>),
     /// A range for each of the two replicates, and one for the pilot; keyed by a seed.
@@ -83,7 +83,7 @@ pub(in crate::render) enum SampleRanges {
 impl SampleRanges {
     /// The k-th stream that samples are taken of, and which of them; `None` after the last.
     #[inline]
-    pub(in crate::render) fn stream(&self, k: usize) -> Option<(Stream, Range<u32>)> {
+    pub(crate) fn stream(&self, k: usize) -> Option<(Stream, Range<u32>)> {
         match self {
             Self::Picture(seeds, samples) => {
                 (k == 0).then(|| (Stream::Picture(*seeds), samples.clone()))
@@ -103,24 +103,24 @@ impl SampleRanges {
 
 /// The sum of samples of a pixel: what a film keeps of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in crate::render) struct PixelSum {
+pub(crate) struct PixelSum {
     /// The sum of the radiance, clamped sample by sample where a display shows it so; of a depth
     /// buffer the distance, in each channel.
-    pub(in crate::render) radiance: Vec3,
+    pub(crate) radiance: Vec3,
     /// How many samples met a surface.
-    pub(in crate::render) hits: u32,
+    pub(crate) hits: u32,
     /// How many samples there are.
-    pub(in crate::render) samples: u32,
+    pub(crate) samples: u32,
 }
 
 impl PixelSum {
     /// The mean of the samples; black without any.
-    pub(in crate::render) fn mean(&self) -> [f64; 3] {
+    pub(crate) fn mean(&self) -> [f64; 3] {
         (self.radiance / f64::from(self.samples.max(1))).to_array()
     }
 
     /// The fraction of the camera rays that met a surface.
-    pub(in crate::render) fn coverage(&self) -> f32 {
+    pub(crate) fn coverage(&self) -> f32 {
         coverage(self.hits.into(), self.samples.into())
     }
 }
@@ -138,13 +138,13 @@ impl Add for PixelSum {
 }
 
 /// The samples, added one after the other: pictures of the course.
-pub(in crate::render) struct InOrder {
+pub(crate) struct InOrder {
     values: Values,
     sum: PixelSum,
 }
 
 impl InOrder {
-    pub(in crate::render) fn new(values: Values) -> Self {
+    pub(crate) fn new(values: Values) -> Self {
         let sum = PixelSum::default();
         Self { values, sum }
     }
@@ -175,7 +175,7 @@ pub const BLOCK: u32 = 16;
 /// The samples, added in aligned blocks of [`BLOCK`] along a binary tree over the blocks: pictures
 /// of traced paths. The sum of any 2^k aligned blocks is one node of the tree, whoever adds it.
 #[derive(Default)]
-pub(in crate::render) struct InBlocks {
+pub(crate) struct InBlocks {
     block: Vec3,
     tree: SumTree,
     hits: u32,

@@ -9,9 +9,9 @@
 use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;
 use super::{Background, Counts, Crop, DISPLAY, Tiles, Values, coverage};
-use crate::color::Tone;
-use crate::image::Image;
-use crate::math::Vec3;
+use rtc_color::Tone;
+use rtc_image::Image;
+use rtc_math::Vec3;
 
 /// The samples of a pixel so far.
 #[derive(Clone, Copy, Debug, Default)]
@@ -47,7 +47,7 @@ pub struct ProgressiveFilm {
     pub display: (Tone, f64),
     /// The tiles that grow; all without.
     pub tiles: Option<Tiles>,
-    pub(in crate::render) pixels: Tiled<Replicates>,
+    pub(crate) pixels: Tiled<Replicates>,
     /// The rays so far.
     pub counts: Counts,
 }
@@ -93,17 +93,13 @@ impl ProgressiveFilm {
 
     /// The missing samples of a pixel. `wanted` is the least number of samples of each replicate,
     /// and of the pilot.
-    pub(in crate::render) fn lacking(
-        seed: u64,
-        pixel: &Replicates,
-        wanted: [u32; 2],
-    ) -> SampleRanges {
+    pub(crate) fn lacking(seed: u64, pixel: &Replicates, wanted: [u32; 2]) -> SampleRanges {
         let samples = |part: usize| pixel.counts[part]..wanted[part];
         SampleRanges::Replicates(seed, [0, 1].map(samples))
     }
 
     /// The seed of the samples.
-    pub(in crate::render) fn seed(&self) -> u64 {
+    pub(crate) fn seed(&self) -> u64 {
         self.seed
     }
 
@@ -237,7 +233,7 @@ impl Replicates {
     }
 
     /// The same samples, shown by `tone`.
-    pub(in crate::render) fn toned(self, tone: Option<(Tone, f64)>) -> Self {
+    pub(crate) fn toned(self, tone: Option<(Tone, f64)>) -> Self {
         Self { tone, ..self }
     }
 }

@@ -1,16 +1,28 @@
 //! A tile under way: which of its pixels are rendered, the samples each is to take, and where the
 //! film keeps what they add up to.
 
-use super::pixel::{Accumulator, SampleRanges};
+use super::pixel::{Accumulator, SampleId, SampleRanges};
 use super::{Crop, Stride};
 
 /// Begins a pixel: given its place, its number in the film, row by row, and what the film keeps of
 /// it so far, says what adds up its samples and which it is to take.
-pub(in crate::render) type Open<'run, A> =
+pub(crate) type Open<'run, A> =
     dyn Fn([u32; 2], usize, &<A as Accumulator>::Kept) -> (A, SampleRanges) + Sync + 'run;
 
-/// The pixels of a tile, one after the other.
-pub(in crate::render) struct Tile<'film, A: Accumulator> {
+/// The pixels of a tile, one after the other: to an integrator they are alike, whatever the film keeps of them.
+pub(crate) trait Pixels<Sample> {
+    /// Begins the next pixel: its place in the picture, and the samples it is to take; `None` after the last.
+    fn next(&mut self) -> Option<([u32; 2], SampleRanges)>;
+
+    /// Adds the next sample of a stream to the pixel begun.
+    fn add(&mut self, id: &SampleId, sample: Sample);
+
+    /// Keeps what the samples of the pixel begun add up to.
+    fn close(&mut self);
+}
+
+/// A tile of a film.
+pub(crate) struct Tile<'film, A: Accumulator> {
     /// The rectangle of the picture.
     area: Crop,
     /// That of the film.
@@ -22,23 +34,14 @@ pub(in crate::render) struct Tile<'film, A: Accumulator> {
     next: [u32; 2],
     /// Its number in the tile.
     index: usize,
-}
-
-/// A pixel under way.
-pub(in crate::render) struct OpenPixel<A> {
-    /// Its place in the picture.
-    pub(in crate::render) at: [u32; 2],
-    /// What adds up its samples.
-    pub(in crate::render) sums: A,
-    /// The samples it is to take.
-    pub(in crate::render) asked: SampleRanges,
-    index: usize,
+    /// What adds up the samples of the pixel begun, and its number in the tile.
+    begun: Option<(A, usize)>,
 }
 
 impl<'film, A: Accumulator> Tile<'film, A> {
     /// The pixels in `area` of a film, of which it keeps `kept`; only those that `stride` meets
     /// from the film's corner on.
-    pub(in crate::render) fn new(
+    pub(crate) fn new(
         [area, film]: [Crop; 2],
         stride: Stride,
         kept: &'film mut [A::Kept],
@@ -52,28 +55,8 @@ impl<'film, A: Accumulator> Tile<'film, A> {
             open,
             next: [area.x - film.x, area.y - film.y],
             index: 0,
+            begun: None,
         }
-    }
-
-    /// Begins the next pixel; `None` after the last.
-    pub(in crate::render) fn next_pixel(&mut self) -> Option<OpenPixel<A>> {
-        while self.index < self.kept.len() {
-            let ([column, row], index) = (self.next, self.index);
-            self.advance();
-            let is_met = |at: u32| at.is_multiple_of(self.stride.get());
-            if is_met(column) && is_met(row) {
-                let at = [self.film.x + column, self.film.y + row];
-                let number = row as usize * self.film.width as usize + column as usize;
-                let (sums, asked) = (self.open)(at, number, &self.kept[index]);
-                return Some(OpenPixel {
-                    at,
-                    sums,
-                    asked,
-                    index,
-                });
-            }
-        }
-        None
     }
 
     /// Goes to the next pixel of the tile, row by row.
@@ -84,9 +67,34 @@ impl<'film, A: Accumulator> Tile<'film, A> {
             (*column, *row) = (self.area.x - self.film.x, *row + 1);
         }
     }
+}
 
-    /// Keeps what the samples of a pixel add up to.
-    pub(in crate::render) fn close(&mut self, pixel: OpenPixel<A>) {
-        self.kept[pixel.index] = pixel.sums.close();
+impl<A: Accumulator> Pixels<A::Sample> for Tile<'_, A> {
+    fn next(&mut self) -> Option<([u32; 2], SampleRanges)> {
+        while self.index < self.kept.len() {
+            let ([column, row], index) = (self.next, self.index);
+            self.advance();
+            let is_met = |at: u32| at.is_multiple_of(self.stride.get());
+            if is_met(column) && is_met(row) {
+                let at = [self.film.x + column, self.film.y + row];
+                let number = row as usize * self.film.width as usize + column as usize;
+                let (sums, asked) = (self.open)(at, number, &self.kept[index]);
+                self.begun = Some((sums, index));
+                return Some((at, asked));
+            }
+        }
+        None
+    }
+
+    fn add(&mut self, id: &SampleId, sample: A::Sample) {
+        if let Some((sums, _)) = &mut self.begun {
+            sums.add(id, sample);
+        }
+    }
+
+    fn close(&mut self) {
+        if let Some((sums, index)) = self.begun.take() {
+            self.kept[index] = sums.close();
+        }
     }
 }

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// One value a pixel of the tiles held, and one value for all pixels of the other tiles.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct Tiled<K> {
+pub(crate) struct Tiled<K> {
     crop: Crop,
     /// Of each tile the values in rows; none where the tile is not held.
     tiles: Vec<Vec<K>>,
@@ -17,7 +17,7 @@ pub(in crate::render) struct Tiled<K> {
 impl<K: Clone> Tiled<K> {
     /// The same value in all pixels. Only the tiles given are held, all of them without.
     #[must_use]
-    pub(in crate::render) fn new(crop: Crop, held: Option<Tiles>, value: K) -> Self {
+    pub(crate) fn new(crop: Crop, held: Option<Tiles>, value: K) -> Self {
         let is_held = |area: &Crop| held.is_none_or(|tiles| tiles.contain([area.x, area.y]));
         let tile = |area: Crop| {
             let pixels = if is_held(&area) { area.pixels() } else { 0 };
@@ -34,19 +34,19 @@ impl<K: Clone> Tiled<K> {
 impl<K> Tiled<K> {
     /// The part of the picture.
     #[must_use]
-    pub(in crate::render) fn crop(&self) -> Crop {
+    pub(crate) fn crop(&self) -> Crop {
         self.crop
     }
 
     /// How many pixels the part has.
     #[must_use]
-    pub(in crate::render) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.crop.pixels()
     }
 
     /// The value of a pixel, counted row by row.
     #[must_use]
-    pub(in crate::render) fn at(&self, index: usize) -> &K {
+    pub(crate) fn at(&self, index: usize) -> &K {
         let width = self.crop.width as usize;
         let (column, row) = (index % width, index / width);
         let (tile_row, top, _) = tile_around(self.crop.y, row, self.crop.height as usize);
@@ -57,17 +57,17 @@ impl<K> Tiled<K> {
     }
 
     /// The values held, tile by tile.
-    pub(in crate::render) fn values(&self) -> impl Iterator<Item = &K> {
+    pub(crate) fn values(&self) -> impl Iterator<Item = &K> {
         self.tiles.iter().flatten()
     }
 
     /// The same, to be changed.
-    pub(in crate::render) fn values_mut(&mut self) -> impl Iterator<Item = &mut K> {
+    pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut K> {
         self.tiles.iter_mut().flatten()
     }
 
     /// The values row by row.
-    pub(in crate::render) fn iter(&self) -> impl Iterator<Item = &K> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &K> {
         (0..self.crop.height).flat_map(|row| self.row(row))
     }
 
@@ -87,20 +87,20 @@ impl<K> Tiled<K> {
     }
 
     /// The tiles held, each with its rectangle of the picture and its values in rows.
-    pub(in crate::render) fn tiles_mut(&mut self) -> impl Iterator<Item = (Crop, &mut [K])> {
+    pub(crate) fn tiles_mut(&mut self) -> impl Iterator<Item = (Crop, &mut [K])> {
         let tiles = tiles_of(self.crop).zip(&mut self.tiles);
         let held = tiles.filter(|(_, tile)| !tile.is_empty());
         held.map(|(area, tile)| (area, tile.as_mut_slice()))
     }
 
     /// The values of each tile in rows, tile by tile; none where the tile is not held.
-    pub(in crate::render) fn into_tiles(self) -> Vec<Vec<K>> {
+    pub(crate) fn into_tiles(self) -> Vec<Vec<K>> {
         self.tiles
     }
 }
 
 /// The rectangles of the tiles of a part of the picture, row by row.
-pub(in crate::render) fn tiles_of(crop: Crop) -> impl Iterator<Item = Crop> {
+pub(crate) fn tiles_of(crop: Crop) -> impl Iterator<Item = Crop> {
     let row = move |rows: Range<u32>| {
         cuts(crop.x, crop.width).map(move |columns| Crop {
             x: columns.start,

@@ -2,17 +2,17 @@
 //! camera rays.
 
 use super::{Selection, run};
-use crate::image::{Guide, Image, NoisyHalf, denoise};
-use crate::render::film::heartbeat::OnPixel;
-use crate::render::film::tiled::Tiled;
-use crate::render::film::{Counts, Film, Job};
-use crate::render::frame::picture::asked;
-use crate::render::integrator::guide::GuideSums;
-use crate::render::integrator::path::{FirstHitsOfPaths, Strategy};
-use crate::render::light::Lights;
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::World;
-use crate::render::world::any::AnyWorld;
+use crate::film::heartbeat::OnPixel;
+use crate::film::tiled::Tiled;
+use crate::film::{Counts, Film, Job};
+use crate::frame::picture::asked;
+use crate::integrator::guide::GuideSums;
+use crate::integrator::path::{FirstHitsOfPaths, Strategy};
+use crate::light::Lights;
+use crate::shape::geometry::Geometry;
+use crate::world::World;
+use crate::world::any::AnyWorld;
+use rtc_image::{Guide, Image, NoisyHalf, denoise};
 use std::ops::Range;
 
 /// Camera rays of the exact guides for each sample, and the most that so are taken.
@@ -29,19 +29,19 @@ pub struct DenoisedFilm {
 
 impl<S: Geometry> World<S> {
     /// The guides of pixels by a range of the samples of traced paths, and the rays they take.
-    pub(in crate::render) fn guides(
+    pub(crate) fn guides(
         &self,
         samples: &Range<u32>,
         job: &Job,
         on_pixel: &OnPixel<'_>,
     ) -> Option<(Vec<Guide>, Counts)> {
         let lights = Lights::new(self, Strategy::Mis);
-        let worker = || FirstHitsOfPaths::new(self, &lights, on_pixel);
+        let worker = || Box::new(FirstHitsOfPaths::new(self, &lights, on_pixel)) as _;
         let open = |_: [u32; 2], _: usize, _: &Guide| {
             (GuideSums::new(&self.camera), asked(job, samples.clone()))
         };
         let mut film = Tiled::new(self.crop(job), job.tiles, Guide::default());
-        let counts = run(&mut film, Selection::of(job), worker, &open)?;
+        let counts = run(&mut film, Selection::of(job), &worker, &open)?;
         Some((film.iter().copied().collect(), counts))
     }
 }
@@ -94,7 +94,7 @@ impl AnyWorld {
 
 /// Scales the distances of guides to [0, 1], by those that the last meet.
 fn scale_distances(guides: &mut [Vec<Guide>; 3]) {
-    const LAST: usize = crate::image::GUIDES - 1;
+    const LAST: usize = rtc_image::GUIDES - 1;
     let met = guides[2].iter().filter(|guide| guide[0] > 0.0);
     let distances = met.map(|guide| guide[LAST] / guide[0]);
     let (near, far) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(near, far), d| {

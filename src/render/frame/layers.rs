@@ -1,25 +1,25 @@
 //! Layers (AOVs): each pixel traces the same camera rays as for its colour, to their first hits.
 
-use super::{Selection, run};
-use crate::image::Layers;
-use crate::plan::Features;
-use crate::render::film::Job;
-use crate::render::film::heartbeat::OnPixel;
-use crate::render::film::pixel::Accumulator;
-use crate::render::film::tiled::Tiled;
-use crate::render::frame::picture::asked;
-use crate::render::integrator::aov::{Aov, FirstHit, FirstHits, LayerSums};
-use crate::render::integrator::path::{FirstHitsOfPaths, Strategy};
-use crate::render::integrator::whitted::Tracer;
-use crate::render::light::Lights;
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::World;
-use crate::render::world::settings::Mode;
+use super::{Selection, Worker, run};
+use crate::film::Job;
+use crate::film::heartbeat::OnPixel;
+use crate::film::pixel::Accumulator;
+use crate::film::tiled::Tiled;
+use crate::frame::picture::asked;
+use crate::integrator::aov::{Aov, CameraHit, FirstHits, LayerSums};
+use crate::integrator::path::{FirstHitsOfPaths, Strategy};
+use crate::integrator::whitted::Tracer;
+use crate::light::Lights;
+use crate::shape::geometry::Geometry;
+use crate::world::World;
+use crate::world::settings::Mode;
+use rtc_image::Layers;
+use rtc_plan::Features;
 use std::iter::repeat_n;
 
 impl<S: Geometry> World<S> {
-    /// As [`crate::render::AnyWorld::layers`], of what this world holds.
-    pub(in crate::render) fn layers(
+    /// As [`crate::AnyWorld::layers`], of what this world holds.
+    pub(crate) fn layers(
         &self,
         wanted: &[Aov],
         job: &Job,
@@ -27,17 +27,20 @@ impl<S: Geometry> World<S> {
     ) -> Option<Layers> {
         if let Mode::Path(samples) = self.settings.mode {
             let lights = Lights::new(self, Strategy::Mis);
-            let worker = || FirstHitsOfPaths::new(self, &lights, on_pixel);
-            return self.layers_by(worker, samples, wanted, job);
+            let worker = || Box::new(FirstHitsOfPaths::new(self, &lights, on_pixel)) as _;
+            return self.layers_by(&worker, samples, wanted, job);
         }
-        let worker = || FirstHits(Tracer::<S, { Features::EVERYTHING.0 }>::new(self, on_pixel));
-        self.layers_by(worker, self.settings.grid.samples(), wanted, job)
+        let worker = || {
+            let tracer = Tracer::<S, { Features::EVERYTHING.0 }>::new(self, on_pixel);
+            Box::new(FirstHits(tracer)) as _
+        };
+        self.layers_by(&worker, self.settings.grid.samples(), wanted, job)
     }
 
     /// Renders layers by the first hits of integrators that `worker` makes.
-    fn layers_by<'run, I: FirstHit<'run>>(
+    fn layers_by(
         &self,
-        worker: impl Fn() -> FirstHits<I> + Sync + Send,
+        worker: &Worker<'_, '_, CameraHit>,
         samples: u32,
         wanted: &[Aov],
         job: &Job,

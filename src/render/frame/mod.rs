@@ -1,11 +1,11 @@
 //! From world to film: the one loop over tiles, on all threads of the pool. It renders whole
 //! pictures, parts, growing pictures and layers.
 
-pub(in crate::render) mod halves;
-pub(in crate::render) mod layers;
-pub(in crate::render) mod picture;
-pub(in crate::render) mod progressive;
-pub(in crate::render) mod verify;
+pub(crate) mod halves;
+pub(crate) mod layers;
+pub(crate) mod picture;
+pub(crate) mod progressive;
+pub(crate) mod verify;
 
 use super::film::pixel::Accumulator;
 use super::film::tile::{Open, Tile};
@@ -16,11 +16,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Which pixels of a film are rendered.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::render) struct Selection {
+pub(crate) struct Selection {
     /// The tiles wanted; `None` for all.
-    pub(in crate::render) tiles: Option<Tiles>,
+    pub(crate) tiles: Option<Tiles>,
     /// The pixels wanted of them.
-    pub(in crate::render) stride: Stride,
+    pub(crate) stride: Stride,
 }
 
 /// A tile's place in the picture, and what is kept of its pixels.
@@ -36,43 +36,38 @@ impl Selection {
     }
 }
 
+/// Makes the integrator of a thread.
+pub(crate) type Worker<'work, 'run, Sample> =
+    dyn Fn() -> Box<dyn Integrator<'run, Sample = Sample> + 'work> + Sync + 'work;
+
 /// Renders the pixels selected, as `open` begins each of them, by integrators that `worker` makes;
 /// the rays traced, or `None` if the observer said stop.
-pub(in crate::render) fn run<'run, I, A>(
+pub(crate) fn run<A: Accumulator>(
     film: &mut Tiled<A::Kept>,
     selection: Selection,
-    worker: impl Fn() -> I + Sync,
+    worker: &Worker<'_, '_, A::Sample>,
     open: &Open<'_, A>,
-) -> Option<Counts>
-where
-    I: Integrator<'run>,
-    A: Accumulator<Sample = I::Sample>,
-{
+) -> Option<Counts> {
     let crop = film.crop();
-    let render = |integrator: &mut I, (area, kept): KeptTile<'_, A::Kept>| {
+    let tiles = selection.tiles_of(film);
+    let (counts, is_done) = share(tiles, worker, &|integrator, (area, kept)| {
         integrator.render(&mut Tile::new([area, crop], selection.stride, kept, open))
-    };
-    let (counts, is_done) = share(selection.tiles_of(film), worker, render);
+    });
     is_done.then_some(counts)
 }
 
 /// As [`run`], in tiles all over the picture; if the observer said stop, tiles that are not done are as
 /// before. The rays traced, and whether all are done.
-pub(in crate::render) fn run_tiles<'run, I, A>(
+pub(crate) fn run_tiles<A: Accumulator<Kept: Copy>>(
     film: &mut Tiled<A::Kept>,
     selection: Selection,
-    worker: impl Fn() -> I + Sync,
+    worker: &Worker<'_, '_, A::Sample>,
     open: &Open<'_, A>,
-) -> (Counts, bool)
-where
-    I: Integrator<'run>,
-    A: Accumulator<Sample = I::Sample>,
-    A::Kept: Copy,
-{
+) -> (Counts, bool) {
     let crop = film.crop();
     let mut tiles = selection.tiles_of(film);
     tiles.sort_unstable_by_key(|(area, _)| Tiles::rank(0, [area.x, area.y]));
-    let render = |integrator: &mut I, (area, kept): KeptTile<'_, A::Kept>| {
+    share(tiles, worker, &|integrator, (area, kept)| {
         let before = kept.to_vec();
         let mut tile = Tile::new([area, crop], selection.stride, &mut *kept, open);
         let is_done = integrator.render(&mut tile);
@@ -81,16 +76,19 @@ where
             kept.copy_from_slice(&before);
         }
         is_done
-    };
-    share(tiles, worker, render)
+    })
 }
+
+/// Renders a tile; false if the observer said stop.
+type RenderTile<'work, 'run, Sample, T> =
+    dyn Fn(&mut (dyn Integrator<'run, Sample = Sample> + '_), T) -> bool + Sync + 'work;
 
 /// Shares tiles among the workers of all threads: each renders the next that is left, until none is or
 /// the observer said stop. The rays of the tiles that are done, and whether all are.
-fn share<'run, I: Integrator<'run>, T: Send>(
+fn share<'run, Sample: Copy, T: Send>(
     tiles: Vec<T>,
-    worker: impl Fn() -> I + Sync,
-    render: impl Fn(&mut I, T) -> bool + Sync,
+    worker: &Worker<'_, 'run, Sample>,
+    render: &RenderTile<'_, 'run, Sample, T>,
 ) -> (Counts, bool) {
     let left = Mutex::new(tiles.into_iter());
     let next = || locked(&left).next();
@@ -100,7 +98,7 @@ fn share<'run, I: Integrator<'run>, T: Send>(
         let mut counts = Counts::default();
         while let Some(tile) = next() {
             let before = *integrator.counts();
-            if !render(&mut integrator, tile) {
+            if !render(&mut *integrator, tile) {
                 *locked(&left) = Vec::new().into_iter();
                 locked(&done).1 = false;
                 break;

@@ -1,31 +1,27 @@
 //! Whole pictures and parts of them: each pixel takes the samples that the scene asks for, or some of them.
 
 use super::{Selection, run};
-use crate::plan::{Features, PixelClass};
-use crate::render::film::heartbeat::OnPixel;
-use crate::render::film::partial::{FilmError, FilmLayout, PartialFilm, Summation};
-use crate::render::film::pixel::{InBlocks, InOrder, PixelSum, SampleRanges};
-use crate::render::film::tiled::Tiled;
-use crate::render::film::{Counts, Crop, Film, Job};
-use crate::render::integrator::first_hit::{Depth, Distance};
-use crate::render::integrator::path::{PathTracer, Strategy};
-use crate::render::integrator::whitted::Tracer;
-use crate::render::light::Lights;
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::World;
-use crate::render::world::settings::Mode;
+use crate::film::heartbeat::OnPixel;
+use crate::film::partial::{FilmError, FilmLayout, PartialFilm, Summation};
+use crate::film::pixel::{InBlocks, InOrder, PixelSum, SampleRanges};
+use crate::film::tiled::Tiled;
+use crate::film::{Counts, Crop, Film, Job};
+use crate::integrator::first_hit::{Depth, Distance};
+use crate::integrator::path::{PathTracer, Strategy};
+use crate::integrator::whitted::Tracer;
+use crate::light::Lights;
+use crate::shape::geometry::Geometry;
+use crate::world::World;
+use crate::world::settings::Mode;
+use rtc_plan::{Features, PixelClass};
 use std::ops::Range;
 
 /// The sums of the pixels of a picture, and the rays they took.
-pub(in crate::render) type Sums = (Tiled<PixelSum>, Counts);
+pub(crate) type Sums = (Tiled<PixelSum>, Counts);
 
 impl<S: Geometry> World<S> {
     /// Sums all samples of pixels with the features `F`; `None` if `on_pixel` said stop.
-    pub(in crate::render) fn sum_with<const F: u32>(
-        &self,
-        job: &Job,
-        on_pixel: &OnPixel<'_>,
-    ) -> Option<Sums> {
+    pub(crate) fn sum_with<const F: u32>(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Sums> {
         if let Mode::Depth = self.settings.mode {
             return self.sum_distances(job, on_pixel);
         }
@@ -42,15 +38,15 @@ impl<S: Geometry> World<S> {
                 asked(job, 0..limited(job, samples)),
             )
         };
-        let worker = || Tracer::<S, F>::new(self, on_pixel);
+        let worker = || Box::new(Tracer::<S, F>::new(self, on_pixel)) as _;
         let mut film = self.film(job);
-        let counts = run(&mut film, Selection::of(job), worker, &open)?;
+        let counts = run(&mut film, Selection::of(job), &worker, &open)?;
         Some((film, counts))
     }
 
     /// Sums samples of pixels by tracing paths with the features `F`; `None` if `on_pixel` said
     /// stop.
-    pub(in crate::render) fn sum_paths_with<const F: u32>(
+    pub(crate) fn sum_paths_with<const F: u32>(
         &self,
         strategy: Strategy,
         samples: &Range<u32>,
@@ -63,10 +59,10 @@ impl<S: Geometry> World<S> {
         };
         let worker = || {
             let tracer = PathTracer::<S, F>::new(self, &lights, strategy, on_pixel);
-            tracer.before(job.background).clamped(job.clamp)
+            Box::new(tracer.before(job.background).clamped(job.clamp)) as _
         };
         let mut film = self.film(job);
-        let counts = run(&mut film, Selection::of(job), worker, &open)?;
+        let counts = run(&mut film, Selection::of(job), &worker, &open)?;
         Some((film, counts))
     }
 
@@ -80,14 +76,14 @@ impl<S: Geometry> World<S> {
         let counts = run(
             &mut film,
             Selection::of(job),
-            || Depth::new(self, on_pixel),
+            &|| Box::new(Depth::new(self, on_pixel)),
             &open,
         )?;
         Some((film, counts))
     }
 
     /// Renders a whole picture from the sums that `sum` makes of all samples.
-    pub(in crate::render) fn whole(
+    pub(crate) fn whole(
         &self,
         job: &Job,
         sum: impl FnOnce(&Range<u32>, &Job) -> Option<Sums>,
@@ -104,7 +100,7 @@ impl<S: Geometry> World<S> {
 
     /// Renders some samples of a picture, or all, from the sums that `sum` makes of a range of
     /// them.
-    pub(in crate::render) fn part(
+    pub(crate) fn part(
         &self,
         job: &Job,
         samples: Option<Range<u32>>,
@@ -145,7 +141,7 @@ impl<S: Geometry> World<S> {
     }
 
     /// The part of the picture that a job asks for.
-    pub(in crate::render) fn crop(&self, job: &Job) -> Crop {
+    pub(crate) fn crop(&self, job: &Job) -> Crop {
         let [width, height] = self.camera.size;
         let whole = Crop {
             x: 0,
@@ -159,7 +155,7 @@ impl<S: Geometry> World<S> {
 
 impl Selection {
     /// What a job asks for.
-    pub(in crate::render) fn of(job: &Job) -> Self {
+    pub(crate) fn of(job: &Job) -> Self {
         Self {
             tiles: job.tiles,
             stride: job.stride,
@@ -173,6 +169,6 @@ fn limited(job: &Job, samples: u32) -> u32 {
 }
 
 /// The samples of a pixel that a job asks for.
-pub(in crate::render) fn asked(job: &Job, samples: Range<u32>) -> SampleRanges {
+pub(crate) fn asked(job: &Job, samples: Range<u32>) -> SampleRanges {
     SampleRanges::Picture(job.seeds, samples)
 }

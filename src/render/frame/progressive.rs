@@ -1,25 +1,24 @@
 //! Growing pictures: each pixel takes the samples wanted that its replicates do not have yet.
 
-use super::{Selection, run_tiles};
-use crate::color::Tone;
-use crate::render::film::heartbeat::OnPixel;
-use crate::render::film::pixel::Sample;
-use crate::render::film::progressive::{ProgressiveFilm, Replicates};
-use crate::render::integrator::Integrator;
-use crate::render::integrator::path::{PathTracer, Strategy};
-use crate::render::integrator::whitted::Tracer;
-use crate::render::kernel::{dispatch, dispatch_paths};
-use crate::render::light::Lights;
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::World;
-use crate::render::world::settings::Mode;
+use super::{Selection, Worker, run_tiles};
+use crate::film::heartbeat::OnPixel;
+use crate::film::pixel::Sample;
+use crate::film::progressive::{ProgressiveFilm, Replicates};
+use crate::integrator::path::{PathTracer, Strategy};
+use crate::integrator::whitted::Tracer;
+use crate::kernel::{dispatch, dispatch_paths};
+use crate::light::Lights;
+use crate::shape::geometry::Geometry;
+use crate::world::World;
+use crate::world::settings::Mode;
+use rtc_color::Tone;
 
 /// For each pixel, counted row by row, the samples wanted of each replicate, and of the pilot.
 type Wanted<'run> = dyn Fn(usize) -> [u32; 2] + Sync + 'run;
 
 impl<S: Geometry> World<S> {
-    /// As [`crate::render::AnyWorld::grow`].
-    pub(in crate::render) fn grow(
+    /// As [`crate::AnyWorld::grow`].
+    pub(crate) fn grow(
         &self,
         film: &mut ProgressiveFilm,
         wanted: &Wanted<'_>,
@@ -41,7 +40,9 @@ impl<S: Geometry> World<S> {
         let (lights, background) = (Lights::new(self, Strategy::Mis), film.background);
         let tracer = || PathTracer::<S, F>::new(self, &lights, Strategy::Mis, on_pixel);
         let tone = Some(film.display);
-        add_samples(film, wanted, tone, || tracer().before(background))
+        add_samples(film, wanted, tone, &|| {
+            Box::new(tracer().before(background))
+        })
     }
 
     /// Grows with the features `F`.
@@ -51,19 +52,19 @@ impl<S: Geometry> World<S> {
         wanted: &Wanted<'_>,
         on_pixel: &OnPixel<'_>,
     ) -> bool {
-        add_samples(film, wanted, None, || {
-            Tracer::<S, F>::new(self, on_pixel).spread()
+        add_samples(film, wanted, None, &|| {
+            Box::new(Tracer::<S, F>::new(self, on_pixel).spread())
         })
     }
 }
 
 /// Takes the samples wanted by integrators that `worker` makes, shown by `tone`; false if the
 /// observer said stop.
-fn add_samples<'run, I: Integrator<'run, Sample = Sample>>(
+fn add_samples(
     film: &mut ProgressiveFilm,
     wanted: &Wanted<'_>,
     tone: Option<(Tone, f64)>,
-    worker: impl Fn() -> I + Sync + Send,
+    worker: &Worker<'_, '_, Sample>,
 ) -> bool {
     let seed = film.seed();
     let selection = Selection {

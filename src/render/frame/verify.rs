@@ -1,8 +1,8 @@
 //! Faults of a plan: a render without rules checks every term that the plan says adds nothing, and
 //! the two pictures are compared.
 
-use crate::plan::{Effect, Plan, Rule};
-use crate::render::film::{Film, Job};
+use crate::film::{Film, Job};
+use rtc_plan::{Effect, Plan, Rule};
 use std::sync::{Mutex, PoisonError};
 
 /// A visible term that a plan left out.
@@ -19,27 +19,27 @@ pub struct Mismatch {
 }
 
 /// A plan under validation, and the first fault in the order of pixels.
-pub(in crate::render) struct Verify {
-    pub(in crate::render) plan: Plan,
+pub(crate) struct Verify {
+    pub(crate) plan: Plan,
     first: Mutex<Option<Mismatch>>,
 }
 
 impl Verify {
     /// A plan without faults so far.
-    pub(in crate::render) fn new(plan: Plan) -> Self {
+    pub(crate) fn new(plan: Plan) -> Self {
         let first = Mutex::new(None);
         Self { plan, first }
     }
 
     /// The first fault.
-    pub(in crate::render) fn into_first(self) -> Option<Mismatch> {
+    pub(crate) fn into_first(self) -> Option<Mismatch> {
         let first = self.first.into_inner();
         first.unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Reports a fault. The first fault in the order of pixels is kept, and of one pixel the first
     /// reported.
-    pub(in crate::render) fn report(&self, pixel: [u32; 2], effect: Effect, what: &'static str) {
+    pub(crate) fn report(&self, pixel: [u32; 2], effect: Effect, what: &'static str) {
         let rule = self.plan.rule_of(effect);
         self.keep(Mismatch {
             pixel,
@@ -50,7 +50,7 @@ impl Verify {
     }
 
     /// Keeps a fault, if it is the first in the order of pixels.
-    pub(in crate::render) fn keep(&self, mismatch: Mismatch) {
+    pub(crate) fn keep(&self, mismatch: Mismatch) {
         let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
         let order = |mismatch: &Mismatch| (mismatch.pixel[1], mismatch.pixel[0]);
         if first
@@ -63,7 +63,7 @@ impl Verify {
 }
 
 /// The first pixel whose bits differ, and its value without the rules.
-pub(in crate::render) fn first_difference(
+pub(crate) fn first_difference(
     planned: &Film,
     naive: &Film,
     job: &Job,

@@ -2,12 +2,12 @@
 //! averaged over the rays with a hit. The rays are the same as for the colours.
 
 use super::Integrator;
-use crate::image::Guide;
-use crate::math::Vec3;
-use crate::render::camera::Camera;
-use crate::render::film::Counts;
-use crate::render::film::heartbeat::Heartbeat;
-use crate::render::film::pixel::{Accumulator, SampleId};
+use crate::camera::Camera;
+use crate::film::Counts;
+use crate::film::heartbeat::Heartbeat;
+use crate::film::pixel::{Accumulator, SampleId};
+use rtc_image::Guide;
+use rtc_math::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// A layer. All are zero without a hit, except the depth.
@@ -63,33 +63,33 @@ impl Aov {
 
 /// The first hit of a camera ray, in detail.
 #[derive(Clone, Copy)]
-pub(in crate::render) struct First {
-    pub(in crate::render) albedo: Vec3,
+pub(crate) struct First {
+    pub(crate) albedo: Vec3,
     /// On either side.
-    pub(in crate::render) normal: Vec3,
-    pub(in crate::render) point: Vec3,
-    pub(in crate::render) uv: Option<[f64; 2]>,
+    pub(crate) normal: Vec3,
+    pub(crate) point: Vec3,
+    pub(crate) uv: Option<[f64; 2]>,
     /// The index of the surface in the scene.
-    pub(in crate::render) surface: usize,
+    pub(crate) surface: usize,
 }
 
 /// The first hit of a camera ray.
 #[derive(Clone, Copy)]
-pub(in crate::render) struct CameraHit {
+pub(crate) struct CameraHit {
     /// The direction of the ray.
-    pub(in crate::render) direction: Vec3,
+    pub(crate) direction: Vec3,
     /// The first hit, if there is one.
-    pub(in crate::render) first: Option<First>,
+    pub(crate) first: Option<First>,
 }
 
 /// An integrator that can find the first hit of a camera ray without following it further.
-pub(in crate::render) trait FirstHit<'run>: Integrator<'run> {
+pub(crate) trait FirstHit<'run>: Integrator<'run> {
     /// The first hit of the camera ray of a sample.
     fn first_hit(&mut self, id: &SampleId) -> CameraHit;
 }
 
 /// Finds first hits alone, along the camera rays of another integrator.
-pub(in crate::render) struct FirstHits<I>(pub(in crate::render) I);
+pub(crate) struct FirstHits<I>(pub(crate) I);
 
 impl<'run, I: FirstHit<'run>> Integrator<'run> for FirstHits<I> {
     type Sample = CameraHit;
@@ -112,17 +112,17 @@ impl<'run, I: FirstHit<'run>> Integrator<'run> for FirstHits<I> {
 }
 
 /// The number of channels of all layers together.
-pub(in crate::render) const CHANNELS: usize = 16;
+pub(crate) const CHANNELS: usize = 16;
 
 /// Adds up layers of a pixel.
-pub(in crate::render) struct LayerSums<'run> {
+pub(crate) struct LayerSums<'run> {
     wanted: &'run [Aov],
     camera: &'run Camera,
     sums: FirstHitSums,
 }
 
 impl<'run> LayerSums<'run> {
-    pub(in crate::render) fn new(wanted: &'run [Aov], camera: &'run Camera) -> Self {
+    pub(crate) fn new(wanted: &'run [Aov], camera: &'run Camera) -> Self {
         Self {
             wanted,
             camera,
@@ -159,7 +159,7 @@ impl Accumulator for LayerSums<'_> {
 
 /// The sums over the rays of a pixel.
 #[derive(Default)]
-pub(in crate::render) struct FirstHitSums {
+pub(crate) struct FirstHitSums {
     rays: u32,
     hits: u32,
     albedo: Vec3,

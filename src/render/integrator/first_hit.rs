@@ -2,24 +2,24 @@
 //! meets first.
 
 use super::Integrator;
-use crate::math::Vec3;
-use crate::plan::Effect;
-use crate::render::camera::grid::Grid;
-use crate::render::film::heartbeat::{Heartbeat, OnPixel};
-use crate::render::film::pixel::{Accumulator, PixelSum, SampleId};
-use crate::render::film::{Counts, Seeds};
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::World;
+use crate::camera::grid::Grid;
+use crate::film::heartbeat::{Heartbeat, OnPixel};
+use crate::film::pixel::{Accumulator, PixelSum, SampleId};
+use crate::film::{Counts, Seeds};
+use crate::shape::geometry::Geometry;
+use crate::world::World;
+use rtc_math::Vec3;
+use rtc_plan::Effect;
 
 /// Finds distances.
-pub(in crate::render) struct Depth<'run, S> {
+pub(crate) struct Depth<'run, S> {
     world: &'run World<S>,
     heartbeat: Heartbeat<'run>,
     counts: Counts,
 }
 
 impl<'run, S: Geometry> Depth<'run, S> {
-    pub(in crate::render) fn new(world: &'run World<S>, on_pixel: &'run OnPixel<'run>) -> Self {
+    pub(crate) fn new(world: &'run World<S>, on_pixel: &'run OnPixel<'run>) -> Self {
         Self {
             world,
             heartbeat: Heartbeat::new(on_pixel),
@@ -57,7 +57,7 @@ impl<'run, S: Geometry> Integrator<'run> for Depth<'run, S> {
 
 /// Keeps the one distance of a pixel.
 #[derive(Default)]
-pub(in crate::render) struct Distance(PixelSum);
+pub(crate) struct Distance(PixelSum);
 
 impl Accumulator for Distance {
     type Sample = Option<f64>;

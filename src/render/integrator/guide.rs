@@ -2,18 +2,18 @@
 //! normal and the distance of first hits, added up over all rays, those without a hit as zero.
 
 use super::aov::{CameraHit, FirstHitSums};
-use crate::image::Guide;
-use crate::render::camera::Camera;
-use crate::render::film::pixel::{Accumulator, SampleId};
+use crate::camera::Camera;
+use crate::film::pixel::{Accumulator, SampleId};
+use rtc_image::Guide;
 
 /// Adds up the guide of a pixel.
-pub(in crate::render) struct GuideSums<'run> {
+pub(crate) struct GuideSums<'run> {
     camera: &'run Camera,
     sums: FirstHitSums,
 }
 
 impl<'run> GuideSums<'run> {
-    pub(in crate::render) fn new(camera: &'run Camera) -> Self {
+    pub(crate) fn new(camera: &'run Camera) -> Self {
         Self {
             camera,
             sums: FirstHitSums::default(),

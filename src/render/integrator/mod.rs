@@ -1,20 +1,20 @@
 //! The integrators: each is a way to find what a sample of a pixel shows.
 
-pub(in crate::render) mod aov;
-pub(in crate::render) mod first_hit;
-pub(in crate::render) mod guide;
-pub(in crate::render) mod path;
-pub(in crate::render) mod whitted;
+pub(crate) mod aov;
+pub(crate) mod first_hit;
+pub(crate) mod guide;
+pub(crate) mod path;
+pub(crate) mod whitted;
 
 use super::film::Counts;
 use super::film::heartbeat::Heartbeat;
-use super::film::pixel::{Accumulator, SampleId};
-use super::film::tile::Tile;
+use super::film::pixel::SampleId;
+use super::film::tile::Pixels;
 use super::lanes::LANES;
 
 /// A way to find what samples of pixels show. Each thread has its own, which keeps its memory from
 /// pixel to pixel; what it finds depends on the world and the [`SampleId`] alone.
-pub(in crate::render) trait Integrator<'run>: Sized {
+pub(crate) trait Integrator<'run> {
     /// What a sample is.
     type Sample: Copy;
 
@@ -46,12 +46,12 @@ pub(in crate::render) trait Integrator<'run>: Sized {
 
     /// Takes the samples that a tile is to have; false if the observer said stop. In which order
     /// rays are traced is the integrator's own affair: a pixel gets its samples in theirs.
-    fn render<A: Accumulator<Sample = Self::Sample>>(&mut self, tile: &mut Tile<'_, A>) -> bool {
-        while let Some(mut pixel) = tile.next_pixel() {
-            self.heartbeat().begin(pixel.at);
-            for (stream, samples) in (0..).map_while(|k| pixel.asked.stream(k)) {
+    fn render(&mut self, pixels: &mut dyn Pixels<Self::Sample>) -> bool {
+        while let Some((pixel, asked)) = pixels.next() {
+            self.heartbeat().begin(pixel);
+            for (stream, samples) in (0..).map_while(|k| asked.stream(k)) {
                 let mut id = SampleId {
-                    pixel: pixel.at,
+                    pixel,
                     stream,
                     index: samples.start,
                 };
@@ -66,23 +66,23 @@ pub(in crate::render) trait Integrator<'run>: Sized {
                         && let Some(samples) = self.samples(&id)
                     {
                         for sample in samples {
-                            pixel.sums.add(&id, sample);
+                            pixels.add(&id, sample);
                             id.index += 1;
                         }
                         left.start = id.index;
                         continue;
                     }
                     let sample = self.sample(&id);
-                    pixel.sums.add(&id, sample);
+                    pixels.add(&id, sample);
                     if self.is_uniform() {
                         for index in left.by_ref() {
                             id.index = index;
-                            pixel.sums.add(&id, sample);
+                            pixels.add(&id, sample);
                         }
                     }
                 }
             }
-            tile.close(pixel);
+            pixels.close();
             let rays = self.counts().rays();
             if !self.heartbeat().done(rays) {
                 return false;

@@ -1,31 +1,31 @@
 //! Four vectors at once, one in each lane. Every operation is that of one vector in the same order,
 //! so that each lane has its bits.
 
-pub(in crate::render) mod pow;
+pub(crate) mod pow;
 
-use crate::math::{SPLITTER, Vec3};
-use crate::render::ray::Ray;
+use crate::ray::Ray;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
+use rtc_math::{SPLITTER, Vec3};
 
 /// How many lanes there are.
-pub(in crate::render) const LANES: usize = 4;
+pub(crate) const LANES: usize = 4;
 
 /// The bits of all lanes.
-pub(in crate::render) const ALL: u64 = 0b1111;
+pub(crate) const ALL: u64 = 0b1111;
 
 /// Four vectors.
 #[derive(Clone, Copy)]
-pub(in crate::render) struct Vectors<S: Simd> {
-    pub(in crate::render) x: f64x4<S>,
-    pub(in crate::render) y: f64x4<S>,
-    pub(in crate::render) z: f64x4<S>,
+pub(crate) struct Vectors<S: Simd> {
+    pub(crate) x: f64x4<S>,
+    pub(crate) y: f64x4<S>,
+    pub(crate) z: f64x4<S>,
 }
 
 impl<S: Simd> Vectors<S> {
     /// One vector in all lanes.
     #[inline(always)]
-    pub(in crate::render) fn splat(simd: S, v: Vec3) -> Self {
+    pub(crate) fn splat(simd: S, v: Vec3) -> Self {
         Self {
             x: f64x4::splat(simd, v.x),
             y: f64x4::splat(simd, v.y),
@@ -35,7 +35,7 @@ impl<S: Simd> Vectors<S> {
 
     /// A vector in each lane.
     #[inline(always)]
-    pub(in crate::render) fn each(simd: S, v: [Vec3; LANES]) -> Self {
+    pub(crate) fn each(simd: S, v: [Vec3; LANES]) -> Self {
         Self {
             x: f64x4::simd_from(simd, v.map(|v| v.x)),
             y: f64x4::simd_from(simd, v.map(|v| v.y)),
@@ -45,18 +45,18 @@ impl<S: Simd> Vectors<S> {
 
     /// Replaces the vector of a lane.
     #[inline(always)]
-    pub(in crate::render) fn put(&mut self, lane: usize, v: Vec3) {
+    pub(crate) fn put(&mut self, lane: usize, v: Vec3) {
         (self.x[lane], self.y[lane], self.z[lane]) = (v.x, v.y, v.z);
     }
 
     /// The vector of a lane.
     #[inline(always)]
-    pub(in crate::render) fn lane(&self, lane: usize) -> Vec3 {
+    pub(crate) fn lane(&self, lane: usize) -> Vec3 {
         Vec3::new(self.x[lane], self.y[lane], self.z[lane])
     }
 
     #[inline(always)]
-    pub(in crate::render) fn plus(self, other: Self) -> Self {
+    pub(crate) fn plus(self, other: Self) -> Self {
         Self {
             x: self.x + other.x,
             y: self.y + other.y,
@@ -65,7 +65,7 @@ impl<S: Simd> Vectors<S> {
     }
 
     #[inline(always)]
-    pub(in crate::render) fn minus(self, other: Self) -> Self {
+    pub(crate) fn minus(self, other: Self) -> Self {
         Self {
             x: self.x - other.x,
             y: self.y - other.y,
@@ -75,7 +75,7 @@ impl<S: Simd> Vectors<S> {
 
     /// The products of each number and each vector.
     #[inline(always)]
-    pub(in crate::render) fn times(self, by: f64x4<S>) -> Self {
+    pub(crate) fn times(self, by: f64x4<S>) -> Self {
         Self {
             x: self.x * by,
             y: self.y * by,
@@ -85,7 +85,7 @@ impl<S: Simd> Vectors<S> {
 
     /// The products of the coordinates.
     #[inline(always)]
-    pub(in crate::render) fn times_each(self, other: Self) -> Self {
+    pub(crate) fn times_each(self, other: Self) -> Self {
         Self {
             x: self.x * other.x,
             y: self.y * other.y,
@@ -94,7 +94,7 @@ impl<S: Simd> Vectors<S> {
     }
 
     #[inline(always)]
-    pub(in crate::render) fn over(self, by: f64x4<S>) -> Self {
+    pub(crate) fn over(self, by: f64x4<S>) -> Self {
         Self {
             x: self.x / by,
             y: self.y / by,
@@ -103,7 +103,7 @@ impl<S: Simd> Vectors<S> {
     }
 
     #[inline(always)]
-    pub(in crate::render) fn negated(self) -> Self {
+    pub(crate) fn negated(self) -> Self {
         Self {
             x: -self.x,
             y: -self.y,
@@ -112,7 +112,7 @@ impl<S: Simd> Vectors<S> {
     }
 
     #[inline(always)]
-    pub(in crate::render) fn abs(self) -> Self {
+    pub(crate) fn abs(self) -> Self {
         Self {
             x: self.x.abs(),
             y: self.y.abs(),
@@ -122,24 +122,24 @@ impl<S: Simd> Vectors<S> {
 
     /// The coordinates along an axis, 0 to 2.
     #[inline(always)]
-    pub(in crate::render) fn along(self, axis: usize) -> f64x4<S> {
+    pub(crate) fn along(self, axis: usize) -> f64x4<S> {
         [self.x, self.y, self.z][axis]
     }
 
     /// The sum of the coordinates.
     #[inline(always)]
-    pub(in crate::render) fn sum(self) -> f64x4<S> {
+    pub(crate) fn sum(self) -> f64x4<S> {
         self.x + self.y + self.z
     }
 
     #[inline(always)]
-    pub(in crate::render) fn dot(self, other: Self) -> f64x4<S> {
+    pub(crate) fn dot(self, other: Self) -> f64x4<S> {
         self.times_each(other).sum()
     }
 
-    /// As [`crate::math::cross`].
+    /// As [`rtc_math::cross`].
     #[inline(always)]
-    pub(in crate::render) fn cross(self, other: Self) -> Self {
+    pub(crate) fn cross(self, other: Self) -> Self {
         Self {
             x: difference_of_products(self.y, other.z, self.z, other.y),
             y: difference_of_products(self.z, other.x, self.x, other.z),
@@ -148,13 +148,13 @@ impl<S: Simd> Vectors<S> {
     }
 
     #[inline(always)]
-    pub(in crate::render) fn length(self) -> f64x4<S> {
+    pub(crate) fn length(self) -> f64x4<S> {
         self.dot(self).sqrt()
     }
 
     /// Those of length 1 along them, and in which lanes there is one.
     #[inline(always)]
-    pub(in crate::render) fn normalized(self) -> (mask64x4<S>, Self) {
+    pub(crate) fn normalized(self) -> (mask64x4<S>, Self) {
         let number = |x: f64| f64x4::splat(self.x.simd, x);
         let inverse = number(1.0) / self.length();
         let has = inverse.simd_gt(number(0.0)) & inverse.simd_lt(number(f64::INFINITY));
@@ -163,7 +163,7 @@ impl<S: Simd> Vectors<S> {
 
     /// The vectors of `self` in the lanes of a mask, those of `other` elsewhere.
     #[inline(always)]
-    pub(in crate::render) fn where_else(self, mask: mask64x4<S>, other: Self) -> Self {
+    pub(crate) fn where_else(self, mask: mask64x4<S>, other: Self) -> Self {
         Self {
             x: mask.select(self.x, other.x),
             y: mask.select(self.y, other.y),
@@ -172,16 +172,16 @@ impl<S: Simd> Vectors<S> {
     }
 }
 
-/// As [`crate::math::two_difference`].
+/// As [`rtc_math::two_difference`].
 #[inline(always)]
-pub(in crate::render) fn two_difference<S: Simd>(a: f64x4<S>, b: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
+pub(crate) fn two_difference<S: Simd>(a: f64x4<S>, b: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
     let b = -b;
     let s = a + b;
     let b_virtual = s - a;
     (s, (a - (s - b_virtual)) + (b - b_virtual))
 }
 
-/// As [`crate::math::difference_of_products`].
+/// As [`rtc_math::difference_of_products`].
 #[inline(always)]
 fn difference_of_products<S: Simd>(a: f64x4<S>, b: f64x4<S>, c: f64x4<S>, d: f64x4<S>) -> f64x4<S> {
     let (p, p_error) = two_product(a, b);
@@ -189,7 +189,7 @@ fn difference_of_products<S: Simd>(a: f64x4<S>, b: f64x4<S>, c: f64x4<S>, d: f64
     (p - q) + (p_error - q_error)
 }
 
-/// The products and their rounding errors, by Dekker as in [`crate::math::two_product`].
+/// The products and their rounding errors, by Dekker as in [`rtc_math::two_product`].
 #[inline(always)]
 fn two_product<S: Simd>(a: f64x4<S>, b: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
     let p = a * b;
@@ -209,15 +209,15 @@ fn split<S: Simd>(a: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
 
 /// Four rays.
 #[derive(Clone, Copy)]
-pub(in crate::render) struct FourRays<S: Simd> {
-    pub(in crate::render) origin: Vectors<S>,
-    pub(in crate::render) direction: Vectors<S>,
+pub(crate) struct FourRays<S: Simd> {
+    pub(crate) origin: Vectors<S>,
+    pub(crate) direction: Vectors<S>,
 }
 
 impl<S: Simd> FourRays<S> {
     /// A ray in each lane.
     #[inline(always)]
-    pub(in crate::render) fn each(simd: S, rays: &[Ray; LANES]) -> Self {
+    pub(crate) fn each(simd: S, rays: &[Ray; LANES]) -> Self {
         Self {
             origin: Vectors::each(simd, rays.map(|ray| ray.origin)),
             direction: Vectors::each(simd, rays.map(|ray| ray.direction)),
@@ -226,7 +226,7 @@ impl<S: Simd> FourRays<S> {
 
     /// The ray of a lane.
     #[inline(always)]
-    pub(in crate::render) fn lane(&self, lane: usize) -> Ray {
+    pub(crate) fn lane(&self, lane: usize) -> Ray {
         Ray {
             origin: self.origin.lane(lane),
             direction: self.direction.lane(lane),
@@ -236,6 +236,6 @@ impl<S: Simd> FourRays<S> {
 
 /// The lanes whose bits are set, one after the other.
 #[inline(always)]
-pub(in crate::render) fn lanes_of(bits: u64) -> impl Iterator<Item = usize> {
+pub(crate) fn lanes_of(bits: u64) -> impl Iterator<Item = usize> {
     (0..LANES).filter(move |lane| bits >> lane & 1 == 1)
 }

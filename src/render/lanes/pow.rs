@@ -1,4 +1,4 @@
-//! Powers in four lanes: the steps of [`crate::math::pow`] on four numbers at once, so that each
+//! Powers in four lanes: the steps of [`rtc_math::pow`] on four numbers at once, so that each
 //! lane has its bits. Those of `libm` are of `e_pow.c` of FreeBSD's msun (Sun Microsystems, 1993):
 //! log₂x in two parts, y·log₂x in two parts, its whole part n, and 2ⁿ times a power between ½ and 2.
 
@@ -66,11 +66,7 @@ const WHOLE: f64 = f64::from_bits(0x3fe0_0001_0000_0000);
 /// `x` to the power `y`, and in which lanes that is so: where x is a normal number below 1, y
 /// between 2 and 2³¹, and the power no less than 2⁻¹⁰²¹.
 #[inline(always)]
-pub(in crate::render) fn powers<S: Simd>(
-    simd: S,
-    x: f64x4<S>,
-    y: f64x4<S>,
-) -> (mask64x4<S>, f64x4<S>) {
+pub(crate) fn powers<S: Simd>(simd: S, x: f64x4<S>, y: f64x4<S>) -> (mask64x4<S>, f64x4<S>) {
     let number = |x: f64| f64x4::splat(simd, x);
     let is_base = x.simd_ge(number(f64::MIN_POSITIVE)) & x.simd_lt(number(1.0));
     let is_exponent = y.simd_gt(number(2.0)) & y.simd_lt(number(2_147_483_648.0));
@@ -171,10 +167,10 @@ fn exp2<S: Simd>(simd: S, [product, rest]: [f64x4<S>; 2], sum: f64x4<S>) -> f64x
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{ldexp, pow};
-    use crate::render::lanes::LANES;
-    use crate::render::sampler::Key;
+    use crate::lanes::LANES;
+    use crate::sampler::Key;
     use fearless_simd::Fallback;
+    use rtc_math::{ldexp, pow};
 
     /// Bases near 1, near 0 and between, and where the logarithm changes its form; exponents whole
     /// and not.

@@ -1,23 +1,23 @@
 //! A light of the course: a point, or a sphere that is sampled as a disc.
 
-use crate::math::{NonNegative, Vec3};
-use crate::render::accel::bounds::Ball;
+use crate::accel::bounds::Ball;
+use rtc_math::{NonNegative, Vec3};
 
 /// A light of equal intensity in all directions, without falloff.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct CourseLight {
+pub(crate) struct CourseLight {
     /// Its position.
-    pub(in crate::render) position: Vec3,
+    pub(crate) position: Vec3,
     /// Its colour.
-    pub(in crate::render) color: Vec3,
+    pub(crate) color: Vec3,
     /// Its radius; 0 for a point.
-    pub(in crate::render) radius: NonNegative,
+    pub(crate) radius: NonNegative,
 }
 
 impl CourseLight {
     /// The ball it fills.
     #[inline]
-    pub(in crate::render) fn ball(&self) -> Ball {
+    pub(crate) fn ball(&self) -> Ball {
         Ball {
             center: self.position,
             radius: self.radius.get(),

@@ -1,15 +1,15 @@
 //! The environment: its radiance by direction, and importance sampling of bright directions.
 
-use crate::math::{Vec3, acos, atan2, sin, sin_cos};
-use crate::render::bsdf::direction_turned;
-use crate::render::sampler::discrete::BilinearDistribution;
-use crate::render::texture::sampled::{ColorSpace, sample};
-use crate::render::texture::{Filter, Image, Wrap};
+use crate::bsdf::direction_turned;
+use crate::sampler::discrete::BilinearDistribution;
+use crate::texture::sampled::{ColorSpace, sample};
+use crate::texture::{Filter, Image, Wrap};
+use rtc_math::{Vec3, acos, atan2, sin, sin_cos};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// The light of the environment, from infinitely far away.
-pub(in crate::render) struct Environment {
+pub(crate) struct Environment {
     radiance: Vec3,
     map: Option<EnvironmentMap>,
 }
@@ -29,10 +29,10 @@ struct EnvironmentMap {
 }
 
 /// The radiance of the environment in one direction.
-pub(in crate::render) struct EnvironmentRadiance {
-    pub(in crate::render) radiance: Vec3,
+pub(crate) struct EnvironmentRadiance {
+    pub(crate) radiance: Vec3,
     /// The density of [`Environment::sample`] per solid angle.
-    pub(in crate::render) pdf: f64,
+    pub(crate) pdf: f64,
 }
 
 /// The density of directions that are uniform over the sphere.
@@ -45,7 +45,7 @@ impl Environment {
     /// An environment of this radiance, times the image if there is one; the rows of
     /// `image_from_world` rotate directions into the image. `is_constant` says that all pixels are
     /// equal.
-    pub(in crate::render) fn new(
+    pub(crate) fn new(
         radiance: Vec3,
         image: Option<Arc<Image>>,
         image_from_world: [Vec3; 3],
@@ -56,29 +56,29 @@ impl Environment {
     }
 
     /// Whether the radiance is the same in all directions.
-    pub(in crate::render) fn is_uniform(&self) -> bool {
+    pub(crate) fn is_uniform(&self) -> bool {
         self.map.is_none()
     }
 
     /// Whether an image is looked up for each direction.
-    pub(in crate::render) fn is_looked_up(&self) -> bool {
+    pub(crate) fn is_looked_up(&self) -> bool {
         let map = self.map.as_ref();
         map.is_some_and(|map| map.constant.is_none())
     }
 
     /// The mean radiance over all directions, in the strongest channel.
-    pub(in crate::render) fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         let mean = self.map.as_ref().map_or(1.0, |map| map.mean);
         self.radiance.max_element() * mean
     }
 
     /// A radiance that no direction exceeds, in the strongest channel.
-    pub(in crate::render) fn brightest(&self) -> f64 {
+    pub(crate) fn brightest(&self) -> f64 {
         self.radiance.max_element() * self.map.as_ref().map_or(1.0, |map| map.peak)
     }
 
     /// The radiance from a direction, a unit vector, and its point of the image if that was found.
-    pub(in crate::render) fn seen(&self, direction: Vec3) -> (Vec3, Option<[f64; 2]>) {
+    pub(crate) fn seen(&self, direction: Vec3) -> (Vec3, Option<[f64; 2]>) {
         match &self.map {
             None => (self.radiance, None),
             Some(map) => match map.constant {
@@ -93,7 +93,7 @@ impl Environment {
 
     /// The density of [`Self::sample`] per solid angle in a direction, whose point of the image may
     /// be known.
-    pub(in crate::render) fn pdf(&self, direction: Vec3, place: Option<[f64; 2]>) -> f64 {
+    pub(crate) fn pdf(&self, direction: Vec3, place: Option<[f64; 2]>) -> f64 {
         self.map.as_ref().map_or(UNIFORM, |map| {
             let place = place.unwrap_or_else(|| map.place(direction));
             map.pdf(place, sin(place[1] * PI))
@@ -101,7 +101,7 @@ impl Environment {
     }
 
     /// Samples a direction, and returns its radiance and density.
-    pub(in crate::render) fn sample(&self, u: [f64; 2]) -> (Vec3, EnvironmentRadiance) {
+    pub(crate) fn sample(&self, u: [f64; 2]) -> (Vec3, EnvironmentRadiance) {
         let Some(map) = &self.map else {
             let (radiance, pdf) = (self.radiance, UNIFORM);
             let direction = direction_turned(1.0 - 2.0 * u[0], u[1]);
@@ -194,7 +194,7 @@ fn value(image: &Image, place: [f64; 2], filter: Filter) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::Texels;
+    use rtc_image::Texels;
 
     /// Radiance over density of a grid of samples of a sky of 1 with one texel, in units of 4π.
     fn estimates(texel: f32) -> (f64, Vec<f64>) {

@@ -3,26 +3,26 @@
 //!
 //! A light of weight 0 is never chosen; only BSDF sampling finds it.
 
-pub(in crate::render) mod course;
-pub(in crate::render) mod environment;
-pub(in crate::render) mod punctual;
+pub(crate) mod course;
+pub(crate) mod environment;
+pub(crate) mod punctual;
 mod tree;
 mod triangle;
 
-use crate::math::{Bounds, Vec3};
-use crate::plan::LightLeft;
-use crate::render::integrator::path::Strategy;
-use crate::render::light::environment::EnvironmentRadiance;
-use crate::render::light::punctual::Punctual;
-use crate::render::light::tree::{LightTree, TreeLight};
-use crate::render::light::triangle::TriangleLight;
-use crate::render::material::point::uvs;
-use crate::render::material::standard::StandardMaterial;
-use crate::render::ray::{Interaction, Ray};
-use crate::render::sampler::discrete::DiscreteDistribution;
-use crate::render::shape::geometry::Asked;
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::World;
+use crate::integrator::path::Strategy;
+use crate::light::environment::EnvironmentRadiance;
+use crate::light::punctual::Punctual;
+use crate::light::tree::{LightTree, TreeLight};
+use crate::light::triangle::TriangleLight;
+use crate::material::point::uvs;
+use crate::material::standard::StandardMaterial;
+use crate::ray::{Interaction, Ray};
+use crate::sampler::discrete::DiscreteDistribution;
+use crate::shape::geometry::Asked;
+use crate::shape::geometry::Geometry;
+use crate::world::World;
+use rtc_math::{Bounds, Vec3};
+use rtc_plan::LightLeft;
 use std::f64::consts::PI;
 
 /// Fewer lights with a place are chosen by power alone: among 8 a tree loses (benches/sampling.md).
@@ -33,7 +33,7 @@ const LEAST_FOR_TREE: usize = 16;
 const MOST_LISTED: usize = 1 << 21;
 
 /// All lights of a world.
-pub(in crate::render) struct Lights<'world, S> {
+pub(crate) struct Lights<'world, S> {
     world: &'world World<S>,
     lights: Vec<Light>,
     /// Over the lights, those of the tree with weight 0; the tree itself, if any, comes last.
@@ -54,15 +54,15 @@ enum Light {
 }
 
 /// Light that a point receives from one direction.
-pub(in crate::render) struct Incident {
+pub(crate) struct Incident {
     /// The unit vector to the light.
-    pub(in crate::render) wi: Vec3,
+    pub(crate) wi: Vec3,
     /// The radiance divided by the density.
-    pub(in crate::render) radiance: Vec3,
+    pub(crate) radiance: Vec3,
     /// The density per solid angle; `None` for a delta light, which BSDF sampling cannot find.
-    pub(in crate::render) pdf: Option<f64>,
+    pub(crate) pdf: Option<f64>,
     /// The sampled point, unless it is infinitely far away.
-    pub(in crate::render) place: Option<Vec3>,
+    pub(crate) place: Option<Vec3>,
 }
 
 /// Whether so many triangles of a surface are listed after so many lights. If not, only BSDF sampling
@@ -73,7 +73,7 @@ fn is_room_for(triangles: usize, listed: usize) -> bool {
 
 impl<'world, S: Geometry> Lights<'world, S> {
     /// The lights of a world.
-    pub(in crate::render) fn new(world: &'world World<S>, strategy: Strategy) -> Self {
+    pub(crate) fn new(world: &'world World<S>, strategy: Strategy) -> Self {
         let left = |index: usize| {
             let plan = world.plan.paths.as_ref();
             plan.map_or(LightLeft::All, |plan| plan.lights[index])
@@ -264,11 +264,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
 
     /// Samples the light that reaches a point: two numbers in [0, 1), asked for where they are
     /// needed, choose a point on it or a direction to it; the first one chooses the light, too.
-    pub(in crate::render) fn sample(
-        &self,
-        from: Vec3,
-        u: impl FnOnce() -> [f64; 2],
-    ) -> Option<Incident> {
+    pub(crate) fn sample(&self, from: Vec3, u: impl FnOnce() -> [f64; 2]) -> Option<Incident> {
         let (index, probability, u) = self.choose(from, u)?;
         match &self.lights[index] {
             Light::Punctual(_, LightLeft::Place | LightLeft::Nothing) => None,
@@ -302,7 +298,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
 
     /// The density with which [`Lights::sample`] samples the direction `wi` to a point of a
     /// primitive of a surface, from a point at the given distance.
-    pub(in crate::render) fn pdf_of_surface(
+    pub(crate) fn pdf_of_surface(
         &self,
         (surface, prim_id): (usize, u32),
         place: Vec3,
@@ -324,7 +320,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
 
     /// The radiance of the environment in a direction, and, for who asks, the density with which
     /// [`Lights::sample`] samples it.
-    pub(in crate::render) fn environment(&self, wi: Vec3) -> (Vec3, impl FnOnce() -> f64) {
+    pub(crate) fn environment(&self, wi: Vec3) -> (Vec3, impl FnOnce() -> f64) {
         let environment = &self.world.lights.environment;
         let (radiance, place) = environment.seen(wi);
         let probability = self.probabilities[self.lights.len() - 1];

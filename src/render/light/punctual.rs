@@ -1,12 +1,12 @@
 //! Punctual lights in physical units: delta lights, which BSDF sampling cannot find.
 
 use super::Incident;
-use crate::math::Vec3;
-use crate::profile::Profile;
+use rtc_math::Vec3;
+use rtc_profile::Profile;
 
 /// A light without extent.
 #[derive(Clone, Debug)]
-pub(in crate::render) enum Punctual {
+pub(crate) enum Punctual {
     /// From infinitely far away.
     Directional(DirectionalLight),
     /// From a point.
@@ -15,27 +15,27 @@ pub(in crate::render) enum Punctual {
 
 /// A light infinitely far away.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct DirectionalLight {
+pub(crate) struct DirectionalLight {
     /// The unit vector to it.
-    pub(in crate::render) direction: Vec3,
+    pub(crate) direction: Vec3,
     /// The irradiance of a surface that faces it.
-    pub(in crate::render) irradiance: Vec3,
+    pub(crate) irradiance: Vec3,
 }
 
 /// A point light.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct PointLight {
+pub(crate) struct PointLight {
     /// Where it stands.
-    pub(in crate::render) position: Vec3,
+    pub(crate) position: Vec3,
     /// The radiant intensity, by the factors of the profile.
-    pub(in crate::render) intensity: Vec3,
-    pub(in crate::render) profile: Profile,
-    pub(in crate::render) falloff: Falloff,
+    pub(crate) intensity: Vec3,
+    pub(crate) profile: Profile,
+    pub(crate) falloff: Falloff,
 }
 
 /// The attenuation of light with distance.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) enum Falloff {
+pub(crate) enum Falloff {
     /// No attenuation, as in the course.
     None,
     /// The inverse square of the distance.

@@ -5,8 +5,8 @@
 //! No light has probability 0 anywhere, so the tree moves noise, not the mean; what is chosen less often
 //! than once in 2³² times is met as often as the bits of a number allow.
 
-use crate::math::{Bounds, Vec3};
-use crate::render::sampler::remapped;
+use crate::sampler::remapped;
+use rtc_math::{Bounds, Vec3};
 
 /// The least factor of orientation: the bound is never trusted to be 0.
 const LEAST_FACING: f64 = 1.0 / 16.0;

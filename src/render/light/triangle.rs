@@ -1,10 +1,10 @@
 //! An emissive triangle.
 
-use crate::math::Vec3;
+use rtc_math::Vec3;
 
 /// A triangle of a surface with an emissive material.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct TriangleLight {
+pub(crate) struct TriangleLight {
     pub(super) surface: usize,
     pub(super) prim_id: u32,
     pub(super) corners: [Vec3; 3],

@@ -1,5 +1,5 @@
 //! Prepared materials, as the integrators evaluate them.
 
-pub(in crate::render) mod phong;
-pub(in crate::render) mod point;
-pub(in crate::render) mod standard;
+pub(crate) mod phong;
+pub(crate) mod point;
+pub(crate) mod standard;

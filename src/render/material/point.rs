@@ -1,25 +1,25 @@
 //! The glTF material at a hit: factors times maps, the shading frame, emission and opacity.
 
-use crate::math::{Basis, Vec3};
-use crate::render::bsdf::standard::*;
-use crate::render::bsdf::{LAYERS, MICROFACETS, TRANSMISSION, can};
-use crate::render::material::standard::{
+use crate::bsdf::standard::*;
+use crate::bsdf::{LAYERS, MICROFACETS, TRANSMISSION, can};
+use crate::material::standard::{
     Alpha, AnisotropyLayer, NormalMap, Reflection, StandardMaterial, shown,
 };
-use crate::render::ray::Interaction;
-use crate::render::shape::geometry::Details;
-use crate::render::texture::sampled::UvSets;
+use crate::ray::Interaction;
+use crate::shape::geometry::Details;
+use crate::texture::sampled::UvSets;
+use rtc_math::{Basis, Vec3};
 
 /// A material at one point of a surface.
-pub(in crate::render) struct MaterialPoint<'world> {
-    pub(in crate::render) material: &'world StandardMaterial,
+pub(crate) struct MaterialPoint<'world> {
+    pub(crate) material: &'world StandardMaterial,
     uvs: UvSets,
     /// Base colour and alpha at the point, vertex colours included.
     base: [f64; 4],
 }
 
 /// The shading frame at a point: the shading normal and the tangents of the maps.
-pub(in crate::render) struct ShadingFrame {
+pub(crate) struct ShadingFrame {
     /// A right-handed basis for the BSDF.
     basis: Basis,
     /// The anisotropy of the highlights.
@@ -27,12 +27,12 @@ pub(in crate::render) struct ShadingFrame {
 }
 
 /// The texture coordinates at a point.
-pub(in crate::render) fn uvs(details: &Details) -> UvSets {
+pub(crate) fn uvs(details: &Details) -> UvSets {
     UvSets::new([details.uv, details.second_uv])
 }
 
 impl<'world> MaterialPoint<'world> {
-    pub(in crate::render) fn new(material: &'world StandardMaterial, details: &Details) -> Self {
+    pub(crate) fn new(material: &'world StandardMaterial, details: &Details) -> Self {
         let uvs = uvs(details);
         let (own, corners) = (
             material.base_color.at(&uvs),
@@ -47,12 +47,12 @@ impl<'world> MaterialPoint<'world> {
     }
 
     /// The first texture coordinates.
-    pub(in crate::render) fn uv(&self) -> Option<[f64; 2]> {
+    pub(crate) fn uv(&self) -> Option<[f64; 2]> {
         self.uvs.first()
     }
 
     /// The opacity: the probability that the alpha test keeps the hit.
-    pub(in crate::render) fn opacity(&self) -> f64 {
+    pub(crate) fn opacity(&self) -> f64 {
         match self.material.alpha {
             Alpha::Opaque => 1.0,
             Alpha::Mask(cutoff) => f64::from(u8::from(self.base[3] >= cutoff)),
@@ -61,20 +61,20 @@ impl<'world> MaterialPoint<'world> {
     }
 
     /// The colour, each channel at most 1.
-    pub(in crate::render) fn base_color(&self) -> Vec3 {
+    pub(crate) fn base_color(&self) -> Vec3 {
         let [r, g, b, _] = self.base;
         Vec3::new(r, g, b).min(Vec3::ONE)
     }
 
     /// The emitted radiance.
-    pub(in crate::render) fn emission(&self) -> Vec3 {
+    pub(crate) fn emission(&self) -> Vec3 {
         self.material.emission.at(&self.uvs)
     }
 
-    /// The parameters of the BSDF that the [`PathFeatures`](crate::plan::PathFeatures) `F` need;
+    /// The parameters of the BSDF that the [`PathFeatures`](rtc_plan::PathFeatures) `F` need;
     /// `channel` is the wavelength that a dispersed path picked.
     #[inline]
-    pub(in crate::render) fn standard<const F: u32>(
+    pub(crate) fn standard<const F: u32>(
         &self,
         frame: &ShadingFrame,
         clearcoat: Vec3,
@@ -174,19 +174,19 @@ impl<'world> MaterialPoint<'world> {
     }
 
     /// Whether the material has a normal map.
-    pub(in crate::render) fn has_normal_map(&self) -> bool {
+    pub(crate) fn has_normal_map(&self) -> bool {
         let coat = self.material.clearcoat.as_ref();
         self.material.normal.is_some() || coat.is_some_and(|coat| coat.normal.is_some())
     }
 
     /// Whether the material transmits light at the point.
-    pub(in crate::render) fn transmits(&self) -> bool {
+    pub(crate) fn transmits(&self) -> bool {
         self.material.transmission.at(&self.uvs) > 0.0
     }
 
     /// The shading frame with the normal map applied, and the shading normal of the clearcoat.
     #[inline]
-    pub(in crate::render) fn frame<const F: u32>(
+    pub(crate) fn frame<const F: u32>(
         &self,
         at: &Interaction,
         details: &Details,
@@ -242,11 +242,11 @@ impl<'world> MaterialPoint<'world> {
 }
 
 impl ShadingFrame {
-    pub(in crate::render) fn to_local(&self, w: Vec3) -> Vec3 {
+    pub(crate) fn to_local(&self, w: Vec3) -> Vec3 {
         self.basis.to_local(w)
     }
 
-    pub(in crate::render) fn to_world(&self, w: Vec3) -> Vec3 {
+    pub(crate) fn to_world(&self, w: Vec3) -> Vec3 {
         self.basis.to_world(w)
     }
 }

@@ -1,43 +1,43 @@
 //! The glTF material, prepared: defaults are resolved, and each map holds its image.
 
-use crate::math::{Vec3, Weight};
-use crate::render::bsdf::standard::*;
-use crate::render::shape::geometry::Asked;
-use crate::render::texture::sampled::{Map, UvSets};
+use crate::bsdf::standard::*;
+use crate::shape::geometry::Asked;
+use crate::texture::sampled::{Map, UvSets};
+use rtc_math::{Vec3, Weight};
 
 /// A prepared material: constants are numbers, everything else has a map.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct StandardMaterial {
+pub(crate) struct StandardMaterial {
     /// The surface details that it needs.
-    pub(in crate::render) asked: Asked,
+    pub(crate) asked: Asked,
     /// Whether a map other than a normal map changes the BSDF.
-    pub(in crate::render) has_shading_map: bool,
-    pub(in crate::render) alpha: Alpha,
+    pub(crate) has_shading_map: bool,
+    pub(crate) alpha: Alpha,
     /// Whether camera rays skip back faces.
-    pub(in crate::render) is_seen_from_one_side: bool,
-    pub(in crate::render) is_unlit: bool,
+    pub(crate) is_seen_from_one_side: bool,
+    pub(crate) is_unlit: bool,
     /// Red, green, blue and alpha.
-    pub(in crate::render) base_color: Rgba,
-    pub(in crate::render) emission: Tint,
-    pub(in crate::render) reflection: Reflection,
-    pub(in crate::render) transmission: Number,
+    pub(crate) base_color: Rgba,
+    pub(crate) emission: Tint,
+    pub(crate) reflection: Reflection,
+    pub(crate) transmission: Number,
     /// The index of refraction, and those of red, green and blue if they differ.
-    pub(in crate::render) ior: f64,
-    pub(in crate::render) dispersed: Option<[f64; 3]>,
+    pub(crate) ior: f64,
+    pub(crate) dispersed: Option<[f64; 3]>,
     /// Whether the surface bounds a medium.
-    pub(in crate::render) bounds_a_volume: bool,
+    pub(crate) bounds_a_volume: bool,
     /// The absorption coefficient of that medium, per unit of length.
-    pub(in crate::render) absorption: Vec3,
-    pub(in crate::render) normal: Option<NormalMap>,
-    pub(in crate::render) plain: PlainLayers,
-    pub(in crate::render) clearcoat: Option<ClearcoatLayer>,
-    pub(in crate::render) anisotropy: Option<AnisotropyLayer>,
-    pub(in crate::render) iridescence: Option<IridescenceLayer>,
+    pub(crate) absorption: Vec3,
+    pub(crate) normal: Option<NormalMap>,
+    pub(crate) plain: PlainLayers,
+    pub(crate) clearcoat: Option<ClearcoatLayer>,
+    pub(crate) anisotropy: Option<AnisotropyLayer>,
+    pub(crate) iridescence: Option<IridescenceLayer>,
 }
 
 /// The opacity of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::render) enum Alpha {
+pub(crate) enum Alpha {
     /// Opaque.
     Opaque,
     /// Opaque where alpha is at least this cutoff.
@@ -48,28 +48,28 @@ pub(in crate::render) enum Alpha {
 
 /// A colour and a fourth number times the channels of a map.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct Rgba {
-    pub(in crate::render) factor: [f64; 4],
-    pub(in crate::render) map: Option<Map>,
+pub(crate) struct Rgba {
+    pub(crate) factor: [f64; 4],
+    pub(crate) map: Option<Map>,
 }
 
 /// A number times one channel of a map.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct Number {
-    pub(in crate::render) factor: f64,
-    pub(in crate::render) map: Option<(Map, usize)>,
+pub(crate) struct Number {
+    pub(crate) factor: f64,
+    pub(crate) map: Option<(Map, usize)>,
 }
 
 /// A colour times that of a map.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct Tint {
-    pub(in crate::render) factor: Vec3,
-    pub(in crate::render) map: Option<Map>,
+pub(crate) struct Tint {
+    pub(crate) factor: Vec3,
+    pub(crate) map: Option<Map>,
 }
 
 /// The reflectance below all layers.
 #[derive(Clone, Debug)]
-pub(in crate::render) enum Reflection {
+pub(crate) enum Reflection {
     /// Of a metal or a dielectric.
     Metallic {
         /// Roughness and metalness, in the green and the blue channel of their map.
@@ -85,14 +85,14 @@ pub(in crate::render) enum Reflection {
 
 /// The values of a map: a constant, or an image.
 #[derive(Clone, Debug)]
-pub(in crate::render) enum MapSource {
+pub(crate) enum MapSource {
     Value([f64; 4]),
     Map(Map),
 }
 
 impl MapSource {
     /// Looks the map up; `None` on a surface without texture coordinates.
-    pub(in crate::render) fn look_up(&self, uvs: &UvSets) -> Option<[f64; 4]> {
+    pub(crate) fn look_up(&self, uvs: &UvSets) -> Option<[f64; 4]> {
         match self {
             Self::Value(value) => Some(*value),
             Self::Map(map) => map.look_up(uvs),
@@ -102,17 +102,17 @@ impl MapSource {
 
 /// A normal map, and the scale of its slopes.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct NormalMap {
-    pub(in crate::render) map: MapSource,
-    pub(in crate::render) scale: f64,
+pub(crate) struct NormalMap {
+    pub(crate) map: MapSource,
+    pub(crate) scale: f64,
 }
 
 /// The clearcoat layer.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct ClearcoatLayer {
-    pub(in crate::render) factor: Number,
-    pub(in crate::render) roughness: Number,
-    pub(in crate::render) normal: Option<NormalMap>,
+pub(crate) struct ClearcoatLayer {
+    pub(crate) factor: Number,
+    pub(crate) roughness: Number,
+    pub(crate) normal: Option<NormalMap>,
 }
 
 /// The prepared part of a layer, of a kind of the table.
@@ -133,23 +133,23 @@ macro_rules! plain_layers {
     })*) => {
         /// The layers whose parts are numbers and colours times maps.
         #[derive(Clone, Debug)]
-        pub(in crate::render) struct PlainLayers {
-            $(pub(in crate::render) $layer: Option<$prepared>,)*
+        pub(crate) struct PlainLayers {
+            $(pub(crate) $layer: Option<$prepared>,)*
         }
 
         impl PlainLayers {
             /// Adds them to the parameters at a point.
             #[inline]
-            pub(in crate::render) fn add(&self, standard: &mut StandardParameters, uvs: &UvSets) {
+            pub(crate) fn add(&self, standard: &mut StandardParameters, uvs: &UvSets) {
                 $(standard.$layer = self.$layer.as_ref().and_then(|layer| layer.at(uvs));)*
             }
         }
 
         $(
             #[derive(Clone, Debug)]
-            pub(in crate::render) struct $prepared {
-                pub(in crate::render) $weight: prepared!($weight_kind),
-                $(pub(in crate::render) $part: prepared!($kind),)*
+            pub(crate) struct $prepared {
+                pub(crate) $weight: prepared!($weight_kind),
+                $(pub(crate) $part: prepared!($kind),)*
             }
 
             impl $prepared {
@@ -167,32 +167,32 @@ macro_rules! plain_layers {
     };
 }
 
-crate::standard::plain_layers!(plain_layers);
+rtc_tables::plain_layers!(plain_layers);
 
 /// The anisotropy of the highlights.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct AnisotropyLayer {
-    pub(in crate::render) strength: f64,
+pub(crate) struct AnisotropyLayer {
+    pub(crate) strength: f64,
     /// Cosine and sine of the rotation of the direction.
-    pub(in crate::render) turn: [f64; 2],
+    pub(crate) turn: [f64; 2],
     /// The direction in red and green, the strength in blue.
-    pub(in crate::render) map: Option<MapSource>,
+    pub(crate) map: Option<MapSource>,
 }
 
 /// The thin film.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct IridescenceLayer {
-    pub(in crate::render) factor: Number,
-    pub(in crate::render) ior: f64,
+pub(crate) struct IridescenceLayer {
+    pub(crate) factor: Number,
+    pub(crate) ior: f64,
     /// The thickness where the map is 0, and the increase to where the map is 1.
-    pub(in crate::render) min: f64,
-    pub(in crate::render) spread: Number,
+    pub(crate) min: f64,
+    pub(crate) spread: Number,
 }
 
 impl Number {
     /// The number at a point.
     #[inline]
-    pub(in crate::render) fn at(&self, uvs: &UvSets) -> f64 {
+    pub(crate) fn at(&self, uvs: &UvSets) -> f64 {
         match &self.map {
             Some((map, channel)) => self.factor * shown(map, uvs)[*channel],
             None => self.factor,
@@ -203,7 +203,7 @@ impl Number {
 impl Tint {
     /// The colour at a point.
     #[inline]
-    pub(in crate::render) fn at(&self, uvs: &UvSets) -> Vec3 {
+    pub(crate) fn at(&self, uvs: &UvSets) -> Vec3 {
         match &self.map {
             Some(map) => {
                 let [r, g, b, _] = shown(map, uvs);
@@ -217,7 +217,7 @@ impl Tint {
 impl Rgba {
     /// All four at a point.
     #[inline]
-    pub(in crate::render) fn at(&self, uvs: &UvSets) -> [f64; 4] {
+    pub(crate) fn at(&self, uvs: &UvSets) -> [f64; 4] {
         match &self.map {
             Some(map) => {
                 let shown = shown(map, uvs);
@@ -230,6 +230,6 @@ impl Rgba {
 
 /// Looks a map up; ones on a surface without texture coordinates.
 #[inline]
-pub(in crate::render) fn shown(map: &Map, uvs: &UvSets) -> [f64; 4] {
+pub(crate) fn shown(map: &Map, uvs: &UvSets) -> [f64; 4] {
     map.look_up(uvs).unwrap_or([1.0; 4])
 }

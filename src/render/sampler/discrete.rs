@@ -8,7 +8,7 @@ const PER_PART: usize = 4;
 
 /// A discrete distribution over indices, proportional to weights.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct DiscreteDistribution {
+pub(crate) struct DiscreteDistribution {
     /// Sums of the weights up to and including each.
     sums: Vec<f64>,
     /// For each of 2^k equal parts of [0, 1), the first index that its numbers choose (Chen, Asau,
@@ -19,7 +19,7 @@ pub(in crate::render) struct DiscreteDistribution {
 }
 
 impl DiscreteDistribution {
-    pub(in crate::render) fn new(weights: impl Iterator<Item = f64>) -> Self {
+    pub(crate) fn new(weights: impl Iterator<Item = f64>) -> Self {
         let mut sum = 0.0;
         let add = |weight: f64| {
             sum += weight;
@@ -37,18 +37,18 @@ impl DiscreteDistribution {
     }
 
     /// The sum of all weights.
-    pub(in crate::render) fn total(&self) -> f64 {
+    pub(crate) fn total(&self) -> f64 {
         self.sums.last().copied().unwrap_or(0.0)
     }
 
     /// The one index with a nonzero weight; `None` if there are none or several.
-    pub(in crate::render) fn only(&self) -> Option<usize> {
+    pub(crate) fn only(&self) -> Option<usize> {
         let first = self.sums.partition_point(|sum| *sum <= 0.0);
         (first == self.last && first < self.sums.len()).then_some(first)
     }
 
     /// The probability of an index.
-    pub(in crate::render) fn probability(&self, index: usize) -> f64 {
+    pub(crate) fn probability(&self, index: usize) -> f64 {
         let total = self.total();
         let before = if index > 0 { self.sums[index - 1] } else { 0.0 };
         if total > 0.0 {
@@ -60,7 +60,7 @@ impl DiscreteDistribution {
 
     /// Samples an index with a number in [0, 1), and returns the number remapped to [0, 1) for the
     /// next decision; `None` if all weights are 0.
-    pub(in crate::render) fn choose(&self, u: f64) -> Option<(usize, f64)> {
+    pub(crate) fn choose(&self, u: f64) -> Option<(usize, f64)> {
         let place = u * self.total();
         // Rounding keeps order: a greater number has no lesser place.
         let mut index = self.guide[(u * self.guide.len() as f64) as usize] as usize;
@@ -77,7 +77,7 @@ impl DiscreteDistribution {
 /// A distribution over an image whose texels are filtered linearly: bilinear between the middles of
 /// texels, repeated across, and falling to 0 at the upper and the lower edge.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct BilinearDistribution {
+pub(crate) struct BilinearDistribution {
     /// The weights in the middles of the texels, row by row.
     weights: Vec<f32>,
     width: usize,
@@ -91,7 +91,7 @@ pub(in crate::render) struct BilinearDistribution {
 impl BilinearDistribution {
     /// The distribution over an image of so many texels across, by its weights row by row; both
     /// sides are at least 1.
-    pub(in crate::render) fn new(width: usize, weights: Vec<f32>) -> Self {
+    pub(crate) fn new(width: usize, weights: Vec<f32>) -> Self {
         let mut table = Self {
             height: weights.len() / width,
             weights,
@@ -129,7 +129,7 @@ impl BilinearDistribution {
     }
 
     /// The mean weight.
-    pub(in crate::render) fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.bands.total() / (self.width * self.height) as f64
     }
 
@@ -139,7 +139,7 @@ impl BilinearDistribution {
         clippy::cast_sign_loss,
         reason = "places are in the unit square"
     )]
-    pub(in crate::render) fn pdf(&self, [u, v]: [f64; 2]) -> f64 {
+    pub(crate) fn pdf(&self, [u, v]: [f64; 2]) -> f64 {
         let mean = self.mean();
         if mean == 0.0 {
             return 0.0;
@@ -156,7 +156,7 @@ impl BilinearDistribution {
     }
 
     /// Samples a point with two numbers in [0, 1); uniform if all weights are 0.
-    pub(in crate::render) fn sample(&self, u: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn sample(&self, u: [f64; 2]) -> [f64; 2] {
         let place = || {
             let (y, rest_y) = self.bands.choose(u[1])?;
             let (x, rest_x) = self.cells[y].choose(u[0])?;

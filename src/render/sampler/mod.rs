@@ -1,30 +1,30 @@
 //! Random numbers, keyed by pixel, sample and path vertex: they never depend on time or on the
 //! order of calls.
 
-pub(in crate::render) mod discrete;
+pub(crate) mod discrete;
 mod owen;
-pub(in crate::render) mod sequence;
-pub(in crate::render) mod sobol;
+pub(crate) mod sequence;
+pub(crate) mod sobol;
 
-use crate::math::{Basis, NonNegative, Vec3, cos_sin_turns, fraction, golden_turns, mix, pow};
+use rtc_math::{Basis, NonNegative, Vec3, cos_sin_turns, fraction, golden_turns, mix, pow};
 
 /// The key of one vertex of one path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) struct Key(u64);
+pub(crate) struct Key(u64);
 
 impl Key {
     /// The key where nothing is random.
-    pub(in crate::render) const UNUSED: Self = Self(0);
+    pub(crate) const UNUSED: Self = Self(0);
 
     /// The key of a camera ray.
     #[must_use]
-    pub(in crate::render) fn new(pixel: [u32; 2], sample: u64) -> Self {
+    pub(crate) fn new(pixel: [u32; 2], sample: u64) -> Self {
         Self(mix(u64::from(pixel[0]) << 32 | u64::from(pixel[1]))).child(sample)
     }
 
     /// The key with a seed mixed in; 0 changes nothing.
     #[must_use]
-    pub(in crate::render) fn seeded(self, seed: u64) -> Self {
+    pub(crate) fn seeded(self, seed: u64) -> Self {
         if seed == 0 {
             self
         } else {
@@ -34,17 +34,17 @@ impl Key {
 
     /// The key of branch `branch` of the path.
     #[must_use]
-    pub(in crate::render) fn child(self, branch: u64) -> Self {
+    pub(crate) fn child(self, branch: u64) -> Self {
         Self(mix(self.0.rotate_left(32) ^ mix(branch)))
     }
 
     /// 64 bits for one dimension of this point.
-    pub(in crate::render) fn bits(self, dimension: u64) -> u64 {
+    pub(crate) fn bits(self, dimension: u64) -> u64 {
         self.child(dimension).0
     }
 
     /// A number in [0, 1) for one dimension of this point.
-    pub(in crate::render) fn uniform(self, dimension: u64) -> f64 {
+    pub(crate) fn uniform(self, dimension: u64) -> f64 {
         fraction(self.bits(dimension))
     }
 }
@@ -53,13 +53,13 @@ impl Key {
 /// its lower end, over its width. An interval of no width gives a number, too.
 #[expect(clippy::manual_clamp, reason = "0/0 becomes a number")]
 #[inline]
-pub(in crate::render) fn remapped(above: f64, width: f64) -> f64 {
+pub(crate) fn remapped(above: f64, width: f64) -> f64 {
     (above / width).min(1.0 - f64::EPSILON).max(0.0)
 }
 
 /// Points spread evenly over a disc of radius 1: a golden spiral, turned by a number of the key.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct DiscPoints {
+pub(crate) struct DiscPoints {
     count: u32,
     /// In [0, 1), as a fraction of the area of one point: uniform, it spreads any number of points
     /// without bias.
@@ -71,7 +71,7 @@ pub(in crate::render) struct DiscPoints {
 impl DiscPoints {
     /// A set of `count` points, each in the middle of its ring or, if `spread`, anywhere in it.
     #[must_use]
-    pub(in crate::render) fn new(count: u32, key: Key, spread: bool) -> Self {
+    pub(crate) fn new(count: u32, key: Key, spread: bool) -> Self {
         let shift = if spread { key.uniform(3) } else { 0.5 };
         Self {
             count,
@@ -82,7 +82,7 @@ impl DiscPoints {
 
     /// Point k.
     #[must_use]
-    pub(in crate::render) fn point(&self, k: u32) -> [f64; 2] {
+    pub(crate) fn point(&self, k: u32) -> [f64; 2] {
         let r = ((f64::from(k) + self.shift) / f64::from(self.count)).sqrt();
         let (x, y) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
         [r * x, r * y]
@@ -94,7 +94,7 @@ impl DiscPoints {
 /// Stratified: the cosines take equal fractions of the distribution, the azimuths are golden angles
 /// apart, and both are shifted by numbers of the key.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct PhongLobeSampler {
+pub(crate) struct PhongLobeSampler {
     basis: Basis,
     exponent: f64,
     count: u32,
@@ -106,7 +106,7 @@ pub(in crate::render) struct PhongLobeSampler {
 impl PhongLobeSampler {
     /// The lobe of `count` directions around the unit vector `axis`.
     #[must_use]
-    pub(in crate::render) fn new(axis: Vec3, n: NonNegative, count: u32, key: Key) -> Self {
+    pub(crate) fn new(axis: Vec3, n: NonNegative, count: u32, key: Key) -> Self {
         let (shift, rotation) = (key.uniform(0), key.bits(1));
         Self {
             basis: Basis::around(axis),
@@ -119,7 +119,7 @@ impl PhongLobeSampler {
 
     /// Direction k, a unit vector.
     #[must_use]
-    pub(in crate::render) fn direction(&self, k: u32) -> Vec3 {
+    pub(crate) fn direction(&self, k: u32) -> Vec3 {
         let fraction = (f64::from(k) + self.shift) / f64::from(self.count);
         let cosine = pow(fraction, self.exponent).min(1.0);
         let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
@@ -131,11 +131,7 @@ impl PhongLobeSampler {
 
     /// How many directions lie on the side of both normals, as long as the count goes on.
     #[must_use]
-    pub(in crate::render) fn count_above(
-        &self,
-        normals: [Vec3; 2],
-        mut goes_on: impl FnMut() -> bool,
-    ) -> u32 {
+    pub(crate) fn count_above(&self, normals: [Vec3; 2], mut goes_on: impl FnMut() -> bool) -> u32 {
         let directions = (0..self.count)
             .take_while(|_| goes_on())
             .map(|k| self.direction(k));
@@ -147,7 +143,7 @@ impl PhongLobeSampler {
 }
 
 /// Whether a direction lies on the side of both normals.
-pub(in crate::render) fn is_above(direction: Vec3, normals: [Vec3; 2]) -> bool {
+pub(crate) fn is_above(direction: Vec3, normals: [Vec3; 2]) -> bool {
     normals
         .into_iter()
         .all(|normal| direction.dot(normal) > 0.0)

@@ -8,7 +8,7 @@
 /// The first two coordinates of a point: van der Corput's, which turns the index round, and Pascal's matrix.
 /// Each 2ᵐ points from a multiple of 2ᵐ on have one in each elementary interval.
 #[inline]
-pub(in crate::render) fn first_two(index: u32) -> [u32; 2] {
+pub(crate) fn first_two(index: u32) -> [u32; 2] {
     [index, within_digits(pascal(u64::from(index)) as u32)]
 }
 
@@ -19,7 +19,7 @@ pub(in crate::render) fn first_two(index: u32) -> [u32; 2] {
 /// Pascal's matrix of digits. In the second and the fourth coordinate it is applied to the bits of each digit, too.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "the halves are meant")]
-pub(in crate::render) fn last_two(index: u32) -> [u32; 2] {
+pub(crate) fn last_two(index: u32) -> [u32; 2] {
     // The lower half holds the third coordinate, the upper half the fourth.
     let both = u64::from(index) << 32 | u64::from(index);
     let both = times(both, UP, DOWN);
@@ -73,7 +73,7 @@ fn pascal(mut x: u64) -> u64 {
 /// (Laine, Karras, "Stratified sampling for stochastic transparency", 2011, with the constants of Vegdahl,
 /// "Building a better LK hash", 2021).
 #[inline]
-pub(in crate::render) fn scrambled(mut x: u32, seed: u32) -> u32 {
+pub(crate) fn scrambled(mut x: u32, seed: u32) -> u32 {
     x ^= x.wrapping_mul(0x3D20_ADEA);
     x = x.wrapping_add(seed);
     x = x.wrapping_mul((seed >> 16) | 1);

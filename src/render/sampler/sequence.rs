@@ -3,8 +3,8 @@
 //!
 //! The first n points are unbiased for every n, and stratified if n is a power of two.
 
-use crate::render::sampler::Key;
-use crate::render::sampler::owen::{first_two, scrambled};
+use crate::sampler::Key;
+use crate::sampler::owen::{first_two, scrambled};
 
 /// The direction numbers of the dimensions of the lens (Joe and Kuo, "Constructing Sobol sequences with better
 /// two-dimensional projections", SIAM Journal on Scientific Computing 30 (2008)). Those of the pixel are
@@ -36,26 +36,26 @@ const fn directions(degree: usize, inner: u32, first: [u32; 3]) -> [u32; 32] {
 
 /// A sequence of its own for each key.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Sequence(Key);
+pub(crate) struct Sequence(Key);
 
 impl Sequence {
     /// The sequence of a key.
     #[must_use]
-    pub(in crate::render) fn new(key: Key) -> Self {
+    pub(crate) fn new(key: Key) -> Self {
         Self(key)
     }
 
     /// The place in the pixel of point `index`, each coordinate in (0, 1).
     #[must_use]
     #[inline]
-    pub(in crate::render) fn film(&self, index: u32) -> [f64; 2] {
+    pub(crate) fn film(&self, index: u32) -> [f64; 2] {
         let [x, y] = first_two(index);
         [self.number(0, x), self.number(1, y)]
     }
 
     /// The place on the lens, in the same way.
     #[must_use]
-    pub(in crate::render) fn lens(&self, index: u32) -> [f64; 2] {
+    pub(crate) fn lens(&self, index: u32) -> [f64; 2] {
         let [x, y] = [0, 1].map(|which| sobol(&LENS[which], index).reverse_bits());
         [self.number(2, x), self.number(3, y)]
     }

@@ -6,37 +6,37 @@
 
 use super::Key;
 use super::owen::{first_two, last_two, scrambled};
-use crate::math::mix;
-use crate::render::film::Seeds;
+use crate::film::Seeds;
+use rtc_math::mix;
 
 /// A pair of dimensions: 2·g is the first one of group g, 2·g + 1 the second one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) struct Pair(u32);
+pub(crate) struct Pair(u32);
 
 impl Pair {
     /// The place in the pixel.
-    pub(in crate::render) const FILM: Self = Self(0);
+    pub(crate) const FILM: Self = Self(0);
     /// The place on the lens.
-    pub(in crate::render) const LENS: Self = Self(2);
+    pub(crate) const LENS: Self = Self(2);
 
     /// The light of vertex `bounces`: grouped with what leads there, the place in the pixel or the
     /// direction from the vertex before.
-    pub(in crate::render) fn light(bounces: u32) -> Self {
+    pub(crate) fn light(bounces: u32) -> Self {
         Self(4 * bounces + 1)
     }
 
     /// The direction from a vertex.
-    pub(in crate::render) fn direction(bounces: u32) -> Self {
+    pub(crate) fn direction(bounces: u32) -> Self {
         Self(4 * bounces + 4)
     }
 
     /// Which wavelength a vertex picks, and whether the path goes on.
-    pub(in crate::render) fn fate(bounces: u32) -> Self {
+    pub(crate) fn fate(bounces: u32) -> Self {
         Self(4 * bounces + 6)
     }
 
     /// Whether microfacets of a vertex reflect or transmit.
-    pub(in crate::render) fn lobe(bounces: u32) -> Self {
+    pub(crate) fn lobe(bounces: u32) -> Self {
         Self(4 * bounces + 7)
     }
 }
@@ -46,7 +46,7 @@ const UNIT: f64 = 1.0 / 4_294_967_296.0;
 
 /// The numbers of one path.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Sobol {
+pub(crate) struct Sobol {
     pixel: Key,
     /// The key of all but the place in the pixel and on the lens.
     path: Key,
@@ -58,7 +58,7 @@ pub(in crate::render) struct Sobol {
 
 impl Sobol {
     /// The numbers of path `index` of a pixel that has a sequence of its own.
-    pub(in crate::render) fn new(pixel: [u32; 2], index: u32, seeds: Seeds) -> Self {
+    pub(crate) fn new(pixel: [u32; 2], index: u32, seeds: Seeds) -> Self {
         let pixel = Key::new(pixel, 0);
         Self {
             pixel,
@@ -75,12 +75,7 @@ impl Sobol {
     /// neighbours cancel: that of a pixel is as large as by [`Self::new`], that of a blurred picture is less
     /// (Ahmed, Wonka, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical
     /// ordering of pixels", SIGGRAPH Asia 2020).
-    pub(in crate::render) fn in_picture(
-        pixel: [u32; 2],
-        index: u32,
-        seeds: Seeds,
-        samples: u32,
-    ) -> Self {
+    pub(crate) fn in_picture(pixel: [u32; 2], index: u32, seeds: Seeds, samples: u32) -> Self {
         // Of the bits of an index the lowest count samples; as many of the others as fit are a place on the curve.
         let low = u32::BITS - (samples - 1).leading_zeros();
         let side = (u32::BITS - low) / 2;
@@ -92,7 +87,7 @@ impl Sobol {
 
     /// A pair of numbers of this path, both from 0 to 1 − 2⁻³².
     #[inline]
-    pub(in crate::render) fn pair(&self, pair: Pair) -> [f64; 2] {
+    pub(crate) fn pair(&self, pair: Pair) -> [f64; 2] {
         let group = u64::from(pair.0 / 2);
         let [film, lens] = [self.seeds.pixel, self.seeds.lens];
         let bits = match group {
@@ -121,7 +116,7 @@ impl Sobol {
 
     /// An independent number in [0, 1) for decisions that use no dimension of the sequence, such as
     /// the alpha test.
-    pub(in crate::render) fn uniform(&self, dimension: u32, turn: u32) -> f64 {
+    pub(crate) fn uniform(&self, dimension: u32, turn: u32) -> f64 {
         let key = self
             .path
             .child(u64::from(self.index) << 32 | u64::from(turn));

@@ -1,13 +1,13 @@
 //! The shapes of most course scenes alone: an integrator of these holds no code of the others.
 
 use super::kinds::{Plane, Sphere, Triangle};
-use crate::math::{Bounds, Vec3};
-use crate::render::accel::bounds::Ball;
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::four::InLanes;
-use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
-use crate::render::shape::tie;
-use crate::render::shape::triangle::Shear;
+use crate::accel::bounds::Ball;
+use crate::ray::{Interaction, Ray};
+use crate::shape::four::InLanes;
+use crate::shape::geometry::{Asked, Details, Geometry, LocalRay};
+use crate::shape::tie;
+use crate::shape::triangle::Shear;
+use rtc_math::{Bounds, Vec3};
 
 /// A sphere, a plane or a triangle.
 #[derive(Clone, Debug)]

@@ -7,17 +7,17 @@
 //! radius/height times as large in g, so its heights are counted along the ray from where that
 //! meets the base: then g is right to within rounding, however flat it is.
 
-use crate::math::{Bounds, Vec3, cross, difference_of_products, dot};
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::disc::PlainDisc;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::interval::{Interval, between_planes, roots};
-use crate::render::shape::mesh::PlainMesh;
-use crate::render::shape::plain::ray::PlainRay;
-use crate::render::shape::plain::real::{Real, Vector};
-use crate::render::shape::plain::roots::quadratic;
-use crate::render::shape::plain::{Plain, Twin};
-use crate::render::shape::triangle::Shear;
+use crate::ray::{Interaction, Ray};
+use crate::shape::disc::PlainDisc;
+use crate::shape::geometry::Geometry;
+use crate::shape::interval::{Interval, between_planes, roots};
+use crate::shape::mesh::PlainMesh;
+use crate::shape::plain::ray::PlainRay;
+use crate::shape::plain::real::{Real, Vector};
+use crate::shape::plain::roots::quadratic;
+use crate::shape::plain::{Plain, Twin};
+use crate::shape::triangle::Shear;
+use rtc_math::{Bounds, Vec3, cross, difference_of_products, dot};
 use std::sync::Arc;
 
 /// A cone is flat if its radius is more than this many times its height.
@@ -234,7 +234,7 @@ const PLAIN_PARTS: [u32; 2] = [0, 1];
 
 /// Its twin: the quadratic of ρ² = (k·m)², with m the height left to the apex, and a disc.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct PlainCone<R> {
+pub(crate) struct PlainCone<R> {
     base: Vector<R>,
     axis: Vector<R>,
     height: R,
@@ -302,7 +302,7 @@ impl<R: Real> Plain<R> for PlainCone<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::reflect;
+    use crate::reflect;
 
     /// 200 times as long as wide, seen from afar: mirrored rays don't meet the side that they
     /// leave.

@@ -1,16 +1,16 @@
 //! What the corners of a triangle say, and what lies between them.
 
-use crate::math::Column;
+use rtc_math::Column;
 
 /// The side on which the second axis of a normal map lies: against v, which glTF counts downwards.
-pub(in crate::render::shape) fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
+pub(in crate::shape) fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     -1.0_f64.copysign(area)
 }
 
 /// What a column, which may be empty, says of three corners.
 #[inline]
-pub(in crate::render::shape) fn corner_values<const N: usize>(
+pub(in crate::shape) fn corner_values<const N: usize>(
     column: &Column<N>,
     [a, b, c]: [u32; 3],
 ) -> Option<[[f64; N]; 3]> {
@@ -25,14 +25,14 @@ pub(in crate::render::shape) fn corner_values<const N: usize>(
 
 /// The mean with these weights of the corners.
 #[inline]
-pub(in crate::render::shape) fn blend([a, b, c]: [[f64; 4]; 3], [u, v, w]: [f64; 3]) -> [f64; 4] {
+pub(in crate::shape) fn blend([a, b, c]: [[f64; 4]; 3], [u, v, w]: [f64; 3]) -> [f64; 4] {
     let mean = |k: usize| u * a[k] + v * b[k] + w * c[k];
     [mean(0), mean(1), mean(2), mean(3)]
 }
 
 /// The uv at a point with these weights of the corners.
 #[inline]
-pub(in crate::render) fn interpolate([a, b, c]: [[f64; 2]; 3], [u, v, w]: [f64; 3]) -> [f64; 2] {
+pub(crate) fn interpolate([a, b, c]: [[f64; 2]; 3], [u, v, w]: [f64; 3]) -> [f64; 2] {
     let mean = |k: usize| u * a[k] + v * b[k] + w * c[k];
     [mean(0), mean(1)]
 }

@@ -5,17 +5,17 @@
 //! the size of the radius and not of the distance from the eye; they are those of the cross
 //! products with the axis.
 
-use crate::math::{Bounds, Vec3, cross, dot, unit};
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::disc::PlainDisc;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::interval::{Interval, between_planes, roots};
-use crate::render::shape::mesh::PlainMesh;
-use crate::render::shape::plain::ray::PlainRay;
-use crate::render::shape::plain::real::{Real, Vector};
-use crate::render::shape::plain::roots::quadratic;
-use crate::render::shape::plain::{Plain, Twin};
-use crate::render::shape::triangle::Shear;
+use crate::ray::{Interaction, Ray};
+use crate::shape::disc::PlainDisc;
+use crate::shape::geometry::Geometry;
+use crate::shape::interval::{Interval, between_planes, roots};
+use crate::shape::mesh::PlainMesh;
+use crate::shape::plain::ray::PlainRay;
+use crate::shape::plain::real::{Real, Vector};
+use crate::shape::plain::roots::quadratic;
+use crate::shape::plain::{Plain, Twin};
+use crate::shape::triangle::Shear;
+use rtc_math::{Bounds, Vec3, cross, dot, unit};
 use std::sync::Arc;
 
 /// A prepared cylinder with two caps.
@@ -148,7 +148,7 @@ const PLAIN_PARTS: [u32; 3] = [0, 1, 2];
 /// Its twin: the quadratic of what is left of ray and point across the axis, and two
 /// discs.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct PlainCylinder<R> {
+pub(crate) struct PlainCylinder<R> {
     base: Vector<R>,
     axis: Vector<R>,
     height: R,

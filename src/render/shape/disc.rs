@@ -1,14 +1,14 @@
 //! The disc: a plane, and a test of the distance from its centre in the disc's own frame.
 
-use crate::math::{Bounds, Vec3};
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::mesh::PlainMesh;
-use crate::render::shape::plain::ray::PlainRay;
-use crate::render::shape::plain::real::{Real, Vector};
-use crate::render::shape::plain::{Plain, Twin};
-use crate::render::shape::plane::{PlainPlane, Plane};
-use crate::render::shape::triangle::Shear;
+use crate::ray::{Interaction, Ray};
+use crate::shape::geometry::Geometry;
+use crate::shape::mesh::PlainMesh;
+use crate::shape::plain::ray::PlainRay;
+use crate::shape::plain::real::{Real, Vector};
+use crate::shape::plain::{Plain, Twin};
+use crate::shape::plane::{PlainPlane, Plane};
+use crate::shape::triangle::Shear;
+use rtc_math::{Bounds, Vec3};
 use std::sync::Arc;
 
 /// A prepared disc, rim included.
@@ -47,7 +47,7 @@ impl Disc {
 
     /// A box around the disc.
     #[must_use]
-    pub(in crate::render) fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         Bounds::around_disc(self.center, self.plane.normal(), self.radius)
     }
 }
@@ -80,14 +80,14 @@ impl Twin for Disc {
 
 /// Its twin: the plane, and the distance from the centre.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct PlainDisc<R> {
+pub(crate) struct PlainDisc<R> {
     plane: PlainPlane<R>,
     center: Vector<R>,
     radius: R,
 }
 
 impl<R: Real> PlainDisc<R> {
-    pub(in crate::render::shape) fn new(center: Vec3, unit_normal: Vec3, radius: f64) -> Self {
+    pub(in crate::shape) fn new(center: Vec3, unit_normal: Vec3, radius: f64) -> Self {
         Self {
             plane: PlainPlane::new(center, unit_normal),
             center: Vector::of(center),
@@ -97,7 +97,7 @@ impl<R: Real> PlainDisc<R> {
 
     /// Where the line meets the disc, wherever that is along it; not a number beside the disc.
     #[inline]
-    pub(in crate::render::shape) fn parameter(&self, ray: &PlainRay<R>) -> R {
+    pub(in crate::shape) fn parameter(&self, ray: &PlainRay<R>) -> R {
         let t = self.plane.parameter(ray);
         let local = ray.at(t) - self.center;
         if local.dot(local) <= self.radius * self.radius {
@@ -109,7 +109,7 @@ impl<R: Real> PlainDisc<R> {
 
     /// The unit normal.
     #[inline]
-    pub(in crate::render::shape) fn normal(&self) -> Vector<R> {
+    pub(in crate::shape) fn normal(&self) -> Vector<R> {
         self.plane.unit()
     }
 }

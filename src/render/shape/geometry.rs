@@ -1,15 +1,18 @@
 //! What a world asks of the shapes in it.
 
-use crate::math::{Bounds, Vec3};
-use crate::render::accel::bounds::Ball;
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::four::InLanes;
-use crate::render::shape::triangle::Shear;
+use crate::accel::bounds::Ball;
+use crate::ray::{Interaction, Ray};
+use crate::shape::four::InLanes;
+use crate::shape::triangle::Shear;
+use rtc_math::{Bounds, Vec3};
 
 /// A kind of prepared shape: which shapes there are, and by which arithmetic rays meet them.
 pub trait Geometry: Sized + Send + Sync {
     /// Whether triangles of instances can stand in the world one by one.
     const FLATTENS: bool = true;
+
+    /// Whether integrators are compiled for what a plan needs, or once with everything.
+    const HAS_KERNELS: bool = true;
 
     /// Whether four rays at once meet them by the same operations as one.
     const HAS_LANES: bool = false;

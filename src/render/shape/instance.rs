@@ -1,17 +1,17 @@
 //! An instance of a mesh: rays are transformed to object space, where all instances share triangles
 //! and hierarchy.
 
-use crate::math::{Bounds, Vec3, cross, unit};
-use crate::render::accel::wide::{Candidate, Visitor};
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::corners::{blend, corner_values, handedness, interpolate};
-use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
-use crate::render::shape::mesh::{PlainMesh, PreparedMesh};
-use crate::render::shape::plain::ray::PlainRay;
-use crate::render::shape::plain::real::{Real, Vector};
-use crate::render::shape::plain::{Plain, Twin};
-use crate::render::shape::tie::{self, Nearest, Tie};
-use crate::render::shape::triangle::{self, PlainTriangle, Shear, Triangle};
+use crate::accel::wide::{Candidate, Visitor};
+use crate::ray::{Interaction, Ray};
+use crate::shape::corners::{blend, corner_values, handedness, interpolate};
+use crate::shape::geometry::{Asked, Details, Geometry, LocalRay};
+use crate::shape::mesh::{PlainMesh, PreparedMesh};
+use crate::shape::plain::ray::PlainRay;
+use crate::shape::plain::real::{Real, Vector};
+use crate::shape::plain::{Plain, Twin};
+use crate::shape::tie::{self, Nearest, Tie};
+use crate::shape::triangle::{self, PlainTriangle, Shear, Triangle};
+use rtc_math::{Bounds, Vec3, cross, unit};
 use std::sync::Arc;
 
 /// A prepared instance of a mesh.
@@ -68,7 +68,7 @@ impl Instance {
 
     /// A bound on the error of a point transformed between the two spaces.
     fn rounding(&self, local: Vec3) -> f64 {
-        16.0 * crate::math::U * (self.sizes.dot(local.abs()) + self.origin.abs().element_sum())
+        16.0 * rtc_math::U * (self.sizes.dot(local.abs()) + self.origin.abs().element_sum())
     }
 
     #[inline]
@@ -324,7 +324,7 @@ impl Twin for Instance {
 
 /// Its triangles in plain arithmetic, in the hierarchy of the robust ones.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct PlainInstance<R> {
+pub(crate) struct PlainInstance<R> {
     mesh: Arc<PlainMesh<R>>,
     origin: Vector<R>,
     /// The rows of the map from the world to the object, without its origin.

@@ -1,18 +1,18 @@
 //! Intervals of a ray inside a convex region. Solids are intersections of such intervals, so they
 //! have no crack between side and caps.
 
-use crate::math::{Vec3, dot};
+use rtc_math::{Vec3, dot};
 
 /// The interval of t inside a region, with the part crossed at either end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::render) struct Interval<Part> {
-    pub(in crate::render) enter: (f64, Part),
-    pub(in crate::render) leave: (f64, Part),
+pub(crate) struct Interval<Part> {
+    pub(crate) enter: (f64, Part),
+    pub(crate) leave: (f64, Part),
 }
 
 impl<Part: Copy> Interval<Part> {
     /// The intersection of both; `None` if it is empty. If both end at the same t, `self` wins.
-    pub(in crate::render) fn and(self, other: Self) -> Option<Self> {
+    pub(crate) fn and(self, other: Self) -> Option<Self> {
         let enter = if other.enter.0 > self.enter.0 {
             other.enter
         } else {
@@ -27,7 +27,7 @@ impl<Part: Copy> Interval<Part> {
     }
 
     /// Both ends through `change`, which must be increasing.
-    pub(in crate::render) fn map(self, change: impl Fn(f64) -> f64) -> Self {
+    pub(crate) fn map(self, change: impl Fn(f64) -> f64) -> Self {
         Self {
             enter: (change(self.enter.0), self.enter.1),
             leave: (change(self.leave.0), self.leave.1),
@@ -35,7 +35,7 @@ impl<Part: Copy> Interval<Part> {
     }
 
     /// The first end with t > 0.
-    pub(in crate::render) fn first_in_front(self) -> Option<(f64, Part)> {
+    pub(crate) fn first_in_front(self) -> Option<(f64, Part)> {
         [self.enter, self.leave]
             .into_iter()
             .find(|(t, _)| *t > 0.0 && t.is_finite())
@@ -44,7 +44,7 @@ impl<Part: Copy> Interval<Part> {
 
 /// The stretch of the ray from `f` along `d` between the planes through 0 and `height` on the axis,
 /// which is a unit vector, with the part at either plane.
-pub(in crate::render) fn between_planes<Part>(
+pub(crate) fn between_planes<Part>(
     axis: Vec3,
     height: f64,
     f: Vec3,
@@ -75,7 +75,7 @@ pub(in crate::render) fn between_planes<Part>(
 
 /// The roots of `a·t² − 2·b·t + c`, in order, from `discriminant = b² − a·c > 0` computed with
 /// care: neither cancels.
-pub(in crate::render) fn roots(a: f64, b: f64, c: f64, discriminant: f64) -> (f64, f64) {
+pub(crate) fn roots(a: f64, b: f64, c: f64, discriminant: f64) -> (f64, f64) {
     let root = discriminant.max(0.0).sqrt();
     let q = if b >= 0.0 { b + root } else { b - root };
     let (first, second) = if q == 0.0 { (0.0, 0.0) } else { (c / q, q / a) };

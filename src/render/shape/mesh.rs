@@ -1,13 +1,13 @@
 //! A mesh in its own coordinates, prepared once for all its instances.
 
-use crate::math::{Column, Shared, Vec3};
-use crate::render::accel::simd::SimdLevel;
-use crate::render::accel::wide::{Builders, Wide};
-use crate::render::shape::geometry::LocalRay;
-use crate::render::shape::plain::real::Real;
-use crate::render::shape::plane::Normal;
-use crate::render::shape::triangle::{self, PlainTriangle, Triangle};
+use crate::accel::simd::SimdLevel;
+use crate::accel::wide::{Builders, Wide};
+use crate::shape::geometry::LocalRay;
+use crate::shape::plain::real::Real;
+use crate::shape::plane::Normal;
+use crate::shape::triangle::{self, PlainTriangle, Triangle};
 use rayon::prelude::*;
+use rtc_math::{Column, Shared, Vec3};
 use std::sync::{Arc, OnceLock};
 
 /// What a mesh says of its corners but for their places; an empty column says nothing. All is
@@ -28,13 +28,13 @@ pub struct Attributes {
 
 /// So few triangles are kept prepared, as they stay in the caches; more are prepared when they are
 /// asked for, as rays wait for memory.
-pub(in crate::render) const FEW: usize = 1 << 14;
+pub(crate) const FEW: usize = 1 << 14;
 
 /// A mesh ready to be hit.
 #[derive(Debug)]
 pub struct PreparedMesh {
     /// What is known of the corners.
-    pub(in crate::render) attributes: Attributes,
+    pub(crate) attributes: Attributes,
     /// The places of the corners, shared with the scene.
     positions: Column<3>,
     /// The corners of each triangle that has an area, by their numbers in the mesh.
@@ -81,30 +81,30 @@ impl PreparedMesh {
 
     /// How many triangles have an area.
     #[inline]
-    pub(in crate::render) fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.corners.len()
     }
 
     /// The numbers of the corners of one of them.
     #[inline]
-    pub(in crate::render) fn corners(&self, triangle: u32) -> [u32; 3] {
+    pub(crate) fn corners(&self, triangle: u32) -> [u32; 3] {
         self.corners[triangle as usize]
     }
 
     /// Where the corners of one of them are.
     #[inline(always)]
-    pub(in crate::render) fn vertices(&self, triangle: u32) -> [Vec3; 3] {
+    pub(crate) fn vertices(&self, triangle: u32) -> [Vec3; 3] {
         places(&self.positions, self.corners(triangle))
     }
 
     /// Where all corners of all of them are.
-    pub(in crate::render) fn all_vertices(&self) -> impl Iterator<Item = [Vec3; 3]> {
+    pub(crate) fn all_vertices(&self) -> impl Iterator<Item = [Vec3; 3]> {
         let corners = self.corners.iter();
         corners.map(|corners| places(&self.positions, *corners))
     }
 
     /// Visits the places of all vertices that they use, each at least once.
-    pub(in crate::render) fn visit_places(&self, mut visit: impl FnMut(Vec3)) {
+    pub(crate) fn visit_places(&self, mut visit: impl FnMut(Vec3)) {
         // The list of vertices may be longer than what this mesh uses of it.
         if self.positions.len() > 3 * self.count() {
             self.all_vertices().flatten().for_each(visit);
@@ -121,7 +121,7 @@ impl PreparedMesh {
 
     /// One of them.
     #[inline]
-    pub(in crate::render) fn triangle(&self, triangle: u32) -> Triangle {
+    pub(crate) fn triangle(&self, triangle: u32) -> Triangle {
         match self.few.get(triangle as usize) {
             Some(triangle) => *triangle,
             None => Triangle::with_area(self.vertices(triangle)),
@@ -130,7 +130,7 @@ impl PreparedMesh {
 
     /// The root above 0 of one of them, of a ray in its coordinates.
     #[inline(always)]
-    pub(in crate::render) fn root(&self, ray: &LocalRay, triangle: u32) -> Option<f64> {
+    pub(crate) fn root(&self, ray: &LocalRay, triangle: u32) -> Option<f64> {
         match self.few.get(triangle as usize) {
             Some(triangle) => triangle.intersect(&ray.ray, &ray.shear),
             None => triangle::root(&self.vertices(triangle), &ray.ray, &ray.shear),
@@ -139,13 +139,13 @@ impl PreparedMesh {
 
     /// Whether it is soon told that [`Self::root`] finds none below `t_max`.
     #[inline(always)]
-    pub(in crate::render) fn is_beyond(&self, ray: &LocalRay, triangle: u32, t_max: f64) -> bool {
+    pub(crate) fn is_beyond(&self, ray: &LocalRay, triangle: u32, t_max: f64) -> bool {
         let triangle = self.few.get(triangle as usize);
         triangle.is_some_and(|triangle| triangle.is_beyond(&ray.ray, t_max))
     }
 
     /// The hierarchy of the triangles, if there are any.
-    pub(in crate::render) fn hierarchy(&self) -> Option<&Wide> {
+    pub(crate) fn hierarchy(&self) -> Option<&Wide> {
         let vertices = |item: u32| self.vertices(item);
         let build = || {
             let mut hierarchy = Wide::build(Builders::One, self.simd, self.count(), 0.0, vertices)?;
@@ -184,12 +184,12 @@ fn places(positions: &Column<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
 pub struct PlainMesh<R> {
     /// The robust mesh: the same triangles in the same order, their hierarchy, and what is known
     /// of them.
-    pub(in crate::render) robust: Arc<PreparedMesh>,
-    pub(in crate::render::shape) triangles: Vec<PlainTriangle<R>>,
+    pub(crate) robust: Arc<PreparedMesh>,
+    pub(in crate::shape) triangles: Vec<PlainTriangle<R>>,
 }
 
 impl<R: Real> PlainMesh<R> {
-    pub(in crate::render) fn new(robust: PreparedMesh) -> Self {
+    pub(crate) fn new(robust: PreparedMesh) -> Self {
         let triangles = robust
             .all_vertices()
             .map(|vertices| PlainTriangle::new(&vertices))

@@ -134,50 +134,50 @@ macro_rules! dispatch {
     };
 }
 
-pub(in crate::render) mod basic;
-pub(in crate::render) mod cone;
+pub(crate) mod basic;
+pub(crate) mod cone;
 mod corners;
-pub(in crate::render) mod cylinder;
-pub(in crate::render) mod disc;
+pub(crate) mod cylinder;
+pub(crate) mod disc;
 #[cfg_attr(
     not(target_arch = "x86_64"),
     allow(dead_code, reason = "lanes gain with AVX-512 alone")
 )]
-pub(in crate::render) mod four;
-pub(in crate::render) mod geometry;
-pub(in crate::render) mod instance;
-pub(in crate::render) mod interval;
-pub(in crate::render) mod mesh;
-pub(in crate::render) mod paraboloid;
-pub(in crate::render) mod plain;
-pub(in crate::render) mod plane;
-pub(in crate::render) mod quad;
-pub(in crate::render) mod sphere;
-pub(in crate::render) mod tie;
-pub(in crate::render) mod torus;
-pub(in crate::render) mod triangle;
+pub(crate) mod four;
+pub(crate) mod geometry;
+pub(crate) mod instance;
+pub(crate) mod interval;
+pub(crate) mod mesh;
+pub(crate) mod paraboloid;
+pub(crate) mod plain;
+pub(crate) mod plane;
+pub(crate) mod quad;
+pub(crate) mod sphere;
+pub(crate) mod tie;
+pub(crate) mod torus;
+pub(crate) mod triangle;
 
 /// What stands for each row of the table of shapes, by the name in its row.
-pub(in crate::render) mod kinds {
-    pub(in crate::render) use super::cone::Cone;
-    pub(in crate::render) use super::cylinder::Cylinder;
-    pub(in crate::render) use super::disc::Disc;
-    pub(in crate::render) use super::instance::Instance;
-    pub(in crate::render) use super::paraboloid::Paraboloid;
-    pub(in crate::render) use super::plane::Plane;
-    pub(in crate::render) use super::quad::Quad;
-    pub(in crate::render) use super::sphere::TexturedSphere as Sphere;
-    pub(in crate::render) use super::torus::Torus;
-    pub(in crate::render) use super::triangle::TexturedTriangle as Triangle;
+pub(crate) mod kinds {
+    pub(crate) use super::cone::Cone;
+    pub(crate) use super::cylinder::Cylinder;
+    pub(crate) use super::disc::Disc;
+    pub(crate) use super::instance::Instance;
+    pub(crate) use super::paraboloid::Paraboloid;
+    pub(crate) use super::plane::Plane;
+    pub(crate) use super::quad::Quad;
+    pub(crate) use super::sphere::TexturedSphere as Sphere;
+    pub(crate) use super::torus::Torus;
+    pub(crate) use super::triangle::TexturedTriangle as Triangle;
 }
 
-use crate::math::{Bounds, Vec3};
-use crate::render::accel::bounds::Ball;
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::four::InLanes;
-use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
-use crate::render::shape::triangle::Shear;
+use crate::accel::bounds::Ball;
+use crate::ray::{Interaction, Ray};
+use crate::shape::four::InLanes;
+use crate::shape::geometry::{Asked, Details, Geometry, LocalRay};
+use crate::shape::triangle::Shear;
 use kinds::*;
+use rtc_math::{Bounds, Vec3};
 
 /// What an enum holds of a shape that is small.
 type Inline<T> = T;
@@ -195,6 +195,6 @@ macro_rules! declare {
     };
 }
 
-shapes!(declare);
+rtc_tables::shapes!(declare);
 
 const _: () = assert!(size_of::<Shape>() == 192, "memory is what rays wait for");

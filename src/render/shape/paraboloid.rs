@@ -7,20 +7,20 @@
 //! discriminant leaves its sign in doubt, or its root with few digits, all is computed again in
 //! double-double, from the numbers as given.
 
-use crate::math::{
+use crate::ray::{Interaction, Ray};
+use crate::shape::disc::PlainDisc;
+use crate::shape::geometry::{Asked, Details, Geometry};
+use crate::shape::interval::{Interval, between_planes, roots};
+use crate::shape::mesh::PlainMesh;
+use crate::shape::plain::ray::PlainRay;
+use crate::shape::plain::real::{Real, Vector};
+use crate::shape::plain::roots::quadratic;
+use crate::shape::plain::{Plain, Twin};
+use crate::shape::triangle::Shear;
+use rtc_math::{
     Basis, Bounds, DoubleDouble, U, Vec3, atan2, cross, difference_of_products, dot, ldexp,
     unit_scale,
 };
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::disc::PlainDisc;
-use crate::render::shape::geometry::{Asked, Details, Geometry};
-use crate::render::shape::interval::{Interval, between_planes, roots};
-use crate::render::shape::mesh::PlainMesh;
-use crate::render::shape::plain::ray::PlainRay;
-use crate::render::shape::plain::real::{Real, Vector};
-use crate::render::shape::plain::roots::quadratic;
-use crate::render::shape::plain::{Plain, Twin};
-use crate::render::shape::triangle::Shear;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -300,7 +300,7 @@ const PLAIN_PARTS: [u32; 2] = [0, 1];
 
 /// Its twin: the quadratic of ρ² = k·m, with m the height left to the vertex, and a disc.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct PlainParaboloid<R> {
+pub(crate) struct PlainParaboloid<R> {
     base: Vector<R>,
     axis: Vector<R>,
     height: R,

@@ -1,20 +1,20 @@
 //! The plane: t from compensated dot products with the raw normal, accurate at any slope and
 //! distance.
 
-use crate::math::{Bounds, U, Vec3, cross, dot, two_difference, unit_scale};
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::four::InLanes;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::mesh::PlainMesh;
-use crate::render::shape::plain::ray::PlainRay;
-use crate::render::shape::plain::real::{Real, Vector};
-use crate::render::shape::plain::{Plain, Twin};
-use crate::render::shape::triangle::Shear;
+use crate::ray::{Interaction, Ray};
+use crate::shape::four::InLanes;
+use crate::shape::geometry::Geometry;
+use crate::shape::mesh::PlainMesh;
+use crate::shape::plain::ray::PlainRay;
+use crate::shape::plain::real::{Real, Vector};
+use crate::shape::plain::{Plain, Twin};
+use crate::shape::triangle::Shear;
+use rtc_math::{Bounds, U, Vec3, cross, dot, two_difference, unit_scale};
 use std::sync::Arc;
 
 /// How a plane stands.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Normal {
+pub(crate) struct Normal {
     /// The normal as given, times a power of two.
     pub(super) raw: Vec3,
     /// Its square.
@@ -56,7 +56,7 @@ impl Normal {
     /// That of a vector, which must not be zero.
     #[must_use]
     #[inline(always)]
-    pub(in crate::render) fn new(vector: Vec3) -> Self {
+    pub(crate) fn new(vector: Vec3) -> Self {
         let raw = unit_scale(vector).map_or(vector, |(scaled, _)| scaled);
         let square = dot(raw, raw);
         Self {
@@ -69,7 +69,7 @@ impl Normal {
     /// That of a triangle, or `None` if its corners are in line.
     #[must_use]
     #[inline(always)]
-    pub(in crate::render) fn of([a, b, c]: [Vec3; 3]) -> Option<Self> {
+    pub(crate) fn of([a, b, c]: [Vec3; 3]) -> Option<Self> {
         let (first, _) = unit_scale(b - a)?;
         let (second, _) = unit_scale(c - a)?;
         let normal = cross(first, second);
@@ -79,7 +79,7 @@ impl Normal {
     /// The unit vector.
     #[must_use]
     #[inline]
-    pub(in crate::render) fn unit(&self) -> Vec3 {
+    pub(crate) fn unit(&self) -> Vec3 {
         self.unit
     }
 
@@ -132,14 +132,14 @@ impl Normal {
     /// The root above 0 of the plane through `anchor`.
     #[must_use]
     #[inline(always)]
-    pub(in crate::render) fn intersect(&self, anchor: Vec3, ray: &Ray) -> Option<f64> {
+    pub(crate) fn intersect(&self, anchor: Vec3, ray: &Ray) -> Option<f64> {
         self.parameter(anchor, ray).filter(|t| *t > 0.0)
     }
 
     /// Whether plain arithmetic can tell that [`Self::intersect`] finds a root of at least `t_max`.
     #[must_use]
     #[inline]
-    pub(in crate::render) fn is_beyond(&self, anchor: Vec3, ray: &Ray, t_max: f64) -> bool {
+    pub(crate) fn is_beyond(&self, anchor: Vec3, ray: &Ray, t_max: f64) -> bool {
         let to_anchor = anchor - ray.origin;
         let (distance, slope) = (self.raw.dot(to_anchor), self.raw.dot(ray.direction));
         // Four roundings of the distance, three of the slope, or products below the normal numbers.
@@ -153,7 +153,7 @@ impl Normal {
 
     /// The point at `t`, moved onto the plane through `anchor`.
     #[must_use]
-    pub(in crate::render) fn interaction(&self, anchor: Vec3, ray: &Ray, t: f64) -> Interaction {
+    pub(crate) fn interaction(&self, anchor: Vec3, ray: &Ray, t: f64) -> Interaction {
         let near = ray.origin + ray.direction * t;
         let Self { raw, square, unit } = *self;
         let axis = self.axis();
@@ -235,14 +235,14 @@ impl Twin for Plane {
 
 /// Its twin: N·p = N·c.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct PlainPlane<R> {
+pub(crate) struct PlainPlane<R> {
     normal: Vector<R>,
     /// N·c.
     level: R,
 }
 
 impl<R: Real> PlainPlane<R> {
-    pub(in crate::render) fn new(center: Vec3, unit_normal: Vec3) -> Self {
+    pub(crate) fn new(center: Vec3, unit_normal: Vec3) -> Self {
         let normal = Vector::of(unit_normal);
         Self {
             normal,
@@ -252,13 +252,13 @@ impl<R: Real> PlainPlane<R> {
 
     /// The unit normal.
     #[inline]
-    pub(in crate::render::shape) fn unit(&self) -> Vector<R> {
+    pub(in crate::shape) fn unit(&self) -> Vector<R> {
         self.normal
     }
 
     /// Where the line meets the plane.
     #[inline]
-    pub(in crate::render::shape) fn parameter(&self, ray: &PlainRay<R>) -> R {
+    pub(in crate::shape) fn parameter(&self, ray: &PlainRay<R>) -> R {
         (self.level - self.normal.dot(ray.origin)) / self.normal.dot(ray.direction)
     }
 }
@@ -279,7 +279,7 @@ impl<R: Real> Plain<R> for PlainPlane<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::sampler::Key;
+    use crate::sampler::Key;
 
     /// Limits within 64 u of the root: plain arithmetic is often right about them, and often wrong.
     #[test]

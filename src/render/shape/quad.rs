@@ -4,15 +4,15 @@
 //! intersections" (Ray Tracing Gems, 2019, ch. 8): the ray meets a line of constant u where a
 //! quadratic in u vanishes.
 
-use crate::math::{Bounds, Vec3, cross, is_flat};
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::geometry::{Asked, Details, Geometry};
-use crate::render::shape::mesh::PlainMesh;
-use crate::render::shape::plain::ray::PlainRay;
-use crate::render::shape::plain::real::{Real, Vector};
-use crate::render::shape::plain::roots::quadratic;
-use crate::render::shape::plain::{Plain, Twin};
-use crate::render::shape::triangle::{PlainTriangle, Shear, Triangle};
+use crate::ray::{Interaction, Ray};
+use crate::shape::geometry::{Asked, Details, Geometry};
+use crate::shape::mesh::PlainMesh;
+use crate::shape::plain::ray::PlainRay;
+use crate::shape::plain::real::{Real, Vector};
+use crate::shape::plain::roots::quadratic;
+use crate::shape::plain::{Plain, Twin};
+use crate::shape::triangle::{PlainTriangle, Shear, Triangle};
+use rtc_math::{Bounds, Vec3, cross, is_flat};
 use std::sync::Arc;
 
 /// A prepared quadrilateral.
@@ -92,7 +92,7 @@ impl Quad {
     }
 
     /// The texture coordinates at a point hit in half `prim_id`.
-    pub(in crate::render) fn uv(&self, ray: &Ray, point: Vec3, prim_id: u32) -> [f64; 2] {
+    pub(crate) fn uv(&self, ray: &Ray, point: Vec3, prim_id: u32) -> [f64; 2] {
         const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         match self {
             Self::Flat { halves, .. } => {
@@ -106,7 +106,7 @@ impl Quad {
     }
 
     /// A direction along the surface in which u grows, at this v.
-    pub(in crate::render) fn tangent(&self, v: f64) -> Option<Vec3> {
+    pub(crate) fn tangent(&self, v: f64) -> Option<Vec3> {
         match self {
             Self::Flat { vertices, .. } | Self::Patch(Patch { vertices }) => {
                 across(*vertices, v).try_normalize()
@@ -115,7 +115,7 @@ impl Quad {
     }
 
     /// A box around it.
-    pub(in crate::render) fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         match self {
             Self::Flat { halves, .. } => {
                 halves
@@ -268,7 +268,7 @@ impl Twin for Quad {
 
 /// Its twin: two triangles in plain arithmetic, or the same patch.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) enum PlainQuad<R> {
+pub(crate) enum PlainQuad<R> {
     Flat([Option<PlainTriangle<R>>; 2]),
     Patch([Vector<R>; 4]),
 }

@@ -5,17 +5,17 @@
 //! perpendicular, the roots from the stable quadratic. Where its first-order error bound says that
 //! the sign or the root reported is in doubt, it is computed again.
 
-use crate::math::{Bounds, DoubleDouble, U, Vec3, acos, atan2};
-use crate::render::accel::bounds::Ball;
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::four::InLanes;
-use crate::render::shape::geometry::{Asked, Details, Geometry};
-use crate::render::shape::mesh::PlainMesh;
-use crate::render::shape::plain::ray::PlainRay;
-use crate::render::shape::plain::real::{Real, Vector};
-use crate::render::shape::plain::roots::quadratic;
-use crate::render::shape::plain::{Plain, Twin};
-use crate::render::shape::triangle::Shear;
+use crate::accel::bounds::Ball;
+use crate::ray::{Interaction, Ray};
+use crate::shape::four::InLanes;
+use crate::shape::geometry::{Asked, Details, Geometry};
+use crate::shape::mesh::PlainMesh;
+use crate::shape::plain::ray::PlainRay;
+use crate::shape::plain::real::{Real, Vector};
+use crate::shape::plain::roots::quadratic;
+use crate::shape::plain::{Plain, Twin};
+use crate::shape::triangle::Shear;
+use rtc_math::{Bounds, DoubleDouble, U, Vec3, acos, atan2};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -243,7 +243,7 @@ impl Twin for TexturedSphere {
 
 /// Its twin, by b² − 4ac.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct PlainSphere<R> {
+pub(crate) struct PlainSphere<R> {
     center: Vector<R>,
     radius: R,
 }

@@ -5,8 +5,8 @@
 //! of the hit with the least upper end, the hit with the lowest key is taken. This set does not
 //! depend on the order.
 
-use crate::math::U;
-use crate::render::ray::{Interaction, Ray};
+use crate::ray::{Interaction, Ray};
+use rtc_math::U;
 
 /// The maximum half-width of an interval, as a fraction of t: for a ray nearly parallel to a
 /// surface, the error is unbounded.
@@ -14,12 +14,12 @@ const WIDEST: f64 = 1.0 / 8_388_608.0;
 
 /// Intervals with centres farther apart than this ratio do not overlap. Hierarchies are searched
 /// beyond that.
-pub(in crate::render) const CLOSE: f64 = 1.0 + 2.5 * WIDEST;
+pub(crate) const CLOSE: f64 = 1.0 + 2.5 * WIDEST;
 
 /// How far rounding may have moved a root, to either side: as much as it may move the root of a
 /// plane, and by what it moves the surface along its normal, which is half of what rays keep off
 /// it.
-pub(in crate::render) fn error(ray: &Ray, t: f64, at: &Interaction) -> f64 {
+pub(crate) fn error(ray: &Ray, t: f64, at: &Interaction) -> f64 {
     const ROOT: f64 = 10.0 * U;
     let slope = ray.direction.dot(at.normal).abs();
     (ROOT * t + 0.5 * at.offset / slope).min(WIDEST * t)
@@ -27,9 +27,9 @@ pub(in crate::render) fn error(ray: &Ray, t: f64, at: &Interaction) -> f64 {
 
 /// The closest of some hits, and whether it ties with another.
 #[derive(Clone, Copy)]
-pub(in crate::render) struct Nearest<K> {
-    pub(in crate::render) t: f64,
-    pub(in crate::render) key: K,
+pub(crate) struct Nearest<K> {
+    pub(crate) t: f64,
+    pub(crate) key: K,
     /// The next one.
     next: f64,
 }
@@ -37,7 +37,7 @@ pub(in crate::render) struct Nearest<K> {
 impl<K: Copy + Ord> Nearest<K> {
     /// No hit yet, up to `t_max`; `none` is above all keys.
     #[inline]
-    pub(in crate::render) fn up_to(t_max: f64, none: K) -> Self {
+    pub(crate) fn up_to(t_max: f64, none: K) -> Self {
         Self {
             t: t_max,
             key: none,
@@ -47,7 +47,7 @@ impl<K: Copy + Ord> Nearest<K> {
 
     /// Adds a hit.
     #[inline]
-    pub(in crate::render) fn add(&mut self, t: f64, key: K) {
+    pub(crate) fn add(&mut self, t: f64, key: K) {
         if t < self.t || (t == self.t && key < self.key) {
             *self = Self {
                 t,
@@ -61,19 +61,19 @@ impl<K: Copy + Ord> Nearest<K> {
 
     /// The largest t of a hit that may tie.
     #[inline]
-    pub(in crate::render) fn limit(&self) -> f64 {
+    pub(crate) fn limit(&self) -> f64 {
         self.t * CLOSE
     }
 
     /// Whether another hit may tie.
     #[inline]
-    pub(in crate::render) fn is_tied(&self) -> bool {
+    pub(crate) fn is_tied(&self) -> bool {
         self.next <= self.limit()
     }
 }
 
 /// All hits that may be the closest.
-pub(in crate::render) struct Tie<K> {
+pub(crate) struct Tie<K> {
     hits: Vec<(f64, f64, K)>,
     /// The least upper end of their intervals.
     bound: f64,
@@ -81,7 +81,7 @@ pub(in crate::render) struct Tie<K> {
 
 impl<K: Copy + Ord> Tie<K> {
     /// None yet.
-    pub(in crate::render) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             hits: Vec::new(),
             bound: f64::INFINITY,
@@ -89,13 +89,13 @@ impl<K: Copy + Ord> Tie<K> {
     }
 
     /// Adds a hit with its error.
-    pub(in crate::render) fn add(&mut self, t: f64, error: f64, key: K) {
+    pub(crate) fn add(&mut self, t: f64, error: f64, key: K) {
         self.bound = self.bound.min(t + error);
         self.hits.push((t, error, key));
     }
 
     /// The hit that is taken.
-    pub(in crate::render) fn first(self) -> Option<(f64, K)> {
+    pub(crate) fn first(self) -> Option<(f64, K)> {
         let near = self
             .hits
             .into_iter()

@@ -7,18 +7,18 @@
 //! distance √((ρ − R)² + z²) − r has the same sign and keeps its digits, so every decision is taken
 //! on it.
 
-use crate::math::{Bounds, Vec3, cross, ldexp};
-use crate::render::accel::bounds::Ball;
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::four::InLanes;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::mesh::PlainMesh;
-use crate::render::shape::plain::ray::PlainRay;
-use crate::render::shape::plain::real::{Real, Vector};
-use crate::render::shape::plain::roots::quartic;
-use crate::render::shape::plain::{Plain, Twin};
-use crate::render::shape::plane::Normal;
-use crate::render::shape::triangle::Shear;
+use crate::accel::bounds::Ball;
+use crate::ray::{Interaction, Ray};
+use crate::shape::four::InLanes;
+use crate::shape::geometry::Geometry;
+use crate::shape::mesh::PlainMesh;
+use crate::shape::plain::ray::PlainRay;
+use crate::shape::plain::real::{Real, Vector};
+use crate::shape::plain::roots::quartic;
+use crate::shape::plain::{Plain, Twin};
+use crate::shape::plane::Normal;
+use crate::shape::triangle::Shear;
+use rtc_math::{Bounds, Vec3, cross, ldexp};
 use std::sync::Arc;
 
 /// Steps of a bracketed search: bisection alone would need 60.
@@ -275,7 +275,7 @@ impl Torus {
 
     /// A box around the torus.
     #[must_use]
-    pub(in crate::render) fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         let disc = Bounds::around_disc(self.center, self.axis, self.major);
         let tube = Vec3::splat(self.minor);
         Bounds::around(disc.min - tube, 0.0).union(Bounds::around(disc.max + tube, 0.0))
@@ -323,7 +323,7 @@ impl Twin for Torus {
 
 /// Its twin: the quartic in t, solved in closed form where the ray starts.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct PlainTorus<R> {
+pub(crate) struct PlainTorus<R> {
     center: Vector<R>,
     /// A unit vector.
     axis: Vector<R>,

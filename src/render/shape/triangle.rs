@@ -5,15 +5,15 @@
 //! value with opposite sign for a shared edge, and zero counts as inside, so no ray slips between.
 //! The plane of the triangle then gives t.
 
-use crate::math::{Bounds, U, Vec3, difference_of_products};
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::corners::interpolate;
-use crate::render::shape::geometry::{Asked, Details, Geometry};
-use crate::render::shape::mesh::PlainMesh;
-use crate::render::shape::plain::ray::PlainRay;
-use crate::render::shape::plain::real::{Real, Vector};
-use crate::render::shape::plain::{Plain, Twin};
-use crate::render::shape::plane::Normal;
+use crate::ray::{Interaction, Ray};
+use crate::shape::corners::interpolate;
+use crate::shape::geometry::{Asked, Details, Geometry};
+use crate::shape::mesh::PlainMesh;
+use crate::shape::plain::ray::PlainRay;
+use crate::shape::plain::real::{Real, Vector};
+use crate::shape::plain::{Plain, Twin};
+use crate::shape::plane::Normal;
+use rtc_math::{Bounds, U, Vec3, difference_of_products};
 use std::sync::Arc;
 
 /// The change of coordinates that turns a ray's direction into the z axis: a permutation and a
@@ -27,7 +27,7 @@ pub struct Shear {
 
 impl Shear {
     /// For shapes that look at none.
-    pub(in crate::render) const UNUSED: Self = Self {
+    pub(crate) const UNUSED: Self = Self {
         axes: [0, 1, 2],
         x: 0.0,
         y: 0.0,
@@ -106,7 +106,7 @@ fn is_met([a, b, c]: &[Vec3; 3], ray: &Ray, shear: &Shear) -> bool {
 
 /// The root above 0 of the triangle of three corners, as [`Triangle::intersect`] has it.
 #[inline(always)]
-pub(in crate::render) fn root(vertices: &[Vec3; 3], ray: &Ray, shear: &Shear) -> Option<f64> {
+pub(crate) fn root(vertices: &[Vec3; 3], ray: &Ray, shear: &Shear) -> Option<f64> {
     if !is_met(vertices, ray, shear) {
         return None;
     }
@@ -136,7 +136,7 @@ impl Triangle {
     /// The triangle of vertices that are known not to be collinear.
     #[must_use]
     #[inline]
-    pub(in crate::render) fn with_area(vertices: [Vec3; 3]) -> Self {
+    pub(crate) fn with_area(vertices: [Vec3; 3]) -> Self {
         let normal = Normal::of(vertices).unwrap_or_else(|| Normal::new(Vec3::Z));
         Self { vertices, normal }
     }
@@ -161,7 +161,7 @@ impl Triangle {
     /// Whether plain arithmetic can tell that [`Self::intersect`] finds no root below `t_max`.
     #[must_use]
     #[inline]
-    pub(in crate::render) fn is_beyond(&self, ray: &Ray, t_max: f64) -> bool {
+    pub(crate) fn is_beyond(&self, ray: &Ray, t_max: f64) -> bool {
         self.normal.is_beyond(self.vertices[0], ray, t_max)
     }
 
@@ -261,13 +261,13 @@ impl Twin for TexturedTriangle {
 
 /// Its twin: Möller, Trumbore, "Fast, minimum storage ray/triangle intersection" (JGT 2, 1997).
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct PlainTriangle<R> {
+pub(crate) struct PlainTriangle<R> {
     corner: Vector<R>,
     edges: [Vector<R>; 2],
 }
 
 impl<R: Real> PlainTriangle<R> {
-    pub(in crate::render::shape) fn new(vertices: &[Vec3; 3]) -> Self {
+    pub(in crate::shape) fn new(vertices: &[Vec3; 3]) -> Self {
         let [a, b, c] = vertices.map(Vector::of);
         Self {
             corner: a,
@@ -276,7 +276,7 @@ impl<R: Real> PlainTriangle<R> {
     }
 
     #[inline]
-    pub(in crate::render::shape) fn intersect(&self, ray: &PlainRay<R>) -> Option<R> {
+    pub(in crate::shape) fn intersect(&self, ray: &PlainRay<R>) -> Option<R> {
         let (zero, one) = (R::of(0.0), R::of(1.0));
         let [first, second] = self.edges;
         let across = ray.direction.cross(second);
@@ -299,7 +299,7 @@ impl<R: Real> PlainTriangle<R> {
         ray.counts(t).then_some(t)
     }
 
-    pub(in crate::render::shape) fn normal(&self) -> Vector<R> {
+    pub(in crate::shape) fn normal(&self) -> Vector<R> {
         self.edges[0].cross(self.edges[1]).normalized()
     }
 }

@@ -1,18 +1,18 @@
 //! Texture lookup by the rules of the course, and its normal and bump maps.
 
 use super::{Image, Texture};
-use crate::math::{Vec3, cross};
+use rtc_math::{Vec3, cross};
 
 /// A height field over a surface.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct Bump {
-    pub(in crate::render) texture: Texture,
+pub(crate) struct Bump {
+    pub(crate) texture: Texture,
     /// The height of white above black, as a fraction of the width of a texel.
-    pub(in crate::render) height: f64,
+    pub(crate) height: f64,
 }
 
 /// Looks a texture up at `uv`, each channel in [0, 1].
-pub(in crate::render) fn look_up(texture: &Texture, uv: [f64; 2]) -> Vec3 {
+pub(crate) fn look_up(texture: &Texture, uv: [f64; 2]) -> Vec3 {
     match texture {
         Texture::Uv => Vec3::new(uv[0], 0.0, uv[1]),
         Texture::Image(image) => bilinear(image, uv),
@@ -64,15 +64,15 @@ fn split(place: f64, count: u32) -> (usize, f64) {
 }
 
 /// The texture frame of a surface: the directions of u and v, and the unit normal.
-pub(in crate::render) struct TextureFrame {
-    pub(in crate::render) along_u: Vec3,
-    pub(in crate::render) along_v: Vec3,
-    pub(in crate::render) normal: Vec3,
+pub(crate) struct TextureFrame {
+    pub(crate) along_u: Vec3,
+    pub(crate) along_v: Vec3,
+    pub(crate) normal: Vec3,
 }
 
 impl TextureFrame {
     /// The frame of a unit normal and a direction of u; `None` if they are parallel.
-    pub(in crate::render) fn new(normal: Vec3, tangent: Vec3) -> Option<Self> {
+    pub(crate) fn new(normal: Vec3, tangent: Vec3) -> Option<Self> {
         let along_u = (tangent - normal * normal.dot(tangent)).try_normalize()?;
         Some(Self {
             along_u,
@@ -82,14 +82,14 @@ impl TextureFrame {
     }
 
     /// The normal of a normal map at `uv`.
-    pub(in crate::render) fn mapped(&self, map: &Texture, uv: [f64; 2]) -> Vec3 {
+    pub(crate) fn mapped(&self, map: &Texture, uv: [f64; 2]) -> Vec3 {
         let local = look_up(map, uv) * 2.0 - 1.0;
         (self.along_u * local.x + self.along_v * local.y + self.normal * local.z)
             .normalize_or(self.normal)
     }
 
     /// The normal of a height field, by central differences over a texel.
-    pub(in crate::render) fn bumped(&self, bump: &Bump, [u, v]: [f64; 2]) -> Vec3 {
+    pub(crate) fn bumped(&self, bump: &Bump, [u, v]: [f64; 2]) -> Vec3 {
         let [du, dv] = match &bump.texture {
             Texture::Uv | Texture::Sampled { .. } => [1e-3; 2],
             Texture::Image(image) => [1.0 / f64::from(image.width), 1.0 / f64::from(image.height)],
@@ -104,7 +104,7 @@ impl TextureFrame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::Texels;
+    use rtc_image::Texels;
 
     #[test]
     fn an_image_of_one_value_is_that_value_everywhere() {

@@ -1,7 +1,7 @@
 //! The texels that a look-up reads: wrap modes and filters by the rules of glTF.
 
 use super::{Filter, Wrap};
-use crate::math::Lanes;
+use rtc_math::Lanes;
 
 /// What decides, with the texture coordinates, which texels a look-up reads.
 #[derive(Clone, Copy, PartialEq)]

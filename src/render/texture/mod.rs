@@ -1,15 +1,15 @@
 //! Textures: lookup at texture coordinates, by the rules of the course and of glTF.
 
-pub(in crate::render) mod bilinear;
+pub(crate) mod bilinear;
 mod footprint;
-pub(in crate::render) mod sampled;
+pub(crate) mod sampled;
 
-use crate::image::{Texel, Texels};
+use rtc_image::{Texel, Texels};
 use std::sync::Arc;
 
 /// A texture that holds its image.
 #[derive(Clone, Debug)]
-pub(in crate::render) enum Texture {
+pub(crate) enum Texture {
     /// The colour (u, 0, v).
     Uv,
     /// An image as the course looks it up, v = 1 at its top row.
@@ -25,15 +25,15 @@ pub(in crate::render) enum Texture {
 
 /// An image of at least one texel.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct Image {
-    pub(in crate::render) width: u32,
-    pub(in crate::render) height: u32,
-    pub(in crate::render) texels: Texels,
+pub(crate) struct Image {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) texels: Texels,
 }
 
 /// The wrap mode outside of the unit square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) enum Wrap {
+pub(crate) enum Wrap {
     /// Repeat the image.
     Repeat,
     /// Repeat the image, mirrored at each edge.
@@ -44,7 +44,7 @@ pub(in crate::render) enum Wrap {
 
 /// The filter of a lookup.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) enum Filter {
+pub(crate) enum Filter {
     /// Bilinear interpolation of four texels.
     Linear,
     /// The nearest texel.

@@ -2,15 +2,15 @@
 
 use super::footprint::{Footprint, Layout, single};
 use super::{Filter, Image, Texture, Wrap};
-use crate::color::srgb_decoded;
-use crate::image::Texels;
-use crate::math::Lanes;
+use rtc_color::srgb_decoded;
+use rtc_image::Texels;
+use rtc_math::Lanes;
 use std::cell::Cell;
 use std::sync::LazyLock;
 
 /// The colour space of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) enum ColorSpace {
+pub(crate) enum ColorSpace {
     /// Colours; bytes are encoded with sRGB.
     Srgb,
     /// Numbers, without an encoding.
@@ -18,7 +18,7 @@ pub(in crate::render) enum ColorSpace {
 }
 
 /// The two sets of texture coordinates at a point; `None` for a missing set.
-pub(in crate::render) struct UvSets {
+pub(crate) struct UvSets {
     sets: [Option<[f64; 2]>; 2],
     /// The last footprint: the maps of a material mostly have the same one.
     last: Cell<Option<(Layout, Footprint)>>,
@@ -26,13 +26,13 @@ pub(in crate::render) struct UvSets {
 
 impl UvSets {
     /// The sets given.
-    pub(in crate::render) const fn new(sets: [Option<[f64; 2]>; 2]) -> Self {
+    pub(crate) const fn new(sets: [Option<[f64; 2]>; 2]) -> Self {
         let last = Cell::new(None);
         Self { sets, last }
     }
 
     /// The first set.
-    pub(in crate::render) fn first(&self) -> Option<[f64; 2]> {
+    pub(crate) fn first(&self) -> Option<[f64; 2]> {
         self.sets[0]
     }
 
@@ -52,20 +52,20 @@ impl UvSets {
 
 /// A texture in a glTF material: its texture coordinates and its colour space.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct Map {
-    pub(in crate::render) texture: Texture,
+pub(crate) struct Map {
+    pub(crate) texture: Texture,
     /// The index into [`UvSets`].
-    pub(in crate::render) set: usize,
+    pub(crate) set: usize,
     /// The rows of the affine map from the surface's coordinates to the texture's; `None` for the
     /// identity.
-    pub(in crate::render) texture_from_surface: Option<[[f64; 3]; 2]>,
-    pub(in crate::render) color_space: ColorSpace,
+    pub(crate) texture_from_surface: Option<[[f64; 3]; 2]>,
+    pub(crate) color_space: ColorSpace,
 }
 
 impl Map {
     /// Looks the texture up: red, green, blue and alpha, in [0, 1] except for float images. `None`
     /// without texture coordinates.
-    pub(in crate::render) fn look_up(&self, uvs: &UvSets) -> Option<[f64; 4]> {
+    pub(crate) fn look_up(&self, uvs: &UvSets) -> Option<[f64; 4]> {
         let [u, v] = uvs.sets[self.set]?;
         if let (
             Texture::Sampled {
@@ -113,7 +113,7 @@ impl Map {
 }
 
 /// Samples an image: v = 0 is its top edge, texel centers lie half a texel inside.
-pub(in crate::render) fn sample(
+pub(crate) fn sample(
     image: &Image,
     uv: [f64; 2],
     wrap: [Wrap; 2],

@@ -2,13 +2,13 @@
 //! shadow ray are multiplied.
 
 use super::flattened::flattened_surfaces;
-use crate::plan::facts::material;
-use crate::render::shape::geometry::Geometry;
-use crate::valid::{Alpha, Material, Proof};
+use crate::shape::geometry::Geometry;
+use rtc_plan::facts::material;
+use rtc_valid::{Alpha, Material, Proof};
 
 /// The alpha-tested surfaces of a world.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::render) enum AlphaTested {
+pub(crate) enum AlphaTested {
     #[default]
     None,
     /// Only flattened triangles.

@@ -1,18 +1,18 @@
 //! A world of any shapes and arithmetic, built once for all its renders.
 
-use crate::image::{Guide, Layers};
-use crate::plan::{Arithmetic, Plan, Rules, Shapes};
-use crate::render::accel::simd::SimdLevel;
-use crate::render::film::heartbeat::OnPixel;
-use crate::render::film::partial::{FilmError, PartialFilm};
-use crate::render::film::progressive::ProgressiveFilm;
-use crate::render::film::{Counts, Film, Job};
-use crate::render::integrator::aov::Aov;
-use crate::render::shape::Shape;
-use crate::render::shape::basic::Basic;
-use crate::render::shape::plain::PlainShape;
-use crate::render::world::World;
-use crate::valid::Proof;
+use crate::accel::simd::SimdLevel;
+use crate::film::heartbeat::OnPixel;
+use crate::film::partial::{FilmError, PartialFilm};
+use crate::film::progressive::ProgressiveFilm;
+use crate::film::{Counts, Film, Job};
+use crate::integrator::aov::Aov;
+use crate::shape::Shape;
+use crate::shape::basic::Basic;
+use crate::shape::plain::PlainShape;
+use crate::world::World;
+use rtc_image::{Guide, Layers};
+use rtc_plan::{Arithmetic, Plan, Rules, Shapes};
+use rtc_valid::Proof;
 use std::ops::Range;
 
 /// A scene prepared as planned. It renders on the threads of the current pool.
@@ -130,7 +130,7 @@ impl AnyWorld {
     }
 
     /// Sums a range of the samples of traced paths.
-    pub(in crate::render) fn range(
+    pub(crate) fn range(
         &self,
         samples: &Range<u32>,
         job: &Job,
@@ -141,7 +141,7 @@ impl AnyWorld {
 
     /// The guides of a denoiser, by three ranges of the samples of traced paths, and the rays they take;
     /// `between` is called between two of them.
-    pub(in crate::render) fn guides(
+    pub(crate) fn guides(
         &self,
         samples: &[Range<u32>; 3],
         job: &Job,

@@ -3,10 +3,10 @@
 use super::flattened::{Flattened, FlattenedRay};
 use super::search::{AnySearch, ClosestSearch};
 use super::{Hit, NOWHERE, OVER, World};
-use crate::render::accel::wide::Visitor;
-use crate::render::ray::Ray;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::tie::Nearest;
+use crate::accel::wide::Visitor;
+use crate::ray::Ray;
+use crate::shape::geometry::Geometry;
+use crate::shape::tie::Nearest;
 
 /// So many rays are prepared at once.
 const CHUNK: usize = 64;
@@ -105,14 +105,14 @@ impl Flattened {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Vec3;
+    use rtc_math::Vec3;
 
     #[test]
     fn rays_of_a_camera_are_coherent_and_rays_from_anywhere_are_not() {
         let rays = |spread: f64| {
             let direction = |k: u32| {
                 let turn = f64::from(k) * spread;
-                Vec3::new(crate::math::cos(turn), crate::math::sin(turn), 0.1) * f64::from(k + 1)
+                Vec3::new(rtc_math::cos(turn), rtc_math::sin(turn), 0.1) * f64::from(k + 1)
             };
             let ray = |k| Ray {
                 origin: Vec3::ZERO,

@@ -2,17 +2,17 @@
 //! it can meet, and asks no others.
 
 use super::{Hit, NOWHERE, Surface, World, segment};
-use crate::math::Vec3;
-use crate::plan::{LightPlan, Plan};
-use crate::render::accel::bundle::{Balls, MAX_ITEMS};
-use crate::render::ray::Ray;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::tie::Nearest;
-use crate::render::shape::triangle::Shear;
+use crate::accel::bundle::{Balls, MAX_ITEMS};
+use crate::ray::Ray;
+use crate::shape::geometry::Geometry;
+use crate::shape::tie::Nearest;
+use crate::shape::triangle::Shear;
+use rtc_math::Vec3;
+use rtc_plan::{LightPlan, Plan};
 
 /// Surfaces with bits: that of a surface is its index in the world.
-pub(in crate::render) struct Few {
-    pub(in crate::render) balls: Balls,
+pub(crate) struct Few {
+    pub(crate) balls: Balls,
     /// The surfaces that look at the shear of a ray.
     sheared: u64,
     /// The surfaces that cast shadows.
@@ -57,7 +57,7 @@ impl Few {
 
     /// The surfaces that may hide a light from a surface of the scene.
     #[inline]
-    pub(in crate::render) fn hiding(&self, light: usize, receiver: usize) -> u64 {
+    pub(crate) fn hiding(&self, light: usize, receiver: usize) -> u64 {
         let of_light = &self.hiding[light];
         of_light.get(receiver).copied().unwrap_or(self.casters)
     }
@@ -74,7 +74,7 @@ impl Few {
 
     /// The shear of a ray, if a shape looks at it.
     #[inline(always)]
-    pub(in crate::render) fn shear_of<S: Geometry>(shape: &S, ray: &Ray) -> Shear {
+    pub(crate) fn shear_of<S: Geometry>(shape: &S, ray: &Ray) -> Shear {
         if shape.uses_shear() {
             Shear::new(ray)
         } else {
@@ -84,7 +84,7 @@ impl Few {
 
     /// The index of the first surface of some, and the others.
     #[inline(always)]
-    pub(in crate::render) fn pop(items: &mut u64) -> Option<usize> {
+    pub(crate) fn pop(items: &mut u64) -> Option<usize> {
         if *items == 0 {
             return None;
         }
@@ -102,12 +102,7 @@ fn bits(indices: impl Iterator<Item = usize>) -> u64 {
 impl<S: Geometry> World<S> {
     /// As [`World::closest_hit`], of a finite ray of length 1 that can meet only some surfaces.
     #[inline(always)]
-    pub(in crate::render) fn closest_hit_of(
-        &self,
-        few: &Few,
-        mut items: u64,
-        ray: &Ray,
-    ) -> Option<Hit> {
+    pub(crate) fn closest_hit_of(&self, few: &Few, mut items: u64, ray: &Ray) -> Option<Hit> {
         let mut nearest = Nearest::up_to(f64::INFINITY, NOWHERE);
         if items == 0 {
             return None;
@@ -124,12 +119,7 @@ impl<S: Geometry> World<S> {
 
     /// As [`World::occluded`], where only some surfaces can stand between.
     #[inline(always)]
-    pub(in crate::render) fn occluded_by(
-        &self,
-        few: &Few,
-        mut items: u64,
-        [from, to]: [Vec3; 2],
-    ) -> bool {
+    pub(crate) fn occluded_by(&self, few: &Few, mut items: u64, [from, to]: [Vec3; 2]) -> bool {
         let ray = Ray {
             origin: from,
             direction: to - from,

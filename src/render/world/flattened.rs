@@ -1,13 +1,13 @@
 //! Flattened instances: meshes whose triangles are in one world-space hierarchy.
 
 use super::Surface;
-use crate::render::accel::simd::SimdLevel;
-use crate::render::accel::wide::{Builders, Candidate, MOST, Wide};
-use crate::render::ray::Ray;
-use crate::render::shape::geometry::{Geometry, LocalRay};
-use crate::render::shape::mesh::FEW;
-use crate::render::shape::triangle::{self, Shear};
-use crate::valid::{self, MOST_TRIANGLES, Proof};
+use crate::accel::simd::SimdLevel;
+use crate::accel::wide::{Builders, Candidate, MOST, Wide};
+use crate::ray::Ray;
+use crate::shape::geometry::{Geometry, LocalRay};
+use crate::shape::mesh::FEW;
+use crate::shape::triangle::{self, Shear};
+use rtc_valid::{self as valid, MOST_TRIANGLES, Proof};
 
 /// The triangles of all flattened instances, numbered surface by surface.
 pub(super) struct Flattened {

@@ -2,21 +2,21 @@
 
 use super::World;
 use super::texture::Textures;
-use crate::plan::{EnvironmentLeft, Plan, facts};
-use crate::render::light::course::CourseLight;
-use crate::render::light::environment::Environment;
-use crate::render::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual};
-use crate::valid::{self, Proof};
+use crate::light::course::CourseLight;
+use crate::light::environment::Environment;
+use crate::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual};
+use rtc_plan::{EnvironmentLeft, Plan, facts};
+use rtc_valid::{self as valid, Proof};
 
 /// The lights of a world. There are two kinds of lists; the one that the integrator does not use is
 /// empty.
-pub(in crate::render) struct LightList {
+pub(crate) struct LightList {
     /// Those of Whitted's integrator, in the order in which their terms are summed.
-    pub(in crate::render) course: Vec<CourseLight>,
+    pub(crate) course: Vec<CourseLight>,
     /// The lights without extent of paths.
-    pub(in crate::render) punctual: Vec<Punctual>,
+    pub(crate) punctual: Vec<Punctual>,
     /// The environment of paths.
-    pub(in crate::render) environment: Environment,
+    pub(crate) environment: Environment,
 }
 
 impl<S> World<S> {

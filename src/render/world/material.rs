@@ -2,15 +2,15 @@
 //! resolved to their images.
 
 use super::texture::Textures;
-use crate::math::{UnitInterval, Vec3, Weight, cos, ln, sin};
-use crate::plan::{Effect, Layer, PathPlan, Plan, Rule};
-use crate::render::bsdf::dispersed;
-use crate::render::material::phong::{PhongMaps, PhongMaterial};
-use crate::render::material::standard::*;
-use crate::render::shape::geometry::Asked;
-use crate::render::texture::bilinear::Bump;
-use crate::render::texture::sampled::{ColorSpace, UvSets};
-use crate::valid::{self, Maps, Phong, Standard};
+use crate::bsdf::dispersed;
+use crate::material::phong::{PhongMaps, PhongMaterial};
+use crate::material::standard::*;
+use crate::shape::geometry::Asked;
+use crate::texture::bilinear::Bump;
+use crate::texture::sampled::{ColorSpace, UvSets};
+use rtc_math::{UnitInterval, Vec3, Weight, cos, ln, sin};
+use rtc_plan::{Effect, Layer, PathPlan, Plan, Rule};
+use rtc_valid::{self as valid, Maps, Phong, Standard};
 
 /// Materials of Phong's model, and after them the simplified ones: on surfaces with texture
 /// coordinates a constant map is replaced by its value.
@@ -351,4 +351,4 @@ macro_rules! plain_layers {
     };
 }
 
-crate::standard::plain_layers!(plain_layers);
+rtc_tables::plain_layers!(plain_layers);

@@ -1,39 +1,39 @@
 //! The world: a proven scene prepared for tracing, and the two ray queries: closest hit and any
 //! hit.
 
-pub(in crate::render) mod alpha;
-pub(in crate::render) mod any;
+pub(crate) mod alpha;
+pub(crate) mod any;
 mod batch;
-pub(in crate::render) mod few;
+pub(crate) mod few;
 mod flattened;
 mod light;
 mod material;
 mod prepare;
 mod search;
-pub(in crate::render) mod settings;
-pub(in crate::render) mod shape;
+pub(crate) mod settings;
+pub(crate) mod shape;
 mod texture;
-pub(in crate::render) mod verify;
+pub(crate) mod verify;
 
-use crate::math::Vec3;
-use crate::plan::Plan;
-use crate::render::accel::bvh::Bvh;
-use crate::render::accel::simd::SimdLevel;
-use crate::render::accel::wide::Candidate;
-use crate::render::camera::Camera;
-use crate::render::frame::verify::Verify;
-use crate::render::material::phong::PhongMaterial;
-use crate::render::material::standard::StandardMaterial;
-use crate::render::ray::Ray;
-use crate::render::shape::Shape;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::tie::{CLOSE, Nearest, Tie};
-use crate::render::shape::triangle::Shear;
-use crate::valid::Proof;
+use crate::accel::bvh::Bvh;
+use crate::accel::simd::SimdLevel;
+use crate::accel::wide::Candidate;
+use crate::camera::Camera;
+use crate::frame::verify::Verify;
+use crate::material::phong::PhongMaterial;
+use crate::material::standard::StandardMaterial;
+use crate::ray::Ray;
+use crate::shape::Shape;
+use crate::shape::geometry::Geometry;
+use crate::shape::tie::{CLOSE, Nearest, Tie};
+use crate::shape::triangle::Shear;
 use alpha::AlphaTested;
 use few::Few;
 use flattened::{Flattened, FlattenedRay};
 use light::LightList;
+use rtc_math::Vec3;
+use rtc_plan::Plan;
+use rtc_valid::Proof;
 use search::{AnySearch, ClosestSearch};
 use settings::Settings;
 
@@ -66,29 +66,29 @@ pub struct World<S = Shape> {
     /// The camera.
     pub camera: Camera,
     /// The settings.
-    pub(in crate::render) settings: Settings,
+    pub(crate) settings: Settings,
     /// What the picture needs of it.
     pub plan: Plan,
     /// The materials that Whitted's integrator asks for, without maps that show one value.
-    pub(in crate::render) phongs: Vec<PhongMaterial>,
+    pub(crate) phongs: Vec<PhongMaterial>,
     /// The materials that paths ask for.
-    pub(in crate::render) standards: Vec<StandardMaterial>,
+    pub(crate) standards: Vec<StandardMaterial>,
     /// The lights.
-    pub(in crate::render) lights: LightList,
+    pub(crate) lights: LightList,
     /// The surfaces that are planned, in the order of the scene.
     pub surfaces: Vec<Surface<S>>,
     /// The plan to be validated by a naive render.
-    pub(in crate::render) verify: Option<Verify>,
+    pub(crate) verify: Option<Verify>,
     /// The surfaces that shadow rays of paths test for alpha.
-    pub(in crate::render) alpha_tested: AlphaTested,
+    pub(crate) alpha_tested: AlphaTested,
     apart: Apart,
     /// The surfaces apart that cast shadows, if some of them don't.
     casters: Option<Apart>,
     flattened: Option<Flattened>,
     /// The vector instructions that rays are traced with.
-    pub(in crate::render) simd: SimdLevel,
+    pub(crate) simd: SimdLevel,
     /// All surfaces, if they are few and the integrator asks for bundles of rays.
-    pub(in crate::render) few: Option<Few>,
+    pub(crate) few: Option<Few>,
 }
 
 /// The surfaces that are not flattened.
@@ -111,7 +111,7 @@ impl Apart {
 const OVER: f64 = -1.0;
 
 /// The primitive of a ray that starts at no surface.
-pub(in crate::render) const NOWHERE: (usize, u32) = (usize::MAX, u32::MAX);
+pub(crate) const NOWHERE: (usize, u32) = (usize::MAX, u32::MAX);
 
 impl<S: Geometry> World<S> {
     /// The closest hit with t > 0. Ties within rounding go to the first surface and its first
@@ -123,7 +123,7 @@ impl<S: Geometry> World<S> {
 
     /// As [`World::closest_hit`], for a ray that starts at a primitive of a surface. A flattened
     /// triangle is flat, so the ray can't hit it again.
-    pub(in crate::render) fn closest_hit_from(&self, ray: &Ray, from: (usize, u32)) -> Option<Hit> {
+    pub(crate) fn closest_hit_from(&self, ray: &Ray, from: (usize, u32)) -> Option<Hit> {
         // A NaN passes every slab test, so such a ray would visit every node.
         if !(ray.origin.is_finite() && ray.direction.is_finite()) {
             return None;
@@ -190,7 +190,7 @@ impl<S: Geometry> World<S> {
     }
 
     /// The closest hit of a ray of length 1 where others are as close as `t`.
-    pub(in crate::render) fn settled(&self, ray: &Ray, t: f64) -> Option<Hit> {
+    pub(crate) fn settled(&self, ray: &Ray, t: f64) -> Option<Hit> {
         let (t, (surface, prim_id)) = self.settle(ray, NOWHERE, t)?;
         Some(Hit {
             t,
@@ -248,17 +248,12 @@ impl<S: Geometry> World<S> {
     }
 
     /// Whether anything that casts shadows is hit with 0 < t < `t_max`.
-    pub(in crate::render) fn any_hit(&self, ray: &Ray, t_max: f64) -> bool {
+    pub(crate) fn any_hit(&self, ray: &Ray, t_max: f64) -> bool {
         self.any_hit_from(ray, t_max, NOWHERE)
     }
 
     /// As [`World::any_hit`], for a ray that starts at the primitive `from`.
-    pub(in crate::render) fn any_hit_from(
-        &self,
-        ray: &Ray,
-        t_max: f64,
-        from: (usize, u32),
-    ) -> bool {
+    pub(crate) fn any_hit_from(&self, ray: &Ray, t_max: f64, from: (usize, u32)) -> bool {
         let (ray, unit) = ray.rescaled();
         let t_max = t_max / unit;
         if self.any_hit_apart(&ray, t_max) {
@@ -275,7 +270,7 @@ impl<S: Geometry> World<S> {
 
     /// The product of `pass` over all hits with 0 < t < `t_max`, until it is 0. Only flattened
     /// triangles are asked; all other surfaces are opaque. The ray starts at the primitive `from`.
-    pub(in crate::render) fn transmittance(
+    pub(crate) fn transmittance(
         &self,
         ray: &Ray,
         t_max: f64,
@@ -331,11 +326,11 @@ impl<S: Geometry> World<S> {
 }
 
 /// The end of a segment is known to this many units of its size.
-pub(in crate::render) const END: f64 = 16.0 * crate::math::U;
+pub(crate) const END: f64 = 16.0 * rtc_math::U;
 
 /// The ray from one point to another, and the t before which nothing belongs to the other; `None`
 /// if they are as good as one.
-pub(in crate::render) fn segment(from: Vec3, to: Vec3) -> Option<(Ray, f64)> {
+pub(crate) fn segment(from: Vec3, to: Vec3) -> Option<(Ray, f64)> {
     let direction = to - from;
     let size = (from.abs() + to.abs()).element_sum();
     let length = direction.length();

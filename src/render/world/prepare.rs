@@ -8,12 +8,12 @@ use super::settings::{camera, settings};
 use super::shape::Prepare;
 use super::texture::Textures;
 use super::{Apart, Surface, World, light};
-use crate::plan::facts::material;
-use crate::plan::{Plan, Rules};
-use crate::render::accel::bvh::Bvh;
-use crate::render::accel::simd::SimdLevel;
-use crate::render::shape::geometry::Geometry;
-use crate::valid::{self, Proof};
+use crate::accel::bvh::Bvh;
+use crate::accel::simd::SimdLevel;
+use crate::shape::geometry::Geometry;
+use rtc_plan::facts::material;
+use rtc_plan::{Plan, Rules};
+use rtc_valid::{self as valid, Proof};
 use std::sync::Arc;
 
 impl<S: Prepare> World<S> {

@@ -3,9 +3,9 @@
 
 use super::OVER;
 use super::flattened::FlattenedRay;
-use crate::render::accel::wide::{Candidate, Visitor};
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::tie::Nearest;
+use crate::accel::wide::{Candidate, Visitor};
+use crate::shape::geometry::Geometry;
+use crate::shape::tie::Nearest;
 
 /// Looks for the nearest hit.
 pub(super) struct ClosestSearch<'walk, S> {

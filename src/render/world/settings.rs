@@ -1,32 +1,32 @@
 //! The settings and the camera of a world.
 
 use super::World;
-use crate::plan::Plan;
-use crate::render::camera::grid::{Grid, Pattern};
-use crate::render::camera::{Camera, Projection};
-use crate::valid::{self, Proof};
+use crate::camera::grid::{Grid, Pattern};
+use crate::camera::{Camera, Projection};
+use rtc_plan::Plan;
+use rtc_valid::{self as valid, Proof};
 
 /// By which rules the picture is made.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Settings {
+pub(crate) struct Settings {
     /// What a pixel shows.
-    pub(in crate::render) mode: Mode,
+    pub(crate) mode: Mode,
     /// Whether surfaces hide lights from each other.
-    pub(in crate::render) shadows: bool,
+    pub(crate) shadows: bool,
     /// Whether Phong's terms of the first hit fall in steps.
-    pub(in crate::render) toon: bool,
+    pub(crate) toon: bool,
     /// Whether rough surfaces keep the light that bounces between their facets, where paths are
     /// traced.
-    pub(in crate::render) multiple_scattering: bool,
+    pub(crate) multiple_scattering: bool,
     /// The points of each soft light.
-    pub(in crate::render) light_samples: u32,
+    pub(crate) light_samples: u32,
     /// How the samples of a pixel are laid out, where no paths are traced.
-    pub(in crate::render) grid: Grid,
+    pub(crate) grid: Grid,
 }
 
 /// What a pixel shows.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) enum Mode {
+pub(crate) enum Mode {
     /// Phong's model.
     Phong,
     /// The distance of the first hit.
@@ -41,15 +41,15 @@ pub(in crate::render) enum Mode {
 
 /// The parameters of Gooch shading.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Gooch {
+pub(crate) struct Gooch {
     /// The blue of the cool colour.
-    pub(in crate::render) b: f64,
+    pub(crate) b: f64,
     /// The yellow of the warm colour.
-    pub(in crate::render) y: f64,
+    pub(crate) y: f64,
     /// The fraction of the surface's colour in the cool tone.
-    pub(in crate::render) alpha: f64,
+    pub(crate) alpha: f64,
     /// The fraction of the surface's colour in the warm tone.
-    pub(in crate::render) beta: f64,
+    pub(crate) beta: f64,
 }
 
 impl<S> World<S> {

@@ -1,17 +1,17 @@
 //! The shapes of a world: how each kind is made of a proven one.
 
-use crate::math::Vec3;
-use crate::render::accel::simd::SimdLevel;
-use crate::render::shape::Shape;
-use crate::render::shape::basic::Basic;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::kinds::*;
-use crate::render::shape::mesh::{Attributes, PlainMesh, PreparedMesh};
-use crate::render::shape::plain::PlainShape;
-use crate::render::shape::plain::real::Real;
-use crate::render::shape::sphere::{self, TexturedSphere};
-use crate::render::shape::triangle::{self, TexturedTriangle};
-use crate::valid;
+use crate::accel::simd::SimdLevel;
+use crate::shape::Shape;
+use crate::shape::basic::Basic;
+use crate::shape::geometry::Geometry;
+use crate::shape::kinds::*;
+use crate::shape::mesh::{Attributes, PlainMesh, PreparedMesh};
+use crate::shape::plain::PlainShape;
+use crate::shape::plain::real::Real;
+use crate::shape::sphere::{self, TexturedSphere};
+use crate::shape::triangle::{self, TexturedTriangle};
+use rtc_math::Vec3;
+use rtc_valid as valid;
 use std::sync::Arc;
 
 /// A kind of shape that is made of proven ones.
@@ -104,7 +104,7 @@ macro_rules! number {
     };
 }
 
-shapes!(prepare);
+rtc_tables::shapes!(prepare);
 
 impl Proven for valid::Sphere {
     type Prepared = TexturedSphere;

@@ -1,8 +1,8 @@
 //! The textures of a world: each with its image at hand.
 
-use crate::render::texture::sampled::{ColorSpace, Map};
-use crate::render::texture::{Filter, Image, Texture, Wrap};
-use crate::valid::{self, Proof};
+use crate::texture::sampled::{ColorSpace, Map};
+use crate::texture::{Filter, Image, Texture, Wrap};
+use rtc_valid::{self as valid, Proof};
 use std::sync::Arc;
 
 /// The images and the textures of a scene, in its order.

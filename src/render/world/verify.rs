@@ -3,13 +3,13 @@
 use super::World;
 use super::any::render;
 use super::shape::Prepare;
-use crate::plan::{Arithmetic, Effect, Plan, Rule, Rules};
-use crate::render::film::heartbeat::OnPixel;
-use crate::render::film::{Crop, Film, Job};
-use crate::render::frame::verify::{Mismatch, Verify, first_difference};
-use crate::render::shape::Shape;
-use crate::render::shape::plain::PlainShape;
-use crate::valid::Proof;
+use crate::film::heartbeat::OnPixel;
+use crate::film::{Crop, Film, Job};
+use crate::frame::verify::{Mismatch, Verify, first_difference};
+use crate::shape::Shape;
+use crate::shape::plain::PlainShape;
+use rtc_plan::{Arithmetic, Effect, Plan, Rule, Rules};
+use rtc_valid::Proof;
 
 /// Renders as planned and without rules, and compares: `None` if `on_pixel` said stop, else the
 /// film as planned, or the first fault.

@@ -1,7 +1,7 @@
 //! A folder in which files are looked for, of the system or of files in memory.
 
-use crate::source::loader::Opened;
-use crate::source::memory::MemoryFiles;
+use crate::loader::Opened;
+use crate::memory::MemoryFiles;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
@@ -54,7 +54,7 @@ impl Folder {
     }
 
     /// A folder of files in memory, shown by its own name if by no other.
-    pub(in crate::source) fn in_memory(
+    pub(crate) fn in_memory(
         files: &Arc<MemoryFiles>,
         resolved: &Path,
         shown: Option<PathBuf>,

@@ -1,7 +1,7 @@
 //! Trees of both languages.
 
 use super::*;
-use crate::source::SourceMap;
+use crate::SourceMap;
 
 fn with<R>(text: &str, look: impl FnOnce(&Tree<'_>) -> R) -> R {
     let mut map = SourceMap::default();

@@ -1,7 +1,7 @@
 //! What the text around a node says, and whether two nodes were written to say the same.
 
 use super::{Form, NodeId, Tree};
-use crate::source::Span;
+use crate::Span;
 
 impl<'s> Tree<'s> {
     /// The rest of the line that follows a span in this text.

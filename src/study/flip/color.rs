@@ -1,6 +1,6 @@
 //! The spaces of colour that FLIP goes through, and the distance of two colours in the last.
 
-use crate::math::{Vec3, pow};
+use rtc_math::{Vec3, pow};
 
 /// The distance of two colours: along the lightness plus across (Abasi et al., 2020).
 pub(super) fn hyab(a: Vec3, b: Vec3) -> f64 {
@@ -10,7 +10,7 @@ pub(super) fn hyab(a: Vec3, b: Vec3) -> f64 {
 
 /// The distance of two display colours in CIELAB: ΔE*ab (CIE 1976), of which 1 is about what an eye can
 /// tell.
-pub(in crate::study) fn delta_e(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(crate) fn delta_e(a: [f64; 3], b: [f64; 3]) -> f64 {
     let [a, b] = [a, b].map(|color| linear_to_lab(to_linear(color)));
     (a - b).length()
 }

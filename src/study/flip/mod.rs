@@ -7,13 +7,13 @@
 
 mod color;
 
-use crate::image::Image;
-use crate::math::{Vec3, exp, pow};
 pub(super) use color::delta_e;
 use color::{
     hunt, hyab, linear_to_lab, linear_to_xyz, opponent_to_xyz, to_linear, xyz_to_linear,
     xyz_to_opponent,
 };
+use rtc_image::Image;
+use rtc_math::{Vec3, exp, pow};
 
 /// Pixels in a degree of view for a 0.7 m wide monitor of 3840 pixels, seen from 0.7 m.
 pub const PIXELS_PER_DEGREE: f64 = 67.020_645;

@@ -3,7 +3,7 @@
 use super::super::advice::{digits, seconds};
 use super::super::outcome::{Row, Study};
 use super::chart::front_steps;
-use crate::math::ln;
+use rtc_math::ln;
 
 /// Letters of the plot.
 const COLUMNS: usize = 64;

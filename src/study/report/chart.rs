@@ -7,10 +7,10 @@ use super::super::outcome::{KnobReport, Row, Study};
 use super::super::reference::Level;
 use super::html::escaped;
 use super::words;
-use crate::math::{exp, pow};
 use plotters::coord::Shift;
 use plotters::coord::combinators::{IntoLogRange, LogCoord};
 use plotters::prelude::*;
+use rtc_math::{exp, pow};
 use std::error::Error;
 
 const ACCENT: RGBColor = RGBColor(0x2b, 0x7c, 0xd3);

@@ -3,9 +3,9 @@
 
 use super::super::difference::heat_map;
 use super::super::flip::{PIXELS_PER_DEGREE, flip};
-use crate::image::{FileFormat, Image, Picture, shrunk};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use rtc_image::{FileFormat, Image, Picture, shrunk};
 
 /// Wider pictures are shrunk to this width, in pixels.
 const WIDTH: u32 = 400;

@@ -4,8 +4,8 @@
 use super::super::difference::{Difference, heat_map};
 use super::html::{self, escaped};
 use super::picture::wide;
-use crate::codec::Change;
-use crate::image::Image;
+use rtc_codec::Change;
+use rtc_image::Image;
 use serde_json::Value;
 use std::fmt::Write;
 

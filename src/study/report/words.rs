@@ -102,7 +102,7 @@ pub(super) fn measured(row: &Row, used: &[Knob]) -> String {
 }
 
 fn power_of_ten(decade: i32) -> f64 {
-    crate::math::exp(f64::from(decade) * std::f64::consts::LN_10)
+    rtc_math::exp(f64::from(decade) * std::f64::consts::LN_10)
 }
 
 /// As "in 1.00 s: error 0.4 grey levels (4×4, depth 2)".

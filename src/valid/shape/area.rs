@@ -1,11 +1,11 @@
 //! Whether a face has an area.
 
-use crate::math::{U, Vec3, cross, unit_scale};
-use crate::valid::check::SMALLEST;
+use crate::check::SMALLEST;
+use rtc_math::{U, Vec3, cross, unit_scale};
 
 /// Whether three corners are not in line.
 #[inline]
-pub(in crate::valid) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
+pub(crate) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
     let edges = [b - a, c - a];
     surely_spans(edges) || spans(edges)
 }

@@ -2,13 +2,13 @@
 
 use super::area::has_area;
 use super::{Instance, Quad, Shape, Sphere, Surface, Triangle};
-use crate::diag::{Diagnostic, codes};
-use crate::ir::{self, Field, Noun, Place, ShapeKind};
-use crate::math::{Positive, Vec3, unit};
-use crate::valid::check::{Check, EntityCounts, SMALLEST, place};
+use crate::check::{Check, EntityCounts, SMALLEST, place};
+use rtc_diag::{Diagnostic, codes};
+use rtc_ir::{self as ir, Field, Noun, Place, ShapeKind};
+use rtc_math::{Positive, Vec3, unit};
 
 /// `Some(None)` for a face without an area: no ray can hit it, so it is left out with a warning.
-pub(in crate::valid) fn surface(
+pub(crate) fn surface(
     surface: &ir::Surface,
     index: usize,
     counts: &EntityCounts,
@@ -135,7 +135,7 @@ macro_rules! by_rule {
     };
 }
 
-shapes!(prove);
+rtc_tables::shapes!(prove);
 
 impl Prove for ir::Sphere {
     fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {

@@ -6,7 +6,7 @@ mod check;
 pub(super) use area::has_area;
 pub(super) use check::surface;
 
-use crate::math::{Positive, Vec3, is_flat};
+use rtc_math::{Positive, Vec3, is_flat};
 
 /// A shape and the index of its material.
 #[derive(Clone, Debug)]
@@ -64,11 +64,11 @@ macro_rules! proven_type {
         concat!(proven_type!(doc point $Name $value), ", with its largest component in [1, 2)")
     };
     (doc $rule:ident $Name:ident $value:ident) => {
-        concat!("[`", stringify!($value), "`](crate::ir::", stringify!($Name), "::", stringify!($value), ")")
+        concat!("[`", stringify!($value), "`](rtc_ir::", stringify!($Name), "::", stringify!($value), ")")
     };
 }
 
-shapes!(declare);
+rtc_tables::shapes!(declare);
 
 /// A sphere.
 #[derive(Clone, Debug)]

@@ -11,7 +11,7 @@ mod compare;
 mod options;
 mod shoot;
 
-use super::suite::{files, name, root, trial, updates};
+use crate::suite::{files, name, root, trial, updates};
 use compare::Verdict;
 use libtest_mimic::{Failed, Trial};
 use std::collections::BTreeSet;

@@ -2,8 +2,8 @@
 //! and lights, directions of lengths from 1e-300 to 1e300, all of the scene or one surface of it
 //! 1e-58 to 1e58 times as large, and shapes out of all proportion.
 
-use super::super::scale::{scale_shape, scaled};
 use super::Dice;
+use crate::scale::{scale_shape, scaled};
 use rtc::internals::ir::{
     self, ImageId, Light, Map, Material, Mode, Scene, Shape, Standard, Texture, TextureId,
 };

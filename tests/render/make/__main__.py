@@ -2,7 +2,7 @@
 """Writes the glTF cases of tests/render, and the textures, meshes and skies that its scenes name.
 
 python3 tests/render/make    rewrites all of them, with the same bytes; it needs Python 3 alone. The pictures beside
-the cases are written by `RTC_UPDATE=1 cargo test --test cases render/`; look at them then.
+the cases are written by `RTC_UPDATE=1 cargo test --test files render/`; look at them then.
 """
 import sys
 from pathlib import Path

@@ -1,7 +1,7 @@
 //! Meshes in the making: sheets of vertices with normals.
 
-use crate::ir::{Column, Mesh};
-use crate::math::{Vec3, cos_sin_turns};
+use rtc_ir::{Column, Mesh};
+use rtc_math::{Vec3, cos_sin_turns};
 
 /// A point of a surface.
 #[derive(Clone, Copy)]

@@ -1,6 +1,6 @@
 //! How fine a mesh is: how far it may be from the shape it stands for.
 
-use crate::math::{atan2, shortest};
+use rtc_math::{atan2, shortest};
 use std::f64::consts::PI;
 
 /// The share of its own radius that a shape may be off, if no length is given: at 500 pixels across

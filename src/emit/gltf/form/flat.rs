@@ -5,9 +5,9 @@
 use super::ShapeForm;
 use super::draft::{DraftVertex, MeshDraft, fraction};
 use super::fineness::Fineness;
-use crate::emit::flat::{split, square};
-use crate::ir::{Ball, Column, Mesh, Plane, Quad, Triangle};
-use crate::math::{Vec3, is_flat};
+use crate::flat::{split, square};
+use rtc_ir::{Ball, Column, Mesh, Plane, Quad, Triangle};
+use rtc_math::{Vec3, is_flat};
 
 pub(super) fn plane(plane: &Plane, around: Ball) -> ShapeForm {
     let corners = square(plane, around);

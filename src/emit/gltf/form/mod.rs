@@ -8,17 +8,15 @@ mod fineness;
 mod flat;
 mod round;
 
-use crate::diag::codes;
-use crate::emit::flat::{around, side};
-use crate::emit::told::Told;
-use crate::ir::{
-    Ball, Field, Instance, Mesh, MeshId, Noun, Place, Scene, Shape, ShapeKind, Surface,
-};
-use crate::math::shortest;
-use crate::source::{Budget, Resource};
+use crate::flat::{around, side};
+use crate::told::Told;
 use fineness::Fineness;
 use glam::DAffine3;
 use round::RoundForm;
+use rtc_diag::codes;
+use rtc_ir::{Ball, Field, Instance, Mesh, MeshId, Noun, Place, Scene, Shape, ShapeKind, Surface};
+use rtc_math::shortest;
+use rtc_source::{Budget, Resource};
 use std::collections::BTreeMap;
 
 /// Bytes of a vertex with normal and texture coordinates, in 64-bit floats and in the file, with

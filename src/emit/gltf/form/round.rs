@@ -3,9 +3,9 @@
 use super::ShapeForm;
 use super::draft::{DraftVertex, MeshDraft, fraction, turn};
 use super::fineness::Fineness;
-use crate::ir::{Cone, Cylinder, Disc, Mesh, Paraboloid, Sphere, Torus};
-use crate::math::{Basis, Vec3, length, unit};
 use glam::{DAffine3, DMat3};
+use rtc_ir::{Cone, Cylinder, Disc, Mesh, Paraboloid, Sphere, Torus};
+use rtc_math::{Basis, Vec3, length, unit};
 
 /// A round shape of radius 1, and height 1 if it has one, in so many steps around and along; the
 /// height is along +z.

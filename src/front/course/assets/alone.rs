@@ -4,16 +4,16 @@
 use super::Port;
 use super::dress::{Dress, Dressing};
 use super::mesh::{self, MeshFile};
-use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::mesh::{is_mesh, parse};
-use crate::front::words::Unread;
-use crate::front::{FrontOptions, gltf, over_limit};
-use crate::ir::{
+use crate::mesh::{is_mesh, parse};
+use crate::words::Unread;
+use crate::{FrontOptions, gltf, over_limit};
+use rtc_diag::{Diagnostic, Sink, codes};
+use rtc_ir::{
     Field, Instance, Lowered, Material, MaterialId, Mesh, MeshId, Noun, Origins, Place, Shape,
     Standard, Surface,
 };
-use crate::math::Vec3;
-use crate::source::{FileId, Search, SourceMap, Span};
+use rtc_math::Vec3;
+use rtc_source::{FileId, Search, SourceMap, Span};
 
 /// How rough a mesh without a material is.
 const ROUGHNESS: f64 = 0.6;
@@ -73,7 +73,7 @@ pub fn alone(
 }
 
 /// The mesh in the file.
-fn read(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::front::mesh::Parsed> {
+fn read(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::mesh::Parsed> {
     let bytes = map.bytes(file);
     if !is_mesh(bytes) {
         let message = format!("`{}` is {}", map.name(file), mesh::TEXT.is_not);

@@ -4,11 +4,11 @@
 use super::mesh::{MeshFile, MeshFiles};
 use super::mtl::Shelf;
 use super::{Porter, Wanted};
-use crate::diag::{Diagnostic, codes};
-use crate::front::mesh::Named;
-use crate::front::{gltf, over_limit};
-use crate::ir::{Field, Instance, Lowered, MaterialId, Mesh, MeshId, Noun, Place, Scene, Shape};
-use crate::source::{Exceeded, Resource, Span};
+use crate::mesh::Named;
+use crate::{gltf, over_limit};
+use rtc_diag::{Diagnostic, codes};
+use rtc_ir::{Field, Instance, Lowered, MaterialId, Mesh, MeshId, Noun, Place, Scene, Shape};
+use rtc_source::{Exceeded, Resource, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Where the material of a mesh comes from.

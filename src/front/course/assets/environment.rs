@@ -1,10 +1,10 @@
 //! The environments: pictures of light as the IR holds them.
 
 use super::{Porter, Wanted, Without};
-use crate::front::pixels;
-use crate::image::is_radiance;
-use crate::ir::{ImageId, Lowered};
-use crate::source::FileKind;
+use crate::pixels;
+use rtc_image::is_radiance;
+use rtc_ir::{ImageId, Lowered};
+use rtc_source::FileKind;
 
 /// The largest file read, in bytes: every pixel allowed, in 32-bit floats.
 const MAX_BYTES: u64 = 1 << 29;

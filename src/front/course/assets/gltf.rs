@@ -2,15 +2,15 @@
 //! their lights do.
 
 use super::{Known, Porter, Wanted, Without};
-use crate::diag::{Diagnostic, codes};
-use crate::front::{FrontOptions, gltf, over_limit};
-use crate::ir::{
+use crate::{FrontOptions, gltf, over_limit};
+use glam::DAffine3;
+use rtc_diag::{Diagnostic, codes};
+use rtc_ir::{
     Field, ImageId, Light, Lowered, Material, MeshId, Noun, Origins, Place, Punctual, Scene, Shape,
     Surface, Texture, TextureId,
 };
-use crate::math::Vec3;
-use crate::source::{Budget, Exceeded, FileId, FileKind, Found, Resource};
-use glam::DAffine3;
+use rtc_math::Vec3;
+use rtc_source::{Budget, Exceeded, FileId, FileKind, Found, Resource};
 
 /// Such files.
 pub(super) const KIND: FileKind = FileKind {

@@ -1,13 +1,13 @@
 //! The images: pixel files as the IR holds them, and bump maps that turn out to hold normals.
 
 use super::{Asset, Known, Porter, Wanted, Without};
-use crate::diag::{Diagnostic, Sink, clip_path, codes};
-use crate::front::pixels::{self, Refused};
-use crate::image::{Opacity, Pixels, is_picture};
-use crate::ir::{
-    self, Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId,
+use crate::pixels::{self, Refused};
+use rtc_diag::{Diagnostic, Sink, clip_path, codes};
+use rtc_image::{Opacity, Pixels, is_picture};
+use rtc_ir::{
+    self as ir, Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId,
 };
-use crate::source::{FileKind, Found};
+use rtc_source::{FileKind, Found};
 use std::collections::BTreeMap;
 
 /// The largest pixel file read, in bytes: as large as the largest picture with every pixel stored

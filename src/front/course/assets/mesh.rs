@@ -2,11 +2,11 @@
 
 use super::text::TextKind;
 use super::{Known, Porter, Wanted, Without};
-use crate::diag::{Diagnostic, Sink, clip, codes};
-use crate::front::mesh::{EXTENSIONS, MaterialUse, Parsed, is_mesh, parse};
-use crate::front::over_limit;
-use crate::ir::{Lowered, Mesh, MeshId, Mode, Scene, Shape};
-use crate::source::{Budget, Exceeded, FileId, FileKind, Found, Resource, Span};
+use crate::mesh::{EXTENSIONS, MaterialUse, Parsed, is_mesh, parse};
+use crate::over_limit;
+use rtc_diag::{Diagnostic, Sink, clip, codes};
+use rtc_ir::{Lowered, Mesh, MeshId, Mode, Scene, Shape};
+use rtc_source::{Budget, Exceeded, FileId, FileKind, Found, Resource, Span};
 use std::collections::BTreeMap;
 use std::ops::Range;
 

@@ -18,11 +18,11 @@ pub use dress::{Dress, Dressing};
 
 use super::lower::UnfinishedScene;
 use super::object;
-use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes, nearest};
-use crate::front::FrontOptions;
-use crate::image::Opacity;
-use crate::ir::{Field, ImageId, Lowered, MeshId, Noun, Photometry, Place};
-use crate::source::{FileId, FileKind, Found, Identity, Loader, Missing, Search, SourceMap, Span};
+use crate::FrontOptions;
+use rtc_diag::{Diagnostic, Severity, Sink, clip_path, codes, nearest};
+use rtc_image::Opacity;
+use rtc_ir::{Field, ImageId, Lowered, MeshId, Noun, Photometry, Place};
+use rtc_source::{FileId, FileKind, Found, Identity, Loader, Missing, Search, SourceMap, Span};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 

@@ -3,14 +3,14 @@
 use super::mesh::MeshFile;
 use super::text::TextKind;
 use super::{Asset, Porter, Wanted, Without};
-use crate::diag::{Diagnostic, Severity, codes};
-use crate::front::mesh::Named;
-use crate::front::mesh::mtl::{Library, MtlMaterial, Said, is_mtl, parse};
-use crate::ir::{
+use crate::mesh::Named;
+use crate::mesh::mtl::{Library, MtlMaterial, Said, is_mtl, parse};
+use rtc_diag::{Diagnostic, Severity, codes};
+use rtc_ir::{
     Bump, Field, Image, Lowered, Material, MaterialId, Mode, Noun, Phong, Pixels, Place, Texture,
     TextureId,
 };
-use crate::source::{FileId, FileKind, Span};
+use rtc_source::{FileId, FileKind, Span};
 use std::collections::BTreeMap;
 
 /// Such files.

@@ -2,11 +2,11 @@
 
 use super::text::TextKind;
 use super::{Known, Porter, Wanted, Without};
-use crate::diag::codes;
-use crate::front::over_limit;
-use crate::front::words::{Lines, Unread, Word, WordFault};
-use crate::ir::{Emitter, Light, Lowered, Photometry, Punctual};
-use crate::source::{Budget, FileKind, Resource};
+use crate::over_limit;
+use crate::words::{Lines, Unread, Word, WordFault};
+use rtc_diag::codes;
+use rtc_ir::{Emitter, Light, Lowered, Photometry, Punctual};
+use rtc_source::{Budget, FileKind, Resource};
 
 /// Such files.
 pub(super) const TEXT: TextKind = TextKind {
@@ -288,7 +288,7 @@ impl Around {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::Limits;
+    use rtc_source::Limits;
 
     fn read(text: &str) -> Result<Photometry, Unread> {
         parse(text.as_bytes(), &Budget::new(Limits::default()))

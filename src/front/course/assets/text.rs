@@ -1,10 +1,10 @@
 //! Text files that a scene names: each fault has its place in the file.
 
 use super::{Porter, Wanted, Without};
-use crate::diag::{Code, Diagnostic};
-use crate::front::over_limit;
-use crate::front::words::Unread;
-use crate::source::{Budget, FileId, FileKind, Found};
+use crate::over_limit;
+use crate::words::Unread;
+use rtc_diag::{Code, Diagnostic};
+use rtc_source::{Budget, FileId, FileKind, Found};
 
 /// A kind of text file.
 pub(super) struct TextKind {

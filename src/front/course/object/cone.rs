@@ -1,13 +1,13 @@
 //! The cone.
 
 use super::Lower;
-use crate::front::course::decode::{Context, SharedValue, Spanned};
-use crate::front::course::lower::Lowering;
-use crate::front::course::material::Material;
-use crate::front::course::number::Positive;
-use crate::front::course::record::{keys, record};
-use crate::front::course::value::{Point, Text, Vector};
-use crate::ir;
+use crate::course::decode::{Context, SharedValue, Spanned};
+use crate::course::lower::Lowering;
+use crate::course::material::Material;
+use crate::course::number::Positive;
+use crate::course::record::{keys, record};
+use crate::course::value::{Point, Text, Vector};
+use rtc_ir as ir;
 
 record! {
     /// A cone with a cap at its base.

@@ -1,16 +1,16 @@
 //! The cube of some files, and what it shares with other solids that are turned or have a depth.
 
 use super::Lower;
-use crate::front::course::decode::{Context, SharedValue, Spanned, Value};
-use crate::front::course::lower::Lowering;
-use crate::front::course::material::Material;
-use crate::front::course::number::{Positive, Real, json_number};
-use crate::front::course::object::solid::around;
-use crate::front::course::record::{FieldOutcome, keys, record};
-use crate::front::course::schema::Definitions;
-use crate::front::course::value::{Point, Text, Vector};
-use crate::math::{Vec3, cos, sin, turned_about, unit, unit_scale};
-use crate::source::tree::NodeId;
+use crate::course::decode::{Context, SharedValue, Spanned, Value};
+use crate::course::lower::Lowering;
+use crate::course::material::Material;
+use crate::course::number::{Positive, Real, json_number};
+use crate::course::object::solid::around;
+use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::schema::Definitions;
+use crate::course::value::{Point, Text, Vector};
+use rtc_math::{Vec3, cos, sin, turned_about, unit, unit_scale};
+use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {
@@ -62,7 +62,7 @@ impl Lower for Cube {
 
 /// The third edge of a box: an edge as it is, or a length.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::front::course) enum ThirdEdge {
+pub(in crate::course) enum ThirdEdge {
     Edge([f64; 3]),
     Length(f64),
 }

@@ -2,14 +2,14 @@
 
 use super::Lower;
 use super::cube::axes_turned_about;
-use crate::front::course::decode::{Context, Numbers, SharedValue, Spanned};
-use crate::front::course::lower::Lowering;
-use crate::front::course::material::Material;
-use crate::front::course::number::{Positive, Real};
-use crate::front::course::record::{FieldOutcome, keys, record};
-use crate::front::course::value::{Point, Text, Vector};
-use crate::ir;
-use crate::math::Vec3;
+use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
+use crate::course::lower::Lowering;
+use crate::course::material::Material;
+use crate::course::number::{Positive, Real};
+use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::value::{Point, Text, Vector};
+use rtc_ir as ir;
+use rtc_math::Vec3;
 
 record! {
     /// A cylinder with two caps: the centre of its base, a direction and a height; or the centres of both caps; or, as

@@ -2,12 +2,12 @@
 
 use super::Lower;
 use super::solid::turned;
-use crate::front::course::decode::{Context, Spanned};
-use crate::front::course::lower::Lowering;
-use crate::front::course::record::{keys, record};
-use crate::front::course::turn::Rotation;
-use crate::front::course::value::{Angles, FileName, Point, Scale, Text};
-use crate::math::Vec3;
+use crate::course::decode::{Context, Spanned};
+use crate::course::lower::Lowering;
+use crate::course::record::{keys, record};
+use crate::course::turn::Rotation;
+use crate::course::value::{Angles, FileName, Point, Scale, Text};
+use rtc_math::Vec3;
 
 record! {
     /// A glTF asset, with its own materials and lights; its cameras do not count. A scene with one is shown by its paths.

@@ -2,20 +2,20 @@
 
 use super::Lower;
 use super::sphere::Radius;
-use crate::diag::{Diagnostic, Severity, Sink, codes};
-use crate::front::course::assets::{Dress, Dressing};
-use crate::front::course::decode::{Context, SharedValue, Spanned, Value};
-use crate::front::course::lower::Lowering;
-use crate::front::course::material::Material;
-use crate::front::course::number::Real;
-use crate::front::course::record::{FieldOutcome, keys, record};
-use crate::front::course::schema::Definitions;
-use crate::front::course::turn::AffineColumns;
-use crate::front::course::value::{Caption, FileName, Point, Scale, Text, word, word_schema};
-use crate::ir::{self, Field, Lowered, Noun, Place};
-use crate::math::{Vec3, shortest};
-use crate::source::Span;
-use crate::source::tree::{NodeContent, NodeId};
+use crate::course::assets::{Dress, Dressing};
+use crate::course::decode::{Context, SharedValue, Spanned, Value};
+use crate::course::lower::Lowering;
+use crate::course::material::Material;
+use crate::course::number::Real;
+use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::schema::Definitions;
+use crate::course::turn::AffineColumns;
+use crate::course::value::{Caption, FileName, Point, Scale, Text, word, word_schema};
+use rtc_diag::{Diagnostic, Severity, Sink, codes};
+use rtc_ir::{self as ir, Field, Lowered, Noun, Place};
+use rtc_math::{Vec3, shortest};
+use rtc_source::Span;
+use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 record! {
@@ -58,7 +58,7 @@ record! {
 
 /// Where materials come from.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::front::course) enum MaterialSource {
+pub(in crate::course) enum MaterialSource {
     /// The file of materials that a mesh file names.
     Mtl,
 }
@@ -78,7 +78,7 @@ impl Value for MaterialSource {
 
 /// The name of a material in a mesh file, which may be empty.
 #[derive(Clone, Debug)]
-pub(in crate::front::course) struct PartName(String);
+pub(in crate::course) struct PartName(String);
 
 impl Value for PartName {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -97,7 +97,7 @@ impl Value for PartName {
 
 /// What is done about the size of a mesh once its file is there.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::front::course) enum Sizing {
+pub(in crate::course) enum Sizing {
     /// The mesh gets the size that the transform of the surface says.
     Fit(usize),
     /// The surface stays as it is, unless it hides the view.
@@ -241,7 +241,7 @@ fn useless_axis(radius: &Spanned<Radius>, context: &mut Context<'_>) {
 }
 
 /// Sees to the size of a mesh, now that its file is there.
-pub(in crate::front::course) fn settle(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
+pub(in crate::course) fn settle(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
     let (surface, is_factor) = match sizing {
         Sizing::Fit(surface) => (surface, false),
         Sizing::Check(surface) => (surface, true),

@@ -22,11 +22,11 @@ use super::record::Record;
 use super::schema::{self, Definitions};
 use super::spelling::list;
 use super::value::Text;
-use crate::diag::clip;
-use crate::diag::{Severity, codes, nearest};
-use crate::ir::{self, Field, MaterialId, Noun};
-use crate::source::Span;
-use crate::source::tree::NodeId;
+use rtc_diag::clip;
+use rtc_diag::{Severity, codes, nearest};
+use rtc_ir::{self as ir, Field, MaterialId, Noun};
+use rtc_source::Span;
+use rtc_source::tree::NodeId;
 use serde_json::Value as Json;
 
 /// A type of object: the words for it, the canonical one first, and its declaration.

@@ -3,17 +3,17 @@
 use super::Lower;
 use super::quad::EDGES;
 use super::triangle::CORNERS;
-use crate::diag::codes;
-use crate::front::course::decode::{Context, Numbers, SharedValue, Spanned, Value};
-use crate::front::course::lower::Lowering;
-use crate::front::course::material::Material;
-use crate::front::course::number::{Positive, Real};
-use crate::front::course::record::{FieldOutcome, keys, record};
-use crate::front::course::schema::Definitions;
-use crate::front::course::value::{Point, Text, Vector, word, word_schema};
-use crate::ir;
-use crate::math::{Vec3, length, shortest, unit, unit_scale};
-use crate::source::tree::NodeId;
+use crate::course::decode::{Context, Numbers, SharedValue, Spanned, Value};
+use crate::course::lower::Lowering;
+use crate::course::material::Material;
+use crate::course::number::{Positive, Real};
+use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::schema::Definitions;
+use crate::course::value::{Point, Text, Vector, word, word_schema};
+use rtc_diag::codes;
+use rtc_ir as ir;
+use rtc_math::{Vec3, length, shortest, unit, unit_scale};
+use rtc_source::tree::NodeId;
 use serde_json::Value as Json;
 
 record! {
@@ -65,7 +65,7 @@ record! {
 
 /// What bounds a bounded plane.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::front::course) enum Outline {
+pub(in crate::course) enum Outline {
     Square,
     Circle,
 }

@@ -1,17 +1,17 @@
 //! The quadrilateral.
 
 use super::Lower;
-use crate::diag::codes;
-use crate::front::course::decode::{Context, Numbers, SharedValue, Spanned};
-use crate::front::course::lower::Lowering;
-use crate::front::course::material::Material;
-use crate::front::course::record::{FieldOutcome, Rows, keys, record};
-use crate::front::course::value::{Point, Text, Vector};
-use crate::ir;
-use crate::math::{Vec3, unit};
+use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
+use crate::course::lower::Lowering;
+use crate::course::material::Material;
+use crate::course::record::{FieldOutcome, Rows, keys, record};
+use crate::course::value::{Point, Text, Vector};
+use rtc_diag::codes;
+use rtc_ir as ir;
+use rtc_math::{Vec3, unit};
 
 /// How people name four corners.
-pub(in crate::front::course) const FOUR_CORNERS: Rows = &[
+pub(in crate::course) const FOUR_CORNERS: Rows = &[
     &["v0", "v1", "v2", "v3"],
     &["v1", "v2", "v3", "v4"],
     &["a", "b", "c", "d"],
@@ -26,7 +26,7 @@ pub(in crate::front::course) const FOUR_CORNERS: Rows = &[
 ];
 
 /// How people name the two edges from a corner: upward, and to the side.
-pub(in crate::front::course) const EDGES: Rows = &[&["up", "side"], &["edge1", "edge2"]];
+pub(in crate::course) const EDGES: Rows = &[&["up", "side"], &["edge1", "edge2"]];
 
 record! {
     /// A quadrilateral, seen from both sides: four corners in order around it, or one corner and the two edges from it.

@@ -5,17 +5,17 @@ use super::Lower;
 use super::cube::ThirdEdge;
 use super::quad::FOUR_CORNERS;
 use super::triangle::{CORNERS, VERTICES};
-use crate::diag::codes;
-use crate::front::course::decode::{Context, SharedValue, Spanned};
-use crate::front::course::lower::Lowering;
-use crate::front::course::material::Material;
-use crate::front::course::object::Clothes;
-use crate::front::course::record::{FieldOutcome, keys, record};
-use crate::front::course::turn::Rotation;
-use crate::front::course::value::{Angles, Point, Text, Vector};
-use crate::ir;
-use crate::math::{Vec3, cos, shortest, sin, unit_scale};
-use crate::source::Span;
+use crate::course::decode::{Context, SharedValue, Spanned};
+use crate::course::lower::Lowering;
+use crate::course::material::Material;
+use crate::course::object::Clothes;
+use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::turn::Rotation;
+use crate::course::value::{Angles, Point, Text, Vector};
+use rtc_diag::codes;
+use rtc_ir as ir;
+use rtc_math::{Vec3, cos, shortest, sin, unit_scale};
+use rtc_source::Span;
 
 record! {
     /// A box: two opposite corners; or its centre and its lengths along x, y and z, turned or not; or a corner and the
@@ -343,7 +343,7 @@ fn of_edges(from: Vec3, edges: [Vec3; 3]) -> [Vec3; 8] {
 }
 
 /// Where the axes come to, turned by angles in radians about x, then y, then z.
-pub(in crate::front::course) fn turned(angles: [f64; 3]) -> [Vec3; 3] {
+pub(in crate::course) fn turned(angles: [f64; 3]) -> [Vec3; 3] {
     let [(cx, sx), (cy, sy), (cz, sz)] = angles.map(|angle| (cos(angle), sin(angle)));
     Vec3::AXES.map(|Vec3 { x, y, z }| {
         let (y, z) = (y * cx - z * sx, y * sx + z * cx);

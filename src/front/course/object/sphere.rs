@@ -1,19 +1,19 @@
 //! The sphere, and the turn of its texture.
 
 use super::Lower;
-use crate::diag::{Severity, codes};
-use crate::front::course::decode::{Context, SharedValue, Spanned, Value};
-use crate::front::course::lower::Lowering;
-use crate::front::course::material::Material;
-use crate::front::course::number::{Degrees, Positive, json_number};
-use crate::front::course::record::{FieldOutcome, keys, record};
-use crate::front::course::schema::Definitions;
-use crate::front::course::turn::{Quaternion, Rotation};
-use crate::front::course::value::{Point, Text, Vector};
-use crate::ir;
-use crate::math::{Vec3, axis_and_angle, turned_about, turned_to_z, unit};
-use crate::source::Span;
-use crate::source::tree::{NodeContent, NodeId};
+use crate::course::decode::{Context, SharedValue, Spanned, Value};
+use crate::course::lower::Lowering;
+use crate::course::material::Material;
+use crate::course::number::{Degrees, Positive, json_number};
+use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::schema::Definitions;
+use crate::course::turn::{Quaternion, Rotation};
+use crate::course::value::{Point, Text, Vector};
+use rtc_diag::{Severity, codes};
+use rtc_ir as ir;
+use rtc_math::{Vec3, axis_and_angle, turned_about, turned_to_z, unit};
+use rtc_source::Span;
+use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 record! {
@@ -41,9 +41,9 @@ record! {
 
 /// A radius, with or without the axis of a texture.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::front::course) struct Radius {
-    pub(in crate::front::course) length: f64,
-    pub(in crate::front::course) axis: Option<Spanned<Vector>>,
+pub(in crate::course) struct Radius {
+    pub(in crate::course) length: f64,
+    pub(in crate::course) axis: Option<Spanned<Vector>>,
 }
 
 impl Value for Radius {

@@ -1,15 +1,15 @@
 //! The triangle.
 
 use super::Lower;
-use crate::front::course::decode::{Context, SharedValue, Spanned};
-use crate::front::course::lower::Lowering;
-use crate::front::course::material::Material;
-use crate::front::course::record::{FieldOutcome, Rows, keys, record};
-use crate::front::course::value::{Point, Text, Uv};
-use crate::ir;
+use crate::course::decode::{Context, SharedValue, Spanned};
+use crate::course::lower::Lowering;
+use crate::course::material::Material;
+use crate::course::record::{FieldOutcome, Rows, keys, record};
+use crate::course::value::{Point, Text, Uv};
+use rtc_ir as ir;
 
 /// How people name three corners.
-pub(in crate::front::course) const CORNERS: Rows = &[
+pub(in crate::course) const CORNERS: Rows = &[
     &["v0", "v1", "v2"],
     &["v1", "v2", "v3"],
     &["a", "b", "c"],
@@ -41,7 +41,7 @@ record! {
 }
 
 /// The places of the corners, from where they were written.
-pub(in crate::front::course) const VERTICES: [&str; 3] = ["vertices/0", "vertices/1", "vertices/2"];
+pub(in crate::course) const VERTICES: [&str; 3] = ["vertices/0", "vertices/1", "vertices/2"];
 
 impl Lower for Triangle {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {

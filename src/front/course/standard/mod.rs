@@ -14,9 +14,9 @@ use super::reader::Reader;
 use super::record::{Field, FieldOutcome, Need, Record, Slot};
 use super::schema::{self, Definitions};
 use super::value::{Caption, Color, Text};
-use crate::ir::{self, Alpha};
-use crate::source::tree::NodeId;
-use crate::standard::{camel_case, parameters};
+use rtc_ir::{self as ir, Alpha};
+use rtc_source::tree::NodeId;
+use rtc_tables::{camel_case, parameters};
 use serde_json::Value as Json;
 use texture::MapOrFile;
 use value::{AlphaMode, Fraction, Pair, Refraction, RefractionOrNone, Rgba, Tint};
@@ -115,14 +115,14 @@ macro_rules! material {
         $field:ident: $kind:ident = $default:expr, $omitted:literal;
     )*) => {
         /// The material of glTF.
-        pub(in crate::front::course) struct StandardMaterial {
+        pub(in crate::course) struct StandardMaterial {
             name: FieldOutcome<Spanned<Caption>>,
             $($field: FieldOutcome<Spanned<written!($kind)>>,)*
         }
 
         impl StandardMaterial {
             /// The declaration.
-            pub(in crate::front::course) const RECORD: Record = Record {
+            pub(in crate::course) const RECORD: Record = Record {
                 word: "standard material",
                 doc: " What a surface is made of: the material of glTF 2.0 and of its extensions \
                       `KHR_materials_*`. Colours are linear, of light rather than of a display; a texture multiplies \

@@ -7,8 +7,8 @@ use super::super::schema::Definitions;
 use super::super::turn::PlaneRows;
 use super::super::value::{FileName, tuple, word, word_schema};
 use super::value::SetIndex;
-use crate::ir::{self, Filter, Wrap};
-use crate::source::tree::{NodeContent, NodeId};
+use rtc_ir::{self as ir, Filter, Wrap};
+use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 record! {
@@ -30,7 +30,7 @@ record! {
 }
 
 /// A texture, or the name of its file alone.
-pub(in crate::front::course) struct MapOrFile(pub(super) TextureMap);
+pub(in crate::course) struct MapOrFile(pub(super) TextureMap);
 
 impl Value for MapOrFile {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -55,7 +55,7 @@ impl Value for MapOrFile {
 
 /// What lies beyond a picture along u and v.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::front::course) struct WrapWords([Wrap; 2]);
+pub(in crate::course) struct WrapWords([Wrap; 2]);
 
 /// The words for it.
 const WRAPS: &[(&str, Wrap)] = &[
@@ -88,7 +88,7 @@ impl Value for WrapWords {
 
 /// How texels blend.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::front::course) struct FilterWord(Filter);
+pub(in crate::course) struct FilterWord(Filter);
 
 /// The words for it.
 const FILTERS: &[(&str, Filter)] = &[("linear", Filter::Linear), ("nearest", Filter::Nearest)];

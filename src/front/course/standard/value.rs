@@ -6,7 +6,7 @@ use super::super::record::{keys, record};
 use super::super::schema::Definitions;
 use super::super::value::{Color, tuple, word, word_schema};
 use super::Alpha;
-use crate::source::tree::NodeId;
+use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 ranged! {

@@ -4,10 +4,10 @@
 use super::super::camera::{Projection, projection};
 use super::super::field::Fields;
 use super::Lowering;
-use crate::ir::{self, Ball, Camera, Field, Lens, Noun, Place};
-use crate::math::{Vec3, cos, sin, unit};
-use crate::source::tree::NodeId;
 use glam::DAffine3;
+use rtc_ir::{self as ir, Ball, Camera, Field, Lens, Noun, Place};
+use rtc_math::{Vec3, cos, sin, unit};
+use rtc_source::tree::NodeId;
 
 /// The height of a picture in pixels, and its width over its height where the asset does not say.
 const HEIGHT: u32 = 512;
@@ -179,7 +179,7 @@ pub(super) fn pixel(ball: Ball) -> f64 {
 }
 
 /// A camera that sees the whole ball.
-pub(in crate::front) fn looking_at(Ball { center, radius }: Ball) -> Camera {
+pub(crate) fn looking_at(Ball { center, radius }: Ball) -> Camera {
     let half = OPENING.to_radians() / 2.0;
     let z = Vec3::from_array(FROM).normalize();
     let x = Vec3::Y.cross(z).normalize();

@@ -6,9 +6,9 @@ use super::super::elements::Elements;
 use super::super::primitive::Primitive;
 use super::shape::Deformation;
 use super::uv::TexCoordSets;
-use crate::ir::{self, Column};
-use crate::math::Vec3;
 use glam::{DAffine3, DMat3};
+use rtc_ir::{self as ir, Column};
+use rtc_math::Vec3;
 
 /// Moves the vertices of a mesh.
 pub(super) fn deform(

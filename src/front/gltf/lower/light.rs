@@ -3,10 +3,10 @@
 
 use super::super::field::Fields;
 use super::Lowering;
-use crate::ir::{Emitter, Field, Light, Noun, Photometry, Place, PointLight, Punctual};
-use crate::math::{Vec3, unit};
-use crate::source::tree::NodeId;
 use glam::DAffine3;
+use rtc_ir::{Emitter, Field, Light, Noun, Photometry, Place, PointLight, Punctual};
+use rtc_math::{Vec3, unit};
+use rtc_source::tree::NodeId;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 impl Lowering<'_, '_, '_> {

@@ -8,11 +8,11 @@ use super::super::report::AssetReport;
 use super::mesh::to_u32;
 use super::texture::LoweredTextures;
 use super::uv::TexCoordSets;
-use crate::diag::codes;
-use crate::ir::{
-    self, Alpha, Bump, Field, Map, MaterialId, Noun, Origins, Phong, Place, Scene, Standard,
+use rtc_diag::codes;
+use rtc_ir::{
+    self as ir, Alpha, Bump, Field, Map, MaterialId, Noun, Origins, Phong, Place, Scene, Standard,
 };
-use crate::source::tree::Tree;
+use rtc_source::tree::Tree;
 use std::collections::BTreeMap;
 
 /// What became of the materials of the asset.
@@ -329,4 +329,4 @@ macro_rules! extensions {
     };
 }
 
-crate::standard::extensions!(extensions);
+rtc_tables::extensions!(extensions);

@@ -8,9 +8,9 @@ use super::super::report::AssetReport;
 use super::shape::{Deformation, ShapeId};
 use super::uv::TexCoordSets;
 use super::{deform, tangent, topology};
-use crate::ir::{self, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
-use crate::source::Resource;
-use crate::source::tree::NodeId;
+use rtc_ir::{self as ir, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
+use rtc_source::Resource;
+use rtc_source::tree::NodeId;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 

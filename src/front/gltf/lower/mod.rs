@@ -16,22 +16,22 @@ mod texture;
 mod topology;
 mod uv;
 
-pub(in crate::front) use camera::looking_at;
+pub(crate) use camera::looking_at;
 
 use super::document::Document;
 use super::field::Fields;
 use super::primitive::Primitive;
 use super::report::AssetReport;
-use crate::diag::codes;
-use crate::front::FrontOptions;
-use crate::ir::{self, Field, Lowered, MaterialId, Mode, Noun, Origins, Place, Scene};
-use crate::math::Vec3;
-use crate::source::Resource;
-use crate::source::tree::NodeId;
+use crate::FrontOptions;
 use glam::DAffine3;
 use material::Materials;
 use mesh::Meshes;
 use place::Places;
+use rtc_diag::codes;
+use rtc_ir::{self as ir, Field, Lowered, MaterialId, Mode, Noun, Origins, Place, Scene};
+use rtc_math::Vec3;
+use rtc_source::Resource;
+use rtc_source::tree::NodeId;
 use shape::Deformations;
 use std::collections::BTreeMap;
 use stroke::{Strokes, is_stroked};
@@ -42,7 +42,7 @@ const SAMPLES: u32 = 64;
 
 /// Bytes that a surface takes, beside its name: in the scene, in the proof, and in the places of
 /// its parts.
-pub(in crate::front) const SURFACE: u64 = 768;
+pub(crate) const SURFACE: u64 = 768;
 
 /// What an asset is lowered with.
 struct Lowering<'l, 'r, 's> {
@@ -97,7 +97,7 @@ pub(super) fn lower<'s>(
 }
 
 /// A scene without anything, that is rendered as glTF means it.
-pub(in crate::front) fn empty() -> Scene {
+pub(crate) fn empty() -> Scene {
     let camera = camera::looking_at(ir::Ball {
         center: Vec3::ZERO,
         radius: 1.0,

@@ -3,8 +3,8 @@
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::pose::Pose;
-use crate::math::{Vec3, unit};
 use glam::{DAffine3, DQuat};
+use rtc_math::{Vec3, unit};
 
 /// The world transformation of each node; of one in a loop, its own.
 pub(super) fn worlds(doc: &Document<'_>, pose: &Pose) -> Vec<DAffine3> {

@@ -9,12 +9,12 @@ use super::super::node::Transform;
 use super::super::pointer::{self, Moved, Property};
 use super::super::report::AssetReport;
 use super::place::compose;
-use crate::diag::codes;
-use crate::front::FrontOptions;
-use crate::math::{acos, sin};
-use crate::source::Resource;
-use crate::source::tree::NodeId;
+use crate::FrontOptions;
 use glam::{DAffine3, DMat4};
+use rtc_diag::codes;
+use rtc_math::{acos, sin};
+use rtc_source::Resource;
+use rtc_source::tree::NodeId;
 use std::collections::BTreeMap;
 
 /// Bytes that the weight of a morph target takes: itself, and the bits that tell it from others.
@@ -310,7 +310,7 @@ mod tests {
         let eighth = std::f64::consts::FRAC_PI_8;
         assert!(
             (quarter[2] - sin(eighth)).abs() < 1e-15
-                && (quarter[3] - crate::math::cos(eighth)).abs() < 1e-15
+                && (quarter[3] - rtc_math::cos(eighth)).abs() < 1e-15
         );
     }
 

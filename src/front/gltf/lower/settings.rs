@@ -4,13 +4,13 @@ use super::super::elements::Elements;
 use super::super::field::Fields;
 use super::super::layout::Component;
 use super::Lowering;
-use crate::color::Tone;
-use crate::diag::codes;
-use crate::ir::{
+use rtc_color::Tone;
+use rtc_diag::codes;
+use rtc_ir::{
     Display, Environment, Field, Gooch, Image, ImageId, Mode, Noun, PathSettings, Pattern, Pixels,
     Place, Settings,
 };
-use crate::source::Resource;
+use rtc_source::Resource;
 
 impl Lowering<'_, '_, '_> {
     /// Takes over what the asset says of the settings and of the environment.

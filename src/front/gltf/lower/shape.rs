@@ -6,8 +6,8 @@ use super::super::elements::Elements;
 use super::super::report::AssetReport;
 use super::super::skin::Skin;
 use super::pose::Pose;
-use crate::source::Resource;
 use glam::{DAffine3, DMat4};
+use rtc_source::Resource;
 use std::collections::BTreeMap;
 
 /// Bytes that a joint takes: its matrix, and the bits that tell it from others.

@@ -10,10 +10,10 @@ use super::super::report::AssetReport;
 use super::mesh::{self, WantedMesh, to_u32};
 use super::place::Places;
 use super::{camera, topology};
-use crate::ir::{Ball, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene};
-use crate::math::{Vec3, unit};
-use crate::source::Resource;
 use glam::{DAffine3, DMat3};
+use rtc_ir::{Ball, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene};
+use rtc_math::{Vec3, unit};
+use rtc_source::Resource;
 
 /// The radius, in pixels.
 const RADIUS: f64 = 1.0;

@@ -3,9 +3,9 @@
 //! Corners of one vertex may get different tangents, so vertices are split where they do.
 
 use super::mesh::{pick, to_u32};
-use crate::ir::{Column, Mesh};
-use crate::math::Vec3;
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
+use rtc_ir::{Column, Mesh};
+use rtc_math::Vec3;
 
 /// A mesh whose tangents are asked for, one a corner.
 struct Corners<'m> {

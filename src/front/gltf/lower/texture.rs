@@ -3,11 +3,11 @@
 use super::super::document::Document;
 use super::super::field::Fields;
 use super::super::report::AssetReport;
-use crate::diag::codes;
-use crate::ir::{
-    self, Field, Filter, ImageId, Map, Noun, Origins, Place, Sampled, Scene, TextureId, Wrap,
+use rtc_diag::codes;
+use rtc_ir::{
+    self as ir, Field, Filter, ImageId, Map, Noun, Origins, Place, Sampled, Scene, TextureId, Wrap,
 };
-use crate::math::{cos, sin};
+use rtc_math::{cos, sin};
 use std::collections::BTreeMap;
 
 /// What became of the textures and images of the asset.

@@ -1,7 +1,7 @@
 //! The sets of texture coordinates that a mesh keeps for its material: two of those that glTF
 //! numbers without end.
 
-use crate::ir::{Map, Standard};
+use rtc_ir::{Map, Standard};
 use std::collections::BTreeSet;
 
 /// The numbers in `TEXCOORD_n` of the sets that the IR calls 0 and 1.
@@ -41,7 +41,7 @@ impl TexCoordSets {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::TextureId;
+    use rtc_ir::TextureId;
 
     #[test]
     fn two_sets_of_any_number_are_kept() {

@@ -99,7 +99,7 @@ fn exponential(word: [u8; 4]) -> f32 {
         clippy::cast_possible_truncation,
         reason = "the format has 32-bit floats"
     )]
-    let float = crate::math::ldexp(f64::from(mantissa), exponent) as f32;
+    let float = rtc_math::ldexp(f64::from(mantissa), exponent) as f32;
     float
 }
 

@@ -155,7 +155,7 @@ macro_rules! of_materials {
     };
 }
 
-crate::standard::extensions!(of_materials);
+rtc_tables::extensions!(of_materials);
 
 /// An extension object with these properties.
 const fn object(keys: &'static [Key]) -> Object {

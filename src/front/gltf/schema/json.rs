@@ -160,7 +160,7 @@ macro_rules! fields {
     };
 }
 
-crate::standard::extensions!(fields);
+rtc_tables::extensions!(fields);
 
 /// What each parameter is, in lines.
 macro_rules! documented {
@@ -169,7 +169,7 @@ macro_rules! documented {
     };
 }
 
-crate::standard::parameters!(documented);
+rtc_tables::parameters!(documented);
 
 #[cfg(test)]
 mod tests {

@@ -2,8 +2,8 @@
 
 use super::walk::Walk;
 use super::{Bounds, Pool, Value};
-use crate::diag::codes;
-use crate::source::tree::{NodeId, NodeKind};
+use rtc_diag::codes;
+use rtc_source::tree::{NodeId, NodeKind};
 use std::collections::BTreeSet;
 
 impl Walk<'_, '_, '_> {

@@ -3,9 +3,9 @@
 
 use super::core::ROOT;
 use super::{Key, Object, POOLS, Pool, extension, own};
-use crate::diag::codes;
-use crate::front::gltf::report::{AssetReport, shown};
-use crate::source::tree::{NodeId, NodeKind};
+use crate::gltf::report::{AssetReport, shown};
+use rtc_diag::codes;
+use rtc_source::tree::{NodeId, NodeKind};
 use std::collections::BTreeSet;
 
 /// The properties of an asset that say what the others are.

@@ -1,7 +1,7 @@
 //! The body of a PLY, number by number.
 
 use super::head::{NumberKind, PlyElement, PlyForm, PlyProperty};
-use crate::front::words::{Lines, Word, WordFault};
+use crate::words::{Lines, Word, WordFault};
 use std::ops::Range;
 
 /// What is still to be read of a body.

@@ -1,7 +1,7 @@
 //! The head of a PLY: its form, and the elements with their properties, in the order of the body.
 
 use super::super::material_use::name;
-use crate::front::words::{Lines, Word, WordFault};
+use crate::words::{Lines, Word, WordFault};
 
 /// How the numbers of the body are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,7 +125,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Vec<PlyElement<'_>>, PlyForm, usize)
             }
             _ => {
                 let head = name(&words, bytes).map_or_else(String::new, |line| line.text);
-                let message = format!("`{}` is no line of a head", crate::diag::clip(&head));
+                let message = format!("`{}` is no line of a head", rtc_diag::clip(&head));
                 return Err(words[0].fault(message, "before `end_header`"));
             }
         }

@@ -3,10 +3,10 @@
 use super::super::Unread;
 use super::body::PlyBody;
 use super::head::{NumberKind, PlyElement, PlyProperty};
-use crate::color::srgb_decoded;
-use crate::ir::Mesh;
-use crate::math::Column;
-use crate::source::{Budget, Resource};
+use rtc_color::srgb_decoded;
+use rtc_ir::Mesh;
+use rtc_math::Column;
+use rtc_source::{Budget, Resource};
 
 /// The values of a vertex that are kept, by the names of their properties: position, normal, both
 /// sets of texture coordinates, tangent, colour as sRGB codes it, and as it is.

@@ -6,8 +6,7 @@ mod prefix;
 
 use super::layout::PixelLayout;
 use super::{DecodeError, ImageSize};
-use ::image::ImageDecoder;
-use ::image::codecs::webp::WebPDecoder;
+use image_webp::{DecodingError, WebPDecoder};
 use parts::CodedStreams;
 use std::io::Cursor;
 
@@ -24,11 +23,11 @@ pub(super) struct WebP<'a> {
 
 /// Reads everything before the pixels.
 pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(ImageSize, WebP<'_>), DecodeError> {
-    let decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(DecodeError::damaged)?;
+    let decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(fault_of)?;
     let (width, height) = decoder.dimensions();
     let size = ImageSize::within(most_pixels, width, height)?;
     let layout = PixelLayout {
-        channels: usize::from(decoder.color_type().channel_count()),
+        channels: if decoder.has_alpha() { 4 } else { 3 },
         is_wide: false,
     };
     // A lossy picture takes 1.5 bytes per pixel, a lossless one 4, and up to 1 more for its
@@ -36,14 +35,14 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(ImageSize, WebP<'_
     let pixel = match bytes.get(12..16) {
         Some(b"VP8 ") => 2,
         Some(b"VP8L") => 5,
-        _ if decoder.has_animation() => 16,
+        _ if decoder.is_animated() => 16,
         _ => 8,
     };
-    let (codes, fault) =
-        match CodedStreams::of(bytes, size, decoder.has_animation()).and_then(codes) {
-            Ok(codes) => (codes, None),
-            Err(fault) => (0, Some(fault)),
-        };
+    let (codes, fault) = match CodedStreams::of(bytes, size, decoder.is_animated()).and_then(codes)
+    {
+        Ok(codes) => (codes, None),
+        Err(fault) => (0, Some(fault)),
+    };
     let webp = WebP {
         decoder,
         layout,
@@ -52,6 +51,13 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(ImageSize, WebP<'_
         fault,
     };
     Ok((size, webp))
+}
+
+fn fault_of(error: DecodingError) -> DecodeError {
+    if let DecodingError::IoError(error) = error {
+        return DecodeError::damaged(error);
+    }
+    DecodeError::damaged(error)
 }
 
 /// The memory for the prefix codes of all parts. Each part must have the size of the picture.
@@ -87,10 +93,10 @@ impl WebP<'_> {
             .saturating_add(self.codes)
     }
 
-    pub(super) fn decode(self, into: &mut [u8]) -> Result<(), DecodeError> {
+    pub(super) fn decode(mut self, into: &mut [u8]) -> Result<(), DecodeError> {
         match self.fault {
             Some(fault) => Err(fault),
-            None => self.decoder.read_image(into).map_err(DecodeError::damaged),
+            None => self.decoder.read_image(into).map_err(fault_of),
         }
     }
 }

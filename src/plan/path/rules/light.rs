@@ -1,15 +1,15 @@
 //! Rules on lights, light sampling and shadows.
 
 use super::PathRule;
-use crate::image::Texels;
-use crate::ir::{Field, Noun, Place};
-use crate::math::{Bounds, Vec3};
-use crate::plan::body::{Body, Hull};
-use crate::plan::path::draft::{Draft, EnvironmentLeft, LightLeft, lets_light_through};
-use crate::plan::path::facts::is_delta;
-use crate::plan::rules::Rule;
-use crate::plan::space::{Flat, MARGIN, Sides};
-use crate::valid::{Alpha, Falloff, Punctual};
+use crate::body::{Body, Hull};
+use crate::path::draft::{Draft, EnvironmentLeft, LightLeft, lets_light_through};
+use crate::path::facts::is_delta;
+use crate::rules::Rule;
+use crate::space::{Flat, MARGIN, Sides};
+use rtc_image::Texels;
+use rtc_ir::{Field, Noun, Place};
+use rtc_math::{Bounds, Vec3};
+use rtc_valid::{Alpha, Falloff, Punctual};
 
 fn place(light: usize) -> Place {
     Place::new(Noun::Light, light, Field::Whole)
@@ -97,7 +97,7 @@ pub(super) const MIRRORS_ONLY: PathRule = PathRule {
     apply: |draft| {
         let multiple = draft.path.multiple_scattering;
         let aims =
-            |material: &crate::valid::Standard| !material.unlit && !is_delta(material, multiple);
+            |material: &rtc_valid::Standard| !material.unlit && !is_delta(material, multiple);
         if !draft.aims || draft.used().any(|(_, material)| aims(material)) {
             return Vec::new();
         }
@@ -151,7 +151,7 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
     );
     let keeps_rays_out = !lets_light_through(material) && material.alpha == Alpha::Opaque;
     let is_dark = material.emissive == Vec3::ZERO;
-    let is_perspective = draft.scene.camera().projection == crate::valid::Projection::Perspective;
+    let is_perspective = draft.scene.camera().projection == rtc_valid::Projection::Perspective;
     let spares = match body.form {
         Hull::Flat(flat) => {
             let mut lights = draft.punctual.iter();
@@ -241,10 +241,10 @@ fn is_beside(space: &Bounds, apex: Vec3, (axis, cosine): (Vec3, f64), margin: f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Positive, cos, sin};
-    use crate::plan::body::Extent;
-    use crate::profile::Profile;
-    use crate::valid::{DirectionalLight, PointLight};
+    use crate::body::Extent;
+    use rtc_math::{Positive, cos, sin};
+    use rtc_profile::Profile;
+    use rtc_valid::{DirectionalLight, PointLight};
 
     #[test]
     fn a_box_is_beside_a_cone_where_the_ball_around_it_is() {

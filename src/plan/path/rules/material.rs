@@ -1,12 +1,12 @@
 //! Rules on materials: layers of weight 0, alpha of 1, what an unlit material ignores.
 
 use super::PathRule;
-use crate::math::{NonNegative, UnitInterval, Vec3};
-use crate::plan::Layer;
-use crate::plan::facts;
-use crate::plan::path::draft::Draft;
-use crate::plan::rules::Rule;
-use crate::valid::{Alpha, Map, Standard};
+use crate::Layer;
+use crate::facts;
+use crate::path::draft::Draft;
+use crate::rules::Rule;
+use rtc_math::{NonNegative, UnitInterval, Vec3};
+use rtc_valid::{Alpha, Map, Standard};
 
 pub(super) const ZERO: PathRule = PathRule {
     rule: Rule::PathZero,

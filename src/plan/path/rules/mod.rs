@@ -7,26 +7,26 @@ mod paths;
 mod texture;
 
 use super::draft::Draft;
-use crate::ir::Place;
-use crate::plan::rules::Rule;
+use crate::rules::Rule;
+use rtc_ir::Place;
 
 /// A rule: its name, its text and its proof.
-pub(in crate::plan) struct PathRule {
+pub(crate) struct PathRule {
     /// The switch of the rule.
-    pub(in crate::plan) rule: Rule,
+    pub(crate) rule: Rule,
     /// The name that users know it by.
-    pub(in crate::plan) name: &'static str,
+    pub(crate) name: &'static str,
     /// The text: what the rule says, and why it is right.
-    pub(in crate::plan) text: &'static str,
+    pub(crate) text: &'static str,
     /// Why an effect is not needed then: lower case, no full stop.
-    pub(in crate::plan) because: &'static str,
+    pub(crate) because: &'static str,
     /// Removes the parts that add nothing; returns the values that decided, none if nothing
     /// changed.
     pub(super) apply: fn(&mut Draft<'_>) -> Vec<Place>,
 }
 
 /// All rules for paths.
-pub(in crate::plan) const ALL: [&PathRule; 16] = [
+pub(crate) const ALL: [&PathRule; 16] = [
     &light::BLACK,
     &light::DARK_SKY,
     &light::EVEN_SKY,
@@ -46,6 +46,6 @@ pub(in crate::plan) const ALL: [&PathRule; 16] = [
 ];
 
 /// The item of a rule, if it is one for paths.
-pub(in crate::plan) fn find(rule: Rule) -> Option<&'static PathRule> {
+pub(crate) fn find(rule: Rule) -> Option<&'static PathRule> {
     ALL.into_iter().find(|item| item.rule == rule)
 }

@@ -1,15 +1,15 @@
 //! Rules on the depth of paths, and on the surfaces they can meet.
 
 use super::PathRule;
-use crate::ir::{Field, Noun, Place};
-use crate::math::{Bounds, Vec3};
-use crate::plan::MAX_PAIRS;
-use crate::plan::effect::Effect;
-use crate::plan::path::draft::{Draft, LightLeft};
-use crate::plan::rules::Rule;
-use crate::plan::space::Margins;
-use crate::plan::window::Shown;
-use crate::valid::{Falloff, Punctual, Standard};
+use crate::MAX_PAIRS;
+use crate::effect::Effect;
+use crate::path::draft::{Draft, LightLeft};
+use crate::rules::Rule;
+use crate::space::Margins;
+use crate::window::Shown;
+use rtc_ir::{Field, Noun, Place};
+use rtc_math::{Bounds, Vec3};
+use rtc_valid::{Falloff, Punctual, Standard};
 
 fn depth() -> Place {
     Place::new(Noun::Settings, 0, Field::MaxDepth)
@@ -173,7 +173,7 @@ fn end_paths(draft: &mut Draft<'_>, is_enough: bool) -> Vec<Place> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::valid::DirectionalLight;
+    use rtc_valid::DirectionalLight;
 
     #[test]
     fn a_ray_to_a_sun_is_followed_to_beyond_the_other_box() {

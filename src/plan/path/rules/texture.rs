@@ -1,13 +1,13 @@
 //! Rules on maps: maps without texture coordinates, maps that multiply 0, and constant maps.
 
 use super::PathRule;
-use crate::ir::{Field, Noun, Place};
-use crate::math::{UnitInterval, Vec3};
-use crate::plan::Layer;
-use crate::plan::path::draft::Draft;
-use crate::plan::path::facts::Presence;
-use crate::plan::rules::Rule;
-use crate::valid::{Map, Standard};
+use crate::Layer;
+use crate::path::draft::Draft;
+use crate::path::facts::Presence;
+use crate::rules::Rule;
+use rtc_ir::{Field, Noun, Place};
+use rtc_math::{UnitInterval, Vec3};
+use rtc_valid::{Map, Standard};
 
 pub(super) const UNSEEN: PathRule = PathRule {
     rule: Rule::PathMapUnseen,

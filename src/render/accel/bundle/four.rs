@@ -2,8 +2,8 @@
 //! less than a bundle of few rays, so after such a one some rays go without.
 
 use super::{Balls, Bundles, LEVELS, ONE, RayCone, Shaft};
-use crate::render::accel::bounds::Ball;
-use crate::render::lanes::{FourRays, LANES, Vectors, lanes_of};
+use crate::accel::bounds::Ball;
+use crate::lanes::{FourRays, LANES, Vectors, lanes_of};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4};
 
@@ -36,7 +36,7 @@ impl Bundles {
     /// As [`Self::along`], of the rays of some lanes: those whose bundle can say, and the items that
     /// one of them may meet.
     #[inline(always)]
-    pub(in crate::render) fn along_each<S: Simd>(
+    pub(crate) fn along_each<S: Simd>(
         &mut self,
         simd: S,
         balls: &Balls,
@@ -70,7 +70,7 @@ impl Bundles {
 
     /// As [`Self::towards`], from the points of some lanes: 0 in the others.
     #[inline(always)]
-    pub(in crate::render) fn towards_each<S: Simd>(
+    pub(crate) fn towards_each<S: Simd>(
         &mut self,
         balls: &Balls,
         [bounce, light, lights]: [usize; 3],

@@ -7,13 +7,13 @@
 
 mod four;
 
-use crate::math::Vec3;
-use crate::render::accel::bounds::Ball;
-use crate::render::ray::Ray;
+use crate::accel::bounds::Ball;
+use crate::ray::Ray;
 use arrayvec::ArrayVec;
+use rtc_math::Vec3;
 
 /// At most so many items have bits.
-pub(in crate::render) const MAX_ITEMS: usize = 64;
+pub(crate) const MAX_ITEMS: usize = 64;
 
 /// The margin, as a fraction of the coordinates it is for: 2⁻³², 2²¹ units of rounding. Hits are
 /// accurate to about 10² units.
@@ -30,7 +30,7 @@ const WIDEST: f64 = 0.5;
 
 /// The balls of a few items, each known by a bit.
 #[derive(Debug)]
-pub(in crate::render) struct Balls {
+pub(crate) struct Balls {
     balls: Vec<(u64, Ball)>,
     /// The items without a ball: every ray may meet them.
     unbounded: u64,
@@ -42,7 +42,7 @@ pub(in crate::render) struct Balls {
 
 impl Balls {
     /// The balls of some items by their bits, at most [`MAX_ITEMS`].
-    pub(in crate::render) fn new(items: impl Iterator<Item = (usize, Option<Ball>)>) -> Self {
+    pub(crate) fn new(items: impl Iterator<Item = (usize, Option<Ball>)>) -> Self {
         let (mut balls, mut smallest) = (Vec::new(), f64::INFINITY);
         let (mut unbounded, mut all) = (0, 0);
         for (bit, ball) in items {
@@ -288,26 +288,21 @@ const SHAFTS: usize = 32;
 
 /// The bundles under way: of rays by bounce, of shadow rays by bounce and light.
 #[derive(Debug)]
-pub(in crate::render) struct Bundles {
+pub(crate) struct Bundles {
     cones: [RayCone; LEVELS],
     shafts: [Shaft; SHAFTS],
 }
 
 impl Bundles {
     /// None yet.
-    pub(in crate::render) const EMPTY: Self = Self {
+    pub(crate) const EMPTY: Self = Self {
         cones: [RayCone::EMPTY; LEVELS],
         shafts: [Shaft::EMPTY; SHAFTS],
     };
 
     /// The items that a ray after so many bounces may meet; `None` if its bundle can't say.
     #[inline(always)]
-    pub(in crate::render) fn along(
-        &mut self,
-        balls: &Balls,
-        bounce: usize,
-        ray: &Ray,
-    ) -> Option<u64> {
+    pub(crate) fn along(&mut self, balls: &Balls, bounce: usize, ray: &Ray) -> Option<u64> {
         let cone = &mut self.cones[bounce % LEVELS];
         if !cone.holds(ray) {
             *cone = cone.around(ray, balls)?;
@@ -319,7 +314,7 @@ impl Bundles {
     /// The items that may stand between a point, after so many bounces, and the points of a light,
     /// one of so many.
     #[inline(always)]
-    pub(in crate::render) fn towards(
+    pub(crate) fn towards(
         &mut self,
         balls: &Balls,
         [bounce, light, lights]: [usize; 3],

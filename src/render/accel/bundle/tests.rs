@@ -1,12 +1,12 @@
 //! No bundle passes over what a ray in it hits.
 
 use super::*;
-use crate::render::lanes::FourRays;
-use crate::render::sampler::Key;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::sphere::{Sphere, TexturedSphere};
-use crate::render::shape::torus::Torus;
-use crate::render::shape::triangle::Shear;
+use crate::lanes::FourRays;
+use crate::sampler::Key;
+use crate::shape::geometry::Geometry;
+use crate::shape::sphere::{Sphere, TexturedSphere};
+use crate::shape::torus::Torus;
+use crate::shape::triangle::Shear;
 use fearless_simd::Fallback;
 use rayon::prelude::*;
 

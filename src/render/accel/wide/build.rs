@@ -6,25 +6,25 @@
 
 use super::split::{BoxedItem, Part};
 use super::{LEAF, NONE, Wide};
-use crate::math::{Bounds, Vec3};
-use crate::render::accel::beam::QuantizationFrame;
-use crate::render::accel::lanes::{
+use crate::accel::beam::QuantizationFrame;
+use crate::accel::lanes::{
     ITEM, LINKS, ROWS_AFTER, TRIANGLES, TriangleRow, WIDTH, WideNode, place,
 };
-use crate::render::accel::pages::Pages;
-use crate::render::accel::simd::SimdLevel;
+use crate::accel::pages::Pages;
+use crate::accel::simd::SimdLevel;
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
+use rtc_math::{Bounds, Vec3};
 
 /// A link to a leaf counts no more triangles, which would take 21 GB.
-pub(in crate::render) const MOST: usize = 1 << 29;
+pub(crate) const MOST: usize = 1 << 29;
 
 /// Parts of so few triangles are built by one thread.
 const ALONE: usize = 4096;
 
 /// Who builds a hierarchy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) enum Builders {
+pub(crate) enum Builders {
     /// This thread. It must be so where others wait until the hierarchy is there: a thread that is
     /// helped may meanwhile be handed work which waits for that too, and would wait for itself.
     One,
@@ -35,7 +35,7 @@ pub(in crate::render) enum Builders {
 impl Wide {
     /// Builds the hierarchy of some triangles, each known by its number, with corners that may be
     /// wrong by `error_bound`; `None` if there is none.
-    pub(in crate::render) fn build(
+    pub(crate) fn build(
         builders: Builders,
         simd: SimdLevel,
         count: usize,

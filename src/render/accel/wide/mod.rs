@@ -8,14 +8,14 @@ mod split;
 mod together;
 mod walk;
 
-use crate::math::Vec3;
-use crate::render::accel::beam::QuantizationFrame;
-use crate::render::accel::lanes::{TRIANGLES, TriangleRow, WIDTH, WideLeaf, WideNode, place};
-use crate::render::accel::pages::Pages;
-use crate::render::accel::simd::SimdLevel;
+use crate::accel::beam::QuantizationFrame;
+use crate::accel::lanes::{TRIANGLES, TriangleRow, WIDTH, WideLeaf, WideNode, place};
+use crate::accel::pages::Pages;
+use crate::accel::simd::SimdLevel;
 use arrayvec::ArrayVec;
-pub(in crate::render) use build::{Builders, MOST};
-pub(in crate::render) use walk::Visitor;
+pub(crate) use build::{Builders, MOST};
+use rtc_math::Vec3;
+pub(crate) use walk::Visitor;
 
 /// Below this depth the heuristic chooses; above it the middle, which needs at most 12 more.
 const HEURISTIC_DEPTH: usize = 16;
@@ -33,7 +33,7 @@ const NONE: u32 = u32::MAX;
 
 /// The hierarchy.
 #[derive(Debug)]
-pub(in crate::render) struct Wide {
+pub(crate) struct Wide {
     simd: SimdLevel,
     frame: QuantizationFrame,
     nodes: Pages<WideNode>,
@@ -46,16 +46,16 @@ pub(in crate::render) struct Wide {
 
 impl Wide {
     /// Has candidates come without corners.
-    pub(in crate::render) fn forget_corners(&mut self) {
+    pub(crate) fn forget_corners(&mut self) {
         self.unit = None;
     }
 }
 
 /// A triangle that a ray may hit.
 #[derive(Clone, Copy)]
-pub(in crate::render) struct Candidate<'walk> {
+pub(crate) struct Candidate<'walk> {
     /// Its number.
-    pub(in crate::render) item: u32,
+    pub(crate) item: u32,
     leaf: WideLeaf<'walk>,
     lane: usize,
     unit: Option<f64>,
@@ -64,7 +64,7 @@ pub(in crate::render) struct Candidate<'walk> {
 impl Candidate<'_> {
     /// Its corners, if they are here with every bit.
     #[inline(always)]
-    pub(in crate::render) fn corners(&self) -> Option<[Vec3; 3]> {
+    pub(crate) fn corners(&self) -> Option<[Vec3; 3]> {
         let unit = self.unit?;
         let number =
             |corner, axis| f64::from(self.leaf.number(place(corner, axis), self.lane)) * unit;

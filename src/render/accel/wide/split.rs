@@ -2,10 +2,10 @@
 //! "On fast construction of SAH-based bounding volume hierarchies", 2007).
 
 use super::{Builders, HEURISTIC_DEPTH};
-use crate::math::Lanes;
-use crate::render::accel::lanes::{TRIANGLES, TriangleRow, WIDTH};
+use crate::accel::lanes::{TRIANGLES, TriangleRow, WIDTH};
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
+use rtc_math::Lanes;
 
 /// The most bins of an axis.
 const BINS: usize = 16;

@@ -3,11 +3,11 @@
 
 use super::walk::{Visitor, lanes_of};
 use super::{Candidate, LEAF, TraversalStack, Wide, leaf_at};
-use crate::render::accel::beam::{Beam, NoBeam};
-use crate::render::accel::lanes::{LINKS, WIDTH};
-use crate::render::accel::packet::{Packet, RAYS};
-use crate::render::accel::simd::at_level;
-use crate::render::ray::Ray;
+use crate::accel::beam::{Beam, NoBeam};
+use crate::accel::lanes::{LINKS, WIDTH};
+use crate::accel::packet::{Packet, RAYS};
+use crate::accel::simd::at_level;
+use crate::ray::Ray;
 use fearless_simd::Simd;
 
 /// The limit of a ray that looks for nothing more.
@@ -29,7 +29,7 @@ struct Together<'walk, 'rays, S: Simd, V> {
 impl Wide {
     /// As [`Wide::walk`] for each of some rays, with the `t_max` and the visitor of each. Fastest
     /// where rays side by side visit the same nodes.
-    pub(in crate::render) fn walk_together<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
+    pub(crate) fn walk_together<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
         at_level!(self.simd, simd => self.walk_packets(simd, rays));
     }
 

@@ -2,12 +2,12 @@
 //! one waits for is fetched the others go on.
 
 use super::{Candidate, LEAF, NONE, TraversalStack, Wide, leaf_at};
-use crate::render::accel::beam::Beam;
-use crate::render::accel::lanes::{
+use crate::accel::beam::Beam;
+use crate::accel::lanes::{
     BoxLanes, LINKS, LeafVerdict, TriangleLanes, TriangleRow, WIDTH, WideNode,
 };
-use crate::render::accel::simd::at_level;
-use crate::render::ray::Ray;
+use crate::accel::simd::at_level;
+use crate::ray::Ray;
 use fearless_simd::{Simd, f32x4};
 use std::hint::black_box;
 
@@ -29,7 +29,7 @@ struct Traversal<'walk, S: Simd> {
 }
 
 /// What a ray asks of the triangles it may hit.
-pub(in crate::render) trait Visitor {
+pub(crate) trait Visitor {
     /// Whether triangles that are missed for sure are passed over; else all are visited whose boxes
     /// the ray may meet.
     const CULLS: bool = true;
@@ -63,12 +63,12 @@ enum Step {
 impl Wide {
     /// Has the triangles visited that the ray may hit before `t_max`, nearer ones roughly first.
     #[inline]
-    pub(in crate::render) fn walk(&self, ray: &Ray, t_max: f64, visitor: &mut impl Visitor) {
+    pub(crate) fn walk(&self, ray: &Ray, t_max: f64, visitor: &mut impl Visitor) {
         at_level!(self.simd, simd => self.walk_one(simd, ray, t_max, visitor));
     }
 
     /// As [`Wide::walk`] for each of some rays, with the `t_max` and the visitor of each.
-    pub(in crate::render) fn walk_all<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
+    pub(crate) fn walk_all<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
         at_level!(self.simd, simd => self.walk_by_turns(simd, rays));
     }
 

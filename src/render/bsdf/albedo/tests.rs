@@ -4,7 +4,7 @@ use super::super::fresnel::schlick;
 use super::super::ggx::Ggx;
 use super::super::sheen::integrated_albedo;
 use super::*;
-use crate::math::Vec3;
+use rtc_math::Vec3;
 
 /// Normals per entry.
 const NORMALS: u32 = 256;

@@ -2,21 +2,21 @@
 
 use super::state::PathState;
 use super::{PathTracer, Strategy};
-use crate::math::Vec3;
-use crate::plan::PathFeatures;
-use crate::render::film::heartbeat::OnPixel;
-use crate::render::film::pixel::SampleId;
-use crate::render::integrator::aov::{CameraHit, First, FirstHit, FirstHits};
-use crate::render::light::Lights;
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::World;
+use crate::film::heartbeat::OnPixel;
+use crate::film::pixel::SampleId;
+use crate::integrator::aov::{CameraHit, First, FirstHit, FirstHits};
+use crate::light::Lights;
+use crate::shape::geometry::Geometry;
+use crate::world::World;
+use rtc_math::Vec3;
+use rtc_plan::PathFeatures;
 
 /// Finds the first hits of paths, with all that surfaces can show.
-pub(in crate::render) type FirstHitsOfPaths<'world, S> =
+pub(crate) type FirstHitsOfPaths<'world, S> =
     FirstHits<PathTracer<'world, S, { PathFeatures::EVERYTHING.0 }>>;
 
 impl<'world, S: Geometry> FirstHitsOfPaths<'world, S> {
-    pub(in crate::render) fn new(
+    pub(crate) fn new(
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
         on_pixel: &'world OnPixel<'world>,

@@ -11,19 +11,19 @@ mod vertex;
 mod visibility;
 
 use super::Integrator;
-use crate::math::Vec3;
-use crate::plan::{Effect, EnvironmentLeft, PathFeatures};
-use crate::render::camera::{image_point, lens_at, ray_through};
-use crate::render::film::heartbeat::{Heartbeat, OnPixel};
-use crate::render::film::pixel::{Sample, SampleId, Stream};
-use crate::render::film::{Background, Counts};
-use crate::render::light::Lights;
-use crate::render::ray::Ray;
-use crate::render::sampler::sobol::{Pair, Sobol};
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::World;
-use crate::render::world::settings::Mode;
-pub(in crate::render) use aov::FirstHitsOfPaths;
+use crate::camera::{image_point, lens_at, ray_through};
+use crate::film::heartbeat::{Heartbeat, OnPixel};
+use crate::film::pixel::{Sample, SampleId, Stream};
+use crate::film::{Background, Counts};
+use crate::light::Lights;
+use crate::ray::Ray;
+use crate::sampler::sobol::{Pair, Sobol};
+use crate::shape::geometry::Geometry;
+use crate::world::World;
+use crate::world::settings::Mode;
+pub(crate) use aov::FirstHitsOfPaths;
+use rtc_math::Vec3;
+use rtc_plan::{Effect, EnvironmentLeft, PathFeatures};
 use state::PathState;
 
 /// The sampling strategy. All strategies have the same expected value; only the noise differs.
@@ -39,7 +39,7 @@ pub enum Strategy {
 }
 
 /// Traces paths through a world, with the [`PathFeatures`] `F`.
-pub(in crate::render) struct PathTracer<'world, S, const F: u32> {
+pub(crate) struct PathTracer<'world, S, const F: u32> {
     world: &'world World<S>,
     lights: &'world Lights<'world, S>,
     /// Whether rough surfaces keep the light that bounces between their facets.
@@ -63,7 +63,7 @@ pub(in crate::render) struct PathTracer<'world, S, const F: u32> {
 }
 
 impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
-    pub(in crate::render) fn new(
+    pub(crate) fn new(
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
         strategy: Strategy,
@@ -88,12 +88,12 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// The same tracer with another background.
-    pub(in crate::render) fn before(self, background: Background) -> Self {
+    pub(crate) fn before(self, background: Background) -> Self {
         Self { background, ..self }
     }
 
     /// The same tracer with a clamp.
-    pub(in crate::render) fn clamped(self, clamp: Option<f64>) -> Self {
+    pub(crate) fn clamped(self, clamp: Option<f64>) -> Self {
         Self { clamp, ..self }
     }
 

@@ -3,14 +3,14 @@
 use super::state::PathState;
 use super::vertex::PathVertex;
 use super::{PathTracer, Strategy};
-use crate::math::{Vec3, exp};
-use crate::plan::{Effect, PathFeatures};
-use crate::render::bsdf::Lobes;
-use crate::render::bsdf::standard::StandardParameters;
-use crate::render::light::Incident;
-use crate::render::material::point::{MaterialPoint, ShadingFrame};
-use crate::render::sampler::sobol::Pair;
-use crate::render::shape::geometry::Geometry;
+use crate::bsdf::Lobes;
+use crate::bsdf::standard::StandardParameters;
+use crate::light::Incident;
+use crate::material::point::{MaterialPoint, ShadingFrame};
+use crate::sampler::sobol::Pair;
+use crate::shape::geometry::Geometry;
+use rtc_math::{Vec3, exp};
+use rtc_plan::{Effect, PathFeatures};
 
 /// The BSDF at a vertex, in its frame of shading.
 struct Shading<'vertex, const F: u32> {

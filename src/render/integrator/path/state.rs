@@ -1,9 +1,9 @@
 //! The state of a path.
 
-use crate::math::Vec3;
-use crate::render::ray::Ray;
-use crate::render::sampler::sobol::{Pair, Sobol};
-use crate::render::world::NOWHERE;
+use crate::ray::Ray;
+use crate::sampler::sobol::{Pair, Sobol};
+use crate::world::NOWHERE;
+use rtc_math::Vec3;
 
 /// Bounces before Russian roulette may end a path.
 const RR_MIN_DEPTH: u32 = 3;

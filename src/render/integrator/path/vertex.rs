@@ -2,13 +2,13 @@
 
 use super::PathTracer;
 use super::state::PathState;
-use crate::plan::{Effect, PathFeatures};
-use crate::render::material::point::MaterialPoint;
-use crate::render::material::standard::{Alpha, StandardMaterial};
-use crate::render::ray::Interaction;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::geometry::{Asked, Details};
-use crate::render::world::Hit;
+use crate::material::point::MaterialPoint;
+use crate::material::standard::{Alpha, StandardMaterial};
+use crate::ray::Interaction;
+use crate::shape::geometry::Geometry;
+use crate::shape::geometry::{Asked, Details};
+use crate::world::Hit;
+use rtc_plan::{Effect, PathFeatures};
 
 /// The maximum number of skipped surfaces along a ray.
 pub(super) const MAX_SKIPPED: u32 = 1 << 10;

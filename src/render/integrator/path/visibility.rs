@@ -2,13 +2,13 @@
 
 use super::PathTracer;
 use super::vertex::{MAX_SKIPPED, PathVertex};
-use crate::math::Vec3;
-use crate::plan::PathFeatures;
-use crate::render::material::standard::Alpha;
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::alpha::AlphaTested;
-use crate::render::world::{Hit, segment};
+use crate::material::standard::Alpha;
+use crate::ray::{Interaction, Ray};
+use crate::shape::geometry::Geometry;
+use crate::world::alpha::AlphaTested;
+use crate::world::{Hit, segment};
+use rtc_math::Vec3;
+use rtc_plan::PathFeatures;
 
 impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     /// The transmittance to a point, or to infinity.

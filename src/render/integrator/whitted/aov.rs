@@ -1,12 +1,12 @@
 //! The first hit of a camera ray, as the course's integrator sees it.
 
 use super::Tracer;
-use crate::render::film::Seeds;
-use crate::render::film::pixel::SampleId;
-use crate::render::integrator::aov::{CameraHit, First, FirstHit};
-use crate::render::sampler::Key;
-use crate::render::shape::geometry::Asked;
-use crate::render::shape::geometry::Geometry;
+use crate::film::Seeds;
+use crate::film::pixel::SampleId;
+use crate::integrator::aov::{CameraHit, First, FirstHit};
+use crate::sampler::Key;
+use crate::shape::geometry::Asked;
+use crate::shape::geometry::Geometry;
 
 impl<'run, S: Geometry, const F: u32> FirstHit<'run> for Tracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {

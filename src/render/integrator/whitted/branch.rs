@@ -2,14 +2,14 @@
 
 use super::Tracer;
 use super::shade::ShadingPoint;
-use crate::math::Vec3;
-use crate::plan::{Effect, Features, Rule};
-use crate::render::bsdf::optics::{reflect, refract};
-use crate::render::integrator::Integrator;
-use crate::render::material::phong::PhongMaterial;
-use crate::render::ray::{Interaction, Ray};
-use crate::render::sampler::{Key, PhongLobeSampler, is_above};
-use crate::render::shape::geometry::Geometry;
+use crate::bsdf::optics::{reflect, refract};
+use crate::integrator::Integrator;
+use crate::material::phong::PhongMaterial;
+use crate::ray::{Interaction, Ray};
+use crate::sampler::{Key, PhongLobeSampler, is_above};
+use crate::shape::geometry::Geometry;
+use rtc_math::Vec3;
+use rtc_plan::{Effect, Features, Rule};
 
 /// A path in progress.
 #[derive(Clone, Copy)]

@@ -12,37 +12,37 @@ mod four;
 mod pixel;
 mod shade;
 
-use crate::math::Vec3;
-use crate::plan::{Effect, Features, Plan, Rule};
-use crate::render::accel::bundle::Bundles;
-use crate::render::camera::grid::Grid;
-use crate::render::film::Counts;
-use crate::render::film::heartbeat::{Heartbeat, OnPixel};
-use crate::render::ray::Ray;
-use crate::render::sampler::Key;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::geometry::{Asked, Details};
-use crate::render::texture::bilinear::{TextureFrame, look_up};
-use crate::render::world::settings::Mode;
-use crate::render::world::{Hit, World};
+use crate::accel::bundle::Bundles;
+use crate::camera::grid::Grid;
+use crate::film::Counts;
+use crate::film::heartbeat::{Heartbeat, OnPixel};
+use crate::ray::Ray;
+use crate::sampler::Key;
+use crate::shape::geometry::Geometry;
+use crate::shape::geometry::{Asked, Details};
+use crate::texture::bilinear::{TextureFrame, look_up};
+use crate::world::settings::Mode;
+use crate::world::{Hit, World};
 use branch::{Branch, BranchKind, Pending};
 use pixel::PixelState;
+use rtc_math::Vec3;
+use rtc_plan::{Effect, Features, Plan, Rule};
 use shade::{OUTLINE, ShadingPoint};
 
 /// Follows camera rays through a world with the [`Features`] `F`; reuse one for many rays, it keeps
 /// its memory.
-pub(in crate::render) struct Tracer<'world, S, const F: u32> {
-    pub(in crate::render) world: &'world World<S>,
+pub(crate) struct Tracer<'world, S, const F: u32> {
+    pub(crate) world: &'world World<S>,
     pending: Vec<Pending>,
     /// Tells of the pixel under way, and whether to go on with it.
-    pub(in crate::render) heartbeat: Heartbeat<'world>,
+    pub(crate) heartbeat: Heartbeat<'world>,
     /// Whether the path under way counts 0 times: then nothing it meets says anything about a
     /// plan.
-    pub(in crate::render) weightless: bool,
+    pub(crate) weightless: bool,
     /// Whether terms fall in steps: at the first hit of a cartoon.
     steps: bool,
     /// Whether points of soft lights are spread without bias, however few they are.
-    pub(in crate::render) spread: bool,
+    pub(crate) spread: bool,
     grid: Grid,
     pixel: PixelState,
     /// How many bounces the path under way has behind it.
@@ -51,16 +51,13 @@ pub(in crate::render) struct Tracer<'world, S, const F: u32> {
     /// Whether samples are taken four at a time where they can be.
     by_four: bool,
     /// The rays traced so far.
-    pub(in crate::render) counts: Counts,
+    pub(crate) counts: Counts,
 }
 
 impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// A tracer of the world, watched by `on_pixel`.
     #[must_use]
-    pub(in crate::render) fn new(
-        world: &'world World<S>,
-        on_pixel: &'world OnPixel<'world>,
-    ) -> Self {
+    pub(crate) fn new(world: &'world World<S>, on_pixel: &'world OnPixel<'world>) -> Self {
         let (heartbeat, counts) = (Heartbeat::new(on_pixel), Counts::default());
         Self {
             world,
@@ -79,7 +76,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     }
 
     /// The same, with points of soft lights spread without bias.
-    pub(in crate::render) fn spread(self) -> Self {
+    pub(crate) fn spread(self) -> Self {
         Self {
             spread: true,
             ..self
@@ -88,18 +85,18 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
 
     /// Whether this tracer can do it: known at compile time.
     #[inline]
-    pub(in crate::render) const fn can(feature: Features) -> bool {
+    pub(crate) const fn can(feature: Features) -> bool {
         Features(F).contains(feature)
     }
 
     /// Whether a rule that decides hit by hit applies: always, but for the naive tracer.
     #[inline]
-    pub(in crate::render) fn applies(&self, rule: Rule) -> bool {
+    pub(crate) fn applies(&self, rule: Rule) -> bool {
         !Self::can(Features::NAIVE) || self.world.plan.rules.contains(rule)
     }
 
     /// Reports a fault of the plan under validation, if there is one and `is_fault` finds it.
-    pub(in crate::render) fn verify(
+    pub(crate) fn verify(
         &self,
         effect: Effect,
         what: &'static str,
@@ -119,7 +116,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// It is compiled once for pictures, growing pictures and layers, so that what it calls at
     /// every hit is compiled into it.
     #[inline(never)]
-    pub(in crate::render) fn radiance(&mut self, ray: Ray, key: Key) -> Vec3 {
+    pub(crate) fn radiance(&mut self, ray: Ray, key: Key) -> Vec3 {
         self.counts.camera += 1;
         let depth = self.world.plan.max_depth;
         let mut sum = Vec3::ZERO;
@@ -195,7 +192,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
 
     /// What a ray sees at a hit.
     #[inline(always)]
-    pub(in crate::render) fn shading_point_of(
+    pub(crate) fn shading_point_of(
         &mut self,
         ray: &Ray,
         hit: Hit,

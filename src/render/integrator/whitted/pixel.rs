@@ -1,18 +1,18 @@
 //! The samples of a pixel, and what a validation asks of them.
 
 use super::Tracer;
-use crate::plan::{Effect, Features, PixelClass};
-use crate::render::camera::grid::{Cell, Grid};
-use crate::render::camera::{camera_ray, image_point, lens_at};
-use crate::render::film::heartbeat::Heartbeat;
-use crate::render::film::pixel::{Sample, SampleId, Stream};
-use crate::render::film::{Counts, Seeds};
-use crate::render::integrator::Integrator;
-use crate::render::lanes::LANES;
-use crate::render::ray::Ray;
-use crate::render::sampler::Key;
-use crate::render::sampler::sequence::Sequence;
-use crate::render::shape::geometry::Geometry;
+use crate::camera::grid::{Cell, Grid};
+use crate::camera::{camera_ray, image_point, lens_at};
+use crate::film::heartbeat::Heartbeat;
+use crate::film::pixel::{Sample, SampleId, Stream};
+use crate::film::{Counts, Seeds};
+use crate::integrator::Integrator;
+use crate::lanes::LANES;
+use crate::ray::Ray;
+use crate::sampler::Key;
+use crate::sampler::sequence::Sequence;
+use crate::shape::geometry::Geometry;
+use rtc_plan::{Effect, Features, PixelClass};
 
 /// What the samples of a pixel share.
 #[derive(Clone, Copy, Default)]

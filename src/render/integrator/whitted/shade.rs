@@ -1,36 +1,36 @@
 //! Local shading: the light that reaches a point directly, by Phong's and by Gooch's model.
 
 use super::Tracer;
-use crate::math::{Basis, Vec3};
-use crate::plan::{Effect, Features, Rule};
-use crate::render::bsdf::optics::highlight;
-use crate::render::integrator::Integrator;
-use crate::render::light::course::CourseLight;
-use crate::render::material::phong::PhongMaterial;
-use crate::render::ray::Interaction;
-use crate::render::sampler::{DiscPoints, Key};
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::few::Few;
-use crate::render::world::settings::Gooch;
+use crate::bsdf::optics::highlight;
+use crate::integrator::Integrator;
+use crate::light::course::CourseLight;
+use crate::material::phong::PhongMaterial;
+use crate::ray::Interaction;
+use crate::sampler::{DiscPoints, Key};
+use crate::shape::geometry::Geometry;
+use crate::world::few::Few;
+use crate::world::settings::Gooch;
+use rtc_math::{Basis, Vec3};
+use rtc_plan::{Effect, Features, Rule};
 
 /// A point seen from one side.
-pub(in crate::render) struct ShadingPoint<'world> {
+pub(crate) struct ShadingPoint<'world> {
     /// The point.
-    pub(in crate::render) interaction: Interaction,
+    pub(crate) interaction: Interaction,
     /// The unit shading normal on the side of the viewer.
-    pub(in crate::render) normal: Vec3,
+    pub(crate) normal: Vec3,
     /// The unit vector to the viewer.
-    pub(in crate::render) to_viewer: Vec3,
+    pub(crate) to_viewer: Vec3,
     /// What the surface is made of.
-    pub(in crate::render) material: &'world PhongMaterial,
+    pub(crate) material: &'world PhongMaterial,
     /// C at this point.
-    pub(in crate::render) color: Vec3,
+    pub(crate) color: Vec3,
     /// ks at this point.
-    pub(in crate::render) ks: f64,
+    pub(crate) ks: f64,
     /// The index of the surface in the scene.
-    pub(in crate::render) surface: usize,
+    pub(crate) surface: usize,
     /// Names the point for sampling.
-    pub(in crate::render) key: Key,
+    pub(crate) key: Key,
 }
 
 /// Whether something may hide a light from a point.
@@ -76,7 +76,7 @@ impl ShadingPoint<'_> {
 
     /// The geometric unit normal on the side of the viewer: the shading normal, where nothing bends
     /// that.
-    pub(in crate::render) fn geometric(&self) -> Vec3 {
+    pub(crate) fn geometric(&self) -> Vec3 {
         let normal = self.interaction.normal;
         if self.to_viewer.dot(normal) < 0.0 {
             -normal
@@ -114,7 +114,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// in its own light. So a closed mesh lets no light in, whatever the normals of its
     /// corners.
     #[must_use]
-    pub(in crate::render) fn phong(&mut self, shading_point: &ShadingPoint<'_>) -> Vec3 {
+    pub(crate) fn phong(&mut self, shading_point: &ShadingPoint<'_>) -> Vec3 {
         let world = self.world;
         let samples = world.settings.light_samples;
         let mut sum = Vec3::ZERO;
@@ -250,11 +250,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// (SIGGRAPH 1998), in the course's form: `Σ cool·(1 − N·L)/2 + warm·(1 + N·L)/2 +
     /// ks·max(0, R·V)ⁿ·c_l`.
     #[must_use]
-    pub(in crate::render) fn gooch(
-        &mut self,
-        shading_point: &ShadingPoint<'_>,
-        parameters: &Gooch,
-    ) -> Vec3 {
+    pub(crate) fn gooch(&mut self, shading_point: &ShadingPoint<'_>, parameters: &Gooch) -> Vec3 {
         let Gooch { b, y, alpha, beta } = *parameters;
         let (kd, n) = (
             shading_point.material.kd.get(),

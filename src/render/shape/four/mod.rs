@@ -8,11 +8,11 @@ mod torus;
 use super::plane::{Axis, Plane};
 use super::sphere::{AMPLIFIED, FAR, Sphere};
 use super::torus::Torus;
-use crate::math::{U, Vec3};
-use crate::render::lanes::{FourRays, LANES, Vectors, lanes_of};
-use crate::render::ray::{Interaction, OFFSET};
+use crate::lanes::{FourRays, LANES, Vectors, lanes_of};
+use crate::ray::{Interaction, OFFSET};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
+use rtc_math::{U, Vec3};
 
 /// A shape that four rays meet at once.
 #[derive(Clone, Copy)]
@@ -28,7 +28,7 @@ pub enum InLanes<'a> {
 impl InLanes<'_> {
     /// The roots above 0 of the lanes `asked`; infinite where there is none.
     #[inline(always)]
-    pub(in crate::render) fn intersect<S: Simd>(
+    pub(crate) fn intersect<S: Simd>(
         self,
         simd: S,
         rays: &FourRays<S>,
@@ -43,7 +43,7 @@ impl InLanes<'_> {
 
     /// The interactions at `t`, in the lanes where that is finite.
     #[inline(always)]
-    pub(in crate::render) fn interactions<S: Simd>(
+    pub(crate) fn interactions<S: Simd>(
         self,
         simd: S,
         rays: &FourRays<S>,
@@ -59,11 +59,11 @@ impl InLanes<'_> {
 
 /// Interactions of four rays.
 #[derive(Clone, Copy)]
-pub(in crate::render) struct Interactions<S: Simd> {
-    pub(in crate::render) point: Vectors<S>,
-    pub(in crate::render) normal: Vectors<S>,
-    pub(in crate::render) offset: f64x4<S>,
-    pub(in crate::render) back: Vectors<S>,
+pub(crate) struct Interactions<S: Simd> {
+    pub(crate) point: Vectors<S>,
+    pub(crate) normal: Vectors<S>,
+    pub(crate) offset: f64x4<S>,
+    pub(crate) back: Vectors<S>,
 }
 
 impl<S: Simd> Interactions<S> {
@@ -90,7 +90,7 @@ impl<S: Simd> Interactions<S> {
 
     /// One in each lane.
     #[inline(always)]
-    pub(in crate::render) fn each(simd: S, all: &[Interaction; LANES]) -> Self {
+    pub(crate) fn each(simd: S, all: &[Interaction; LANES]) -> Self {
         Self {
             point: Vectors::each(simd, all.map(|at| at.point)),
             normal: Vectors::each(simd, all.map(|at| at.normal)),
@@ -101,7 +101,7 @@ impl<S: Simd> Interactions<S> {
 
     /// Those of `self` in the lanes of a mask, those of `other` elsewhere.
     #[inline(always)]
-    pub(in crate::render) fn where_else(self, mask: mask64x4<S>, other: Self) -> Self {
+    pub(crate) fn where_else(self, mask: mask64x4<S>, other: Self) -> Self {
         Self {
             point: self.point.where_else(mask, other.point),
             normal: self.normal.where_else(mask, other.normal),
@@ -112,7 +112,7 @@ impl<S: Simd> Interactions<S> {
 
     /// As [`Interaction::start`].
     #[inline(always)]
-    pub(in crate::render) fn start(&self, simd: S, direction: Vectors<S>) -> Vectors<S> {
+    pub(crate) fn start(&self, simd: S, direction: Vectors<S>) -> Vectors<S> {
         let zero = f64x4::splat(simd, 0.0);
         let is_below = direction.dot(self.normal).simd_lt(zero);
         let side = is_below.select(-self.offset, self.offset);
@@ -214,9 +214,9 @@ fn interactions<S: Simd>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::ray::Ray;
-    use crate::render::sampler::Key;
-    use crate::render::shape::geometry::Geometry;
+    use crate::ray::Ray;
+    use crate::sampler::Key;
+    use crate::shape::geometry::Geometry;
     use fearless_simd::Fallback;
 
     /// Rays from near and far, at the sphere and past it, from its surface and along it.

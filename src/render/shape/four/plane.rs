@@ -2,8 +2,8 @@
 //! [`Plane::interaction`] on four rays at once. Other planes are asked lane by lane.
 
 use super::Interactions;
-use crate::render::lanes::{FourRays, Vectors, lanes_of, two_difference};
-use crate::render::shape::plane::{Axis, Plane};
+use crate::lanes::{FourRays, Vectors, lanes_of, two_difference};
+use crate::shape::plane::{Axis, Plane};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 

@@ -2,11 +2,11 @@
 //! search has ended goes on to no effect until the others have.
 
 use super::Interactions;
-use crate::math::Vec3;
-use crate::render::lanes::{FourRays, Vectors, lanes_of};
-use crate::render::shape::torus::{MAX_STEPS, NEARLY_ONE, ROUNDING, TOUCH, Torus};
+use crate::lanes::{FourRays, Vectors, lanes_of};
+use crate::shape::torus::{MAX_STEPS, NEARLY_ONE, ROUNDING, TOUCH, Torus};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
+use rtc_math::Vec3;
 
 /// As [`Torus::intersect`], of the lanes `asked`; infinite where there is no root.
 #[inline(always)]

@@ -5,25 +5,25 @@
 //! the point itself. The robust shape answers all questions that do not depend on the arithmetic
 //! (texture coordinates, shading normals, boxes).
 
-pub(in crate::render) mod ray;
-pub(in crate::render) mod real;
-pub(in crate::render) mod roots;
+pub(crate) mod ray;
+pub(crate) mod real;
+pub(crate) mod roots;
 
-use crate::math::{Bounds, Vec3};
-use crate::render::accel::bounds::Ball;
-use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::Shape;
-use crate::render::shape::geometry::{Asked, Details, Geometry};
-use crate::render::shape::kinds::*;
-use crate::render::shape::mesh::PlainMesh;
-use crate::render::shape::triangle::Shear;
+use crate::accel::bounds::Ball;
+use crate::ray::{Interaction, Ray};
+use crate::shape::Shape;
+use crate::shape::geometry::{Asked, Details, Geometry};
+use crate::shape::kinds::*;
+use crate::shape::mesh::PlainMesh;
+use crate::shape::triangle::Shear;
 use ray::PlainRay;
 use real::{Real, Vector};
+use rtc_math::{Bounds, Vec3};
 use std::fmt::Debug;
 use std::sync::Arc;
 
 /// How rays meet a shape by plain formulas.
-pub(in crate::render) trait Plain<R>: Clone + Debug + Send + Sync {
+pub(crate) trait Plain<R>: Clone + Debug + Send + Sync {
     /// The first root that counts, and the part of the shape it is on; roots beyond `t_max` may be
     /// left out.
     fn intersect(&self, ray: &PlainRay<R>, t_max: f64) -> Option<(R, u32)>;
@@ -44,7 +44,7 @@ impl<R, P: Plain<R>> Plain<R> for Box<P> {
 }
 
 /// A robust shape that has a plain twin.
-pub(in crate::render) trait Twin {
+pub(crate) trait Twin {
     /// The twin; a large one in a box.
     type Plain<R: Real>: Plain<R>;
 
@@ -93,11 +93,11 @@ macro_rules! declare {
     };
 }
 
-shapes!(declare);
+rtc_tables::shapes!(declare);
 
 impl<R: Real> PlainShape<R> {
     /// The twin of a shape; `mesh` is that of an instance. `None` for an instance of none.
-    pub(in crate::render) fn new(robust: Shape, mesh: Option<&Arc<PlainMesh<R>>>) -> Option<Self> {
+    pub(crate) fn new(robust: Shape, mesh: Option<&Arc<PlainMesh<R>>>) -> Option<Self> {
         Some(Self {
             form: PlainForm::of(&robust, mesh)?,
             robust: Box::new(robust),
@@ -107,6 +107,9 @@ impl<R: Real> PlainShape<R> {
 
 impl<R: Real> Geometry for PlainShape<R> {
     const FLATTENS: bool = false;
+
+    // Plain formulas are there to be compared with: one kernel is enough.
+    const HAS_KERNELS: bool = false;
 
     #[inline]
     fn intersect(&self, ray: &Ray, _shear: &Shear, t_max: f64) -> Option<(f64, u32)> {

@@ -1,21 +1,21 @@
 //! A ray in the numbers of the plain formulas, and which of their roots count.
 
 use super::real::{Real, Vector};
-use crate::plan::NEAREST;
-use crate::render::ray::Ray;
+use crate::ray::Ray;
+use rtc_plan::NEAREST;
 
 /// A ray in the numbers of the plain formulas.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct PlainRay<R> {
-    pub(in crate::render::shape) origin: Vector<R>,
-    pub(in crate::render::shape) direction: Vector<R>,
+pub(crate) struct PlainRay<R> {
+    pub(in crate::shape) origin: Vector<R>,
+    pub(in crate::shape) direction: Vector<R>,
     /// The square of the direction's length in the world.
-    pub(in crate::render::shape) length2: R,
+    pub(in crate::shape) length2: R,
 }
 
 impl<R: Real> PlainRay<R> {
     #[inline]
-    pub(in crate::render::shape) fn of(ray: &Ray) -> Self {
+    pub(in crate::shape) fn of(ray: &Ray) -> Self {
         let direction = Vector::of(ray.direction);
         Self {
             origin: Vector::of(ray.origin),
@@ -25,20 +25,20 @@ impl<R: Real> PlainRay<R> {
     }
 
     #[inline]
-    pub(in crate::render::shape) fn at(&self, t: R) -> Vector<R> {
+    pub(in crate::shape) fn at(&self, t: R) -> Vector<R> {
         self.origin + self.direction * t
     }
 
     /// Whether a root is a number and lies beyond [`NEAREST`].
     #[inline]
-    pub(in crate::render::shape) fn counts(&self, t: R) -> bool {
+    pub(in crate::shape) fn counts(&self, t: R) -> bool {
         let zero = R::of(0.0);
         t > zero && t * t * self.length2 > R::of(NEAREST * NEAREST) && t < R::of(f64::INFINITY)
     }
 
     /// The first of some roots that counts, each with the part it is on.
     #[inline]
-    pub(in crate::render::shape) fn first(
+    pub(in crate::shape) fn first(
         &self,
         roots: impl IntoIterator<Item = (R, u32)>,
     ) -> Option<(R, u32)> {

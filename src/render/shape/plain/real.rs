@@ -1,6 +1,6 @@
 //! The numbers the plain formulas are written for: f32 and f64, and vectors of them.
 
-use crate::math::Vec3;
+use rtc_math::Vec3;
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -109,16 +109,16 @@ fn narrow(x: f64) -> f32 {
 
 /// A vector or a point.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Vector<R> {
-    pub(in crate::render::shape) x: R,
-    pub(in crate::render::shape) y: R,
-    pub(in crate::render::shape) z: R,
+pub(crate) struct Vector<R> {
+    pub(in crate::shape) x: R,
+    pub(in crate::shape) y: R,
+    pub(in crate::shape) z: R,
 }
 
 impl<R: Real> Vector<R> {
     /// Each component rounded to the nearest number.
     #[inline]
-    pub(in crate::render) fn of(v: Vec3) -> Self {
+    pub(crate) fn of(v: Vec3) -> Self {
         Self {
             x: R::of(v.x),
             y: R::of(v.y),
@@ -127,17 +127,17 @@ impl<R: Real> Vector<R> {
     }
 
     #[inline]
-    pub(in crate::render::shape) fn wide(self) -> Vec3 {
+    pub(in crate::shape) fn wide(self) -> Vec3 {
         Vec3::new(self.x.wide(), self.y.wide(), self.z.wide())
     }
 
     #[inline]
-    pub(in crate::render::shape) fn dot(self, other: Self) -> R {
+    pub(in crate::shape) fn dot(self, other: Self) -> R {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
     #[inline]
-    pub(in crate::render::shape) fn cross(self, other: Self) -> Self {
+    pub(in crate::shape) fn cross(self, other: Self) -> Self {
         Self {
             x: self.y * other.z - self.z * other.y,
             y: self.z * other.x - self.x * other.z,
@@ -147,7 +147,7 @@ impl<R: Real> Vector<R> {
 
     /// The vector of length 1 along this one; not a number for one without a length.
     #[inline]
-    pub(in crate::render::shape) fn normalized(self) -> Self {
+    pub(in crate::shape) fn normalized(self) -> Self {
         self * (R::of(1.0) / self.dot(self).sqrt())
     }
 }

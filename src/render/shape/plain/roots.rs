@@ -6,7 +6,7 @@ use super::real::Real;
 /// The roots of `a·t² + b·t + c`, in order for `a > 0`: `(−b ∓ √(b² − 4ac))/2a`; the one root twice
 /// if `a` is 0.
 #[inline]
-pub(in crate::render::shape) fn quadratic<R: Real>(a: R, b: R, c: R) -> Option<[R; 2]> {
+pub(in crate::shape) fn quadratic<R: Real>(a: R, b: R, c: R) -> Option<[R; 2]> {
     let discriminant = b * b - R::of(4.0) * a * c;
     if discriminant < R::of(0.0) {
         return None;
@@ -55,7 +55,7 @@ fn largest_of_cubic<R: Real>(b: R, c: R, d: R) -> R {
 ///
 /// Ferrari's method in Descartes' form: a root of the resolvent cubic splits the quartic into two
 /// quadratics.
-pub(in crate::render::shape) fn quartic<R: Real>(b: R, c: R, d: R, e: R) -> [R; 4] {
+pub(in crate::shape) fn quartic<R: Real>(b: R, c: R, d: R, e: R) -> [R; 4] {
     let (half, zero) = (R::of(0.5), R::of(0.0));
     // Substitute t = y − b/4 to get y⁴ + p·y² + q·y + r.
     let shift = b * R::of(0.25);

@@ -4,7 +4,7 @@ mod text;
 
 use super::pointer::PointerStep;
 use super::{Form, Node, NodeId, Tree, keys, to_u32};
-use crate::source::FileId;
+use crate::FileId;
 
 /// How deep lists and maps may lie in each other.
 const MAX_DEPTH: usize = 512;

@@ -2,7 +2,7 @@
 
 use super::super::{NodeId, Tree, to_u32};
 use super::{Mistake, slip};
-use crate::source::Span;
+use crate::Span;
 use granit_parser::{ErrorKind, ScanError};
 
 /// The mistake in a text that is not YAML; `bracket` is the innermost one still open.

@@ -1,6 +1,6 @@
 //! What is wrong with a YAML text, as those who report it need it.
 
-use crate::source::Span;
+use crate::Span;
 
 /// A mistake in a YAML text. All but tags and duplicate keys leave no tree.
 #[derive(Debug)]

@@ -11,7 +11,7 @@ pub use layout::{LayoutFault, layout};
 pub use mistake::Mistake;
 
 use super::{Form, Node, NodeId, Tree, inside_quotes, keys, to_u32};
-use crate::source::{FileId, Span};
+use crate::{FileId, Span};
 use granit_parser::{Event, Parser, ScalarStyle, StructureStyle};
 use std::borrow::Cow;
 use std::ops::Range;

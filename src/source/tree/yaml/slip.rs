@@ -3,7 +3,7 @@
 
 use super::super::{Tree, to_u32};
 use super::Mistake;
-use crate::source::Span;
+use crate::Span;
 use granit_parser::ErrorKind;
 
 /// The slip that explains an error at a place, if one is found there.

@@ -2,7 +2,7 @@
 
 use super::super::to_u32;
 use super::Mistake;
-use crate::source::{FileId, Span};
+use crate::{FileId, Span};
 
 /// The longest run of bytes without a separator, and the longest word at all.
 pub(super) const MAX_WORD: usize = 1 << 20;

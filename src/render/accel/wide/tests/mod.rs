@@ -3,9 +3,9 @@
 mod together;
 
 use super::*;
-use crate::render::ray::Ray;
-use crate::render::sampler::Key;
-use crate::render::shape::triangle::{Shear, Triangle};
+use crate::ray::Ray;
+use crate::sampler::Key;
+use crate::shape::triangle::{Shear, Triangle};
 use rayon::prelude::*;
 
 /// Triangles in each hierarchy.

@@ -7,23 +7,23 @@
 mod shade;
 
 use super::Tracer;
-use crate::math::Vec3;
-use crate::plan::Features;
 #[cfg(target_arch = "x86_64")]
-use crate::render::accel::simd::Tokens;
-use crate::render::camera::pinhole_rays;
-use crate::render::film::Seeds;
-use crate::render::film::pixel::{Sample, SampleId, Stream};
-use crate::render::integrator::Integrator;
-use crate::render::lanes::{ALL, FourRays, LANES, Vectors, lanes_of};
-use crate::render::shape::four::Interactions;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::tie::CLOSE;
-use crate::render::world::few::Few;
-use crate::render::world::settings::Mode;
-use crate::render::world::{Hit, World};
+use crate::accel::simd::Tokens;
+use crate::camera::pinhole_rays;
+use crate::film::Seeds;
+use crate::film::pixel::{Sample, SampleId, Stream};
+use crate::integrator::Integrator;
+use crate::lanes::{ALL, FourRays, LANES, Vectors, lanes_of};
+use crate::shape::four::Interactions;
+use crate::shape::geometry::Geometry;
+use crate::shape::tie::CLOSE;
+use crate::world::few::Few;
+use crate::world::settings::Mode;
+use crate::world::{Hit, World};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
+use rtc_math::Vec3;
+use rtc_plan::Features;
 
 /// What four rays hit first.
 struct Hits<V: Simd> {

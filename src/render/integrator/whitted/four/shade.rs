@@ -1,17 +1,17 @@
 //! Phong's model in four lanes, and the shadow rays it asks for.
 
 use super::Points;
-use crate::math::Vec3;
-use crate::plan::{Effect, Features};
-use crate::render::bsdf::optics::highlight;
-use crate::render::integrator::whitted::Tracer;
-use crate::render::lanes::pow::powers;
-use crate::render::lanes::{FourRays, LANES, Vectors, lanes_of};
-use crate::render::shape::geometry::Geometry;
-use crate::render::world::END;
-use crate::render::world::few::Few;
+use crate::bsdf::optics::highlight;
+use crate::integrator::whitted::Tracer;
+use crate::lanes::pow::powers;
+use crate::lanes::{FourRays, LANES, Vectors, lanes_of};
+use crate::shape::geometry::Geometry;
+use crate::world::END;
+use crate::world::few::Few;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
+use rtc_math::Vec3;
+use rtc_plan::{Effect, Features};
 
 impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// As [`Tracer::phong`].
@@ -174,7 +174,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     }
 }
 
-/// Where the segments of rays to one point end, as [`crate::render::world::segment`] says; 0 where
+/// Where the segments of rays to one point end, as [`crate::world::segment`] says; 0 where
 /// both ends are as good as one.
 #[inline(always)]
 fn ends<V: Simd>(simd: V, rays: &FourRays<V>, to: Vectors<V>) -> f64x4<V> {

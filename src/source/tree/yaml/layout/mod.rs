@@ -9,7 +9,7 @@ mod tests;
 mod write;
 
 use super::{Mistake, parse};
-use crate::source::FileId;
+use crate::FileId;
 
 /// Why a text is left as it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Layouts, each with what it was made of.
 
 use super::*;
-use crate::source::SourceMap;
+use crate::SourceMap;
 use proptest::prelude::*;
 
 fn laid_out(text: &str) -> Result<String, LayoutFault> {

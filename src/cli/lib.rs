@@ -1,0 +1,155 @@
+//! The command line: arguments as typed, resolved, carried out; streams and exit codes.
+//!
+//! Standard output is for results, standard error for talk. A closed pipe is success; a panic is
+//! reported as ours.
+
+mod args;
+mod batch;
+mod check;
+mod compile;
+mod cost;
+mod diff;
+mod edit;
+mod explain;
+mod files;
+mod fix;
+mod fmt;
+mod gate;
+mod info;
+mod input;
+mod interrupt;
+mod lead;
+mod lsp;
+mod merge;
+mod output;
+mod parse;
+mod preview;
+mod progress;
+mod project;
+mod render;
+mod report;
+mod simd;
+mod system;
+mod talk;
+mod tell;
+pub mod trial;
+mod turntable;
+mod typed;
+mod versus;
+
+use args::{Cli, Command};
+use clap::Parser;
+use rtc_diag::clip_words;
+use std::ffi::OsString;
+use std::panic::{self, AssertUnwindSafe, PanicHookInfo};
+
+/// A line of the help is shorter than this; one that repeats what was typed may not be.
+const LONG_LINE: usize = 500;
+
+/// Why a command did not do its work.
+#[derive(Debug)]
+enum Failure {
+    /// The input has errors, and they were told.
+    Findings,
+    /// The input can't be used so, for this reason.
+    Input(String),
+    /// A file could not be read, and that was told.
+    Unreadable,
+    /// Usage, files or something internal, in words.
+    Trouble(String),
+    /// Ctrl-C, or another signal to stop.
+    Interrupted,
+    /// Whoever read our output has had enough.
+    ClosedPipe,
+}
+
+impl Failure {
+    fn exit_code(&self) -> u8 {
+        match self {
+            Self::ClosedPipe => 0,
+            Self::Findings | Self::Input(_) => 1,
+            Self::Unreadable | Self::Trouble(_) => 2,
+            Self::Interrupted => interrupt::exit_code(),
+        }
+    }
+}
+
+/// Carries out the command given by the arguments, program name first, and returns the exit code.
+#[must_use]
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    panic::set_hook(Box::new(|info| talk::say(&internal_error(info))));
+    guarded(|| dispatch(arguments))
+}
+
+/// The exit code of the work, or of a fault of ours.
+fn guarded(work: impl FnOnce() -> u8) -> u8 {
+    panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or(2)
+}
+
+fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let typed: Vec<OsString> = arguments.into_iter().collect();
+    let cli = match Cli::try_parse_from(&typed) {
+        Ok(cli) => cli,
+        Err(mut error) => {
+            lead::lead(&mut error, &typed);
+            // Help and version come this way too. That nobody reads them is no failure.
+            let text = error.render().to_string();
+            if text.lines().any(|line| line.len() > LONG_LINE) {
+                let lines: Vec<_> = text.lines().map(clip_words).collect();
+                talk::say(&lines.join("\n"));
+            } else {
+                let _ = error.print();
+            }
+            return u8::try_from(error.exit_code()).unwrap_or(2);
+        }
+    };
+    let outcome = match cli.command {
+        Command::Check(args) => check::run(&args),
+        Command::Fmt(args) => fmt::run(&args),
+        Command::Compile(args) => compile::run(&args),
+        Command::Render(args) => render::run(*args, &typed),
+        Command::Preview(args) => preview::run(&args, &typed),
+        Command::Lsp(args) => lsp::run(args),
+        Command::Merge(args) => merge::run(&args),
+        Command::Farm(args) => batch::run(&args),
+        Command::Cost(args) => cost::run(&args),
+        Command::Diff(args) => diff::run(&args),
+        Command::Info(args) => info::run(&args),
+        Command::Explain(args) => explain::run(&args),
+        Command::Schema(args) => tell::schema(&args),
+        Command::Completions(args) => tell::completions(&args),
+        Command::Man(args) => tell::man(&args),
+    };
+    match outcome {
+        Ok(()) => 0,
+        Err(failure) => {
+            if let Failure::Input(words) | Failure::Trouble(words) = &failure {
+                talk::say(&format!("error: {words}"));
+            }
+            failure.exit_code()
+        }
+    }
+}
+
+fn internal_error(info: &PanicHookInfo) -> String {
+    let words = info.payload_as_str().unwrap_or("no words");
+    let place = info
+        .location()
+        .map(|at| format!(" at {}:{}", at.file(), at.line()))
+        .unwrap_or_default();
+    let version = env!("CARGO_PKG_VERSION");
+    format!(
+        "internal error: {words}{place}\nThis is a fault of rtc {version}, please report it with the scene."
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_neither_success_nor_the_fault_of_the_input() {
+        assert_eq!(guarded(|| unreachable!("this test asks for it")), 2);
+        assert_eq!(guarded(|| 1), 1);
+    }
+}

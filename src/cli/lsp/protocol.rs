@@ -1,0 +1,355 @@
+//! What is said and heard, with the names and shapes of the Language Server Protocol 3.17; of each only what is
+//! used here.
+
+use super::uri::DocumentUri;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// A line and a column in it, from 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub(super) struct Position {
+    pub(super) line: u32,
+    pub(super) character: u32,
+}
+
+impl Position {
+    pub(super) fn new(line: u32, character: u32) -> Self {
+        Self { line, character }
+    }
+}
+
+/// From a place up to another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Range {
+    pub(super) start: Position,
+    pub(super) end: Position,
+}
+
+impl Range {
+    pub(super) fn new(start: Position, end: Position) -> Self {
+        Self { start, end }
+    }
+}
+
+/// A range in a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub(super) struct Location {
+    pub(super) uri: DocumentUri,
+    pub(super) range: Range,
+}
+
+impl Location {
+    pub(super) fn new(uri: DocumentUri, range: Range) -> Self {
+        Self { uri, range }
+    }
+}
+
+/// The units of columns.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct PositionEncodingKind(Cow<'static, str>);
+
+impl PositionEncodingKind {
+    pub(super) const UTF8: Self = Self(Cow::Borrowed("utf-8"));
+    pub(super) const UTF16: Self = Self(Cow::Borrowed("utf-16"));
+}
+
+/// How an editor tells of changes.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct TextDocumentSyncKind(u8);
+
+impl TextDocumentSyncKind {
+    pub(super) const INCREMENTAL: Self = Self(2);
+}
+
+/// A text that is meant.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct TextDocumentIdentifier {
+    pub(super) uri: DocumentUri,
+}
+
+/// A text that is meant as it is after so many changes.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct VersionedTextDocumentIdentifier {
+    pub(super) uri: DocumentUri,
+    pub(super) version: i32,
+}
+
+/// A text that is opened.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct TextDocumentItem {
+    pub(super) uri: DocumentUri,
+    pub(super) version: i32,
+    pub(super) text: String,
+}
+
+/// A text is opened.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct DidOpenTextDocumentParams {
+    pub(super) text_document: TextDocumentItem,
+}
+
+/// A text was changed, change by change.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct DidChangeTextDocumentParams {
+    pub(super) text_document: VersionedTextDocumentIdentifier,
+    pub(super) content_changes: Vec<TextDocumentContentChangeEvent>,
+}
+
+/// What stands now in a range, or as the whole text.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct TextDocumentContentChangeEvent {
+    pub(super) range: Option<Range>,
+    pub(super) text: String,
+}
+
+/// What is said of a text as a whole: that it is closed, or that it is to be laid out, outlined or coloured.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct TextDocumentParams {
+    pub(super) text_document: TextDocumentIdentifier,
+}
+
+/// A place that is asked about: what it means, what may stand there, or where it leads.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct TextDocumentPositionParams {
+    pub(super) text_document: TextDocumentIdentifier,
+    pub(super) position: Position,
+}
+
+/// A range whose hints are asked for.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct InlayHintParams {
+    pub(super) text_document: TextDocumentIdentifier,
+    pub(super) range: Range,
+}
+
+/// A range whose fixes are asked for.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct CodeActionParams {
+    pub(super) text_document: TextDocumentIdentifier,
+    pub(super) range: Range,
+    pub(super) context: CodeActionContext,
+}
+
+/// The kinds of fixes that are asked for, if not all are.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct CodeActionContext {
+    pub(super) only: Option<Vec<CodeActionKind>>,
+}
+
+/// A colour that is to be written.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct ColorPresentationParams {
+    pub(super) color: EditorColor,
+}
+
+/// What is found in a file; `version` is that of its text, if it is open.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct PublishDiagnosticsParams {
+    pub(super) uri: DocumentUri,
+    pub(super) diagnostics: Vec<EditorDiagnostic>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) version: Option<i32>,
+}
+
+/// Something that is found.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct EditorDiagnostic {
+    pub(super) range: Range,
+    pub(super) severity: DiagnosticSeverity,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) code: Option<&'static str>,
+    pub(super) source: &'static str,
+    pub(super) message: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) related_information: Option<Vec<DiagnosticRelatedInformation>>,
+}
+
+/// How grave it is.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct DiagnosticSeverity(u8);
+
+impl DiagnosticSeverity {
+    pub(super) const ERROR: Self = Self(1);
+    pub(super) const WARNING: Self = Self(2);
+    pub(super) const HINT: Self = Self(4);
+}
+
+/// What else has to do with it.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct DiagnosticRelatedInformation {
+    pub(super) location: Location,
+    pub(super) message: String,
+}
+
+/// A fix that an editor offers.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct CodeAction {
+    pub(super) title: String,
+    pub(super) kind: CodeActionKind,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) diagnostics: Option<Vec<EditorDiagnostic>>,
+    pub(super) edit: WorkspaceEdit,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) is_preferred: Option<bool>,
+}
+
+/// A kind of fixes.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct CodeActionKind(Cow<'static, str>);
+
+impl CodeActionKind {
+    pub(super) const QUICKFIX: Self = Self(Cow::Borrowed("quickfix"));
+    pub(super) const SOURCE: Self = Self(Cow::Borrowed("source"));
+    pub(super) const SOURCE_FIX_ALL: Self = Self(Cow::Borrowed("source.fixAll"));
+}
+
+/// Edits, by files.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct WorkspaceEdit {
+    pub(super) changes: BTreeMap<DocumentUri, Vec<TextEdit>>,
+}
+
+/// What is to stand in a range.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct TextEdit {
+    pub(super) range: Range,
+    pub(super) new_text: String,
+}
+
+impl TextEdit {
+    pub(super) fn new(range: Range, new_text: String) -> Self {
+        Self { range, new_text }
+    }
+}
+
+/// What is to be said at a place.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Hover {
+    pub(super) contents: MarkupContent,
+    pub(super) range: Range,
+}
+
+/// A text with marks.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct MarkupContent {
+    pub(super) kind: MarkupKind,
+    pub(super) value: String,
+}
+
+/// How a text is marked.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum MarkupKind {
+    /// In Markdown.
+    Markdown,
+}
+
+/// What may be typed.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct CompletionItem {
+    pub(super) label: String,
+    pub(super) kind: CompletionItemKind,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) detail: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) documentation: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) insert_text: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) insert_text_format: Option<InsertTextFormat>,
+}
+
+impl CompletionItem {
+    /// One that says no more than what is typed.
+    pub(super) fn new(label: String, kind: CompletionItemKind) -> Self {
+        Self {
+            label,
+            kind,
+            detail: None,
+            documentation: None,
+            insert_text: None,
+            insert_text_format: None,
+        }
+    }
+}
+
+/// What it is that may be typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub(super) struct CompletionItemKind(u8);
+
+impl CompletionItemKind {
+    pub(super) const PROPERTY: Self = Self(10);
+    pub(super) const VALUE: Self = Self(12);
+    pub(super) const FILE: Self = Self(17);
+    pub(super) const REFERENCE: Self = Self(18);
+}
+
+/// How the text that is put in is read.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct InsertTextFormat(u8);
+
+impl InsertTextFormat {
+    pub(super) const PLAIN_TEXT: Self = Self(1);
+}
+
+/// A part of a text that has a name; `selection_range` is that of the name.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct DocumentSymbol {
+    pub(super) name: String,
+    pub(super) kind: SymbolKind,
+    pub(super) range: Range,
+    pub(super) selection_range: Range,
+    pub(super) children: Vec<Self>,
+}
+
+/// What it is that has a name.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct SymbolKind(u8);
+
+impl SymbolKind {
+    pub(super) const PROPERTY: Self = Self(7);
+    pub(super) const OBJECT: Self = Self(19);
+}
+
+/// A colour, from 0 to 1.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct EditorColor {
+    pub(super) red: f32,
+    pub(super) green: f32,
+    pub(super) blue: f32,
+    pub(super) alpha: f32,
+}
+
+/// A colour in a text.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct ColorInformation {
+    pub(super) range: Range,
+    pub(super) color: EditorColor,
+}
+
+/// How a colour is written.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct ColorPresentation {
+    pub(super) label: String,
+}
+
+/// What an editor shows in a text that does not stand there.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct InlayHint {
+    pub(super) position: Position,
+    pub(super) label: String,
+    pub(super) padding_left: bool,
+}

@@ -1,0 +1,353 @@
+//! The document: the parts of glTF 2.0 that are written, named as its specification names them.
+//!
+//! A property that is not needed is left out. The order of the fields is that of the file.
+
+use serde::Serialize;
+use serde_json::{Map, Value};
+use std::collections::BTreeSet;
+use std::marker::PhantomData;
+
+/// The type of a component or an index: of 16 bits.
+pub(super) const UNSIGNED_SHORT: u32 = 5123;
+/// The type of a component or an index: of 32 bits.
+pub(super) const UNSIGNED_INT: u32 = 5125;
+/// The type of a component: a float of 32 bits.
+pub(super) const FLOAT: u32 = 5126;
+/// What a buffer view is for: attributes of vertices.
+pub(super) const ARRAY_BUFFER: u32 = 34962;
+/// What a buffer view is for: indices of vertices.
+pub(super) const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+/// A filter of a sampler: the nearest pixel.
+pub(super) const NEAREST: u32 = 9728;
+/// A filter of a sampler: between pixels.
+pub(super) const LINEAR: u32 = 9729;
+/// A filter of a sampler: between pixels, and between sizes of the picture.
+pub(super) const LINEAR_MIPMAP_LINEAR: u32 = 9987;
+/// What a sampler does at the edge: the picture ends.
+pub(super) const CLAMP_TO_EDGE: u32 = 33071;
+/// What a sampler does at the edge: the picture turns round.
+pub(super) const MIRRORED_REPEAT: u32 = 33648;
+/// What a sampler does at the edge: the picture begins again.
+pub(super) const REPEAT: u32 = 10497;
+
+/// What only some programs read; `None` if there is nothing.
+pub(super) type Extras = Option<Value>;
+
+/// The place of a part in its list.
+#[derive(Serialize)]
+#[serde(transparent)]
+pub(super) struct Index<T>(u32, PhantomData<fn() -> T>);
+
+impl<T> Index<T> {
+    /// Adds a part to its list.
+    pub(super) fn push(list: &mut Vec<T>, part: T) -> Self {
+        list.push(part);
+        let last = u32::try_from(list.len() - 1).unwrap_or(u32::MAX);
+        Self(last, PhantomData)
+    }
+
+    pub(super) fn value(self) -> u32 {
+        self.0
+    }
+}
+
+impl<T> Clone for Index<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Index<T> {}
+
+/// All of it. It has one scene.
+#[derive(Default, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Root {
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) accessors: Vec<Accessor>,
+    pub(super) asset: Asset,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) buffers: Vec<Buffer>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) buffer_views: Vec<BufferView>,
+    pub(super) scene: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extensions: Option<RootExtensions>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extras: Extras,
+    #[serde(skip_serializing_if = "BTreeSet::is_empty")]
+    pub(super) extensions_used: BTreeSet<&'static str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) cameras: Vec<Camera>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) images: Vec<Image>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) materials: Vec<Material>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) meshes: Vec<Mesh>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) nodes: Vec<Node>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) samplers: Vec<Sampler>,
+    pub(super) scenes: [Scene; 1],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) textures: Vec<Texture>,
+}
+
+/// Who wrote it, in which version of glTF.
+#[derive(Default, Serialize)]
+pub(super) struct Asset {
+    pub(super) generator: &'static str,
+    pub(super) version: &'static str,
+}
+
+/// The nodes that are shown.
+#[derive(Default, Serialize)]
+pub(super) struct Scene {
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) nodes: Vec<Index<Node>>,
+}
+
+/// Something that stands in the scene. The matrix has its columns one after the other.
+#[derive(Default, Serialize)]
+pub(super) struct Node {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) camera: Option<Index<Camera>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extensions: Option<NodeExtensions>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extras: Extras,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) matrix: Option<[f64; 16]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) mesh: Option<Index<Mesh>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) name: Option<String>,
+}
+
+/// A mesh.
+#[derive(Serialize)]
+pub(super) struct Mesh {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) name: Option<String>,
+    pub(super) primitives: [Primitive; 1],
+}
+
+/// Triangles of one material.
+#[derive(Serialize)]
+pub(super) struct Primitive {
+    pub(super) attributes: Attributes,
+    pub(super) indices: Index<Accessor>,
+    pub(super) material: Index<Material>,
+}
+
+/// What the vertices have.
+#[derive(Clone, Copy, Default, Serialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub(super) struct Attributes {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) position: Option<Index<Accessor>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) normal: Option<Index<Accessor>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) tangent: Option<Index<Accessor>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) color_0: Option<Index<Accessor>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) texcoord_0: Option<Index<Accessor>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) texcoord_1: Option<Index<Accessor>>,
+}
+
+/// Elements of a buffer view.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Accessor {
+    pub(super) buffer_view: Index<BufferView>,
+    pub(super) count: usize,
+    pub(super) component_type: u32,
+    #[serde(rename = "type")]
+    pub(super) kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) min: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) max: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) name: Option<String>,
+}
+
+/// Bytes of a buffer.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct BufferView {
+    pub(super) buffer: u32,
+    pub(super) byte_length: usize,
+    pub(super) byte_offset: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) target: Option<u32>,
+}
+
+/// The bytes of a file, or those of the binary chunk.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Buffer {
+    pub(super) byte_length: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) uri: Option<String>,
+}
+
+/// A picture, in a buffer view or in a file.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Image {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) buffer_view: Option<Index<BufferView>>,
+    pub(super) mime_type: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) name: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) uri: Option<String>,
+}
+
+/// How a picture is looked up.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Sampler {
+    pub(super) mag_filter: u32,
+    pub(super) min_filter: u32,
+    pub(super) wrap_s: u32,
+    pub(super) wrap_t: u32,
+}
+
+/// A picture and how it is looked up.
+#[derive(Serialize)]
+pub(super) struct Texture {
+    pub(super) sampler: Index<Sampler>,
+    pub(super) source: Index<Image>,
+}
+
+/// What a material says of a texture. A map of normals has a scale.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct TextureInfo {
+    pub(super) index: Index<Texture>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) scale: Option<f64>,
+    pub(super) tex_coord: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extensions: Option<Value>,
+}
+
+/// A material. The blocks of its extensions stand by their names.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Material {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) alpha_cutoff: Option<f64>,
+    pub(super) alpha_mode: &'static str,
+    pub(super) double_sided: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) name: Option<String>,
+    pub(super) pbr_metallic_roughness: PbrMetallicRoughness,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) normal_texture: Option<TextureInfo>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) emissive_texture: Option<TextureInfo>,
+    pub(super) emissive_factor: [f64; 3],
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    pub(super) extensions: Map<String, Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extras: Extras,
+}
+
+/// The core of a material.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct PbrMetallicRoughness {
+    pub(super) base_color_factor: [f64; 4],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) base_color_texture: Option<TextureInfo>,
+    pub(super) metallic_factor: f64,
+    pub(super) roughness_factor: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) metallic_roughness_texture: Option<TextureInfo>,
+}
+
+/// A camera, which looks along its −z axis.
+#[derive(Serialize)]
+pub(super) struct Camera {
+    #[serde(flatten)]
+    pub(super) projection: Projection,
+    #[serde(rename = "type")]
+    pub(super) kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extras: Extras,
+}
+
+/// What a camera sees.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase", rename_all_fields = "camelCase")]
+pub(super) enum Projection {
+    /// A pyramid, from the angle at its top.
+    Perspective {
+        aspect_ratio: f64,
+        yfov: f64,
+        znear: f64,
+    },
+    /// A box, from half its width and height.
+    Orthographic {
+        xmag: f64,
+        ymag: f64,
+        zfar: f64,
+        znear: f64,
+    },
+}
+
+/// The extensions of the document.
+#[derive(Default, Serialize)]
+pub(super) struct RootExtensions {
+    #[serde(rename = "KHR_lights_punctual")]
+    pub(super) punctual: Lights,
+}
+
+/// All lights.
+#[derive(Default, Serialize)]
+pub(super) struct Lights {
+    pub(super) lights: Vec<Light>,
+}
+
+/// A light of `KHR_lights_punctual`, which shines along its −z axis.
+#[derive(Serialize)]
+pub(super) struct Light {
+    pub(super) color: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extras: Extras,
+    pub(super) intensity: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) range: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) spot: Option<Spot>,
+    #[serde(rename = "type")]
+    pub(super) kind: &'static str,
+}
+
+/// The cone of a spot.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Spot {
+    pub(super) inner_cone_angle: f64,
+    pub(super) outer_cone_angle: f64,
+}
+
+/// The extensions of a node.
+#[derive(Serialize)]
+pub(super) struct NodeExtensions {
+    #[serde(rename = "KHR_lights_punctual")]
+    pub(super) punctual: LightReference,
+}
+
+/// The light that hangs on a node.
+#[derive(Serialize)]
+pub(super) struct LightReference {
+    pub(super) light: Index<Light>,
+}

@@ -1,0 +1,204 @@
+//! Pixels and pixel files, in memory: a film developed into a picture; a picture written as PNG (8
+//! or 16 bit), JPEG, WebP or EXR, the same bytes every time; PNG, JPEG and WebP read, and pictures of light
+//! from HDR and EXR.
+
+mod animation;
+mod compressed;
+mod decode;
+mod denoise;
+mod exr;
+mod file;
+mod format;
+#[cfg(feature = "cli")]
+mod gif;
+mod hdr;
+mod layer;
+mod look;
+mod png;
+mod radiance;
+mod range;
+#[cfg(feature = "cli")]
+mod sheet;
+mod shown;
+mod texels;
+
+pub use animation::AnimatedPng;
+pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
+pub use denoise::{GUIDES, Guide, NoisyHalf, around, denoise};
+pub use file::{BLOCK_ROWS, PictureHead, StripSource};
+#[cfg(feature = "cli")]
+pub use gif::AnimatedGif;
+pub use layer::LayerPicture;
+pub use look::{Association, BackgroundFill, Look, exposure};
+pub use png::png_bytes;
+pub use radiance::{Radiance, RadianceFile, is_radiance};
+pub use range::Lost;
+#[cfg(feature = "cli")]
+pub use sheet::{contact_sheet, for_sheet, shrunk};
+pub use shown::ShownPicture;
+pub use texels::{Texel, Texels};
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// A picture: rows from the top, each from the left; red, green, blue.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Image {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// `width * height` values.
+    pub pixels: Vec<[f64; 3]>,
+}
+
+/// A picture as a file holds it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Picture {
+    /// The colours.
+    pub image: Image,
+    /// The opacity of each pixel in [0, 1], if not all are opaque.
+    pub alpha: Option<Vec<f32>>,
+    /// What an EXR holds beside the colours; no other form does.
+    pub layers: Layers,
+}
+
+/// Further numbers of each pixel of a picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Layers {
+    /// The name of each channel, layer and channel apart by a dot, as `normal.X`; none of them
+    /// twice.
+    pub names: Vec<&'static str>,
+    /// The values of all channels, pixel after pixel.
+    pub values: Vec<f32>,
+}
+
+/// A form of pixel file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum FileFormat {
+    /// PNG with ⌊255·v⌋ per channel, no gamma.
+    Png8,
+    /// PNG with ⌊65535·v⌋ per channel, no gamma.
+    Png16,
+    /// JPEG with ⌊255·v⌋ per channel before its losses, opaque.
+    Jpeg,
+    /// WebP with ⌊255·v⌋ per channel, lossless.
+    Webp,
+    /// EXR with 32-bit floats per channel, clamped only to what those hold: all are finite.
+    Exr,
+    /// EXR with 16-bit floats for colours, opacity, albedo, normals and texture coordinates, and
+    /// 32-bit floats for distances, places and numbers of surfaces; clamped alike.
+    ExrHalf,
+}
+
+impl FileFormat {
+    /// What it is called, and what the names of its files end in.
+    #[must_use]
+    pub fn names(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Png8 | Self::Png16 => ("PNG", "png"),
+            Self::Jpeg => ("JPEG", "jpg"),
+            Self::Webp => ("WebP", "webp"),
+            Self::Exr | Self::ExrHalf => ("EXR", "exr"),
+        }
+    }
+
+    /// Whether it holds linear values, however large; else what a display shows.
+    #[must_use]
+    pub fn is_linear(self) -> bool {
+        matches!(self, Self::Exr | Self::ExrHalf)
+    }
+}
+
+/// What a PNG or an EXR says about where it came from: in a PNG as international text (`iTXt`), in an
+/// EXR as attributes of text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Origin {
+    /// The program and its version: `Software` in a PNG, the standard attribute `software`.
+    pub software: String,
+    /// The hash of the scene: `rtc:scene`.
+    pub scene: String,
+    /// The settings of the render that decide the pixels: `rtc:settings`.
+    pub settings: String,
+    /// The view, of an EXR alone: the standard attribute `worldToCamera`.
+    pub world_to_camera: Option<WorldToCamera>,
+    /// Which layer a PNG shows, and what its values stand for: `rtc:layer`; empty for colours.
+    pub layer: String,
+}
+
+impl Origin {
+    /// What the pixels mean, without what made them.
+    #[must_use]
+    pub fn meaning(self) -> Self {
+        Self {
+            world_to_camera: self.world_to_camera,
+            layer: self.layer,
+            ..Self::default()
+        }
+    }
+
+    /// The texts by their names, those that there are.
+    fn texts(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        let texts = [
+            ("Software", &self.software),
+            ("rtc:scene", &self.scene),
+            ("rtc:settings", &self.settings),
+            ("rtc:layer", &self.layer),
+        ];
+        let texts = texts.into_iter().filter(|(_, text)| !text.is_empty());
+        texts.map(|(name, text)| (name, text.as_str()))
+    }
+}
+
+/// From places in the world to places before the camera, which looks along -z, y up: rows of a matrix
+/// that a row vector is multiplied by, as EXR has them.
+pub type WorldToCamera = [f32; 16];
+
+/// Why a picture has no pixel file, in the encoder's words; a width or height of 0 is such a
+/// reason.
+#[derive(Debug)]
+pub struct EncodeError(String);
+
+impl fmt::Display for EncodeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl Picture {
+    /// A picture of colours alone.
+    #[must_use]
+    pub fn opaque(image: Image) -> Self {
+        Self {
+            image,
+            alpha: None,
+            layers: Layers::default(),
+        }
+    }
+
+    /// The bytes of the pixel file.
+    ///
+    /// # Errors
+    /// If the picture is empty or larger than the format can hold.
+    pub fn encode(&self, form: FileFormat) -> Result<Vec<u8>, EncodeError> {
+        PictureHead::of(self, form).encode(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_picture_is_refused() {
+        let empty = Picture::opaque(Image {
+            width: 0,
+            height: 3,
+            pixels: Vec::new(),
+        });
+        for form in [FileFormat::Png8, FileFormat::Png16, FileFormat::Exr] {
+            assert!(empty.encode(form).is_err());
+        }
+    }
+}

@@ -1,0 +1,311 @@
+//! The cost of accuracy: one scene in many settings, each with its error and its time, and the
+//! settings on the Pareto front.
+//!
+//! A study renders its own reference and estimates the error of that reference. Its decisions
+//! depend on rays, never on time: the same study renders the same settings on every machine. All
+//! errors are in grey levels of 8 bits.
+
+mod advice;
+mod bench;
+mod budget;
+mod denoised;
+mod difference;
+mod effects;
+mod flip;
+mod growth;
+mod journal;
+mod knob;
+mod left_out;
+mod maps;
+mod metrics;
+mod noise;
+mod outcome;
+mod pareto;
+mod precision;
+mod probe;
+mod race;
+mod reference;
+#[cfg(feature = "cli")]
+mod report;
+mod rows;
+mod sample;
+mod setting;
+mod spread;
+mod statistics;
+mod stretch;
+mod subject;
+mod sweep;
+mod target;
+mod unmet;
+mod versus;
+
+pub use advice::recommended;
+pub use bench::{Bench, Clock};
+pub use budget::CrudePicture;
+pub use difference::{Difference, heat_map};
+pub use effects::EffectCost;
+pub use flip::{PIXELS_PER_DEGREE, flip};
+pub use growth::{Growth, Keep};
+pub use journal::Journal;
+pub use knob::{Knob, arithmetic, idle};
+pub use left_out::Omission;
+pub use maps::{StudyMap, maps};
+pub use metrics::{Errors, LEVELS, rmse};
+pub use outcome::{
+    About, BounceCost, KnobReport, MoreBounces, Rays, ReferenceReport, Row, Study, StudyArea,
+};
+pub use precision::PrecisionCost;
+pub use probe::{ProbedError, probe};
+pub use reference::{DepthEnd, Level};
+#[cfg(feature = "cli")]
+pub use report::{SliderPage, csv, html, json, maps_page, slider_page, table, told, versus_table};
+pub use setting::Setting;
+pub use spread::ErrorSpread;
+pub use statistics::{Estimate, PowerLaw, Rng, median};
+pub use stretch::WorkStretch;
+pub use subject::Stopped;
+pub use target::{Goal, Order, Progress, Reached, Samples, Watch, approach, approach_keeping};
+pub use versus::{DifferentTile, Versus, versus};
+
+use knob::idle_in;
+use reference::{Depths, Reference};
+use rtc_ir::{Mode, Scene, Shape, Surface};
+use rtc_render::Seeds;
+use serde::{Deserialize, Serialize};
+use subject::Subject;
+use sweep::{Model, sweep};
+
+/// How much work a study may be: about so many rays of a scene of a few balls. Others are dearer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Effort(pub u64);
+
+impl Effort {
+    /// Seconds: at most 20 of one processor of 2025, for most scenes.
+    pub const QUICK: Self = Self(60_000_000);
+    /// At most a minute.
+    pub const DEFAULT: Self = Self(180_000_000);
+    /// Ten minutes and more.
+    pub const THOROUGH: Self = Self(3_000_000_000);
+
+    /// The rays of a scene that are so much work.
+    fn rays(self, scene: &Scene) -> u64 {
+        self.0 / price(scene)
+    }
+}
+
+/// A ray of the scene in rays of a scene of a few balls, roughly: prices are rules of thumb from
+/// processor times, so that a study takes about as long whatever the scene is.
+fn price(scene: &Scene) -> u64 {
+    let is_torus = |surface: &Surface| matches!(surface.shape, Shape::Torus(_));
+    if matches!(scene.settings.mode, Mode::Path(_)) {
+        return 8;
+    }
+    match scene.surfaces.iter().any(is_torus) {
+        true => 3,
+        false => 1,
+    }
+}
+
+/// The parts of the work, in hundredths.
+const FOR_DEPTH: u64 = 5;
+const FOR_REFERENCE: u64 = 36;
+const FOR_SWEEPS: u64 = 15;
+const FOR_ROWS: u64 = 30;
+const FOR_EFFECTS: u64 = 10;
+const FOR_PRECISION: u64 = 4;
+
+/// The error of a reference is at most this fraction of the errors measured against it.
+const JUDGE: f64 = 0.2;
+
+/// Studies a proven scene.
+///
+/// # Errors
+/// If the observer said stop.
+pub fn study(
+    scene: &Scene,
+    about: About,
+    effort: Effort,
+    seed: u64,
+    bench: &Bench<'_>,
+) -> Result<Study, Stopped> {
+    let scope = Scope::new(scene, effort);
+    let subject = scope.part(&Subject::new(scene, seed, bench))?;
+    let mut context = scope.context(&subject)?;
+    let mut rng = Rng::new(seed);
+    let precision = precision::costs(
+        &subject,
+        scope.own,
+        scope.hundredths(FOR_PRECISION),
+        &mut rng,
+    )?;
+    if scope.used.contains(&Knob::Precision) {
+        context.model.learn_precision(precision::levels(&precision));
+    }
+    let (rows, wall_over_cpu) = scope.rows(&subject, &context, &mut rng)?;
+    let effects = effects::costs(&subject, scope.own, scope.hundredths(FOR_EFFECTS), &mut rng)?;
+    let (model, is_whole) = (&context.model, subject.is_whole());
+    let knob = |knob| model.report(knob, idle_in(knob, scene, is_whole));
+    let mut study = Study {
+        schema: "rtc-cost/3".to_owned(),
+        about,
+        effort,
+        seed,
+        part: subject.area(),
+        reference: context.report(),
+        knobs: Knob::ALL.map(knob).to_vec(),
+        bounces: context.depths.map(|depths| depths.more),
+        rows,
+        effects,
+        precision,
+        wall_over_cpu,
+        advice: Vec::new(),
+        command: None,
+        truth: context.reference.tiles,
+        areas: subject.areas(),
+        mapped: Vec::new(),
+    };
+    study.advice = advice::advice(&study);
+    study.command = advice::command(&study);
+    study.mapped = maps::count(&study, &subject)?;
+    Ok(study)
+}
+
+/// The knobs of a scene, and the work that a study may take.
+struct Scope {
+    own: Setting,
+    used: Vec<Knob>,
+    /// The knobs that are numbers of samples.
+    sampling: Vec<Knob>,
+    /// The rays that the study may take.
+    rays: u64,
+}
+
+/// The reference and the model: the measures by which rows are judged and chosen.
+struct Context {
+    reference: Reference,
+    depths: Option<Depths>,
+    model: Model,
+}
+
+impl Scope {
+    fn new(scene: &Scene, effort: Effort) -> Self {
+        let used: Vec<_> = Knob::ALL
+            .into_iter()
+            .filter(|knob| idle(*knob, scene).is_none())
+            .collect();
+        let sampling = used
+            .iter()
+            .copied()
+            .filter(|knob| knob.samples_pixels())
+            .collect();
+        Self {
+            own: Setting::of(scene),
+            used,
+            sampling,
+            rays: effort.rays(scene),
+        }
+    }
+
+    fn hundredths(&self, fraction: u64) -> u64 {
+        self.rays / 100 * fraction
+    }
+
+    /// The scene's own setting with all sampling knobs at one value.
+    fn at(&self, value: u32) -> Setting {
+        self.sampling
+            .iter()
+            .fold(self.own, |setting, knob| setting.with(*knob, value))
+    }
+
+    /// The number of tiles that the budget allows, with a good reference and in the scene's own setting.
+    fn part<'a>(&self, subject: &Subject<'a>) -> Result<Subject<'a>, Stopped> {
+        /// The samples per pixel of a good reference.
+        const GOOD: [f64; 2] = [1024.0, 4e8];
+        /// Fewer tiles do not represent a picture: of those that are afforded in the scene's own
+        /// setting, as many are taken at the cost of the reference.
+        const ENOUGH: usize = 32;
+        const FEWEST: usize = 4;
+        if self.sampling.is_empty() {
+            return Ok(subject.clone());
+        }
+        let pilot = subject.keep(2 * FEWEST);
+        let setting = self.at(2);
+        let counts = pilot.shoot(setting, reference::independent(1))?.counts;
+        let rays = counts.rays() as f64 / counts.camera.max(1) as f64;
+        let samples = GOOD[0] * (self.rays as f64 / GOOD[1]).sqrt();
+        let of_reference = self.hundredths(FOR_REFERENCE) as f64 / (3.0 * samples * rays);
+        let of_own = self.hundredths(FOR_ROWS) as f64 / (6.0 * self.own.camera_rays() * rays);
+        let tiles = |pixels: f64| pixels / pilot.pixels() as f64 * pilot.count() as f64;
+        let fraction = tiles(of_reference).max(ENOUGH as f64).min(tiles(of_own));
+        let enough = (0..subject.count())
+            .take_while(|count| (*count as f64) < fraction)
+            .count();
+        Ok(if enough * 4 > subject.count() * 3 {
+            subject.clone()
+        } else {
+            subject.keep(enough.max(FEWEST))
+        })
+    }
+
+    /// The sampling for comparing depths: doubled where bounces are sampled at random.
+    fn seeds_of_depths(&self) -> Vec<Seeds> {
+        let count = if self.used.contains(&Knob::Paths) {
+            2
+        } else {
+            1
+        };
+        (1..=count).map(reference::independent).collect()
+    }
+
+    fn context(&self, subject: &Subject<'_>) -> Result<Context, Stopped> {
+        let depths = match self.used.contains(&Knob::Depth) {
+            true => Some(reference::depths(
+                subject,
+                self.at(2),
+                &self.seeds_of_depths(),
+                self.hundredths(FOR_DEPTH),
+            )?),
+            false => None,
+        };
+        let start = self.at(4);
+        let budget = self.hundredths(FOR_REFERENCE);
+        let reference = reference::reference(subject, start, &self.sampling, budget)?;
+        let has_grid = self.used.contains(&Knob::Supersampling);
+        let base = if has_grid {
+            start.with(Knob::Supersampling, 2)
+        } else {
+            start
+        };
+        let fair = self.hundredths(FOR_SWEEPS) / self.sampling.len().max(1) as u64;
+        let knobs = self
+            .sampling
+            .iter()
+            .map(|knob| sweep(subject, &reference, (*knob, base), fair));
+        let knobs = knobs.collect::<Result<Vec<_>, _>>()?;
+        let base_rays = subject
+            .shoot(base, reference::independent(5))?
+            .counts
+            .rays();
+        let mut model = Model::new(knobs, depths.as_ref(), base, base_rays);
+        if self.used.contains(&Knob::Aperture) {
+            let coarse = base.with(Knob::Supersampling, 1).with(Knob::Aperture, 1);
+            let shot = subject.shoot(coarse, Seeds::NONE)?;
+            model.learn_interplay(coarse, rmse(&shot.tiles, &reference.tiles));
+        }
+        Ok(Context {
+            reference,
+            depths,
+            model,
+        })
+    }
+}
+
+impl Context {
+    fn report(&self) -> ReferenceReport {
+        ReferenceReport {
+            setting: self.reference.setting,
+            floor: self.reference.floor,
+        }
+    }
+}

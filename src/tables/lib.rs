@@ -1,0 +1,6 @@
+//! Tables that several stages read. A table is a macro that gives all its rows to the macro of a stage.
+
+mod shape;
+mod standard;
+
+pub use standard::{PhongFit, PhongTerms, camel_bytes, fit_phong};

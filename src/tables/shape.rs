@@ -1,0 +1,68 @@
+//! The table of shapes. A shape is one row; every stage makes its enums and its dispatch of the rows.
+
+/// Calls a macro with the table of shapes; all stages list them in its order.
+///
+/// A row holds the type, its word in the IR, how enums store it, and its values in one of two ways:
+/// - `ruled { "type" value: rule "key" "words"; … }`: each value follows a rule, by which it is
+///   proven, prepared and written. The rules are `point`; `direction`, of any length but 0; `step`,
+///   a direction with a length; `length`, above 0. The type and the keys are what `emit` writes,
+///   the words name the value in a finding.
+/// - `own { "value" … }`: the ways to the values in the IR; each stage has an `impl` for the shape.
+#[macro_export]
+macro_rules! shapes {
+    ($stage:ident) => {
+        $stage! {
+            /// A sphere.
+            Sphere sphere Inline own { "center" "radius" }
+            /// An infinite plane.
+            Plane plane Inline ruled {
+                "plane"
+                center: point "position";
+                normal: direction "normal" "normal of a plane";
+            }
+            /// A triangle.
+            Triangle triangle Inline own { "vertices/0" "vertices/1" "vertices/2" }
+            /// A quadrilateral.
+            Quad quad Box own { "vertices/0" "vertices/1" "vertices/2" "vertices/3" }
+            /// A disc.
+            Disc disc Inline ruled {
+                "circle"
+                center: point "center";
+                normal: direction "normal" "normal of a disc";
+                radius: length "radius" "radius";
+            }
+            /// A cylinder with two caps.
+            Cylinder cylinder Inline ruled {
+                "cylinder"
+                base: point "position";
+                axis: direction "direction" "axis of a cylinder";
+                height: length "height" "height";
+                radius: length "radius" "radius";
+            }
+            /// A cone with a cap at its base.
+            Cone cone Inline ruled {
+                "cone"
+                base: point "position";
+                up: step "up" "height of a cone";
+                radius: length "radius" "radius";
+            }
+            /// A paraboloid with a cap at its base.
+            Paraboloid paraboloid Inline ruled {
+                "paraboloid"
+                base: point "position";
+                up: step "up" "height of a paraboloid";
+                radius: length "radius" "radius";
+            }
+            /// A torus.
+            Torus torus Inline ruled {
+                "torus"
+                center: point "position";
+                axis: direction "direction" "axis of a torus";
+                major: length "radius" "radius";
+                minor: length "alpha" "radius of the tube";
+            }
+            /// A mesh, placed.
+            Instance instance Box own { "mesh" "worldFromObject" }
+        }
+    };
+}

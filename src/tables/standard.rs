@@ -1,0 +1,359 @@
+//! The table of the parameters of the glTF material (glTF 2.0, appendix B, and `KHR_materials_*`).
+//!
+//! A parameter is added here. The stages name a macro to which all rows are given, and make of them
+//! what they can: the fields of the IR, their proof, the objects of glTF.
+
+/// The parameters in the order of the IR: `field: kind = default, omitted;`.
+///
+/// The kind says which type a value has and from what range it is; `omitted` names the test by
+/// which an IR text leaves the value out. The scene format has a key for each, whose meaning is the
+/// doc.
+#[macro_export]
+macro_rules! parameters {
+    ($then:ident) => {
+        $then! {
+            /// The colour and its alpha; of a metal that of its mirror image.
+            base_color: fractions = [1.0; 4], "never";
+            /// Multiplies it, alpha too; coded as sRGB.
+            base_color_map: map = None, "Option::is_none";
+            /// How much of it is metal.
+            metallic: fraction = 1.0, "never";
+            /// How rough it is: 0 is a mirror.
+            roughness: fraction = 1.0, "never";
+            /// Its green multiplies the roughness, its blue the metal.
+            metallic_roughness_map: map = None, "Option::is_none";
+            /// The reflectance at normal incidence and the glossiness (rgb, a) of
+            /// `KHR_materials_pbrSpecularGlossiness`, in place of metallic, roughness and ior.
+            specular_glossiness: some_fractions = None, "Option::is_none";
+            /// Multiplies them, alpha too; its colour is coded as sRGB.
+            specular_glossiness_map: map = None, "Option::is_none";
+            /// The radiance, strength included.
+            emissive: color = [0.0; 3], "is_zero";
+            /// Multiplies it; coded as sRGB.
+            emissive_map: map = None, "Option::is_none";
+            /// The shading normal in the frame of the surface: red along u, green along v, blue away from it.
+            normal_map: map = None, "Option::is_none";
+            /// How much of its red and green counts.
+            normal_scale: number = 1.0, "is_one";
+            /// What alpha means: nothing, a cut, or a fraction.
+            alpha: alpha = Alpha::Opaque, "is_default";
+            /// Whether camera rays of traced paths see the back. They always see the back of a
+            /// transmitting material, and all other rays hit the back of any material.
+            double_sided: flag = false, "is_default";
+            /// Whether it shows its colour as it is, whatever light there is.
+            unlit: flag = false, "is_default";
+            /// The index of refraction, at least 1; 0 mirrors all light.
+            ior: ior = 1.5, "never";
+            /// How far the index differs between colours: 20 over the Abbe number.
+            dispersion: non_negative = 0.0, "is_zero";
+            /// How much of light is mirrored that no metal mirrors.
+            specular: fraction = 1.0, "is_one";
+            /// Its alpha multiplies that.
+            specular_map: map = None, "Option::is_none";
+            /// The colour of that mirror image, seen along the normal.
+            specular_color: color = [1.0; 3], "never";
+            /// Multiplies it; coded as sRGB.
+            specular_color_map: map = None, "Option::is_none";
+            /// How much of the light that is not mirrored goes through.
+            transmission: fraction = 0.0, "is_zero";
+            /// Its red multiplies that.
+            transmission_map: map = None, "Option::is_none";
+            /// How thick it is; above 0 the surface bounds a volume.
+            thickness: non_negative = 0.0, "is_zero";
+            /// Its green multiplies it.
+            thickness_map: map = None, "Option::is_none";
+            /// The distance after which white light has the attenuation colour; none for infinite.
+            attenuation_distance: distance = None, "Option::is_none";
+            /// The colour that white light has after the attenuation distance.
+            attenuation_color: fraction_color = [1.0; 3], "never";
+            /// How much of it is under a clear coat.
+            clearcoat: fraction = 0.0, "is_zero";
+            /// Its red multiplies that.
+            clearcoat_map: map = None, "Option::is_none";
+            /// How rough the coat is.
+            clearcoat_roughness: fraction = 0.0, "is_zero";
+            /// Its green multiplies that.
+            clearcoat_roughness_map: map = None, "Option::is_none";
+            /// The shading normal of the coat.
+            clearcoat_normal_map: map = None, "Option::is_none";
+            /// How much of its red and green counts.
+            clearcoat_normal_scale: number = 1.0, "is_one";
+            /// The colour of a sheen as of cloth; black is none.
+            sheen_color: fraction_color = [0.0; 3], "is_zero";
+            /// Multiplies it; coded as sRGB.
+            sheen_color_map: map = None, "Option::is_none";
+            /// How rough the sheen is.
+            sheen_roughness: fraction = 0.0, "is_zero";
+            /// Its alpha multiplies that.
+            sheen_roughness_map: map = None, "Option::is_none";
+            /// How much the mirror image is drawn out in one direction.
+            anisotropy: fraction = 0.0, "is_zero";
+            /// The direction in which it is drawn out, in radians from that of u.
+            anisotropy_rotation: number = 0.0, "is_zero";
+            /// Its red and green are a direction, its blue multiplies the strength.
+            anisotropy_map: map = None, "Option::is_none";
+            /// How much of it has a thin film.
+            iridescence: fraction = 0.0, "is_zero";
+            /// Its red multiplies that.
+            iridescence_map: map = None, "Option::is_none";
+            /// The index of refraction of the film.
+            iridescence_ior: index_of_refraction = 1.3, "never";
+            /// How thick the film is, from the least to the greatest, in nanometres.
+            iridescence_thickness: pair = [100.0, 400.0], "never";
+            /// Its green says how thick, between both.
+            iridescence_thickness_map: map = None, "Option::is_none";
+            /// How much of the diffuse light goes through.
+            diffuse_transmission: fraction = 0.0, "is_zero";
+            /// Its alpha multiplies that.
+            diffuse_transmission_map: map = None, "Option::is_none";
+            /// The colour of what goes through.
+            diffuse_transmission_color: fraction_color = [1.0; 3], "is_one";
+            /// Multiplies it; coded as sRGB.
+            diffuse_transmission_color_map: map = None, "Option::is_none";
+        }
+    };
+}
+
+/// The extensions whose properties are parameters as they stand: `"name" { field: kind "property"; }`.
+#[macro_export]
+macro_rules! extensions {
+    ($then:ident) => {
+        $then! {
+            "KHR_materials_ior" {
+                ior: non_negative "ior";
+            }
+            "KHR_materials_dispersion" {
+                dispersion: non_negative "dispersion";
+            }
+            "KHR_materials_specular" {
+                specular: fraction "specularFactor";
+                specular_map: map "specularTexture";
+                specular_color: color "specularColorFactor";
+                specular_color_map: map "specularColorTexture";
+            }
+            "KHR_materials_transmission" {
+                transmission: fraction "transmissionFactor";
+                transmission_map: map "transmissionTexture";
+            }
+            "KHR_materials_volume" {
+                thickness: non_negative "thicknessFactor";
+                thickness_map: map "thicknessTexture";
+                attenuation_distance: distance "attenuationDistance";
+                attenuation_color: fraction_color "attenuationColor";
+            }
+            "KHR_materials_clearcoat" {
+                clearcoat: fraction "clearcoatFactor";
+                clearcoat_map: map "clearcoatTexture";
+                clearcoat_roughness: fraction "clearcoatRoughnessFactor";
+                clearcoat_roughness_map: map "clearcoatRoughnessTexture";
+                clearcoat_normal_map: normal_map "clearcoatNormalTexture";
+            }
+            "KHR_materials_sheen" {
+                sheen_color: fraction_color "sheenColorFactor";
+                sheen_color_map: map "sheenColorTexture";
+                sheen_roughness: fraction "sheenRoughnessFactor";
+                sheen_roughness_map: map "sheenRoughnessTexture";
+            }
+            "KHR_materials_anisotropy" {
+                anisotropy: fraction "anisotropyStrength";
+                anisotropy_rotation: number "anisotropyRotation";
+                anisotropy_map: map "anisotropyTexture";
+            }
+            "KHR_materials_diffuse_transmission" {
+                diffuse_transmission: fraction "diffuseTransmissionFactor";
+                diffuse_transmission_map: map "diffuseTransmissionTexture";
+                diffuse_transmission_color: fraction_color "diffuseTransmissionColorFactor";
+                diffuse_transmission_color_map: map "diffuseTransmissionColorTexture";
+            }
+        }
+    };
+}
+
+/// The layers: lobes that a material may have beside those of its base.
+///
+/// Of each: its name, why a scene does not need it, the factor and the channels of the map that
+/// weigh it, its maps with the factors that they multiply, and whether light goes through it. The
+/// word before the braces is its field in the parameters of the BSDF.
+#[macro_export]
+macro_rules! layers {
+    ($then:ident) => {
+        $then! {
+            /// `KHR_materials_clearcoat`.
+            Clearcoat = clearcoat {
+                told: "clearcoat", "no material has a clearcoat";
+                weight: clearcoat * clearcoat_map [0..1];
+                maps: clearcoat * clearcoat_map, clearcoat_roughness * clearcoat_roughness_map;
+                transmits: false;
+            }
+            /// `KHR_materials_sheen`.
+            Sheen = sheen {
+                told: "sheen", "no material has sheen";
+                weight: sheen_color * sheen_color_map [0..3];
+                maps: sheen_color * sheen_color_map, sheen_roughness * sheen_roughness_map;
+                transmits: false;
+            }
+            /// `KHR_materials_anisotropy`.
+            Anisotropy = anisotropy {
+                told: "anisotropy", "no material is anisotropic";
+                weight: anisotropy * anisotropy_map [2..3];
+                maps: anisotropy * anisotropy_map;
+                transmits: false;
+            }
+            /// `KHR_materials_iridescence`.
+            Iridescence = iridescence {
+                told: "iridescence", "no material is iridescent";
+                weight: iridescence * iridescence_map [0..1];
+                maps: iridescence * iridescence_map, iridescence * iridescence_thickness_map;
+                transmits: false;
+            }
+            /// `KHR_materials_diffuse_transmission`.
+            DiffuseTransmission = diffuse_transmission {
+                told: "translucency", "no material is translucent";
+                weight: diffuse_transmission * diffuse_transmission_map [3..4];
+                maps: diffuse_transmission * diffuse_transmission_map,
+                    diffuse_transmission_color * diffuse_transmission_color_map;
+                transmits: true;
+            }
+        }
+    };
+}
+
+/// The layers whose parts are numbers and colours times maps, and no more: `field: Prepared =>
+/// Parameters { part: kind(factor, map, channel); }`. The first part weighs the layer.
+#[macro_export]
+macro_rules! plain_layers {
+    ($then:ident) => {
+        $then! {
+            sheen: SheenLayer => Sheen {
+                color: tint(sheen_color, sheen_color_map);
+                roughness: number(sheen_roughness, sheen_roughness_map, 3);
+            }
+            diffuse_transmission: DiffuseTransmissionLayer => DiffuseTransmission {
+                factor: number(diffuse_transmission, diffuse_transmission_map, 3);
+                color: tint(diffuse_transmission_color, diffuse_transmission_color_map);
+            }
+        }
+    };
+}
+
+/// The map that a parameter of a kind of the table holds.
+#[macro_export]
+macro_rules! map_of {
+    (map, $map:expr) => {
+        $map
+    };
+    ($kind:ident, $value:expr) => {
+        &None
+    };
+}
+
+/// The bytes of a name in camel case, and how many of them count: `base_color` is `baseColor`.
+pub const fn camel_bytes<const N: usize>(name: &str) -> ([u8; N], usize) {
+    let bytes = name.as_bytes();
+    let (mut camel, mut length, mut at) = ([0; N], 0, 0);
+    while at < bytes.len() {
+        if bytes[at] == b'_' {
+            at += 1;
+            camel[length] = bytes[at].to_ascii_uppercase();
+        } else {
+            camel[length] = bytes[at];
+        }
+        (at, length) = (at + 1, length + 1);
+    }
+    (camel, length)
+}
+
+/// The name of a field as texts write it, in camel case.
+#[macro_export]
+macro_rules! camel_case {
+    ($field:ident) => {{
+        const NAME: &str = stringify!($field);
+        const CAMEL: ([u8; NAME.len()], usize) = $crate::camel_bytes(NAME);
+        const KEY: &str = match std::str::from_utf8(CAMEL.0.split_at(CAMEL.1).0) {
+            Ok(key) => key,
+            Err(_) => panic!("the name of a field is ASCII"),
+        };
+        KEY
+    }};
+}
+
+/// The terms of Phong's model that a fit looks at, all of any size.
+pub struct PhongTerms {
+    /// The colour of the material.
+    pub color: [f64; 3],
+    /// The weight of the diffuse term.
+    pub kd: f64,
+    /// The weight of the specular term.
+    pub ks: f64,
+    /// The exponent of the highlight.
+    pub n: f64,
+    /// The weight of the refracted ray.
+    pub kt: f64,
+    /// The index of refraction.
+    pub eta: f64,
+}
+
+/// The parameters of the glTF material that comes nearest to Phong's model; of what it does not
+/// name, the default.
+pub struct PhongFit {
+    /// The colour, its weight included.
+    pub base_color: [f64; 3],
+    /// 1 for a mirror, else 0.
+    pub metallic: f64,
+    /// The perceptual roughness, √α.
+    pub roughness: f64,
+    /// 1 where it mirrors or refracts, else 0.
+    pub specular: f64,
+    /// The part of the light that is refracted.
+    pub transmission: f64,
+    /// 1 where it refracts, so that the surface bounds a volume; else 0.
+    pub thickness: f64,
+    /// The index of refraction, at least 1.
+    pub ior: f64,
+}
+
+/// The glTF material that comes nearest to Phong's model: the diffuse term becomes Lambert's, a
+/// mirror without one a smooth metal of its weight, and what refracts a volume with a smooth surface.
+///
+/// The exponent n of a highlight becomes the width α of a microfacet distribution by n = 2/α² − 2
+/// (Walter et al., "Microfacet models for refraction through rough surfaces", EGSR 2007, section
+/// 5.2); glTF's roughness is √α.
+pub fn fit_phong(phong: &PhongTerms) -> PhongFit {
+    let fraction = |weight: f64| weight.clamp(0.0, 1.0);
+    let (kd, ks, kt) = (fraction(phong.kd), fraction(phong.ks), fraction(phong.kt));
+    let (mirrors, refracts) = (ks > 0.0, kt > 0.0);
+    let is_mirror = mirrors && kd == 0.0 && !refracts;
+    let weight = if ks > kd { 1.0 } else { kd };
+    let one_if = |condition| if condition { 1.0 } else { 0.0 };
+    PhongFit {
+        base_color: if is_mirror {
+            [ks; 3]
+        } else {
+            phong
+                .color
+                .map(|channel| fraction(channel.min(1.0) * weight))
+        },
+        metallic: one_if(is_mirror),
+        roughness: if is_mirror || refracts {
+            0.0
+        } else {
+            (2.0 / (phong.n + 2.0)).sqrt().sqrt()
+        },
+        specular: one_if(mirrors || refracts),
+        transmission: kt,
+        thickness: one_if(refracts),
+        ior: phong.eta.max(1.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_capital_begins_each_word_but_the_first() {
+        assert_eq!(camel_case!(ior), "ior");
+        assert_eq!(
+            camel_case!(clearcoat_roughness_map),
+            "clearcoatRoughnessMap"
+        );
+    }
+}

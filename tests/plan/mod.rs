@@ -1,0 +1,144 @@
+//! The plan: what is left out adds nothing, what is kept adds something, and who asks is told the
+//! right reason.
+//!
+//! The strength of this suite and of the unit tests of the rules is measured by
+//! `benches/mutants.sh`: mutants that survive want a test. What the scenes of the course and of the
+//! wild call for is in `tests/shared`.
+
+#![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+mod approved;
+mod counters;
+mod cut;
+mod dice;
+mod effort;
+mod extreme;
+mod lamps;
+mod law;
+mod need;
+mod path_effects;
+mod path_materials;
+mod path_rules;
+mod path_scenes;
+mod path_told;
+mod paths;
+mod precision;
+mod sensitivity;
+mod stage;
+mod validation;
+
+use rtc::internals::diag::Sink;
+use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::passes::Overrides;
+use rtc::internals::pipeline::{self, Options};
+use rtc::internals::plan::{Effect, Plan, Rule, Rules, State, Verdict};
+use rtc::internals::render::{Film, Job, Values};
+use rtc::internals::source::{Loader, SourceMap};
+use rtc::internals::valid::Proof;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root(folder: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
+}
+
+/// The scene files of a folder and the folders in it.
+fn files(folder: &str) -> Vec<PathBuf> {
+    let (mut open, mut found) = (vec![root(folder)], Vec::new());
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            open.extend(
+                fs::read_dir(path)
+                    .unwrap()
+                    .map(|entry| entry.unwrap().path()),
+            );
+        } else if path
+            .extension()
+            .is_some_and(|extension| extension == "yaml" || extension == "yml")
+        {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// A scene as it is; `None` if it is refused.
+fn scene(path: &Path) -> Option<Scene> {
+    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let file = Loader.file(path, &mut map).unwrap();
+    let lowered = pipeline::load(file, &mut map, &options, &mut sink)?;
+    (!sink.has_errors()).then_some(lowered.scene)
+}
+
+/// The scene with few pixels, samples and bounces.
+fn small(mut scene: Scene) -> Scene {
+    let (sampling, depth) = (
+        scene.settings.supersampling.min(2),
+        scene.settings.max_depth.min(4),
+    );
+    let size = Some([22, 18]);
+    Overrides {
+        size,
+        supersampling: Some(sampling),
+        depth: Some(depth),
+        spp: Some(2),
+        ..Overrides::default()
+    }
+    .apply(&mut scene);
+    scene.camera.lens.samples = scene.camera.lens.samples.min(3);
+    scene.settings.light_samples = scene.settings.light_samples.min(4);
+    scene
+}
+
+fn proven(scene: &Scene) -> Proof {
+    let (mut sink, options) = (Sink::default(), Options::default());
+    let lowered = Lowered {
+        scene: scene.clone(),
+        origins: Origins::default(),
+    };
+    pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+}
+
+fn film(scene: &Proof, rules: Rules, values: Values) -> Film {
+    let job = Job {
+        values,
+        ..Job::default()
+    };
+    pipeline::render(scene, &Plan::new(scene, rules), &job, 2, &|_| true)
+        .unwrap()
+        .unwrap()
+}
+
+fn bits(film: &Film) -> Vec<u64> {
+    film.image
+        .pixels
+        .iter()
+        .flatten()
+        .map(|value| value.to_bits())
+        .collect()
+}
+
+/// The verdict on an effect of the whole scene.
+fn verdict(plan: &Plan, effect: Effect) -> &Verdict {
+    let mut all = plan
+        .verdicts
+        .iter()
+        .filter(|verdict| verdict.effect == effect && verdict.of.is_none());
+    let first = all
+        .next()
+        .unwrap_or_else(|| panic!("there is a verdict on {effect:?}"));
+    assert!(all.next().is_none(), "there is one verdict on {effect:?}");
+    first
+}
+
+/// What became of an effect, and by which rule.
+fn fate(scene: &Scene, effect: Effect) -> (State, Option<Rule>) {
+    let plan = Plan::new(&proven(scene), Rules::ALL);
+    let Verdict { state, rule, .. } = verdict(&plan, effect);
+    (*state, *rule)
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap().to_string_lossy().into_owned()
+}

@@ -1,0 +1,39 @@
+//! All suites of tests that are written as functions, in one program, so that the library is linked once.
+
+#![expect(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test stops at the first surprise and reads what it checks"
+)]
+
+mod api;
+mod assets;
+mod bsdf;
+mod camera;
+mod cli;
+mod codec;
+mod codes;
+mod cost;
+mod course;
+mod gltf;
+mod hardcases;
+mod honest;
+mod ir_schema;
+mod laws;
+mod numbers;
+mod path;
+mod pictures;
+mod plain;
+mod plan;
+mod proofs;
+mod readme;
+mod scale;
+mod scene_laws;
+mod schema;
+mod shapes;
+mod small;
+mod texts;
+mod tidy;
+mod told;
+mod unseen;
+mod valid;
