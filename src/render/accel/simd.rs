@@ -90,6 +90,19 @@ impl SimdLevel {
     }
 }
 
+/// The vector instructions that each machine of its kind has, for tests of single functions over lanes.
+#[cfg(all(test, target_arch = "x86_64"))]
+pub(crate) fn baseline() -> fearless_simd::Sse2 {
+    let level = Level::new().as_sse2();
+    level.expect("each x86-64 has SSE2")
+}
+
+/// One lane after the other, where no vector instructions are common to all machines.
+#[cfg(all(test, not(target_arch = "x86_64")))]
+pub(crate) fn baseline() -> Fallback {
+    Fallback::new()
+}
+
 /// Does the same with the instructions of a level; `$simd` names them within.
 macro_rules! at_level {
     ($level:expr, $simd:ident => $what:expr) => {{

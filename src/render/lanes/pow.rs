@@ -167,9 +167,9 @@ fn exp2<S: Simd>(simd: S, [product, rest]: [f64x4<S>; 2], sum: f64x4<S>) -> f64x
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::accel::simd::baseline;
     use crate::lanes::LANES;
     use crate::sampler::Key;
-    use fearless_simd::Fallback;
     use rtc_math::{ldexp, pow};
 
     /// Bases near 1, near 0 and between, and where the logarithm changes its form; exponents whole
@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn four_powers_have_the_bits_of_each() {
-        let simd = Fallback::new();
+        let simd = baseline();
         let mut shown = 0;
         for index in 0..200_000 {
             let key = Key::new([11, 5], index);

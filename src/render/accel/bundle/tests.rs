@@ -1,13 +1,13 @@
 //! No bundle passes over what a ray in it hits.
 
 use super::*;
+use crate::accel::simd::baseline;
 use crate::lanes::FourRays;
 use crate::sampler::Key;
 use crate::shape::geometry::Geometry;
 use crate::shape::sphere::{Sphere, TexturedSphere};
 use crate::shape::torus::Torus;
 use crate::shape::triangle::Shear;
-use fearless_simd::Fallback;
 use rayon::prelude::*;
 
 /// The names of the families of scenes, the size of their shapes, and how far off they stand.
@@ -161,7 +161,7 @@ fn no_shaft_passes_over_what_one_of_its_segments_hits() {
 /// and in the pauses between them.
 #[test]
 fn four_lanes_are_told_of_all_that_each_may_hit() {
-    let simd = Fallback::new();
+    let simd = baseline();
     let (mut hits, mut fewer) = (0, 0);
     for index in 0..1000 {
         let case = Case::new((index % 2) as usize, index);
@@ -219,7 +219,7 @@ fn rays_that_are_not_of_length_one_or_not_finite_have_no_cone() {
         let ray = Ray { origin, direction };
         assert!(RayCone::EMPTY.around(&ray, &balls).is_none());
         // With a bundle that is asked for, and in a pause.
-        let (simd, mut bundles) = (Fallback::new(), Bundles::EMPTY);
+        let (simd, mut bundles) = (baseline(), Bundles::EMPTY);
         let four = FourRays::each(simd, &[ray, case.ray, case.ray, ray]);
         for pause in [0, Pace::PAUSE] {
             bundles.cones[0].near = -1.0;

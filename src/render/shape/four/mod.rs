@@ -214,10 +214,10 @@ fn interactions<S: Simd>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::accel::simd::baseline;
     use crate::ray::Ray;
     use crate::sampler::Key;
     use crate::shape::geometry::Geometry;
-    use fearless_simd::Fallback;
 
     /// Rays from near and far, at the sphere and past it, from its surface and along it.
     fn rays(index: u64) -> [Ray; LANES] {
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn four_rays_meet_a_torus_as_each_does() {
-        let simd = Fallback::new();
+        let simd = baseline();
         let all = mask64x4::splat(simd, true);
         let mut hits = 0;
         for (axis, major, minor) in [
@@ -270,7 +270,7 @@ mod tests {
 
     #[test]
     fn four_rays_meet_a_plane_along_an_axis_as_each_does() {
-        let simd = Fallback::new();
+        let simd = baseline();
         let all = mask64x4::splat(simd, true);
         let mut hits = 0;
         for (anchor, normal) in [
@@ -304,7 +304,7 @@ mod tests {
     }
 
     /// Whether an interaction has the bits of that in a lane.
-    fn assert_same(one: &Interaction, at: &Interactions<Fallback>, lane: usize) {
+    fn assert_same(one: &Interaction, at: &Interactions<impl Simd>, lane: usize) {
         let bits = |v: Vec3| v.to_array().map(f64::to_bits);
         assert_eq!(bits(one.point), bits(at.point.lane(lane)));
         assert_eq!(bits(one.normal), bits(at.normal.lane(lane)));
@@ -314,7 +314,7 @@ mod tests {
 
     #[test]
     fn four_rays_have_the_bits_of_each() {
-        let simd = Fallback::new();
+        let simd = baseline();
         let sphere = Sphere {
             center: Vec3::ZERO,
             radius: 1.0,
