@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What rays that are none cost: instructions of rays with a NaN or an infinite component over those of sound rays, through
-# a thousand spheres. Limit: 2.5. Needs valgrind; builds the driver `broken_rays` in release mode.
+# a thousand spheres. Limit: 2.5. Needs valgrind; builds the driver `broken_rays`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/driver.sh

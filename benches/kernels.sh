@@ -9,7 +9,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 . benches/driver.sh
 mkdir -p target/kernels
-CARGO_TARGET_DIR=target/kernels CARGO_PROFILE_RELEASE_LTO=off cargo rustc --quiet --release --lib -- \
+CARGO_TARGET_DIR=target/kernels cargo rustc --quiet --release -p rtc-render --lib -- \
     -C symbol-mangling-version=v0 --emit obj=target/kernels/rtc.o
 kernels=$(driver kernels)
 
@@ -58,7 +58,7 @@ def features_of(kind):
     return {1 << int(bit or 0): text.lower() for text, bit in
             re.findall(r"pub const (\w+): Self = Self\(1(?: << (\d+))?\);", block[: block.index("\n}")])}
 
-WORLDS = {"basic": "World<rtc::render::shape::basic::Basic>>", "all": "World>"}
+WORLDS = {"basic": "World<rtc_render::shape::basic::Basic>>", "all": "World>"}
 wrong = []
 
 def table(method, kind, effects, count):
@@ -67,7 +67,7 @@ def table(method, kind, effects, count):
     print("| features | shapes | bytes | share |", " | ".join(effects), "|\n| --- | --- | --: | --: |" + " :-: |" * len(effects))
     rows = []
     for shapes, world in WORLDS.items():
-        begin = f"<rtc::render::world::{world}::{method}<"
+        begin = f"<rtc_render::world::{world}::{method}<"
         kernels = {int(text.split(begin)[1].split(">")[0]) for text in names if begin in text}
         for kernel in sorted(kernels, key=lambda kernel: (kernel.bit_count(), kernel)):
             sections = reached([section for section, text in name.items() if section in size and f"{begin}{kernel}>" in text])

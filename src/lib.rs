@@ -37,11 +37,11 @@
 //!
 //! # Within
 //!
-//! A scene passes through these rooms. A room may name only rooms of earlier lines; rooms of one line
-//! do not know each other (`tests/tidy.rs` checks it).
+//! A scene passes through these rooms, each a package of its own below `src`. A room may name only rooms of
+//! earlier lines; rooms of one line do not know each other (their manifests say so, and `tests/tidy.rs` reads them).
 //!
 //! 1. `math`, `color`: vectors, exact and robust arithmetic; colour spaces and tone curves.
-//!    `standard`: the table of the parameters of the glTF material, which every later room reads.
+//!    `tables`: the shapes and the parameters of the glTF material, which every later room reads.
 //! 2. `profile`: how the intensity of a light depends on the direction. `image`: pixel files. `source`: files, spans into them, limits, and
 //!    `source::tree`, the spanned tree that YAML and JSON become.
 //! 3. `diag`: one diagnostic type, the table of codes, the printers.
