@@ -97,8 +97,15 @@ pub(crate) fn baseline() -> fearless_simd::Sse2 {
     level.expect("each x86-64 has SSE2")
 }
 
+/// As on x86-64.
+#[cfg(all(test, target_arch = "aarch64"))]
+pub(crate) fn baseline() -> fearless_simd::aarch64::Neon {
+    let level = Level::new().as_neon();
+    level.expect("each 64-bit ARM has NEON")
+}
+
 /// One lane after the other, where no vector instructions are common to all machines.
-#[cfg(all(test, not(target_arch = "x86_64")))]
+#[cfg(all(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 pub(crate) fn baseline() -> Fallback {
     Fallback::new()
 }
