@@ -8,6 +8,7 @@
 
 mod cases;
 mod hashed;
+mod repo;
 mod scale;
 mod scene_laws;
 mod shared;

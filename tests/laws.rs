@@ -6,6 +6,8 @@
 use crate::small;
 mod parts;
 
+use crate::repo::{files, root};
+
 use crate::scene_laws::{
     is_the_same_in_any_order, is_the_same_laid_out, makes_the_same_picture_times, powers,
 };
@@ -18,7 +20,6 @@ use rtc::internals::render::{Crop, Job, Seeds, Tiles};
 use rtc::internals::source::SourceMap;
 use small::{WHOLE, bits, film, paths, small};
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 
 #[test]
 fn the_ir_in_any_form_makes_the_same_picture() {
@@ -44,15 +45,13 @@ fn the_ir_in_any_form_makes_the_same_picture() {
 /// The scenes of the repo, and those of its tests, sound or not.
 #[test]
 fn laid_out_is_the_same_scene() {
-    let mut open = ["scenes", "tests"].map(PathBuf::from).to_vec();
     let mut count = 0;
-    while let Some(path) = open.pop() {
-        if path.is_dir() {
-            open.extend(path.read_dir().unwrap().map(|entry| entry.unwrap().path()));
-        } else if path.extension().is_some_and(|own| own == "yaml") {
-            is_the_same_laid_out(&path);
-            count += 1;
-        }
+    for path in ["scenes", "tests"]
+        .map(|folder| files(&root(folder), &["yaml"]))
+        .concat()
+    {
+        is_the_same_laid_out(&path);
+        count += 1;
     }
     assert!(count > 200, "{count}");
 }

@@ -3,6 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
+use crate::small::bits;
 use rtc::internals::diag::Sink;
 use rtc::internals::math::ldexp;
 use rtc::internals::pipeline::{self, Options};
@@ -10,16 +11,6 @@ use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Film, Job, Values};
 use rtc::internals::source::SourceMap;
 use rtc::internals::valid::Proof;
-
-/// The bits of every value.
-fn bits(film: &Film) -> Vec<u64> {
-    film.image
-        .pixels
-        .iter()
-        .flatten()
-        .map(|value| value.to_bits())
-        .collect()
-}
 
 /// Three numbers as a list, times 2^k.
 fn list(v: [f64; 3], k: i32) -> String {

@@ -9,6 +9,7 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise and reads what it checks"
 )]
+use crate::repo::{files, root};
 use rtc::internals::diag::{Severity, Sink};
 use rtc::internals::front::{self, course, gltf};
 use rtc::internals::pipeline;
@@ -26,10 +27,6 @@ const DECODER_ONLY: &[&str] = &[
 
 const MUTANTS: u32 = 20_000;
 
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
 #[test]
 fn the_committed_schema_and_page_are_current() {
     let schema = format!("{:#}\n", course::schema());
@@ -40,7 +37,7 @@ fn the_committed_schema_and_page_are_current() {
         ("gltf-extensions.md", gltf::extensions()),
     ];
     for (name, current) in pages {
-        let path = root().join("schema").join(name);
+        let path = root("schema").join(name);
         if std::env::var_os("RTC_UPDATE").is_some() {
             fs::write(&path, &current).unwrap();
         }
@@ -72,26 +69,10 @@ fn every_property_says_what_it_is() {
 
 /// The scenes of the repository and all fixtures that a YAML reader takes, as JSON.
 fn documents() -> Vec<(String, Value)> {
-    let mut open = vec![
-        root().join("scenes"),
-        root().join("tests/diagnostics"),
-        root().join("tests/render/record"),
-    ];
-    let mut found = Vec::new();
-    while let Some(path) = open.pop() {
-        if path.is_dir() {
-            open.extend(
-                fs::read_dir(path)
-                    .unwrap()
-                    .map(|entry| entry.unwrap().path()),
-            );
-        } else if path
-            .extension()
-            .is_some_and(|extension| extension == "yaml")
-        {
-            found.extend(as_json(&path).map(|value| (path.display().to_string(), value)));
-        }
-    }
+    let folders = ["scenes", "tests/diagnostics", "tests/render/record"].into_iter();
+    let paths = folders.flat_map(|folder| files(&root(folder), &["yaml"]));
+    let read = |path: PathBuf| as_json(&path).map(|value| (path.display().to_string(), value));
+    let mut found: Vec<_> = paths.filter_map(read).collect();
     found.sort_by(|a, b| a.0.cmp(&b.0));
     found
 }

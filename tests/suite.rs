@@ -3,6 +3,7 @@
 //! has. Where those are missing, they are counted as ignored, with the reason.
 #![allow(dead_code, reason = "no suite needs all of it")]
 
+pub(crate) use crate::repo::{files, root};
 use libtest_mimic::{Arguments, Completion, Failed, Trial};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -55,34 +56,9 @@ pub(crate) fn shared(path: &str) -> Option<PathBuf> {
     Some(folder.join(path)).filter(|path| path.exists())
 }
 
-/// A file or folder of the repo.
-pub(crate) fn root(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
-}
-
 /// Whether expectations are to be written anew.
 pub(crate) fn updates() -> bool {
     std::env::var_os("RTC_UPDATE").is_some()
-}
-
-/// All files below a folder with one of these extensions, in order.
-pub(crate) fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
-    let (mut found, mut open) = (Vec::new(), vec![folder.to_owned()]);
-    while let Some(path) = open.pop() {
-        if path.is_dir() {
-            let entries = path.read_dir().unwrap();
-            open.extend(entries.map(|entry| entry.unwrap().path()));
-        } else if has_extension(&path, extensions) {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
-}
-
-pub(crate) fn has_extension(path: &Path, extensions: &[&str]) -> bool {
-    path.extension()
-        .is_some_and(|own| extensions.iter().any(|wanted| own == *wanted))
 }
 
 /// The path of a file below a folder without its extension, parted by `/` on every system.

@@ -27,6 +27,7 @@ mod plain;
 mod plan;
 mod proofs;
 mod readme;
+mod repo;
 mod scale;
 mod scene_laws;
 mod schema;

@@ -7,6 +7,7 @@
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 
+use crate::repo::{files, root};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -50,30 +51,14 @@ const MAX_LINES: usize = 400;
 /// Tables of data may be longer; each with its reason.
 const TABLES: &[&str] = &["src/diag/codes/"];
 
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
 fn rust_files(folder: &str) -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    let mut open = vec![root().join(folder)];
-    while let Some(path) = open.pop() {
-        if path.is_dir() {
-            open.extend(
-                fs::read_dir(&path)
-                    .unwrap()
-                    .map(|entry| entry.unwrap().path()),
-            );
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            found.push((relative(&path), fs::read_to_string(&path).unwrap()));
-        }
-    }
-    found.sort();
-    found
+    let paths = files(&root(folder), &["rs"]).into_iter();
+    let read = |path: PathBuf| (relative(&path), fs::read_to_string(&path).unwrap());
+    paths.map(read).collect()
 }
 
 fn relative(path: &Path) -> String {
-    path.strip_prefix(root())
+    path.strip_prefix(root(""))
         .unwrap()
         .to_string_lossy()
         .replace('\\', "/")
@@ -89,15 +74,15 @@ fn all_files() -> Vec<(String, String)> {
         "fuzz/fuzz_targets",
     ]
     .into_iter()
-    .filter(|folder| root().join(folder).exists())
+    .filter(|folder| root(folder).exists())
     .flat_map(rust_files)
     .collect()
 }
 
 /// The rooms, each with its manifest; the library itself is the one that stands above them.
 fn manifests() -> Vec<(String, String)> {
-    let mut manifests = vec![("api".to_owned(), root().join("Cargo.toml"))];
-    for entry in fs::read_dir(root().join("src")).unwrap() {
+    let mut manifests = vec![("api".to_owned(), root("Cargo.toml"))];
+    for entry in fs::read_dir(root("src")).unwrap() {
         let folder = entry.unwrap().path();
         if folder.join("Cargo.toml").exists() {
             let room = folder.file_name().unwrap().to_string_lossy().into_owned();
@@ -216,7 +201,7 @@ fn no_two_types_have_one_name() {
 
 #[test]
 fn examples_and_hosts_enter_by_the_door() {
-    let outside = |folder: &&str| root().join(folder).exists();
+    let outside = |folder: &&str| root(folder).exists();
     let folders = ["examples", "hosts"].into_iter().filter(outside);
     let files: Vec<_> = folders.flat_map(rust_files).collect();
     assert!(files.len() >= 3, "there are examples");

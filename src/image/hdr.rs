@@ -1,4 +1,5 @@
-//! Radiance HDR files read: pixels of three mantissas and an exponent, flat or in runs of either kind.
+//! The reader of Radiance HDR files: pixels of three mantissas and a shared exponent, flat or run-length
+//! encoded, in the old or the new way.
 
 use super::decode::{DecodeError, ImageSize};
 

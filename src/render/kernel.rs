@@ -52,8 +52,9 @@ pub fn choose(needed: Features) -> usize {
         .unwrap_or(KERNELS.len() - 1)
 }
 
-/// Calls a method of a world with the features of one kernel of a table: of the one chosen, or of the last one, which can
-/// do everything, where the shapes have no kernels of their own. The indices name all kernels of the table.
+/// Calls a method of a world with the features of one kernel of a table: the kernel chosen, or the last
+/// one, which can do everything, if the shapes have no kernels of their own. The list of indices must
+/// name all kernels of the table.
 macro_rules! call_kernel {
     ($table:ident [$($index:literal)* / $last:literal], $chosen:expr, $world:ident.$method:ident $arguments:tt) => {{
         const { assert!([$($index,)* $last].len() == $table.len() && $last + 1 == $table.len()) };

@@ -1,4 +1,5 @@
-//! Tables that several stages read. A table is a macro that gives all its rows to the macro of a stage.
+//! Tables that several stages read. A table is a macro that passes all its rows to the macro of a
+//! stage.
 
 mod shape;
 mod standard;

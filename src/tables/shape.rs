@@ -1,4 +1,4 @@
-//! The table of shapes. A shape is one row; every stage makes its enums and its dispatch of the rows.
+//! The table of shapes. A shape is one row; each stage makes its enums and its dispatch from the rows.
 
 /// Calls a macro with the table of shapes; all stages list them in its order.
 ///

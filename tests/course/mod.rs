@@ -9,6 +9,7 @@
 
 mod solid;
 
+use crate::repo::{files, root};
 use proptest::prelude::*;
 use rtc::internals::diag::Sink;
 use rtc::internals::emit;
@@ -18,7 +19,7 @@ use rtc::internals::ir::{self, Scene};
 use rtc::internals::math::{Vec3, camera_basis};
 use rtc::internals::source::SourceMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The scene of a text without errors.
 fn scene(text: &str) -> Option<Scene> {
@@ -32,28 +33,11 @@ fn scene(text: &str) -> Option<Scene> {
 }
 
 fn texts() -> Vec<(PathBuf, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut open = vec![
-        root.join("scenes"),
-        root.join("tests/diagnostics"),
-        root.join("tests/render/record"),
-    ];
-    let mut found = Vec::new();
-    while let Some(path) = open.pop() {
-        if path.is_dir() {
-            open.extend(
-                fs::read_dir(path)
-                    .unwrap()
-                    .map(|entry| entry.unwrap().path()),
-            );
-        } else if path
-            .extension()
-            .is_some_and(|extension| extension == "yaml")
-        {
-            found.extend(fs::read_to_string(&path).ok().map(|text| (path, text)));
-        }
-    }
-    found
+    let folders = ["scenes", "tests/diagnostics", "tests/render/record"].into_iter();
+    let paths = folders.flat_map(|folder| files(&root(folder), &["yaml"]));
+    paths
+        .filter_map(|path| fs::read_to_string(&path).ok().map(|text| (path, text)))
+        .collect()
 }
 
 /// Writes the scene and reads it again, ourselves and by way of another YAML reader.

@@ -22,9 +22,7 @@ use rtc::internals::ir::{
 };
 use rtc::internals::math::Vec3;
 use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{
-    Background, Basic, Film, Job, Seeds, Strategy, Stride, Values, World,
-};
+use rtc::internals::render::{Background, Basic, Film, Job, Strategy, World};
 use rtc::internals::valid::{self, Proof};
 
 /// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at
@@ -141,16 +139,7 @@ fn prove(scene: &Scene) -> Proof {
     proof.unwrap_or_else(|| panic!("{sink:?}"))
 }
 
-const JOB: Job = Job {
-    crop: None,
-    values: Values::Linear,
-    tiles: None,
-    seeds: Seeds::NONE,
-    stride: Stride::EVERY,
-    background: Background::Environment,
-    samples: None,
-    clamp: None,
-};
+const JOB: Job = crate::small::WHOLE;
 
 fn render_by(scene: &Scene, strategy: Strategy) -> Film {
     let proof = prove(scene);

@@ -27,40 +27,21 @@ mod sensitivity;
 mod stage;
 mod validation;
 
+use crate::repo::root;
+use crate::small::{bits, proven};
 use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::ir::Scene;
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Effect, Plan, Rule, Rules, State, Verdict};
 use rtc::internals::render::{Film, Job, Values};
 use rtc::internals::source::{Loader, SourceMap};
 use rtc::internals::valid::Proof;
-use std::fs;
 use std::path::{Path, PathBuf};
-
-fn root(folder: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
-}
 
 /// The scene files of a folder and the folders in it.
 fn files(folder: &str) -> Vec<PathBuf> {
-    let (mut open, mut found) = (vec![root(folder)], Vec::new());
-    while let Some(path) = open.pop() {
-        if path.is_dir() {
-            open.extend(
-                fs::read_dir(path)
-                    .unwrap()
-                    .map(|entry| entry.unwrap().path()),
-            );
-        } else if path
-            .extension()
-            .is_some_and(|extension| extension == "yaml" || extension == "yml")
-        {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
+    crate::repo::files(&root(folder), &["yaml", "yml"])
 }
 
 /// A scene as it is; `None` if it is refused.
@@ -91,15 +72,6 @@ fn small(mut scene: Scene) -> Scene {
     scene
 }
 
-fn proven(scene: &Scene) -> Proof {
-    let (mut sink, options) = (Sink::default(), Options::default());
-    let lowered = Lowered {
-        scene: scene.clone(),
-        origins: Origins::default(),
-    };
-    pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
-}
-
 fn film(scene: &Proof, rules: Rules, values: Values) -> Film {
     let job = Job {
         values,
@@ -108,15 +80,6 @@ fn film(scene: &Proof, rules: Rules, values: Values) -> Film {
     pipeline::render(scene, &Plan::new(scene, rules), &job, 2, &|_| true)
         .unwrap()
         .unwrap()
-}
-
-fn bits(film: &Film) -> Vec<u64> {
-    film.image
-        .pixels
-        .iter()
-        .flatten()
-        .map(|value| value.to_bits())
-        .collect()
 }
 
 /// The verdict on an effect of the whole scene.

@@ -7,14 +7,14 @@ mod closed;
 mod coplanar;
 mod glass;
 
+use crate::small::proven;
 use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::ir::Scene;
 use rtc::internals::math::Vec3;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Film, Job, Values, render};
 use rtc::internals::source::SourceMap;
-use rtc::internals::valid::Proof;
 use std::path::Path;
 
 /// A scene of the course, by its text; assets are those of the repo.
@@ -26,15 +26,6 @@ fn scene(text: &str) -> Scene {
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     assert!(!sink.has_errors(), "{:?}", sink.kept());
     lowered.unwrap().scene
-}
-
-fn proven(scene: &Scene) -> Proof {
-    let (mut sink, options) = (Sink::default(), Options::default());
-    let lowered = Lowered {
-        scene: scene.clone(),
-        origins: Origins::default(),
-    };
-    pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
 fn film(scene: &Scene, rules: Rules) -> Film {

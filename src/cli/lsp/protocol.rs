@@ -1,5 +1,5 @@
-//! What is said and heard, with the names and shapes of the Language Server Protocol 3.17; of each only what is
-//! used here.
+//! The messages of the Language Server Protocol 3.17, by its names; of each message only the fields that
+//! are used here.
 
 use super::uri::DocumentUri;
 use serde::{Deserialize, Serialize};
@@ -62,13 +62,13 @@ impl TextDocumentSyncKind {
     pub(super) const INCREMENTAL: Self = Self(2);
 }
 
-/// A text that is meant.
+/// Identifies a text.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct TextDocumentIdentifier {
     pub(super) uri: DocumentUri,
 }
 
-/// A text that is meant as it is after so many changes.
+/// Identifies a version of a text.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct VersionedTextDocumentIdentifier {
     pub(super) uri: DocumentUri,
@@ -105,7 +105,7 @@ pub(super) struct TextDocumentContentChangeEvent {
     pub(super) text: String,
 }
 
-/// What is said of a text as a whole: that it is closed, or that it is to be laid out, outlined or coloured.
+/// Parameters of messages about a whole text: close, format, outline, colours.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct TextDocumentParams {

@@ -69,8 +69,8 @@ impl Choice {
 
     /// The flags of `rtc render`, with their values if they take one.
     pub(super) fn flags(&self) -> Vec<(&'static str, Option<String>)> {
-        let is_said = |(knob, value): &(&Knob, &u32)| **knob != Knob::Denoise || **value > 0;
-        let values = self.values.iter().filter(is_said);
+        let is_given = |(knob, value): &(&Knob, &u32)| **knob != Knob::Denoise || **value > 0;
+        let values = self.values.iter().filter(is_given);
         let values = values.map(|(knob, value)| (knob.flag(), knob.flag_value(*value)));
         let integrator = self.integrator.clone();
         let integrator = integrator.map(|word| ("--integrator", Some(word)));

@@ -135,22 +135,22 @@ impl GltfAsset {
         }
         let chunks = [(b"JSON", &self.json, b' '), (b"BIN\0", &self.bin, 0)];
         let chunks = chunks.iter().filter(|(_, bytes, _)| !bytes.is_empty());
-        let filled = |bytes: &[u8]| bytes.len().next_multiple_of(4);
-        let total: usize = chunks.clone().map(|(_, bytes, _)| 8 + filled(bytes)).sum();
+        let padded = |bytes: &[u8]| bytes.len().next_multiple_of(4);
+        let total: usize = chunks.clone().map(|(_, bytes, _)| 8 + padded(bytes)).sum();
         out.write_all(b"glTF")?;
         out.write_all(&2_u32.to_le_bytes())?;
         out.write_all(&word(12 + total)?)?;
-        for (kind, bytes, filler) in chunks {
-            out.write_all(&word(filled(bytes))?)?;
+        for (kind, bytes, padding) in chunks {
+            out.write_all(&word(padded(bytes))?)?;
             out.write_all(*kind)?;
             out.write_all(bytes)?;
-            out.write_all(&vec![*filler; filled(bytes) - bytes.len()])?;
+            out.write_all(&vec![*padding; padded(bytes) - bytes.len()])?;
         }
         Ok(())
     }
 }
 
-/// A length in a .glb.
+/// A length as a .glb holds it, of 32 bits.
 fn word(length: usize) -> io::Result<[u8; 4]> {
     let length = u32::try_from(length).map_err(io::Error::other)?;
     Ok(length.to_le_bytes())

@@ -90,7 +90,8 @@ impl SimdLevel {
     }
 }
 
-/// The vector instructions that each machine of its kind has, for tests of single functions over lanes.
+/// The vector instructions that each machine of this architecture has, for unit tests of functions
+/// over lanes.
 #[cfg(all(test, target_arch = "x86_64"))]
 pub(crate) fn baseline() -> fearless_simd::Sse2 {
     let level = Level::new().as_sse2();

@@ -9,9 +9,10 @@ use super::{Crop, Stride};
 pub(crate) type Open<'run, A> =
     dyn Fn([u32; 2], usize, &<A as Accumulator>::Kept) -> (A, SampleRanges) + Sync + 'run;
 
-/// The pixels of a tile, one after the other: to an integrator they are alike, whatever the film keeps of them.
-pub(crate) trait Pixels<Sample> {
-    /// Begins the next pixel: its place in the picture, and the samples it is to take; `None` after the last.
+/// A tile as an integrator sees it: one pixel after the other, whatever the film keeps of each.
+pub(crate) trait FilmTile<Sample> {
+    /// Begins the next pixel: its coordinates in the picture, and the samples it is to take; `None`
+    /// after the last.
     fn next(&mut self) -> Option<([u32; 2], SampleRanges)>;
 
     /// Adds the next sample of a stream to the pixel begun.
@@ -21,7 +22,7 @@ pub(crate) trait Pixels<Sample> {
     fn close(&mut self);
 }
 
-/// A tile of a film.
+/// A tile of a film that keeps what an accumulator makes of the samples.
 pub(crate) struct Tile<'film, A: Accumulator> {
     /// The rectangle of the picture.
     area: Crop,
@@ -69,7 +70,7 @@ impl<'film, A: Accumulator> Tile<'film, A> {
     }
 }
 
-impl<A: Accumulator> Pixels<A::Sample> for Tile<'_, A> {
+impl<A: Accumulator> FilmTile<A::Sample> for Tile<'_, A> {
     fn next(&mut self) -> Option<([u32; 2], SampleRanges)> {
         while self.index < self.kept.len() {
             let ([column, row], index) = (self.next, self.index);

@@ -36,12 +36,12 @@ impl<S: Geometry> World<S> {
         on_pixel: &OnPixel<'_>,
     ) -> Option<(Vec<Guide>, Counts)> {
         let lights = Lights::new(self, Strategy::Mis);
-        let worker = || Box::new(FirstHitsOfPaths::new(self, &lights, on_pixel)) as _;
+        let make_integrator = || Box::new(FirstHitsOfPaths::new(self, &lights, on_pixel)) as _;
         let open = |_: [u32; 2], _: usize, _: &Guide| {
             (GuideSums::new(&self.camera), asked(job, samples.clone()))
         };
         let mut film = Tiled::new(self.crop(job), job.tiles, Guide::default());
-        let counts = run(&mut film, Selection::of(job), &worker, &open)?;
+        let counts = run(&mut film, Selection::of(job), &make_integrator, &open)?;
         Some((film.iter().copied().collect(), counts))
     }
 }

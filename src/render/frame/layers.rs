@@ -1,6 +1,6 @@
 //! Layers (AOVs): each pixel traces the same camera rays as for its colour, to their first hits.
 
-use super::{Selection, Worker, run};
+use super::{MakeIntegrator, Selection, run};
 use crate::film::Job;
 use crate::film::heartbeat::OnPixel;
 use crate::film::pixel::Accumulator;
@@ -27,20 +27,20 @@ impl<S: Geometry> World<S> {
     ) -> Option<Layers> {
         if let Mode::Path(samples) = self.settings.mode {
             let lights = Lights::new(self, Strategy::Mis);
-            let worker = || Box::new(FirstHitsOfPaths::new(self, &lights, on_pixel)) as _;
-            return self.layers_by(&worker, samples, wanted, job);
+            let make_integrator = || Box::new(FirstHitsOfPaths::new(self, &lights, on_pixel)) as _;
+            return self.layers_by(&make_integrator, samples, wanted, job);
         }
-        let worker = || {
+        let make_integrator = || {
             let tracer = Tracer::<S, { Features::EVERYTHING.0 }>::new(self, on_pixel);
             Box::new(FirstHits(tracer)) as _
         };
-        self.layers_by(&worker, self.settings.grid.samples(), wanted, job)
+        self.layers_by(&make_integrator, self.settings.grid.samples(), wanted, job)
     }
 
-    /// Renders layers by the first hits of integrators that `worker` makes.
+    /// Renders layers by the first hits of integrators that `make_integrator` makes.
     fn layers_by(
         &self,
-        worker: &Worker<'_, '_, CameraHit>,
+        make_integrator: &MakeIntegrator<'_, '_, CameraHit>,
         samples: u32,
         wanted: &[Aov],
         job: &Job,
@@ -51,7 +51,7 @@ impl<S: Geometry> World<S> {
         };
         let blank = <LayerSums<'_> as Accumulator>::Kept::new();
         let mut film = Tiled::new(self.crop(job), job.tiles, blank);
-        run(&mut film, Selection::of(job), worker, &open)?;
+        run(&mut film, Selection::of(job), make_integrator, &open)?;
         let names: Vec<_> = wanted.iter().flat_map(|aov| aov.channels()).collect();
         // A pixel that nobody asked for has no numbers.
         let mut values = Vec::with_capacity(film.len() * names.len());

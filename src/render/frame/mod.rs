@@ -37,20 +37,20 @@ impl Selection {
 }
 
 /// Makes the integrator of a thread.
-pub(crate) type Worker<'work, 'run, Sample> =
+pub(crate) type MakeIntegrator<'work, 'run, Sample> =
     dyn Fn() -> Box<dyn Integrator<'run, Sample = Sample> + 'work> + Sync + 'work;
 
-/// Renders the pixels selected, as `open` begins each of them, by integrators that `worker` makes;
+/// Renders the pixels selected, as `open` begins each of them, by integrators that `make_integrator` makes;
 /// the rays traced, or `None` if the observer said stop.
 pub(crate) fn run<A: Accumulator>(
     film: &mut Tiled<A::Kept>,
     selection: Selection,
-    worker: &Worker<'_, '_, A::Sample>,
+    make_integrator: &MakeIntegrator<'_, '_, A::Sample>,
     open: &Open<'_, A>,
 ) -> Option<Counts> {
     let crop = film.crop();
     let tiles = selection.tiles_of(film);
-    let (counts, is_done) = share(tiles, worker, &|integrator, (area, kept)| {
+    let (counts, is_done) = share(tiles, make_integrator, &|integrator, (area, kept)| {
         integrator.render(&mut Tile::new([area, crop], selection.stride, kept, open))
     });
     is_done.then_some(counts)
@@ -61,13 +61,13 @@ pub(crate) fn run<A: Accumulator>(
 pub(crate) fn run_tiles<A: Accumulator<Kept: Copy>>(
     film: &mut Tiled<A::Kept>,
     selection: Selection,
-    worker: &Worker<'_, '_, A::Sample>,
+    make_integrator: &MakeIntegrator<'_, '_, A::Sample>,
     open: &Open<'_, A>,
 ) -> (Counts, bool) {
     let crop = film.crop();
     let mut tiles = selection.tiles_of(film);
     tiles.sort_unstable_by_key(|(area, _)| Tiles::rank(0, [area.x, area.y]));
-    share(tiles, worker, &|integrator, (area, kept)| {
+    share(tiles, make_integrator, &|integrator, (area, kept)| {
         let before = kept.to_vec();
         let mut tile = Tile::new([area, crop], selection.stride, &mut *kept, open);
         let is_done = integrator.render(&mut tile);
@@ -83,18 +83,18 @@ pub(crate) fn run_tiles<A: Accumulator<Kept: Copy>>(
 type RenderTile<'work, 'run, Sample, T> =
     dyn Fn(&mut (dyn Integrator<'run, Sample = Sample> + '_), T) -> bool + Sync + 'work;
 
-/// Shares tiles among the workers of all threads: each renders the next that is left, until none is or
+/// Shares tiles among the integrators of all threads: each renders the next that is left, until none is or
 /// the observer said stop. The rays of the tiles that are done, and whether all are.
 fn share<'run, Sample: Copy, T: Send>(
     tiles: Vec<T>,
-    worker: &Worker<'_, 'run, Sample>,
+    make_integrator: &MakeIntegrator<'_, 'run, Sample>,
     render: &RenderTile<'_, 'run, Sample, T>,
 ) -> (Counts, bool) {
     let left = Mutex::new(tiles.into_iter());
     let next = || locked(&left).next();
     let done = Mutex::new((Counts::default(), true));
     on_all_threads(&|| {
-        let mut integrator = worker();
+        let mut integrator = make_integrator();
         let mut counts = Counts::default();
         while let Some(tile) = next() {
             let before = *integrator.counts();
@@ -112,7 +112,7 @@ fn share<'run, Sample: Copy, T: Send>(
 }
 
 /// Does some work on all threads of the pool at once. Not generic, so that the code of rayon is
-/// compiled once, not for each integrator.
+/// compiled once, not for each kind of film.
 fn on_all_threads(work: &(dyn Fn() + Sync)) {
     rayon::scope(|scope| {
         for _ in 1..rayon::current_num_threads() {

@@ -38,9 +38,9 @@ impl<S: Geometry> World<S> {
                 asked(job, 0..limited(job, samples)),
             )
         };
-        let worker = || Box::new(Tracer::<S, F>::new(self, on_pixel)) as _;
+        let make_integrator = || Box::new(Tracer::<S, F>::new(self, on_pixel)) as _;
         let mut film = self.film(job);
-        let counts = run(&mut film, Selection::of(job), &worker, &open)?;
+        let counts = run(&mut film, Selection::of(job), &make_integrator, &open)?;
         Some((film, counts))
     }
 
@@ -57,12 +57,12 @@ impl<S: Geometry> World<S> {
         let open = |_: [u32; 2], _: usize, _: &PixelSum| {
             (InBlocks::default(), asked(job, samples.clone()))
         };
-        let worker = || {
+        let make_integrator = || {
             let tracer = PathTracer::<S, F>::new(self, &lights, strategy, on_pixel);
             Box::new(tracer.before(job.background).clamped(job.clamp)) as _
         };
         let mut film = self.film(job);
-        let counts = run(&mut film, Selection::of(job), &worker, &open)?;
+        let counts = run(&mut film, Selection::of(job), &make_integrator, &open)?;
         Some((film, counts))
     }
 

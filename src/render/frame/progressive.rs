@@ -1,6 +1,6 @@
 //! Growing pictures: each pixel takes the samples wanted that its replicates do not have yet.
 
-use super::{Selection, Worker, run_tiles};
+use super::{MakeIntegrator, Selection, run_tiles};
 use crate::film::heartbeat::OnPixel;
 use crate::film::pixel::Sample;
 use crate::film::progressive::{ProgressiveFilm, Replicates};
@@ -58,13 +58,13 @@ impl<S: Geometry> World<S> {
     }
 }
 
-/// Takes the samples wanted by integrators that `worker` makes, shown by `tone`; false if the
+/// Takes the samples wanted by integrators that `make_integrator` makes, shown by `tone`; false if the
 /// observer said stop.
 fn add_samples(
     film: &mut ProgressiveFilm,
     wanted: &Wanted<'_>,
     tone: Option<(Tone, f64)>,
-    worker: &Worker<'_, '_, Sample>,
+    make_integrator: &MakeIntegrator<'_, '_, Sample>,
 ) -> bool {
     let seed = film.seed();
     let selection = Selection {
@@ -77,7 +77,7 @@ fn add_samples(
             ProgressiveFilm::lacking(seed, pixel, wanted(index)),
         )
     };
-    let (counts, is_done) = run_tiles(&mut film.pixels, selection, worker, &open);
+    let (counts, is_done) = run_tiles(&mut film.pixels, selection, make_integrator, &open);
     film.counts = film.counts.plus(counts);
     is_done
 }

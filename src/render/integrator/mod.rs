@@ -9,7 +9,7 @@ pub(crate) mod whitted;
 use super::film::Counts;
 use super::film::heartbeat::Heartbeat;
 use super::film::pixel::SampleId;
-use super::film::tile::Pixels;
+use super::film::tile::FilmTile;
 use super::lanes::LANES;
 
 /// A way to find what samples of pixels show. Each thread has its own, which keeps its memory from
@@ -46,8 +46,8 @@ pub(crate) trait Integrator<'run> {
 
     /// Takes the samples that a tile is to have; false if the observer said stop. In which order
     /// rays are traced is the integrator's own affair: a pixel gets its samples in theirs.
-    fn render(&mut self, pixels: &mut dyn Pixels<Self::Sample>) -> bool {
-        while let Some((pixel, asked)) = pixels.next() {
+    fn render(&mut self, tile: &mut dyn FilmTile<Self::Sample>) -> bool {
+        while let Some((pixel, asked)) = tile.next() {
             self.heartbeat().begin(pixel);
             for (stream, samples) in (0..).map_while(|k| asked.stream(k)) {
                 let mut id = SampleId {
@@ -66,23 +66,23 @@ pub(crate) trait Integrator<'run> {
                         && let Some(samples) = self.samples(&id)
                     {
                         for sample in samples {
-                            pixels.add(&id, sample);
+                            tile.add(&id, sample);
                             id.index += 1;
                         }
                         left.start = id.index;
                         continue;
                     }
                     let sample = self.sample(&id);
-                    pixels.add(&id, sample);
+                    tile.add(&id, sample);
                     if self.is_uniform() {
                         for index in left.by_ref() {
                             id.index = index;
-                            pixels.add(&id, sample);
+                            tile.add(&id, sample);
                         }
                     }
                 }
             }
-            pixels.close();
+            tile.close();
             let rays = self.counts().rays();
             if !self.heartbeat().done(rays) {
                 return false;
