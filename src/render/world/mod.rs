@@ -130,7 +130,9 @@ impl<S: Geometry> World<S> {
         }
         let (ray, unit) = ray.rescaled();
         let mut nearest = self.closest_hit_apart(&ray);
-        if let Some(flattened) = &self.flattened {
+        if S::FLATTENS
+            && let Some(flattened) = &self.flattened
+        {
             let triangles = FlattenedRay::new(&ray, from, &self.surfaces, flattened);
             let mut search = ClosestSearch { triangles, nearest };
             flattened.hierarchy.walk(&ray, nearest.t, &mut search);
@@ -224,7 +226,9 @@ impl<S: Geometry> World<S> {
             visit(apart.bounded[item as usize]);
             t
         });
-        if let Some(flattened) = &self.flattened {
+        if S::FLATTENS
+            && let Some(flattened) = &self.flattened
+        {
             let mut triangles = FlattenedRay::new(ray, from, &self.surfaces, flattened);
             let mut visit = |candidate: Candidate<'_>| {
                 if let Some((t, (surface, prim_id))) = triangles.root(&candidate) {
@@ -259,13 +263,15 @@ impl<S: Geometry> World<S> {
         if self.any_hit_apart(&ray, t_max) {
             return true;
         }
-        let Some(flattened) = &self.flattened else {
-            return false;
-        };
-        let triangles = FlattenedRay::new(&ray, from, &self.surfaces, flattened);
-        let mut search = AnySearch::new(triangles, t_max);
-        flattened.hierarchy.walk(&ray, t_max, &mut search);
-        search.is_hit
+        if S::FLATTENS
+            && let Some(flattened) = &self.flattened
+        {
+            let triangles = FlattenedRay::new(&ray, from, &self.surfaces, flattened);
+            let mut search = AnySearch::new(triangles, t_max);
+            flattened.hierarchy.walk(&ray, t_max, &mut search);
+            return search.is_hit;
+        }
+        false
     }
 
     /// The product of `pass` over all hits with 0 < t < `t_max`, until it is 0. Only flattened
@@ -283,7 +289,9 @@ impl<S: Geometry> World<S> {
             return 0.0;
         }
         let mut transmittance = 1.0;
-        if let Some(flattened) = &self.flattened {
+        if S::FLATTENS
+            && let Some(flattened) = &self.flattened
+        {
             let mut triangles = FlattenedRay::new(&ray, from, &self.surfaces, flattened);
             let mut visit = |candidate: Candidate<'_>| {
                 if let Some((t, (surface, prim_id))) = triangles.root_before(&candidate, t_max) {
