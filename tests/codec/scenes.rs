@@ -9,7 +9,8 @@ use rtc::internals::ir::{
     Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
 };
 
-fn number() -> impl Strategy<Value = f64> {
+/// Boxed, as the parts of a scene are: what is made of it is too large for the stack of a test otherwise.
+fn number() -> BoxedStrategy<f64> {
     let odd = prop::sample::select(vec![
         0.0,
         -0.0,
@@ -27,6 +28,7 @@ fn number() -> impl Strategy<Value = f64> {
             .prop_map(f64::from_bits)
             .prop_filter("finite", |x| x.is_finite())
     ]
+    .boxed()
 }
 
 fn triple() -> impl Strategy<Value = [f64; 3]> {
@@ -364,17 +366,17 @@ fn surface() -> impl Strategy<Value = Surface> {
 
 prop_compose! {
     pub(crate) fn scene()(
-        camera in camera(),
-        settings in settings(),
+        camera in camera().boxed(),
+        settings in settings().boxed(),
         lights in prop::collection::vec(light(), 0..4).boxed(),
         images in prop::collection::vec(image(), 0..3).boxed(),
-        textures in prop::collection::vec(texture(), 0..3),
+        textures in prop::collection::vec(texture(), 0..3).boxed(),
         meshes in prop::collection::vec(mesh(), 0..3).boxed(),
         materials in prop::collection::vec(material(), 0..4).boxed(),
         surfaces in prop::collection::vec(surface(), 0..9).boxed(),
-        names in prop::collection::vec(text(), 0..4),
-        environment in prop::option::of(environment()),
-        display in display(),
+        names in prop::collection::vec(text(), 0..4).boxed(),
+        environment in prop::option::of(environment()).boxed(),
+        display in display().boxed(),
     ) -> Scene {
         Scene {
             camera, settings, lights, images, textures, meshes, materials, surfaces, names, environment, display,
