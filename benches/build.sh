@@ -10,11 +10,16 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cargo fetch --locked --quiet
 
+# `within COMMAND…`: in the clone, with what it says in files.
+within() {
+    (cd "$work/rtc" && "$@") >"$work/out" 2>"$work/err"
+}
+
 # `measure NAME COMMAND…`: runs it in the clone and notes its seconds: clock, CPU.
 measure() {
     local name=$1 TIMEFORMAT='%R %U %S'
     shift
-    { time (cd "$work/rtc" && "$@") >"$work/out" 2>"$work/err"; } 2>"$work/time" || { cat "$work/err" "$work/out" >&2; exit 1; }
+    { time within "$@"; } 2>"$work/time" || { cat "$work/err" "$work/out" >&2; exit 1; }
     tail -n 1 "$work/time" | awk '{print $1, $2 + $3}' >>"$work/$name"
     printf '%s: %s\n' "$name" "$(tail -n 1 "$work/$name")" >&2
 }
