@@ -70,6 +70,7 @@ fn earth() -> Scene {
             pattern: ir::Pattern::Grid,
             light_samples: 1,
             toon: false,
+            ambient: ir::Ambient::PerLight,
         },
         lights: vec![ir::Light::Point(ir::PointLight {
             position: [0.0; 3],

@@ -1,7 +1,7 @@
 //! The families of scenes: ordinary ones, patterns as fine as pixels, and light that few samples meet.
 
 use super::patterns::{Pattern, grains, grid, quad};
-use super::scenes::scene;
+use super::scenes::{lowered, scene};
 use rtc::internals::codec::{self, Form};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::Scene;
@@ -60,6 +60,7 @@ pub(crate) fn all() -> Vec<Family> {
         family("checkers", 4.0, checkers()),
         family("rare-light", 1.0, rare()),
         family("caustics", 8.0, caustics()),
+        family("lamps-through-rough-glass", 2.0, lamps()),
     ]
 }
 
@@ -219,4 +220,50 @@ fn balls(roughness: f64, radius: f64, light: f64) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("paths.json", text.into_bytes());
     codec::decode(Form::Text, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+}
+
+/// Paths: a room with a ball of rough glass under a lamp without size, which paths from the walls find through it by chance.
+fn lamps() -> Vec<Case> {
+    let spot = "type: spot, direction: [0, -1, 0], outerAngle: 0.3, innerAngle: 0.1";
+    let lamps = [
+        (0.1, "type: point"),
+        (0.2, "type: point"),
+        (0.35, "type: point"),
+        (0.1, spot),
+        (0.3, spot),
+    ];
+    let case = |(roughness, lamp): (f64, &str)| {
+        let kind = lamp.split(',').next().unwrap_or(lamp);
+        let name = format!("roughness {roughness}, {kind}");
+        Case::rendered(name, room(roughness, lamp))
+    };
+    lamps.into_iter().map(case).collect()
+}
+
+/// Five white walls about the ball.
+fn room(roughness: f64, lamp: &str) -> Scene {
+    let wall = |corner: &str, up: &str, side: &str| {
+        format!(
+            "- {{type: quad, position: {corner}, up: {up}, side: {side}, material: {{type: standard, \
+             baseColor: [0.8, 0.8, 0.8, 1], metallic: 0, roughness: 1, specular: 0, doubleSided: true}}}}\n"
+        )
+    };
+    let (low, x, y, z) = ("[-2, -2, -2]", "[4, 0, 0]", "[0, 4, 0]", "[0, 0, 4]");
+    let walls = [
+        wall(low, z, x),
+        wall("[-2, 2, -2]", z, x),
+        wall(low, y, x),
+        wall(low, y, z),
+        wall("[2, -2, -2]", y, z),
+    ];
+    let text = format!(
+        "Camera: {{eye: [0, 0, 8], center: [0, 0, 0], up: [0, 0.11, 0], viewSize: [40, 40]}}\n\
+         RenderMode: path\nMaxRecursionDepth: 5\n\
+         Lights: [{{{lamp}, position: [0, 1.7, 0], intensity: 2}}]\n\
+         Objects:\n{}\
+         - {{type: sphere, position: [0, -1, 0], radius: 0.7, material: {{type: standard, transmission: 1, \
+         metallic: 0, roughness: {roughness}, thickness: 1}}}}\n",
+        walls.concat()
+    );
+    lowered("room", text)
 }

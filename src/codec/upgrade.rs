@@ -7,7 +7,7 @@ use rtc_ir::VERSION;
 use serde_json::Value;
 
 /// `STEPS[n]` brings version n to version n + 1.
-const STEPS: [fn(&mut Value); VERSION as usize] = [from_0, from_1, from_2, from_3];
+const STEPS: [fn(&mut Value); VERSION as usize] = [from_0, from_1, from_2, from_3, from_4];
 
 /// The tree in the current version; what is not as its version says is left for the typed decoder
 /// to refuse.
@@ -36,6 +36,9 @@ fn from_2(_tree: &mut Value) {}
 /// Version 4 added measured lamps, paraboloids, cartoons, surfaces without a shadow, the display and
 /// more of the material; what is absent has a default, or is of a kind that older files don't hold.
 fn from_3(_tree: &mut Value) {}
+
+/// Version 5 added the ambient term that is added once; what is absent has a default.
+fn from_4(_tree: &mut Value) {}
 
 fn rename(map: &mut Value, old: &str, new: &str) {
     if let Some(members) = map.as_object_mut()

@@ -29,7 +29,7 @@ pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{Field, Noun, Origins, Place};
 pub use rtc_math::{Column, Shared};
-pub use settings::{Gooch, Mode, PathSettings, Pattern, Settings};
+pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;
 pub use standard::{Alpha, Map, Standard};
 pub use texture::{Filter, Sampled, Texture, TextureId, Wrap};
@@ -41,7 +41,7 @@ use serde::{Deserialize, Serialize};
 /// The version of the representation that this build writes. It reads this one and every older one.
 ///
 /// A closed version is never changed: what is added is a new one (`schema/ir.md`).
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 /// One scene: what the camera sees, by which rules, and all there is to see.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]

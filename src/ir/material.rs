@@ -40,7 +40,7 @@ impl Material {
 }
 
 /// Phong's model: `I = Σ_l c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)^n)] + ks·I(mirror) +
-/// kt·I(refracted)`.
+/// kt·I(refracted)`; with [`super::Ambient::Once`] the term ka·C stands before the sum.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Phong {

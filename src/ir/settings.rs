@@ -29,6 +29,22 @@ pub struct Settings {
     /// in a cartoon; of no meaning in other modes.
     #[serde(default, skip_serializing_if = "is_default")]
     pub toon: bool,
+    /// How often Phong's ambient term is added.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub ambient: Ambient,
+}
+
+/// How often Phong's ambient term, ka·C, is added at a point.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
+)]
+#[serde(rename_all = "camelCase")]
+pub enum Ambient {
+    /// Once for each light, times the colour of the light.
+    #[default]
+    PerLight,
+    /// Once, whatever lights there are.
+    Once,
 }
 
 fn one() -> u32 {

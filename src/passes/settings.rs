@@ -4,7 +4,7 @@ use rtc_diag::{clip, clip_words};
 use rtc_ir::Settings;
 
 /// The names of the settings in the text form.
-const NAMES: [&str; 7] = [
+const NAMES: [&str; 8] = [
     "mode",
     "shadows",
     "maxDepth",
@@ -12,6 +12,7 @@ const NAMES: [&str; 7] = [
     "pattern",
     "lightSamples",
     "toon",
+    "ambient",
 ];
 
 /// Replaces one value, by the name that the text form gives it: a field of the settings, or of the
@@ -63,7 +64,7 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rtc_ir::{Mode, PathSettings, Pattern};
+    use rtc_ir::{Ambient, Mode, PathSettings, Pattern};
 
     fn paths() -> Settings {
         Settings {
@@ -77,6 +78,7 @@ mod tests {
             pattern: Pattern::Jitter,
             light_samples: 2,
             toon: true,
+            ambient: Ambient::Once,
         }
     }
 

@@ -6,7 +6,7 @@ use super::space::{Flat, MARGIN, Margins, Sides};
 use super::visibility::Visibility;
 use super::{Facts, LightPlan, MAX_PAIRS};
 use rtc_math::{Bounds, Vec3};
-use rtc_valid::{CourseLight, Mode};
+use rtc_valid::{Ambient, CourseLight, Mode};
 
 /// What is left of the lights.
 pub(super) struct LightFindings {
@@ -173,7 +173,8 @@ impl Facts<'_> {
             }
             Mode::Phong => None,
         };
-        let ambient = surfaces().any(|surface| self.summaries[surface].ambient);
+        let ambient = self.scene.settings().ambient == Ambient::PerLight
+            && surfaces().any(|surface| self.summaries[surface].ambient);
         let kept = match rule {
             None => true,
             Some(Rule::LightBlack | Rule::Mode) => false,

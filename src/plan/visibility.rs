@@ -5,6 +5,7 @@ use super::rules::{Rule, Rules};
 use super::space::Sides;
 use super::window::{Shown, Window};
 use super::{Facts, MAX_PAIRS};
+use rtc_valid::Ambient;
 
 /// The surfaces that rays may meet.
 pub(super) struct Visibility {
@@ -174,6 +175,11 @@ pub(super) fn cut(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
         .iter()
         .map(|light| light.color.max_element())
         .sum::<f64>();
+    // An ambient term that is added once is as of a light of colour 1.
+    let light = match facts.scene.settings().ambient {
+        Ambient::PerLight => light,
+        Ambient::Once => light.max(1.0),
+    };
     let brightest = facts
         .summaries
         .iter()

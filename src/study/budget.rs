@@ -3,9 +3,10 @@
 
 use super::growth::Growth;
 use super::noise::{Bound, Noise};
+use super::rounds::next_round;
 use super::subject::Stopped;
 use super::target::{Order, Progress, Reached, TAIL, Watch, begin, first_round, light_samples};
-use super::target::{next_round, spread, tail_of};
+use super::target::{spread, tail_of};
 use rtc_ir::Scene;
 use rtc_render::{AnyWorld, Step};
 use std::time::Duration;

@@ -27,6 +27,7 @@ mod race;
 mod reference;
 #[cfg(feature = "cli")]
 mod report;
+mod rounds;
 mod rows;
 mod sample;
 mod setting;

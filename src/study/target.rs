@@ -8,7 +8,8 @@
 use super::budget::{self, CrudePicture};
 use super::growth::{Growth, Keep, Keeper};
 use super::knob::{Knob, idle};
-use super::noise::{Allotment, Noise};
+use super::noise::Noise;
+use super::rounds::next_round;
 use super::subject::Stopped;
 use super::unmet::Unmet;
 use rtc_color::Tone;
@@ -346,49 +347,4 @@ pub(super) fn light_samples(
         best = (count, price);
     }
     Ok((best.0, tried))
-}
-
-/// The length of all replicates after the next round, of at most so many samples more; `None` if the
-/// goal, in grey levels, is reached or nothing fits.
-pub(super) fn next_round(
-    film: &ProgressiveFilm,
-    noise: &Noise,
-    tail: f64,
-    goal: Option<f64>,
-    most: f64,
-) -> Option<Vec<[u32; 2]>> {
-    /// The step in noise if a round would change nothing, or would not fit.
-    const LESS: f64 = 0.8;
-    const MORE: f64 = 1.5;
-    let is_met = |error: f64| noise.bound(tail, goal).error <= error;
-    if noise.square == 0.0 || goal.is_some_and(is_met) {
-        return None;
-    }
-    let allotment = Allotment::of(film, noise);
-    let samples = film.samples() as f64;
-    let round = |square: f64| {
-        let wanted = allotment.wanted(film, square);
-        let all = wanted
-            .iter()
-            .map(|[shown, pilot]| 2.0 * f64::from(*shown) + f64::from(*pilot));
-        let more = all.sum::<f64>() - samples;
-        (wanted, more)
-    };
-    let mut square = match goal {
-        Some(error) => noise.left(tail, error),
-        None => noise.square / 4.0,
-    };
-    let (mut wanted, mut more) = round(square);
-    while more == 0.0 {
-        if square < f64::MIN_POSITIVE {
-            return None;
-        }
-        square *= LESS;
-        (wanted, more) = round(square);
-    }
-    while more > most {
-        square *= MORE;
-        (wanted, more) = round(square);
-    }
-    (more > 0.0).then_some(wanted)
 }

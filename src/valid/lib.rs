@@ -26,7 +26,7 @@ pub use light::{CourseLight, DirectionalLight, Falloff, Light, PointLight, Punct
 pub use material::Material;
 pub use mesh::{MOST_TRIANGLES, Mesh};
 pub use phong::{Bump, Maps, Phong};
-pub use settings::{Gooch, Mode, PathSettings, Pattern, Settings};
+pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;
 pub use standard::{Alpha, Standard};
 pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};

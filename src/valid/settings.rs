@@ -28,6 +28,17 @@ pub struct Settings {
     pub light_samples: NonZeroU32,
     /// Whether Phong's terms of the first hit fall in steps, as in a cartoon; only in his mode.
     pub toon: bool,
+    /// How often Phong's ambient term is added.
+    pub ambient: Ambient,
+}
+
+/// How often Phong's ambient term is added.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ambient {
+    /// Once for each light, times its colour.
+    PerLight,
+    /// Once.
+    Once,
 }
 
 /// The position of each sub-sample in its cell of the pixel.
@@ -99,6 +110,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
         pattern,
         light_samples,
         toon,
+        ambient,
     } = settings;
     let mode = proven_mode(mode, check);
     let supersampling = check.count(
@@ -131,6 +143,10 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
         },
         light_samples: light_samples?,
         toon: *toon && matches!(settings.mode, ir::Mode::Phong),
+        ambient: match ambient {
+            ir::Ambient::PerLight => Ambient::PerLight,
+            ir::Ambient::Once => Ambient::Once,
+        },
     })
 }
 
@@ -258,6 +274,7 @@ impl SampleCounts {
             pattern: _,
             light_samples,
             toon: _,
+            ambient: _,
         } = scene.settings;
         let ir::Lens { radius, samples } = scene.camera.lens;
         let is_soft = scene

@@ -105,7 +105,11 @@ fn a_scene_with_the_materials_of_a_file_is_written_back() {
     let (lowered, _) = read(&inner, &objects);
     let text = emit(&lowered.scene).unwrap();
     let (again, findings) = read(&inner, text.split_once("Objects:\n").unwrap().1);
-    assert_eq!(findings, "");
+    // The scene of the test follows no light through its glass.
+    assert!(
+        findings.starts_with("SC011") && findings.lines().count() == 1,
+        "{findings}"
+    );
     assert_eq!(shown(&again.scene), shown(&lowered.scene));
     assert_eq!(text.matches("part: ").count(), 4);
     let places = |scene: &Scene| -> Vec<_> {

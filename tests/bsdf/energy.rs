@@ -2,7 +2,7 @@
 
 use super::{albedo, lattice, sampled, variety, view};
 use rtc::internals::math::Vec3;
-use rtc::internals::render::{Bsdf, Clearcoat, StandardParameters};
+use rtc::internals::render::{Anisotropy, Bsdf, Clearcoat, Sheen, StandardParameters};
 
 #[test]
 fn a_white_surface_in_a_white_sky_is_white() {
@@ -75,11 +75,86 @@ fn smooth_glass_loses_nothing() {
 }
 
 #[test]
+fn rough_glass_loses_nothing() {
+    for (thin_walled, ior) in [(true, 1.5), (false, 1.1), (false, 1.5), (false, 2.4)] {
+        for roughness in [0.05, 0.2, 0.5, 0.8, 1.0] {
+            let glass = StandardParameters {
+                transmission: 1.0,
+                roughness,
+                thin_walled,
+                ior,
+                ..StandardParameters::default()
+            };
+            for cosine in [1.0, 0.8, 0.5, 0.2, -0.2, -0.5, -0.8, -1.0] {
+                let whole = albedo(&glass, view(cosine), 1 << 14);
+                let error = (whole - Vec3::ONE).abs().max_element();
+                let at =
+                    format!("thin {thin_walled}, index {ior}, roughness {roughness}, cos {cosine}");
+                assert!(error < 0.012, "{at}: {whole}");
+            }
+        }
+    }
+}
+
+#[test]
+fn brushed_metal_loses_nothing() {
+    for (roughness, strength) in [(0.0, 1.0), (0.0, 0.5), (0.3, 1.0), (0.3, 0.6), (0.7, 0.8)] {
+        for direction in [[1.0, 0.0], [0.6, 0.8], [0.0, 1.0]] {
+            let metal = StandardParameters {
+                metallic: 1.0,
+                roughness,
+                anisotropy: Some(Anisotropy {
+                    strength,
+                    direction,
+                }),
+                ..StandardParameters::default()
+            };
+            for cosine in [1.0, 0.8, 0.5, 0.2] {
+                let whole = albedo(&metal, view(cosine), 1 << 14);
+                let error = (whole - Vec3::ONE).abs().max_element();
+                let at =
+                    format!("roughness {roughness}, {strength} along {direction:?}, cos {cosine}");
+                assert!(error < 0.015, "{at}: {whole}");
+            }
+        }
+    }
+}
+
+#[test]
+fn without_further_bounces_nothing_sends_out_more_than_it_gets_either() {
+    let grazing = [1.0, 0.5, 0.2, 0.1, 0.05, 0.02];
+    for (name, standard) in variety() {
+        for roughness in [0.05, standard.roughness, 1.0] {
+            let sheen = standard.sheen.map(|sheen| Sheen { roughness, ..sheen });
+            let clearcoat = standard.clearcoat.map(|coat| Clearcoat {
+                normal: Vec3::Z,
+                ..coat
+            });
+            let single = StandardParameters {
+                base_color: Vec3::ONE,
+                multiple_scattering: false,
+                roughness,
+                sheen,
+                clearcoat,
+                ..standard
+            };
+            for cosine in grazing {
+                let whole = albedo(&single, view(cosine), 1 << 13);
+                assert!(
+                    whole.max_element() < 1.03,
+                    "{name}, {roughness}, cos {cosine}: {whole}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn reflection_is_reciprocal() {
-    // A coat is left out: its share depends on the viewer alone by definition.
+    // A coat is left out, and a base without further bounces: their shares depend on the viewer alone by definition.
     for (name, standard) in variety()
         .into_iter()
-        .filter(|(_, standard)| standard.clearcoat.is_none())
+        .filter(|(_, standard)| standard.clearcoat.is_none() && standard.multiple_scattering)
     {
         for k in 0..200 {
             let [a, b, c] = lattice(k);
@@ -104,6 +179,11 @@ fn refraction_is_reciprocal_but_for_the_squeeze_of_angles() {
         .into_iter()
         .find(|(name, _)| *name == "body")
         .unwrap();
+    // What makes up for lost light looks at the viewer alone.
+    let body = StandardParameters {
+        multiple_scattering: false,
+        ..body
+    };
     let wo = view(0.8);
     for k in 0..200 {
         let [a, b, _] = lattice(k);

@@ -162,7 +162,7 @@ fn results_go_to_stdout_and_talk_to_stderr() {
     let quiet = rtc(&folder, &["render", "-q", "away.json", "-o", "-"]);
     assert!(quiet.stdout.starts_with(b"\x89PNG") && quiet.stderr.is_empty());
     let compiled = rtc(&folder, &["compile", "ball.json"]);
-    assert!(compiled.stdout.starts_with(b"{\n  \"irVersion\": 4") && compiled.stderr.is_empty());
+    assert!(compiled.stdout.starts_with(b"{\n  \"irVersion\": 5") && compiled.stderr.is_empty());
 }
 
 #[test]
@@ -330,7 +330,7 @@ fn a_closed_pipe_is_success() {
 fn rtc_tells_about_itself() {
     let folder = folder();
     let stdout = |args: &[&str]| String::from_utf8(rtc(&folder, args).stdout).unwrap();
-    assert!(stdout(&["-V"]).contains("reads IR versions up to 4"));
+    assert!(stdout(&["-V"]).contains("reads IR versions up to 5"));
     assert!(stdout(&["explain", "rd001"]).starts_with("## RD001 (warning): "));
     assert!(stdout(&["completions", "bash"]).contains("_rtc"));
     assert!(stdout(&["man", "render"]).contains("supersampling"));

@@ -83,8 +83,8 @@ fn parts_that_do_not_fit_together_are_refused() {
         (r#""radius":null"#, r#""radius":[null,null]"#, "IR007"),
         (r#""radius":null"#, r#""radios":null"#, "IR003"),
         (r#""shadows":true"#, r#""shadows":"yes""#, "IR003"),
-        (r#"{"irVersion":4"#, r#"{"irVersion":5"#, "IR001"),
-        (r#"{"irVersion":4"#, r#"{"irVersion":-2"#, "IR007"),
+        (r#"{"irVersion":5"#, r#"{"irVersion":6"#, "IR001"),
+        (r#"{"irVersion":5"#, r#"{"irVersion":-2"#, "IR007"),
     ];
     for (old, new, expected) in cases {
         let bad = with_header(&file, |header| {

@@ -23,7 +23,7 @@ fn all_faults(text: &str) -> Vec<(&'static str, String, String)> {
 
 #[test]
 fn every_fault_of_a_text_is_a_finding() {
-    let text = r#"{"irVersion": 4, "camera": {"eye": 1, "size": [8, -8]}, "settings": {"mode": 5},
+    let text = r#"{"irVersion": 5, "camera": {"eye": 1, "size": [8, -8]}, "settings": {"mode": 5},
         "lights": [{"point": {}}, {"sun": 1}], "materials": 4, "surfaces": [7, 8]}"#;
     let found = all_faults(text);
     let pointers: Vec<_> = found

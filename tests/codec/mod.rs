@@ -171,8 +171,8 @@ const FAULTS: &[[&str; 5]] = &[
         "/settings/shadows",
     ],
     [
-        "\"irVersion\": 4",
-        "\"irVersion\": 4, \"irVersion\": 4",
+        "\"irVersion\": 5",
+        "\"irVersion\": 5, \"irVersion\": 5",
         "IR003",
         "\"irVersion\"",
         "/irVersion",
@@ -199,7 +199,7 @@ const FAULTS: &[[&str; 5]] = &[
         "/settings/mode",
     ],
     [
-        "\"irVersion\": 4",
+        "\"irVersion\": 5",
         "\"irVersion\": \"2\"",
         "IR003",
         "\"2\"",
@@ -236,7 +236,7 @@ fn pixels_that_are_no_base64_are_located() {
 
 #[test]
 fn hostile_texts_are_errors() {
-    let deep = format!("{{\"irVersion\": 4, \"camera\": {}", "[".repeat(100_000));
+    let deep = format!("{{\"irVersion\": 5, \"camera\": {}", "[".repeat(100_000));
     let deep_old = format!(
         "{{\"irVersion\": 0, \"camera\": {}{}}}",
         "[".repeat(100_000),

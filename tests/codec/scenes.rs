@@ -3,10 +3,10 @@
 use proptest::prelude::*;
 use rtc::internals::color::Tone;
 use rtc::internals::ir::{
-    Alpha, Bump, Camera, Column, Display, Emitter, Environment, Filter, Gooch, Image, ImageId,
-    Instance, Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, PathSettings, Pattern,
-    Phong, Photometry, Pixels, Plane, PointLight, Projection, Punctual, Sampled, Scene, Settings,
-    Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
+    Alpha, Ambient, Bump, Camera, Column, Display, Emitter, Environment, Filter, Gooch, Image,
+    ImageId, Instance, Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, PathSettings,
+    Pattern, Phong, Photometry, Pixels, Plane, PointLight, Projection, Punctual, Sampled, Scene,
+    Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
 };
 
 /// Boxed, as the parts of a scene are: what is made of it is too large for the stack of a test otherwise.
@@ -161,8 +161,9 @@ fn settings() -> impl Strategy<Value = Settings> {
         path
     ];
     let pattern = prop::sample::select(vec![Pattern::Grid, Pattern::Jitter, Pattern::Random]);
-    (mode, any::<bool>(), any::<[u32; 3]>(), pattern).prop_map(
-        |(mode, shadows, [max_depth, supersampling, light_samples], pattern)| Settings {
+    let ambient = prop::sample::select(vec![Ambient::PerLight, Ambient::Once]);
+    (mode, any::<bool>(), any::<[u32; 3]>(), pattern, ambient).prop_map(
+        |(mode, shadows, [max_depth, supersampling, light_samples], pattern, ambient)| Settings {
             mode,
             shadows,
             max_depth,
@@ -170,6 +171,7 @@ fn settings() -> impl Strategy<Value = Settings> {
             pattern,
             light_samples,
             toon: false,
+            ambient,
         },
     )
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use rtc::internals::color::Tone;
-use rtc::internals::ir::{Emitter, Light, Material, Punctual};
+use rtc::internals::ir::{Ambient, Emitter, Light, Material, Punctual};
 
 /// The files of each version as they were written when it was new. They are never rewritten.
 #[test]
@@ -165,6 +165,8 @@ fn older_files_are_the_same_scene_in_the_current_version() {
         "v3/path.rtir",
         "v4/course.rtir",
         "v4/path.rtir",
+        "v5/scene.json",
+        "v5/scene.rtir",
     ];
     for name in names {
         let form = if name.ends_with(".rtir") {
@@ -175,7 +177,7 @@ fn older_files_are_the_same_scene_in_the_current_version() {
         let old = decode(form, &std::fs::read(frozen(name)).unwrap()).unwrap();
         for form in [Form::Text, Form::Binary] {
             let bytes = codec::encode(form, &old).unwrap();
-            let version = [&b"\"irVersion\": 4"[..], b"\"irVersion\":4"];
+            let version = [&b"\"irVersion\": 5"[..], b"\"irVersion\":5"];
             let start = &bytes[..64];
             assert!(
                 version
@@ -199,7 +201,7 @@ fn newer_files_say_so_where_the_version_stands() {
     assert_eq!((finding.code.id, place.as_str()), ("IR001", "7"));
     assert_eq!(
         finding.message,
-        "IR version 7 is newer than 4, the newest this rtc reads"
+        "IR version 7 is newer than 5, the newest this rtc reads"
     );
     let mut file = codec::encode(Form::Binary, &small()).unwrap();
     file[8] = 2;
@@ -210,4 +212,13 @@ fn newer_files_say_so_where_the_version_stands() {
         "container version 2 is newer than 1, the newest this rtc reads"
     );
     assert_eq!(finding.primary.unwrap().span.start, 8);
+}
+
+/// A scene of version 5, whose ambient light is added once.
+#[test]
+fn frozen_files_of_version_5_decode() {
+    let read = |name| std::fs::read(frozen(name)).unwrap();
+    let text = decode(Form::Text, &read("v5/scene.json")).unwrap();
+    assert_eq!(decode(Form::Binary, &read("v5/scene.rtir")).unwrap(), text);
+    assert_eq!(text.settings.ambient, Ambient::Once);
 }

@@ -8,6 +8,7 @@
 )]
 
 mod solid;
+mod years;
 
 use crate::repo::{files, root};
 use proptest::prelude::*;

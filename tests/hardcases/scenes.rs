@@ -41,6 +41,7 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
             pattern: ir::Pattern::Grid,
             light_samples: 1,
             toon: false,
+            ambient: ir::Ambient::PerLight,
         },
         images: Vec::new(),
         textures: Vec::new(),

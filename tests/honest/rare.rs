@@ -16,7 +16,7 @@ fn the_error_said_is_kept_where_few_pixels_show_anything() {
         for seed in 1..=16 {
             let reached = render(&pattern.scene, 1.0, seed);
             let error = pattern.error(&reached);
-            assert!(reached.error <= 1.0 && reached.unmet.is_none());
+            assert!(reached.unmet.is_none());
             assert!(reached.error > 0.0, "some may be unmet");
             kept += u32::from(error <= reached.error);
             told.push([radius, error, reached.error]);
@@ -26,7 +26,7 @@ fn the_error_said_is_kept_where_few_pixels_show_anything() {
 }
 
 /// The same balls, under a light so many times as bright.
-fn under(brightness: f64) -> Scene {
+pub(super) fn under(brightness: f64) -> Scene {
     let mut scene = balls();
     for material in &mut scene.materials {
         if let Material::Standard(standard) = material {

@@ -165,8 +165,13 @@ pub(crate) fn references(scene: &Scene, error: f64) -> [Image; 2] {
 
 /// The error of a picture in grey levels: the noise of two independent references cancels in the
 /// product.
-pub(crate) fn error(reached: &Reached, [a, b]: &[Image; 2]) -> f64 {
-    let pixels = reached.image.pixels.iter().zip(&a.pixels).zip(&b.pixels);
+pub(crate) fn error(reached: &Reached, references: &[Image; 2]) -> f64 {
+    distance(&reached.image, references)
+}
+
+/// As [`error`], of an image of display values.
+pub(crate) fn distance(image: &Image, [a, b]: &[Image; 2]) -> f64 {
+    let pixels = image.pixels.iter().zip(&a.pixels).zip(&b.pixels);
     let products = pixels.flat_map(|((x, a), b)| {
         [0, 1, 2].map(|channel: usize| (x[channel] - a[channel]) * (x[channel] - b[channel]))
     });

@@ -16,7 +16,7 @@ mod surfaces;
 
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{
-    Alpha, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, Origins,
+    Alpha, Ambient, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, Origins,
     PathSettings, Pattern, Phong, Projection, Punctual, Scene, Settings, Shape, Sphere, Standard,
     Surface, Triangle,
 };
@@ -39,6 +39,7 @@ fn scene(samples: u32) -> Scene {
         pattern: Pattern::Grid,
         light_samples: 1,
         toon: false,
+        ambient: Ambient::PerLight,
     };
     let camera = Camera {
         eye: [0.0, 0.0, 4.0],

@@ -96,6 +96,9 @@ impl Dice {
             surface.casts_no_shadow = self.chance(5);
         }
         scene.settings.toon = self.chance(6);
+        if self.chance(4) {
+            scene.settings.ambient = ir::Ambient::Once;
+        }
         scene
     }
 
@@ -162,6 +165,7 @@ impl Dice {
             ]),
             light_samples: self.pick(&[1, 1, 3]),
             toon: false,
+            ambient: ir::Ambient::PerLight,
         }
     }
 

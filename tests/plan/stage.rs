@@ -50,6 +50,7 @@ pub(super) fn stage() -> Scene {
             pattern: ir::Pattern::Grid,
             light_samples: 1,
             toon: false,
+            ambient: ir::Ambient::PerLight,
         },
         lights: vec![light([3.0, 4.0, 12.0])],
         images: Vec::new(),

@@ -29,11 +29,6 @@ const OTHERWISE: &[(&str, Option<&str>, &str)] = &[
         "`type: default` is no mirror there, and shadows are always on",
     ),
     (
-        "ThomasdenH_RayTracer/Scenes/scene01.json",
-        Some("VA022"),
-        "it has no lights, and ambient light needs none there",
-    ),
-    (
         "ThomasdenH_RayTracer/Scenes/scene03.json",
         Some("VA108"),
         "the edges of its quad cross; `--lenient` mends it",

@@ -45,6 +45,8 @@ pub(super) enum KnownBy {
         samples: Samples,
         /// Its rays ran out.
         has_run_out: bool,
+        /// The target in grey levels, if the picture ended with a larger bound.
+        ends_above: Option<f64>,
     },
     /// Some pixels of a denoised picture were sampled anew.
     Probing {
@@ -174,11 +176,15 @@ impl Quality {
             KnownBy::Growing {
                 samples: Samples { min, mean, most },
                 has_run_out,
+                ends_above,
                 ..
             } => {
-                let end = match has_run_out {
-                    true => ", ended by `--limit rays`",
-                    false => "",
+                let end = match (has_run_out, ends_above) {
+                    (true, _) => ", ended by `--limit rays`".to_owned(),
+                    (_, Some(target)) => format!(
+                        ", more than {target}: few pixels have most of the noise, so a bound would take far more samples than the picture"
+                    ),
+                    _ => String::new(),
                 };
                 format!("{bound}, {mean:.0} samples a pixel on the mean, {min} … {most}{end}")
             }
@@ -206,11 +212,13 @@ impl Quality {
             KnownBy::Growing {
                 samples: Samples { min, mean, most },
                 has_run_out,
+                ends_above,
                 ..
             } => {
                 object["crudeBlock"] = json!(crude.map(|crude| crude.block));
                 object["samples"] = json!({ "min": min, "mean": mean, "most": most });
                 object["ranOut"] = json!(has_run_out);
+                object["endsAbove"] = json!(ends_above);
             }
             KnownBy::Probing {
                 told,
@@ -232,6 +240,10 @@ fn bound(levels: f64, unmet: Option<f64>) -> String {
         None => format!("{} (90 %)", error(levels)),
         Some(white) if white <= 1.0 => format!(
             "no bound: what few samples show may be unmet; {} (90 %) of what was met",
+            error(levels)
+        ),
+        Some(white) if white.is_infinite() => format!(
+            "no bound: paths find the light of lamps by way of smooth metal or glass by chance; {} (90 %) of what was met",
             error(levels)
         ),
         Some(white) => format!(

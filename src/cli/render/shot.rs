@@ -9,7 +9,7 @@ use super::made::{KnownBy, Quality, error};
 use rtc_image::Image;
 use rtc_pipeline::{Meter, Observer, RenderError, RenderSubject, Traced};
 use rtc_render::{Counts, Crop, Film};
-use rtc_study::{CrudePicture, Growth, Keep, Order, Reached, Stopped, Watch};
+use rtc_study::{CrudePicture, Goal, Growth, Keep, Order, Reached, Stopped, Watch};
 use std::time::Duration;
 
 /// What was rendered, and what is said of it.
@@ -24,7 +24,7 @@ pub(super) struct Rendered {
 
 impl Rendered {
     /// A picture that grew towards a goal.
-    fn reached(reached: Reached, elapsed: Duration, has_run_out: bool) -> Self {
+    fn reached(reached: Reached, goal: Goal, elapsed: Duration, has_run_out: bool) -> Self {
         let Reached {
             image,
             coverage,
@@ -35,6 +35,10 @@ impl Rendered {
             crude,
             light_samples: _,
         } = reached;
+        let is_above = |target: &f64| unmet.is_none() && crude.is_none() && error > *target;
+        let ends_above = goal
+            .error
+            .filter(|target| goal.time.is_none() && is_above(target));
         Self {
             image,
             coverage,
@@ -47,6 +51,7 @@ impl Rendered {
                     crude,
                     samples,
                     has_run_out,
+                    ends_above,
                 },
             }),
         }
@@ -179,6 +184,6 @@ impl RenderSetup {
             (Err(Stopped), Some(finding)) => return Err(RenderError::RanOut(finding)),
             (Err(Stopped), None) => return Err(RenderError::Stopped),
         };
-        Ok(Rendered::reached(reached, elapsed, has_run_out))
+        Ok(Rendered::reached(reached, order.goal, elapsed, has_run_out))
     }
 }

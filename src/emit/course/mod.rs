@@ -12,7 +12,8 @@ pub use files::Attachment;
 
 use files::FileNames;
 use rtc_ir::{
-    Display, Gooch, Light, MaterialId, Mode, PathSettings, Pattern, Scene, Settings, Shape, Surface,
+    Ambient, Display, Gooch, Light, MaterialId, Mode, PathSettings, Pattern, Scene, Settings,
+    Shape, Surface,
 };
 use rtc_math::shortest;
 use std::fmt::Write as _;
@@ -193,6 +194,7 @@ impl<'s> Text<'s> {
             pattern,
             light_samples,
             toon,
+            ambient,
         } = settings;
         match mode {
             Mode::Phong => self.line(0, "RenderMode: phong"),
@@ -209,6 +211,12 @@ impl<'s> Text<'s> {
         }
         if *toon {
             self.line(0, "Toon: true");
+        }
+        match ambient {
+            Ambient::Once => self.line(0, "Ambient: once"),
+            // Who makes JSON of it would change its meaning.
+            Ambient::PerLight if *mode == Mode::Phong => self.line(0, "Ambient: perLight"),
+            Ambient::PerLight => {}
         }
         self.line(0, &format!("Shadows: {shadows}"));
         self.line(0, &format!("MaxRecursionDepth: {max_depth}"));

@@ -3,7 +3,8 @@
 use super::writer::{GltfWriter, extras, number};
 use rtc_color::Tone;
 use rtc_ir::{
-    Display, Environment, Field, Gooch, Mode, Noun, PathSettings, Pattern, Pixels, Place, Settings,
+    Ambient, Display, Environment, Field, Gooch, Mode, Noun, PathSettings, Pattern, Pixels, Place,
+    Settings,
 };
 use serde_json::{Map as Block, Value, json};
 
@@ -71,6 +72,7 @@ fn of_gltf() -> Settings {
         pattern: Pattern::Grid,
         light_samples: 1,
         toon: false,
+        ambient: Ambient::PerLight,
     }
 }
 
@@ -83,6 +85,7 @@ fn settings(settings: &Settings) -> Block<String, Value> {
         pattern,
         light_samples,
         toon,
+        ambient,
     } = settings;
     let (mode, parameters) = match mode {
         Mode::Phong => ("phong", None),
@@ -105,6 +108,10 @@ fn settings(settings: &Settings) -> Block<String, Value> {
         Pattern::Jitter => "jitter",
         Pattern::Random => "random",
     };
+    let ambient = match ambient {
+        Ambient::PerLight => "perLight",
+        Ambient::Once => "once",
+    };
     let pairs = [
         ("mode", mode.into()),
         ("shadows", (*shadows).into()),
@@ -113,6 +120,7 @@ fn settings(settings: &Settings) -> Block<String, Value> {
         ("pattern", pattern.into()),
         ("lightSamples", (*light_samples).into()),
         ("toon", (*toon).into()),
+        ("ambient", ambient.into()),
     ];
     let pairs = pairs
         .into_iter()

@@ -3,7 +3,7 @@
 
 use super::{PovWriter, vector};
 use crate::twin::{listed, worn};
-use rtc_ir::{Light, Material, Phong, Place, Standard};
+use rtc_ir::{Ambient, Light, Material, Phong, Place, Standard};
 use rtc_math::shortest;
 
 impl PovWriter<'_> {
@@ -28,7 +28,7 @@ impl PovWriter<'_> {
             let message = format!("a material is written without {}", listed(&unlike));
             self.told.no_twin(&message, place);
         }
-        let ambient = vector(self.light().map(|channel| channel * phong.ka));
+        let ambient = vector(self.ambient_light().map(|channel| channel * phong.ka));
         let color = vector(phong.color);
         let [kd, ks, n] = [phong.kd, phong.ks, phong.n].map(shortest);
         self.line(&format!(
@@ -37,8 +37,11 @@ impl PovWriter<'_> {
         ));
     }
 
-    /// The sum of the colours of all lights.
-    fn light(&self) -> [f64; 3] {
+    /// What the ambient term is multiplied by: the sum of the colours of all lights, or 1.
+    fn ambient_light(&self) -> [f64; 3] {
+        if self.scene.settings.ambient == Ambient::Once {
+            return [1.0; 3];
+        }
         let points = self.scene.lights.iter().filter_map(Light::point);
         points.fold([0.0; 3], |sum, light| {
             [0, 1, 2].map(|channel| sum[channel] + light.color[channel])

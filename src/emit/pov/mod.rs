@@ -68,6 +68,7 @@ impl PovWriter<'_> {
             pattern,
             light_samples: _,
             toon,
+            ambient: _,
         } = &self.scene.settings;
         let [width, height] = self.scene.camera.size;
         let across = (*supersampling).min(MOST[1]);

@@ -4,6 +4,7 @@
 use super::assets::{Dressing, Wanted};
 use super::camera;
 use super::decode::{Context, Value, ValueKey};
+use super::glass::Glass;
 use super::object::mesh::Sizing;
 use super::record::FieldOutcome;
 use super::settings::Scene;
@@ -94,6 +95,8 @@ pub(super) struct Lowering {
     pub(super) grey: Option<MaterialId>,
     /// The textures and meshes named so far.
     pub(super) files: Files,
+    /// The materials that let light through.
+    pub(super) glass: Vec<Glass>,
     /// What is to be done about the sizes of meshes.
     pub(super) sizings: Vec<Sizing>,
     /// Where the material of each mesh comes from.
@@ -111,6 +114,7 @@ impl Lowering {
             pattern: ir::Pattern::Grid,
             light_samples: 1,
             toon: false,
+            ambient: ir::Ambient::PerLight,
         };
         let scene = ir::Scene::new(camera::placeholder(), settings);
         let (shared, files, sizings) = (BTreeMap::new(), Files::default(), Vec::new());
@@ -119,6 +123,7 @@ impl Lowering {
             shared,
             grey: None,
             files,
+            glass: Vec::new(),
             sizings,
             dressings: Vec::new(),
             origins: Origins::default(),
@@ -173,6 +178,8 @@ impl Lowering {
             self.scene.names.resize(count, String::new());
         }
         self.follow_paths(&scene);
+        self.ambient(&scene, context);
+        self.glass(context);
         self.show_uv(&scene);
     }
 
@@ -218,6 +225,7 @@ impl Lowering {
             scene,
             shared: _,
             grey: _,
+            glass: _,
             files: Files { wanted, .. },
             sizings,
             dressings,

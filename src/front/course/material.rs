@@ -1,6 +1,7 @@
 //! The materials.
 
 use super::decode::{Context, SharedValue, Spanned, Value};
+use super::glass::{Glass, glass_word, no_glass, only_an_index};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
 use super::reader::look_up;
@@ -8,7 +9,7 @@ use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::standard::{self, StandardMaterial};
 use super::value::{Color, FileName, word, word_schema};
-use rtc_diag::{Severity, codes};
+use rtc_diag::codes;
 use rtc_ir::{self as ir, Field, MaterialId, Noun};
 use rtc_source::Span;
 use rtc_source::tree::NodeId;
@@ -42,7 +43,7 @@ record! {
         /// In some files what becomes of light: `refraction` is glass, a `kt` of 1 without `ka` and `kd`; `reflection`
         /// and `default` mirror by `ks`, though in those files `default` does not.
         kind: Spanned<Finish>, optional, keys!["type"];
-        /// In some files whether it is glass: a `kt` of 1 without `ka` and `kd`, or none.
+        /// In some files whether it is glass: a `kt` of 1 beside its own `ka` and `kd`, or none.
         is_transparent: Spanned<bool>, optional, keys!["isTransparent"], json "isTransparent";
         /// How many rays sample a blurred mirror image; 1 is a sharp one.
         glossy_samples: Spanned<Count>, default(Count(1)), keys!["glossySamples"];
@@ -150,17 +151,24 @@ impl Lowering {
             (FieldOutcome::Broken, _) => return None,
         };
         let mut phong = self.phong(value, color.value);
-        match glass(value) {
+        let mut glass = value.kt.span;
+        let mut is_clear = false;
+        match glass_word(value) {
             Some((true, span)) if value.kt.span.is_none() => {
                 (phong.kt, phong.eta) = refraction(1.0, value.eta.value.0);
-                clear(&mut phong, span, context);
+                glass = Some(span);
+                is_clear = value.is_transparent.is_absent();
             }
             Some((false, span)) if value.kt.value.0 > 0.0 => no_glass(&mut phong, span, context),
             Some(_) => {}
             None => only_an_index(value, context),
         }
         self.note_mirror(value, context);
+        let lets_through = phong.kt > 0.0;
         let id = self.add_material(ir::Material::Phong(phong));
+        if let (true, Some(span)) = (lets_through, glass) {
+            self.glass.push(Glass { id, span, is_clear });
+        }
         self.material_origins(id, value, whole, color.span);
         Some(id)
     }
@@ -311,63 +319,4 @@ fn refraction(kt: f64, eta: f64) -> (f64, f64) {
 /// The weight of the highlight, which a texture may replace.
 fn specular(ks: &FieldOutcome<Spanned<NonNegative>>) -> Spanned<NonNegative> {
     ks.ok().unwrap_or(Spanned::unwritten(NonNegative(1.0)))
-}
-
-/// Whether a material is said to be glass or not, and where; by words, not by a weight.
-fn glass(material: &PhongMaterial) -> Option<(bool, Span)> {
-    let PhongMaterial {
-        kind,
-        is_transparent,
-        ..
-    } = material;
-    match (is_transparent, kind) {
-        (FieldOutcome::Read(is_transparent), _) => {
-            Some((is_transparent.value, is_transparent.span?))
-        }
-        (_, FieldOutcome::Read(kind)) => Some((kind.value == Finish::Refraction, kind.span?)),
-        _ => None,
-    }
-}
-
-/// Takes its own colour from glass, which shows what is behind it alone.
-fn clear(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
-    let is_colored = phong.color_map.is_some() || phong.color != [1.0; 3];
-    // A negative weight is left to the proof to refuse.
-    (phong.ka, phong.kd) = (phong.ka.min(0.0), phong.kd.min(0.0));
-    if is_colored {
-        let message = || "glass has no colour of its own here".to_owned();
-        context.report(&codes::NO_EFFECT, span, message, |d| {
-            d.at(span, "its `color`, `ka` and `kd` have no effect")
-                .severity(Severity::Warning)
-                .hint("in place of this word `kt: 1` adds what is behind it to its own colour")
-        });
-    }
-}
-
-/// Leaves a surface opaque.
-fn no_glass(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
-    phong.kt = 0.0;
-    // A negative index is left to the proof to refuse.
-    if phong.eta > 0.0 {
-        phong.eta = 1.0;
-    }
-    let message = || "the surface has a weight of refraction, but is said to be opaque".to_owned();
-    context.report(&codes::NO_EFFECT, span, message, |d| {
-        d.at(span, "so its `kt` has no effect")
-            .severity(Severity::Warning)
-    });
-}
-
-/// Says that an index of refraction refracts nothing without a weight.
-fn only_an_index(material: &PhongMaterial, context: &mut Context<'_>) {
-    let PhongMaterial { kt, eta, .. } = material;
-    let bends = eta.value.0 > 0.0 && (eta.value.0 - 1.0).abs() > 1e-9;
-    if let (true, None, Some(span)) = (bends, kt.span, eta.span) {
-        let message = || "an index of refraction alone refracts nothing".to_owned();
-        context.report(&codes::NO_EFFECT, span, message, |d| {
-            d.at(span, "without a weight")
-                .severity(Severity::Warning)
-                .hint("add the weight of the light that passes through, `kt: 1` for clear glass")
-        });
-    }
 }

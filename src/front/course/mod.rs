@@ -3,12 +3,14 @@
 //! Each record of the format is declared once, in the file of its noun; the declaration is its
 //! type, its decoder and its schema. Every mistake is collected; none stops the pass.
 
+mod ambient;
 pub mod assets;
 mod camera;
 mod decode;
 mod display;
 mod environment;
 mod form;
+mod glass;
 mod layout;
 mod light;
 mod lower;

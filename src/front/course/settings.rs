@@ -1,5 +1,6 @@
 //! The whole file, and of it the settings: what a pixel shows and how much work goes into it.
 
+use super::ambient::AmbientWord;
 use super::camera::Camera;
 use super::decode::{Context, Each, Spanned, Value};
 use super::display::ToneWord;
@@ -59,6 +60,9 @@ record! {
         /// Whether `phong` shows a cartoon: N·L in the steps 0, 0.25, 0.3 and 1, highlights whole where R·V is at least 0.9,
         /// dark outlines; on what is seen directly.
         toon: Spanned<bool>, default(false), keys!["Toon"], json "Toon";
+        /// How often the ambient term of `phong` is added: `perLight` for each light, times its colour, `once` whatever
+        /// lights there are. Without it `once` in a scene that is JSON, `perLight` in YAML.
+        ambient: Spanned<AmbientWord>, optional, keys!["Ambient"], json "Ambient";
         /// The colours of `RenderMode: gooch`.
         gooch: Spanned<Gooch>, optional, keys!["GoochParameters"];
         /// How the light along all paths is followed.
@@ -192,6 +196,7 @@ impl Lowering {
             pattern: sampling.value.pattern,
             light_samples: light_samples.value.0,
             toon: scene.toon.value,
+            ambient: ir::Ambient::PerLight,
         };
         self.origin(Noun::Settings, 0, Field::Mode, mode.span);
         self.origin(Noun::Settings, 0, Field::MaxDepth, depth.span);
@@ -248,6 +253,7 @@ impl Lowering {
         })];
         let settings = &mut self.scene.settings;
         (settings.shadows, settings.toon, settings.max_depth) = (false, false, 0);
+        settings.ambient = ir::Ambient::PerLight;
     }
 
     fn mode(

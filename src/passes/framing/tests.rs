@@ -1,7 +1,7 @@
 //! What is framed, and how large it shows.
 
 use super::*;
-use rtc_ir::{Instance, MaterialId, MeshId, Mode, Pattern, Settings, Triangle};
+use rtc_ir::{Ambient, Instance, MaterialId, MeshId, Mode, Pattern, Settings, Triangle};
 use std::f64::consts::PI;
 
 fn empty() -> Scene {
@@ -25,6 +25,7 @@ fn empty() -> Scene {
         pattern: Pattern::Grid,
         light_samples: 1,
         toon: false,
+        ambient: Ambient::PerLight,
     };
     Scene::new(camera, settings)
 }

@@ -19,7 +19,7 @@ impl PathPlan {
     /// surface or not.
     #[must_use]
     pub fn caustics(&self) -> Option<Caustics> {
-        let has_punctual = self.lights.contains(&LightLeft::All);
+        let has_punctual = self.has_punctual();
         let shines = |m: &Standard| !m.unlit && m.emissive != Vec3::ZERO;
         let has_wide = self.environment != EnvironmentLeft::Nothing;
         let has_light = has_punctual || has_wide || self.materials.iter().any(shines);
@@ -30,6 +30,20 @@ impl PathPlan {
             true => Caustics::LeftOut,
             false => Caustics::ByChance,
         })
+    }
+
+    /// Whether a path may come upon a light without size by way of metal or glass that is smooth, but not perfectly so: what
+    /// it carries then grows as the lobe narrows, and has no useful bound.
+    #[must_use]
+    pub fn has_unbounded_caustics(&self) -> bool {
+        let is_mapped = |m: &Standard| m.metallic_roughness_map.is_some();
+        let is_narrow = |m: &Standard| throws(m) && m.roughness != UnitInterval::ZERO;
+        let may_be_narrow = |m: &Standard| is_narrow(m) || (is_mapped(m) && bends(m));
+        self.has_punctual() && self.materials.iter().any(may_be_narrow)
+    }
+
+    fn has_punctual(&self) -> bool {
+        self.lights.contains(&LightLeft::All)
     }
 }
 
@@ -47,7 +61,11 @@ impl Caustics {
 /// Whether a material mirrors or refracts most light in nearly one direction.
 fn throws(m: &Standard) -> bool {
     /// So rough, light is spread over tens of degrees.
-    const ROUGH: f64 = 0.2;
-    let is_smooth = m.roughness.get() < ROUGH && !m.unlit;
-    is_smooth && (m.metallic.get() > 0.5 || m.transmission.get() > 0.0)
+    const ROUGH: f64 = 0.4;
+    m.roughness.get() < ROUGH && bends(m)
+}
+
+/// Whether a material mirrors or refracts most light.
+fn bends(m: &Standard) -> bool {
+    !m.unlit && (m.metallic.get() > 0.5 || m.transmission.get() > 0.0)
 }

@@ -4,7 +4,13 @@
 //! by the same functions that shade, and finds the same bits; `RTC_UPDATE=1 cargo test --lib albedo`
 //! writes the file.
 
+use super::fresnel::schlick;
+use super::warp::direction_turned;
+use rtc_math::Vec3;
 use std::sync::LazyLock;
+
+pub(super) mod brushed;
+pub(super) mod glass;
 
 /// Entries along the cosine, denser towards grazing: entry i is at (i/(n − 1))².
 const COSINES: usize = 32;
@@ -26,6 +32,8 @@ pub(super) struct Tables {
     sheen: Vec<[f64; 2]>,
     /// Means over the hemisphere, weighted by the cosine, per roughness.
     means: Vec<[f64; 2]>,
+    /// Schlick's curve at the half-way vector, per cosine of the viewer.
+    half_way: Vec<[f64; 2]>,
 }
 
 /// The albedo of a microfacet lobe with Schlick's reflectance: `f0·e0 + f90·e90`.
@@ -38,6 +46,12 @@ pub(super) struct Split {
 }
 
 impl Split {
+    /// The albedo by the reflectances at normal and at grazing incidence.
+    #[must_use]
+    pub(super) fn at(self, f0: f64, f90: f64) -> f64 {
+        f0 * self.e0 + f90 * self.e90
+    }
+
     /// The albedo if everything were reflected at the first bounce.
     #[must_use]
     pub(super) fn whole(self) -> f64 {
@@ -74,6 +88,7 @@ impl Tables {
             specular,
             sheen,
             means,
+            half_way: (0..COSINES).map(half_way).collect(),
         }
     }
 
@@ -91,10 +106,33 @@ impl Tables {
         Split { e0, e90 }
     }
 
+    /// The mean of Schlick's curve at the half-way vector to directions over the hemisphere, weighted by their cosine.
+    pub(super) fn half_way(&self, cosine: f64) -> f64 {
+        between(&self.half_way, cosine)[0]
+    }
+
     /// The albedo of white sheen.
     pub(super) fn sheen(&self, roughness: f64, cosine: f64) -> f64 {
         look_up(&self.sheen, roughness, cosine)[0]
     }
+}
+
+/// The mean of Schlick's curve at the half-way vector for the cosine of an entry, by the midpoint rule.
+fn half_way(entry: usize) -> [f64; 2] {
+    const STEPS: u32 = 32;
+    let root = entry as f64 / (COSINES - 1) as f64;
+    let cosine = root * root;
+    let wo = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
+    let step = |k: u32| (f64::from(k) + 0.5) / f64::from(STEPS);
+    let pairs = (0..STEPS).flat_map(|i| (0..STEPS).map(move |j| [i, j]));
+    let sum: f64 = pairs
+        .map(|[i, j]| {
+            // Half a turn is enough, by symmetry.
+            let wi = direction_turned(step(i).sqrt(), step(j) * 0.5);
+            schlick(wo.dot((wo + wi).normalize()))
+        })
+        .sum();
+    [sum / f64::from(STEPS * STEPS), 0.0]
 }
 
 /// Interpolates bilinearly between four entries.
@@ -120,6 +158,35 @@ fn place(fraction: f64, count: usize) -> (usize, f64) {
     let scaled = fraction.clamp(0.0, 1.0) * (count - 1) as f64;
     let entry = (scaled as usize).min(count - 2);
     (entry, scaled - entry as f64)
+}
+
+/// Interpolates linearly along each of `D` axes of a table, of so many entries each, in the order of the axes.
+fn interpolate<const D: usize, const N: usize>(
+    table: &[[f32; N]],
+    axes: [(f64, usize); D],
+) -> [f64; N] {
+    let places = axes.map(|(fraction, count)| (place(fraction, count), count));
+    let mut sum = [0.0; N];
+    for corner in 0..1_usize << D {
+        let (mut index, mut weight) = (0, 1.0);
+        for (axis, ((entry, rest), count)) in places.iter().enumerate() {
+            let is_next = corner >> axis & 1;
+            index = index * count + entry + is_next;
+            weight *= if is_next == 1 { *rest } else { 1.0 - rest };
+        }
+        for (sum, value) in sum.iter_mut().zip(table[index]) {
+            *sum += weight * f64::from(value);
+        }
+    }
+    sum
+}
+
+/// The numbers of a stored table, which lie in [−1, 1] and are stored as whole numbers.
+fn stored<const N: usize>(bytes: &[u8]) -> Vec<[f32; N]> {
+    let numbers = bytes.as_chunks().0.iter().copied();
+    let numbers = numbers.map(|bytes| f32::from(i16::from_le_bytes(bytes)) / f32::from(i16::MAX));
+    let numbers = numbers.collect::<Vec<_>>();
+    numbers.as_chunks().0.to_vec()
 }
 
 #[cfg(test)]

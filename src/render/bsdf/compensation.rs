@@ -4,15 +4,16 @@
 //! returns exactly the energy that single bounces lose, and a diffuse base that receives exactly
 //! the energy that both lobes leave. Both are reciprocal; a white surface in a white sky is white.
 
-use super::albedo::{Split, tables};
+use super::albedo::{Split, brushed, tables};
 use super::fresnel::Fresnel;
+use super::ggx::Ggx;
 use rtc_math::Vec3;
 use std::f64::consts::PI;
 
 /// The compensation at one point for one direction to the viewer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Compensation {
-    roughness: f64,
+    surface: Ggx,
     /// 1 − E(μ) for the viewer and in the mean.
     missing: f64,
     missing_mean: f64,
@@ -54,21 +55,35 @@ fn product(here: f64, there: f64, mean: f64) -> f64 {
     }
 }
 
+/// The albedo of white microfacets seen from a direction.
+fn albedo(surface: Ggx, w: Vec3) -> Split {
+    if surface.is_isotropic() {
+        tables().specular(surface.mean_roughness(), w.z)
+    } else {
+        brushed::albedo(surface, w)
+    }
+}
+
+/// Its mean over the hemisphere, weighted by the cosine.
+fn mean_albedo(surface: Ggx) -> Split {
+    if surface.is_isotropic() {
+        tables().specular_mean(surface.mean_roughness())
+    } else {
+        brushed::mean(surface)
+    }
+}
+
 impl Compensation {
     /// For a surface of which `metallic` is metal.
     #[must_use]
     pub(super) fn new(
-        roughness: f64,
-        cosine: f64,
-        dielectric: &Fresnel,
-        metal: &Fresnel,
+        surface: Ggx,
+        wo: Vec3,
+        [dielectric, metal]: [&Fresnel; 2],
         metallic: f64,
     ) -> Self {
         // Look up the directional and the mean albedo.
-        let (e, mean) = (
-            tables().specular(roughness, cosine),
-            tables().specular_mean(roughness),
-        );
+        let (e, mean) = (albedo(surface, wo), mean_albedo(surface));
         // Return the energy that a single bounce loses.
         let missing_mean = 1.0 - mean.whole();
         let from_dielectric = returned(dielectric.mean(), missing_mean);
@@ -91,7 +106,7 @@ impl Compensation {
         base.left = 1.0 - base.covered(e);
         base.left_mean = 1.0 - base.covered(mean);
         Self {
-            roughness,
+            surface,
             missing: 1.0 - e.whole(),
             missing_mean,
             returned: from_dielectric.lerp(from_metal, metallic),
@@ -112,8 +127,8 @@ impl Compensation {
     }
 
     /// The albedo of white microfacets towards a direction.
-    pub(super) fn towards(&self, cosine: f64) -> Split {
-        tables().specular(self.roughness, cosine)
+    pub(super) fn towards(&self, wi: Vec3) -> Split {
+        albedo(self.surface, wi)
     }
 
     /// The BSDF of a white base, by the albedo [`Self::towards`] the light.
@@ -130,5 +145,26 @@ impl Compensation {
     #[must_use]
     pub(super) fn bounces_f(&self, e: Split) -> Vec3 {
         self.returned * product(self.missing, 1.0 - e.whole(), self.missing_mean)
+    }
+}
+
+/// The share of the base that is left where further bounces are left out: appendix B of glTF lets it scatter 1 − F of the half-way
+/// vector, and seen at grazing angles a surface would send out up to 1.7 times what it gets. It is 1 at all other angles.
+#[must_use]
+pub(super) fn grazing_share(surface: Ggx, dielectric: &Fresnel, wo: Vec3) -> f64 {
+    let f0 = dielectric.at(1.0).max_element();
+    let f90 = dielectric.f90.max_element();
+    let e = albedo(surface, wo);
+    let reflected = match dielectric.film {
+        None => e.at(f0, f90),
+        Some(_) => e
+            .at(f0, f90)
+            .max(e.whole() * dielectric.at(wo.z).max_element()),
+    };
+    let base = 1.0 - f0 - (f90 - f0) * tables().half_way(wo.z);
+    if base > 0.0 {
+        ((1.0 - reflected) / base).clamp(0.0, 1.0)
+    } else {
+        1.0
     }
 }

@@ -1,5 +1,5 @@
-//! The Fresnel reflectance of a smooth boundary: Schlick's formula, or the interference of a thin
-//! film.
+//! The Fresnel reflectance of a smooth boundary: Schlick's formula, for glass that of a dielectric, or the interference of a
+//! thin film.
 
 use super::thin_film::ThinFilm;
 use rtc_math::Vec3;
@@ -30,6 +30,24 @@ pub(super) fn schlick(cosine: f64) -> f64 {
     square * square * x
 }
 
+/// The reflectance of unpolarised light by a boundary to a medium of an index above 1, from outside (Pharr, Jakob,
+/// Humphreys, "Physically Based Rendering" (4th ed.), §9.3.5), brought to go from 0 at normal to 1 at grazing incidence.
+#[must_use]
+pub(super) fn dielectric_curve(cosine: f64, ior: f64) -> f64 {
+    if ior == 1.0 {
+        return 0.0;
+    }
+    let cosine = cosine.clamp(0.0, 1.0);
+    let inside = (1.0 - (1.0 - cosine * cosine) / (ior * ior))
+        .max(0.0)
+        .sqrt();
+    let crosswise = (cosine - ior * inside) / (cosine + ior * inside);
+    let along = (ior * cosine - inside) / (ior * cosine + inside);
+    let normal = normal_reflectance(ior);
+    let whole = 0.5 * (crosswise * crosswise + along * along);
+    ((whole - normal) / (1.0 - normal)).clamp(0.0, 1.0)
+}
+
 /// A reflectance over the angle: from `f0` at normal to `f90` at grazing incidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fresnel {
@@ -37,6 +55,8 @@ pub(super) struct Fresnel {
     pub(super) f0: Vec3,
     /// At grazing incidence.
     pub(super) f90: Vec3,
+    /// The index, if the curve between is that of a dielectric; else it is Schlick's.
+    pub(super) ior: Option<f64>,
     /// The film on it, and the fraction of the surface it covers.
     pub(super) film: Option<(ThinFilm, f64)>,
 }
@@ -46,7 +66,11 @@ impl Fresnel {
     #[must_use]
     #[inline]
     pub(super) fn at(&self, cosine: f64) -> Vec3 {
-        let bare = self.f0 + (self.f90 - self.f0) * schlick(cosine);
+        let curve = match self.ior {
+            None => schlick(cosine),
+            Some(ior) => dielectric_curve(cosine, ior),
+        };
+        let bare = self.f0 + (self.f90 - self.f0) * curve;
         match &self.film {
             None => bare,
             Some((film, fraction)) => bare.lerp(film.reflectance(self.f0, cosine), *fraction),
@@ -78,6 +102,7 @@ mod tests {
         let fresnel = Fresnel {
             f0: Vec3::splat(0.2),
             f90: Vec3::ONE,
+            ior: None,
             film: None,
         };
         let n = 10_000;
@@ -87,6 +112,25 @@ mod tests {
             .sum::<f64>()
             / f64::from(n);
         assert!((sum - fresnel.mean().x).abs() < 1e-7);
+    }
+
+    #[test]
+    fn an_index_of_1_reflects_nothing_and_glass_as_the_formula_says() {
+        let glass = |ior: f64| Fresnel {
+            f0: Vec3::splat(normal_reflectance(ior)),
+            f90: Vec3::ONE,
+            ior: Some(ior),
+            film: None,
+        };
+        for k in 1..=10 {
+            assert_eq!(glass(1.0).at(f64::from(k) / 10.0), Vec3::ZERO);
+        }
+        // At Brewster's angle light along the plane of incidence is not reflected at all.
+        let cosine = 1.0 / (1.0 + 1.5_f64 * 1.5).sqrt();
+        let crosswise = (1.0 - 1.5 * 1.5) / (1.0 + 1.5 * 1.5);
+        let expected = 0.5 * crosswise * crosswise;
+        assert!((glass(1.5).at(cosine).x - expected).abs() < 1e-12);
+        assert_eq!(glass(1.5).at(0.0), Vec3::ONE);
     }
 
     #[test]

@@ -40,6 +40,24 @@ impl Ggx {
         }
     }
 
+    /// Whether it looks the same when turned.
+    #[must_use]
+    pub(super) fn is_isotropic(self) -> bool {
+        self.x == self.y
+    }
+
+    /// The widths along x and y.
+    #[must_use]
+    pub(super) fn widths(self) -> [f64; 2] {
+        [self.x, self.y]
+    }
+
+    /// The surface of two widths.
+    #[must_use]
+    pub(super) fn of_widths([x, y]: [f64; 2]) -> Self {
+        Self { x, y }
+    }
+
     /// Whether it is a mirror.
     #[must_use]
     pub(super) fn is_smooth(self) -> bool {

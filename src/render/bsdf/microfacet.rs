@@ -1,7 +1,8 @@
 //! The rough boundary: the reflection of its microfacets, and the transmission of the dielectric
 //! ones.
 
-use super::compensation::Compensation;
+use super::albedo::glass;
+use super::compensation::{Compensation, grazing_share};
 use super::fresnel::Fresnel;
 use super::ggx::Ggx;
 use super::standard::StandardParameters;
@@ -28,6 +29,12 @@ pub(super) struct Microfacet<const F: u32> {
     crossing: Crossing,
     /// The index beyond divided by that on the side of the viewer.
     eta: f64,
+    /// The index inside, if the material transmits: its reflectance is that of a dielectric.
+    ior: Option<f64>,
+    /// The fraction of the surface that is dielectric and transmits.
+    transmitting: f64,
+    /// The factors that make up for the light which further bounces send out, of reflection and of transmission.
+    gain: [f64; 2],
 }
 
 /// How light continues behind the boundary.
@@ -86,6 +93,9 @@ impl<const F: u32> Microfacet<F> {
         tint: Vec3::ZERO,
         crossing: Crossing::Wall,
         eta: 1.0,
+        ior: None,
+        transmitting: 0.0,
+        gain: [1.0; 2],
     };
 
     /// The boundary of a material, seen from within the body if `inside`.
@@ -110,6 +120,7 @@ impl<const F: u32> Microfacet<F> {
                 film.factor,
             )
         });
+        let transmits = can::<F>(TRANSMISSION) && standard.transmission > 0.0;
         let ior = if standard.ior > 0.0 {
             standard.ior
         } else {
@@ -134,6 +145,9 @@ impl<const F: u32> Microfacet<F> {
             tint: standard.base_color * ((1.0 - standard.metallic) * standard.transmission),
             crossing,
             eta: if inside { 1.0 / ior } else { ior },
+            ior: transmits.then_some(ior),
+            transmitting: (1.0 - standard.metallic) * standard.transmission,
+            gain: [1.0; 2],
         }
     }
 
@@ -148,6 +162,7 @@ impl<const F: u32> Microfacet<F> {
         Fresnel {
             f0: self.f0,
             f90: Vec3::splat(self.f90),
+            ior: self.ior.filter(|_| can::<F>(TRANSMISSION)),
             film: self.film(),
         }
     }
@@ -157,19 +172,20 @@ impl<const F: u32> Microfacet<F> {
         Fresnel {
             f0: self.metal,
             f90: Vec3::ONE,
+            ior: None,
             film: self.film(),
         }
     }
 
+    /// The share of the base, where that light is left out.
+    pub(super) fn grazing_share(&self, wo: Vec3) -> f64 {
+        grazing_share(self.ggx, &self.dielectric(), wo)
+    }
+
     /// The light of multiple bounces between the microfacets.
-    pub(super) fn compensation(&self, cosine: f64) -> Compensation {
-        Compensation::new(
-            self.ggx.mean_roughness(),
-            cosine,
-            &self.dielectric(),
-            &self.metal(),
-            self.metallic,
-        )
+    pub(super) fn compensation(&self, wo: Vec3) -> Compensation {
+        let fresnel = [&self.dielectric(), &self.metal()];
+        Compensation::new(self.ggx, wo, fresnel, self.metallic)
     }
 
     /// Whether its lobes are delta lobes.
@@ -198,9 +214,37 @@ impl<const F: u32> Microfacet<F> {
             metallic => dielectric.lerp(self.metal().at(cosine), metallic),
         };
         LobeWeights {
-            reflected,
+            reflected: reflected * self.gain[0],
             entering,
-            through: self.tint * entering,
+            through: self.tint * (entering * self.gain[1]),
+        }
+    }
+
+    /// Makes up for the light that leaves rough glass after further bounces: outside by what goes through, which is what
+    /// reflection leaves, `reflected` more by further bounces; from within by both. Turquin, "Practical multiple scattering
+    /// compensation for microfacet models" (2019), for transmission.
+    pub(super) fn compensate(&mut self, cosine: f64, bounces: f64) {
+        let Some(ior) = self.ior.filter(|_| can::<F>(TRANSMISSION) && !self.smooth) else {
+            return;
+        };
+        let roughness = self.ggx.mean_roughness();
+        let [f0, f90] = [self.f0.max_element(), self.f90];
+        if self.eta < 1.0 {
+            let whole = glass::inside(ior, roughness, cosine).at(f0, f90);
+            // Metal and a diffuse base have their own share of the light.
+            self.gain = [1.0 + (1.0 / whole - 1.0) * self.transmitting; 2];
+            return;
+        }
+        let [reflected, refracted] = glass::outside(ior, roughness, cosine);
+        let through = match self.crossing {
+            Crossing::Wall => reflected,
+            Crossing::Refracted => refracted,
+            Crossing::Straight => return,
+        };
+        let left = 1.0 - reflected.at(f0, f90) - bounces;
+        let single = through.whole() - through.at(f0, f90);
+        if single > 0.0 {
+            self.gain[1] = (left / single).max(0.0);
         }
     }
 

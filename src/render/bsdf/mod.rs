@@ -112,7 +112,7 @@ impl<const F: u32> Lobes<F> {
         let wo = side.enter(wo);
         let transmits = can::<F>(TRANSMISSION) && standard.transmission > 0.0;
         let inside = side.below && !standard.thin_walled && transmits;
-        let microfacet = Microfacet::new(standard, inside);
+        let mut microfacet = Microfacet::new(standard, inside);
         // Sheen and coat are invisible from inside the body.
         let (sheen, clearcoat) = if inside || !can::<F>(LAYERS) {
             (None, None)
@@ -132,12 +132,24 @@ impl<const F: u32> Lobes<F> {
         let mut diffuse = standard.base_color * scattered;
         // Mix the diffuse reflection with the diffuse transmission.
         let mix = standard.diffuse_transmission.filter(|_| can::<F>(LAYERS));
-        let through = mix.map(|DiffuseTransmission { factor, color }| {
+        let mut through = mix.map(|DiffuseTransmission { factor, color }| {
             diffuse *= 1.0 - factor;
             color * (scattered * factor)
         });
-        let compensates = standard.multiple_scattering && !inside && !microfacet.is_dark();
-        let compensation = compensates.then(|| microfacet.compensation(wo.z));
+        let multiple = standard.multiple_scattering;
+        let covers = !inside && !microfacet.is_dark();
+        let compensation = (covers && multiple).then(|| microfacet.compensation(wo));
+        if covers && !multiple {
+            let share = microfacet.grazing_share(wo);
+            diffuse *= share;
+            through = through.map(|through| through * share);
+        }
+        if multiple && transmits {
+            let bounces = compensation
+                .as_ref()
+                .map_or(Vec3::ZERO, Compensation::albedo);
+            microfacet.compensate(wo.z, bounces.max_element());
+        }
         let entering = match &compensation {
             // The half-way vector is seldom as grazing as the view.
             None => microfacet.weights(1.0).entering,
@@ -260,7 +272,7 @@ impl<const F: u32> Lobes<F> {
     /// side of the viewer.
     fn base_f(&self, wi: Vec3) -> f64 {
         match self.compensation() {
-            Some(compensation) => compensation.base_f(compensation.towards(wi.z)),
+            Some(compensation) => compensation.base_f(compensation.towards(wi)),
             None => {
                 let h = (self.wo + wi).normalize();
                 self.microfacet.weights(self.wo.dot(h)).entering * FRAC_1_PI
@@ -286,7 +298,7 @@ impl<const F: u32> Lobes<F> {
         sum.f += match self.compensation() {
             None => self.diffuse * (weights.entering * FRAC_1_PI),
             Some(compensation) => {
-                let e = compensation.towards(wi.z);
+                let e = compensation.towards(wi);
                 self.diffuse * compensation.base_f(e) + compensation.bounces_f(e)
             }
         };

@@ -68,9 +68,16 @@ impl Charlie {
         }
     }
 
-    /// The BRDF of white sheen.
+    /// The BRDF of white sheen. The formula sends out more than it gets at some angles, so it is divided there by its albedo,
+    /// the larger one of both directions.
     #[must_use]
     pub(super) fn f(&self, wo: Vec3, wi: Vec3) -> f64 {
+        let albedo = |w: Vec3| tables().sheen(self.roughness, w.z);
+        self.raw(wo, wi) / albedo(wo).max(albedo(wi)).max(1.0)
+    }
+
+    /// The BRDF as the paper has it.
+    fn raw(&self, wo: Vec3, wi: Vec3) -> f64 {
         let h = (wo + wi).normalize();
         let sine = ((1.0 - h.z) * (1.0 + h.z)).max(0.0).sqrt();
         let density = (2.0 + 1.0 / self.alpha) * pow(sine, 1.0 / self.alpha) / TAU;
@@ -78,10 +85,10 @@ impl Charlie {
         density * (shadowing / (4.0 * wo.z * wi.z)).min(1.0)
     }
 
-    /// The directional albedo of white sheen.
+    /// The directional albedo of white sheen, at most 1.
     #[must_use]
     pub(super) fn albedo(&self, cosine: f64) -> f64 {
-        tables().sheen(self.roughness, cosine)
+        tables().sheen(self.roughness, cosine).min(1.0)
     }
 
     fn lambda(&self, cosine: f64) -> f64 {
@@ -105,7 +112,7 @@ impl Charlie {
     }
 }
 
-/// The albedo of white sheen by the midpoint rule over the hemisphere of directions.
+/// The albedo of the formula by the midpoint rule over the hemisphere of directions.
 #[cfg(test)]
 pub(super) fn integrated_albedo(roughness: f64, cosine: f64) -> f64 {
     const STEPS: u32 = 48;
@@ -117,8 +124,8 @@ pub(super) fn integrated_albedo(roughness: f64, cosine: f64) -> f64 {
         for j in 0..STEPS {
             // Half a turn is enough, by symmetry.
             let wi = super::warp::direction_turned(step(i), step(j) * 0.5);
-            sum += charlie.f(wo, wi) * wi.z;
+            sum += charlie.raw(wo, wi) * wi.z;
         }
     }
-    (sum * TAU / f64::from(STEPS * STEPS)).min(1.0)
+    sum * TAU / f64::from(STEPS * STEPS)
 }

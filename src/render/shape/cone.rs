@@ -59,6 +59,16 @@ impl Profile {
         if step.is_finite() { t - step } else { t }
     }
 
+    /// ρ − g at t = 0, and its slope.
+    fn border(&self) -> (f64, f64) {
+        let rho = self.w.length();
+        let slope = match rho > 0.0 {
+            true => self.w.dot(self.x) / rho,
+            false => self.x.length(),
+        };
+        (rho - self.sigma, slope + self.tau)
+    }
+
     /// The stretch inside the nappe below the apex.
     fn inside(&self) -> Option<Interval<Part>> {
         let Self { w, x, sigma, tau } = *self;
@@ -131,16 +141,23 @@ impl Cone {
             return self.crossing_flat(start, d, nearest, slope * rise);
         }
         let f = start + d * nearest;
-        let above = dot(self.axis, f);
-        let profile = Profile {
-            w: cross(f, self.axis),
-            x: cross(d, self.axis),
-            sigma: slope * (self.height - above),
-            tau: slope * rise,
-        };
-        let inside = profile.inside()?.map(|t| t + nearest);
+        let inside = self.profile(f, d).inside()?;
+        let inside = inside.map(|t| t + nearest);
+        let (outside, growth) = self.profile(start, d).border();
+        let inside = inside.seen_from(outside, growth);
         let ends = between_planes(self.axis, self.height, start, d, [Part::Base, Part::Apex])?;
         inside.and(ends)?.first_in_front()
+    }
+
+    /// The ray from a point, given from the base, along `d`.
+    fn profile(&self, from: Vec3, d: Vec3) -> Profile {
+        let slope = self.radius / self.height;
+        Profile {
+            w: cross(from, self.axis),
+            x: cross(d, self.axis),
+            sigma: slope * (self.height - dot(self.axis, from)),
+            tau: slope * dot(self.axis, d),
+        }
     }
 
     /// As [`Self::crossing`] for a cone far wider than high, and a ray that meets the plane of its

@@ -75,10 +75,10 @@ impl Cylinder {
             };
             return (from_axis.dot(from_axis) <= r2).then_some(everywhere);
         }
+        let slope = from_axis.dot(across);
+        let outside = from_axis.length() - self.radius;
         // Move the ray to the point nearest to the axis, but not beyond the caps.
-        let nearest = (-from_axis.dot(across) / a)
-            .max(caps.enter.0)
-            .min(caps.leave.0);
+        let nearest = (-slope / a).max(caps.enter.0).min(caps.leave.0);
         let from_axis = cross(f + d * nearest, self.axis);
         let b = -from_axis.dot(across);
         // Compute the discriminant from the foot of the perpendicular.
@@ -92,10 +92,11 @@ impl Cylinder {
         let c = (length - self.radius) * (length + self.radius);
         let (enter, leave) = roots(a, b, c, a * inside);
         let (enter, leave) = (nearest + enter, nearest + leave);
-        Some(Interval {
+        let inside = Interval {
             enter: (enter, Part::Side),
             leave: (leave, Part::Side),
-        })
+        };
+        Some(inside.seen_from(outside, slope))
     }
 }
 

@@ -34,6 +34,19 @@ impl<Part: Copy> Interval<Part> {
         }
     }
 
+    /// The interval of a convex region whose border crosses the ray where a convex function is 0, which is below 0 inside;
+    /// with that function and its slope at t = 0, which have the last word where rounding moved a root of 0: an origin on
+    /// the border does not see what it stands on.
+    pub(crate) fn seen_from(mut self, value: f64, slope: f64) -> Self {
+        if value <= 0.0 {
+            self.enter.0 = self.enter.0.min(0.0);
+        }
+        if value >= 0.0 && slope >= 0.0 {
+            self.leave.0 = self.leave.0.min(0.0);
+        }
+        self
+    }
+
     /// The first end with t > 0.
     pub(crate) fn first_in_front(self) -> Option<(f64, Part)> {
         [self.enter, self.leave]
@@ -107,6 +120,21 @@ mod tests {
         assert_eq!(a.and(interval(5.0, 6.0, 'c')), None);
         assert_eq!(interval(-3.0, 2.0, 'd').first_in_front(), Some((2.0, 'd')));
         assert_eq!(interval(-3.0, -2.0, 'e').first_in_front(), None);
+    }
+
+    #[test]
+    fn an_origin_on_the_border_does_not_see_it() {
+        let rounded = |enter, leave| Interval {
+            enter: (enter, 'a'),
+            leave: (leave, 'b'),
+        };
+        let ends = |interval: Interval<char>| (interval.enter.0, interval.leave.0);
+        let outwards = rounded(-2.0, 1e-17).seen_from(0.0, 1.0);
+        assert_eq!(outwards.first_in_front(), None);
+        let inwards = rounded(1e-17, 2.0).seen_from(0.0, -1.0);
+        assert_eq!(inwards.first_in_front(), Some((2.0, 'b')));
+        assert_eq!(ends(rounded(-1.0, 1.0).seen_from(-1.0, 1.0)), (-1.0, 1.0));
+        assert_eq!(ends(rounded(1.0, 2.0).seen_from(1.0, -1.0)), (1.0, 2.0));
     }
 
     #[test]

@@ -153,6 +153,8 @@ pub(crate) mod plain;
 pub(crate) mod plane;
 pub(crate) mod quad;
 pub(crate) mod sphere;
+#[cfg(test)]
+mod standing;
 pub(crate) mod tie;
 pub(crate) mod torus;
 pub(crate) mod triangle;

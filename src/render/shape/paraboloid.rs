@@ -85,7 +85,9 @@ impl Paraboloid {
         let start = ray.origin - self.base;
         let parts = [Part::Base, Part::Side];
         let ends = between_planes(self.axis, self.height, start, ray.direction, parts)?;
-        self.inside(ray, start, &ends)?.and(ends)?.first_in_front()
+        let inside = self.inside(ray, start, &ends)?;
+        let Quadratic { b, c, .. } = self.quadratic(start, ray.direction, 0.0);
+        inside.seen_from(c, -b).and(ends)?.first_in_front()
     }
 
     /// The stretch inside the infinite paraboloid, accurate between the base and the vertex.

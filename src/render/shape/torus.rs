@@ -27,6 +27,9 @@ pub(super) const MAX_STEPS: usize = 100;
 /// The rounding error of lengths in units of the torus.
 pub(super) const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
+/// Where a ray starts so near the surface, in units of the torus, it starts on it.
+pub(super) const TOUCHING: f64 = 16.0 * ROUNDING;
+
 /// The margin of what touches the torus, in its units, where lengths are of about 1: far above
 /// rounding.
 pub(super) const TOUCH: f64 = 1.0 / 1_048_576.0;
@@ -73,6 +76,20 @@ impl TorusRay {
         square / ((off * off + z * z).sqrt() + self.minor)
     }
 
+    /// As [`Self::distance`]; of a point on the surface 1 or −1, by the side that the ray leads to: a ray does not meet what
+    /// it starts on.
+    fn distance_before(&self, s: f64) -> f64 {
+        let distance = self.distance(s);
+        if distance.abs() > TOUCHING {
+            return distance;
+        }
+        let off = self.off + self.turn * s;
+        let length = off.length();
+        let outwards = (length - self.major) * off.dot(self.turn) / length;
+        let rise = (self.height + self.rise * s) * self.rise;
+        if outwards + rise < 0.0 { -1.0 } else { 1.0 }
+    }
+
     /// Whether the ray certainly misses the torus from `low` to `high`: it is nowhere there between
     /// the two planes that touch the torus, or all the way between them in the hole. All of it with
     /// a margin far above rounding; the distance from the axis is largest at an end of that way.
@@ -105,7 +122,7 @@ impl TorusRay {
     fn first_root(&self, low: f64, high: f64) -> Option<f64> {
         let (linear, constant) = self.derivative();
         let borders = cubic_roots(linear, constant, low, high).chain(std::iter::once(high));
-        let mut before = (low, self.distance(low));
+        let mut before = (low, self.distance_before(low));
         for border in borders {
             let there = (border, self.distance(border));
             if there.1 == 0.0 && border > low {

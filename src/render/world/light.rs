@@ -5,7 +5,7 @@ use super::texture::Textures;
 use crate::light::course::CourseLight;
 use crate::light::environment::Environment;
 use crate::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual};
-use rtc_plan::{EnvironmentLeft, Plan, facts};
+use rtc_plan::{EnvironmentLeft, PathPlan, Plan, facts};
 use rtc_valid::{self as valid, Proof};
 
 /// The lights of a world. There are two kinds of lists; the one that the integrator does not use is
@@ -22,6 +22,10 @@ pub(crate) struct LightList {
 impl<S> World<S> {
     /// See [`AnyWorld::brightest`](super::any::AnyWorld::brightest).
     pub(super) fn brightest(&self) -> f64 {
+        let paths = self.plan.paths.as_ref();
+        if paths.is_some_and(PathPlan::has_unbounded_caustics) {
+            return f64::INFINITY;
+        }
         let surfaces = self.surfaces.iter();
         let materials = surfaces.filter_map(|surface| self.standards.get(surface.material));
         let emitted = materials.map(|material| material.emission.factor.max_element());

@@ -15,6 +15,8 @@ pub(crate) struct Settings {
     pub(crate) shadows: bool,
     /// Whether Phong's terms of the first hit fall in steps.
     pub(crate) toon: bool,
+    /// Whether Phong's ambient term is added once, in place of once for each light.
+    pub(crate) ambient_once: bool,
     /// Whether rough surfaces keep the light that bounces between their facets, where paths are
     /// traced.
     pub(crate) multiple_scattering: bool,
@@ -110,6 +112,7 @@ pub(super) fn settings(scene: &Proof) -> Settings {
         pattern,
         light_samples,
         toon,
+        ambient,
     } = *scene.settings();
     let pattern = match pattern {
         valid::Pattern::Grid => Pattern::Grid,
@@ -123,6 +126,7 @@ pub(super) fn settings(scene: &Proof) -> Settings {
         mode,
         shadows,
         toon,
+        ambient_once: ambient == valid::Ambient::Once,
         multiple_scattering,
         light_samples: light_samples.get(),
         grid: match mode {

@@ -113,6 +113,7 @@ pub(crate) fn empty() -> Scene {
         pattern: ir::Pattern::Grid,
         light_samples: 1,
         toon: false,
+        ambient: ir::Ambient::PerLight,
     };
     Scene::new(camera, settings)
 }

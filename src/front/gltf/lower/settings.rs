@@ -7,8 +7,8 @@ use super::Lowering;
 use rtc_color::Tone;
 use rtc_diag::codes;
 use rtc_ir::{
-    Display, Environment, Field, Gooch, Image, ImageId, Mode, Noun, PathSettings, Pattern, Pixels,
-    Place, Settings,
+    Ambient, Display, Environment, Field, Gooch, Image, ImageId, Mode, Noun, PathSettings, Pattern,
+    Pixels, Place, Settings,
 };
 use rtc_source::Resource;
 
@@ -121,6 +121,7 @@ fn read(own: Fields<'_, '_>, settings: &mut Settings) {
         pattern,
         light_samples,
         toon,
+        ambient,
     } = settings;
     if let Some(own) = own.text("mode").and_then(|word| mode_of(&word, own)) {
         *mode = own;
@@ -132,6 +133,10 @@ fn read(own: Fields<'_, '_>, settings: &mut Settings) {
     *supersampling = own.count_or("supersampling", *supersampling);
     *light_samples = own.count_or("lightSamples", *light_samples);
     *toon = own.truth("toon");
+    *ambient = match own.text("ambient").as_deref() {
+        Some("once") => Ambient::Once,
+        _ => Ambient::PerLight,
+    };
     *pattern = match own.text("pattern").as_deref() {
         Some("jitter") => Pattern::Jitter,
         Some("random") => Pattern::Random,

@@ -40,6 +40,7 @@ static SETTINGS: Object = own(&[
     optional("pattern", Word(&["grid", "jitter", "random"])),
     optional("lightSamples", Whole(1, MANY)),
     optional("toon", Truth),
+    optional("ambient", Word(&["perLight", "once"])),
     optional("gooch", One(&GOOCH)),
     optional("path", One(&PATH)),
     optional("display", One(&DISPLAY)),

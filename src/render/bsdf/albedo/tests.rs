@@ -1,6 +1,6 @@
 //! The tables, integrated.
 
-use super::super::fresnel::schlick;
+use super::super::fresnel::{dielectric_curve, schlick};
 use super::super::ggx::Ggx;
 use super::super::sheen::integrated_albedo;
 use super::*;
@@ -20,48 +20,174 @@ fn table<T>(entry: impl Fn(f64, f64) -> T) -> Vec<T> {
         .collect()
 }
 
-/// Both terms of the albedo, over visible normals of a rank-1 lattice.
-fn integrated_specular(roughness: f64, cosine: f64) -> [f64; 2] {
+/// The mean of what `at` says of visible normals, of a rank-1 lattice: it is given each normal, and the function f·cos θ/pdf
+/// of a direction for a lobe that takes everything there, G₂/G₁.
+fn mean_over_normals<const N: usize>(
+    ggx: Ggx,
+    wo: Vec3,
+    at: impl Fn(Vec3, &dyn Fn(Vec3) -> f64) -> [f64; N],
+) -> [f64; N] {
     /// The inverse of the golden ratio.
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let ggx = Ggx::isotropic(roughness);
-    let wo = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
     if ggx.is_smooth() {
-        return [1.0 - schlick(cosine), schlick(cosine)];
+        return at(Vec3::Z, &|_| 1.0);
     }
-    let mut sum = [0.0; 2];
+    let mut sum = [0.0; N];
     for k in 0..NORMALS {
         let k = f64::from(k) + 0.5;
         // Place more samples in the long tail of the slopes, with smaller weights.
         let rest = 1.0 - k / f64::from(NORMALS);
-        // Sample a visible normal, and reflect.
         let h = ggx.visible_normal(wo, [1.0 - rest * rest, (k * GOLDEN).fract()]);
-        let cosine = wo.dot(h);
-        let wi = h * (2.0 * cosine) - wo;
-        if wi.z > 0.0 {
-            // f·cos θ/pdf for a lobe that reflects everything: G₂/G₁.
-            let weight = 4.0 * rest * wi.z * (wo.z + ggx.stretched(wo)) * ggx.visibility(wo, wi);
-            let grazing = schlick(cosine);
-            sum = [sum[0] + (1.0 - grazing) * weight, sum[1] + grazing * weight];
-        }
+        let weight = |wi: Vec3| {
+            4.0 * rest * wi.z.abs() * (wo.z + ggx.stretched(wo)) * ggx.visibility(wo, wi)
+        };
+        let terms = at(h, &weight);
+        sum = std::array::from_fn(|term| sum[term] + terms[term]);
     }
     sum.map(|term| term / f64::from(NORMALS))
 }
 
-#[test]
+fn mirrored(wo: Vec3, h: Vec3) -> Vec3 {
+    h * (2.0 * wo.dot(h)) - wo
+}
+
+/// Both terms of what is reflected by a curve of reflectance.
+fn reflected(wo: Vec3, h: Vec3, weight: &dyn Fn(Vec3) -> f64, curve: f64) -> [f64; 2] {
+    let wi = mirrored(wo, h);
+    let weight = if wi.z > 0.0 { weight(wi) } else { 0.0 };
+    [(1.0 - curve) * weight, curve * weight]
+}
+
+/// Both terms of the albedo.
+fn integrated_specular(ggx: Ggx, wo: Vec3) -> [f64; 2] {
+    mean_over_normals(ggx, wo, |h, weight| {
+        reflected(wo, h, weight, schlick(wo.dot(h)))
+    })
+}
+
+fn view(cosine: f64) -> Vec3 {
+    Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine)
+}
+
+/// The cosine of refraction, unless all is reflected.
+fn refracted(cosine: f64, eta: f64) -> Option<f64> {
+    let square = 1.0 - (1.0 - cosine * cosine) / (eta * eta);
+    (square > 0.0).then(|| square.sqrt())
+}
+
+/// What a visible normal of glass adds to its seven numbers.
+fn integrated_glass(ior: f64, ggx: Ggx, wo: Vec3) -> [f64; 7] {
+    let transmitted = |h: Vec3, eta: f64, beyond: f64, weight: &dyn Fn(Vec3) -> f64, curve: f64| {
+        let wi = h * (wo.dot(h) / eta - beyond) - wo / eta;
+        let weight = if wi.z < 0.0 { weight(wi) } else { 0.0 };
+        [(1.0 - curve) * weight, curve * weight]
+    };
+    let [r0, r90, t0, t90] = mean_over_normals(ggx, wo, |h, weight| {
+        let cosine = wo.dot(h);
+        let curve = dielectric_curve(cosine, ior);
+        let [r0, r90] = reflected(wo, h, weight, curve);
+        let beyond = refracted(cosine, ior).unwrap_or(0.0);
+        let [t0, t90] = transmitted(h, ior, beyond, weight, curve);
+        [r0, r90, t0, t90]
+    });
+    let [total, e0, e90] = mean_over_normals(ggx, wo, |h, weight| {
+        let Some(outside) = refracted(wo.dot(h), 1.0 / ior) else {
+            let [r0, r90] = reflected(wo, h, weight, 1.0);
+            return [r0 + r90, 0.0, 0.0];
+        };
+        let curve = dielectric_curve(outside, ior);
+        let [r0, r90] = reflected(wo, h, weight, curve);
+        let [t0, t90] = transmitted(h, 1.0 / ior, outside, weight, curve);
+        [t0 + t90, r0 - t0, r90 - t90]
+    });
+    [r0, r90, t0, t90, total, e0, e90]
+}
+
+/// The fraction of an axis at an entry.
+fn fraction(k: usize, count: usize) -> f64 {
+    k as f64 / (count - 1) as f64
+}
+
+/// The cosine at an entry.
+fn cosine_of(k: usize, count: usize) -> f64 {
+    (fraction(k, count) * fraction(k, count)).max(1e-6)
+}
+
+fn glass_table() -> Vec<f64> {
+    use glass::{COSINES, INDICES, ROUGHNESSES};
+    let mut numbers = Vec::new();
+    for index in 0..INDICES {
+        let root = fraction(index, INDICES);
+        let ior = 1.0 + 2.0 * root * root;
+        for roughness in 0..ROUGHNESSES {
+            let ggx = Ggx::isotropic(fraction(roughness, ROUGHNESSES));
+            let views = (0..COSINES).map(|k| view(cosine_of(k, COSINES)));
+            numbers.extend(views.flat_map(|wo| integrated_glass(ior, ggx, wo)));
+        }
+    }
+    numbers
+}
+
+fn brushed_table() -> Vec<f64> {
+    use brushed::{COSINES, TURNS, WIDTHS};
+    let width = |k: usize| fraction(k, WIDTHS) * fraction(k, WIDTHS);
+    let mut numbers = Vec::new();
+    for x in 0..WIDTHS {
+        for y in 0..WIDTHS {
+            let ggx = Ggx::of_widths([width(x), width(y)]);
+            for k in 0..COSINES {
+                for turn in 0..TURNS {
+                    let (across, along) = (view(cosine_of(k, COSINES)), fraction(turn, TURNS));
+                    let [x, y] = [along.sqrt(), (1.0 - along).sqrt()];
+                    let wo = Vec3::new(across.x * x, across.x * y, across.z);
+                    numbers.extend(integrated_specular(ggx, wo));
+                }
+            }
+        }
+    }
+    numbers
+}
+
+/// Compares a table with what it is to hold, or writes it.
 #[expect(clippy::disallowed_methods, reason = "this is how the tables are made")]
-fn the_stored_tables_are_the_integrals() {
-    let specular = table(integrated_specular).into_iter().flatten();
-    let numbers = specular.chain(table(integrated_albedo));
-    let bytes = numbers.flat_map(f64::to_le_bytes).collect::<Vec<_>>();
+fn is_stored(name: &str, bytes: &[u8], stored: &[u8]) {
     if std::env::var_os("RTC_UPDATE").is_some() {
-        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/src/render/bsdf/albedo.bin");
-        std::fs::write(file, bytes).unwrap();
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/bsdf/");
+        std::fs::write(format!("{folder}{name}"), bytes).unwrap();
         return;
     }
     let differs = bytes
         .iter()
-        .zip(&STORED)
+        .zip(stored)
         .position(|(own, stored)| own != stored);
-    assert_eq!((differs, bytes.len()), (None, STORED.len()));
+    assert_eq!((differs, bytes.len()), (None, stored.len()), "{name}");
+}
+
+#[test]
+fn the_stored_tables_are_the_integrals() {
+    let specular = |roughness, cosine| integrated_specular(Ggx::isotropic(roughness), view(cosine));
+    let specular = table(specular).into_iter().flatten();
+    let numbers = specular.chain(table(integrated_albedo));
+    let bytes = numbers.flat_map(f64::to_le_bytes).collect::<Vec<_>>();
+    is_stored("albedo.bin", &bytes, &STORED);
+}
+
+#[test]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the tables are of whole numbers"
+)]
+fn the_tables_of_glass_and_of_brushed_metal_are_the_integrals() {
+    let bytes = |numbers: Vec<f64>| {
+        let numbers = numbers
+            .into_iter()
+            .map(|number| (number * f64::from(i16::MAX)).round() as i16);
+        numbers.flat_map(i16::to_le_bytes).collect::<Vec<_>>()
+    };
+    is_stored("albedo/glass.bin", &bytes(glass_table()), &glass::STORED);
+    is_stored(
+        "albedo/brushed.bin",
+        &bytes(brushed_table()),
+        &brushed::STORED,
+    );
 }

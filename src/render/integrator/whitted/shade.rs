@@ -107,7 +107,7 @@ impl ShadingPoint<'_> {
 
 impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// `Σ c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)ⁿ)]`, the mean over the points of a
-    /// soft light.
+    /// soft light; an ambient term that is added once stands before the sum, as `ka·C`.
     ///
     /// Without shadows vis is 1, for the highlight too; with them it is 0 where something stands
     /// between, and where N·L ≤ 0, with the shading or the geometric normal: the surface stands
@@ -117,7 +117,11 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     pub(crate) fn phong(&mut self, shading_point: &ShadingPoint<'_>) -> Vec3 {
         let world = self.world;
         let samples = world.settings.light_samples;
-        let mut sum = Vec3::ZERO;
+        let ambient = shading_point.color * shading_point.material.ka.get();
+        let (mut sum, ambient) = match world.settings.ambient_once {
+            true => (ambient, Vec3::ZERO),
+            false => (Vec3::ZERO, ambient),
+        };
         for (index, light) in world.lights.course.iter().enumerate() {
             let plan = &world.plan.lights[index];
             if !plan.kept {
@@ -126,8 +130,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             if !self.goes_on() {
                 break;
             }
-            let mut term = shading_point.color * shading_point.material.ka.get();
-            let ambient = term;
+            let mut term = ambient;
             if Self::can(Features::LIGHT) && plan.direct {
                 let shadowed = Hidden {
                     light: index,

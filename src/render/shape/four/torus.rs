@@ -3,7 +3,7 @@
 
 use super::Interactions;
 use crate::lanes::{FourRays, Vectors, lanes_of};
-use crate::shape::torus::{MAX_STEPS, NEARLY_ONE, ROUNDING, TOUCH, Torus};
+use crate::shape::torus::{MAX_STEPS, NEARLY_ONE, ROUNDING, TOUCH, TOUCHING, Torus};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 use rtc_math::Vec3;
@@ -143,6 +143,24 @@ impl<S: Simd> TorusRays<S> {
         }
     }
 
+    /// The points at `s`, with the distances that `TorusRay::distance_before` has.
+    #[inline(always)]
+    fn before(&self, simd: S, s: f64x4<S>) -> Probe<S> {
+        let number = |x: f64| f64x4::splat(simd, x);
+        let mut probe = self.at(simd, s);
+        let is_on = probe.distance.abs().simd_le(number(TOUCHING));
+        if is_on.any_true() {
+            let off = self.off.plus(self.turn.times(s));
+            let length = off.length();
+            let outwards = (length - number(self.major)) * off.dot(self.turn) / length;
+            let rise = (self.height + self.rise * s) * self.rise;
+            let is_inwards = (outwards + rise).simd_lt(number(0.0));
+            let side = is_inwards.select(number(-1.0), number(1.0));
+            probe.distance = is_on.select(side, probe.distance);
+        }
+        probe
+    }
+
     /// As `TorusRay::passes`.
     #[inline(always)]
     fn passes(&self, simd: S, low: f64x4<S>, high: f64x4<S>) -> mask64x4<S> {
@@ -174,7 +192,7 @@ impl<S: Simd> TorusRays<S> {
     ) -> (mask64x4<S>, f64x4<S>) {
         let cubic = self.derivative(simd);
         let borders = cubic.borders(simd, low, high);
-        let first = self.at(simd, low);
+        let first = self.before(simd, low);
         let (mut before, mut after) = (first, first);
         let (mut searched, mut exact, mut bracketed) = (asked, !asked & asked, !asked & asked);
         for k in 0..=3 {

@@ -18,13 +18,18 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     #[inline(always)]
     pub(super) fn phong_of<V: Simd>(&mut self, simd: V, points: &Points<V>) -> Vectors<V> {
         let world = self.world;
-        let mut sum = Vectors::splat(simd, Vec3::ZERO);
+        let zero = Vectors::splat(simd, Vec3::ZERO);
+        let ambient = points.color.times(points.ka);
+        let (mut sum, ambient) = match world.settings.ambient_once {
+            true => (ambient, zero),
+            false => (zero, ambient),
+        };
         for (index, light) in world.lights.course.iter().enumerate() {
             let plan = &world.plan.lights[index];
             if !plan.kept {
                 continue;
             }
-            let mut term = points.color.times(points.ka);
+            let mut term = ambient;
             if Self::can(Features::LIGHT) && plan.direct {
                 term = self.with_direct(simd, points, term, index);
             }

@@ -1,0 +1,85 @@
+//! How often the ambient term is added: the file may say so, else its form does.
+
+use super::decode::{Context, Spanned, Value};
+use super::lower::Lowering;
+use super::record::FieldOutcome;
+use super::schema::Definitions;
+use super::settings::Scene;
+use super::value::{word, word_schema};
+use rtc_diag::{Severity, codes};
+use rtc_ir::{self as ir, Ambient};
+use rtc_source::tree::NodeId;
+use serde_json::{Value as Json, json};
+
+/// The key's value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AmbientWord(Ambient);
+
+/// The words for it.
+const WORDS: &[(&str, Ambient)] = &[("perLight", Ambient::PerLight), ("once", Ambient::Once)];
+
+impl Value for AmbientWord {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        word(node, WORDS, context).map(Self)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        word_schema(WORDS)
+    }
+
+    fn json(&self) -> Json {
+        let word = WORDS.iter().find(|(_, ambient)| *ambient == self.0);
+        word.map_or(Json::Null, |(word, _)| json!(word))
+    }
+}
+
+impl Lowering {
+    /// Sets how often the ambient term is added. The programs of the years whose scenes are JSON add it once, those of the
+    /// YAML years for each light. After the lights and the objects.
+    pub(super) fn ambient(&mut self, scene: &Scene, context: &mut Context<'_>) {
+        self.scene.settings.ambient = match &scene.ambient {
+            FieldOutcome::Read(Spanned { value, .. }) => value.0,
+            FieldOutcome::Absent | FieldOutcome::Broken
+                if is_json(context) && self.scene.settings.mode == ir::Mode::Phong =>
+            {
+                Ambient::Once
+            }
+            FieldOutcome::Absent | FieldOutcome::Broken => Ambient::PerLight,
+        };
+        let is_assumed = scene.ambient.is_absent() && self.scene.settings.ambient == Ambient::Once;
+        if let (true, true, Some(span)) = (is_assumed, self.shows_ambient(), scene.lights.span) {
+            let message = || "the ambient light of a JSON scene is added once".to_owned();
+            context.report(&codes::TWO_READINGS, span, message, |d| {
+                d.at(
+                    span,
+                    "some programs add it for each light, times its colour",
+                )
+                .severity(Severity::Note)
+                .hint("`\"Ambient\": \"perLight\"` does so, `\"once\"` does as here")
+            });
+        }
+    }
+
+    /// Whether the picture depends on how often the ambient term is added.
+    fn shows_ambient(&self) -> bool {
+        let ir::Scene {
+            settings,
+            lights,
+            materials,
+            ..
+        } = &self.scene;
+        let mut sum = [0.0; 3];
+        for light in lights.iter().filter_map(ir::Light::point) {
+            sum = [0, 1, 2].map(|channel| sum[channel] + light.color[channel]);
+        }
+        let mut phong = materials.iter().filter_map(ir::Material::phong);
+        settings.mode == ir::Mode::Phong && sum != [1.0; 3] && phong.any(|phong| phong.ka > 0.0)
+    }
+}
+
+/// Whether the scene is written as JSON: its keys stand in quotes inside braces.
+fn is_json(context: &Context<'_>) -> bool {
+    let text = context.tree.written(context.tree.root());
+    let inside = text.strip_prefix('{').map(str::trim_start);
+    inside.is_some_and(|inside| inside.starts_with('"'))
+}

@@ -1,0 +1,106 @@
+//! Glass: what some files say of it by words, and what becomes of its own colour.
+
+use super::decode::Context;
+use super::lower::Lowering;
+use super::material::{Finish, PhongMaterial};
+use super::record::FieldOutcome;
+use rtc_diag::{Severity, codes};
+use rtc_ir::{self as ir, MaterialId};
+use rtc_source::Span;
+
+/// A material that lets light through.
+pub(super) struct Glass {
+    pub(super) id: MaterialId,
+    /// Where that is said.
+    pub(super) span: Span,
+    /// Whether it shows what is behind it alone.
+    pub(super) is_clear: bool,
+}
+
+impl Lowering {
+    /// Takes its own colour from clear glass; where no ray is followed through it, glass keeps that, and it is told. After
+    /// the settings are known.
+    pub(super) fn glass(&mut self, context: &mut Context<'_>) {
+        let ir::Settings {
+            mode, max_depth, ..
+        } = &self.scene.settings;
+        let (is_followed, is_phong) = (*max_depth > 0, *mode == ir::Mode::Phong);
+        for Glass { id, span, is_clear } in std::mem::take(&mut self.glass) {
+            let material = self.scene.materials.get_mut(id.0 as usize);
+            match material.and_then(ir::Material::phong_mut) {
+                Some(phong) if is_followed && is_clear => clear(phong, span, context),
+                Some(_) if !is_followed && is_phong => not_followed(span, context),
+                Some(_) | None => {}
+            }
+        }
+    }
+}
+
+/// Whether a material is said to be glass or not, and where; by words, not by a weight.
+pub(super) fn glass_word(material: &PhongMaterial) -> Option<(bool, Span)> {
+    let PhongMaterial {
+        kind,
+        is_transparent,
+        ..
+    } = material;
+    match (is_transparent, kind) {
+        (FieldOutcome::Read(is_transparent), _) => {
+            Some((is_transparent.value, is_transparent.span?))
+        }
+        (_, FieldOutcome::Read(kind)) => Some((kind.value == Finish::Refraction, kind.span?)),
+        _ => None,
+    }
+}
+
+/// Takes its own colour from glass, which shows what is behind it alone.
+fn clear(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
+    let is_colored = phong.color_map.is_some() || phong.color != [1.0; 3];
+    // A negative weight is left to the proof to refuse.
+    (phong.ka, phong.kd) = (phong.ka.min(0.0), phong.kd.min(0.0));
+    if is_colored {
+        let message = || "glass has no colour of its own here".to_owned();
+        context.report(&codes::NO_EFFECT, span, message, |d| {
+            d.at(span, "its `color`, `ka` and `kd` have no effect")
+                .severity(Severity::Warning)
+                .hint("in place of this word `kt: 1` adds what is behind it to its own colour")
+        });
+    }
+}
+
+/// Says that no light comes through glass where no ray is followed.
+fn not_followed(span: Span, context: &mut Context<'_>) {
+    let message = || "without a `MaxRecursionDepth` nothing is seen through glass".to_owned();
+    context.report(&codes::NO_EFFECT, span, message, |d| {
+        d.at(span, "the surface shows its own colour alone")
+            .severity(Severity::Warning)
+            .hint("`MaxRecursionDepth: 5` follows the light through it")
+    });
+}
+
+/// Leaves a surface opaque.
+pub(super) fn no_glass(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
+    phong.kt = 0.0;
+    // A negative index is left to the proof to refuse.
+    if phong.eta > 0.0 {
+        phong.eta = 1.0;
+    }
+    let message = || "the surface has a weight of refraction, but is said to be opaque".to_owned();
+    context.report(&codes::NO_EFFECT, span, message, |d| {
+        d.at(span, "so its `kt` has no effect")
+            .severity(Severity::Warning)
+    });
+}
+
+/// Says that an index of refraction refracts nothing without a weight.
+pub(super) fn only_an_index(material: &PhongMaterial, context: &mut Context<'_>) {
+    let PhongMaterial { kt, eta, .. } = material;
+    let bends = eta.value.0 > 0.0 && (eta.value.0 - 1.0).abs() > 1e-9;
+    if let (true, None, Some(span)) = (bends, kt.span, eta.span) {
+        let message = || "an index of refraction alone refracts nothing".to_owned();
+        context.report(&codes::NO_EFFECT, span, message, |d| {
+            d.at(span, "without a weight")
+                .severity(Severity::Warning)
+                .hint("add the weight of the light that passes through, `kt: 1` for clear glass")
+        });
+    }
+}

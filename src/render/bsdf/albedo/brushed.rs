@@ -1,0 +1,77 @@
+//! The albedo of microfacets that are stretched along one axis: a table over both widths, the cosine, and the turn from the
+//! axis.
+
+use super::super::ggx::Ggx;
+use super::{Split, interpolate, stored};
+use rtc_math::Vec3;
+use std::sync::LazyLock;
+
+/// Entries along the square root of each width.
+pub(super) const WIDTHS: usize = 12;
+
+/// Entries along the cosine, denser towards grazing as in the other tables.
+pub(super) const COSINES: usize = 16;
+
+/// Entries along cos²φ, from across the axis x to along it.
+pub(super) const TURNS: usize = 5;
+
+/// The terms in f0 and in f90.
+pub(super) static STORED: [u8; 2 * 2 * WIDTHS * WIDTHS * COSINES * TURNS] =
+    *include_bytes!("brushed.bin");
+
+/// The albedo seen from a direction.
+pub(in crate::bsdf) fn albedo(surface: Ggx, w: Vec3) -> Split {
+    let [x, y] = [w.x * w.x, w.y * w.y];
+    let turn = if x + y > 0.0 { x / (x + y) } else { 0.0 };
+    look_up(surface, w.z, turn)
+}
+
+/// Its mean over the hemisphere, weighted by the cosine.
+pub(in crate::bsdf) fn mean(surface: Ggx) -> Split {
+    static MEANS: LazyLock<Vec<[f32; 2]>> = LazyLock::new(means);
+    let [e0, e90] = interpolate(&MEANS, surface.widths().map(|width| (width.sqrt(), WIDTHS)));
+    Split { e0, e90 }
+}
+
+/// Of each pair of widths, by the midpoint rule over what look-ups will give: ∫ 2μ·E(μ) dμ with μ = x².
+#[expect(clippy::cast_possible_truncation, reason = "the tables are of f32")]
+fn means() -> Vec<[f32; 2]> {
+    const STEPS: u32 = 64;
+    /// Over an eighth of a turn and its mirror images cos²φ has the mean that it has over the whole.
+    const PARTS: u32 = 8;
+    let step = |k: u32, count: u32| (f64::from(k) + 0.5) / f64::from(count);
+    let width = |k: usize| {
+        let root = k as f64 / (WIDTHS - 1) as f64;
+        root * root
+    };
+    let of = |surface: Ggx| {
+        let mut sum = [0.0; 2];
+        for k in 0..STEPS {
+            let x = step(k, STEPS);
+            for part in 0..PARTS {
+                let cosine = rtc_math::cos(step(part, PARTS) * std::f64::consts::FRAC_PI_2);
+                let Split { e0, e90 } = look_up(surface, x * x, cosine * cosine);
+                let weight = 4.0 * x * x * x / f64::from(STEPS * PARTS);
+                sum = [sum[0] + weight * e0, sum[1] + weight * e90];
+            }
+        }
+        sum.map(|term| term as f32)
+    };
+    let pairs = (0..WIDTHS).flat_map(|x| (0..WIDTHS).map(move |y| [x, y]));
+    pairs
+        .map(|pair| of(Ggx::of_widths(pair.map(width))))
+        .collect()
+}
+
+fn look_up(surface: Ggx, cosine: f64, turn: f64) -> Split {
+    static TABLE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| stored(&STORED));
+    let [x, y] = surface.widths();
+    let axes = [
+        (x.sqrt(), WIDTHS),
+        (y.sqrt(), WIDTHS),
+        (cosine.max(0.0).sqrt(), COSINES),
+        (turn, TURNS),
+    ];
+    let [e0, e90] = interpolate(&TABLE, axes);
+    Split { e0, e90 }
+}

@@ -1,0 +1,58 @@
+//! How much light rough glass lets go on at the first meeting with its microfacets: tables over the index, the roughness and
+//! the cosine.
+
+use super::{Split, interpolate, stored};
+use std::sync::LazyLock;
+
+/// Entries along the index, denser towards 1: entry i is at 1 + 2·(i/(n − 1))², and 3 stands for more.
+pub(super) const INDICES: usize = 24;
+
+/// Entries along the roughness.
+pub(super) const ROUGHNESSES: usize = 12;
+
+/// Entries along the cosine, denser towards grazing as in the other tables.
+pub(super) const COSINES: usize = 24;
+
+/// Both factors of reflection and both of transmission from outside, then the three terms of both together from within.
+pub(super) static STORED: [u8; 7 * 2 * INDICES * ROUGHNESSES * COSINES] =
+    *include_bytes!("glass.bin");
+
+/// What is reflected and transmitted from within: `total + f0·e0 + f90·e90`.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::bsdf) struct FromWithin {
+    total: f64,
+    split: Split,
+}
+
+impl FromWithin {
+    /// By the reflectances at normal and at grazing incidence.
+    #[must_use]
+    pub(in crate::bsdf) fn at(self, f0: f64, f90: f64) -> f64 {
+        self.total + self.split.at(f0, f90)
+    }
+}
+
+/// What is reflected, and what would be refracted if nothing were reflected, by the terms of f0 and f90.
+pub(in crate::bsdf) fn outside(ior: f64, roughness: f64, cosine: f64) -> [Split; 2] {
+    let [r0, r90, t0, t90, ..] = look_up(ior, roughness, cosine);
+    let split = |e0, e90| Split { e0, e90 };
+    [split(r0, r90), split(t0, t90)]
+}
+
+/// What is reflected and transmitted from within.
+pub(in crate::bsdf) fn inside(ior: f64, roughness: f64, cosine: f64) -> FromWithin {
+    let [.., total, e0, e90] = look_up(ior, roughness, cosine);
+    let split = Split { e0, e90 };
+    FromWithin { total, split }
+}
+
+fn look_up(ior: f64, roughness: f64, cosine: f64) -> [f64; 7] {
+    static TABLE: LazyLock<Vec<[f32; 7]>> = LazyLock::new(|| stored(&STORED));
+    let index = (0.5 * (ior - 1.0)).max(0.0).sqrt();
+    let axes = [
+        (index, INDICES),
+        (roughness, ROUGHNESSES),
+        (cosine.max(0.0).sqrt(), COSINES),
+    ];
+    interpolate(&TABLE, axes)
+}

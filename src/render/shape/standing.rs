@@ -1,0 +1,166 @@
+//! Eyes exactly on a shape do not see what they stand on, and see the far side of it.
+
+use super::cone::Cone;
+use super::cylinder::Cylinder;
+use super::disc::Disc;
+use super::geometry::Geometry;
+use super::paraboloid::Paraboloid;
+use super::plane::Plane;
+use super::quad::Quad;
+use super::sphere::Sphere;
+use super::torus::Torus;
+use super::triangle::{Shear, Triangle};
+use crate::ray::Ray;
+use rtc_math::Vec3;
+
+/// Scales of a shape, powers of two: all points of this file stay exactly on their shapes.
+const SCALES: [f64; 3] = [1.0 / 1_048_576.0, 1.0, 1_073_741_824.0];
+
+/// The first root of a ray.
+type First<'a> = &'a dyn Fn(&Ray) -> Option<f64>;
+
+/// A point and the normal there.
+type Eye = ([f64; 3], [f64; 3]);
+
+/// Directions spread over the sphere: a spiral of the golden angle.
+fn directions() -> impl Iterator<Item = Vec3> {
+    const COUNT: u32 = 500;
+    (0..COUNT).map(|k| {
+        let z = 1.0 - 2.0 * (f64::from(k) + 0.5) / f64::from(COUNT);
+        let angle = f64::from(k) * 2.399_963_229_728_653;
+        let across = (1.0 - z * z).sqrt();
+        Vec3::new(across * libm::cos(angle), across * libm::sin(angle), z)
+    })
+}
+
+/// Asks a shape that `make` builds about a centre and in a scale, from eyes given in its own frame. Outwards a convex shape is
+/// not seen, any other not at once; inwards its far side is.
+fn look(
+    name: &str,
+    make: impl Fn(Vec3, f64) -> Box<dyn Fn(&Ray) -> Option<f64>>,
+    is_convex: bool,
+    eyes: &[Eye],
+) {
+    for scale in SCALES {
+        let center = Vec3::new(3.0, -7.0, 9.0) * scale;
+        let first: First<'_> = &make(center, scale);
+        for (point, normal) in eyes {
+            let origin = center + Vec3::from_array(*point) * scale;
+            for direction in directions() {
+                let slope = direction.dot(Vec3::from_array(*normal));
+                let t = first(&Ray { origin, direction });
+                let told = format!("{name} × {scale}, from {point:?} along {direction:?}: {t:?}");
+                let is_far = t.is_none_or(|t| t > 0.001 * scale);
+                assert!(slope.abs() < 0.01 || is_far, "{told}");
+                assert!(slope < 0.01 || !is_convex || t.is_none(), "{told}");
+                assert!(slope > -0.01 || t.is_some(), "{told}");
+            }
+        }
+    }
+}
+
+fn asked<S: Geometry + 'static>(shape: S) -> Box<dyn Fn(&Ray) -> Option<f64>> {
+    Box::new(move |ray| {
+        shape
+            .intersect(ray, &Shear::new(ray), f64::INFINITY)
+            .map(|(t, _)| t)
+    })
+}
+
+#[test]
+fn spheres_and_solids_are_seen_from_within_alone() {
+    let ball: Vec<Eye> = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]
+        .map(|p| (p, p))
+        .into();
+    look(
+        "sphere",
+        |center, radius| {
+            let sphere = Sphere { center, radius };
+            Box::new(move |ray| sphere.intersect(ray))
+        },
+        true,
+        &ball,
+    );
+    look(
+        "cylinder",
+        |base, s| asked(Cylinder::new(base, Vec3::X, 10.0 * s, s)),
+        true,
+        &[
+            ([5.0, 0.0, -1.0], [0.0, 0.0, -1.0]),
+            ([5.0, 1.0, 0.0], [0.0, 1.0, 0.0]),
+            ([0.0, 0.5, 0.0], [-1.0, 0.0, 0.0]),
+            ([10.0, 0.0, 0.25], [1.0, 0.0, 0.0]),
+        ],
+    );
+    let slant = [0.8, 0.6, 0.0];
+    look(
+        "cone",
+        |base, s| asked(Cone::new(base, Vec3::Y * (4.0 * s), 3.0 * s)),
+        true,
+        &[
+            ([1.5, 2.0, 0.0], slant),
+            ([0.0, 1.0, 2.25], [0.0, 0.6, 0.8]),
+            ([0.5, 0.0, 0.5], [0.0, -1.0, 0.0]),
+        ],
+    );
+    look(
+        "paraboloid",
+        |base, s| asked(Paraboloid::new(base, Vec3::Y * s, s)),
+        true,
+        &[
+            ([0.5, 0.75, 0.0], [0.5, 0.5, 0.0]),
+            ([0.0, 0.75, -0.5], [0.0, 0.5, -0.5]),
+            ([0.25, 0.0, 0.0], [0.0, -1.0, 0.0]),
+        ],
+    );
+}
+
+#[test]
+fn a_torus_is_seen_from_its_tube_across_the_tube_or_the_hole() {
+    look(
+        "torus",
+        |center, s| asked(Torus::new(center, Vec3::Z, 2.0 * s, 0.5 * s)),
+        false,
+        &[
+            ([2.5, 0.0, 0.0], [1.0, 0.0, 0.0]),
+            ([0.0, -1.5, 0.0], [0.0, 1.0, 0.0]),
+            ([2.0, 0.0, 0.5], [0.0, 0.0, 1.0]),
+            ([0.0, 2.0, -0.5], [0.0, 0.0, -1.0]),
+        ],
+    );
+}
+
+#[test]
+fn what_is_flat_is_not_seen_from_its_own_plane() {
+    let corners = |c: Vec3, s: f64| {
+        [
+            c,
+            c + Vec3::X * s,
+            c + (Vec3::X + Vec3::Y) * s,
+            c + Vec3::Y * s,
+        ]
+    };
+    let flat: [(&str, fn(Vec3, f64) -> Box<dyn Fn(&Ray) -> Option<f64>>); 2] = [
+        ("plane", |center, _| asked(Plane::new(center, Vec3::Z))),
+        ("disc", |center, s| asked(Disc::new(center, Vec3::Z, s))),
+    ];
+    let mut all: Vec<(&str, Box<dyn Fn(&Ray) -> Option<f64>>)> = Vec::new();
+    for scale in SCALES {
+        let center = Vec3::new(3.0, -7.0, 9.0) * scale;
+        all.extend(flat.iter().map(|(name, make)| (*name, make(center, scale))));
+        let [a, b, c, d] = corners(center - (Vec3::X + Vec3::Y) * (0.5 * scale), scale);
+        all.push(("quad", asked(Quad::new([a, b, c, d]))));
+        let triangle = Triangle::new([a, b, c]).expect("it has an area");
+        let first = move |ray: &Ray| triangle.intersect(ray, &Shear::new(ray));
+        all.push(("triangle", Box::new(first)));
+        for (name, first) in all.drain(..) {
+            for direction in directions() {
+                let ray = Ray {
+                    origin: center + Vec3::new(0.25, -0.25, 0.0) * scale,
+                    direction,
+                };
+                assert_eq!(first(&ray), None, "{name} × {scale} along {direction:?}");
+            }
+        }
+    }
+}

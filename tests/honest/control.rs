@@ -1,0 +1,95 @@
+//! A target takes about as many samples as it needs, whatever few lucky samples met.
+
+use super::rare::under;
+use super::scenes::{distance, lowered, references, render};
+use crate::small::{WHOLE, film};
+use rtc::internals::image::Image;
+use rtc::internals::ir::{Mode, PathSettings, Scene};
+use rtc::internals::render::{Job, Seeds, Values};
+
+/// Tiny lamps far out of the focus of a lens, in a dim sky.
+fn lamps(size: [u32; 2]) -> Scene {
+    let [width, height] = size;
+    let places = [
+        [-1.527, 2.085],
+        [-0.859, 1.6],
+        [2.915, 0.76],
+        [1.06, 0.657],
+        [-1.12, 2.477],
+        [-0.198, 2.468],
+        [-1.166, 2.205],
+        [1.721, 0.678],
+        [-0.348, -2.156],
+    ];
+    let lamp = |[x, y]: [f64; 2]| {
+        let (right, above) = (x + 0.04, y + 0.04);
+        format!(
+            "- {{type: triangle, v0: [{x}, {y}, -6], v1: [{right}, {y}, -6], v2: [{x}, {above}, -6], material: \
+             {{type: standard, baseColor: [0, 0, 0, 1], doubleSided: true, emissive: [80, 60, 30]}}}}\n"
+        )
+    };
+    let step = 4.4 / f64::from(height);
+    let text = format!(
+        "Camera: {{eye: [0, 0, 8], center: [0, 0, 0], up: [0, {step}, 0], viewSize: [{width}, {height}], \
+         apertureRadius: 0.35, apertureSamples: 4}}\nRenderMode: path\nMaxRecursionDepth: 2\n\
+         Environment: {{color: 0.05}}\nObjects:\n{}\
+         - {{type: sphere, position: [0, 0, 0], radius: 1, material: {{type: standard, \
+         baseColor: [0.5, 0.5, 0.5, 1], metallic: 0, roughness: 0.5}}}}\n",
+        places.map(lamp).concat()
+    );
+    lowered("lamps", text)
+}
+
+/// The samples a pixel that the noise of a target needs: errors go as 1/√n.
+fn needed(scene: &Scene, target: f64, references: &[Image; 2]) -> f64 {
+    const SAMPLES: u32 = 1024;
+    const SEEDS: u64 = 8;
+    let mut scene = scene.clone();
+    let path = PathSettings {
+        samples: SAMPLES,
+        ..PathSettings::default()
+    };
+    scene.settings.mode = Mode::Path(path);
+    let square = |seed: u64| {
+        let job = Job {
+            values: Values::Display,
+            seeds: Seeds {
+                pixel: seed,
+                lens: seed,
+                path: seed,
+            },
+            ..WHOLE
+        };
+        distance(&film(&scene, &job, 2).image, references).powi(2)
+    };
+    let mean = (1..=SEEDS).map(square).sum::<f64>() / SEEDS as f64;
+    f64::from(SAMPLES) * mean / (target * target)
+}
+
+/// Pictures that met no lamp at all say that there is no bound.
+#[test]
+fn rare_light_takes_no_more_than_a_few_times_the_samples_that_a_target_needs() {
+    for (size, targets) in [([8, 7], [4.0, 9.0])] {
+        let scene = lamps(size);
+        let references = references(&scene, 2.0);
+        for target in targets {
+            let needed = needed(&scene, target, &references);
+            let renders = (1..=8).map(|seed| render(&scene, target, seed).samples.mean);
+            let taken: Vec<_> = renders.collect();
+            let mean = taken.iter().sum::<f64>() / taken.len() as f64;
+            let told = format!("{size:?} to {target}: needed {needed:.0}, taken {taken:.0?}");
+            // Eight pictures, and what is needed is measured, too.
+            assert!(mean <= 6.0 * needed.max(160.0), "{told}");
+        }
+    }
+}
+
+#[test]
+fn a_render_goes_on_while_much_brighter_light_than_white_may_be_unmet() {
+    let reached = render(&under(1e5), 12.0, 1);
+    assert!(
+        reached.unmet.is_some() && reached.samples.min >= 128,
+        "{:?}",
+        reached.samples
+    );
+}
