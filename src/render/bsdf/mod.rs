@@ -48,6 +48,18 @@ fn mirrored(w: Vec3) -> Vec3 {
     Vec3::new(w.x, w.y, -w.z)
 }
 
+/// The albedo of the base where no microfacet reflects, and its diffuse transmittance.
+fn base<const F: u32>(standard: &StandardParameters) -> (Vec3, Option<Vec3>) {
+    let scattered = (1.0 - standard.metallic) * (1.0 - standard.transmission);
+    let diffuse = standard.base_color * scattered;
+    match standard.diffuse_transmission.filter(|_| can::<F>(LAYERS)) {
+        None => (diffuse, None),
+        Some(DiffuseTransmission { factor, color }) => {
+            (diffuse * (1.0 - factor), Some(color * (scattered * factor)))
+        }
+    }
+}
+
 /// The BSDF for one pair of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
@@ -120,22 +132,10 @@ impl<const F: u32> Lobes<F> {
             (standard.sheen, standard.clearcoat)
         };
         let coat = clearcoat.and_then(|coat| {
-            let normal = if side.below {
-                -coat.normal
-            } else {
-                coat.normal
-            };
-            Coat::new(&coat, side.enter(normal), wo)
+            let sign = if side.below { -1.0 } else { 1.0 };
+            Coat::new(&coat, side.enter(coat.normal * sign), wo)
         });
-        // Split the light between the lobes.
-        let scattered = (1.0 - standard.metallic) * (1.0 - standard.transmission);
-        let mut diffuse = standard.base_color * scattered;
-        // Mix the diffuse reflection with the diffuse transmission.
-        let mix = standard.diffuse_transmission.filter(|_| can::<F>(LAYERS));
-        let mut through = mix.map(|DiffuseTransmission { factor, color }| {
-            diffuse *= 1.0 - factor;
-            color * (scattered * factor)
-        });
+        let (mut diffuse, mut through) = base::<F>(standard);
         let multiple = standard.multiple_scattering;
         let covers = !inside && !microfacet.is_dark();
         let compensation = (covers && multiple).then(|| microfacet.compensation(wo));
@@ -144,24 +144,18 @@ impl<const F: u32> Lobes<F> {
             diffuse *= share;
             through = through.map(|through| through * share);
         }
+        // The half-way vector is seldom as grazing as the view.
+        let bare = || microfacet.weights(1.0).entering;
+        let (entering, bounces) = match &compensation {
+            None => (bare(), Vec3::ZERO),
+            Some(compensation) => (compensation.base_albedo(), compensation.albedo()),
+        };
         if multiple && transmits {
-            let bounces = compensation
-                .as_ref()
-                .map_or(Vec3::ZERO, Compensation::albedo);
             microfacet.compensate(wo.z, bounces.max_element());
         }
-        let entering = match &compensation {
-            // The half-way vector is seldom as grazing as the view.
-            None => microfacet.weights(1.0).entering,
-            Some(compensation) => compensation.base_albedo(),
-        };
-        let base = match &compensation {
-            None => diffuse * entering,
-            Some(compensation) => diffuse * entering + compensation.albedo(),
-        };
         let sheen = sheen.and_then(|sheen| Fibres::new(&sheen, wo));
         let lobe_pdf = LobePdf::new(
-            base,
+            diffuse * entering + bounces,
             through.map_or(Vec3::ZERO, |through| through * entering),
             &microfacet.weights(wo.z),
             sheen.as_ref(),
