@@ -4,6 +4,7 @@
 //! type, its decoder and its schema. Every mistake is collected; none stops the pass.
 
 pub mod assets;
+mod calculation;
 mod camera;
 mod decode;
 mod display;
@@ -20,12 +21,14 @@ mod page;
 mod paths;
 mod picture;
 mod reader;
+mod reading;
 mod record;
 mod sampling;
 mod schema;
 mod settings;
 mod spelling;
 mod standard;
+mod synonym;
 mod syntax;
 mod texture;
 mod turn;

@@ -101,7 +101,7 @@ pub fn bring(
     lowered.origins.finish();
     port.meshes.settle(&mut lowered.scene);
     for sizing in sizings {
-        object::mesh::settle(sizing, &mut lowered, port.porter.sink);
+        object::sizing::settle(sizing, &mut lowered, port.porter.sink);
     }
     port.finish(&dressings, &mut lowered);
     lowered
