@@ -207,7 +207,7 @@ const SHAPES: [Shape; 8] = [
         ]
         .map(v);
         format!(
-            "type: quad, v0: {}, v1: {}, v2: {}, v3: {}",
+            "type: quad, curved: true, v0: {}, v1: {}, v2: {}, v3: {}",
             corners[0], corners[1], corners[2], corners[3]
         )
     },

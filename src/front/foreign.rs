@@ -9,7 +9,13 @@ type ForeignFile = (&'static str, fn(&[u8]) -> bool, &'static str);
 const TEXTURE: &str = "name it in a scene, as the `texture` of a material";
 const SKY: &str = "name it in a scene, as `Environment: {file: …}`, or light a scene by `--env`";
 const EXPORT: &str = "export the scene as glTF 2.0 (`.glb`) from the program that made it";
+const CONVERT: &str =
+    "convert it to PNG, JPEG or WebP, and name that as the `texture` of a material";
+const TESSELLATE: &str =
+    "open it in a program for CAD, and export triangles as glTF 2.0, STL or OBJ";
+const UNPACK: &str = "unpack it, and give the scene in it";
 
+/// What begins with bytes of its own.
 const FOREIGN: &[ForeignFile] = &[
     ("a PNG picture", |b| b.starts_with(b"\x89PNG"), TEXTURE),
     (
@@ -33,6 +39,24 @@ const FOREIGN: &[ForeignFile] = &[
         SKY,
     ),
     (
+        "a KTX texture",
+        |b| b.starts_with(b"\xabKTX 20\xbb") || b.starts_with(b"\xabKTX 11\xbb"),
+        CONVERT,
+    ),
+    ("a DDS texture", |b| b.starts_with(b"DDS \x7c"), CONVERT),
+    ("a GIF picture", |b| b.starts_with(b"GIF8"), CONVERT),
+    (
+        "a TIFF picture",
+        |b| b.starts_with(b"II*\0") || b.starts_with(b"MM\0*"),
+        CONVERT,
+    ),
+    (
+        "a BMP picture",
+        |b| b.starts_with(b"BM") && b.get(6..10) == Some(&[0; 4]),
+        CONVERT,
+    ),
+    ("a PDF document", |b| b.starts_with(b"%PDF-"), EXPORT),
+    (
         "a pointer of Git LFS",
         |b| b.starts_with(b"version https://git-lfs"),
         "fetch the file that it stands for: `git lfs pull`",
@@ -47,18 +71,81 @@ const FOREIGN: &[ForeignFile] = &[
         |b| b.starts_with(b"\x7fELF") || (b.starts_with(b"MZ") && b.contains(&0)),
         "give the scene that is meant",
     ),
+    ("a 3MF model", is_3mf, EXPORT),
+    ("a USDZ package", is_usdz, EXPORT),
     (
         "an archive",
         |b| b.starts_with(b"PK\x03\x04") || b.starts_with(b"\x1f\x8b"),
-        "unpack it, and give the scene in it",
+        UNPACK,
+    ),
+    (
+        "an archive",
+        |b| {
+            b.starts_with(b"7z\xbc\xaf\x27\x1c")
+                || b.starts_with(b"Rar!\x1a\x07")
+                || b.starts_with(b"\xfd7zXZ\0")
+                || b.starts_with(b"\x28\xb5\x2f\xfd")
+        },
+        UNPACK,
     ),
     ("a Blender file", |b| b.starts_with(b"BLENDER"), EXPORT),
-    ("an FBX file", |b| b.starts_with(b"Kaydara FBX"), EXPORT),
+    (
+        "an FBX file",
+        |b| b.starts_with(b"Kaydara FBX") || is_text_fbx(b),
+        EXPORT,
+    ),
     (
         "a USD file",
         |b| b.starts_with(b"#usda") || b.starts_with(b"PXR-USDC"),
         EXPORT,
     ),
+    ("a VRML file", |b| b.starts_with(b"#VRML"), EXPORT),
+    (
+        "an Open Inventor file",
+        |b| b.starts_with(b"#Inventor"),
+        EXPORT,
+    ),
+    (
+        "a STEP file",
+        |b| b.starts_with(b"ISO-10303-21"),
+        TESSELLATE,
+    ),
+    ("an IGES file", is_iges, TESSELLATE),
+    (
+        "a BREP file",
+        |b| b.starts_with(b"DBRep_DrawableShape"),
+        TESSELLATE,
+    ),
+    (
+        "a Rhino file",
+        |b| b.starts_with(b"3D Geometry File Format"),
+        TESSELLATE,
+    ),
+    ("a DXF drawing", is_dxf, TESSELLATE),
+    ("a Maya file", |b| b.starts_with(b"//Maya ASCII"), EXPORT),
+    ("a DirectX file", |b| b.starts_with(b"xof 030"), EXPORT),
+    (
+        "an Alembic file",
+        |b| b.starts_with(b"Ogawa") || b.starts_with(b"\x89HDF"),
+        EXPORT,
+    ),
+    (
+        "a LightWave file",
+        |b| b.starts_with(b"FORM") && b.get(8..11) == Some(b"LWO"),
+        EXPORT,
+    ),
+    ("a file of pbrt", is_pbrt, EXPORT),
+    ("a file of POV-Ray", is_pov, EXPORT),
+];
+
+/// XML, by the name of its first element.
+const XML: &[(&str, &str, &str)] = &[
+    ("scene", "a file of Mitsuba", EXPORT),
+    ("COLLADA", "a COLLADA file", EXPORT),
+    ("X3D", "an X3D file", EXPORT),
+    ("svg", "an SVG drawing", CONVERT),
+    ("model", "the model of a 3MF package", EXPORT),
+    ("amf", "an AMF model", EXPORT),
 ];
 
 /// How much of a file is looked at, in bytes.
@@ -67,17 +154,161 @@ const HEAD: usize = 4096;
 /// Why a file is no scene, if its first bytes say that it is something else.
 pub fn foreign(name: &str, bytes: &[u8]) -> Option<Diagnostic> {
     let head = &bytes[..bytes.len().min(HEAD)];
-    let (is, _, hint) = FOREIGN.iter().find(|(_, begins, _)| begins(head))?;
+    let found = FOREIGN.iter().find(|(_, begins, _)| begins(head));
+    let known = found.map(|(is, _, hint)| (*is, *hint));
+    let (is, hint) = known.or_else(|| xml(head))?;
     let message = format!("`{}` is {is}, and no scene", clip_path(name));
-    Some(Diagnostic::new(&codes::NOT_A_SCENE, message).hint(*hint))
+    Some(Diagnostic::new(&codes::NOT_A_SCENE, message).hint(hint))
+}
+
+/// The text without a byte order mark and the space before its first word.
+fn text(head: &[u8]) -> &[u8] {
+    let mark: &[u8] = b"\xef\xbb\xbf";
+    head.strip_prefix(mark).unwrap_or(head).trim_ascii_start()
+}
+
+fn contains(head: &[u8], part: &[u8]) -> bool {
+    head.windows(part.len()).any(|own| own == part)
 }
 
 fn is_html(head: &[u8]) -> bool {
-    let start = head.trim_ascii_start();
+    let start = text(head);
     [&b"<!doctype html"[..], b"<html"].into_iter().any(|word| {
         let begin = start.get(..word.len());
         begin.is_some_and(|begin| begin.eq_ignore_ascii_case(word))
     })
+}
+
+/// What a document of XML is, if the file is one.
+fn xml(head: &[u8]) -> Option<(&'static str, &'static str)> {
+    let mut rest = text(head);
+    if !rest.starts_with(b"<") {
+        return None;
+    }
+    let is_declared = rest.starts_with(b"<?xml");
+    while rest.starts_with(b"<?") || rest.starts_with(b"<!") {
+        let end: &[u8] = if rest.starts_with(b"<!--") {
+            b"-->"
+        } else {
+            b">"
+        };
+        let at = rest.windows(end.len()).position(|own| own == end)?;
+        rest = rest[at + end.len()..].trim_ascii_start();
+    }
+    let name = rest.strip_prefix(b"<")?;
+    let is_end = |byte: &u8| !byte.is_ascii_alphanumeric() && !b":_-.".contains(byte);
+    let name = &name[..name.iter().position(is_end).unwrap_or(name.len())];
+    let known = XML.iter().find(|(root, ..)| root.as_bytes() == name);
+    let known = known.map(|(_, is, hint)| (*is, *hint));
+    known.or_else(|| is_declared.then_some(("a document of XML", EXPORT)))
+}
+
+/// The name of the first file of a ZIP archive.
+fn first_in_zip(head: &[u8]) -> Option<&[u8]> {
+    let length = head
+        .starts_with(b"PK\x03\x04")
+        .then(|| head.get(26..28))??;
+    let length = usize::from(u16::from_le_bytes([length[0], length[1]]));
+    head.get(30..30 + length)
+}
+
+fn is_3mf(head: &[u8]) -> bool {
+    let first = first_in_zip(head);
+    let is_part = |name: &[u8]| name.starts_with(b"3D/") || name.starts_with(b"Metadata/");
+    let is_list = |name: &[u8]| name == b"[Content_Types].xml" || name == b"_rels/.rels";
+    first.is_some_and(|name| is_part(name) || (is_list(name) && contains(head, b"3D/")))
+}
+
+fn is_usdz(head: &[u8]) -> bool {
+    let is_layer = |name: &[u8]| {
+        [&b".usdc"[..], b".usda", b".usd"]
+            .iter()
+            .any(|end| name.ends_with(end))
+    };
+    first_in_zip(head).is_some_and(is_layer)
+}
+
+fn is_text_fbx(head: &[u8]) -> bool {
+    let start = text(head);
+    start.starts_with(b"; FBX ") || start.starts_with(b"FBXHeaderExtension:")
+}
+
+/// The first line of IGES has an `S` and a number at its end.
+fn is_iges(head: &[u8]) -> bool {
+    let line = head.split(|byte| matches!(byte, b'\n' | b'\r')).next();
+    line.and_then(|line| line.get(72..80)) == Some(b"S      1")
+}
+
+fn is_dxf(head: &[u8]) -> bool {
+    let mut words = text(head).split(u8::is_ascii_whitespace);
+    let mut words = words.by_ref().filter(|word| !word.is_empty());
+    words.next() == Some(b"0") && words.next() == Some(b"SECTION")
+}
+
+/// The lines that say something, but for comments that begin with a sign.
+fn lines<'h>(head: &'h [u8], comment: &'static [u8]) -> impl Iterator<Item = &'h [u8]> {
+    let lines = text(head).split(|byte| matches!(byte, b'\n' | b'\r'));
+    let lines = lines.map(<[u8]>::trim_ascii);
+    lines.filter(move |line| !line.is_empty() && !line.starts_with(comment))
+}
+
+/// A scene of pbrt is lines of directives, each with words and numbers after it.
+fn is_pbrt(head: &[u8]) -> bool {
+    const DIRECTIVES: [&[u8]; 12] = [
+        b"LookAt",
+        b"Camera",
+        b"Film",
+        b"Sampler",
+        b"Integrator",
+        b"PixelFilter",
+        b"Scale",
+        b"Translate",
+        b"Rotate",
+        b"Transform",
+        b"Option",
+        b"ColorSpace",
+    ];
+    let Some(first) = lines(head, b"#").next() else {
+        return false;
+    };
+    let is_directive = |word: &&[u8]| {
+        let rest = first.strip_prefix(*word).unwrap_or_default();
+        let starts = rest.trim_ascii_start().first();
+        let is_apart = rest.first().is_some_and(u8::is_ascii_whitespace);
+        is_apart && starts.is_some_and(|byte| byte.is_ascii_digit() || b"\"-[.".contains(byte))
+    };
+    let has_colon = first.contains(&b':') && !first.contains(&b'"');
+    first == b"WorldBegin" || (!has_colon && DIRECTIVES.iter().any(is_directive))
+}
+
+/// A scene of POV-Ray has directives, comments as C has them, and things in braces.
+fn is_pov(head: &[u8]) -> bool {
+    const DIRECTIVES: [&[u8]; 5] = [
+        b"#version",
+        b"#include",
+        b"#declare",
+        b"#default",
+        b"#macro",
+    ];
+    const THINGS: [&[u8]; 6] = [
+        b"camera",
+        b"light_source",
+        b"global_settings",
+        b"background",
+        b"sphere",
+        b"plane",
+    ];
+    let is_thing = |line: &[u8]| {
+        let opens = |word: &&[u8]| {
+            let rest = line.strip_prefix(*word);
+            rest.is_some_and(|rest| rest.trim_ascii_start().starts_with(b"{"))
+        };
+        THINGS.iter().any(opens)
+    };
+    let mut lines = lines(head, b"//");
+    let first = lines.next().unwrap_or_default();
+    let is_directive = DIRECTIVES.iter().any(|word| first.starts_with(word));
+    is_thing(first) || (is_directive && lines.any(is_thing))
 }
 
 #[cfg(test)]
@@ -90,27 +321,74 @@ mod tests {
 
     #[test]
     fn other_files_are_called_what_they_are() {
-        assert_eq!(
-            told(b"\x89PNG\r\n\x1a\n"),
-            "`x` is a PNG picture, and no scene"
-        );
-        assert_eq!(
-            told(b"\n <!DOCTYPE HTML>\n<p>"),
-            "`x` is a page of HTML, and no scene"
-        );
-        assert!(told(b"version https://git-lfs.github.com/spec/v1\n").contains("Git LFS"));
+        let zip = |name: &str| {
+            let length = u8::try_from(name.len()).unwrap();
+            let mut head = b"PK\x03\x04".to_vec();
+            head.extend([0; 22]);
+            head.extend([length, 0, 0, 0]);
+            head.extend(name.bytes());
+            head
+        };
+        for (bytes, is) in [
+            (&b"\x89PNG\r\n\x1a\n"[..], "a PNG picture"),
+            (b"\n <!DOCTYPE HTML>\n<p>", "a page of HTML"),
+            (
+                b"version https://git-lfs.github.com/spec/v1\n",
+                "a pointer of Git LFS",
+            ),
+            (
+                b"<?xml version=\"1.0\"?>\n<!-- a room -->\n<scene version=\"3.0.0\">",
+                "a file of Mitsuba",
+            ),
+            (b"<scene version=\"2.0.0\"/>", "a file of Mitsuba"),
+            (
+                b"\xef\xbb\xbf<?xml version=\"1.0\"?><COLLADA xmlns=\"x\">",
+                "a COLLADA file",
+            ),
+            (b"<?xml version=\"1.0\"?><plist>", "a document of XML"),
+            (
+                b"# a scene\nLookAt 0 0 5  0 0 0  0 1 0\nCamera \"perspective\"",
+                "a file of pbrt",
+            ),
+            (
+                b"Film \"rgb\" \"string filename\" \"a:b.exr\"\n",
+                "a file of pbrt",
+            ),
+            (
+                b"#version 3.7;\n// a ball\ncamera { location 0 }",
+                "a file of POV-Ray",
+            ),
+            (b"#usda 1.0\n(\n)", "a USD file"),
+            (b"PXR-USDC\0", "a USD file"),
+            (b"ISO-10303-21;\nHEADER;", "a STEP file"),
+            (b"#VRML V2.0 utf8\n", "a VRML file"),
+            (b"; FBX 7.3.0 project file\n", "an FBX file"),
+            (b"Kaydara FBX Binary  \0", "an FBX file"),
+            (b"\xabKTX 20\xbb\r\n\x1a\n", "a KTX texture"),
+            (b"  0\r\nSECTION\r\n", "a DXF drawing"),
+            (&zip("3D/3dmodel.model"), "a 3MF model"),
+            (&zip("scene.usdc"), "a USDZ package"),
+            (&zip("scene.yaml"), "an archive"),
+        ] {
+            assert_eq!(told(bytes), format!("`x` is {is}, and no scene"));
+        }
     }
 
     #[test]
     fn scenes_are_not_taken_for_others() {
         for scene in [
             "Camera: {eye: [0, 0, 1]}\n",
+            "Camera:\n  eye: [0, 0, 1]\n",
             "{\"Camera\": {}}",
             "# a comment\nLights: []\n",
+            "#include nothing\nLights: []\n",
             "{\"irVersion\": 4}",
             "MZ: 1\n",
             "version: 2\n",
+            "Scale: 1\n",
             "OFF\n3 1 0\n",
+            "0 1 2\n",
+            "BM: 1\nEye: 2",
             "",
         ] {
             assert_eq!(told(scene.as_bytes()), "", "{scene}");

@@ -5,9 +5,17 @@ use super::over_limit;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use rtc_diag::{Diagnostic, codes};
-use rtc_image::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, Radiance, RadianceFile};
+use rtc_image::{
+    DecodeCost, DecodeError, Opacity, PixelFile, Pixels, Radiance, RadianceFile, is_picture,
+};
 use rtc_ir as ir;
-use rtc_source::{Budget, Exceeded, Resource};
+use rtc_source::{Budget, Exceeded, FileKind, Resource};
+
+/// The files of pictures that scenes and assets name.
+pub const PICTURES: FileKind = FileKind {
+    extensions: &["png", "jpg", "jpeg", "webp"],
+    begins: is_picture,
+};
 
 /// Why there is no picture.
 #[derive(Debug)]

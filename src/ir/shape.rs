@@ -169,6 +169,27 @@ pub struct Quad {
     pub vertices: [[f64; 3]; 4],
 }
 
+impl Quad {
+    /// Whether its corners lie so far out of one plane that a patch between them is seen to be bent:
+    /// by more than a thousandth of its longest side or diagonal.
+    #[must_use]
+    pub fn is_bent(&self) -> bool {
+        const SEEN: f64 = 1e-3;
+        let [a, b, c, d] = self.vertices.map(Vec3::from_array);
+        let sides = [b - a, c - a, d - a, c - b, d - b, d - c];
+        let longest = sides
+            .iter()
+            .fold(0.0_f64, |most, side| most.max(side.abs().max_element()));
+        let [ab, ac, ad, bc, bd, _] = sides.map(|side| side / longest);
+        // The height of the tetrahedron over its largest face.
+        let faces = [ab.cross(ac), ab.cross(ad), ac.cross(ad), bc.cross(bd)];
+        let largest = faces
+            .iter()
+            .fold(0.0_f64, |most, face| most.max(face.length()));
+        longest.is_finite() && faces[0].dot(ad).abs() > SEEN * largest
+    }
+}
+
 impl Bounded for Quad {
     fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self { vertices } = self;

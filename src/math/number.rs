@@ -1,5 +1,7 @@
 //! Numbers with a range, so that who holds one need not ask again; and numbers as people write them.
 
+use std::fmt::{Display, LowerExp};
+
 /// A finite number above 0.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Positive(f64);
@@ -127,7 +129,7 @@ impl UnitInterval {
 
 /// The shortest text that reads back as the same number.
 #[must_use]
-pub fn shortest(value: f64) -> String {
+pub fn shortest<T: Display + LowerExp>(value: T) -> String {
     let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
     // People read 0.0001 and 100000 better than the few characters less.
     if plain.len() <= scientific.len() + 4 {

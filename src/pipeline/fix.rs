@@ -2,13 +2,15 @@
 //!
 //! A changed text is checked in the place of the file before it is taken. It is better if each finding
 //! that is obeyed is gone, there is no error that was not there before, and no warning either unless
-//! an error is gone: behind errors, warnings are not seen. What one change brings to light may be
+//! an error is gone: behind errors, warnings are not seen. A change that puts in a key without a meaning
+//! is never better, for the setting below it would be lost. What one change brings to light may be
 //! mended by the next, so that a few are tried on. Where all changes together are not better, each is
 //! tried alone.
 
 use super::{Input, Options};
-use rtc_diag::{Diagnostic, Severity};
+use rtc_diag::{Diagnostic, Severity, codes};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::Path;
 
 /// The most times that a text is checked.
@@ -76,6 +78,17 @@ struct FixDraft {
     edits: Vec<Edit>,
     /// How many guesses are proposed that were not wanted.
     guesses: usize,
+    /// Where keys stand that mean nothing: what stands below them is lost.
+    lost: Vec<Range<usize>>,
+}
+
+/// A text with changes.
+struct EditedText {
+    text: String,
+    /// How many there are by now.
+    changes: usize,
+    /// Where the last of them put something in.
+    added: Vec<Range<usize>>,
 }
 
 /// A change of a text.
@@ -111,9 +124,16 @@ impl Workshop<'_> {
             is_flooded: sink.dropped() > 0,
             edits: Vec::new(),
             guesses: 0,
+            lost: Vec::new(),
         };
         for finding in sink.kept() {
             *draft.complaints.entry(complaint(finding)).or_default() += 1;
+            let place = finding.primary.as_ref().map(|label| label.span);
+            let place = place.filter(|span| Some(span.file) == input.file_id());
+            let lost = place.filter(|_| finding.code.id == codes::UNKNOWN_KEY.id);
+            draft
+                .lost
+                .extend(lost.map(|span| span.start as usize..span.end as usize));
             self.propose(finding, &input, &mut draft);
         }
         draft.edits.sort_by_key(|edit| (edit.start, edit.end));
@@ -160,8 +180,15 @@ impl Workshop<'_> {
     fn follow(&mut self, draft: &FixDraft, edits: &[Edit]) -> Option<FixDraft> {
         let mut next = draft.edited(edits);
         for _ in 0..FOLLOWED {
-            let (text, changes) = next.filter(|_| self.checks < MOST_CHECKS)?;
+            let EditedText {
+                text,
+                changes,
+                added,
+            } = next.filter(|_| self.checks < MOST_CHECKS)?;
             let found = self.check(text, changes);
+            if found.loses(&added) {
+                return None;
+            }
             if found.is_better(draft, edits) {
                 return Some(found);
             }
@@ -172,17 +199,31 @@ impl Workshop<'_> {
 }
 
 impl FixDraft {
-    /// The text with these changes, and how many there are by then; `None` without any.
-    fn edited(&self, edits: &[Edit]) -> Option<(String, usize)> {
+    /// The text with these changes; `None` without any.
+    fn edited(&self, edits: &[Edit]) -> Option<EditedText> {
         let mut text = String::with_capacity(self.text.len());
+        let mut added = Vec::with_capacity(edits.len());
         let mut from = 0;
         for edit in edits {
             text.push_str(self.text.get(from..edit.start)?);
+            let start = text.len();
             text.push_str(&edit.text);
+            added.push(start..text.len());
             from = edit.end;
         }
         text.push_str(self.text.get(from..)?);
-        (text != self.text).then(|| (text, self.changes + edits.len()))
+        (text != self.text).then(|| EditedText {
+            text,
+            changes: self.changes + edits.len(),
+            added,
+        })
+    }
+
+    /// Whether what was put in is a key that means nothing, so that a setting is lost.
+    fn loses(&self, added: &[Range<usize>]) -> bool {
+        let touch = |a: &Range<usize>, b: &Range<usize>| a.start < b.end && b.start < a.end;
+        let mut lost = self.lost.iter();
+        lost.any(|lost| added.iter().any(|added| touch(lost, added)))
     }
 
     fn is_better(&self, before: &Self, edits: &[Edit]) -> bool {

@@ -252,6 +252,39 @@ impl Search {
         })
     }
 
+    /// The same of a path that climbs by `..`: below the folder the user allows; or, one step up, what
+    /// the folder above lends of a kind.
+    ///
+    /// # Errors
+    /// As [`Search::below`].
+    pub fn above(&self, written: &str, kind: Option<&FileKind>) -> Result<Found, Missing> {
+        let Some(scene) = self.folders.first() else {
+            return Err(Missing::NoFolder);
+        };
+        let name = Name::new(written);
+        let outside = Err(Missing::Outside(Vec::new()));
+        if name.is_absolute || written.contains('\\') {
+            return outside;
+        }
+        let path: PathBuf = name.components.iter().collect();
+        if name.climbs == 0 {
+            return self.below(&path.to_string_lossy());
+        }
+        let shown = scene.shown.join(written);
+        if let Some(opened) = self.climb(scene, &name) {
+            return Ok(Found::new(opened, shown, false));
+        }
+        let parent = self.folders.len() - 1;
+        let Some(kind) = kind.filter(|_| self.has_parent && name.climbs == 1) else {
+            return outside;
+        };
+        match self.at(parent, &path, kind) {
+            At::File(opened) => Ok(Found::new(opened, shown, false)),
+            At::Withheld => outside,
+            At::Nothing => Err(Missing::Absent(vec![shown])),
+        }
+    }
+
     fn is_allowed(&self, path: &Path) -> bool {
         self.allowed
             .as_ref()

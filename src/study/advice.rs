@@ -10,8 +10,9 @@ use rtc_plan::Arithmetic;
 /// An invisible error, in grey levels.
 const ENOUGH: f64 = 0.5;
 
-/// One sentence per line. The first is the main advice.
-pub(super) fn advice(study: &Study) -> Vec<String> {
+/// What follows from a study: one sentence a line, the main advice first.
+#[must_use]
+pub fn advice(study: &Study) -> Vec<String> {
     let front = front(study);
     let Some(chosen) = chosen(&front) else {
         return Vec::new();
@@ -151,7 +152,9 @@ fn best(study: &Study, rows: &[&Row]) -> String {
 
 fn about_own(study: &Study, own: &Row, front: &[&Row]) -> String {
     let words = own.setting.words(&study.used());
-    if own.front {
+    // Its twin of the other arithmetic may be on the front in its place.
+    let is_on_front = own.front || front.iter().any(|row| row.setting == own.setting);
+    if is_on_front {
         let bargain =
             |row: &&&Row| row.ratio.value <= 1.05 && row.errors.rmse <= 0.8 * own.errors.rmse;
         let line = format!("The scene's own setting, {words}, is on the front");

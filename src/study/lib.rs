@@ -40,7 +40,7 @@ mod target;
 mod unmet;
 mod versus;
 
-pub use advice::recommended;
+pub use advice::{advice, recommended};
 pub use bench::{Bench, Clock};
 pub use budget::CrudePicture;
 pub use difference::{Difference, heat_map};

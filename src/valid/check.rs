@@ -4,7 +4,7 @@
 use rtc_diag::codes::{self, Code};
 use rtc_diag::{Diagnostic, Severity, Sink};
 use rtc_ir::{Field, Noun, Origins, Place};
-use rtc_math::{NonNegative, Positive, Vec3, unit_scale};
+use rtc_math::{NonNegative, Positive, Vec3, shortest, unit_scale};
 use std::num::NonZeroU32;
 
 /// The largest absolute value of a coordinate: the sphere test takes fourth powers of lengths, and
@@ -180,7 +180,7 @@ impl<'run> Check<'run> {
         if proven.is_none() {
             let finding = Diagnostic::new(
                 &codes::NEGATIVE_EXPONENT,
-                format!("the exponent `n` is negative: `{value}`"),
+                format!("the exponent `n` is negative: `{}`", shortest(value)),
             );
             self.report(
                 place,
@@ -201,8 +201,10 @@ impl<'run> Check<'run> {
         let number = self.number(value, place)?;
         let proven = NonNegative::new(number);
         if proven.is_none() {
-            let finding =
-                Diagnostic::new(&codes::NEGATIVE, format!("`{name}` is negative: `{value}`"));
+            let finding = Diagnostic::new(
+                &codes::NEGATIVE,
+                format!("`{name}` is negative: `{}`", shortest(value)),
+            );
             self.report(
                 place,
                 "must be at least 0",
@@ -232,7 +234,7 @@ impl<'run> Check<'run> {
         self.report(
             place,
             "must be above 0",
-            Diagnostic::new(code, format!("the {name} `{value}` {what}")),
+            Diagnostic::new(code, format!("the {name} `{}` {what}", shortest(value))),
         );
         None
     }
@@ -241,7 +243,10 @@ impl<'run> Check<'run> {
     pub(super) fn color(&mut self, value: [f64; 3], place: Place) -> Option<Vec3> {
         let color = self.vector(value, place)?;
         if color.min_element() < 0.0 {
-            let message = format!("a colour has a negative channel: `{}`", color.min_element());
+            let message = format!(
+                "a colour has a negative channel: `{}`",
+                shortest(color.min_element())
+            );
             self.report(
                 place,
                 "each channel must be at least 0",

@@ -8,6 +8,7 @@ mod camera;
 mod check;
 mod environment;
 mod image;
+mod inside;
 mod light;
 mod material;
 mod mesh;
@@ -201,7 +202,7 @@ pub fn validate(
         materials: valid_materials?,
         surfaces: valid_surfaces?.into_iter().flatten().collect(),
     };
-    light::lights_inside_spheres(scene, &mut check);
+    inside::lights(scene, &mut check);
     suspicion::suspicions(scene, &mut check);
     check.is_clean().then_some(valid)
 }

@@ -4,7 +4,7 @@ use super::check::{Check, EntityCounts, LARGEST, place};
 use super::texture::{self, Map};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, Field, Noun, Place};
-use rtc_math::{NonNegative, Positive, UnitInterval, Vec3};
+use rtc_math::{NonNegative, Positive, UnitInterval, Vec3, shortest};
 use rtc_tables::{camel_case, map_of, parameters};
 
 /// The type of a proven parameter of a kind of the table.
@@ -158,6 +158,7 @@ impl Parameters<'_, '_> {
     fn within(&mut self, value: f64, name: &str, [low, high]: Range) -> Option<f64> {
         let is_sound = low <= value && value <= high;
         if !is_sound {
+            let [value, low, high] = [value, low, high].map(shortest);
             let message =
                 format!("`{name}` of a material is `{value}`, but must be from {low} to {high}");
             let finding = Diagnostic::new(&codes::BAD_FACTOR, message);

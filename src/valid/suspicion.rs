@@ -1,9 +1,12 @@
 //! Values that are allowed and yet hardly what was meant: no light in a scene that shows lit
-//! surfaces, and colours that look like bytes.
+//! surfaces, colours that look like bytes, weights that look like percentages, pixels larger than
+//! what they show.
 
 use super::check::{Check, place};
+use super::inside;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, Field, Noun};
+use rtc_math::{Vec3, shortest};
 
 /// Warns of what is hardly meant, in a scene without errors: what could not be read is missing here.
 pub(super) fn suspicions(scene: &ir::Scene, check: &mut Check<'_>) {
@@ -12,6 +15,8 @@ pub(super) fn suspicions(scene: &ir::Scene, check: &mut Check<'_>) {
     }
     no_light(scene, check);
     shadows_of_paths(scene, check);
+    tiny_picture(scene, check);
+    inside::eye(scene, check);
     for (index, material) in scene.materials.iter().enumerate() {
         let Some(phong) = material.phong() else {
             continue;
@@ -19,6 +24,7 @@ pub(super) fn suspicions(scene: &ir::Scene, check: &mut Check<'_>) {
         if phong.color_map.is_none() && looks_like_bytes(phong.color, 2.0) {
             bytes(phong.color, Noun::Material, index, check);
         }
+        weights(phong, index, check);
     }
     for (index, light) in scene.lights.iter().enumerate() {
         let Some(light) = light.point() else { continue };
@@ -50,6 +56,87 @@ fn bytes(color: [f64; 3], noun: Noun, index: usize, check: &mut Check<'_>) {
         "far brighter than white",
         finding,
     );
+}
+
+/// A weight of 5 may be meant for effect; one of this is more likely a percentage.
+const PERCENT: f64 = 10.0;
+
+/// Warns of weights that look like percentages.
+fn weights(phong: &ir::Phong, index: usize, check: &mut Check<'_>) {
+    for (key, weight, field) in [
+        ("ka", phong.ka, Field::Ka),
+        ("kd", phong.kd, Field::Kd),
+        ("ks", phong.ks, Field::Ks),
+        ("kt", phong.kt, Field::Kt),
+    ] {
+        if weight < PERCENT {
+            continue;
+        }
+        let message = format!("a `{key}` of {} looks like a percentage", shortest(weight));
+        let hint = format!(
+            "1 is all of the light: `{key}: {}`",
+            shortest(weight / 100.0)
+        );
+        check.report(
+            place(Noun::Material, index, field),
+            "so many times as bright as what is lit",
+            Diagnostic::new(&codes::LARGE_WEIGHT, message).hint(hint),
+        );
+    }
+}
+
+/// So few pixels across, and so small a share of the picture, are all objects together where the
+/// camera was hardly meant so.
+const FEW_PIXELS: f64 = 8.0;
+const SMALL_SHARE: f64 = 1.0 / 16.0;
+
+/// How much of the picture's height all objects take by the `up` that is proposed.
+const FILLED: f64 = 0.75;
+
+/// Warns of an `up`, as a text of the course has it, whose length makes pixels larger than what
+/// there is to see.
+fn tiny_picture(scene: &ir::Scene, check: &mut Check<'_>) {
+    let up = place(Noun::Camera, 0, Field::Up);
+    // An `Eye` has no `up` of its own.
+    let whole = check.span(place(Noun::Camera, 0, Field::Whole));
+    let span = check.span(up).filter(|span| Some(*span) != whole);
+    let (Some(span), Some(ball)) = (span, scene.ball()) else {
+        return;
+    };
+    let camera = &scene.camera;
+    let [eye, center, step] = [camera.eye, camera.center, camera.up].map(Vec3::from_array);
+    let distance = eye.distance(ball.center);
+    let scale = match camera.projection {
+        ir::Projection::Perspective => eye.distance(center) / distance,
+        ir::Projection::Orthographic => 1.0,
+    };
+    let across = 2.0 * ball.radius * scale;
+    let pixels = across / step.length();
+    let side = f64::from(camera.size[0].min(camera.size[1]));
+    let is_tiny = pixels < FEW_PIXELS && pixels < SMALL_SHARE * side;
+    if distance <= ball.radius || !is_tiny || pixels.is_nan() {
+        return;
+    }
+    let length = across / (FILLED * side);
+    let better = (camera.upright() * length).to_array().map(two_digits);
+    let better = format!("[{}]", better.map(shortest).join(", "));
+    let message = format!(
+        "all objects together are {} of the picture",
+        match pixels {
+            ..1.0 => "less than a pixel".to_owned(),
+            ..2.0 => "a pixel".to_owned(),
+            _ => format!("{pixels:.0} pixels"),
+        }
+    );
+    let finding = Diagnostic::new(&codes::TINY_PICTURE, message)
+        .guess("write a shorter one", span, better)
+        .hint("or give the angle that the picture spans, as `fov: 45`");
+    check.report(up, "its length is the size of a pixel", finding);
+}
+
+/// A number by its first two digits.
+fn two_digits(value: f64) -> f64 {
+    format!("{value:.1e}").parse().unwrap_or(value) + 0.0
 }
 
 /// Warns of a scene that shows lit surfaces and has no light: all of it is black.

@@ -6,6 +6,7 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise and makes the files it reads"
 )]
+mod climbing;
 mod forms;
 mod mesh;
 mod mtl;

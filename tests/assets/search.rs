@@ -81,7 +81,7 @@ fn names_of_other_places_are_replaced_by_their_tails_with_a_note() {
 #[test]
 fn what_is_not_there_is_told_with_the_places() {
     let absent = "RE001 error scene.yaml:1:3 there is no file `t/a.png`\n  looked for it at `F/inner/t/a.png`, `F/t/a.png`, \
-                  `F/inner/a.png`, `F/a.png`\n";
+                  `F/inner/a.png`, `F/a.png`\n  put the file beside the scene, or allow its folder by `--asset-root`\n";
     assert_eq!(found(&[], "t/a.png", None), (None, absent.to_owned()));
     let outside = "RE002 error scene.yaml:1:3 `/etc/a.png` leads out of the folder of the scene\n  looked for it at \
                    `F/inner/etc/a.png`, `F/etc/a.png`, `F/inner/a.png`, `F/a.png`\n  put the file beside the scene, or \
@@ -182,5 +182,21 @@ fn lenient_leaves_textures_and_objects_out_and_says_so() {
         outcome.findings.ends_with(expected) && !outcome.errors,
         "{}",
         outcome.findings
+    );
+}
+
+/// A path relative to the folder in which a program was run: the root that the hint names finds it.
+#[test]
+fn a_path_that_climbs_is_told_of_the_root_that_finds_it() {
+    let files = [("far/pictures/floor.png", 9)];
+    let (none, told) = found(&files, "../pictures/floor.png", None);
+    assert_eq!(none, None);
+    assert!(
+        told.contains("allow its folder by `--asset-root`"),
+        "{told}"
+    );
+    assert_eq!(
+        found(&files, "../pictures/floor.png", Some("far")).0,
+        Some(9)
     );
 }

@@ -62,6 +62,24 @@ fn a_change_that_brings_new_errors_is_left_out() {
     );
 }
 
+/// The number in a map is mended, and no key is replaced by a value.
+#[test]
+fn a_value_never_takes_the_place_of_a_key() {
+    for (factor, mended) in [("{factor: 0}", "{factor: 1}"), ("0", "1")] {
+        let typed = format!(
+            "Eye: [0, 0, 50]\nSuperSampling: {factor}\nLights: [{{position: [9, 9, 90], color: [1, 1, 1]}}]\nObjects: []\n"
+        );
+        let folder = put(&typed);
+        let fixed = rtc(&folder, &["check", "--fix", "--unsafe", "a.yaml"]);
+        assert_eq!(code(&fixed), 0, "{}", stderr(&fixed));
+        let wanted = typed.replace(
+            &format!("Sampling: {factor}"),
+            &format!("Sampling: {mended}"),
+        );
+        assert_eq!(text(&folder), wanted);
+    }
+}
+
 #[test]
 fn guesses_need_a_fix_and_a_fix_needs_a_file() {
     let folder = put(TYPED);

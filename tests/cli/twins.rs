@@ -90,7 +90,7 @@ fn traced_paths_become_a_scene_of_mitsuba() {
 fn what_has_no_twin_is_told_part_by_part() {
     let more = "\
 - {type: torus, position: [0, 3, 0], radius: 1, alpha: 0.2, material: &b {color: [1, 1, 1], ka: 0, kd: 1, ks: 0, n: 1}}
-- {type: quad, v0: [0, 0, 0], v1: [1, 0, 0], v2: [1, 1, 1], v3: [0, 1, 0], material: *b}
+- {type: quad, curved: true, v0: [0, 0, 0], v1: [1, 0, 0], v2: [1, 1, 1], v3: [0, 1, 0], material: *b}
 - {type: plane, position: [0, 0, 0], normal: [0, 1, 0], material: *b}
 - {type: sphere, position: [0, 5, 0], radius: 1, material: {type: standard, metallic: 0.5, clearcoat: 1}}
 - {type: triangle, v0: [0, 7, 0], v1: [1, 7, 0], v2: [0, 7, 1], material: {type: standard, emissive: [1, 1, 1], specular: 0, metallic: 0, doubleSided: true}}

@@ -2,6 +2,47 @@
 
 use super::*;
 
+/// Numbers far from 1 have no hundreds of digits in what is said of them.
+#[test]
+fn numbers_are_short_in_messages() {
+    let folder = folder();
+    let object = |keys: &str, material: &str| {
+        format!(
+            "Eye: [200, 200, 1000]\nLights: [{{position: [0, 0, 900], color: [1, 1, 1]}}]\nObjects:\n- {{{keys}, material: {{color: [1, 1, 1], {material}}}}}\n"
+        )
+    };
+    let clay = "ka: 0.2, kd: 0.7, ks: 0.1, n: 8";
+    let mut texts = Vec::new();
+    for number in ["5e-324", "-5e-324", "-1e60", "1e60", "1e300", "-1e300"] {
+        texts.extend([
+            object(&format!("type: sphere, position: [0, 0, 0], radius: {number}"), clay),
+            object(&format!("type: plane, a: 1, b: 0, c: 0, d: {number}"), clay),
+            object(&format!("type: bplane, typ: quad, center: [0, 0, 0], normal: [0, 0, 1], radius: {number}"), clay),
+            object(&format!("type: torus, position: [0, 0, 0], innerRadius: 3, outerRadius: {number}"), clay),
+            object("type: sphere, position: [200, 200, 0], radius: 9", &format!("ka: 1, kd: {number}, ks: 0, n: 1")),
+            object("type: sphere, position: [200, 200, 0], radius: 9", &format!("ka: 1, kd: 1, ks: 0, n: {number}")),
+            object("type: sphere, position: [200, 200, 0], radius: 9", &format!("ka: 1, kd: 1, ks: 0, n: 1, eta: {number}, kt: 1")),
+            object("type: sphere, position: [200, 200, 0], radius: 9", clay).replace("[1, 1, 1]}]", &format!("[1, {number}, 1]}}]")),
+            object("type: sphere, position: [200, 200, 0], radius: 9", &format!("{clay}, type: standard, metallic: {number}")),
+            format!("Camera: {{eye: [0, 0, 9], center: [0, 0, 0], up: [0, {number}, 0], viewSize: [4, 4], apertureRadius: {number}}}\nObjects: []\n"),
+        ]);
+    }
+    let mut said_of = 0;
+    for (at, text) in texts.iter().enumerate() {
+        let name = format!("{at}.yaml");
+        fs::write(folder.path().join(&name), text).unwrap();
+        let found = rtc(
+            &folder,
+            &["check", "--message-format", "short", "-v", &name],
+        );
+        let said = stderr(&found) + &String::from_utf8(found.stdout).unwrap();
+        said_of += usize::from(!said.is_empty());
+        let mut runs = said.split(|c: char| !c.is_ascii_digit());
+        assert!(runs.all(|run| run.len() < 20), "{text}{said}");
+    }
+    assert!(said_of > 30, "{said_of}");
+}
+
 /// A word of 100 KB is repeated in no message.
 #[test]
 fn values_are_clipped_in_messages() {

@@ -268,3 +268,24 @@ fn advice_keeps_still_on_a_noisy_clock() {
         .collect();
     assert!(other.len() <= 1, "{right}, but {other:?}");
 }
+
+/// A setting that is recommended is told to be on the front, though the row of the front has another
+/// arithmetic: the difference between them may be noise.
+#[test]
+fn what_is_recommended_is_never_told_to_be_off_the_front() {
+    let mut study = WHOLE.clone();
+    for row in &mut study.rows {
+        row.front = false;
+    }
+    let own = study.rows.iter().find(|row| row.own).unwrap().clone();
+    let mut twin = own.clone();
+    (twin.own, twin.front) = (false, true);
+    twin.setting.precision = Arithmetic::Plain;
+    study.rows.push(twin);
+    assert_eq!(study::recommended(&study).unwrap().setting, own.setting);
+    let told = study::advice(&study).join("\n");
+    assert!(
+        told.contains("is on the front") && !told.contains("off the front"),
+        "{told}"
+    );
+}

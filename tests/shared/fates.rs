@@ -60,7 +60,7 @@ const OTHERWISE: &[(&str, Option<&str>, &str)] = &[
     ),
     (
         "3DObject/scene01-texture-ss-reflect-lights-shadows-OBJModel.yaml",
-        Some("SC001"),
+        Some("SC011"),
         "its mesh is turned by an angle",
     ),
 ];

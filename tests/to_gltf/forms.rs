@@ -46,7 +46,7 @@ const SHAPES: &[(&str, Distance)] = &[
         |[x, y, z]| z.abs().max(x.hypot(y) - 2.0),
     ),
     (
-        "type: quad, v0: [0, 0, 0], v1: [1, 0, 0], v2: [1, 1, 1], v3: [0, 1, 0]",
+        "type: quad, curved: true, v0: [0, 0, 0], v1: [1, 0, 0], v2: [1, 1, 1], v3: [0, 1, 0]",
         |[x, y, z]| (z - x * y).abs(),
     ),
 ];

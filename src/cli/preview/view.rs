@@ -15,6 +15,16 @@ use std::path::Path;
 /// How far a camera that was written may be from the one wanted, of its distance.
 const NEAR: f64 = 1e-9;
 
+/// The same of the steps between its pixels, whose digits are fewer.
+const NEAR_STEP: f64 = 2e-4;
+
+/// So many digits behind the first of the distance to the middle of the picture have the places of a
+/// view: less than a hundredth of a pixel is lost.
+const PLACE_DIGITS: usize = 5;
+
+/// The same of the upward direction.
+const UP_DIGITS: usize = 4;
+
 /// A view that was asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -46,7 +56,28 @@ impl Gaze {
         let Self { eye, center, up } = gaze;
         let is_sound = |text: [f64; 3]| parse::vector(&comma(text)).is_ok();
         let is_any = up != [0.0; 3] && eye != center;
-        (is_any && [eye, center, up].into_iter().all(is_sound)).then_some(gaze)
+        let is_view = is_any && [eye, center, up].into_iter().all(is_sound);
+        is_view
+            .then(|| gaze.rounded())
+            .filter(|gaze| gaze.eye != gaze.center)
+    }
+
+    /// The same view, by the digits that show.
+    fn rounded(self) -> Self {
+        let [eye, center, up] = [self.eye, self.center, self.up].map(Vec3::from_array);
+        let distance = eye.distance(center);
+        Self {
+            eye: rounded(eye, distance, PLACE_DIGITS),
+            center: rounded(center, distance, PLACE_DIGITS),
+            up: rounded(up, up.length(), UP_DIGITS),
+        }
+    }
+
+    /// The upward direction, as long as a pixel of a camera that looks so.
+    fn upward(&self, camera: &Camera) -> [f64; 3] {
+        let pixel = Vec3::from_array(camera.up).length();
+        let up = unit(Vec3::from_array(self.up)).unwrap_or(Vec3::Y);
+        rounded(up * pixel, pixel, UP_DIGITS)
     }
 
     /// The same as a view of a stage.
@@ -164,9 +195,8 @@ pub(super) fn written(
     if !gaze.aim(&mut lowered) {
         return Err("it is no view");
     }
-    let Camera {
-        eye, center, up, ..
-    } = lowered.scene.camera;
+    let Camera { eye, center, .. } = lowered.scene.camera;
+    let up = gaze.upward(&lowered.scene.camera);
     let mut edits: Vec<_> = own.into_iter().zip([eye, center, up]).collect();
     edits.sort_by_key(|(range, _)| range.start);
     let (mut new, mut from) = (String::with_capacity(text.len()), 0);
@@ -196,9 +226,20 @@ fn is_near(a: &Camera, b: &Camera) -> bool {
     let step = Vec3::from_array(b.up).distance(Vec3::ZERO);
     apart(a.eye, b.eye) <= NEAR * scale
         && apart(a.center, b.center) <= NEAR * scale
-        && apart(a.up, b.up) <= NEAR * step
-        && apart(a.right, b.right) <= NEAR * step
+        && apart(a.up, b.up) <= NEAR_STEP * step
+        && apart(a.right, b.right) <= NEAR_STEP * step
         && a.size == b.size
+}
+
+/// A vector to so many digits behind the first one of a length.
+fn rounded(vector: Vec3, length: f64, digits: usize) -> [f64; 3] {
+    let shown = format!("{length:e}");
+    let exponent = shown.split_once('e').and_then(|(_, e)| e.parse().ok());
+    let exponent: i64 = exponent.unwrap_or(0);
+    let digits = i64::try_from(digits).unwrap_or(0);
+    let decimals = usize::try_from(digits - exponent).unwrap_or(0);
+    let round = |number: f64| format!("{number:.decimals$}").parse().unwrap_or(number);
+    vector.to_array().map(|number| round(number) + 0.0)
 }
 
 /// Three numbers as a flag takes them.
@@ -233,6 +274,29 @@ mod tests {
             Ok(text("[50, 0, 0]", "[0, 0, 0]", "[0, 0.25, 0]")),
             "a picture of the same angle from half as far has pixels half as large"
         );
+    }
+
+    /// A view as the mouse turns it has 16 digits; those that no pixel shows are not written.
+    #[test]
+    fn a_view_is_written_in_few_digits() {
+        let sent = json!({
+            "eye": [-79.2181731920223, 55.12048439037687, 155.47443853437272],
+            "center": [0.1 + 0.2, 0, 0],
+            "up": [0.12373657560778914, 0.8628125386248774, -0.24284673381895566],
+        });
+        let gaze = Gaze::read(&sent).unwrap();
+        let text = "Camera: {eye: [0, 0, 200], center: [0, 0, 0], up: [0, 0.5, 0], viewSize: [120, 90]}\nObjects: []\n";
+        let path = Path::new("a.yaml");
+        let turned = written(path, text, &Options::default(), &gaze).unwrap();
+        let is_short = |number: &str| number.len() <= "-155.4744".len();
+        let mut numbers = turned.split(|c: char| !c.is_ascii_digit() && !"-.".contains(c));
+        assert!(numbers.all(is_short), "{turned}");
+        // What is shown is what was sent, but for less than a hundredth of a pixel.
+        let before: Gaze = Gaze::deserialize(&sent).unwrap();
+        for (own, sent) in [(gaze.eye, before.eye), (gaze.center, before.center)] {
+            let apart = Vec3::from_array(own).distance(Vec3::from_array(sent));
+            assert!(apart < 0.002, "{apart}");
+        }
     }
 
     #[test]

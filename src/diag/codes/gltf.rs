@@ -83,9 +83,9 @@ super::codes! { GL:
         "A URI is a relative path, or a data URI: `data:`, a media type, `;base64`, a comma and Base64.",
         ["INVALID_URI", "BUFFER_DATA_URI_MIME_TYPE_INVALID"];
     GLTF_OUTSIDE = "GL022", Error, "a URI of a glTF asset leads out of its folder",
-        "An asset may come from anywhere, so it may not read any file: only those below its own folder. Paths from the \
-         root or through `..`, in whatever disguise, and addresses of other machines are not followed. Put the file \
-         beside the asset.",
+        "An asset may come from anywhere, so it may not read any file: only those below its own folder, those below \
+         the folder given by `--asset-root`, and pictures in the folder above its own. Other paths through `..` or from the \
+         root, in whatever disguise, and addresses of other machines are not followed. Put the file beside the asset.",
         ["IO_ERROR", "NON_RELATIVE_URI"];
     GLTF_NO_FILE = "GL023", Error, "a file of a glTF asset can't be read",
         "The file that a URI names is not where it says. Files of an asset move together with it.",

@@ -32,9 +32,10 @@ super::codes! { VA:
         "Pixels × supersampling² × aperture samples, or paths a pixel, times the points of a soft light, is what a \
          picture takes even if no ray goes on from what it meets. More than 2^32 take hours. `--limit rays=…` sets \
          another limit, `--allow-huge` lifts it.";
-    LIGHT_IN_SPHERE = "VA011", Note, "a light stands inside a sphere",
-        "With shadows on, the sphere hides the light from all that is outside. That may be meant, as for a lamp seen \
-         from within, but most often the lamp should stand beside its glass.";
+    LIGHT_INSIDE = "VA011", Warning, "a light stands inside a solid",
+        "With shadows on, the solid hides the light from all that is outside, glass too. A light is not told of that \
+         stands in the same solid as the eye, as a lamp in a room. Most often the lamp should stand beside the object, or \
+         the object is to have `shadow: false`.";
     CAMERA_BASIS = "VA012", Error, "the steps between the camera's pixels are no basis",
         "A camera of the IR, and one of a scene with the key `right`, has two steps, `right` and `up`, from a pixel to \
          its neighbours. Neither may be shorter than 1e-60, and they must be at a right angle to within 1e-9.";
@@ -74,6 +75,19 @@ super::codes! { VA:
     SHADOW_IN_PATHS = "VA024", Warning, "an object without a shadow stands in a scene of paths",
         "`shadow: false` is followed by `RenderMode: phong`. Paths find light by chance as well as by aim, and an object \
          that stops one of the two would give light twice or never, so there it casts its shadow.";
+    INVISIBLE = "VA030", Warning, "an object has no size",
+        "A radius, or the size of a box or a mesh, is 0, so no ray can hit the object. It is left out of the picture. Some \
+         files switch objects off in this way.";
+    EYE_INSIDE = "VA031", Warning, "the eye stands inside a solid that hides all else",
+        "Every ray starts inside of a solid without glass, and all other objects are outside, so none of them is seen. Move \
+         the eye, or the object.";
+    TINY_PICTURE = "VA032", Warning, "all objects together are a few pixels of the picture",
+        "The length of a camera's `up` is the size of a pixel in the plane through `center`. Many programs take only its \
+         direction, and files written for them have an `up` of length 1, which often makes the picture far too wide. Write \
+         the length that is meant, or `fov`.";
+    LARGE_WEIGHT = "VA033", Warning, "a weight of a material looks like a percentage",
+        "The weights `ka`, `kd`, `ks` and `kt` are shares of light, most often from 0 to 1: with a `kd` of 70 a surface is 70 \
+         times as bright as white. Divide percentages by 100.";
     OUT_OF_RANGE = "VA101", Error, "a number is outside the range of its key",
         "The message says which values the key takes: counts are not negative and below 2^32, the sides of an image are at \
          most 65535 pixels.";

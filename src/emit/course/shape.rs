@@ -120,6 +120,9 @@ impl Emit for Quad {
         let Self { vertices } = self;
         text.kind("quad");
         text.corners(vertices);
+        if self.is_bent() {
+            text.line(4, "curved: true");
+        }
         Ok(())
     }
 }

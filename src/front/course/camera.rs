@@ -6,6 +6,7 @@ use super::number::{Count, NonNegative, Opening, Positive, Side};
 use super::picture::PictureSize;
 use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
+use super::synonym::{EYE, PICTURE, TARGET};
 use super::value::{Point, Vector, word, word_schema};
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, Field};
@@ -18,23 +19,25 @@ record! {
     /// The camera: where it stands, what it looks at, and the image it makes.
     struct Camera, "camera" {
         /// Where the camera stands.
-        eye: Spanned<Point>, required, keys!["eye"];
+        eye: Spanned<Point>, required, &EYE;
         /// The point in the middle of the image; the plane through it is in focus.
-        center: Spanned<Point>, required, keys!["center"];
+        center: Spanned<Point>, required, &TARGET;
         /// The upward direction; its length is the size of a pixel in the plane through `center`.
-        up: Spanned<Vector>, required, keys!["up"];
+        up: Spanned<Vector>, required, keys!["up" "upVector" "viewUp" "worldUp" "vup"];
         /// The step from a pixel to its right neighbour; then `up`, at a right angle to it, is the step to the upper one as
         /// it stands, and the image need not face the eye. Without it pixels are square.
         right: Spanned<Vector>, optional, keys!["right"];
         /// Width and height of the image in pixels.
-        view_size: Spanned<PictureSize>, unless("sides"), keys!["viewSize"];
+        view_size: Spanned<PictureSize>, unless("sides"), &PICTURE;
         /// Width and height of the image as two keys.
         sides: [Spanned<Side>; 2], optional, &[&["width", "height"]];
         /// The distance from the eye to an image whose pixels have the size 1; then `center` and `up` are directions alone.
-        focal_distance: Spanned<Positive>, optional, keys!["focalDistance"];
+        focal_distance: Spanned<Positive>, optional, keys!["focalDistance" "planeDistance" "imagePlaneDistance"];
+        /// The size of a pixel in the plane of the image; then the length of `up` does not count.
+        pixel_size: Spanned<Positive>, optional, keys!["pixelSize" "pixSize"];
         /// The angle in degrees that the image spans from bottom to top, above 0 and below 180; then the length of `up` does
         /// not count.
-        fov: Spanned<Opening>, optional, keys!["fov"];
+        fov: Spanned<Opening>, optional, keys!["fov" "fovy" "vfov" "yfov"];
         /// How the rays run: `perspective`, from the eye; or `orthographic`, side by side in the direction from the eye to
         /// `center`, so that the picture is as large everywhere; then `fov` has no effect.
         projection: Spanned<Projection>, default(Projection::PERSPECTIVE), keys!["projection"];
@@ -76,6 +79,11 @@ impl Value for Projection {
 }
 
 impl Camera {
+    /// Whether the length of `up`, or what stands in its place, is the size of a pixel.
+    fn has_own_pixels(&self) -> bool {
+        !self.has_opening() && self.right.is_absent()
+    }
+
     /// Whether an angle says how much the image shows.
     fn has_opening(&self) -> bool {
         !self.fov.is_absent() && self.projection.value.0 == ir::Projection::Perspective
@@ -113,6 +121,7 @@ impl Lowering {
             view_size,
             sides,
             focal_distance: _,
+            pixel_size: _,
             fov: _,
             projection,
             aperture_radius,
@@ -125,6 +134,7 @@ impl Lowering {
             }
             _ => return,
         };
+        useless_pixels(&camera.value, context);
         let opening = opening(&camera.value, &up, context);
         let basis = basis(&camera.value, &center, &up, context);
         for (field, span) in [
@@ -179,6 +189,7 @@ impl Lowering {
             view_size: FieldOutcome::Read(Spanned::unwritten(size)),
             sides: FieldOutcome::Absent,
             focal_distance: FieldOutcome::Absent,
+            pixel_size: FieldOutcome::Absent,
             fov: FieldOutcome::Absent,
             projection: Spanned::unwritten(Projection::PERSPECTIVE),
             aperture_radius: Spanned::unwritten(NonNegative(0.0)),
@@ -209,18 +220,32 @@ impl Lowering {
 }
 
 /// The middle of the image and the upward step: with a focal distance the image lies at that
-/// distance, with pixels of the size 1.
+/// distance, with pixels of the size 1 or that which is given.
 fn focused(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
     let (mut center, mut up) = (camera.center, camera.up);
-    if let FieldOutcome::Read(distance) = camera.focal_distance {
-        let [eye, at, upward] =
-            [camera.eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
-        if let (Some(gaze), Some(upward)) = (unit(at - eye), unit(upward)) {
-            center.value = Point((eye + gaze * distance.value.0).to_array());
-            up.value = Vector(upward.to_array());
-        }
+    let [eye, at, upward] = [camera.eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
+    let distance = camera.focal_distance.ok();
+    let size = camera.pixel_size.ok().filter(|_| camera.has_own_pixels());
+    let size = size.map(|size| size.value.0);
+    let size = size.or(distance.map(|_| 1.0));
+    if let (Some(gaze), Some(distance)) = (unit(at - eye), distance) {
+        center.value = Point((eye + gaze * distance.value.0).to_array());
+    }
+    if let (Some(upward), Some(size)) = (unit(upward), size) {
+        up.value = Vector((upward * size).to_array());
     }
     (center, up)
+}
+
+/// Says that another key gives the size of a pixel.
+fn useless_pixels(camera: &Camera, context: &mut Context<'_>) {
+    let span = camera.pixel_size.read().and_then(|size| size.span);
+    if let (Some(span), false) = (span, camera.has_own_pixels()) {
+        let message = || "`pixelSize` has no effect beside `fov` or `right`".to_owned();
+        context.report(&codes::NO_EFFECT, span, message, |d| {
+            d.at(span, "ignored").severity(Severity::Warning)
+        });
+    }
 }
 
 /// The angle that the image spans, in radians, if that is given.

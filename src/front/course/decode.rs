@@ -248,6 +248,11 @@ impl<'a> Context<'a> {
 
     /// Reports a value of the wrong type. Always `None`.
     pub(super) fn expected<T>(&mut self, node: NodeId, what: &str) -> Option<T> {
+        self.expected_as(node, what, what)
+    }
+
+    /// The same of a part of a value: `part` says what that must be.
+    pub(super) fn expected_as<T>(&mut self, node: NodeId, what: &str, part: &str) -> Option<T> {
         let (tree, key) = (self.tree, self.key);
         let found = describe(tree.shape(node));
         let name = match key.span {
@@ -261,7 +266,7 @@ impl<'a> Context<'a> {
             self.first_line(node)
         };
         let message = || format!("{name} must be {what}, not {found}");
-        let meant = meant::of(tree, key.span, node, what);
+        let meant = meant::of(tree, key, node, part);
         let text = meant.as_ref().and_then(|(_, text)| text.as_deref());
         let same = text.is_some_and(|text| is_same_but_for_signs(tree.written(node), text));
         self.report(&codes::WRONG_TYPE, place, message, |d| {

@@ -6,6 +6,7 @@ use super::lower::Lowering;
 use super::number::{HalfAngle, NonNegative, Positive};
 use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
+use super::synonym::{PLACE, led_by};
 use super::value::{Channels, Color, FileName, Point, Vector, word, word_schema};
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, Field, Noun, Photometry};
@@ -21,9 +22,9 @@ record! {
         /// What kind of light this is.
         kind: Spanned<LightKind>, optional, keys!["type"];
         /// Where the light stands.
-        position: Spanned<Point>, optional, keys!["position"], json "position";
+        position: Spanned<Point>, optional, &led_by(PLACE, "position"), json "position";
         /// Its colour: red, green, blue; more than 1 is allowed. With a `file`, a factor of its candelas.
-        color: Spanned<Color>, optional, keys!["color"], json "color";
+        color: Spanned<Color>, optional, keys!["color" "colour"], json "color";
         /// The radius of the sphere that shines; 0 is a point. A larger one makes the edges of shadows soft.
         radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["radius" "size"];
         /// The direction from the scene to the sun; that in which a spot shines; with a `file`, that in which the lamp

@@ -5,7 +5,8 @@ use super::assets::{Dressing, Wanted};
 use super::camera;
 use super::decode::{Context, Value, ValueKey};
 use super::glass::Glass;
-use super::object::mesh::Sizing;
+use super::object::sizing::Sizing;
+use super::object::torus::Rims;
 use super::record::FieldOutcome;
 use super::settings::Scene;
 use super::syntax;
@@ -101,6 +102,10 @@ pub(super) struct Lowering {
     pub(super) sizings: Vec<Sizing>,
     /// Where the material of each mesh comes from.
     pub(super) dressings: Vec<Dressing>,
+    /// The tori whose radii are read by what is around them.
+    pub(super) rims: Vec<Rims>,
+    /// Where it is written that an object has no size.
+    pub(super) invisible: Vec<Span>,
     origins: Origins,
 }
 
@@ -126,6 +131,8 @@ impl Lowering {
             glass: Vec::new(),
             sizings,
             dressings: Vec::new(),
+            rims: Vec::new(),
+            invisible: Vec::new(),
             origins: Origins::default(),
         }
     }
@@ -172,6 +179,8 @@ impl Lowering {
                 }
                 self.object(&object.value, context);
             });
+        self.settle_rims(context);
+        self.note_invisible(context);
         if !self.scene.names.is_empty() {
             // What has no name stands between those that have.
             let count = self.scene.surfaces.len();
@@ -229,6 +238,8 @@ impl Lowering {
             files: Files { wanted, .. },
             sizings,
             dressings,
+            rims: _,
+            invisible: _,
             mut origins,
         } = self;
         for Wanted {

@@ -19,7 +19,7 @@ record! {
     /// What a surface is made of: Phong's model with mirror and refraction.
     struct PhongMaterial, "material" {
         /// The colour: red, green, blue.
-        color: Spanned<Color>, optional, keys!["color"], json "color";
+        color: Spanned<Color>, optional, keys!["color" "colour"], json "color";
         /// The file of a picture laid over the surface, which gives its colour; or `UV` for the colours (u, 0, v).
         texture: Spanned<FileName>, optional, keys!["texture"], json "texture";
         /// The file of a picture whose brightness is the height of the surface.
@@ -29,17 +29,17 @@ record! {
         /// The file of a picture whose red multiplies `ks`.
         specular_map: Spanned<FileName>, optional, keys!["specularMap"];
         /// The weight of the ambient light.
-        ka: Spanned<NonNegative>, required, keys!["ka"], json "ka";
+        ka: Spanned<NonNegative>, required, keys!["ka" "ambient"], json "ka";
         /// The weight of the diffuse light.
-        kd: Spanned<NonNegative>, required, keys!["kd"], json "kd";
+        kd: Spanned<NonNegative>, required, keys!["kd" "diffuse"], json "kd";
         /// The weight of the highlight and of the mirror image; 1 beside a `specularMap` that replaces it.
-        ks: Spanned<NonNegative>, unless("specular_map"), keys!["ks"], json "ks";
+        ks: Spanned<NonNegative>, unless("specular_map"), keys!["ks" "specular"], json "ks";
         /// The exponent of the highlight: the larger, the smaller and sharper.
-        n: Spanned<NonNegative>, required, keys!["n"], json "n";
+        n: Spanned<NonNegative>, required, keys!["n" "shininess" "exponent" "specularExponent"], json "n";
         /// The weight of the light that passes through; 0 is opaque.
         kt: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["kt" "refract"];
         /// The index of refraction, for instance 1.5 for glass; 0 is opaque.
-        eta: Spanned<NonNegative>, default(NonNegative(1.0)), keys!["eta" "index" "nt"], json "nt";
+        eta: Spanned<NonNegative>, default(NonNegative(1.0)), keys!["eta" "index" "nt" "ior" "refractiveIndex" "refractionIndex"], json "nt";
         /// In some files what becomes of light: `refraction` is glass, a `kt` of 1 without `ka` and `kd`; `reflection`
         /// and `default` mirror by `ks`, though in those files `default` does not.
         kind: Spanned<Finish>, optional, keys!["type"];
@@ -55,6 +55,13 @@ record! {
 pub(super) enum Material {
     Phong(Box<PhongMaterial>),
     Standard(Box<StandardMaterial>),
+}
+
+/// Whether Phong's model has a key of this name, other than `type`, which others have too.
+pub(super) fn is_material_key(key: &str) -> bool {
+    let rows = PhongMaterial::RECORD.fields.iter();
+    let mut keys = rows.flat_map(|field| field.rows.iter().copied().flatten());
+    key != KIND && keys.any(|known| *known == key)
 }
 
 /// The key that says of which.

@@ -1,15 +1,16 @@
 //! What was meant by a value of the wrong type: colours as the web writes them, units, fractions,
 //! decimal commas, round brackets, missing dashes.
 
+use super::calculation;
+use super::decode::ValueKey;
 use rtc_math::shortest;
-use rtc_source::Span;
 use rtc_source::tree::{NodeContent, NodeId, Tree};
 
 /// A hint, and the text to put in place of the value of a key, if that is known; `what` are the words
 /// for what the value must be.
 pub(super) fn of(
     tree: &Tree<'_>,
-    key: Option<Span>,
+    key: ValueKey<'_>,
     node: NodeId,
     what: &str,
 ) -> Option<(String, Option<String>)> {
@@ -21,11 +22,23 @@ pub(super) fn of(
             let hint = "each item of a list begins with a dash: `- type: sphere`";
             Some((hint.to_owned(), None))
         }
+        NodeContent::List if what == "a map" => {
+            let hint = match tree.written(node).starts_with('[') {
+                true => "a map stands in braces: `{key: value}`",
+                false => "a map has a key before each value, and no dashes",
+            };
+            Some((hint.to_owned(), None))
+        }
+        NodeContent::Word(text) | NodeContent::Text(text)
+            if what == "a map" && key.text == "material" && is_name(text) =>
+        {
+            Some((by_name(text), None))
+        }
         NodeContent::Word("") if what == "a list" => {
             Some(("an empty list is written `[]`".to_owned(), None))
         }
         NodeContent::Word("") => {
-            let rest = tree.rest_of_line(key?).trim_start_matches(':').trim();
+            let rest = tree.rest_of_line(key.span?).trim_start_matches(':').trim();
             let comment = rest.starts_with('#').then_some(rest)?;
             let hint = "`#` starts a comment".to_owned();
             Some(match color(comment).filter(|_| takes_triple) {
@@ -108,7 +121,50 @@ fn color(text: &str) -> Option<String> {
     Some(format!("[{}, {}, {}]", part(r), part(g), part(b)))
 }
 
-/// A number with a decimal comma, a unit, an end as in a program, or as a fraction.
+/// How a material is used again that people call by a name.
+fn by_name(name: &str) -> String {
+    let call = "a material is a map; one that several objects have is marked";
+    match color(name) {
+        Some(color) => format!("a material is a map, with `color: {color}` among its keys"),
+        None => format!("{call} `&{name}` where it stands, and is `*{name}` at the others"),
+    }
+}
+
+fn is_name(text: &str) -> bool {
+    let is_letter = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
+    !text.is_empty() && text.len() <= 32 && text.chars().all(is_letter)
+}
+
+/// So many numbers, some of them with a decimal comma, as a list: what is followed by a space
+/// separates them; where nothing is, each comma between two of them does.
+pub(super) fn decimal_commas(text: &str, count: usize) -> Option<String> {
+    const LONGEST: usize = 256;
+    let inside = text.strip_prefix('[')?.strip_suffix(']')?.trim();
+    if inside.len() > LONGEST || inside.contains(['#', '\n']) {
+        return None;
+    }
+    let apart: Vec<&str> = match inside.contains(", ") {
+        true => inside.split(", ").map(str::trim).collect(),
+        false => {
+            let commas = inside.match_indices(',').skip(1).step_by(2);
+            let mut from = 0;
+            let ends = commas.map(|(at, _)| at).chain([inside.len()]);
+            ends.map(|end| inside.get(std::mem::replace(&mut from, end + 1)..end))
+                .collect::<Option<_>>()?
+        }
+    };
+    let point = |part: &&str| {
+        let number = part.replacen(',', ".", 1);
+        number
+            .parse::<f64>()
+            .is_ok_and(f64::is_finite)
+            .then_some(number)
+    };
+    let numbers: Vec<String> = apart.iter().map(point).collect::<Option<_>>()?;
+    (numbers.len() == count).then(|| format!("[{}]", numbers.join(", ")))
+}
+
+/// A number with a decimal comma, a unit, an end as in a program, other signs, or as a calculation.
 fn number(text: &str) -> Option<(String, Option<String>)> {
     let read = |part: &str| {
         part.trim()
@@ -116,6 +172,15 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
             .ok()
             .filter(|number| number.is_finite())
     };
+    let plain = in_ascii(text);
+    if plain != text && read(&plain).is_some() {
+        let other = text.chars().find(|c| !c.is_ascii())?;
+        let hint = format!(
+            "`{other}` is U+{:04X}, which only looks like a sign of numbers",
+            u32::from(other)
+        );
+        return Some((hint, Some(plain)));
+    }
     if let Some((before, comment)) = text.split_once("//") {
         read(before)?;
         let text = format!("{} #{comment}", before.trim());
@@ -134,14 +199,28 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
         read(&point).filter(|_| is_decimal)?;
         return Some(("decimals stand behind a point".to_owned(), Some(point)));
     }
-    if let Some((above, below)) = text.split_once('/') {
-        let quotient = read(above)? / read(below)?;
-        let quotient = quotient.is_finite().then(|| shortest(quotient))?;
-        return Some(("a number is written out".to_owned(), Some(quotient)));
+    if let Some(result) = calculation::result(&plain) {
+        let hint = "a number is written out: nothing is computed here".to_owned();
+        return Some((hint, Some(shortest(result))));
     }
-    let number = text.trim_end_matches(|c: char| c.is_alphabetic() || matches!(c, '°' | '%' | ' '));
-    read(number).filter(|_| number.len() < text.len())?;
+    let number =
+        plain.trim_end_matches(|c: char| c.is_alphabetic() || matches!(c, '°' | '%' | ' '));
+    read(number).filter(|_| number.len() < plain.len())?;
     Some(("a number has no unit".to_owned(), Some(number.to_owned())))
+}
+
+/// The text with ASCII signs in place of those that look like them: minus signs and dashes, the
+/// wide forms of East Asia, and spaces.
+fn in_ascii(text: &str) -> String {
+    let ascii = |c: char| match c {
+        '\u{2010}'..='\u{2015}' | '\u{2212}' | '\u{fe58}' | '\u{fe63}' | '\u{207b}' => Some('-'),
+        '\u{ff01}'..='\u{ff5e}' => char::from_u32(u32::from(c) - 0xfee0),
+        '\u{200b}'..='\u{200d}' | '\u{feff}' | '\u{2060}' => None,
+        c if c.is_whitespace() => Some(' '),
+        c => Some(c),
+    };
+    let plain: String = text.chars().filter_map(ascii).collect();
+    plain.trim().to_owned()
 }
 
 #[cfg(test)]
@@ -158,6 +237,12 @@ mod tests {
             ("45°", Some("45")),
             ("100/2", Some("50")),
             ("1/0", None),
+            ("1/3", Some("0.3333333333333333")),
+            ("2*0.6", Some("1.2")),
+            ("-(1 + 2) / 4", Some("-0.75")),
+            ("\u{2212}0.5", Some("-0.5")),
+            ("\u{2013} 2", Some("-2")),
+            ("\u{ff10}\u{ff0e}\u{ff15}", Some("0.5")),
             ("1,2,3", None),
             ("much", None),
             ("12", None),
@@ -177,5 +262,19 @@ mod tests {
         );
         assert_eq!(listed("40x30", 2).as_deref(), Some("[40, 30]"));
         assert_eq!((listed("1 0", 3), listed("1 0 up", 3)), (None, None));
+        let list = Some("[0.5, 0.6, 1]".to_owned());
+        assert_eq!(decimal_commas("[0,5, 0,6, 1]", 3), list);
+        assert_eq!(
+            decimal_commas("[0,5,0,6,1,0]", 3).as_deref(),
+            Some("[0.5, 0.6, 1.0]")
+        );
+        for other in [
+            "[1, 2, 3, 4]",
+            "[1,2,3,4]",
+            "[0,5, 0,6, 1, 2]",
+            "[0,5, a, 1]",
+        ] {
+            assert_eq!(decimal_commas(other, 3), None, "{other}");
+        }
     }
 }

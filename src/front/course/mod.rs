@@ -5,6 +5,7 @@
 
 mod ambient;
 pub mod assets;
+mod calculation;
 mod camera;
 mod decode;
 mod display;
@@ -22,12 +23,14 @@ mod page;
 mod paths;
 mod picture;
 mod reader;
+mod reading;
 mod record;
 mod sampling;
 mod schema;
 mod settings;
 mod spelling;
 mod standard;
+mod synonym;
 mod syntax;
 mod texture;
 mod turn;

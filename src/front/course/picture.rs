@@ -2,7 +2,7 @@
 
 use super::decode::{Context, Spanned, Value};
 use super::lower::Lowering;
-use super::number::{Side, json_number};
+use super::number::{Side, json_number, plain_number};
 use super::record::{FieldOutcome, record};
 use super::schema::Definitions;
 use super::settings::Scene;
@@ -35,7 +35,7 @@ record! {
     }
 }
 
-/// Width and height of the picture in pixels: a list of two, a map, or a list of maps.
+/// Width and height of the picture in pixels: a list of two, a map, or a list of maps; or one number, the side of a square.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PictureSize(pub(super) [u32; 2]);
 
@@ -44,6 +44,9 @@ impl Value for PictureSize {
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let tree = context.tree;
+        if plain_number(node, context).is_some() {
+            return square(node, context);
+        }
         if tree.is_map(node) {
             return Sides::decode(node, context).map(of_sides);
         }
@@ -55,6 +58,9 @@ impl Value for PictureSize {
                 let width = Width::decode(first, context);
                 let height = Height::decode(second, context);
                 Some(Self([width?.side.value.0, height?.side.value.0]))
+            }
+            [Some(only), None, None] if plain_number(only, context).is_some() => {
+                square(only, context)
             }
             _ => {
                 const WHAT: &str = "a list of two whole numbers";
@@ -69,6 +75,8 @@ impl Value for PictureSize {
         let two = [Width::schema(definitions), Height::schema(definitions)];
         json!({ "anyOf": [
             { "type": "array", "items": side, "minItems": 2, "maxItems": 2 },
+            side,
+            { "type": "array", "items": side, "minItems": 1, "maxItems": 1, "deprecated": true },
             one[0],
             { "type": "array", "prefixItems": one, "minItems": 1, "maxItems": 1 },
             { "type": "array", "prefixItems": two, "minItems": 2, "maxItems": 2 },
@@ -78,6 +86,11 @@ impl Value for PictureSize {
     fn json(&self) -> Json {
         self.0.map(|side| json_number(side.into())).to_vec().into()
     }
+}
+
+/// One number says both sides.
+fn square(node: NodeId, context: &mut Context<'_>) -> Option<PictureSize> {
+    Side::decode(node, context).map(|side| PictureSize([side.0; 2]))
 }
 
 fn of_sides(

@@ -3,8 +3,10 @@
 
 use super::decode::{Context, MapEntry, ValueKey, describe};
 use super::form;
+use super::material::is_material_key;
 use super::record::{Field, FieldOutcome, Need, Record, Slot};
 use super::spelling::{is_same_but_for_signs, list};
+use super::synonym::elsewhere;
 use rtc_diag::{Diagnostic, clip, codes, nearest};
 use rtc_source::Span;
 use rtc_source::tree::NodeId;
@@ -18,6 +20,9 @@ const MAX_ROW: usize = 6;
 
 /// A key that every map may have, for people to read; it has no meaning.
 pub(super) const COMMENT: &str = "comment";
+
+/// The key of what an object is made of.
+const MATERIAL: &str = "material";
 
 /// Reads one map, field by field in the order of the declaration.
 pub(super) struct Reader {
@@ -187,22 +192,45 @@ impl Reader {
             });
             return 1 << at;
         }
-        // Who made so many mistakes does not look for advice on each, and each costs a comparison
-        // with every key.
-        let advise = context.findings() < ADVISED;
-        let open = fields
-            .iter()
-            .enumerate()
-            .filter(|_| advise)
-            .filter(|(at, _)| !has(*at))
-            .map(|(_, field)| field);
-        let meant = nearest(
-            entry.key,
-            open.flat_map(|field| field.rows.iter().copied().flatten().copied()),
-        );
+        let Some((advice, meant)) = self.advice(entry.key) else {
+            self.propose(entry, context);
+            return 0;
+        };
         context.slips.extend(meant.map(|meant| (meant, span)));
-        unknown_key(word, meant, entry, context);
+        unknown_key(word, entry, context, |d| d.hint(advice));
         0
+    }
+
+    /// Reports a key of which nothing is known, with the one that was probably meant.
+    fn propose(&self, entry: MapEntry<'_>, context: &mut Context<'_>) {
+        let Record { word, fields, .. } = self.record;
+        let span = context.tree.span(entry.key_node);
+        // Advice costs a comparison with every key: who made so many mistakes gets no more of it.
+        let advise = context.findings() < ADVISED;
+        let fields = fields.iter().enumerate();
+        let open = fields.filter(|(at, _)| advise && self.rows[*at].is_none());
+        let open = open.map(|(_, field)| field);
+        let meant = nearest(entry.key, open.flat_map(proposable));
+        context.slips.extend(meant.map(|meant| (meant, span)));
+        let better = meant.map(|meant| (meant, context.in_its_quotes(entry.key_node, meant)));
+        unknown_key(word, entry, context, |d| match better {
+            Some((meant, better)) => proposed(d, entry.key, meant, span, better),
+            None if entry.key.starts_with(|c: char| c.is_ascii_digit()) => d.hint(
+                "a comma begins the next key: decimals stand behind a point, lists in `[` and `]`",
+            ),
+            None => d,
+        });
+    }
+
+    /// What is known of a key that the record has not: how it is written here, and as which key.
+    fn advice(&self, key: &str) -> Option<(String, Option<&'static str>)> {
+        let Record { word, fields, .. } = self.record;
+        let has_material = fields.iter().any(|field| field.name == MATERIAL);
+        if has_material && is_material_key(key) {
+            let advice = format!("`{key}` belongs in the `{MATERIAL}` of the {word}");
+            return Some((advice, Some(MATERIAL)));
+        }
+        elsewhere(word, key).map(|advice| (advice.to_owned(), None))
     }
 
     /// Of the groups with this key, by the index of the field, the one of which the fewest keys are
@@ -229,6 +257,15 @@ impl Reader {
     }
 }
 
+/// The keys of a field that are worth proposing: other names of one or two letters are like too much.
+fn proposable(field: &Field) -> impl Iterator<Item = &'static str> {
+    let rows = field.rows.iter().enumerate();
+    rows.flat_map(|(at, row)| {
+        let keys = row.iter().copied();
+        keys.filter(move |key| at == 0 || key.len() > 2)
+    })
+}
+
 /// Reports keys that have to be there.
 pub(super) fn missing_keys(
     word: &str,
@@ -253,27 +290,20 @@ fn proposed(d: Diagnostic, key: &str, meant: &str, span: Span, better: String) -
     }
 }
 
-fn unknown_key(word: &str, meant: Option<&str>, entry: MapEntry<'_>, context: &mut Context<'_>) {
+/// Reports a key that a record has not, with what `advise` adds.
+fn unknown_key(
+    word: &str,
+    entry: MapEntry<'_>,
+    context: &mut Context<'_>,
+    advise: impl FnOnce(Diagnostic) -> Diagnostic,
+) {
     let span = context.tree.span(entry.key_node);
     let severity = context.unread();
-    let better = meant.map(|meant| context.in_its_quotes(entry.key_node, meant));
-    let looks_like_number = entry.key.starts_with(|c: char| c.is_ascii_digit());
     context.report(
         &codes::UNKNOWN_KEY,
         span,
         || format!("the {word} has no key `{}`", clip(entry.key)),
-        |d| {
-            let d = d.at(span, "ignored").severity(severity);
-            match meant.zip(better) {
-                Some((meant, better)) => {
-                    proposed(d, entry.key, meant, span, better)
-                }
-                None if looks_like_number => {
-                    d.hint("a comma begins the next key: decimals stand behind a point, lists in `[` and `]`")
-                }
-                None => d,
-            }
-        },
+        |d| advise(d.at(span, "ignored").severity(severity)),
     );
 }
 

@@ -144,6 +144,18 @@ impl<T> FieldOutcome<T> {
     pub(super) fn is_absent(&self) -> bool {
         matches!(self, Self::Absent)
     }
+
+    pub(super) fn is_broken(&self) -> bool {
+        matches!(self, Self::Broken)
+    }
+
+    /// The value, if it was read.
+    pub(super) fn read(&self) -> Option<&T> {
+        match self {
+            Self::Read(value) => Some(value),
+            Self::Absent | Self::Broken => None,
+        }
+    }
 }
 
 /// What a field holds: one value, or a group of them.

@@ -7,6 +7,7 @@ use super::schema::Definitions;
 use super::value::{word, word_schema};
 use rtc_diag::codes;
 use rtc_ir as ir;
+use rtc_source::Span;
 use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
@@ -56,6 +57,8 @@ const SOME: u32 = 2;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SuperSampling {
     pub(super) factor: Count,
+    /// Where the factor stands, in a map or bare.
+    pub(super) place: Option<Span>,
     pub(super) pattern: ir::Pattern,
 }
 
@@ -63,6 +66,7 @@ impl SuperSampling {
     /// One ray in the middle.
     pub(super) const ONE: Self = Self {
         factor: Count(1),
+        place: None,
         pattern: ir::Pattern::Grid,
     };
 }
@@ -74,6 +78,7 @@ impl Value for SuperSampling {
                 let Grid { factor, pattern } = Grid::decode(node, context)?;
                 Some(Self {
                     factor: factor.value,
+                    place: factor.span,
                     pattern: pattern.value.0,
                 })
             }
@@ -84,8 +89,10 @@ impl Value for SuperSampling {
                 context.expected(node, "a whole number, or a map of `factor` and `pattern`")
             }
             NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::List => {
+                let place = Some(context.tree.span(node));
                 Count::decode(node, context).map(|factor| Self {
                     factor,
+                    place,
                     ..Self::ONE
                 })
             }

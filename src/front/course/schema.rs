@@ -153,9 +153,14 @@ fn absent(field: &Field) -> Json {
     json!({ "properties": forbid(keys(field)) })
 }
 
-/// Exactly one row of the field, and no key of its other rows.
+/// Exactly one row of the field, and no key of its other rows; of single keys no more than one is
+/// there if exactly one is.
 fn one_row(field: &Field) -> Json {
+    let is_group = field.rows.iter().any(|row| row.len() > 1);
     let rows = field.rows.iter().map(|row| {
+        if !is_group {
+            return json!({ "required": row });
+        }
         let others = keys(field).filter(|key| !row.contains(key));
         json!({ "required": row, "properties": forbid(others) })
     });

@@ -200,7 +200,8 @@ impl Lowering {
         };
         self.origin(Noun::Settings, 0, Field::Mode, mode.span);
         self.origin(Noun::Settings, 0, Field::MaxDepth, depth.span);
-        self.origin(Noun::Settings, 0, Field::Supersampling, sampling.span);
+        let factor = sampling.value.place.or(sampling.span);
+        self.origin(Noun::Settings, 0, Field::Supersampling, factor);
         self.origin(Noun::Settings, 0, Field::LightSamples, light_samples.span);
     }
 
@@ -311,10 +312,22 @@ fn note_unused(scene: &Scene, context: &mut Context<'_>) {
         Mode::Phong | Mode::Path => return,
         Mode::Zbuffer | Mode::Normal | Mode::Gooch | Mode::Uv => {}
     }
+    if let (Mode::Gooch, true, Some(span)) = (mode.value, shadows.value, shadows.span) {
+        let message = || "`gooch` casts no shadows here".to_owned();
+        context.report(&codes::TWO_READINGS, span, message, |d| {
+            d.at(span, "in some programs a shadow takes the highlight away")
+                .also(mode.span, "the mode")
+                .hint("`RenderMode: phong` has shadows; `Shadows: false` says that none are meant")
+        });
+    }
     let reflections = reflections.ok();
     let rays = sampling.value.factor.0;
     for (is_asked, span, what) in [
-        (shadows.value, shadows.span, "shadows"),
+        (
+            shadows.value && mode.value != Mode::Gooch,
+            shadows.span,
+            "shadows",
+        ),
         (scene.toon.value, scene.toon.span, "cartoon"),
         (depth.value.0 > 0, depth.span, "mirror images"),
         (

@@ -2,7 +2,7 @@
 
 use rtc_diag::{Code, Diagnostic, Severity, clip, codes};
 use rtc_source::Span;
-use rtc_source::tree::yaml::{MAX_DEPTH, Mistake};
+use rtc_source::tree::yaml::{MAX_DEPTH, Mistake, Separator};
 
 /// The finding about a mistake.
 pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
@@ -44,7 +44,11 @@ pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
             first,
             second,
             is_same,
-        } => duplicate_key(key, first, second, is_same),
+            separator,
+        } => match separator {
+            Some(separator) => new_item(key, first, second, separator),
+            None => duplicate_key(key, first, second, is_same),
+        },
         Mistake::Syntax {
             message,
             label,
@@ -111,6 +115,31 @@ fn not_utf8(byte: u8, span: Span) -> Diagnostic {
     );
     let hint = "save it as UTF-8; if it is Latin-1, convert it with `iconv -f LATIN1 -t UTF-8`";
     say(&codes::NOT_UTF8, message, span, "not UTF-8").hint(hint)
+}
+
+/// The next item of a list that nothing separates from the one before.
+fn new_item(key: &str, first: Span, second: Span, separator: Separator) -> Diagnostic {
+    let what = match separator {
+        Separator::Dash(_) => "a dash",
+        Separator::Braces => "`}, {`",
+    };
+    let message = format!(
+        "the key `{}` stands here twice: {what} is missing before the second",
+        clip(key)
+    );
+    let finding = say(
+        &codes::DUPLICATE_KEY,
+        message,
+        second,
+        "the next item begins here",
+    )
+    .also(first, "this item goes on until there");
+    match separator {
+        Separator::Dash(blanks) => {
+            finding.guess("each item of a list begins with a dash", blanks, "- ")
+        }
+        Separator::Braces => finding.hint("each item of a list stands in braces of its own"),
+    }
 }
 
 fn duplicate_key(key: &str, first: Span, second: Span, is_same: bool) -> Diagnostic {

@@ -1,10 +1,16 @@
-//! How things are turned: by quaternions, and by rotations that `--lenient` may leave out.
+//! How things are turned: by angles about the axes, about an axis, by quaternions; and rotations that
+//! `--lenient` may leave out.
 
-use super::decode::{Context, Value};
-use super::number::{number, plain_number};
+use super::decode::{Context, Spanned, Value};
+use super::number::{Degrees, number, plain_number};
+use super::object::cube::axes_turned_about;
+use super::object::solid::turned;
+use super::record::FieldOutcome;
 use super::schema::Definitions;
-use super::value::tuple;
+use super::value::{Angles, Vector, tuple};
 use rtc_diag::{Severity, clip, codes};
+use rtc_math::Vec3;
+use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
@@ -102,4 +108,77 @@ impl<T: Value> Value for Rotation<T> {
     fn json(&self) -> Json {
         self.0.as_ref().map_or(Json::Null, Value::json)
     }
+}
+
+/// The keys by which an object is turned: angles about x, y and z; or an axis and an angle.
+pub(super) struct Turn<'o> {
+    /// Beside an angle the axis.
+    pub(super) rotation: &'o FieldOutcome<Spanned<Rotation<Angles>>>,
+    pub(super) axis: &'o FieldOutcome<Spanned<Vector>>,
+    pub(super) angle: &'o FieldOutcome<Spanned<Degrees>>,
+}
+
+impl Turn<'_> {
+    /// Where one of the keys stands, if there is any.
+    pub(super) fn span(&self) -> Option<Span> {
+        let Self {
+            rotation,
+            axis,
+            angle,
+        } = self;
+        let rotation = rotation.read().and_then(|rotation| rotation.span);
+        let axis = axis.read().and_then(|axis| axis.span);
+        rotation
+            .or(axis)
+            .or(angle.read().and_then(|angle| angle.span))
+    }
+
+    /// Where the axes come to; what turns nothing is told. `None` if a key can't be read.
+    pub(super) fn axes(&self, context: &mut Context<'_>) -> Option<[Vec3; 3]> {
+        let Self {
+            rotation,
+            axis,
+            angle,
+        } = *self;
+        if rotation.is_broken() || axis.is_broken() || angle.is_broken() {
+            return None;
+        }
+        let angles = rotation.read().and_then(|rotation| rotation.value.0);
+        match (axis.read(), angle.read(), angles) {
+            (Some(axis), Some(angle), _) => {
+                let other = rotation.read().and_then(|rotation| rotation.span);
+                turns_nothing(other, "it is turned once: by `axis` and `angle`", context);
+                Some(about(axis.value.0, angle.value.0))
+            }
+            (None, Some(angle), Some(Angles(axis))) => Some(about(axis, angle.value.0)),
+            (axis, angle, angles) => {
+                let alone = "an `axis` turns by an `angle`, and an `angle` about an `axis`";
+                turns_nothing(axis.and_then(|axis| axis.span), alone, context);
+                turns_nothing(angle.and_then(|angle| angle.span), alone, context);
+                Some(angles.map_or(Vec3::AXES, |angles| turned(angles.0)))
+            }
+        }
+    }
+}
+
+fn about(axis: [f64; 3], degrees: f64) -> [Vec3; 3] {
+    axes_turned_about(Vec3::from_array(axis), degrees.to_radians())
+}
+
+fn turns_nothing(span: Option<Span>, message: &str, context: &mut Context<'_>) {
+    if let Some(span) = span {
+        context.report(
+            &codes::NO_EFFECT,
+            span,
+            || message.to_owned(),
+            |d| d.at(span, "this turns nothing").severity(Severity::Warning),
+        );
+    }
+}
+
+/// The transform that scales along the axes, takes them to where they come to, and moves the origin.
+pub(super) fn placed(axes: [Vec3; 3], scale: [f64; 3], position: [f64; 3]) -> [[f64; 3]; 4] {
+    let [x, y, z] = axes;
+    let [x, y, z] = [x * scale[0], y * scale[1], z * scale[2]].map(|axis| axis.to_array());
+    [x, y, z, position]
 }

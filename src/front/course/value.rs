@@ -1,7 +1,7 @@
 //! The other types of the format: vectors and colours, sizes, truth values, words.
 
 use super::decode::{Context, Value, describe};
-use super::meant::listed;
+use super::meant::{decimal_commas, listed};
 use super::number::{in_radians, is_number, json_number, number, plain_number};
 use super::schema::Definitions;
 use super::spelling::list;
@@ -25,21 +25,7 @@ pub(super) fn tuple<T, const N: usize>(
     // An alias may bring us to a very long list very often: look no further than needed.
     let count = tree.items(node).take(N + 1).count();
     if count != N {
-        let (key, span) = (context.key, tree.span(node));
-        let found = if count > N {
-            format!("more than {N}")
-        } else {
-            format!("{count}")
-        };
-        let message = || format!("`{}` must have {N} numbers, not {found}", clip(key.text));
-        let meant = listed(tree.written(node), N).filter(|_| count == 1);
-        context.report(&codes::WRONG_LENGTH, span, message, |d| {
-            let finding = d.at(span, format!("{found} here"));
-            match meant {
-                Some(list) => finding.replace("commas stand between them", span, list),
-                None => finding,
-            }
-        });
+        wrong_length(node, count, N, context);
         return None;
     }
     let mut read: [Option<T>; N] = std::array::from_fn(|_| None);
@@ -49,6 +35,35 @@ pub(super) fn tuple<T, const N: usize>(
     read.iter()
         .all(Option::is_some)
         .then(|| read.map(|value| value.expect("all were looked at")))
+}
+
+/// Reports a list that has `count` items and must have another number of them.
+fn wrong_length(node: NodeId, count: usize, wanted: usize, context: &mut Context<'_>) {
+    let (tree, key) = (context.tree, context.key);
+    let span = tree.span(node);
+    let found = if count > wanted {
+        format!("more than {wanted}")
+    } else {
+        format!("{count}")
+    };
+    let written = tree.written(node);
+    let meant = match count > wanted {
+        true => decimal_commas(written, wanted).map(|list| ("decimals stand behind a point", list)),
+        false => listed(written, wanted).map(|list| ("commas stand between them", list)),
+    };
+    let message = || {
+        format!(
+            "`{}` must have {wanted} numbers, not {found}",
+            clip(key.text)
+        )
+    };
+    context.report(&codes::WRONG_LENGTH, span, message, |d| {
+        let finding = d.at(span, format!("{found} here"));
+        match meant {
+            Some((hint, list)) => finding.replace(hint, span, list),
+            None => finding,
+        }
+    });
 }
 
 /// Declares three numbers as a type of the format.

@@ -4,6 +4,7 @@ use super::document::Document;
 use super::field::Fields;
 use super::report::AssetReport;
 use rtc_diag::codes;
+use rtc_math::shortest;
 
 /// How a camera makes a picture; it looks along its negative z axis, y is up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +51,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
             if let (Some(near), Some(far)) = (part.number("znear"), part.number("zfar"))
                 && far <= near
             {
+                let [far, near] = [far, near].map(shortest);
                 let message =
                     format!("the far plane at {far} is no farther than the near one at {near}");
                 report.say(

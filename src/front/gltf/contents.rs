@@ -7,6 +7,7 @@ use super::elements::Elements;
 use super::report::AssetReport;
 use super::unused::Readers;
 use rtc_diag::codes;
+use rtc_math::shortest;
 
 /// Components that are looked at, for each byte of the buffers and beside that.
 const LOOKS: u64 = 16;
@@ -240,13 +241,18 @@ fn bound(
     let list = report.json.at_or(accessor.at, key);
     let at = report.json.items(list).nth(component).unwrap_or(list);
     let message = format!(
-        "`{key}` is {own}, and the {} value is {found}",
-        if is_min { "least" } else { "greatest" }
+        "`{key}` is {}, and the {} value is {}",
+        shortest(own),
+        if is_min { "least" } else { "greatest" },
+        shortest(found)
     );
     report.mend(&codes::GLTF_BOUNDS, mismatch, at, &message, BOUNDS);
     if (is_min && found < own) || (!is_min && found > own) {
         let beyond = beyond.get_or_insert_with(|| count_beyond(elements, all, is_min))[component];
-        let message = format!("{beyond} elements are beyond `{key}`, which is {own}");
+        let message = format!(
+            "{beyond} elements are beyond `{key}`, which is {}",
+            shortest(own)
+        );
         report.mend(&codes::GLTF_BOUNDS, out, at, &message, BOUNDS);
     }
 }

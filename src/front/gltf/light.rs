@@ -4,6 +4,7 @@ use super::document::Document;
 use super::field::Fields;
 use super::report::AssetReport;
 use rtc_diag::codes;
+use rtc_math::shortest;
 
 /// Checks all lights.
 pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
@@ -36,6 +37,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
         let outer = spot.number_or("outerConeAngle", std::f64::consts::FRAC_PI_4);
         if outer <= inner {
             let at = report.json.at_or(spot.at, "outerConeAngle");
+            let [inner, outer] = [inner, outer].map(shortest);
             let message =
                 format!("the outer cone opens by {outer}, no wider than the inner one, by {inner}");
             report.say(

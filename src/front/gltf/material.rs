@@ -4,6 +4,7 @@ use super::document::Document;
 use super::field::Fields;
 use super::report::AssetReport;
 use rtc_diag::codes;
+use rtc_math::shortest;
 use rtc_source::tree::{NodeId, NodeKind, Tree};
 
 /// Each texture of a material with the set of texture coordinates it asks for.
@@ -150,6 +151,7 @@ fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut As
         report.say(&codes::GLTF_REMARK, alias, at, message);
     }
     if texture && least > most {
+        let [least, most] = [least, most].map(shortest);
         let message =
             format!("the least thickness is {least}, above the greatest, which is {most}");
         report.say(

@@ -139,7 +139,9 @@ pub fn lower(
         return None;
     }
     let doc = shape(&tree, parts.is_glb, &mut report).filter(|_| parts.is_whole)?;
-    let search = Search::new(map.folder(file), options.asset_root.as_deref());
+    let folder = map.folder(file);
+    let search = Search::new(folder, options.asset_root.as_deref())
+        .with_parent(folder, options.home.as_deref());
     let chunk = parts.bin.map(|range| &bytes[range]);
     let resources = Resources::new(search, map);
     let doc = fill(doc, chunk, resources, options.threads, &mut report);

@@ -6,9 +6,10 @@ use super::document::Document;
 use super::field::Fields;
 use super::report::{AssetReport, shown};
 use super::uri::{self, Uri, UriFault};
+use crate::pixels::PICTURES;
 use rtc_diag::codes;
 use rtc_source::tree::NodeId;
-use rtc_source::{Identity, Loader, Missing, Search, SourceMap};
+use rtc_source::{FileKind, Found as FoundFile, Identity, Loader, Missing, Search, SourceMap};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -50,9 +51,10 @@ impl<'m> Resources<'m> {
             let fields = Fields::new(report.json, buffer.at);
             let bytes: Option<Bytes<'s>> = if let Some(at) = fields.node("uri") {
                 remark_uri(is_glb, at, report);
-                self.fetch(at, is_glb, report).and_then(|(bytes, media)| {
-                    is_buffer(media.as_deref(), at, report).then_some(bytes)
-                })
+                self.fetch((at, None), is_glb, report)
+                    .and_then(|(bytes, media)| {
+                        is_buffer(media.as_deref(), at, report).then_some(bytes)
+                    })
             } else if is_glb && index == 0 && !buffer.is_fallback && buffer.length.is_some() {
                 if chunk.is_none() {
                     let message = "the buffer is the binary chunk, and there is none".to_owned();
@@ -109,7 +111,7 @@ impl<'m> Resources<'m> {
                 continue;
             };
             remark_uri(is_glb, at, report);
-            let Some((bytes, media)) = self.fetch(at, is_glb, report) else {
+            let Some((bytes, media)) = self.fetch((at, Some(&PICTURES)), is_glb, report) else {
                 continue;
             };
             image.media = image
@@ -120,10 +122,11 @@ impl<'m> Resources<'m> {
         }
     }
 
-    /// The bytes behind the URI at a node; why there are none is reported.
+    /// The bytes behind the URI at a node, of a kind that the folder above may lend; why there are none
+    /// is reported.
     fn fetch(
         &mut self,
-        at: NodeId,
+        (at, kind): (NodeId, Option<&FileKind>),
         is_glb: bool,
         report: &mut AssetReport<'_, '_>,
     ) -> Option<Found> {
@@ -142,7 +145,16 @@ impl<'m> Resources<'m> {
                 });
                 Some((bytes, Some(media)))
             }
-            Ok(Uri::Path(path)) => self.file(&path, at, report).map(|bytes| (bytes, None)),
+            Ok(Uri::Path(path)) => {
+                let found = self.search.below(&path);
+                self.file(&path, found, at, report)
+                    .map(|bytes| (bytes, None))
+            }
+            Ok(Uri::Above(path)) => {
+                let found = self.search.above(&path, kind);
+                self.file(&path, found, at, report)
+                    .map(|bytes| (bytes, None))
+            }
             Err(UriFault::Malformed(why)) => {
                 let message = format!("`{}` is no URI: {why}", shown(text));
                 report.say(&codes::GLTF_URI, "INVALID_URI", at, message);
@@ -158,13 +170,19 @@ impl<'m> Resources<'m> {
     fn file(
         &mut self,
         path: &str,
+        found: Result<FoundFile, Missing>,
         at: NodeId,
         report: &mut AssetReport<'_, '_>,
     ) -> Option<Bytes<'static>> {
-        let found = match self.search.below(path) {
+        let found = match found {
             Ok(found) => found,
             Err(Missing::Outside(_)) => {
-                outside(path, "a link leads out", at, report);
+                let climbs = path.split('/').any(|part| part == "..");
+                let how = match climbs {
+                    true => "it climbs by `..`",
+                    false => "a link leads out",
+                };
+                outside(path, how, at, report);
                 return None;
             }
             Err(Missing::NoFolder) => {
@@ -228,7 +246,10 @@ fn outside(text: &str, how: &str, at: NodeId, report: &mut AssetReport<'_, '_>) 
         "`{}` leads out of the folder of the asset: {how}",
         shown(text)
     );
-    let hint = "put the file beside the asset and name it by a relative path".to_owned();
+    let hint =
+        "put the file beside the asset and name it by a relative path, or allow its folder by \
+                `--asset-root`"
+            .to_owned();
     report.advise(&codes::GLTF_OUTSIDE, "IO_ERROR", at, message, hint);
 }
 

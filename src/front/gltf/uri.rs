@@ -1,5 +1,5 @@
-//! URIs: data that is written in place, or a path below the folder of the asset; nothing else is
-//! followed.
+//! URIs: data that is written in place, or a path below the folder of the asset or beside it; nothing
+//! else is followed.
 
 use base64::Engine as _;
 use base64::alphabet::STANDARD;
@@ -26,6 +26,8 @@ pub(super) enum Uri {
     },
     /// A relative path without `..`, escapes resolved.
     Path(String),
+    /// A relative path that climbs by `..`, escapes resolved.
+    Above(String),
 }
 
 /// Why a URI stands for nothing.
@@ -62,14 +64,13 @@ pub(super) fn parse(uri: &str) -> Result<Uri, UriFault> {
     if path.starts_with(['/', '\\']) {
         return Err(UriFault::Outside("it starts at the root"));
     }
-    if path.split(['/', '\\']).any(|part| part == "..") {
-        return Err(UriFault::Outside("it climbs by `..`"));
-    }
     if path.contains(['\\', ':', '\0']) {
         return Err(UriFault::Outside("it holds a backslash, a colon or a NUL"));
     }
     if path.is_empty() {
         Err(UriFault::Malformed("it is empty"))
+    } else if path.split('/').any(|part| part == "..") {
+        Ok(Uri::Above(path))
     } else {
         Ok(Uri::Path(path))
     }
@@ -158,11 +159,11 @@ mod tests {
     #[test]
     fn paths_stay_below_the_folder_in_whatever_disguise() {
         assert_eq!(parse("a%20b/c.bin"), Ok(Uri::Path("a b/c.bin".to_owned())));
+        for uri in ["../x", "a/../x", "%2e%2e/x", "..%2Fx"] {
+            let climbs = |uri| matches!(uri, Ok(Uri::Above(path)) if path.ends_with("../x"));
+            assert!(climbs(parse(uri)), "{uri}");
+        }
         for uri in [
-            "../x",
-            "a/../x",
-            "%2e%2e/x",
-            "..%2Fx",
             "..\\x",
             "%2e%2e%5cx",
             "/etc/passwd",

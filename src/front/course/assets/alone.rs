@@ -60,7 +60,9 @@ pub fn alone(
         origins.record(Place::new(noun, 0, Field::Whole), Span::new(file, 0, 0));
     }
     let mut lowered = Lowered { scene, origins };
-    let search = Search::new(map.folder(file), options.asset_root.as_deref());
+    let folder = map.folder(file);
+    let search = Search::new(folder, options.asset_root.as_deref())
+        .with_parent(folder, options.home.as_deref());
     let mut port = Port::new(search, options, map, sink);
     port.meshes.put(MeshId(0), own);
     let dressing = Dressing {

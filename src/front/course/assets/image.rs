@@ -3,22 +3,16 @@
 use super::{Asset, Known, Porter, Wanted, Without};
 use crate::pixels::{self, Refused};
 use rtc_diag::{Diagnostic, Sink, clip_path, codes};
-use rtc_image::{Opacity, Pixels, is_picture};
+use rtc_image::{Opacity, Pixels};
 use rtc_ir::{
     self as ir, Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId,
 };
-use rtc_source::{FileKind, Found};
+use rtc_source::Found;
 use std::collections::BTreeMap;
 
 /// The largest pixel file read, in bytes: as large as the largest picture with every pixel stored
 /// plainly.
 const MAX_BYTES: u64 = 1 << 30;
-
-/// Such files.
-pub(super) const KIND: FileKind = FileKind {
-    extensions: &["png", "jpg", "jpeg", "webp"],
-    begins: is_picture,
-};
 
 /// Brings one image, or the one that the same file became before, whatever it was called; `None`
 /// without a file.

@@ -19,6 +19,7 @@ pub use dress::{Dress, Dressing};
 use super::lower::UnfinishedScene;
 use super::object;
 use crate::FrontOptions;
+use crate::pixels::PICTURES;
 use rtc_diag::{Diagnostic, Severity, Sink, clip_path, codes, nearest};
 use rtc_image::Opacity;
 use rtc_ir::{Field, ImageId, Lowered, MeshId, Noun, Photometry, Place};
@@ -100,7 +101,7 @@ pub fn bring(
     lowered.origins.finish();
     port.meshes.settle(&mut lowered.scene);
     for sizing in sizings {
-        object::mesh::settle(sizing, &mut lowered, port.porter.sink);
+        object::sizing::settle(sizing, &mut lowered, port.porter.sink);
     }
     port.finish(&dressings, &mut lowered);
     lowered
@@ -324,7 +325,7 @@ impl Porter<'_> {
 /// The kind of file that an asset is in.
 fn kind_of(asset: &Asset) -> &'static FileKind {
     match asset {
-        Asset::Image(_) | Asset::Sampled(_) | Asset::Map(_) => &image::KIND,
+        Asset::Image(_) | Asset::Sampled(_) | Asset::Map(_) => &PICTURES,
         Asset::Mesh(_) => &mesh::TEXT.file,
         Asset::Environment(_) => &environment::KIND,
         Asset::Gltf(_) => &gltf::KIND,
@@ -356,16 +357,20 @@ fn missing(wish: &Wanted, fault: &Missing, similar: Option<&str>) -> Diagnostic 
                     Some(name) => format!("did you mean `{}`?", clip_path(name)),
                     None => places(looked),
                 })
+                .hint(ELSEWHERE)
         }
         Missing::Outside(looked) => {
             let message = format!("`{name}` leads out of the folder of the scene");
             Diagnostic::new(&codes::FILE_OUTSIDE, message)
                 .at(wish.span, "not followed")
                 .hint(places(looked))
-                .hint("put the file beside the scene, or allow its folder by `--asset-root`")
+                .hint(ELSEWHERE)
         }
     }
 }
+
+/// What to do about a file that lies elsewhere.
+const ELSEWHERE: &str = "put the file beside the scene, or allow its folder by `--asset-root`";
 
 /// The places a file was looked for, the most telling ones if there are many.
 fn places(looked: &[PathBuf]) -> String {

@@ -1,14 +1,16 @@
 //! The cube of some files, and what it shares with other solids that are turned or have a depth.
 
-use super::Lower;
+use super::{Lower, negative};
 use crate::course::decode::{Context, SharedValue, Spanned, Value};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::number::{Positive, Real, json_number};
+use crate::course::number::{Degrees, NonNegative, Real, json_number};
 use crate::course::object::solid::around;
 use crate::course::record::{FieldOutcome, keys, record};
 use crate::course::schema::Definitions;
-use crate::course::value::{Point, Text, Vector};
+use crate::course::synonym::{PLACE, ROTATION, TURN_ANGLE, TURN_AXIS, led_by};
+use crate::course::turn::{Rotation, Turn};
+use crate::course::value::{Angles, Point, Text, Vector};
 use rtc_math::{Vec3, cos, sin, turned_about, unit, unit_scale};
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
@@ -19,9 +21,16 @@ record! {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"];
         /// The centre.
-        position: Spanned<Point>, required, keys!["position" "center"];
-        /// The length of a side, above 0.
-        length: Spanned<Positive>, required, keys!["length" "side" "size"];
+        position: Spanned<Point>, required, &led_by(PLACE, "position");
+        /// The length of a side; nothing shows at 0.
+        length: Spanned<NonNegative>, required, keys!["length" "side" "size" "edge"];
+        /// The angles in radians by which it is turned about its centre: first about x, then y, then z; beside `angle` the
+        /// axis.
+        rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
+        /// The axis through its centre that it is turned about by `angle`.
+        axis: Spanned<Vector>, optional, &TURN_AXIS;
+        /// By how many degrees it is turned about its axis.
+        angle: Spanned<Degrees>, optional, &TURN_ANGLE;
         /// What it is turned about.
         turn_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
         /// By how much, in radians.
@@ -31,7 +40,9 @@ record! {
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
-    forms { [position] [position turn_axis turn_angle] }
+    forms {
+        [position] [position turn_axis turn_angle] [position rotation] [position rotation angle] [position axis angle]
+    }
 }
 
 impl Lower for Cube {
@@ -40,6 +51,9 @@ impl Lower for Cube {
             kind,
             position,
             length,
+            rotation,
+            axis,
+            angle,
             turn_axis,
             turn_angle,
             material,
@@ -49,11 +63,24 @@ impl Lower for Cube {
             return;
         };
         let turn = match (turn_axis, turn_angle) {
-            (FieldOutcome::Read(axis), FieldOutcome::Read(angle)) => {
-                axes_turned_about(Vec3::from_array(axis.value.0), angle.value.0)
+            (FieldOutcome::Read(axis), FieldOutcome::Read(angle)) => Some(axes_turned_about(
+                Vec3::from_array(axis.value.0),
+                angle.value.0,
+            )),
+            _ => {
+                let turn = Turn {
+                    rotation,
+                    axis,
+                    angle,
+                };
+                turn.axes(context)
             }
-            _ => Vec3::AXES,
         };
+        let Some(turn) = turn else { return };
+        if length.value.0 < 0.0 {
+            negative(length, "side", context);
+            return;
+        }
         let center = Vec3::from_array(position.value.0);
         let corners = around(center, [length.value.0; 3], turn);
         lowering.cuboid(&clothes, &corners, length.span, context);
@@ -105,7 +132,7 @@ impl Value for ThirdEdge {
 
 /// Where the axes come to, turned by an angle in radians about an axis; as they are if it has no
 /// direction.
-pub(super) fn axes_turned_about(axis: Vec3, angle: f64) -> [Vec3; 3] {
+pub(in crate::course) fn axes_turned_about(axis: Vec3, angle: f64) -> [Vec3; 3] {
     let turns = [sin(angle), cos(angle)];
     unit(axis).map_or(Vec3::AXES, |axis| {
         Vec3::AXES.map(|v| turned_about(v, axis, turns))

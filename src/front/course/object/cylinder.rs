@@ -2,41 +2,45 @@
 
 use super::Lower;
 use super::cube::axes_turned_about;
+use super::round::Upright;
 use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::number::{Positive, Real};
+use crate::course::number::{NonNegative, Positive, Real};
 use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::synonym::{AXIS, ENDS, HEIGHT, PLACE, RADIUS, led_by};
 use crate::course::value::{Point, Text, Vector};
 use rtc_ir as ir;
-use rtc_math::Vec3;
+use rtc_math::{Vec3, length};
 
 record! {
-    /// A cylinder with two caps: the centre of its base, a direction and a height; or the centres of both caps; or, as
-    /// some files say it, its middle, a height, and how the x axis is turned to its own.
+    /// A cylinder with two caps: the centre of its base, a direction and a height; or the centres of both caps; or
+    /// the centre of its base and the way to the top; or, as some files say it, its middle, a height, and how the x axis is turned to its own.
     struct Cylinder, "cylinder" {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"], json "type";
         /// The centre of the base; beside `eulerAxis` the middle of the cylinder.
-        position: Spanned<Point>, optional, keys!["position" "center" "origin"], json "origin";
+        position: Spanned<Point>, optional, &led_by(PLACE, "position"), json "origin";
         /// The direction from the base to the top, of any length but 0.
-        direction: Spanned<Vector>, optional, keys!["direction" "axis"], json "axis";
+        direction: Spanned<Vector>, optional, &led_by(AXIS, "direction"), json "axis";
         /// From base to top, above 0.
-        height: Spanned<Positive>, optional, keys!["height" "h" "length"], json "height";
+        height: Spanned<Positive>, optional, &HEIGHT, json "height";
+        /// From the base to the top; its length is the height.
+        up: Spanned<Vector>, optional, keys!["up"];
         /// What the x axis is turned about to be the axis of the cylinder.
         turn_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
         /// By how much, in radians.
         turn_angle: Spanned<Real>, optional, keys!["eulerAngle"];
         /// The centre of a cap.
-        ends: [Spanned<Point>; 2], optional, &[&["p1", "p2"], &["center1", "center2"], &["end1", "end2"]], json "p1";
-        /// The radius, above 0.
-        radius: Spanned<Positive>, required, keys!["radius" "r"], json "radius";
+        ends: [Spanned<Point>; 2], optional, &ENDS, json "p1";
+        /// The radius; nothing shows at 0.
+        radius: Spanned<NonNegative>, required, &led_by(RADIUS, "radius"), json "radius";
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
-    forms { [position direction height] [ends] [position height turn_axis turn_angle] }
+    forms { [position direction height] [ends] [position up] [position height turn_axis turn_angle] }
 }
 
 impl Lower for Cylinder {
@@ -74,6 +78,7 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
         position,
         direction,
         height,
+        up,
         turn_axis,
         turn_angle,
         ends,
@@ -96,25 +101,26 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
             height.map(|height| height.0),
         ));
     }
-    match (position, direction, height, ends) {
-        (
-            FieldOutcome::Read(position),
-            FieldOutcome::Read(direction),
-            FieldOutcome::Read(height),
-            _,
-        ) => Some((
+    if let (
+        FieldOutcome::Read(position),
+        FieldOutcome::Read(direction),
+        FieldOutcome::Read(height),
+    ) = (position, direction, height)
+    {
+        return Some((
             position.map(|point| point.0),
             direction.map(|vector| vector.0),
             height.map(|height| height.0),
-        )),
-        (.., FieldOutcome::Read([base, top])) => {
-            let axis = Vec3::from_array(top.value.0) - Vec3::from_array(base.value.0);
-            Some((
-                base.map(|point| point.0),
-                top.map(|_| axis.to_array()),
-                top.map(|_| axis.length()),
-            ))
-        }
-        _ => None,
+        ));
     }
+    let upright = Upright {
+        position,
+        up,
+        direction,
+        height,
+        ends,
+    };
+    let (base, up) = upright.base_and_up()?;
+    let height = up.map(|up| length(Vec3::from_array(*up)));
+    Some((base, up, height))
 }

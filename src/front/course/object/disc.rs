@@ -4,8 +4,9 @@ use super::Lower;
 use crate::course::decode::{Context, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::number::Positive;
+use crate::course::number::NonNegative;
 use crate::course::record::{keys, record};
+use crate::course::synonym::{AXIS, PLACE, RADIUS, led_by};
 use crate::course::value::{Point, Text, Vector};
 use rtc_ir as ir;
 
@@ -15,11 +16,11 @@ record! {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"];
         /// The centre.
-        center: Spanned<Point>, required, keys!["center" "position"];
+        center: Spanned<Point>, required, &led_by(PLACE, "center");
         /// The direction at right angles to it, of any length but 0.
-        normal: Spanned<Vector>, required, keys!["normal" "N" "n"];
-        /// The radius, above 0.
-        radius: Spanned<Positive>, required, keys!["radius" "r"];
+        normal: Spanned<Vector>, required, &led_by(AXIS, "normal");
+        /// The radius; nothing shows at 0.
+        radius: Spanned<NonNegative>, required, &led_by(RADIUS, "radius");
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.

@@ -1,19 +1,22 @@
 //! The meshes: triangles from a file, placed.
 
 use super::Lower;
+use super::sizing::Sizing;
 use super::sphere::Radius;
 use crate::course::assets::{Dress, Dressing};
 use crate::course::decode::{Context, SharedValue, Spanned, Value};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::number::Real;
+use crate::course::number::{Degrees, Real};
 use crate::course::record::{FieldOutcome, keys, record};
 use crate::course::schema::Definitions;
-use crate::course::turn::AffineColumns;
-use crate::course::value::{Caption, FileName, Point, Scale, Text, word, word_schema};
-use rtc_diag::{Diagnostic, Severity, Sink, codes};
-use rtc_ir::{self as ir, Field, Lowered, Noun, Place};
-use rtc_math::{Vec3, shortest};
+use crate::course::synonym::{FILE, PLACE, ROTATION, SCALE, TURN_ANGLE, TURN_AXIS, led_by};
+use crate::course::turn::{AffineColumns, Rotation, Turn, placed};
+use crate::course::value::{
+    Angles, Caption, FileName, Point, Scale, Text, Vector, word, word_schema,
+};
+use rtc_diag::{Severity, codes};
+use rtc_ir as ir;
 use rtc_source::Span;
 use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
@@ -24,12 +27,18 @@ record! {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"], json "type";
         /// The file, beside the scene file or in a folder below it.
-        file: Spanned<FileName>, required, keys!["file" "filename" "fileName" "path" "modelPath" "name" "object"],
+        file: Spanned<FileName>, required, &FILE,
             json "filename", json "object";
         /// Where the origin of the file's coordinates comes to; beside `fit`, where the middle of the mesh does.
-        position: Spanned<Point>, default(Point([0.0; 3])), keys!["position" "center"], json "position";
+        position: Spanned<Point>, default(Point([0.0; 3])), &led_by(PLACE, "position"), json "position";
         /// How many times larger it is than in its file, in all directions or along x, y and z.
-        scale: Spanned<Scale>, optional, keys!["scale" "scalefactor" "scaleFactor"], json "scale";
+        scale: Spanned<Scale>, optional, &SCALE, json "scale";
+        /// The angles in radians by which it is turned about its origin: first about x, then y, then z; beside `angle` the axis.
+        rotation: Spanned<Rotation<Angles>>, optional, &ROTATION, json "rotation";
+        /// The axis that it is turned about by `angle`.
+        axis: Spanned<Vector>, optional, &TURN_AXIS;
+        /// By how many degrees it is turned about its axis.
+        angle: Spanned<Degrees>, optional, &TURN_ANGLE;
         /// Twelve numbers in place of `position` and `scale`: where x, y and z of the file's coordinates point, each with the
         /// length that a unit has, and where their origin comes to.
         transform: Spanned<AffineColumns>, optional, keys!["transform"];
@@ -95,15 +104,6 @@ impl Value for PartName {
     }
 }
 
-/// What is done about the size of a mesh once its file is there.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::course) enum Sizing {
-    /// The mesh gets the size that the transform of the surface says.
-    Fit(usize),
-    /// The surface stays as it is, unless it hides the view.
-    Check(usize),
-}
-
 impl Lower for Mesh {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let Mesh {
@@ -131,6 +131,11 @@ impl Lower for Mesh {
             FieldOutcome::Absent => None,
             FieldOutcome::Broken => return,
         };
+        let [axes @ .., _] = transform.value.0;
+        if axes == [[0.0; 3]; 3] {
+            lowering.invisible(transform.span);
+            return;
+        }
         let mesh = lowering.files.mesh(&mut lowering.scene, file, part);
         lowering
             .dressings
@@ -158,19 +163,29 @@ impl Mesh {
         let Self {
             position,
             scale,
+            rotation,
+            axis,
+            angle,
             transform,
             size,
             fit,
             ..
         } = self;
+        let turn = Turn {
+            rotation,
+            axis,
+            angle,
+        };
         let (scale, sizing) = match (transform, scale, size, fit) {
             (FieldOutcome::Read(transform), ..) => {
-                useless_position(position.span, context);
+                useless(position.span, "position", context);
+                useless(turn.span(), "rotation", context);
                 return Some((*transform, None));
             }
             (_, FieldOutcome::Read(scale), ..) => (scale.map(|scale| scale.0), None),
             (.., FieldOutcome::Read(size), _) => {
-                (size.map(|size| [size.0; 3]), Some(Sizing::Check(index)))
+                let sizing = Sizing::Check(index, size.value.0);
+                (size.map(|size| [size.0; 3]), Some(sizing))
             }
             (.., FieldOutcome::Read(fit)) => {
                 useless_axis(fit, context);
@@ -184,33 +199,25 @@ impl Mesh {
             ) => (position.map(|_| [1.0; 3]), None),
             _ => return None,
         };
-        Some((
-            scale.map(|scale| AffineColumns(placed(*scale, position.value.0))),
-            sizing,
-        ))
+        let axes = turn.axes(context)?;
+        let place = |scale: &[f64; 3]| AffineColumns(placed(axes, *scale, position.value.0));
+        Some((scale.map(place), sizing))
     }
 }
 
 /// Says that a mesh that has a transform is at no other place.
-fn useless_position(position: Option<Span>, context: &mut Context<'_>) {
-    let Some(span) = position else { return };
-    let message = || "`position` has no effect beside `transform`".to_owned();
+fn useless(span: Option<Span>, key: &str, context: &mut Context<'_>) {
+    let Some(span) = span else { return };
+    let message = || format!("`{key}` has no effect beside `transform`");
     context.report(&codes::NO_EFFECT, span, message, |d| {
         d.at(span, "ignored")
             .severity(Severity::Warning)
-            .hint("the last three numbers of `transform` say where the mesh stands")
+            .hint("the numbers of `transform` say where the mesh stands and how it is turned")
     });
 }
 
 /// The way to the transform of an instance in the IR.
-const TRANSFORM: &str = "worldFromObject";
-
-/// The transform that scales along the axes and moves the origin.
-fn placed(scale: [f64; 3], position: [f64; 3]) -> [[f64; 3]; 4] {
-    let [x, y, z] = Vec3::AXES;
-    let [x, y, z] = [x * scale[0], y * scale[1], z * scale[2]].map(|axis| axis.to_array());
-    [x, y, z, position]
-}
+pub(super) const TRANSFORM: &str = "worldFromObject";
 
 /// Where the material of a mesh comes from.
 fn dressing(
@@ -237,108 +244,5 @@ fn useless_axis(radius: &Spanned<Radius>, context: &mut Context<'_>) {
         context.report(&codes::NO_EFFECT, span, message, |d| {
             d.at(span, "ignored").severity(Severity::Warning)
         });
-    }
-}
-
-/// Sees to the size of a mesh, now that its file is there.
-pub(in crate::course) fn settle(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
-    let (surface, is_factor) = match sizing {
-        Sizing::Fit(surface) => (surface, false),
-        Sizing::Check(surface) => (surface, true),
-    };
-    let Lowered { scene, origins } = lowered;
-    let Some(ir::Surface {
-        shape: ir::Shape::Instance(instance),
-        ..
-    }) = scene.surfaces.get_mut(surface)
-    else {
-        return;
-    };
-    let Some(mesh) = scene.meshes.get(instance.mesh.0 as usize) else {
-        return;
-    };
-    let corners = mesh.positions.iter().map(Vec3::from_array);
-    let bounds = corners.map(|p| (p, p));
-    let Some((low, high)) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
-        return;
-    };
-    if is_factor {
-        let place = Field::of_shape(ir::ShapeKind::Instance, TRANSFORM);
-        let span = origins.span(Place::new(Noun::Surface, surface, place));
-        let [[size, ..], .., position] = instance.world_from_object;
-        if !hides_view(
-            [low, high].map(|p| p * size + Vec3::from_array(position)),
-            &scene.camera,
-        ) {
-            sink.push(factor(size, span));
-            return;
-        }
-        let half = size / UNITS;
-        sink.push(unitised(size, half, span));
-        instance.world_from_object = placed([half; 3], position);
-    }
-    fit(instance, [low, high]);
-}
-
-/// A `size` of so many is a `fit` of 1, where it is no factor.
-const UNITS: f64 = 1.5;
-
-/// Whether the eye is in a box, or the box is all that it sees. A box is convex, so that it fills
-/// the picture if it does so at its corners.
-fn hides_view([a, b]: [Vec3; 2], camera: &ir::Camera) -> bool {
-    let ir::Camera {
-        eye,
-        center,
-        right,
-        up,
-        size,
-        ..
-    } = camera;
-    let [eye, center, right, up] = [eye, center, right, up].map(|v| Vec3::from_array(*v));
-    let (low, high) = (a.min(b), a.max(b));
-    let [x, y] = size.map(|side| f64::from(side) / 2.0);
-    let corners = [[-x, -y], [x, -y], [-x, y], [x, y]];
-    let is_inside = eye.clamp(low, high) == eye;
-    is_inside
-        || corners.iter().all(|[x, y]| {
-            let direction = center + right * *x + up * *y - eye;
-            let (to_low, to_high) = ((low - eye) / direction, (high - eye) / direction);
-            let (enter, leave) = (to_low.min(to_high), to_low.max(to_high));
-            leave.min_element() >= enter.max_element().max(0.0)
-        })
-}
-
-fn factor(size: f64, span: Option<Span>) -> Diagnostic {
-    let message = format!(
-        "the `size` of a mesh is a factor, as in `scale: {}`",
-        shortest(size)
-    );
-    Diagnostic::new(&codes::TWO_READINGS, message)
-        .severity(Severity::Note)
-        .at(span, "times as large as in its file")
-        .hint("in some programs it is the size of the mesh; that is written `fit`")
-}
-
-fn unitised(size: f64, half: f64, span: Option<Span>) -> Diagnostic {
-    let (size, half) = (shortest(size), shortest(half));
-    let message = format!("`size: {size}` is taken as the size of the mesh, not as a factor");
-    Diagnostic::new(&codes::TWO_READINGS, message)
-        .at(span, "as a factor it would hide the view")
-        .hint(format!(
-            "`fit: {half}` is the size that is shown, `scale: {size}` the factor"
-        ))
-}
-
-/// Makes a mesh of these bounds fill the size it is to have: the transform of the instance has that
-/// size and where its middle is to be.
-fn fit(instance: &mut ir::Instance, [low, high]: [Vec3; 2]) {
-    let half = ((high - low) / 2.0).max_element();
-    if half > 0.0 {
-        let [x, y, z, middle] = instance.world_from_object.map(Vec3::from_array);
-        let axes = [x, y, z].map(|axis| axis / half);
-        let center = (low + high) / 2.0;
-        let origin = middle - (axes[0] * center.x + axes[1] * center.y + axes[2] * center.z);
-        instance.world_from_object =
-            [axes[0], axes[1], axes[2], origin].map(|column| column.to_array());
     }
 }

@@ -1,22 +1,25 @@
 //! The objects, told apart by their `type`: the table of types, and what all of them share.
 
 mod cone;
-mod cube;
+pub(super) mod cube;
 mod cylinder;
 mod disc;
 mod gltf;
-pub(super) mod mesh;
+mod mesh;
 mod paraboloid;
 mod plane;
 mod quad;
+mod round;
+pub(super) mod sizing;
 pub(super) mod solid;
 mod sphere;
-mod torus;
+pub(super) mod torus;
 mod triangle;
 
 use super::decode::{Context, SharedValue, Spanned, Value, ValueKey};
 use super::lower::Lowering;
 use super::material::Material;
+use super::number::NonNegative;
 use super::reader::{look_up, missing_keys};
 use super::record::Record;
 use super::schema::{self, Definitions};
@@ -25,6 +28,7 @@ use super::value::Text;
 use rtc_diag::clip;
 use rtc_diag::{Severity, codes, nearest};
 use rtc_ir::{self as ir, Field, MaterialId, Noun};
+use rtc_math::shortest;
 use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use serde_json::Value as Json;
@@ -102,6 +106,9 @@ impl Value for Object {
                 let word = tree.text(*key);
                 word.is_some_and(|word| nearest(word, ["type"].into_iter()).is_some())
             };
+            if is_named_by_key(node, context) {
+                return None;
+            }
             let slip = tree.pairs(node).map(|(key, _)| key).find(is_slip);
             let slip = slip.map(|key| tree.span(key));
             missing_keys("object", context.head(node), &["type"], slip, context);
@@ -137,6 +144,35 @@ impl Value for Object {
         }
         schema::tagged("type", "What kind of object this is.", &kinds)
     }
+}
+
+/// Reports an object whose type stands as a key, `- sphere:`, if it is one.
+fn is_named_by_key(node: NodeId, context: &mut Context<'_>) -> bool {
+    let tree = context.tree;
+    let is_kind = |word: &str| KINDS.iter().any(|kind| kind.words.contains(&word));
+    let named = tree
+        .pairs(node)
+        .find_map(|(key, value)| Some((key, value, tree.text(key).filter(|word| is_kind(word))?)));
+    let Some((key, value, word)) = named else {
+        return false;
+    };
+    let span = tree.span(key);
+    let message = || format!("an object says what it is by `type: {word}`");
+    let is_alone = tree.text(value) == Some("") && tree.rest_of_line(span).starts_with(':');
+    let colon = Span {
+        end: span.end + 1,
+        ..span
+    };
+    context.report(&codes::MISSING_KEY, span, message, |d| {
+        let d = d.at(span, "a type, and not a key");
+        match is_alone {
+            true => d.guess("write", colon, format!("type: {word}")),
+            false => d.hint(format!(
+                "write `type: {word}`, and its other keys beside that"
+            )),
+        }
+    });
+    true
 }
 
 /// Reports an object of unknown type.
@@ -217,6 +253,11 @@ impl Lowering {
         shape: ir::Shape,
         places: &[(&str, Option<Span>)],
     ) {
+        if let Some(way) = without_size(&shape) {
+            let place = places.iter().find(|(own, _)| *own == way);
+            self.invisible(place.and_then(|(_, span)| *span).or(clothes.whole));
+            return;
+        }
         let Clothes {
             whole,
             material,
@@ -237,6 +278,22 @@ impl Lowering {
         self.origin(Noun::Surface, index, Field::Material, span);
     }
 
+    /// Remembers what has no size, where that is written: it is left out.
+    fn invisible(&mut self, span: Option<Span>) {
+        self.invisible.extend(span);
+    }
+
+    /// Tells of what has no size.
+    pub(super) fn note_invisible(&mut self, context: &mut Context<'_>) {
+        for span in std::mem::take(&mut self.invisible) {
+            let message = || "an object of size 0 is invisible".to_owned();
+            context.report(&codes::INVISIBLE, span, message, |d| {
+                d.at(span, "left out")
+                    .hint("give it a size, or remove the object")
+            });
+        }
+    }
+
     /// Calls the last surface by a name.
     fn call(&mut self, name: &str) {
         let names = &mut self.scene.names;
@@ -245,5 +302,33 @@ impl Lowering {
             .last_mut()
             .into_iter()
             .for_each(|last| name.clone_into(last));
+    }
+}
+
+/// The way to the value of a shape that is 0 and leaves nothing to see of it.
+fn without_size(shape: &ir::Shape) -> Option<&'static str> {
+    let (way, size) = match shape {
+        ir::Shape::Sphere(ir::Sphere { radius, .. })
+        | ir::Shape::Disc(ir::Disc { radius, .. })
+        | ir::Shape::Cylinder(ir::Cylinder { radius, .. })
+        | ir::Shape::Cone(ir::Cone { radius, .. })
+        | ir::Shape::Paraboloid(ir::Paraboloid { radius, .. }) => ("radius", *radius),
+        ir::Shape::Torus(ir::Torus { minor, .. }) => ("minor", *minor),
+        ir::Shape::Plane(_)
+        | ir::Shape::Triangle(_)
+        | ir::Shape::Quad(_)
+        | ir::Shape::Instance(_) => return None,
+    };
+    (size == 0.0).then_some(way)
+}
+
+/// Reports a negative length of what becomes flat faces; of others the proof says so.
+fn negative(length: &Spanned<NonNegative>, word: &str, context: &mut Context<'_>) {
+    if let Some(span) = length.span {
+        let shown = shortest(length.value.0);
+        let message = || format!("the {word} `{shown}` is not above 0");
+        context.report(&codes::RADIUS, span, message, |d| {
+            d.at(span, "must be above 0")
+        });
     }
 }

@@ -1,11 +1,13 @@
 //! The paraboloid.
 
 use super::Lower;
+use super::round::Upright;
 use crate::course::decode::{Context, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::number::Positive;
+use crate::course::number::{NonNegative, Positive};
 use crate::course::record::{keys, record};
+use crate::course::synonym::{AXIS, ENDS, HEIGHT, PLACE, RADIUS, led_by};
 use crate::course::value::{Point, Text, Vector};
 use rtc_ir as ir;
 
@@ -15,16 +17,23 @@ record! {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"];
         /// The centre of the base.
-        position: Spanned<Point>, required, keys!["position" "center"];
+        position: Spanned<Point>, optional, &led_by(PLACE, "position");
         /// From the centre of the base to the vertex; its length is the height.
-        up: Spanned<Vector>, required, keys!["up"];
-        /// The radius of the base, above 0.
-        radius: Spanned<Positive>, required, keys!["radius" "r"];
+        up: Spanned<Vector>, optional, keys!["up"];
+        /// The direction from the base to the vertex, of any length but 0.
+        direction: Spanned<Vector>, optional, &led_by(AXIS, "direction");
+        /// From the base to the vertex, above 0.
+        height: Spanned<Positive>, optional, &HEIGHT;
+        /// The centre of the base, and the vertex.
+        ends: [Spanned<Point>; 2], optional, &ENDS;
+        /// The radius of the base; nothing shows at 0.
+        radius: Spanned<NonNegative>, required, &led_by(RADIUS, "radius");
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
+    forms { [position up] [position direction height] [ends] }
 }
 
 impl Lower for Paraboloid {
@@ -33,22 +42,34 @@ impl Lower for Paraboloid {
             kind,
             position,
             up,
+            direction,
+            height,
+            ends,
             radius,
             material,
             shadow,
         } = self;
+        let upright = Upright {
+            position,
+            up,
+            direction,
+            height,
+            ends,
+        };
+        let clothes = lowering.clothe(kind, material, shadow, context);
+        let (Some(clothes), Some((base, up))) = (clothes, upright.base_and_up()) else {
+            return;
+        };
         let shape = ir::Paraboloid {
-            base: position.value.0,
-            up: up.value.0,
+            base: base.value,
+            up: up.value,
             radius: radius.value.0,
         };
         let places = [
-            ("base", position.span),
+            ("base", base.span),
             ("up", up.span),
             ("radius", radius.span),
         ];
-        if let Some(clothes) = lowering.clothe(kind, material, shadow, context) {
-            lowering.put(&clothes, ir::Shape::Paraboloid(shape), &places);
-        }
+        lowering.put(&clothes, ir::Shape::Paraboloid(shape), &places);
     }
 }

@@ -1,14 +1,15 @@
 //! The planes: infinite ones, and the bounded ones of some files.
 
-use super::Lower;
 use super::quad::EDGES;
 use super::triangle::CORNERS;
+use super::{Lower, negative};
 use crate::course::decode::{Context, Numbers, SharedValue, Spanned, Value};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::number::{Positive, Real};
+use crate::course::number::{NonNegative, Real};
 use crate::course::record::{FieldOutcome, keys, record};
 use crate::course::schema::Definitions;
+use crate::course::synonym::{AXIS, PLACE, RADIUS, and, led_by};
 use crate::course::value::{Point, Text, Vector, word, word_schema};
 use rtc_diag::codes;
 use rtc_ir as ir;
@@ -27,9 +28,9 @@ record! {
         /// One of three points of the plane.
         corners: [Spanned<Point>; 3], optional, CORNERS, json "A";
         /// A point of the plane.
-        position: Spanned<Point>, optional, keys!["position" "center" "O" "a"], json "position";
+        position: Spanned<Point>, optional, &and::<_, 9>(PLACE, &["a"]), json "position";
         /// The direction at right angles to the plane, of any length but 0.
-        normal: Spanned<Vector>, optional, keys!["normal" "N" "n"], json "normal";
+        normal: Spanned<Vector>, optional, &led_by(AXIS, "normal"), json "normal";
         /// The distance from the origin, along the normal.
         distance: Spanned<Real>, optional, keys!["distance" "d"];
         /// A direction in the plane.
@@ -51,11 +52,11 @@ record! {
         /// Whether it is a square, `quad`, or a disc, `circle`.
         outline: Spanned<Outline>, required, keys!["typ"];
         /// The centre.
-        center: Spanned<Point>, required, keys!["center" "position"];
+        center: Spanned<Point>, required, &led_by(PLACE, "center");
         /// The direction at right angles to it; that of a square is along an axis.
-        normal: Spanned<Vector>, required, keys!["normal" "N" "n"];
-        /// The radius, or half the side of the square; above 0.
-        radius: Spanned<Positive>, required, keys!["radius" "r"];
+        normal: Spanned<Vector>, required, &led_by(AXIS, "normal");
+        /// The radius, or half the side of the square; nothing shows at 0.
+        radius: Spanned<NonNegative>, required, &led_by(RADIUS, "radius");
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
@@ -125,7 +126,8 @@ impl Lower for BoundedPlane {
                 ];
                 lowering.put(&clothes, ir::Shape::Disc(shape), &places);
             }
-            Outline::Square if radius.value.0 <= 0.0 => pointlike(radius, context),
+            Outline::Square if radius.value.0 == 0.0 => lowering.invisible(radius.span),
+            Outline::Square if radius.value.0 < 0.0 => negative(radius, "radius", context),
             Outline::Square => {
                 let fields = ["vertices/0", "vertices/1", "vertices/2", "vertices/3"];
                 let places = fields.map(|field| (field, center.span));
@@ -156,16 +158,6 @@ fn square(center: [f64; 3], normal: [f64; 3], half: f64) -> Option<[[f64; 3]; 4]
         corner(1.0, 1.0),
         corner(-1.0, 1.0),
     ])
-}
-
-/// Reports a square without sides; of a circle the proof says so.
-fn pointlike(radius: &Spanned<Positive>, context: &mut Context<'_>) {
-    if let Some(span) = radius.span {
-        let message = || format!("the radius `{}` is not above 0", radius.value.0);
-        context.report(&codes::RADIUS, span, message, |d| {
-            d.at(span, "must be above 0")
-        });
-    }
 }
 
 fn oblique(normal: &Spanned<Vector>, context: &mut Context<'_>) {

@@ -1,10 +1,13 @@
 //! The quadrilateral.
 
-use super::Lower;
+use super::solid::UNIT_SQUARE;
+use super::triangle::VERTICES;
+use super::{Clothes, Lower};
 use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::record::{FieldOutcome, Rows, keys, record};
+use crate::course::synonym::CORNER;
 use crate::course::value::{Point, Text, Vector};
 use rtc_diag::codes;
 use rtc_ir as ir;
@@ -30,16 +33,19 @@ pub(in crate::course) const EDGES: Rows = &[&["up", "side"], &["edge1", "edge2"]
 
 record! {
     /// A quadrilateral, seen from both sides: four corners in order around it, or one corner and the two edges from it.
-    /// Four corners out of a plane span a curved patch; where edges cross there is a warning, and `--lenient` mends it.
+    /// Where edges cross there is a warning, and `--lenient` mends it.
     struct Quad, "quad" {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"], json "type";
         /// One of four corners, in order around it; a texture has its lower left at the first and its lower right at the second.
         corners: [Spanned<Point>; 4], optional, FOUR_CORNERS, json "vertex0", json "A", json "p0";
         /// The corner at the lower left of a texture.
-        position: Spanned<Point>, optional, keys!["position" "corner"];
+        position: Spanned<Point>, optional, &CORNER;
         /// An edge from that corner: `up` is the left one of a texture, `side` the lower one.
         edges: [Spanned<Vector>; 2], optional, EDGES;
+        /// Of four corners out of a plane: whether they span a curved patch, or two triangles that meet from the first to the
+        /// third. Programs do either.
+        curved: Spanned<bool>, optional, keys!["curved"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
@@ -55,12 +61,47 @@ impl Lower for Quad {
             if let Some(swap) = crossing(&corners.map(|corner| Vec3::from_array(corner.value))) {
                 crossed(&mut corners, swap, context);
             }
+            let vertices = corners.map(|corner| corner.value);
+            let quad = ir::Quad { vertices };
+            if quad.is_bent() && !is_curved(self, &corners, context) {
+                lowering.two_triangles(&clothes, &corners);
+                return;
+            }
             let fields = ["vertices/0", "vertices/1", "vertices/2", "vertices/3"];
             let places = [0, 1, 2, 3].map(|k| (fields[k], corners[k].span));
-            let vertices = corners.map(|corner| corner.value);
-            lowering.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places);
+            lowering.put(&clothes, ir::Shape::Quad(quad), &places);
         }
     }
+}
+
+impl Lowering {
+    /// Puts two triangles in the place of a quad, which meet from its first corner to its third.
+    fn two_triangles(&mut self, clothes: &Clothes, corners: &[Numbers; 4]) {
+        for at in [[0, 1, 2], [0, 2, 3]] {
+            let triangle = ir::Triangle {
+                vertices: at.map(|k| corners[k].value),
+                uvs: Some(at.map(|k| UNIT_SQUARE[k])),
+            };
+            let places = [0, 1, 2].map(|k| (VERTICES[k], corners[at[k]].span));
+            self.put(clothes, ir::Shape::Triangle(triangle), &places);
+        }
+    }
+}
+
+/// Whether four corners out of a plane span a curved patch; where nothing says so, that is told.
+fn is_curved(quad: &Quad, corners: &[Numbers; 4], context: &mut Context<'_>) -> bool {
+    if let FieldOutcome::Read(curved) = quad.curved {
+        return curved.value;
+    }
+    if let Some(span) = corners[3].span {
+        let message = || "the corners of this quad lie in no plane: it is two triangles".to_owned();
+        context.report(&codes::TWO_READINGS, span, message, |d| {
+            d.at(span, "a curved patch in some programs").hint(
+                "`curved: true` spans a patch, `curved: false` says that two triangles are meant",
+            )
+        });
+    }
+    false
 }
 
 /// The corners in order around it.
@@ -70,6 +111,7 @@ fn corners(quad: &Quad) -> Option<[Numbers; 4]> {
         corners,
         position,
         edges,
+        curved: _,
         material: _,
         shadow: _,
     } = quad;

@@ -8,10 +8,12 @@ use super::triangle::{CORNERS, VERTICES};
 use crate::course::decode::{Context, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
+use crate::course::number::Degrees;
 use crate::course::object::Clothes;
 use crate::course::record::{FieldOutcome, keys, record};
-use crate::course::turn::Rotation;
-use crate::course::value::{Angles, Point, Text, Vector};
+use crate::course::synonym::{PLACE, ROTATION, TURN_ANGLE, TURN_AXIS, led_by};
+use crate::course::turn::{Rotation, Turn};
+use crate::course::value::{Angles, Point, Scale, Text, Vector};
 use rtc_diag::codes;
 use rtc_ir as ir;
 use rtc_math::{Vec3, cos, shortest, sin, unit_scale};
@@ -24,13 +26,21 @@ record! {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"];
         /// One of two opposite corners of a box with sides along the axes.
-        extremes: [Spanned<Point>; 2], optional, &[&["min", "max"]];
+        extremes: [Spanned<Point>; 2], optional, &[
+            &["min", "max"], &["minimum", "maximum"], &["corner1", "corner2"], &["p1", "p2"], &["p0", "p1"],
+            &["point1", "point2"], &["v0", "v1"], &["lower", "upper"], &["from", "to"],
+        ];
         /// The centre beside `dimension`; a corner beside `up`, `side` and `depth`.
-        position: Spanned<Point>, optional, keys!["position" "center"];
-        /// The lengths along x, y and z, before it is turned.
-        dimension: Spanned<Vector>, optional, keys!["dimension" "dimensions"];
-        /// The angles in radians by which it is turned about its centre: first about x, then y, then z.
-        rotation: Spanned<Rotation<Angles>>, optional, keys!["rotation"];
+        position: Spanned<Point>, optional, &led_by(PLACE, "position");
+        /// The lengths along x, y and z, before it is turned, or one for all.
+        dimension: Spanned<Scale>, optional, keys!["dimension" "dimensions" "size" "extent" "extents"];
+        /// The angles in radians by which it is turned about its centre: first about x, then y, then z; beside `angle`
+        /// the axis.
+        rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
+        /// The axis through its centre that it is turned about by `angle`.
+        axis: Spanned<Vector>, optional, &TURN_AXIS;
+        /// By how many degrees it is turned about its axis.
+        angle: Spanned<Degrees>, optional, &TURN_ANGLE;
         /// An edge from the corner `position`.
         edges: [Spanned<Vector>; 2], optional, &[&["up", "side"]];
         /// The third edge; or its length alone, at right angles to the others, along `up` × `side`.
@@ -40,7 +50,10 @@ record! {
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
-    forms { [extremes] [position dimension] [position dimension rotation] [position edges depth] }
+    forms {
+        [extremes] [position dimension] [position dimension rotation] [position dimension rotation angle]
+        [position dimension axis angle] [position edges depth]
+    }
 }
 
 record! {
@@ -65,7 +78,7 @@ record! {
         /// A corner of the base.
         corners: [Spanned<Point>; 3], optional, CORNERS;
         /// From the base to the top.
-        up: Spanned<Vector>, optional, keys!["up" "direction"];
+        up: Spanned<Vector>, optional, keys!["up" "direction" "axis"];
         /// A corner of the base, and those of the top in the same order.
         ends: [Spanned<Point>; 6], optional,
             &[&["t1point1", "t1point2", "t1point3", "t2point1", "t2point2", "t2point3"]];
@@ -102,7 +115,7 @@ const PRISM: &[Face] = &[
 impl Lower for Cuboid {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let clothes = lowering.clothe(&self.kind, &self.material, &self.shadow, context);
-        if let (Some(clothes), Some((corners, span))) = (clothes, box_corners(self)) {
+        if let (Some(clothes), Some((corners, span))) = (clothes, box_corners(self, context)) {
             assumed_depth(&self.depth, corners[4] - corners[0], context);
             lowering.cuboid(&clothes, &corners, span, context);
         }
@@ -214,6 +227,10 @@ impl Lowering {
             .edges
             .map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
         let volume = x.cross(y).dot(z);
+        if solid.edges == [Vec3::ZERO; 3] {
+            self.invisible(span);
+            return;
+        }
         if volume == 0.0 {
             span.into_iter()
                 .for_each(|span| flat(solid.word, span, context));
@@ -240,7 +257,7 @@ impl Lowering {
 }
 
 /// The uv of the corners of a face with four.
-const UNIT_SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+pub(super) const UNIT_SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 
 /// Corners and faces, and three edges that span the volume.
 struct Solid<'c> {
@@ -281,13 +298,15 @@ fn assumed_depth(depth: &FieldOutcome<Spanned<ThirdEdge>>, edge: Vec3, context: 
 }
 
 /// The corners of a box, and where its size was written.
-fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
+fn box_corners(cuboid: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8], Option<Span>)> {
     let Cuboid {
         kind: _,
         extremes,
         position,
         dimension,
         rotation,
+        axis,
+        angle,
         edges,
         depth,
         material: _,
@@ -302,24 +321,22 @@ fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
         let depth = depth.value.edge(up_edge, side_edge);
         return Some((of_edges(corner, [side_edge, up_edge, depth]), up.span));
     }
-    match (extremes, position, dimension, rotation) {
+    match (extremes, position, dimension) {
         (FieldOutcome::Read(ends), ..) => {
             let corner = |index| {
                 Vec3::from_array([0, 1, 2].map(|axis| ends[end(index, axis)].value.0[axis]))
             };
             Some((std::array::from_fn(corner), ends[0].span))
         }
-        (_, FieldOutcome::Read(center), FieldOutcome::Read(dimension), rotation) => {
-            let turn = match rotation {
-                FieldOutcome::Read(Spanned {
-                    value: Rotation(Some(angles)),
-                    ..
-                }) => turned(angles.0),
-                FieldOutcome::Read(_) | FieldOutcome::Absent => Vec3::AXES,
-                FieldOutcome::Broken => return None,
+        (_, FieldOutcome::Read(center), FieldOutcome::Read(dimension)) => {
+            let turn = Turn {
+                rotation,
+                axis,
+                angle,
             };
+            let axes = turn.axes(context)?;
             let center = Vec3::from_array(center.value.0);
-            Some((around(center, dimension.value.0, turn), dimension.span))
+            Some((around(center, dimension.value.0, axes), dimension.span))
         }
         _ => None,
     }

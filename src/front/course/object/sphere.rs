@@ -4,9 +4,10 @@ use super::Lower;
 use crate::course::decode::{Context, SharedValue, Spanned, Value};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::number::{Degrees, Positive, json_number};
+use crate::course::number::{Degrees, NonNegative, json_number};
 use crate::course::record::{FieldOutcome, keys, record};
 use crate::course::schema::Definitions;
+use crate::course::synonym::{PLACE, RADIUS, led_by};
 use crate::course::turn::{Quaternion, Rotation};
 use crate::course::value::{Point, Text, Vector};
 use rtc_diag::{Severity, codes};
@@ -22,9 +23,9 @@ record! {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"], json "type";
         /// The centre.
-        position: Spanned<Point>, required, keys!["position" "center"], json "position";
-        /// The radius, above 0; or a list of the radius and the axis that its texture is turned about.
-        radius: Spanned<Radius>, required, keys!["radius" "r"], json "radius";
+        position: Spanned<Point>, required, &led_by(PLACE, "position"), json "position";
+        /// The radius, at 0 of which nothing shows; or a list of the radius and the axis that its texture is turned about.
+        radius: Spanned<Radius>, required, &led_by(RADIUS, "radius"), json "radius";
         /// By how many degrees the texture is turned about its axis.
         angle: Spanned<Degrees>, default(Degrees(0.0)), keys!["angle"], json "angle";
         /// The axis that the texture is turned about: its poles lie on it.
@@ -52,7 +53,7 @@ impl Value for Radius {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let tree = context.tree;
         if tree.shape(node) != NodeContent::List {
-            return Positive::decode(node, context).map(|length| Self {
+            return NonNegative::decode(node, context).map(|length| Self {
                 length: length.0,
                 axis: None,
             });
@@ -61,7 +62,7 @@ impl Value for Radius {
         let (Some(length), Some(axis), None) = (items.next(), items.next(), items.next()) else {
             return context.expected(node, "a number, or a list of a number and an axis");
         };
-        let length = Positive::decode(length, context);
+        let length = NonNegative::decode(length, context);
         let span = Some(tree.span(axis));
         let axis = Vector::decode(axis, context).map(|value| Spanned { value, span });
         Some(Self {
@@ -71,7 +72,7 @@ impl Value for Radius {
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        let length = Positive::schema(definitions);
+        let length = NonNegative::schema(definitions);
         let pair = json!([length, Vector::schema(definitions)]);
         json!({ "anyOf": [length, { "type": "array", "prefixItems": pair, "minItems": 2, "maxItems": 2 }] })
     }

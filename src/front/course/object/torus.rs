@@ -4,11 +4,13 @@ use super::Lower;
 use crate::course::decode::{Context, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::number::Positive;
+use crate::course::number::{NonNegative, Positive};
 use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::synonym::{AXIS, PLACE, led_by};
 use crate::course::value::{Point, Text, Vector};
 use rtc_diag::codes;
 use rtc_ir as ir;
+use rtc_math::{Vec3, shortest, unit};
 
 record! {
     /// A torus.
@@ -16,22 +18,24 @@ record! {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"], json "type";
         /// The centre.
-        position: Spanned<Point>, required, keys!["position" "center"], json "position";
+        position: Spanned<Point>, required, &led_by(PLACE, "position"), json "position";
+        /// From the centre to the middle of the tube, and the radius of the tube: `radius` and `alpha`.
+        radii: [Spanned<NonNegative>; 2], optional, &[&["R", "r"], &["radius", "r"]];
         /// From the centre to the middle of the tube, above 0.
-        radius: Spanned<Positive>, optional, keys!["radius" "r"];
-        /// The radius of the tube, above 0.
-        alpha: Spanned<Positive>, optional, keys!["alpha"];
-        /// The radii of the hole and of the whole torus. In some programs they are those of the tube and of the ring that
-        /// it goes along, which are `alpha` and `radius`.
+        radius: Spanned<Positive>, optional, keys!["radius" "r" "R" "rad" "majorRadius" "major" "ringRadius"];
+        /// The radius of the tube; nothing shows at 0.
+        alpha: Spanned<NonNegative>, optional, keys!["alpha" "minorRadius" "minor" "tubeRadius" "tube"];
+        /// The radii of the hole and of the whole torus; or, where that would hold more of the eye, the lights and the other
+        /// objects, those of the tube and of the ring that it goes along, which are `alpha` and `radius`.
         rims: [Spanned<Positive>; 2], optional, &[&["innerRadius", "outerRadius"]], json "innerRadius";
         /// The direction of the axis, of any length but 0.
-        direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])), keys!["direction" "axis" "normal" "N"];
+        direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])), &led_by(AXIS, "direction");
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
-    forms { [radius alpha] [rims] }
+    forms { [radius alpha] [radii] [rims] }
 }
 
 impl Lower for Torus {
@@ -39,6 +43,7 @@ impl Lower for Torus {
         let Torus {
             kind,
             position,
+            radii,
             radius,
             alpha,
             rims,
@@ -46,17 +51,17 @@ impl Lower for Torus {
             material,
             shadow,
         } = self;
-        let (radius, alpha) = match (radius, alpha, rims) {
-            (FieldOutcome::Read(radius), FieldOutcome::Read(alpha), _) => {
+        let (radius, alpha) = match (radius, alpha, radii, rims) {
+            (FieldOutcome::Read(radius), FieldOutcome::Read(alpha), ..) => {
                 (radius.map(|radius| radius.0), alpha.map(|alpha| alpha.0))
             }
+            (_, _, FieldOutcome::Read(radii), _) => {
+                let [radius, alpha] = radii.map(|radius| radius.map(|radius| radius.0));
+                (radius, alpha)
+            }
             (.., FieldOutcome::Read([inner, outer])) => {
-                two_radii(inner, outer, context);
-                let (hole, whole) = (inner.value.0, outer.value.0);
-                (
-                    outer.map(|_| f64::midpoint(hole, whole)),
-                    inner.map(|_| (whole - hole) / 2.0),
-                )
+                let [major, minor] = as_rims(inner.value.0, outer.value.0);
+                (outer.map(|_| major), inner.map(|_| minor))
             }
             _ => return,
         };
@@ -73,21 +78,120 @@ impl Lower for Torus {
             ("major", radius.span),
             ("minor", alpha.span),
         ];
-        if let Some(clothes) = lowering.clothe(kind, material, shadow, context) {
-            lowering.put(&clothes, ir::Shape::Torus(shape), &places);
+        let Some(clothes) = lowering.clothe(kind, material, shadow, context) else {
+            return;
+        };
+        let surface = lowering.scene.surfaces.len();
+        lowering.put(&clothes, ir::Shape::Torus(shape), &places);
+        if let (FieldOutcome::Read(radii), true) = (rims, lowering.scene.surfaces.len() > surface) {
+            lowering.rims.push(Rims {
+                surface,
+                radii: *radii,
+            });
         }
     }
 }
 
-/// Says how two radii are read that programs read in two ways.
-fn two_radii(inner: &Spanned<Positive>, outer: &Spanned<Positive>, context: &mut Context<'_>) {
-    if let Some(span) = inner.span {
-        let message =
-            || "`innerRadius` and `outerRadius` are those of the hole and of the whole".to_owned();
-        context.report(&codes::TWO_READINGS, span, message, |d| {
-            d.at(span, "the hole").also(outer.span, "the whole").hint(
-                "in some programs they are those of the tube and of the ring: here `alpha` and `radius`",
-            )
-        });
+/// A torus with two radii that programs read in two ways.
+pub(in crate::course) struct Rims {
+    surface: usize,
+    radii: [Spanned<Positive>; 2],
+}
+
+/// The radii of the ring and of the tube, from those of the hole and of the whole.
+fn as_rims(hole: f64, whole: f64) -> [f64; 2] {
+    [f64::midpoint(hole, whole), (whole - hole) / 2.0]
+}
+
+/// So many other surfaces are looked at for what a torus would hold.
+const MOST_OTHERS: usize = 64;
+
+impl Lowering {
+    /// Chooses between the two readings of each torus that has them, now that all else is there: that
+    /// by which it holds less of what is to be seen.
+    pub(in crate::course) fn settle_rims(&mut self, context: &mut Context<'_>) {
+        for Rims {
+            surface,
+            radii: [inner, outer],
+        } in std::mem::take(&mut self.rims)
+        {
+            let others = self.points_outside(surface);
+            let Some(ir::Shape::Torus(torus)) = self
+                .scene
+                .surfaces
+                .get_mut(surface)
+                .map(|surface| &mut surface.shape)
+            else {
+                continue;
+            };
+            let tube = ir::Torus {
+                major: outer.value.0,
+                minor: inner.value.0,
+                ..*torus
+            };
+            let held = |torus: &ir::Torus| others.iter().filter(|p| holds(torus, **p)).count();
+            let is_tube = held(&tube) < held(torus);
+            if is_tube {
+                *torus = tube;
+            }
+            two_radii(&inner, &outer, is_tube, context);
+        }
     }
+
+    /// The eye, the lights, and the corners of boxes around some of the surfaces but one.
+    fn points_outside(&self, surface: usize) -> Vec<Vec3> {
+        let lights = self.scene.lights.iter().filter_map(ir::Light::point);
+        let lights = lights.map(|light| light.position).take(MOST_OTHERS);
+        let eye = [self.scene.camera.eye];
+        let mut points: Vec<_> = lights.chain(eye).map(Vec3::from_array).collect();
+        let others = self.scene.surfaces.iter().enumerate();
+        // Of meshes the files are not there yet.
+        let others = others
+            .filter(|(at, other)| *at != surface && !matches!(other.shape, ir::Shape::Instance(_)));
+        for (_, other) in others.take(MOST_OTHERS) {
+            let visit = &mut |corner| points.push(corner);
+            other.shape.corners_around(&[], visit);
+        }
+        points
+    }
+}
+
+/// Whether a point lies inside a torus.
+fn holds(torus: &ir::Torus, point: Vec3) -> bool {
+    let Some(axis) = unit(Vec3::from_array(torus.axis)) else {
+        return false;
+    };
+    let from_center = point - Vec3::from_array(torus.center);
+    let above = axis.dot(from_center);
+    let off = (from_center - axis * above).length();
+    Vec3::new(off - torus.major, above, 0.0).length() < torus.minor
+}
+
+/// Says how two radii are read that programs read in two ways.
+fn two_radii(
+    inner: &Spanned<Positive>,
+    outer: &Spanned<Positive>,
+    is_tube: bool,
+    context: &mut Context<'_>,
+) {
+    let Some(span) = inner.span else { return };
+    let (of, [first, second], hint) = match is_tube {
+        false => (
+            "the hole and of the whole",
+            ["the hole", "the whole"],
+            "in some programs they are those of the tube and of the ring: here `alpha` and `radius`"
+                .to_owned(),
+        ),
+        true => {
+            let [major, minor] = as_rims(inner.value.0, outer.value.0).map(shortest);
+            let hint = format!(
+                "as a hole and a whole, `radius: {major}` and `alpha: {minor}`, the torus would hold other objects"
+            );
+            ("the tube and of the ring", ["the tube", "the ring"], hint)
+        }
+    };
+    let message = || format!("`innerRadius` and `outerRadius` are those of {of}");
+    context.report(&codes::TWO_READINGS, span, message, |d| {
+        d.at(span, first).also(outer.span, second).hint(hint)
+    });
 }

@@ -1,7 +1,7 @@
 //! What the YAML parser refuses, in words a person who wrote the text understands.
 
 use super::super::{NodeId, Tree, to_u32};
-use super::{Mistake, slip};
+use super::{Mistake, comma, lookalike, slip};
 use crate::Span;
 use granit_parser::{ErrorKind, ScanError};
 
@@ -29,12 +29,26 @@ pub(super) fn syntax(
         runs_into,
         comment: comment_after(tree, bracket),
     };
+    if let Some(slip) = lookalike::near(tree, at).or_else(|| lookalike::comment_near(tree, at)) {
+        return slip;
+    }
+    let from = bracket.map_or(at, |bracket| (bracket.start - tree.base) as usize);
+    let is_unclosed = matches!(kind, ErrorKind::UnclosedFlowCollection { .. }) || ends_early(kind);
+    if let Some(slip) = is_unclosed.then(|| comma::doubled(tree, from)).flatten() {
+        return slip;
+    }
     match bracket {
         _ if matches!(kind, ErrorKind::RecursionLimitExceeded) => Mistake::TooDeep { span: here },
         _ if matches!(kind, ErrorKind::UnclosedFlowCollection { .. }) => unclosed(here, None),
         Some(bracket) if ends_early(kind) => unclosed(bracket, None),
-        Some(bracket) if runs_on(kind) && ran_on(&bracket) => unclosed(bracket, Some(here)),
+        Some(bracket) if runs_on(kind) && ran_on(&bracket) && !comma::is_closed(tree, from) => {
+            unclosed(bracket, Some(here))
+        }
         bracket => {
+            let missing = bracket.filter(|_| runs_on(kind) || trails(kind));
+            if let Some(slip) = missing.and_then(|_| comma::missing(tree, at)) {
+                return slip;
+            }
             if let Some(slip) = slip::find(tree, at, kind) {
                 return slip;
             }
@@ -80,6 +94,14 @@ fn ends_early(kind: &ErrorKind) -> bool {
             | ErrorKind::UnexpectedEofFlowSequence
             | ErrorKind::UnexpectedEofFlowMapping
             | ErrorKind::UnexpectedEofImplicitFlowMapping
+    )
+}
+
+/// Something stands behind a text in quotes.
+fn trails(kind: &ErrorKind) -> bool {
+    matches!(
+        kind,
+        ErrorKind::InvalidTrailingSingleQuotedScalar | ErrorKind::InvalidTrailingDoubleQuotedScalar
     )
 }
 

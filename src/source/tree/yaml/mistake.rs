@@ -2,7 +2,16 @@
 
 use crate::Span;
 
-/// A mistake in a YAML text. All but tags and duplicate keys leave no tree.
+/// What stands between two items of a list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Separator {
+    /// A dash, in place of the blanks here.
+    Dash(Span),
+    /// `}, {`.
+    Braces,
+}
+
+/// A mistake in a YAML text. All but tags and keys that only stand twice leave no tree.
 #[derive(Debug)]
 pub enum Mistake<'t> {
     /// The file is UTF-16.
@@ -75,6 +84,9 @@ pub enum Mistake<'t> {
         second: Span,
         /// Whether both have the same value.
         is_same: bool,
+        /// What is missing before the second, if a new item of a list begins with it: all else that
+        /// stands twice in the map is of that item.
+        separator: Option<Separator>,
     },
     /// Anything else that is not YAML.
     Syntax {

@@ -1,14 +1,16 @@
 //! YAML text to nodes, from the events of the parser, bounded in depth. Only this folder names that
 //! parser.
 
+mod comma;
 mod fault;
 mod layout;
+mod lookalike;
 mod mistake;
 mod slip;
 mod text;
 
 pub use layout::{LayoutFault, layout};
-pub use mistake::Mistake;
+pub use mistake::{Mistake, Separator};
 
 use super::{Form, Node, NodeId, Tree, inside_quotes, keys, to_u32};
 use crate::{FileId, Span};
@@ -39,6 +41,7 @@ pub fn parse<'s>(
         anchors: Vec::new(),
         ended: false,
         last_end: 0,
+        is_spoiled: false,
         tell,
     };
     let options = granit_parser::options! {
@@ -54,7 +57,10 @@ pub fn parse<'s>(
             Err(error) => Err(fault::syntax(&build.tree, build.open_bracket(), &error)),
         };
         if let Err(fault) = step {
-            (build.tell)(fault);
+            // What was told before may be the cause.
+            if !build.is_spoiled {
+                (build.tell)(fault);
+            }
             return None;
         }
     }
@@ -75,6 +81,8 @@ struct Build<'s, 'k> {
     ended: bool,
     /// Where the last word or bracket ended: block lists and maps end there too.
     last_end: u32,
+    /// A mistake was told that leaves no tree.
+    is_spoiled: bool,
     tell: &'k mut dyn FnMut(Mistake<'_>),
 }
 
@@ -84,6 +92,9 @@ impl<'s> Build<'s, '_> {
     fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> Step {
         if let Event::Scalar(value, style, anchor, tag) = event {
             self.tag(tag.is_some(), start, end);
+            if style == ScalarStyle::Plain {
+                self.plain(start as usize, end as usize);
+            }
             let form = self.scalar(value, style, start, end)?;
             self.word(form, anchor, start, end);
             Ok(())
@@ -115,6 +126,14 @@ impl<'s> Build<'s, '_> {
         if tagged {
             let span = self.span(start, end.max(start + 1));
             (self.tell)(Mistake::Tag { span });
+        }
+    }
+
+    /// Looks for characters in a plain word that only look like signs of YAML.
+    fn plain(&mut self, start: usize, end: usize) {
+        if let Some(mistake) = lookalike::in_word(&self.tree, start, end) {
+            (self.tell)(mistake);
+            self.is_spoiled = true;
         }
     }
 
@@ -225,7 +244,7 @@ impl<'s> Build<'s, '_> {
         let node = &mut self.tree.nodes[id.0 as usize];
         (node.end, node.link) = (self.last_end, link);
         if node.form == Form::Map {
-            self.keys(id);
+            self.keys(id, flow);
         }
     }
 
@@ -244,17 +263,49 @@ impl<'s> Build<'s, '_> {
     }
 
     /// Looks at the keys of a map that has just closed.
-    fn keys(&mut self, map: NodeId) {
+    fn keys(&mut self, map: NodeId, flow: bool) {
         let known = self.tree.duplicate_keys().len();
         keys::close(&mut self.tree, map);
-        for (first, second) in &self.tree.duplicate_keys()[known..] {
+        for at in known..self.tree.duplicate_keys().len() {
+            let (first, second) = self.tree.duplicate_keys()[at];
+            let separator = self.separator(map, flow, [first, second]);
             (self.tell)(Mistake::DuplicateKey {
-                key: self.tree.text(*second).unwrap_or_default(),
-                first: self.tree.span(*first),
-                second: self.tree.span(*second),
+                key: self.tree.text(second).unwrap_or_default(),
+                first: self.tree.span(first),
+                second: self.tree.span(second),
                 is_same: self.tree.is_same(NodeId(first.0 + 1), NodeId(second.0 + 1)),
+                separator,
             });
+            if separator.is_some() {
+                self.is_spoiled = true;
+                break;
+            }
         }
+    }
+
+    /// What is missing before the second of two keys, if that begins the next item: an item of a list
+    /// begins with the first key of a map, and has more than that.
+    fn separator(
+        &self,
+        map: NodeId,
+        flow: bool,
+        [first, second]: [NodeId; 2],
+    ) -> Option<Separator> {
+        let parent = self.open.last()?.node;
+        let pairs = self.tree.pairs(map).take_while(|(key, _)| *key != second);
+        let is_item = self.tree.is_list(parent) && first.0 == map.0 + 1 && pairs.count() > 1;
+        if !is_item || flow {
+            return is_item.then_some(Separator::Braces);
+        }
+        let start = self.tree.node(second).start;
+        let before = Span::new(self.tree.file, start.checked_sub(2)?, start);
+        (self.tree.slice(before.start..before.end)? == "  ").then(|| {
+            Separator::Dash(Span {
+                start: before.start + self.tree.base,
+                end: before.end + self.tree.base,
+                ..before
+            })
+        })
     }
 
     /// The innermost bracket that is still open.
@@ -273,6 +324,6 @@ impl<'s> Build<'s, '_> {
             (self.tell)(Mistake::Empty { span });
             return None;
         }
-        Some(self.tree)
+        (!self.is_spoiled).then_some(self.tree)
     }
 }

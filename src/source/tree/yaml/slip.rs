@@ -144,30 +144,40 @@ impl Text<'_, '_> {
         })
     }
 
-    /// A line that is indented a little more or less than the one before, which it seems to belong to.
+    /// A line that is indented a little more or less than those above that it seems to belong to.
     fn indentation(&self, at: usize) -> Option<Mistake<'static>> {
         let line = self.line(at);
         let own = Indented::of(self.after(line).lines().next()?)?;
-        let before = self.tree.source.get(..line)?.lines().rev();
-        let before = before.filter_map(Indented::of).next()?;
+        let lines = self.tree.source.get(..line)?.lines().rev();
+        let mut above = lines.filter_map(Indented::of).take(LOOKED_BACK).peekable();
         // A key without a value on its line has the next lines for its value.
-        let is_value = before.words.ends_with(':');
-        let apart = own.spaces.abs_diff(before.spaces);
-        if is_value || own.starts_item || apart == 0 || apart > 3 || !own.words.contains(':') {
+        let is_value_of =
+            |before: &Indented<'_>| before.words.ends_with(':') && own.spaces > before.spaces;
+        let is_value = is_value_of(above.peek()?);
+        let apart = |column: usize| own.column().abs_diff(column);
+        let neighbours = above.filter_map(|other| Some((other.column_beside(&own)?, other.key())));
+        let (wanted, neighbour) = neighbours.min_by_key(|(column, _)| apart(*column))?;
+        let apart = apart(wanted);
+        if is_value || apart == 0 || apart > 3 || !own.words.contains(':') {
             return None;
         }
-        let key = own.words.split(':').next()?;
-        let (spaces, wanted) = (own.spaces, before.spaces);
-        let first = line + spaces;
+        let (key, column) = (own.key(), own.column());
+        let first = line + column;
+        let spaces = |count: usize| match count {
+            0 => "no space".to_owned(),
+            1 => "1 space".to_owned(),
+            _ => format!("{count} spaces"),
+        };
+        let has = spaces(column);
         Some(slip(
-            format!("`{key}` has {spaces} spaces before it, and its neighbour {wanted}"),
-            format!("{spaces} spaces before this"),
-            "indent lines that belong together alike",
-            self.span(first, first + key.len()),
-            (
-                self.span(line, first + key.len()),
-                format!("{}{key}", " ".repeat(wanted)),
+            format!(
+                "`{key}` has {has} before it, and its neighbour `{neighbour}` {}",
+                spaces(wanted)
             ),
+            format!("{has} before this"),
+            "indent lines that belong together alike",
+            self.span(first, first + own.words.split(':').next()?.len()),
+            (self.span(line, first), " ".repeat(wanted)),
         ))
     }
 
@@ -183,12 +193,20 @@ impl Text<'_, '_> {
     }
 
     fn span(&self, start: usize, end: usize) -> Span {
-        let base = self.tree.base;
-        Span::new(self.tree.file, to_u32(start) + base, to_u32(end) + base)
+        span(self.tree, start, end)
     }
 }
 
-fn slip(
+/// The span of some bytes of the text.
+pub(super) fn span(tree: &Tree<'_>, start: usize, end: usize) -> Span {
+    Span::new(
+        tree.file,
+        to_u32(start) + tree.base,
+        to_u32(end) + tree.base,
+    )
+}
+
+pub(super) fn slip(
     message: String,
     label: String,
     hint: &'static str,
@@ -205,12 +223,15 @@ fn slip(
     }
 }
 
+/// So many lines above one are looked at for those that it belongs to.
+const LOOKED_BACK: usize = 200;
+
 /// A line with words.
 struct Indented<'t> {
     /// How many spaces stand before its first key; the dash of an item and what follows it count.
     spaces: usize,
-    /// Whether it starts an item.
-    starts_item: bool,
+    /// How many stand before its dash, if it starts an item.
+    dash: Option<usize>,
     words: &'t str,
 }
 
@@ -222,10 +243,31 @@ impl<'t> Indented<'t> {
             return None;
         }
         let inner = line.trim_start_matches([' ', '-']);
+        let dash = line.len() - line.trim_start_matches(' ').len();
         Some(Self {
             spaces: line.len() - inner.len(),
-            starts_item: words.starts_with('-'),
+            dash: words.starts_with('-').then_some(dash),
             words,
         })
+    }
+
+    /// Where it begins.
+    fn column(&self) -> usize {
+        self.dash.unwrap_or(self.spaces)
+    }
+
+    /// Where a line would begin that stands beside this one: dashes stand below dashes, and keys
+    /// below keys.
+    fn column_beside(&self, other: &Self) -> Option<usize> {
+        match other.dash {
+            Some(_) => self.dash,
+            None => Some(self.spaces),
+        }
+    }
+
+    /// Its first key.
+    fn key(&self) -> &'t str {
+        let words = self.words.trim_start_matches([' ', '-']);
+        words.split(':').next().unwrap_or(words)
     }
 }

@@ -1,0 +1,178 @@
+//! What a small calculation comes to that was written in place of a number: `1/3`, `2*0.6`, `-pi/4`.
+
+use std::f64::consts::PI;
+
+/// The longest calculation that is looked at, in bytes.
+const LONGEST: usize = 64;
+
+/// The result, if the text is a calculation and that is finite; a number alone is none.
+///
+/// Operators and values wait on two stacks (Dijkstra's shunting yard).
+pub(super) fn result(text: &str) -> Option<f64> {
+    if text.len() > LONGEST || !text.contains(['+', '-', '*', '/', '^', '(', 'p', 'π', 's']) {
+        return None;
+    }
+    let mut yard = Yard::default();
+    let mut rest = text.trim_start();
+    let mut after_value = false;
+    while let Some(sign) = rest.chars().next() {
+        let mut next = rest.get(sign.len_utf8()..)?;
+        match (sign, after_value) {
+            ('(', false) => yard.waiting.push(Operator::Open),
+            (')', true) => yard.close()?,
+            ('-', false) => yard.waiting.push(Operator::Negate),
+            ('+', false) => {}
+            (_, false) if rest.starts_with("sqrt(") => {
+                yard.waiting.push(Operator::Root);
+                next = rest.strip_prefix("sqrt")?;
+            }
+            (_, false) => {
+                let (value, after) = value(rest)?;
+                yard.values.push(value);
+                (next, after_value) = (after, true);
+            }
+            (_, true) => {
+                let (operator, after) = operator(rest)?;
+                yard.push(operator)?;
+                (next, after_value) = (after, false);
+            }
+        }
+        rest = next.trim_start();
+    }
+    yard.all()
+        .filter(|result| result.is_finite() && after_value)
+}
+
+/// A number without a sign, or π.
+fn value(text: &str) -> Option<(f64, &str)> {
+    for name in ["M_PI", "math.pi", "pi", "PI", "π"] {
+        if let Some(rest) = text.strip_prefix(name) {
+            return Some((PI, rest));
+        }
+    }
+    let end = text.find(|c: char| !c.is_ascii_digit() && c != '.');
+    let (number, rest) = text.split_at(end.unwrap_or(text.len()));
+    Some((number.parse().ok()?, rest))
+}
+
+fn operator(text: &str) -> Option<(Operator, &str)> {
+    let operators = [
+        ("**", Operator::Power),
+        ("^", Operator::Power),
+        ("+", Operator::Add),
+        ("-", Operator::Subtract),
+        ("*", Operator::Multiply),
+        ("/", Operator::Divide),
+    ];
+    let mut found = operators.into_iter();
+    found.find_map(|(sign, operator)| Some((operator, text.strip_prefix(sign)?)))
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Operator {
+    Open,
+    Root,
+    Negate,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+}
+
+impl Operator {
+    /// What binds more is done first.
+    fn strength(self) -> u8 {
+        match self {
+            Self::Open => 0,
+            Self::Add | Self::Subtract => 1,
+            Self::Multiply | Self::Divide => 2,
+            Self::Negate => 3,
+            Self::Power => 4,
+            Self::Root => 5,
+        }
+    }
+}
+
+#[derive(Default)]
+struct Yard {
+    values: Vec<f64>,
+    waiting: Vec<Operator>,
+}
+
+impl Yard {
+    /// Adds an operator between two values, after those that bind as much; powers bind to the right.
+    fn push(&mut self, operator: Operator) -> Option<()> {
+        let goes_first = |waiting: Operator| {
+            waiting.strength() > operator.strength()
+                || (waiting.strength() == operator.strength() && operator != Operator::Power)
+        };
+        while self.waiting.last().is_some_and(|last| goes_first(*last)) {
+            self.apply()?;
+        }
+        self.waiting.push(operator);
+        Some(())
+    }
+
+    /// Closes the last bracket.
+    fn close(&mut self) -> Option<()> {
+        while *self.waiting.last()? != Operator::Open {
+            self.apply()?;
+        }
+        self.waiting.pop();
+        Some(())
+    }
+
+    /// Does what waits last.
+    fn apply(&mut self) -> Option<()> {
+        let operator = self.waiting.pop()?;
+        let last = self.values.pop()?;
+        let result = match operator {
+            Operator::Open => return None,
+            Operator::Root => last.sqrt(),
+            Operator::Negate => -last,
+            Operator::Add => self.values.pop()? + last,
+            Operator::Subtract => self.values.pop()? - last,
+            Operator::Multiply => self.values.pop()? * last,
+            Operator::Divide => self.values.pop()? / last,
+            Operator::Power => rtc_math::pow(self.values.pop()?, last),
+        };
+        self.values.push(result);
+        Some(())
+    }
+
+    fn all(mut self) -> Option<f64> {
+        while !self.waiting.is_empty() {
+            self.apply()?;
+        }
+        let result = self.values.pop()?;
+        self.values.is_empty().then_some(result)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::result;
+
+    #[test]
+    fn calculations_come_to_what_they_say() {
+        for (text, expected) in [
+            ("1/3", 1.0 / 3.0),
+            ("2*0.6", 1.2),
+            ("1 - 2 - 3", -4.0),
+            ("2 * (1 + 3) / 4", 2.0),
+            ("-2^2", -4.0),
+            ("2**3**2", 512.0),
+            ("-pi/4", -std::f64::consts::FRAC_PI_4),
+            ("sqrt(2*8)", 4.0),
+            ("3 * -2", -6.0),
+        ] {
+            assert_eq!(result(text), Some(expected), "{text}");
+        }
+        for text in [
+            "", "-", "1/0", "1 2", "(1", "1)", "()", "2*", "a/b", "1-", "spam", "p", "1//2",
+        ] {
+            assert_eq!(result(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! The sizes of meshes that depend on what is in their files.
+
+use super::mesh::TRANSFORM;
+use rtc_diag::{Diagnostic, Severity, Sink, codes};
+use rtc_ir::{self as ir, Field, Lowered, Noun, Place};
+use rtc_math::{Vec3, shortest};
+use rtc_source::Span;
+
+/// What is done about the size of a mesh once its file is there.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::course) enum Sizing {
+    /// The mesh gets the size that the transform of the surface says.
+    Fit(usize),
+    /// The surface stays as it is, unless it hides the view; the factor by which it is larger than in its file.
+    Check(usize, f64),
+}
+
+/// Sees to the size of a mesh, now that its file is there.
+pub(in crate::course) fn settle(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
+    let (surface, factor_of) = match sizing {
+        Sizing::Fit(surface) => (surface, None),
+        Sizing::Check(surface, size) => (surface, Some(size)),
+    };
+    let Lowered { scene, origins } = lowered;
+    let Some(ir::Surface {
+        shape: ir::Shape::Instance(instance),
+        ..
+    }) = scene.surfaces.get_mut(surface)
+    else {
+        return;
+    };
+    let Some(mesh) = scene.meshes.get(instance.mesh.0 as usize) else {
+        return;
+    };
+    let corners = mesh.positions.iter().map(Vec3::from_array);
+    let bounds = corners.map(|p| (p, p));
+    let Some((low, high)) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
+        return;
+    };
+    if let Some(size) = factor_of {
+        let place = Field::of_shape(ir::ShapeKind::Instance, TRANSFORM);
+        let span = origins.span(Place::new(Noun::Surface, surface, place));
+        if !hides_view(
+            placed_box(instance.world_from_object, [low, high]),
+            &scene.camera,
+        ) {
+            sink.push(factor(size, span));
+            return;
+        }
+        let half = size / UNITS;
+        sink.push(unitised(size, half, span));
+        let [axes @ .., position] = instance.world_from_object;
+        let [x, y, z] = axes.map(|axis| (Vec3::from_array(axis) / UNITS).to_array());
+        instance.world_from_object = [x, y, z, position];
+    }
+    fit(instance, [low, high]);
+}
+
+/// A `size` of so many is a `fit` of 1, where it is no factor.
+const UNITS: f64 = 1.5;
+
+/// The box along the axes around a box that is placed.
+fn placed_box(place: [[f64; 3]; 4], ends: [Vec3; 2]) -> [Vec3; 2] {
+    let [x, y, z, origin] = place.map(Vec3::from_array);
+    let corners = (0..8_usize).map(|index| {
+        let of = |axis: usize| ends[(index >> axis) & 1][axis];
+        origin + x * of(0) + y * of(1) + z * of(2)
+    });
+    let first = [Vec3::INFINITY, Vec3::NEG_INFINITY];
+    corners.fold(first, |[low, high], p| [low.min(p), high.max(p)])
+}
+
+/// Whether the eye is in a box, or the box is all that it sees. A box is convex, so that it fills
+/// the picture if it does so at its corners.
+fn hides_view([a, b]: [Vec3; 2], camera: &ir::Camera) -> bool {
+    let ir::Camera {
+        eye,
+        center,
+        right,
+        up,
+        size,
+        ..
+    } = camera;
+    let [eye, center, right, up] = [eye, center, right, up].map(|v| Vec3::from_array(*v));
+    let (low, high) = (a.min(b), a.max(b));
+    let [x, y] = size.map(|side| f64::from(side) / 2.0);
+    let corners = [[-x, -y], [x, -y], [-x, y], [x, y]];
+    let is_inside = eye.clamp(low, high) == eye;
+    is_inside
+        || corners.iter().all(|[x, y]| {
+            let direction = center + right * *x + up * *y - eye;
+            let (to_low, to_high) = ((low - eye) / direction, (high - eye) / direction);
+            let (enter, leave) = (to_low.min(to_high), to_low.max(to_high));
+            leave.min_element() >= enter.max_element().max(0.0)
+        })
+}
+
+fn factor(size: f64, span: Option<Span>) -> Diagnostic {
+    let message = format!(
+        "the `size` of a mesh is a factor, as in `scale: {}`",
+        shortest(size)
+    );
+    Diagnostic::new(&codes::TWO_READINGS, message)
+        .severity(Severity::Note)
+        .at(span, "times as large as in its file")
+        .hint("in some programs it is the size of the mesh; that is written `fit`")
+}
+
+fn unitised(size: f64, half: f64, span: Option<Span>) -> Diagnostic {
+    let (size, half) = (shortest(size), shortest(half));
+    let message = format!("`size: {size}` is taken as the size of the mesh, not as a factor");
+    Diagnostic::new(&codes::TWO_READINGS, message)
+        .at(span, "as a factor it would hide the view")
+        .hint(format!(
+            "`fit: {half}` is the size that is shown, `scale: {size}` the factor"
+        ))
+}
+
+/// Makes a mesh of these bounds fill the size it is to have: the transform of the instance has that
+/// size and where its middle is to be.
+fn fit(instance: &mut ir::Instance, [low, high]: [Vec3; 2]) {
+    let half = ((high - low) / 2.0).max_element();
+    if half > 0.0 {
+        let [x, y, z, middle] = instance.world_from_object.map(Vec3::from_array);
+        let axes = [x, y, z].map(|axis| axis / half);
+        let center = (low + high) / 2.0;
+        let origin = middle - (axes[0] * center.x + axes[1] * center.y + axes[2] * center.z);
+        instance.world_from_object =
+            [axes[0], axes[1], axes[2], origin].map(|column| column.to_array());
+    }
+}

@@ -1,0 +1,151 @@
+//! What words say about numbers, by the core schema of YAML 1.2.
+
+/// What a word says about a number.
+pub(super) enum WordNumber {
+    Number(f64),
+    /// `.inf`, `.nan`, or more than a 64-bit float holds.
+    NotFinite,
+    NoNumber,
+}
+
+/// Reads a word by the core schema.
+pub(super) fn read(word: &str) -> WordNumber {
+    if let Some(value) = short_decimal(word) {
+        return WordNumber::Number(value);
+    }
+    let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word);
+    if matches!(unsigned, ".inf" | ".Inf" | ".INF") || matches!(word, ".nan" | ".NaN" | ".NAN") {
+        return WordNumber::NotFinite;
+    }
+    let value = match word
+        .strip_prefix("0x")
+        .map(|digits| (digits, 16))
+        .or(word.strip_prefix("0o").map(|d| (d, 8)))
+    {
+        Some((digits, radix)) => in_base(digits, radix),
+        None if is_decimal(unsigned) => word.parse().ok(),
+        None => None,
+    };
+    match value {
+        Some(value) if value.is_finite() => WordNumber::Number(value),
+        Some(_) => WordNumber::NotFinite,
+        None => WordNumber::NoNumber,
+    }
+}
+
+/// A decimal of at most 15 characters without an exponent, as nearly all are: its digits and the
+/// power of ten are exact in 64 bits, so their quotient is the nearest number.
+fn short_decimal(word: &str) -> Option<f64> {
+    const TENS: [f64; 15] = [
+        1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14,
+    ];
+    let (sign, digits) = match word.as_bytes() {
+        [b'-', digits @ ..] => (-1.0, digits),
+        [b'+', digits @ ..] | digits => (1.0, digits),
+    };
+    let mut point = None;
+    let mut whole = 0_u64;
+    for (at, byte) in digits.iter().take(16).enumerate() {
+        match byte {
+            b'0'..=b'9' => whole = whole * 10 + u64::from(byte - b'0'),
+            b'.' if point.is_none() => point = Some(at),
+            _ => return None,
+        }
+    }
+    if digits.len() > 15 || digits.len() == usize::from(point.is_some()) {
+        return None;
+    }
+    let decimals = point.map_or(0, |at| digits.len() - at - 1);
+    #[expect(clippy::cast_precision_loss, reason = "15 digits are below 2^53")]
+    Some(sign * (whole as f64 / TENS[decimals]))
+}
+
+fn in_base(digits: &str, radix: u32) -> Option<f64> {
+    let add =
+        |sum: f64, digit: char| Some(sum * f64::from(radix) + f64::from(digit.to_digit(radix)?));
+    if digits.is_empty() {
+        None
+    } else {
+        digits.chars().try_fold(0.0, add)
+    }
+}
+
+/// `[0-9]+(\.[0-9]*)?` or `\.[0-9]+`, and an exponent.
+fn is_decimal(word: &str) -> bool {
+    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+    let (whole, rest) = word.split_at(digits(word));
+    let (fraction, rest) = match rest.strip_prefix('.') {
+        Some(rest) => rest.split_at(digits(rest)),
+        None => ("", rest),
+    };
+    if whole.is_empty() && fraction.is_empty() {
+        return false;
+    }
+    match rest.strip_prefix(['e', 'E']) {
+        None => rest.is_empty(),
+        Some(exponent) => {
+            let exponent = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+            !exponent.is_empty() && digits(exponent) == exponent.len()
+        }
+    }
+}
+
+/// Whether a word is what programs write for what is no finite number, though YAML does not.
+pub(super) fn is_not_finite_elsewhere(word: &str) -> bool {
+    const WORDS: [&str; 3] = ["nan", "inf", "infinity"];
+    let unsigned = word.trim_start_matches(['-', '+']);
+    WORDS.iter().any(|own| own.eq_ignore_ascii_case(unsigned))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(word: &str) -> Option<f64> {
+        match read(word) {
+            WordNumber::Number(value) => Some(value),
+            WordNumber::NotFinite => Some(f64::INFINITY),
+            WordNumber::NoNumber => None,
+        }
+    }
+
+    #[test]
+    fn the_core_schema_and_nothing_else_is_a_number() {
+        for (word, expected) in [
+            ("12", 12.0),
+            ("-0.5", -0.5),
+            (".5", 0.5),
+            ("5.", 5.0),
+            ("1e3", 1000.0),
+            ("0x1F", 31.0),
+        ] {
+            assert_eq!(value(word), Some(expected), "{word}");
+        }
+        for word in ["+1.5E-3", "0o17"] {
+            assert!(value(word).is_some_and(f64::is_finite), "{word}");
+        }
+        for word in [
+            "0.1",
+            "-123456789.12345",
+            ".99999999999999",
+            "-0",
+            "+7.",
+            "0.30000000000000004",
+            "123456789012345678",
+        ] {
+            assert_eq!(
+                value(word).map(f64::to_bits),
+                word.parse().ok().map(f64::to_bits),
+                "{word}"
+            );
+        }
+        for word in ["1e400", ".inf", "-.INF", ".nan"] {
+            assert_eq!(value(word), Some(f64::INFINITY), "{word}");
+        }
+        for word in [
+            "", ".", "-", "1_000", "1.2.3", "1e", "inf", "nan", "0x", "1f", "+.nan", "e5", "1 2",
+        ] {
+            assert_eq!(value(word), None, "{word}");
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! A comma that is missing between two values in brackets.
+
+use super::super::Tree;
+use super::Mistake;
+use super::slip::{slip, span};
+
+/// The comma that is missing before the place where the parser gave up, if one is: something that may
+/// end a value stands before what may begin the next.
+pub(super) fn missing(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
+    let source = tree.source;
+    let (before, rest) = source.split_at_checked(at)?;
+    // Of a plain key only the colon behind it can't be.
+    let start = match rest.starts_with(':') {
+        true => before.trim_end().rfind(char::is_whitespace)? + 1,
+        false => at,
+    };
+    let before = source.get(..start)?;
+    let (mut end, mut value) = (before.trim_end().len(), before.trim_end());
+    if before.get(end..)?.contains('\n') {
+        let line = value.rfind('\n').map_or(0, |line| line + 1);
+        if let Some(comment) = value.get(line..)?.find(" #") {
+            value = value.get(..line + comment)?.trim_end();
+            end = value.len();
+        }
+    }
+    let ends = |c: char| c.is_alphanumeric() || matches!(c, ']' | '}' | '"' | '\'' | '.');
+    let begins = |c: char| c.is_alphanumeric() || matches!(c, '[' | '{' | '"' | '\'' | '-' | '.');
+    let first = source.get(start..)?.chars().next()?;
+    if end == start || !value.ends_with(ends) || !begins(first) {
+        return None;
+    }
+    Some(slip(
+        "a comma is missing".to_owned(),
+        "before this".to_owned(),
+        "what stands in brackets is separated by commas",
+        span(tree, start, start + first.len_utf8()),
+        (span(tree, end, end), ",".to_owned()),
+    ))
+}
+
+/// Whether the bracket at a place is closed further on: brackets in quotes and in comments do not
+/// count.
+pub(super) fn is_closed(tree: &Tree<'_>, bracket: usize) -> bool {
+    let mut depth = 0_usize;
+    signs(tree, bracket).any(|(_, sign)| {
+        match sign {
+            '[' | '{' => depth += 1,
+            ']' | '}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        depth == 0
+    })
+}
+
+/// The second of two commas with nothing between them, behind a bracket that is closed.
+pub(super) fn doubled(tree: &Tree<'_>, bracket: usize) -> Option<Mistake<'static>> {
+    if !is_closed(tree, bracket) {
+        return None;
+    }
+    let mut before = ' ';
+    let second = signs(tree, bracket).filter(|(_, sign)| !sign.is_whitespace());
+    let (at, _) = second.into_iter().find(|(_, sign)| {
+        let last = std::mem::replace(&mut before, *sign);
+        *sign == ',' && matches!(last, ',' | '[' | '{')
+    })?;
+    let span = span(tree, at, at + 1);
+    Some(slip(
+        "a comma too many".to_owned(),
+        "nothing stands before this".to_owned(),
+        "remove it",
+        span,
+        (span, String::new()),
+    ))
+}
+
+/// The characters from a place on that are in no quotes and in no comment, each with where it is; a
+/// quote stands for what is in it.
+fn signs<'t>(tree: &'t Tree<'_>, from: usize) -> impl Iterator<Item = (usize, char)> + use<'t> {
+    let (mut quote, mut last) = (None, ' ');
+    let mut is_comment = false;
+    let text = tree.source.get(from..).unwrap_or_default();
+    text.char_indices().filter_map(move |(offset, c)| {
+        let before = std::mem::replace(&mut last, c);
+        match (c, quote) {
+            ('\n', _) => is_comment = false,
+            _ if is_comment => return None,
+            (_, Some(open)) => {
+                let ends = c == open && before != '\\';
+                quote = Some(open).filter(|_| !ends);
+                return None;
+            }
+            ('"' | '\'', None) if !before.is_alphanumeric() => quote = Some(c),
+            ('#', None) if before.is_whitespace() => {
+                is_comment = true;
+                return None;
+            }
+            _ => {}
+        }
+        Some((from + offset, c))
+    })
+}

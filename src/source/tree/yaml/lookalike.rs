@@ -1,0 +1,182 @@
+//! Characters that look like signs of YAML and are none, and comments of other languages: a word
+//! processor, a web page or a program for JSON leaves them behind.
+
+use super::super::Tree;
+use super::Mistake;
+use super::slip::{slip, span};
+
+/// A character that looks like one of ASCII: what it is called, and which.
+fn known(c: char) -> Option<(&'static str, &'static str)> {
+    Some(match c {
+        '\u{a0}' | '\u{202f}' | '\u{2007}' => ("a no-break space", " "),
+        '\u{3000}' => ("an ideographic space", " "),
+        '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{feff}' => ("a space of no width", ""),
+        '\u{2028}' | '\u{2029}' | '\u{85}' => ("a line end of Unicode", " "),
+        c if c.is_whitespace() && !c.is_ascii() => ("a space of Unicode", " "),
+        '\u{2010}'..='\u{2015}' | '\u{2212}' => ("a dash of Unicode", "-"),
+        '\u{201c}'..='\u{201f}' | '\u{ab}' | '\u{bb}' => ("a typographic quote", "\""),
+        '\u{2018}'..='\u{201b}' => ("a typographic quote", "'"),
+        '\u{ff1a}' => ("a wide colon", ":"),
+        '\u{ff0c}' | '\u{3001}' => ("a wide comma", ","),
+        '\u{ff3b}' | '\u{3010}' => ("a wide bracket", "["),
+        '\u{ff3d}' | '\u{3011}' => ("a wide bracket", "]"),
+        '\u{ff5b}' => ("a wide brace", "{"),
+        '\u{ff5d}' => ("a wide brace", "}"),
+        _ => return None,
+    })
+}
+
+/// The mistake in a plain word that has such a character where only a sign of YAML makes sense.
+pub(super) fn in_word(tree: &Tree<'_>, start: usize, end: usize) -> Option<Mistake<'static>> {
+    let word = tree.source.get(start..end)?;
+    if word.is_ascii() {
+        return comment(tree, start, word).filter(|_| word.contains('\n') || word.contains('"'));
+    }
+    let after = tree.source.get(end..)?.trim_start_matches(' ');
+    let (is_key, is_prose) = (after.starts_with(':'), word.split(' ').count() > PROSE);
+    // Any text may hold quotes and dashes, and prose whatever it likes.
+    found(tree, start, word, |ascii| match ascii {
+        " " | "" => is_key || !is_prose,
+        "-" | "'" | "\"" => is_key,
+        _ => false,
+    })
+}
+
+/// More words than this are prose.
+const PROSE: usize = 2;
+
+/// The same in the line of a place where the parser gave up, or in the one before.
+pub(super) fn near(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
+    let (first, lines) = lines_around(tree, at)?;
+    if lines.is_ascii() {
+        return None;
+    }
+    found(tree, first, lines, |_| true)
+}
+
+/// A comment of another language in the line of a place where the parser gave up, or in the one
+/// before.
+pub(super) fn comment_near(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
+    let (mut from, lines) = lines_around(tree, at)?;
+    for line in lines.split_inclusive('\n') {
+        let mut is_quoted = false;
+        let mut last = ' ';
+        for (offset, c) in line.char_indices() {
+            is_quoted ^= c == '"';
+            let starts = last.is_whitespace() || matches!(last, ',' | '{' | '[' | '}' | ']');
+            if !is_quoted && starts && c == '#' {
+                break;
+            }
+            if let (false, true, Some(rest)) = (is_quoted, starts, line.get(offset..))
+                && let Some(mistake) = comment(tree, from + offset, rest)
+            {
+                return Some(mistake);
+            }
+            last = c;
+        }
+        from += line.len();
+    }
+    None
+}
+
+/// The line of a place and the one before, and where they begin.
+fn lines_around<'s>(tree: &Tree<'s>, at: usize) -> Option<(usize, &'s str)> {
+    let line = |before: usize| {
+        let text = tree.source.get(..before).unwrap_or_default();
+        text.rfind('\n').map_or(0, |end| end + 1)
+    };
+    let own = line(at);
+    let first = line(own.saturating_sub(1));
+    let rest = tree.source.get(own..)?;
+    let end = own + rest.find('\n').unwrap_or(rest.len());
+    Some((first, tree.source.get(first..end)?))
+}
+
+/// The first character of a text that stands where only a sign of YAML makes sense: beside another
+/// sign, or at an end of the text or of a line.
+fn found(
+    tree: &Tree<'_>,
+    start: usize,
+    text: &str,
+    matters: impl Fn(&str) -> bool,
+) -> Option<Mistake<'static>> {
+    let is_sign = |c: Option<char>| {
+        c.is_none_or(|c| matches!(c, ':' | ',' | '[' | ']' | '{' | '}' | '\n' | '\r'))
+    };
+    let mut before = None;
+    for (offset, c) in text.char_indices() {
+        let next = offset + c.len_utf8();
+        let ascii = known(c);
+        if let Some((name, ascii)) = ascii {
+            let after = text.get(next..)?.trim_start_matches(' ').chars().next();
+            let is_dash = ascii == "-";
+            // A minus before digits is a number's, which says so itself; a dash begins an item.
+            let counts = match is_dash {
+                true => is_sign(before) && text.get(next..)?.starts_with(' '),
+                false => {
+                    is_sign(before) || is_sign(after) || !matches!(ascii, " " | "" | "'" | "\"")
+                }
+            };
+            if counts && matters(ascii) {
+                return Some(lookalike(tree, start + offset, c, name, ascii));
+            }
+        }
+        if c != ' ' && ascii.is_none_or(|(_, ascii)| !matches!(ascii, " " | "")) {
+            before = Some(c);
+        }
+    }
+    None
+}
+
+fn lookalike(
+    tree: &Tree<'_>,
+    at: usize,
+    c: char,
+    name: &str,
+    ascii: &'static str,
+) -> Mistake<'static> {
+    let span = span(tree, at, at + c.len_utf8());
+    let what = match ascii {
+        " " | "" => "where YAML takes a space of ASCII",
+        _ => "where YAML takes its sign of ASCII",
+    };
+    slip(
+        format!("{name} (U+{:04X}) stands {what}", u32::from(c)),
+        name.to_owned(),
+        "write",
+        span,
+        (span, ascii.to_owned()),
+    )
+}
+
+/// The comment of another language that a text begins with.
+fn comment(tree: &Tree<'_>, at: usize, text: &str) -> Option<Mistake<'static>> {
+    let line = text.split(['\n', '\r']).next()?;
+    let (sign, end) = match text.get(..2)? {
+        "//" => ("//", line.len()),
+        "/*" => ("/*", text.find("*/").map_or(line.len(), |end| end + 2)),
+        _ => return None,
+    };
+    let span = span(tree, at, at + end);
+    let said = text.get(2..end)?.trim_end_matches("*/").trim();
+    if tree.source.trim_start().starts_with('{') {
+        return Some(slip(
+            format!("`{sign}` starts a comment in other languages: JSON has none"),
+            "no comment here".to_owned(),
+            "leave it out, or say it in a key `comment`",
+            span,
+            (span, String::new()),
+        ));
+    }
+    let has_more_lines = said.contains('\n');
+    Some(slip(
+        format!("`{sign}` starts no comment in YAML"),
+        "no comment here".to_owned(),
+        "a comment begins with `#`",
+        span,
+        match has_more_lines {
+            true => (span, String::new()),
+            false => (span, format!("# {said}")),
+        },
+    ))
+}
