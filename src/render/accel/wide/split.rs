@@ -5,7 +5,8 @@ use super::{Builders, HEURISTIC_DEPTH};
 use crate::accel::lanes::{TRIANGLES, TriangleRow, WIDTH};
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
-use rtc_math::Lanes;
+use rtc_math::{Lanes, Vec3};
+use std::collections::BTreeSet;
 
 /// The most bins of an axis.
 const BINS: usize = 16;
@@ -123,6 +124,29 @@ impl<'items> Part<'items> {
             bounds,
             centers,
         }
+    }
+
+    /// Whether the centres of all boxes are the same.
+    pub(super) fn is_at_one_place(&self) -> bool {
+        (0..3).all(|axis| self.centers.min[axis] == self.centers.max[axis])
+    }
+
+    /// The same without those that have the corners of one with a lower number, which is what a ray hits
+    /// that meets both. Their rows stay unused.
+    pub(super) fn without_copies(self, corners: impl Fn(u32) -> [Vec3; 3]) -> Self {
+        self.items.sort_unstable_by_key(BoxedItem::number);
+        let mut known = BTreeSet::new();
+        let mut kept = 0;
+        for at in 0..self.items.len() {
+            let corners = corners(self.items[at].number());
+            // Zeros of both signs are one place.
+            let bits = corners.map(|corner| (corner + Vec3::ZERO).to_array().map(f64::to_bits));
+            if known.insert(bits) {
+                self.items.swap(kept, at);
+                kept += 1;
+            }
+        }
+        Self::of(self.first, &mut self.items[..kept])
     }
 
     /// The lower and the upper end of its box along an axis.
