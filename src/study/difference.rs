@@ -195,7 +195,7 @@ mod tests {
 
     #[test]
     fn opacity_counts_as_a_channel() {
-        let file = |alpha: f64| {
+        let file = |alpha: f32| {
             let picture = Picture {
                 image: Image {
                     width: 2,
