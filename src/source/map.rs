@@ -368,6 +368,18 @@ mod tests {
         }
     }
 
+    /// However long a line is, no more of it is read for a column than lies between two marks.
+    #[test]
+    fn the_work_for_a_column_does_not_grow_with_its_line() {
+        for letters in [4_000, 8_000, 16_000] {
+            let line = "ü😀a".repeat(letters);
+            let marks = marks(line.as_bytes());
+            let gaps = marks.windows(2).map(|pair| pair[1].offset - pair[0].offset);
+            assert!(gaps.max() <= Some(to_u32(MARKED + 4)));
+            assert!(marks.len() <= line.len() / MARKED + 1);
+        }
+    }
+
     #[test]
     fn a_released_file_stays_binary_and_a_text_stays_whole() {
         let mut map = SourceMap::default();

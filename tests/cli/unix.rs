@@ -49,7 +49,7 @@ fn pipes_and_devices_are_no_files() {
             .success()
     );
     fs::copy(
-        &pipe.with_file_name("ball.json"),
+        pipe.with_file_name("ball.json"),
         folder.path().join("b.json"),
     )
     .unwrap();

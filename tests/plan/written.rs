@@ -15,7 +15,7 @@ const POWERS: [i32; 7] = [0, -160, -130, -60, 60, 100, 110];
 /// A made-up scene, by turns orthographic, and with tangents of any length.
 fn scene(seed: u64) -> Scene {
     let mut scene = Dice::new(seed).scene();
-    if seed % 3 == 0 {
+    if seed.is_multiple_of(3) {
         scene.camera.projection = Projection::Orthographic;
     }
     for mesh in &mut scene.meshes {

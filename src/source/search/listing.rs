@@ -51,3 +51,29 @@ impl Listing {
         alike.map_or(&[], Vec::as_slice)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// However many names are not there, and however many are.
+    #[test]
+    fn a_folder_is_read_once() {
+        let files = |count: usize| {
+            let named = (0..count).map(|at| (format!("a/Y{at}.png"), Vec::new()));
+            Arc::new(crate::MemoryFiles::new(named))
+        };
+        for count in [100, 200, 400] {
+            let folder = Folder::in_memory(&files(count), Path::new(""), None);
+            let listings = Listings::default();
+            let first = listings.of(&folder, Path::new("a"));
+            for at in 0..count {
+                let again = listings.of(&folder, Path::new("a"));
+                assert!(Arc::ptr_eq(&first, &again));
+                assert_eq!(again.alike(&format!("y{at}.PNG")), [format!("Y{at}.png")]);
+                assert!(again.alike("z.png").is_empty());
+            }
+            assert_eq!(first.names.len(), count);
+        }
+    }
+}

@@ -203,7 +203,7 @@ impl Branch {
         leaves: &Leaves<C>,
         take: &mut impl FnMut(LeftPart<'items>) -> Option<LeftPart<'items>>,
     ) -> u32 {
-        let part = match part.items.len() > TRIANGLES && part.is_at_one_place() {
+        let part = match part.may_hold_copies() {
             true => part.without_copies(&leaves.corners),
             false => part,
         };

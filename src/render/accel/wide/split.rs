@@ -95,6 +95,8 @@ pub(super) struct Part<'items> {
     pub(super) items: &'items mut [TriangleRow],
     bounds: LaneBox,
     centers: LaneBox,
+    /// No two of them have the same corners.
+    is_sifted: bool,
 }
 
 /// A border between two bins of an axis.
@@ -123,12 +125,14 @@ impl<'items> Part<'items> {
             items,
             bounds,
             centers,
+            is_sifted: false,
         }
     }
 
-    /// Whether the centres of all boxes are the same.
-    pub(super) fn is_at_one_place(&self) -> bool {
-        (0..3).all(|axis| self.centers.min[axis] == self.centers.max[axis])
+    /// Whether it is large, with all boxes at one place, and some of its triangles may be the same.
+    pub(super) fn may_hold_copies(&self) -> bool {
+        let is_point = |axis: usize| self.centers.min[axis] == self.centers.max[axis];
+        !self.is_sifted && self.items.len() > TRIANGLES && (0..3).all(is_point)
     }
 
     /// The same without those that have the corners of one with a lower number, which is what a ray hits
@@ -146,7 +150,10 @@ impl<'items> Part<'items> {
                 kept += 1;
             }
         }
-        Self::of(self.first, &mut self.items[..kept])
+        Self {
+            is_sifted: true,
+            ..Self::of(self.first, &mut self.items[..kept])
+        }
     }
 
     /// The lower and the upper end of its box along an axis.
@@ -160,6 +167,7 @@ impl<'items> Part<'items> {
         let is_deep = depth >= HEURISTIC_DEPTH;
         let weight = |part: &Self| match part.items.len() {
             0..=TRIANGLES => 0.0,
+            _ if part.may_hold_copies() => 0.0,
             count if is_deep => count as f32,
             _ => part.bounds.half_area().max(f32::MIN_POSITIVE),
         };
@@ -237,6 +245,7 @@ impl<'items> Part<'items> {
             items,
             bounds: border.sides[side],
             centers: centers[side],
+            is_sifted: self.is_sifted,
         };
         [part(below, 0), part(above, 1)]
     }
@@ -251,10 +260,8 @@ impl<'items> Part<'items> {
             order.then(a.number().cmp(&b.number()))
         });
         let (first, second) = self.items.split_at_mut(middle);
-        [
-            Self::of(self.first, first),
-            Self::of(self.first + middle, second),
-        ]
+        let (second, is_sifted) = (Self::of(self.first + middle, second), self.is_sifted);
+        [Self::of(self.first, first), second].map(|half| Self { is_sifted, ..half })
     }
 }
 
