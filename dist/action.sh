@@ -14,9 +14,15 @@ summary() {
     printf '%s\n' "$*" >>"${GITHUB_STEP_SUMMARY:-/dev/null}"
 }
 
-# What stands for itself in HTML.
+# What stands for itself in HTML, also within quotes.
 escaped() {
-    sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'
+    sed "s/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g; s/\"/\&quot;/g; s/'/\&#39;/g"
+}
+
+# What stands for itself on a line of Markdown: names are those of strangers.
+plain() {
+    tr '\n\r\t' '   ' | sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g; s/\\/\&#92;/g; s/`/\&#96;/g; s/\*/\&#42;/g; s/_/\&#95;/g
+        s/\[/\&#91;/g; s/]/\&#93;/g; s/!/\&#33;/g; s/|/\&#124;/g; s/~/\&#126;/g; s/@/\&#64;/g; s/:/\&#58;/g'
 }
 
 check() {
@@ -30,24 +36,30 @@ thumbnails() {
     rtc render -q --size "$size" -o "$out/thumbnails/" --contact-sheet "$out/sheet.png" -- "${scenes[@]}"
 }
 
-# The scenes here in whose folder, or below it, something differs from the base.
+# The scenes here in whose folder, or below it, something differs from the base, each with a NUL behind it. Links are none: they may
+# lead anywhere.
 changed() {
-    local changed scene
-    changed=$(git diff --name-only "$BASE" --)
-    git ls-files -- "${scenes[@]}" | grep -E '\.(yaml|yml|json|gltf|glb|rtir|obj|stl|ply|off)$' | while read -r scene; do
-        local folder=${scene%/*}/
-        [[ $scene == */* ]] || folder=
+    local file folder scene
+    local -A folders=()
+    while IFS= read -r -d '' file; do
+        folder=$file
         # A scene in the root is compared if it changed itself, or a file beside it.
-        if [[ -n $folder ]]; then
-            grep -qF -- "$folder" <<<"$changed" && printf '%s\n' "$scene"
-        else
-            grep -qv / <<<"$changed" && printf '%s\n' "$scene"
-        fi
-    done || true
+        [[ $file == */* ]] || folders[.]=1
+        while [[ $folder == */* ]]; do
+            folder=${folder%/*}
+            folders[$folder]=1
+        done
+    done < <(git diff --name-only -z "$BASE" --)
+    while IFS= read -r -d '' scene; do
+        [[ $scene =~ \.(yaml|yml|json|gltf|glb|rtir|obj|stl|ply|off)$ && ! -L $scene ]] || continue
+        folder=.
+        [[ $scene != */* ]] || folder=${scene%/*}
+        [[ -z ${folders[$folder]:-} ]] || printf '%s\0' "$scene"
+    done < <(git ls-files -z -- "${scenes[@]}")
 }
 
 compare() {
-    local page scene said name
+    local page scene said shown number=0
     # Known to the trap, which outlives this function.
     before=$(mktemp -d)
     git worktree add --quiet --detach "$before" "$BASE"
@@ -55,21 +67,25 @@ compare() {
     mkdir -p "$out/compare"
     page=$out/compare/index.html
     printf '<!DOCTYPE html>\n<meta charset="utf-8">\n<title>What changed</title>\n<h1>What changed</h1>\n' >"$page"
-    while read -r scene; do
-        name=${scene//\//__}
-        if [[ ! -e $before/$scene ]]; then
+    while IFS= read -r -d '' scene; do
+        # Pages have numbers: a name may be too long for one, or that of another.
+        number=$((number + 1))
+        if [[ ! -e $before/$scene || -L $before/$scene ]]; then
             said="new"
-        elif said=$(rtc diff --size "$size" --html "$out/compare/$name.html" -- "$scene" "$before/$scene" 2>&1); then
+        elif said=$(rtc diff --size "$size" --html "$out/compare/$number.html" -- "$scene" "$before/$scene" 2>&1); then
             # What is the same has no page.
-            [[ $said == *"no difference"* && $said == *"scenes are alike"* ]] && rm "$out/compare/$name.html" && continue
+            [[ $said == *"no difference"* && $said == *"scenes are alike"* ]] && rm "$out/compare/$number.html" && continue
         fi
-        if [[ -e $out/compare/$name.html ]]; then
-            printf '<h2><a href="%s.html">%s</a></h2>\n' "$name" "$scene"
+        said=${said//"$before/"/}
+        shown=$(escaped <<<"$scene")
+        if [[ -e $out/compare/$number.html ]]; then
+            printf '<h2><a href="%s.html">%s</a></h2>\n' "$number" "$shown"
         else
-            printf '<h2>%s</h2>\n' "$scene"
+            printf '<h2>%s</h2>\n' "$shown"
         fi >>"$page"
-        printf '<pre>%s</pre>\n' "$(escaped <<<"${said//"$before/"/}")" >>"$page"
-        summary "- \`$scene\`: $(grep -E '^rmse' <<<"$said" || head -n 1 <<<"$said")"
+        printf '<pre>%s</pre>\n' "$(escaped <<<"$said")" >>"$page"
+        said=$(grep -m 1 -E '^rmse' <<<"$said" || head -n 1 <<<"$said")
+        summary "- $(plain <<<"$scene"): $(plain <<<"$said")"
     done < <(changed)
 }
 

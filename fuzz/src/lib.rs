@@ -1,5 +1,5 @@
-//! Scenes with the files that they name, from one input: what the targets `folder`, `mesh` and
-//! `image` do with it, and their replay in `tests/cases/corpora.rs`. The files lie in a temporary folder,
+//! Scenes with the files that they name, from one input: what the targets `folder`, `mesh`, `image` and others
+//! do with it, and their replay in `tests/cases/corpora.rs`. The files lie in a temporary folder,
 //! and nothing is read or written outside.
 
 use rtc::internals::pipeline::trial;
@@ -43,6 +43,39 @@ Objects:
 == e.hdr
 ";
 
+/// Shows a lamp with a profile.
+const LAMP: &[u8] = b"
+Camera: {eye: [0, 0, 4], center: [0, 0, 0], up: [0, 1, 0], fov: 40, viewSize: [8, 8]}
+Lights:
+- {type: ies, position: [0, 3, 0], direction: [0, -1, 0], file: l.ies}
+Objects:
+- {type: sphere, position: [0, 0, 0], radius: 1, material: {color: [1, 1, 1], ka: 0, kd: 1, ks: 0, n: 1}}
+== l.ies
+";
+
+/// Shows a mesh in the materials of another file.
+const MATERIALS: &[u8] = b"
+Camera: {eye: [0, 0, 4], center: [0, 0, 0], up: [0, 1, 0], fov: 40, viewSize: [8, 8]}
+Lights:
+- {position: [5, 5, 5], color: [1, 1, 1]}
+Objects:
+- {type: mesh, file: m.obj, materials: mtl}
+== m.obj
+mtllib m.mtl
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 1 1 0
+vt 0 0
+vt 1 0
+vt 0 1
+usemtl a
+f 1/1 2/2 3/3
+usemtl b
+f 2/1 4/2 3/3
+== m.mtl
+";
+
 /// A scene and what it names. A line `== NAME` begins the file NAME, which goes on to the next such
 /// line; what stands before the first one is `scene.yaml`. The first file is the scene. `../NAME`
 /// lies in the folder above; a name that leads anywhere else is left out.
@@ -71,6 +104,34 @@ pub fn mesh(input: &[u8]) {
 pub fn image(input: &[u8]) {
     let is_light = input.starts_with(b"#?") || input.starts_with(b"\x76\x2f\x31\x01");
     folder(&[if is_light { ENVIRONMENT } else { TEXTURE }, input].concat());
+}
+
+/// A photometric file of a lamp.
+pub fn ies(input: &[u8]) {
+    folder(&[LAMP, input].concat());
+}
+
+/// A file of materials.
+pub fn mtl(input: &[u8]) {
+    folder(&[MATERIALS, input].concat());
+}
+
+/// A PLY file, of which `ply` may be left out.
+pub fn ply(input: &[u8]) {
+    begun(b"ply\n", input);
+}
+
+/// An STL file; one that begins as no text is binary.
+pub fn stl(input: &[u8]) {
+    let name = [&MESH[..MESH.len() - b"m.obj\n".len()], b"m.stl\n"].concat();
+    let name = String::from_utf8_lossy(&name).replace("file: m.obj", "file: m.stl");
+    folder(&[name.as_bytes(), input].concat());
+}
+
+/// A mesh file that begins so, whatever its input begins with.
+fn begun(start: &[u8], input: &[u8]) {
+    let rest = input.strip_prefix(start).unwrap_or(input);
+    mesh(&[start, rest].concat());
 }
 
 /// The names and the bytes of all files.

@@ -200,7 +200,7 @@ fn target(args: &Compile) -> Option<&Path> {
 }
 
 fn by_extension(output: &Path) -> Result<Emit, Failure> {
-    if output.as_os_str() == "-" {
+    if output::is_stdout(output) {
         return Ok(Emit::Ir);
     }
     match output.extension().and_then(|extension| extension.to_str()) {

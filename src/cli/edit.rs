@@ -36,5 +36,5 @@ fn put(path: &Path, before: &str, after: &str) -> io::Result<()> {
     if !now.is_ok_and(|now| now == before.as_bytes()) {
         return Err(io::Error::other("it has changed since it was read"));
     }
-    NewFile::save(path, after.as_bytes())
+    NewFile::edit(path, after.as_bytes())
 }

@@ -1,18 +1,24 @@
 //! Scenes by folders and patterns: which files are meant.
+//!
+//! No link is followed but the one that the command line names: it may lead round in circles, or to
+//! what is no matter of the folder.
 
 use super::Failure;
-use glob::MatchOptions;
+use globset::{GlobBuilder, GlobMatcher};
 use rtc_front::{is_scene_name, is_scene_text_name};
-use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::collections::BTreeSet;
+use std::path::{Component, Path, PathBuf};
+use walkdir::{DirEntry, WalkDir};
+
+/// What makes a part of a path a pattern.
+const WILD: [char; 3] = ['*', '?', '['];
 
 /// Whether a file of this name is meant where a folder is given.
 type NameTest = fn(&str) -> bool;
 
 /// The files that are meant: each path as it is; of a folder all scenes below it, by their names;
 /// of a pattern that is no file by itself, what fits it. What is found comes in the order of its
-/// names, without what is hidden, and once.
+/// names, without what is hidden and without links, and once.
 pub(super) fn scenes(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     named(paths, is_scene_name)
 }
@@ -23,85 +29,140 @@ pub(super) fn texts(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
 }
 
 fn named(paths: &[PathBuf], is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
-    let mut scenes = Vec::new();
+    let (mut scenes, mut known) = (Vec::new(), BTreeSet::new());
     for path in paths {
-        if path.is_dir() {
-            add(&mut scenes, below(path, is_meant)?);
+        let found = if path.is_dir() {
+            below(path, is_meant)?
         } else if is_pattern(path) {
-            for fit in fitting(path)? {
-                match fit.is_dir() {
-                    true => add(&mut scenes, below(&fit, is_meant)?),
-                    false => add(&mut scenes, vec![fit]),
-                }
-            }
+            fitting(path, is_meant)?
         } else {
+            known.insert(path.clone());
             scenes.push(path.clone());
-        }
+            continue;
+        };
+        let new = found.into_iter().filter(|path| known.insert(path.clone()));
+        scenes.extend(new);
     }
     Ok(scenes)
 }
 
-/// Adds the files that are not there yet.
-fn add(scenes: &mut Vec<PathBuf>, found: Vec<PathBuf>) {
-    for path in found {
-        if !scenes.contains(&path) {
-            scenes.push(path);
-        }
-    }
-}
-
 /// Whether a path is none of a file but a pattern.
 fn is_pattern(path: &Path) -> bool {
-    path.to_string_lossy().contains(['*', '?', '[']) && path.symlink_metadata().is_err()
+    path.to_string_lossy().contains(WILD) && path.symlink_metadata().is_err()
 }
 
-/// What fits a pattern: at least one file or folder.
-fn fitting(pattern: &Path) -> Result<Vec<PathBuf>, Failure> {
+/// The files that fit a pattern, and the scenes below the folders that do: at least one.
+fn fitting(pattern: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
     let shown = pattern.display();
     let refused = |words: &str| Failure::Trouble(format!("`{shown}`: {words}"));
-    let options = MatchOptions {
-        case_sensitive: true,
-        require_literal_separator: true,
-        require_literal_leading_dot: true,
-    };
-    let text = pattern
-        .to_str()
-        .ok_or_else(|| refused("a pattern is text"))?;
-    let fits = glob::glob_with(text, options).map_err(|error| refused(error.msg))?;
-    let fits: Result<Vec<_>, _> = fits.collect();
-    let fits = fits.map_err(|error| refused(&error.error().to_string()))?;
-    if fits.is_empty() {
-        return Err(refused("no file has such a name"));
+    let pattern = Pattern::new(pattern).map_err(|words| refused(&words))?;
+    let mut found = Vec::new();
+    for entry in pattern.walk() {
+        let entry = entry.map_err(|error| refused(&reason(&error)))?;
+        let path = pattern.shown(&entry);
+        let kind = entry.file_type();
+        if pattern.fits(path) && kind.is_dir() {
+            found.extend(below(path, is_meant)?);
+        } else if pattern.fits(path) && kind.is_file() {
+            found.push(path.to_owned());
+        }
     }
-    Ok(fits)
+    match found.is_empty() {
+        true => Err(refused("no file has such a name; links are not followed")),
+        false => Ok(found),
+    }
+}
+
+/// A pattern of paths.
+struct Pattern {
+    /// The folder that it begins with, which is none itself.
+    base: PathBuf,
+    /// What follows, part by part, and as a whole.
+    parts: Vec<String>,
+    rest: GlobMatcher,
+}
+
+impl Pattern {
+    fn new(path: &Path) -> Result<Self, String> {
+        let is_wild = |part: &Component<'_>| part.as_os_str().to_string_lossy().contains(WILD);
+        let parts: Vec<_> = path.components().collect();
+        let first = parts.iter().position(is_wild).unwrap_or(parts.len());
+        let (base, rest) = parts.split_at(first);
+        let rest = rest.iter().map(|part| part.as_os_str().to_str());
+        let rest: Option<Vec<_>> = rest.map(|part| part.map(str::to_owned)).collect();
+        let parts = rest.ok_or("a pattern is text")?;
+        let glob = GlobBuilder::new(&parts.join("/"))
+            .literal_separator(true)
+            .backslash_escape(false)
+            .build();
+        let rest = glob.map_err(|error| error.kind().to_string())?;
+        Ok(Self {
+            base: base.iter().collect(),
+            parts,
+            rest: rest.compile_matcher(),
+        })
+    }
+
+    /// What lies so deep that it may fit, but for what is hidden and not named.
+    fn walk(&self) -> impl Iterator<Item = walkdir::Result<DirEntry>> {
+        let is_deep = self.parts.iter().any(|part| part.contains("**"));
+        let depth = if is_deep {
+            usize::MAX
+        } else {
+            self.parts.len()
+        };
+        let base = match self.base.as_os_str().is_empty() {
+            true => Path::new("."),
+            false => &self.base,
+        };
+        let walk = WalkDir::new(base).min_depth(1).max_depth(depth);
+        let is_named = |entry: &DirEntry| {
+            let own = self.parts.get(entry.depth().saturating_sub(1));
+            !is_hidden(entry) || own.is_some_and(|part| part.starts_with('.'))
+        };
+        walk.sort_by_file_name().into_iter().filter_entry(is_named)
+    }
+
+    /// The path of what was found, as who wrote the pattern would write it.
+    fn shown<'e>(&self, entry: &'e DirEntry) -> &'e Path {
+        let path = entry.path();
+        match self.base.as_os_str().is_empty() {
+            true => path.strip_prefix(".").unwrap_or(path),
+            false => path,
+        }
+    }
+
+    fn fits(&self, path: &Path) -> bool {
+        self.rest
+            .is_match(path.strip_prefix(&self.base).unwrap_or(path))
+    }
 }
 
 /// All scenes below a folder: at least one.
 fn below(folder: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
-    let mut found = Vec::new();
     let refused = |words: &str| Failure::Trouble(format!("`{}`: {words}", folder.display()));
-    walk(folder, is_meant, &mut found).map_err(|error| refused(&error.to_string()))?;
-    if found.is_empty() {
-        return Err(refused("there are no scenes in this folder"));
+    let mut found = Vec::new();
+    let entries = WalkDir::new(folder).sort_by_file_name().into_iter();
+    for entry in entries.filter_entry(|entry| !is_hidden(entry)) {
+        let entry = entry.map_err(|error| refused(&reason(&error)))?;
+        let is_scene = is_meant(&entry.file_name().to_string_lossy());
+        if is_scene && entry.file_type().is_file() {
+            found.push(entry.into_path());
+        }
     }
-    Ok(found)
+    match found.is_empty() {
+        true => Err(refused("there are no scenes in this folder")),
+        false => Ok(found),
+    }
 }
 
-/// Links to folders are not followed: they may lead round in circles.
-fn walk(folder: &Path, is_meant: NameTest, found: &mut Vec<PathBuf>) -> io::Result<()> {
-    let mut entries = fs::read_dir(folder)?.collect::<io::Result<Vec<_>>>()?;
-    entries.sort_unstable_by_key(fs::DirEntry::file_name);
-    for entry in entries {
-        let (name, path) = (entry.file_name(), entry.path());
-        let name = name.to_string_lossy();
-        if name.starts_with('.') {
-            continue;
-        }
-        if entry.file_type()?.is_dir() {
-            walk(&path, is_meant, found)?;
-        } else if is_meant(&name) && path.is_file() {
-            found.push(path);
-        }
-    }
-    Ok(())
+/// Whether the name of what was found, not of what was named, begins with a dot.
+fn is_hidden(entry: &DirEntry) -> bool {
+    entry.depth() > 0 && entry.file_name().as_encoded_bytes().starts_with(b".")
+}
+
+/// What the system said.
+fn reason(error: &walkdir::Error) -> String {
+    let said = error.io_error().map(ToString::to_string);
+    said.unwrap_or_else(|| error.to_string())
 }

@@ -23,7 +23,7 @@ pub(super) fn run(
             "standard input can't be fixed; give a file, or `--diff`".to_owned(),
         ));
     }
-    let project = Project::of(path)?;
+    let project = Project::of(path, &args.reading)?;
     let options = input::options(&args.reading, project.as_ref())?;
     let wish = FixWish {
         guesses: args.guesses,

@@ -15,7 +15,7 @@ use std::path::Path;
 
 /// Reads the file at `path`, or standard input if it is `-`.
 pub(super) fn read(path: &Path, reading: &Reading) -> Result<Input, Failure> {
-    let project = Project::of(path)?;
+    let project = Project::of(path, reading)?;
     let options = options(reading, project.as_ref())?;
     let mut input = open(path, reading.stdin_name.as_deref(), options);
     if let Some(project) = project {
@@ -50,6 +50,7 @@ pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Op
         deny: _,
         limit: _,
         allow_huge: _,
+        trust_project: _,
     } = reading;
     let typed = reading.levels().map_err(Failure::Trouble)?;
     let levels = project.map_or_else(|| typed.clone(), |own| own.levels(typed.clone()));

@@ -70,11 +70,21 @@ impl Interrupt {
     }
 }
 
+/// From now on a write beyond the limit on the size of files is an error like others, and does not end
+/// the process with something half-written left behind.
+pub(super) fn outlive_full_files() {
+    #[cfg(unix)]
+    {
+        // Without the handler it is as before.
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+    }
+}
+
 /// Calls `on_signal` with the number of each signal that asks us to stop, in a thread of its own.
 #[cfg(unix)]
 fn listen_for(on_signal: impl Fn(u8) + Send + 'static) -> io::Result<()> {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGTERM, SIGINT])?;
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
+    let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGTERM, SIGINT, SIGXCPU])?;
     let listener = std::thread::Builder::new().name("signals".to_owned());
     let listen = move || {
         let numbers = signals.forever().map(u8::try_from);

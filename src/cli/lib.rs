@@ -28,6 +28,7 @@ mod progress;
 mod project;
 mod render;
 mod report;
+mod shown;
 mod simd;
 mod system;
 mod talk;
@@ -77,6 +78,7 @@ impl Failure {
 /// Carries out the command given by the arguments, program name first, and returns the exit code.
 #[must_use]
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    interrupt::outlive_full_files();
     panic::set_hook(Box::new(|info| talk::say(&internal_error(info))));
     guarded(|| dispatch(arguments))
 }

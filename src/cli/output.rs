@@ -13,6 +13,12 @@ use std::time::Duration;
 /// How long to wait for a reader before looking again, and for a signal.
 const WAIT: Duration = Duration::from_millis(10);
 
+/// Whether a result goes to standard output: by `-`, or by what the system calls it.
+pub(super) fn is_stdout(path: &Path) -> bool {
+    const NAMES: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+    NAMES.iter().any(|own| path.as_os_str() == *own)
+}
+
 /// A place for a result, fit to be written.
 pub(super) struct Output {
     /// As the user calls it.
@@ -39,7 +45,7 @@ impl Output {
 
     /// The same for what was read into a map, or noted there.
     pub(super) fn apart_from(path: &Path, read: &SourceMap) -> Result<Self, Failure> {
-        if path.as_os_str() == "-" {
+        if is_stdout(path) {
             return Ok(Self {
                 name: "standard output".to_owned(),
                 place: Place::Stdout,
@@ -91,9 +97,6 @@ impl Output {
     /// The same with a result that is written part by part.
     pub(super) fn commit_by(self, write: Writer<'_>, interrupt: &Interrupt) -> Result<(), Failure> {
         let written = match &self.place {
-            Place::Stdout if is_closed_stdout() => {
-                Err(io::Error::other("it is closed; give `-o FILE`"))
-            }
             Place::Stdout => through_stdout(write),
             Place::Stream(target) => {
                 stream(target, interrupt).and_then(|mut stream| write(&mut stream))
@@ -140,6 +143,10 @@ impl Companions {
     ) -> Result<(), Failure> {
         let target = self.folder.join(name);
         let shown = format!("`{}`", target.display());
+        if folder_of(&target) != self.folder && folder_of(&target).is_symlink() {
+            let fault = io::Error::other("its folder is a link");
+            return Err(failure(&shown, &fault));
+        }
         match fs::symlink_metadata(&target) {
             Ok(there) if is_same(&there, &target, bytes) => return Ok(()),
             Ok(_) => {
@@ -273,32 +280,9 @@ fn through_stdout(write: Writer<'_>) -> io::Result<()> {
     stdout.flush()
 }
 
-/// Where standard output is closed, as by `>&-`, the runtime opens `/dev/null` for it, to be read
-/// and written; `>/dev/null` opens it to be written. Who starts a program with all its streams
-/// ignored may open all of them so, standard input too: then none is missed.
-#[cfg(unix)]
-fn is_closed_stdout() -> bool {
-    is_null_to_read_and_write(&io::stdout()) && !is_null_to_read_and_write(&io::stdin())
-}
-
-#[cfg(unix)]
-fn is_null_to_read_and_write(stream: &impl std::os::fd::AsFd) -> bool {
-    use rustix::fs::{OFlags, fcntl_getfl, fstat};
-    use std::os::unix::fs::MetadataExt;
-    let is_both = fcntl_getfl(stream).is_ok_and(|flags| flags & OFlags::RWMODE == OFlags::RDWR);
-    let device = fstat(stream).map(|stat| stat.st_rdev);
-    let null = fs::metadata("/dev/null").map(|null| null.rdev());
-    is_both && matches!((device, null), (Ok(device), Ok(null)) if device == null && null != 0)
-}
-
-#[cfg(not(unix))]
-fn is_closed_stdout() -> bool {
-    false
-}
-
 /// Refuses to write bytes that are not text to a terminal.
 pub(super) fn refuse_terminal(path: &Path) -> Result<(), Failure> {
-    if path.as_os_str() == "-" && io::stdout().is_terminal() {
+    if is_stdout(path) && io::stdout().is_terminal() {
         return Err(Failure::Trouble(
             "standard output is a terminal; give `-o FILE`, or `-o -` in a pipe".to_owned(),
         ));

@@ -1,6 +1,7 @@
-//! Arguments nobody vouches for: what the fuzz target calls, and the suite with what it found.
+//! Arguments and messages nobody vouches for: what the fuzz targets call, and the suite with what they found.
 
-use super::args::Cli;
+use super::args::{Cli, Command};
+use super::lsp;
 use clap::Parser;
 use std::ffi::OsString;
 
@@ -22,6 +23,20 @@ pub fn arguments(bytes: &[u8]) {
         if error.use_stderr() { 2 } else { 0 },
         "{error}"
     );
+}
+
+/// Hears the messages of an editor, one JSON object a line, the greeting left out.
+///
+/// # Panics
+/// If a fault of ours is told of.
+pub fn messages(bytes: &[u8]) {
+    let cli = Cli::try_parse_from(["rtc", "lsp"]);
+    if let Ok(Cli {
+        command: Command::Lsp(args),
+    }) = cli
+    {
+        lsp::hear_all(args, bytes);
+    }
 }
 
 #[cfg(unix)]

@@ -35,7 +35,7 @@ pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::Lost;
 #[cfg(feature = "cli")]
 pub use sheet::{contact_sheet, for_sheet, shrunk};
-pub use shown::ShownPicture;
+pub use shown::{ShownFile, ShownPicture};
 pub use texels::{Texel, Texels};
 
 use serde::{Deserialize, Serialize};

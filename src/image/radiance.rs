@@ -54,6 +54,12 @@ impl<'a> RadianceFile<'a> {
         }
     }
 
+    /// Its width and height in pixels, of an EXR those of the largest layer.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        [self.size.width, self.size.height]
+    }
+
     /// What decoding it will take, and the table by which its light is found: eight bytes a pixel.
     #[must_use]
     pub fn cost(&self) -> DecodeCost {

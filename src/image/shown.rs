@@ -1,19 +1,91 @@
 //! Picture files read for what they show: pixel files as they are stored, to 16 bits a channel, and
-//! pictures of light by the code of sRGB.
+//! pictures of light by the code of sRGB. What is decoded stays as small as it was coded.
 
-use super::decode::{DecodeError, PixelFile};
+use super::decode::{CodedPixels, DecodeCost, DecodeError, PixelFile};
 use super::{Image, Opacity, RadianceFile, is_radiance};
 use rtc_color::Tone;
+
+/// A picture file of which the header was read.
+pub struct ShownFile<'a>(Source<'a>);
+
+enum Source<'a> {
+    Pixels(PixelFile<'a>),
+    Light(RadianceFile<'a>),
+}
 
 /// A picture as it is shown on black.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShownPicture {
-    /// Display values from 0 to 1, multiplied with the opacity.
-    pub display: Image,
-    /// The values of light, if the file holds those.
-    pub linear: Option<Image>,
-    /// The opacity of each pixel in [0, 1], if not all are opaque.
-    pub alpha: Option<Vec<f64>>,
+    size: [u32; 2],
+    values: Values,
+}
+
+/// The pixels, row by row.
+#[derive(Clone, Debug, PartialEq)]
+enum Values {
+    /// Display values.
+    Display(Vec<[f64; 3]>),
+    /// As a pixel file codes them.
+    Coded(CodedPixels),
+    /// Red, green and blue of light, as little-endian 32-bit floats.
+    Light(Vec<u8>),
+}
+
+impl<'a> ShownFile<'a> {
+    /// Reads the header of a PNG, JPEG, WebP, HDR or EXR of at most so many pixels.
+    ///
+    /// # Errors
+    /// If the bytes are no such file, its header is damaged or tells of more pixels.
+    pub fn open(bytes: &'a [u8], most_pixels: u64) -> Result<Self, DecodeError> {
+        Ok(Self(if is_radiance(bytes) {
+            Source::Light(RadianceFile::open(bytes, most_pixels)?)
+        } else {
+            Source::Pixels(PixelFile::open(bytes, Opacity::Kept, most_pixels)?)
+        }))
+    }
+
+    /// Its width and height in pixels; of an EXR those of the largest layer.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        match &self.0 {
+            Source::Pixels(file) => file.size(),
+            Source::Light(file) => file.size(),
+        }
+    }
+
+    /// Whether it holds values of light.
+    #[must_use]
+    pub fn holds_light(&self) -> bool {
+        matches!(self.0, Source::Light(_))
+    }
+
+    /// What decoding it will take.
+    #[must_use]
+    pub fn cost(&self) -> DecodeCost {
+        match &self.0 {
+            Source::Pixels(file) => file.cost(),
+            Source::Light(file) => file.cost(),
+        }
+    }
+
+    /// Decodes it; of an EXR the first layer with red, green and blue, without its opacity, and 0 for
+    /// negative values.
+    ///
+    /// # Errors
+    /// If the file is damaged, or there is no memory for it.
+    pub fn decode(self) -> Result<ShownPicture, DecodeError> {
+        let size = self.size();
+        match self.0 {
+            Source::Pixels(file) => Ok(ShownPicture {
+                size,
+                values: Values::Coded(file.decode_coded()?),
+            }),
+            Source::Light(file) => file.decode().map(|light| ShownPicture {
+                size: [light.width, light.height],
+                values: Values::Light(light.bytes),
+            }),
+        }
+    }
 }
 
 impl ShownPicture {
@@ -21,51 +93,84 @@ impl ShownPicture {
     #[must_use]
     pub fn of(display: Image) -> Self {
         Self {
-            display,
-            linear: None,
-            alpha: None,
+            size: [display.width, display.height],
+            values: Values::Display(display.pixels),
         }
     }
 
-    /// Reads PNG, JPEG, WebP, HDR or EXR of at most so many pixels; of an EXR the first layer with red,
-    /// green and blue, without its opacity, and 0 for negative values.
+    /// Reads a file of at most so many pixels, as [`ShownFile`] does.
     ///
     /// # Errors
-    /// If the bytes are no such file, it is damaged or has more pixels, or there is no memory for it.
+    /// As of [`ShownFile::open`] and [`ShownFile::decode`].
     pub fn read(bytes: &[u8], most_pixels: u64) -> Result<Self, DecodeError> {
-        if is_radiance(bytes) {
-            light(bytes, most_pixels)
-        } else {
-            let (display, alpha) =
-                PixelFile::open(bytes, Opacity::Kept, most_pixels)?.decode_wide()?;
-            Ok(Self {
-                display,
-                linear: None,
-                alpha,
-            })
+        ShownFile::open(bytes, most_pixels)?.decode()
+    }
+
+    /// Its width and height in pixels.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// How many pixels it has.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        self.size[0] as usize * self.size[1] as usize
+    }
+
+    /// The display values of a pixel from 0 to 1, multiplied with the opacity.
+    #[must_use]
+    pub fn display(&self, index: usize) -> [f64; 3] {
+        match &self.values {
+            Values::Display(pixels) => pixels[index],
+            Values::Coded(coded) => {
+                let [r, g, b, opacity] = coded.values(index);
+                [r, g, b].map(|value| value * opacity)
+            }
+            Values::Light(bytes) => Tone::Srgb.display(light(bytes, index)),
         }
+    }
+
+    /// The light of a pixel, if the file holds that.
+    #[must_use]
+    pub fn light(&self, index: usize) -> Option<[f64; 3]> {
+        match &self.values {
+            Values::Display(_) | Values::Coded(_) => None,
+            Values::Light(bytes) => Some(light(bytes, index)),
+        }
+    }
+
+    /// The opacity of a pixel in [0, 1].
+    #[must_use]
+    pub fn opacity(&self, index: usize) -> f64 {
+        match &self.values {
+            Values::Display(_) | Values::Light(_) => 1.0,
+            Values::Coded(coded) => coded.values(index)[3],
+        }
+    }
+
+    /// The display values of a part: its first column and row, and its width and height, all within the
+    /// picture.
+    #[must_use]
+    pub fn part(&self, [left, top]: [u32; 2], [width, height]: [u32; 2]) -> Image {
+        let rows = (top..top + height).map(|y| y as usize * self.size[0] as usize + left as usize);
+        let pixels = rows.flat_map(|first| first..first + width as usize);
+        Image {
+            width,
+            height,
+            pixels: pixels.map(|index| self.display(index)).collect(),
+        }
+    }
+
+    /// The display values of all pixels.
+    #[must_use]
+    pub fn image(&self) -> Image {
+        self.part([0, 0], self.size)
     }
 }
 
-fn light(bytes: &[u8], most_pixels: u64) -> Result<ShownPicture, DecodeError> {
-    let light = RadianceFile::open(bytes, most_pixels)?.decode()?;
-    let (values, _) = light.bytes.as_chunks::<4>();
-    let (pixels, _) = values.as_chunks::<3>();
-    let value = |bytes: [u8; 4]| f64::from(f32::from_le_bytes(bytes));
-    let linear = Image {
-        width: light.width,
-        height: light.height,
-        pixels: pixels.iter().map(|pixel| pixel.map(value)).collect(),
-    };
-    let shown = linear.pixels.iter().map(|pixel| Tone::Srgb.display(*pixel));
-    let display = Image {
-        width: light.width,
-        height: light.height,
-        pixels: shown.collect(),
-    };
-    Ok(ShownPicture {
-        display,
-        linear: Some(linear),
-        alpha: None,
-    })
+/// The light of a pixel.
+fn light(bytes: &[u8], index: usize) -> [f64; 3] {
+    let (values, _) = bytes.as_chunks::<4>();
+    [0, 1, 2].map(|channel| f64::from(f32::from_le_bytes(values[3 * index + channel])))
 }

@@ -1,15 +1,13 @@
 //! The one writer of files: a file appears whole or not at all, and so does a folder of them.
 //!
 //! It is written beside its target under another name, synced and renamed. What is unfinished is
-//! removed.
+//! removed. A link that is the last part of its path is replaced, not followed; what is edited may be
+//! one that stays in its folder.
 
 use std::fs::{self, File, Permissions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{NamedTempFile, TempDir};
-
-/// The most links that are followed to where a file is to be.
-const MAX_LINKS: usize = 40;
 
 /// A file that is to appear, fit to be written.
 pub struct NewFile {
@@ -50,15 +48,33 @@ impl NewFile {
         file.write(&|out| out.write_all(bytes), &Unobserved)
     }
 
+    /// Writes these bytes in place of those of the file at `path`, which nobody looks on.
+    ///
+    /// # Errors
+    /// What the system says, or that the file is a link that leaves its folder.
+    pub fn edit(path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let target = path.canonicalize()?;
+        if !target.starts_with(folder_of(path).canonicalize()?) {
+            let words = "it is a link that leaves its folder; name the file that it leads to";
+            return Err(io::Error::other(words));
+        }
+        Self::save(&target, bytes)
+    }
+
     /// Looks whether the file at `path` can be written. `None` if there is a device or a pipe, which
     /// cannot be replaced.
     ///
     /// # Errors
     /// If it can't.
     pub fn at(path: &Path) -> io::Result<Option<Self>> {
-        let present = fs::metadata(path).ok();
+        if fs::metadata(path).is_ok_and(|meta| meta.is_dir()) {
+            return Err(ErrorKind::IsADirectory.into());
+        }
+        let target = place_of(path)?;
+        let present = fs::symlink_metadata(&target).ok();
         let permissions = match &present {
-            Some(meta) if meta.is_dir() => return Err(ErrorKind::IsADirectory.into()),
+            Some(meta) if meta.is_symlink() && is_stream(&target) => return Ok(None),
+            Some(meta) if meta.is_symlink() => None,
             Some(meta) if !meta.is_file() => return Ok(None),
             Some(meta) if meta.permissions().readonly() => {
                 return Err(io::Error::other("the file is read-only"));
@@ -66,12 +82,8 @@ impl NewFile {
             Some(meta) => Some(meta.permissions()),
             None => None,
         };
-        // A link stays a link: what it points to is replaced, or made.
-        let target = path.canonicalize().or_else(|_| followed(path))?;
         let folder = folder_of(&target);
-        // The errors of what follows name the draft, which means nothing to the user: the folder
-        // and the kind say it.
-        fs::metadata(folder)?;
+        // Its errors name the draft, which means nothing to the user: the kind says it.
         draft(folder).map_err(|error| io::Error::from(error.kind()))?;
         Ok(Some(Self {
             target,
@@ -146,9 +158,11 @@ impl NewFolder {
             Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
             Ok(false) | Err(_) => {}
         }
-        let target = path.canonicalize().or_else(|_| followed(path))?;
+        if path.is_symlink() {
+            return Err(io::Error::other("it is a link"));
+        }
+        let target = path.canonicalize().or_else(|_| place_of(path))?;
         let folder = folder_of(&target);
-        fs::metadata(folder)?;
         let mut builder = tempfile::Builder::new();
         builder.prefix(".rtc-").suffix(".tmp");
         #[cfg(unix)]
@@ -192,16 +206,16 @@ impl NewFolder {
     }
 }
 
-/// The target of a path through links, which need not exist yet.
-fn followed(path: &Path) -> io::Result<PathBuf> {
-    let mut target = path.to_owned();
-    for _ in 0..MAX_LINKS {
-        match fs::read_link(&target) {
-            Ok(next) => target = folder_of(&target).join(next),
-            Err(_) => return Ok(target),
-        }
-    }
-    Err(io::Error::other("too many links"))
+/// A path whose folder, which must be there, is free of links.
+fn place_of(path: &Path) -> io::Result<PathBuf> {
+    let name = path.file_name().ok_or(ErrorKind::IsADirectory)?;
+    Ok(folder_of(path).canonicalize()?.join(name))
+}
+
+/// Whether a link is one that the system keeps for a stream, as `/dev/stdout`.
+fn is_stream(link: &Path) -> bool {
+    let folder = folder_of(link);
+    folder == Path::new("/dev") || folder.starts_with("/proc")
 }
 
 fn folder_of(target: &Path) -> &Path {

@@ -4,14 +4,18 @@
 //! that is obeyed is gone, there is no error that was not there before, and no warning either unless
 //! an error is gone: behind errors, warnings are not seen. A change that puts in a key without a meaning
 //! is never better, for the setting below it would be lost. What one change brings to light may be
-//! mended by the next, so that a few are tried on. Where all changes together are not better, each is
-//! tried alone.
+//! mended by the next, so that a few are tried on. Where all changes together are not better, each half of
+//! them is tried, and so on: few that are refused cost few checks.
 
 use super::{Input, Options};
 use rtc_diag::{Diagnostic, Severity, codes};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
+
+/// The most bytes of text that are checked, and how often the largest text is none the less.
+const MOST_BYTES: usize = 4 << 20;
+const FEWEST_CHECKS: usize = 8;
 
 /// The most times that a text is checked.
 const MOST_CHECKS: usize = 200;
@@ -44,22 +48,7 @@ pub struct FixWish {
 /// Obeys what is proposed for a text that stands at `path`, as far as it is wanted. Nothing is written.
 #[must_use]
 pub fn fix(path: &Path, text: &str, options: &Options, wish: &FixWish) -> FixedText {
-    let mut workshop = Workshop {
-        path,
-        options,
-        wish,
-        checks: 0,
-    };
-    let mut best = workshop.check(text.to_owned(), 0);
-    while let Some(better) = workshop.improve(&best) {
-        best = better;
-    }
-    FixedText {
-        changes: best.changes,
-        refused: best.edits.len(),
-        guesses: best.guesses,
-        text: best.text,
-    }
+    Workshop::new(path, text, options, wish).fixed(text)
 }
 
 /// What says what is wrong, wherever it is: severity, code and message.
@@ -105,12 +94,35 @@ struct Workshop<'w> {
     path: &'w Path,
     options: &'w Options,
     wish: &'w FixWish,
+    /// So many more checks are made.
     checks: usize,
 }
 
-impl Workshop<'_> {
+impl<'w> Workshop<'w> {
+    fn new(path: &'w Path, text: &str, options: &'w Options, wish: &'w FixWish) -> Self {
+        Self {
+            path,
+            options,
+            wish,
+            checks: (MOST_BYTES / text.len().max(1)).clamp(FEWEST_CHECKS, MOST_CHECKS),
+        }
+    }
+
+    fn fixed(&mut self, text: &str) -> FixedText {
+        let mut best = self.check(text.to_owned(), 0);
+        while let Some(better) = self.improve(&best) {
+            best = better;
+        }
+        FixedText {
+            changes: best.changes,
+            refused: best.edits.len(),
+            guesses: best.guesses,
+            text: best.text,
+        }
+    }
+
     fn check(&mut self, text: String, changes: usize) -> FixDraft {
-        self.checks += 1;
+        self.checks = self.checks.saturating_sub(1);
         let bytes = text.clone().into_bytes();
         let mut input = Input::edited(self.path, bytes, self.options.clone());
         if let Some(loaded) = input.load() {
@@ -165,15 +177,21 @@ impl Workshop<'_> {
         }));
     }
 
-    /// A better text, by all that is proposed or by one of it.
+    /// A better text, by all that is proposed or by the largest part that is found.
     fn improve(&mut self, draft: &FixDraft) -> Option<FixDraft> {
-        let all = self.follow(draft, &draft.edits);
-        all.or_else(|| {
-            let alone = draft.edits.iter().filter(|_| draft.edits.len() > 1);
-            alone
+        let mut parts = vec![draft.edits.as_slice()];
+        while !parts.is_empty() && self.checks > 0 {
+            let better = parts.iter().find_map(|part| self.follow(draft, part));
+            if better.is_some() {
+                return better;
+            }
+            parts = parts
                 .into_iter()
-                .find_map(|edit| self.follow(draft, std::slice::from_ref(edit)))
-        })
+                .filter(|part| part.len() > 1)
+                .flat_map(|part| <[_; 2]>::from(part.split_at(part.len() / 2)))
+                .collect();
+        }
+        None
     }
 
     /// A better text by these changes, and those that they lead to.
@@ -184,7 +202,7 @@ impl Workshop<'_> {
                 text,
                 changes,
                 added,
-            } = next.filter(|_| self.checks < MOST_CHECKS)?;
+            } = next.filter(|_| self.checks > 0)?;
             let found = self.check(text, changes);
             if found.loses(&added) {
                 return None;
@@ -261,4 +279,53 @@ impl FixDraft {
 #[must_use]
 pub fn complaint(finding: &Diagnostic) -> Complaint {
     (finding.severity, finding.code.id, finding.message.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fmt::Write as _;
+
+    const HEAD: &str = "Camera: {eye: [0, 1, 6], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8]}\n\
+                        Lights: []\nObjects:\n";
+
+    /// A text of some objects, each of them misspelt, and each `every`th so that no fix makes it better.
+    fn slips(count: usize, every: usize) -> String {
+        let mut text = HEAD.to_owned();
+        for at in 0..count {
+            let radius = if at % every == 0 { "-1" } else { "1" };
+            let _ = writeln!(
+                text,
+                "- {{type: sphere, position: [0, 0, 0], radus: {radius}, material: {{color: [1, 1, 1], ka: 1, kd: 1, ks: 0, n: 1}}}}"
+            );
+        }
+        text
+    }
+
+    /// How much is checked, in bytes, and what comes of it.
+    fn work(text: &str) -> (usize, FixedText) {
+        let (options, path) = (Options::default(), Path::new("nowhere/a.yaml"));
+        let wish = FixWish {
+            guesses: true,
+            only: None,
+        };
+        let mut workshop = Workshop::new(path, text, &options, &wish);
+        let before = workshop.checks;
+        let fixed = workshop.fixed(text);
+        ((before - workshop.checks) * text.len(), fixed)
+    }
+
+    #[test]
+    fn what_is_checked_does_not_grow_with_the_square_of_the_text() {
+        let [once, twice, four] = [500, 1000, 2000].map(|count| work(&slips(count, 7)).0);
+        assert!(once <= MOST_BYTES, "{once}");
+        assert!(twice <= MOST_BYTES && four <= MOST_BYTES, "{twice} {four}");
+    }
+
+    /// Halves are better, though the whole is not.
+    #[test]
+    fn one_that_is_refused_keeps_few_others_out() {
+        let (_, fixed) = work(&slips(40, 64));
+        assert!(fixed.changes >= 39, "{}", fixed.changes);
+    }
 }

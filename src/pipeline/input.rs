@@ -365,5 +365,8 @@ fn unreadable(name: &str, error: &LoadError) -> Diagnostic {
                 format!("`{name}` is larger than {limit} MiB"),
             )
         }
+        LoadError::NotRegular => {
+            Diagnostic::new(&codes::CANNOT_READ, format!("can't read `{name}`: {error}"))
+        }
     }
 }

@@ -3,16 +3,17 @@
 //!
 //! None may panic, whatever the bytes are. What a stage promises beyond that is asserted here.
 
-use super::{Options, PicturePart, load, prove, render};
+use super::{FixWish, Input, Options, PicturePart, load, prove, render};
 use arbitrary::{Arbitrary, Unstructured};
 use rtc_codec::{self as codec, Form};
 use rtc_color::Tone;
 use rtc_diag::{self as diag, Format, Printer, Severity, Sink};
+use rtc_emit as emit;
 use rtc_front::course;
 use rtc_ir::{Lowered, Material, Mode, Origins, Scene};
 use rtc_plan::{Plan, Rules};
 use rtc_render::{Background, Job, Values};
-use rtc_source::{FileId, Loader, SourceMap};
+use rtc_source::{Budget, FileId, Loader, SourceMap};
 use rtc_study::{Goal, Growth, Order};
 use rtc_valid as valid;
 use std::path::Path;
@@ -194,6 +195,94 @@ pub fn validate(bytes: &[u8]) {
         sink.has_errors(),
         "a proof or an error, never both"
     );
+}
+
+/// Writes a scene in any form, and the one that the bytes stand for, in the forms that are read again.
+///
+/// # Panics
+/// As [`is_written`].
+pub fn written(bytes: &[u8]) {
+    let (mut map, file) = source(bytes);
+    let lowered = load(file, &mut map, &Options::default(), &mut Sink::default());
+    let scene = Scene::arbitrary(&mut Unstructured::new(bytes)).ok();
+    let scenes = lowered
+        .map(|lowered| lowered.scene)
+        .into_iter()
+        .chain(scene);
+    scenes.for_each(is_written);
+}
+
+/// Writes a scene, if it is proven, as glTF and, if it needs no other file, as a text of the course's format.
+///
+/// # Panics
+/// If what is written is refused when it is read, or it is not written and no error says why, or the text is
+/// written otherwise the second time.
+pub fn is_written(scene: Scene) {
+    let origins = Origins::default();
+    let lowered = Lowered { scene, origins };
+    let (options, mut sink) = (Options::default(), Sink::default());
+    if prove(&lowered, &options, &mut sink).is_none() {
+        return;
+    }
+    let Lowered { scene, origins } = &lowered;
+    let budget = Budget::default();
+    match emit::gltf::emit(scene, origins, None, None, &budget, &mut sink) {
+        None => assert!(sink.has_errors(), "what is not written is told of"),
+        Some(asset) => {
+            let mut bytes = Vec::new();
+            let write = asset.write(&mut bytes);
+            write.expect("memory takes all");
+            is_accepted("trial.glb", bytes);
+        }
+    }
+    let needs_files = !scene.images.is_empty() || !scene.meshes.is_empty();
+    if let (false, Ok(text)) = (needs_files, emit::course::emit(scene)) {
+        let again = is_accepted("trial.yaml", text.clone().into_bytes());
+        assert_eq!(emit::course::emit(&again).as_ref(), Ok(&text));
+    }
+}
+
+/// The scene in what was written, which must be sound.
+fn is_accepted(name: &str, bytes: Vec<u8>) -> Scene {
+    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let file = map.add(name, bytes);
+    let lowered = load(file, &mut map, &options, &mut sink);
+    let proven = lowered.filter(|lowered| prove(lowered, &options, &mut sink).is_some());
+    let is_error = |finding: &&diag::Diagnostic| finding.severity == Severity::Error;
+    let errors: Vec<_> = sink.kept().iter().filter(is_error).collect();
+    proven
+        .unwrap_or_else(|| panic!("{name}: {errors:#?}"))
+        .scene
+}
+
+/// Puts what is proposed for a text into it, guesses left out and in.
+///
+/// # Panics
+/// If it has more errors then.
+pub fn fix(bytes: &[u8]) {
+    // No folder is there, so that no file is.
+    let (path, options) = (Path::new("nowhere/trial.yaml"), Options::default());
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return;
+    };
+    let errors = |text: &str| {
+        let mut input = Input::edited(path, text.as_bytes().to_vec(), options.clone());
+        if let Some(loaded) = input.load() {
+            input.prove(loaded, |_, _| ());
+        }
+        let sink = input.take_findings();
+        let is_error = |finding: &&diag::Diagnostic| finding.severity == Severity::Error;
+        sink.kept().iter().filter(is_error).count()
+    };
+    for guesses in [false, true] {
+        let wish = FixWish {
+            guesses,
+            only: None,
+        };
+        let fixed = super::fix(path, text, &options, &wish);
+        let is_worse = fixed.changes > 0 && errors(&fixed.text) > errors(text);
+        assert!(!is_worse, "{}", fixed.text);
+    }
 }
 
 /// Renders a scene in any form, a few pixels of it.

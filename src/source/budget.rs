@@ -115,12 +115,15 @@ impl Resource {
 pub struct Limits {
     /// What was asked for instead of the default.
     asked: [Option<u64>; COUNT],
+    /// What the default may be at most.
+    most: [Option<u64>; COUNT],
 }
 
 impl Limits {
     /// No limits at all.
     pub const NONE: Self = Self {
         asked: [Some(u64::MAX); COUNT],
+        most: [None; COUNT],
     };
 
     /// Sets one limit.
@@ -128,12 +131,20 @@ impl Limits {
         self.asked[resource as usize] = Some(limit);
     }
 
+    /// Lowers one limit where it would be higher by default; one that is set goes before.
+    pub fn lower(&mut self, resource: Resource, limit: u64) {
+        let most = &mut self.most[resource as usize];
+        *most = Some(most.map_or(limit, |own| own.min(limit)));
+    }
+
     /// The limit on a resource of a run that has read so many bytes.
     #[must_use]
     pub fn of(&self, resource: Resource, read: u64) -> u64 {
         let Row { base, per_kib, .. } = resource.row();
         let grown = u128::from(read) * u128::from(*per_kib) / 1024 + u128::from(*base);
-        self.asked[resource as usize].unwrap_or(u64::try_from(grown).unwrap_or(u64::MAX))
+        let most = self.most[resource as usize].unwrap_or(u64::MAX);
+        let grown = u64::try_from(grown).unwrap_or(u64::MAX).min(most);
+        self.asked[resource as usize].unwrap_or(grown)
     }
 }
 
@@ -303,7 +314,7 @@ and `GiB` may follow the number), `--allow-huge` lifts all of them.
         // Writing to a string does not fail.
         let _ = writeln!(page, "| `{name}` | {base} | {more} | {text} |");
     }
-    page
+    page + include_str!("strangers.md")
 }
 
 #[cfg(test)]
@@ -339,6 +350,18 @@ mod tests {
                 .charge(Resource::Memory, u64::MAX)
                 .is_ok()
         );
+    }
+
+    #[test]
+    fn what_is_lowered_is_never_raised_but_by_what_is_set() {
+        let mut limits = Limits::default();
+        limits.lower(Resource::Nodes, u64::MAX);
+        assert_eq!(limits.of(Resource::Nodes, 0), 1 << 21);
+        limits.lower(Resource::Nodes, 5);
+        limits.lower(Resource::Nodes, 7);
+        assert_eq!(limits.of(Resource::Nodes, 1 << 30), 5);
+        limits.set(Resource::Nodes, 9);
+        assert_eq!(limits.of(Resource::Nodes, 0), 9);
     }
 
     #[test]

@@ -13,7 +13,7 @@ pub mod tree;
 pub use budget::{Budget, Exceeded, Limits, Resource};
 pub use edited::EditedFiles;
 pub use escape::uri_path;
-pub use loader::{Identity, LoadError, Loader};
+pub use loader::{Identity, LoadError, Loader, OwnedFile};
 pub use map::{FileId, LineColumn, SourceMap, Span};
 pub use memory::MemoryFiles;
 pub use search::{FileKind, Folder, Found, Missing, Search};

@@ -24,6 +24,8 @@ pub enum LoadError {
         /// The limit in bytes.
         limit: u64,
     },
+    /// There is a device, a pipe or a socket, where reading may wait for ever or never end.
+    NotRegular,
 }
 
 impl fmt::Display for LoadError {
@@ -31,6 +33,7 @@ impl fmt::Display for LoadError {
         match self {
             Self::Io(error) => error.fmt(f),
             Self::TooLarge { limit } => write!(f, "it is larger than {} MiB", limit >> 20),
+            Self::NotRegular => f.write_str("it is no regular file; `-` reads standard input"),
         }
     }
 }
@@ -98,14 +101,59 @@ impl Loader {
     ///
     /// # Errors
     /// What the system says, or that the file is too large.
-    #[expect(
-        clippy::disallowed_methods,
-        reason = "this is the one place that reads"
-    )]
     pub fn bytes(&self, path: &Path, limit: u64, map: &SourceMap) -> Result<Vec<u8>, LoadError> {
         map.note(path);
-        whole(&File::open(path).map_err(LoadError::Io)?, limit)
+        // To open a device may already do something, so it is not even tried.
+        let there = fs::metadata(path).map_err(LoadError::Io)?;
+        if !there.is_file() && !there.is_dir() {
+            return Err(LoadError::NotRegular);
+        }
+        whole(&without_waiting().open(path).map_err(LoadError::Io)?, limit)
     }
+
+    /// Reads a regular file of at most `limit` bytes that nobody named, and tells whose it is.
+    ///
+    /// # Errors
+    /// What the system says, or that there is no such file or it is too large.
+    pub fn owned(&self, path: &Path, limit: u64) -> Result<OwnedFile, LoadError> {
+        let opened = Opened::at(path).ok_or(LoadError::NotRegular)?;
+        let bytes = opened.bytes(limit)?;
+        let metadata = match &opened.content {
+            Content::System(Ok(file)) => file.metadata().map_err(LoadError::Io)?,
+            Content::System(Err(_)) | Content::Memory(_) => return Err(LoadError::NotRegular),
+        };
+        Ok(OwnedFile {
+            path: opened.path,
+            bytes,
+            is_own: is_own(&metadata),
+        })
+    }
+}
+
+/// A file that nobody named.
+#[derive(Debug)]
+pub struct OwnedFile {
+    /// Where it lies, free of links.
+    pub path: PathBuf,
+    /// What is in it.
+    pub bytes: Vec<u8>,
+    /// Whether it belongs to the user or to the system's administrator, and nobody else may write it; true
+    /// where the system does not tell.
+    pub is_own: bool,
+}
+
+#[cfg(unix)]
+fn is_own(file: &Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    /// The right of all others to write.
+    const WRITABLE: u32 = 0o002;
+    let user = rustix::process::geteuid().as_raw();
+    [0, user].contains(&file.uid()) && file.mode() & WRITABLE == 0
+}
+
+#[cfg(not(unix))]
+fn is_own(_: &Metadata) -> bool {
+    true
 }
 
 /// What tells a file from others, by whatever names and links it is reached.
@@ -265,6 +313,9 @@ fn whole(file: &File, limit: u64) -> Result<Vec<u8>, LoadError> {
     let metadata = file.metadata().map_err(LoadError::Io)?;
     if metadata.is_dir() {
         return Err(LoadError::Io(io::ErrorKind::IsADirectory.into()));
+    }
+    if !metadata.is_file() {
+        return Err(LoadError::NotRegular);
     }
     if metadata.len() > limit {
         return Err(LoadError::TooLarge { limit });

@@ -62,7 +62,21 @@ struct SourceFile {
     /// Found when a line is first asked for: most files are never pointed at, and some are large
     /// and binary.
     line_starts: OnceLock<Vec<u32>>,
+    /// As `line_starts`, for lines may be as long as the file.
+    letters: OnceLock<Vec<LetterMark>>,
+    /// Whether all of it is UTF-8.
+    is_utf8: OnceLock<bool>,
 }
+
+/// How many characters there are before a byte that one starts at.
+#[derive(Clone, Copy)]
+struct LetterMark {
+    offset: u32,
+    letters: u32,
+}
+
+/// A place at least every so many bytes is marked.
+const MARKED: usize = 1 << 10;
 
 /// All files of one run, with their names as the user gave them, and the budget of the run.
 #[derive(Default)]
@@ -174,6 +188,8 @@ impl SourceMap {
             bytes,
             is_released: false,
             line_starts: OnceLock::new(),
+            letters: OnceLock::new(),
+            is_utf8: OnceLock::new(),
         });
         id
     }
@@ -200,8 +216,9 @@ impl SourceMap {
     /// but for some letters.
     #[must_use]
     pub fn is_text(&self, file: FileId) -> bool {
-        let bytes = self.bytes(file);
-        !bytes[..bytes.len().min(SNIFF)].contains(&0) || self.text(file).is_some()
+        let source = self.file(file);
+        let head = &source.bytes[..source.bytes.len().min(SNIFF)];
+        !head.contains(&0) || (source.is_utf8() && !source.is_released)
     }
 
     /// Gives back the memory of a binary file of which all was made that it is for; the first `kept`
@@ -212,6 +229,7 @@ impl SourceMap {
             let own = &mut self.files[file.0 as usize];
             own.bytes.truncate(kept);
             own.bytes.shrink_to_fit();
+            (own.line_starts, own.letters) = (OnceLock::new(), OnceLock::new());
             own.is_released = true;
         }
     }
@@ -219,10 +237,9 @@ impl SourceMap {
     /// The text of the file, if it is UTF-8 and not a binary container.
     #[must_use]
     pub fn text(&self, file: FileId) -> Option<&str> {
-        let SourceFile {
-            bytes, is_released, ..
-        } = self.file(file);
-        std::str::from_utf8(bytes).ok().filter(|_| !is_released)
+        let source = self.file(file);
+        let text = std::str::from_utf8(&source.bytes);
+        text.ok().filter(|_| !source.is_released)
     }
 
     /// The text a span covers, with what is not UTF-8 replaced.
@@ -240,11 +257,9 @@ impl SourceMap {
         let starts = source.line_starts();
         let line = starts.partition_point(|&start| start <= offset).max(1);
         let start = starts.get(line - 1).copied().unwrap_or(0);
-        let span = Span::new(file, start, offset);
-        let column = self.slice(span).chars().count() + 1;
         LineColumn {
             line: to_u32(line),
-            column: to_u32(column),
+            column: source.letters_before(offset) - source.letters_before(start) + 1,
         }
     }
 
@@ -275,6 +290,46 @@ impl SourceFile {
         self.line_starts
             .get_or_init(|| std::iter::once(0).chain(newlines()).collect())
     }
+
+    fn is_utf8(&self) -> bool {
+        let find = || std::str::from_utf8(&self.bytes).is_ok();
+        *self.is_utf8.get_or_init(find)
+    }
+
+    /// How many characters begin before a byte; what is not UTF-8 counts as it is shown.
+    fn letters_before(&self, offset: u32) -> u32 {
+        let marks = self.letters.get_or_init(|| marks(&self.bytes));
+        let next = marks.partition_point(|mark| mark.offset <= offset);
+        let mark = marks[next.saturating_sub(1)];
+        let end = (offset as usize).min(self.bytes.len());
+        let rest = self.bytes.get(mark.offset as usize..end);
+        let rest = String::from_utf8_lossy(rest.unwrap_or_default());
+        mark.letters + to_u32(rest.chars().count())
+    }
+}
+
+/// Marks for all of a file, from its beginning on.
+fn marks(bytes: &[u8]) -> Vec<LetterMark> {
+    let (mut marks, mut offset, mut letters) = (Vec::new(), 0, 0);
+    let mut pass = |bytes: usize| {
+        let last = marks.last().map(|mark: &LetterMark| mark.offset as usize);
+        if last.is_none_or(|last| offset - last >= MARKED) {
+            marks.push(LetterMark {
+                offset: to_u32(offset),
+                letters,
+            });
+        }
+        offset += bytes;
+        letters += 1;
+    };
+    for chunk in bytes.utf8_chunks() {
+        chunk.valid().chars().for_each(|c| pass(c.len_utf8()));
+        if !chunk.invalid().is_empty() {
+            pass(chunk.invalid().len());
+        }
+    }
+    pass(0);
+    marks
 }
 
 fn to_u32(count: usize) -> u32 {
@@ -293,6 +348,36 @@ mod tests {
         assert_eq!(map.line_column(file, 5), LineColumn { line: 2, column: 3 });
         assert_eq!(map.slice(map.lines(file, 2, 2)), "ü-b\n");
         assert_eq!(map.line_column(file, 6), LineColumn { line: 2, column: 4 });
+    }
+
+    #[test]
+    fn columns_of_a_long_line_are_as_if_it_were_read_from_its_start() {
+        let mut map = SourceMap::default();
+        let long = "aü😀\u{301}".repeat(2000) + "\nü" + &"x".repeat(5000);
+        let latin = [long.as_bytes(), b"\xe9\x80\xff", long.as_bytes()].concat();
+        for bytes in [long.as_bytes(), &latin] {
+            let file = map.add("x", bytes.to_vec());
+            for offset in (0..bytes.len() + 2).step_by(97) {
+                let before = &bytes[..offset.min(bytes.len())];
+                let start = before.iter().rposition(|byte| *byte == b'\n');
+                let start = start.map_or(0, |at| at + 1);
+                let before = String::from_utf8_lossy(&before[start..]);
+                let at = map.line_column(file, to_u32(offset));
+                assert_eq!(at.column as usize, before.chars().count() + 1, "{offset}");
+            }
+        }
+    }
+
+    /// However long a line is, no more of it is read for a column than lies between two marks.
+    #[test]
+    fn the_work_for_a_column_does_not_grow_with_its_line() {
+        for letters in [4_000, 8_000, 16_000] {
+            let line = "ü😀a".repeat(letters);
+            let marks = marks(line.as_bytes());
+            let gaps = marks.windows(2).map(|pair| pair[1].offset - pair[0].offset);
+            assert!(gaps.max() <= Some(to_u32(MARKED + 4)));
+            assert!(marks.len() <= line.len() / MARKED + 1);
+        }
     }
 
     #[test]

@@ -2,17 +2,19 @@
 //! that the user allows.
 //!
 //! A name that leads elsewhere (`C:\…\earth.png`, `/home/…`, `../..`) is never followed: the
-//! longest tail of it that exists below those folders is taken instead. So is, last, a name that
-//! differs in case only. A file is opened before it is judged, and only regular files are found.
-//! The parent is not the scene's own: what it lends is shown by its name and its first bytes to be
-//! what the scene asks for, and a home, a folder of the system or a hidden file lends nothing.
+//! longest tail of it that exists below those folders is taken, last a name that differs in case only.
+//! Only regular files are found, and judged once they are open. What the parent lends is by its name and
+//! its first bytes what the scene asks for; a home, a folder of the system or a hidden file lends nothing.
+//! Of what is not lent, and of what a link leads out to, it is not told whether it is there.
 
 mod folder;
+mod listing;
 mod neighbours;
 
 pub use folder::Folder;
 
 use super::loader::{Identity, Opened};
+use listing::Listings;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -27,6 +29,7 @@ pub struct Search {
     has_parent: bool,
     /// The folder the user allows, resolved.
     allowed: Option<PathBuf>,
+    listings: Listings,
 }
 
 /// A kind of file that scenes name.
@@ -145,7 +148,7 @@ impl<'a> Name<'a> {
 /// The entry at a place.
 enum At {
     File(Opened),
-    /// A file that may not be read, whether it exists or not.
+    /// A link that leads out, whether there is anything or not.
     Withheld,
     Nothing,
 }
@@ -163,6 +166,7 @@ impl Search {
             folders: folder.cloned().into_iter().chain(given).collect(),
             has_parent: false,
             allowed,
+            listings: Listings::default(),
         }
     }
 
@@ -304,30 +308,26 @@ impl Search {
     /// What is below the folder at `place`; of the parent only what it lends.
     fn at(&self, place: usize, tail: &Path, kind: &FileKind) -> At {
         let folder = &self.folders[place];
+        let is_parent = self.has_parent && place + 1 == self.folders.len();
+        let is_lent = |opened: &Opened| {
+            self.is_allowed(opened.path()) || kind.is_lent(opened, &folder.resolved)
+        };
         match self.within(folder, tail) {
-            At::File(opened) if self.has_parent && place + 1 == self.folders.len() => {
-                let is_lent =
-                    self.is_allowed(opened.path()) || kind.is_lent(&opened, &folder.resolved);
-                if is_lent {
-                    At::File(opened)
-                } else {
-                    At::Withheld
-                }
-            }
+            At::File(opened) if !is_parent || is_lent(&opened) => At::File(opened),
+            At::File(_) | At::Withheld if is_parent => At::Nothing,
             at @ (At::File(_) | At::Withheld | At::Nothing) => at,
         }
     }
 
     fn within(&self, folder: &Folder, tail: &Path) -> At {
-        let Some(opened) = folder.open(&folder.resolved.join(tail)) else {
-            return At::Nothing;
+        let is_inside = |opened: &Opened| {
+            opened.path().starts_with(&folder.resolved) || self.is_allowed(opened.path())
         };
-        let is_inside =
-            opened.path().starts_with(&folder.resolved) || self.is_allowed(opened.path());
-        if is_inside {
-            At::File(opened)
-        } else {
-            At::Withheld
+        let opened = folder.open(&folder.resolved.join(tail));
+        match opened.filter(is_inside) {
+            Some(opened) => At::File(opened),
+            None if folder.leads_out(tail) => At::Withheld,
+            None => At::Nothing,
         }
     }
 
@@ -335,11 +335,11 @@ impl Search {
     /// if there are more.
     fn other_case(&self, place: usize, tail: &Path, kind: &FileKind) -> Option<Found> {
         let folder = &self.folders[place];
-        let wanted = tail.file_name()?.to_str()?.to_lowercase();
-        let names = folder.names(folder.resolved.join(tail).parent()?);
-        let mut alike: Vec<String> = names.filter(|name| name.to_lowercase() == wanted).collect();
-        alike.sort_unstable();
-        alike.into_iter().find_map(|name| {
+        let wanted = tail.file_name()?.to_str()?;
+        let listing = self
+            .listings
+            .of(folder, folder.resolved.join(tail).parent()?);
+        listing.alike(wanted).iter().find_map(|name| {
             let tail = tail.with_file_name(name);
             match self.at(place, &tail, kind) {
                 At::File(opened) => Some(Found::new(opened, folder.shown.join(&tail), true)),

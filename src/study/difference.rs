@@ -1,7 +1,7 @@
 //! How far two pictures of one size are apart.
 
-use super::flip::{PIXELS_PER_DEGREE, flip};
-use super::metrics::{LEVELS, relative_mse, rmse};
+use super::flip::{PIXELS_PER_DEGREE, REACH, flip};
+use super::metrics::{LEVELS, relative};
 use rtc_image::{Image, ShownPicture};
 use serde::Serialize;
 
@@ -28,36 +28,73 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// The difference, and FLIP of each pixel, row by row. The pictures are of one size.
+    /// The difference of pictures of one size.
     #[must_use]
-    pub fn of(test: &ShownPicture, reference: &ShownPicture, levels: f64) -> (Self, Vec<f64>) {
-        let (a, b) = (&test.display, &reference.display);
-        let flips = flip(b, a, PIXELS_PER_DEGREE);
-        let count = flips.len().max(1) as f64;
-        let offs = (0..flips.len()).map(|index| off(test, reference, index));
-        let mut found = Self {
-            rmse: rmse(std::slice::from_ref(a), std::slice::from_ref(b)),
+    pub fn of(test: &ShownPicture, reference: &ShownPicture, levels: f64) -> Self {
+        Self::told(test, reference, levels, &mut |_, _| ())
+    }
+
+    /// The same, and FLIP of each pixel, row by row.
+    #[must_use]
+    pub fn mapped(test: &ShownPicture, reference: &ShownPicture, levels: f64) -> (Self, Vec<f64>) {
+        let mut flips = vec![0.0; test.pixels()];
+        let found = Self::told(test, reference, levels, &mut |index, flip| {
+            flips[index] = flip;
+        });
+        (found, flips)
+    }
+
+    /// Nothing differs.
+    #[must_use]
+    pub fn none(levels: f64) -> Self {
+        Self {
+            rmse: 0.0,
             max: 0.0,
             max_at: None,
-            relative_mse: match (&test.linear, &reference.linear) {
-                (Some(a), Some(b)) => relative_mse(a, b),
-                (Some(_), None) | (None, _) => relative_mse(a, b),
-            },
-            flip: flips.iter().sum::<f64>() / count,
+            relative_mse: 0.0,
+            flip: 0.0,
             share: 0.0,
             levels,
-        };
-        let width = a.width as usize;
-        let mut over = 0_u64;
-        for (index, off) in offs.enumerate() {
+        }
+    }
+
+    /// The difference; `on_flip` takes that of each pixel where there is any.
+    fn told(
+        test: &ShownPicture,
+        reference: &ShownPicture,
+        levels: f64,
+        on_flip: &mut dyn FnMut(usize, f64),
+    ) -> Self {
+        let (mut found, mut square, mut over) = (Self::none(levels), 0.0, 0_u64);
+        let width = test.size()[0] as usize;
+        for index in 0..test.pixels() {
+            let [shown, wanted] = [test, reference].map(|picture| picture.display(index));
+            square += apart(shown, wanted)
+                .map(|(x, r)| (x - r) * (x - r))
+                .sum::<f64>();
+            let light = test.light(index).zip(reference.light(index));
+            let (own, other) = light.unwrap_or((shown, wanted));
+            found.relative_mse += apart(own, other).map(relative).sum::<f64>();
+            let opacity = (test.opacity(index) - reference.opacity(index)).abs();
+            let off = apart(shown, wanted).map(|(x, r)| (x - r).abs());
+            let off = off.fold(opacity, f64::max) * LEVELS;
             // What a file of 8 bits holds is no whole number of levels, by rounding.
             over += u64::from(off > levels + 1e-9);
             if off > found.max {
                 (found.max, found.max_at) = (off, Some([index % width, index / width]));
             }
         }
+        let count = test.pixels().max(1) as f64;
+        found.rmse = (square / (3.0 * count)).sqrt() * LEVELS;
+        found.relative_mse /= 3.0 * count;
         found.share = over as f64 / count;
-        (found, flips)
+        let mut sum = 0.0;
+        by_tiles(test, reference, &mut |index, flip| {
+            sum += flip;
+            on_flip(index, flip);
+        });
+        found.flip = sum / count;
+        found
     }
 
     /// Whether the pictures show the same.
@@ -67,13 +104,37 @@ impl Difference {
     }
 }
 
-/// The largest difference of a pixel, in grey levels.
-fn off(test: &ShownPicture, reference: &ShownPicture, index: usize) -> f64 {
-    let colors = |picture: &ShownPicture| picture.display.pixels[index];
-    let opacity = |picture: &ShownPicture| picture.alpha.as_ref().map_or(1.0, |alpha| alpha[index]);
-    let channels = colors(test).into_iter().zip(colors(reference));
-    let apart = channels.map(|(x, r)| (x - r).abs());
-    apart.fold((opacity(test) - opacity(reference)).abs(), f64::max) * LEVELS
+/// The channels of two colours.
+fn apart(test: [f64; 3], reference: [f64; 3]) -> impl Iterator<Item = (f64, f64)> {
+    test.into_iter().zip(reference)
+}
+
+/// FLIP of each pixel of the tiles that are not the same in both pictures. A tile is looked at with as
+/// much around it as the eye blurs together, so that it is as in the whole picture.
+fn by_tiles(test: &ShownPicture, reference: &ShownPicture, on_flip: &mut dyn FnMut(usize, f64)) {
+    /// Pixels along each side.
+    const TILE: u32 = 256;
+    let [width, height] = test.size();
+    let starts = |length: u32| (0..length).step_by(TILE as usize);
+    for [left, top] in starts(height).flat_map(|y| starts(width).map(move |x| [x, y])) {
+        let around = |start: u32, length: u32| {
+            let first = start.saturating_sub(REACH);
+            let end = start.saturating_add(TILE + REACH).min(length);
+            [first, end - first]
+        };
+        let ([x, across], [y, down]) = (around(left, width), around(top, height));
+        let [a, b] = [reference, test].map(|picture| picture.part([x, y], [across, down]));
+        if a == b {
+            continue;
+        }
+        let flips = flip(&a, &b, PIXELS_PER_DEGREE);
+        for row in top..(top + TILE).min(height) {
+            for column in left..(left + TILE).min(width) {
+                let own = (row - y) as usize * across as usize + (column - x) as usize;
+                on_flip(row as usize * width as usize + column as usize, flips[own]);
+            }
+        }
+    }
 }
 
 /// FLIP of each pixel as a picture: from black for no difference to white for the largest.
@@ -108,40 +169,72 @@ fn glow(value: f64) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rtc_image::{FileFormat, Picture};
 
     fn shown(values: &[f64]) -> ShownPicture {
-        ShownPicture {
-            display: Image {
-                width: 2,
-                height: u32::try_from(values.len() / 2).unwrap(),
-                pixels: values.iter().map(|value| [0.5, *value, 0.5]).collect(),
-            },
-            linear: None,
-            alpha: None,
-        }
+        ShownPicture::of(Image {
+            width: 2,
+            height: u32::try_from(values.len() / 2).unwrap(),
+            pixels: values.iter().map(|value| [0.5, *value, 0.5]).collect(),
+        })
     }
 
     #[test]
     fn differences_by_hand() {
         let (a, b) = (shown(&[0.0, 0.2, 0.4, 1.0]), shown(&[0.0, 0.2, 0.6, 0.8]));
-        let (found, flips) = Difference::of(&a, &b, 51.0);
+        let (found, flips) = Difference::mapped(&a, &b, 51.0);
         assert!((found.rmse - (2.0 * 51.0 * 51.0 / 12.0_f64).sqrt()).abs() < 1e-9);
         assert!((found.max - 51.0).abs() < 1e-9 && found.max_at == Some([0, 1]));
         assert!(found.share == 0.0 && found.flip == flips.iter().sum::<f64>() / 4.0);
-        assert_eq!(Difference::of(&a, &b, 50.0).0.share, 0.5);
+        assert_eq!(Difference::of(&a, &b, 50.0).share, 0.5);
         let relative = (0.04 / 0.37 + 0.04 / 0.65) / 12.0;
         assert!((found.relative_mse - relative).abs() < 1e-12);
-        assert!(Difference::of(&a, &a, 0.0).0.is_none() && !found.is_none());
+        assert_eq!(Difference::of(&a, &a, 0.0), Difference::none(0.0));
+        assert!(!found.is_none());
     }
 
     #[test]
     fn opacity_counts_as_a_channel() {
-        let (mut a, b) = (shown(&[0.0; 4]), shown(&[0.0; 4]));
-        a.alpha = Some(vec![1.0, 1.0, 1.0, 0.8]);
-        let (found, _) = Difference::of(&a, &b, 1.0);
+        let file = |alpha: f32| {
+            let picture = Picture {
+                image: Image {
+                    width: 2,
+                    height: 2,
+                    pixels: vec![[0.0; 3]; 4],
+                },
+                alpha: Some(vec![1.0, 1.0, 1.0, alpha]),
+                ..Picture::default()
+            };
+            let bytes = picture.encode(FileFormat::Png8).unwrap();
+            ShownPicture::read(&bytes, 4).unwrap()
+        };
+        let found = Difference::of(&file(0.8), &file(1.0), 1.0);
         assert_eq!(
             (found.rmse, found.max_at, found.share),
             (0.0, Some([1, 1]), 0.25)
         );
+    }
+
+    #[test]
+    fn tiles_see_what_the_whole_picture_sees() {
+        let picture = |seed: u32| {
+            let mut state = seed;
+            let mut next = || {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                f64::from(state >> 8) / f64::from(1 << 24)
+            };
+            Image {
+                width: 300,
+                height: 270,
+                pixels: (0..300 * 270).map(|_| [next(), next(), next()]).collect(),
+            }
+        };
+        let (a, mut b) = (picture(1), picture(1));
+        // One tile differs along its border, and so its neighbours see it too.
+        b.pixels[100 * 300 + 255] = [1.0, 0.0, 0.5];
+        b.pixels[255 * 300 + 7] = [0.0, 1.0, 0.5];
+        let whole = flip(&b, &a, PIXELS_PER_DEGREE);
+        let (_, by_tiles) = Difference::mapped(&ShownPicture::of(a), &ShownPicture::of(b), 1.0);
+        assert!(whole == by_tiles, "to the last bit");
     }
 }

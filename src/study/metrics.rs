@@ -71,13 +71,8 @@ impl Errors {
     }
 }
 
-/// The mean of `(x − r)²/(r² + 0.01)` over all channels.
-#[must_use]
-pub(super) fn relative_mse(test: &Image, reference: &Image) -> f64 {
-    channels(test, reference).map(relative).sum::<f64>() / (3 * test.pixels.len()).max(1) as f64
-}
-
-fn relative((x, r): (f64, f64)) -> f64 {
+/// `(x − r)²/(r² + 0.01)` of a channel.
+pub(super) fn relative((x, r): (f64, f64)) -> f64 {
     (x - r) * (x - r) / (r * r + 0.01)
 }
 

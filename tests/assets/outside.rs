@@ -5,6 +5,7 @@ use super::{IMAGE, MESH, bring, folder, pixels, png, write};
 use rtc::internals::front::FrontOptions;
 use rtc::internals::front::course::assets::Asset;
 use std::fs;
+use std::path::Path;
 use tempfile::TempDir;
 
 #[cfg(unix)]
@@ -52,6 +53,37 @@ fn links_that_leave_the_folder_and_what_is_no_file_are_refused() {
     );
 }
 
+/// Neither by a link to the file itself nor by one on the way.
+#[cfg(unix)]
+#[test]
+fn whether_there_is_anything_outside_is_not_told() {
+    let (folder, elsewhere) = (folder(), TempDir::new().unwrap());
+    fs::write(elsewhere.path().join("there.png"), png([9; 3])).unwrap();
+    write(&folder, "there.png", png([9; 3]));
+    let scene = folder.path().join("inner/deep/scene.yaml");
+    write(&folder, "inner/deep/scene.yaml", "a: b.c\n");
+    let link = |target: &Path, name: &str| {
+        std::os::unix::fs::symlink(target, folder.path().join("inner/deep").join(name)).unwrap();
+    };
+    link(elsewhere.path(), "away");
+    link(Path::new("../.."), "up");
+    link(Path::new("up"), "twice");
+    for name in ["there.png", "absent.png"] {
+        link(&elsewhere.path().join(name), &format!("by-{name}"));
+    }
+    let said = |path: &str| {
+        let findings = bring(&scene, IMAGE, path, &FrontOptions::default()).findings;
+        assert!(findings.starts_with("RE00"), "{path}: {findings}");
+        findings
+            .replace("there.png", "NAME")
+            .replace("absent.png", "NAME")
+    };
+    for way in ["away/", "up/", "twice/", "by-", "../../", "/etc/", "up/x/"] {
+        let [there, absent] = ["there.png", "absent.png"].map(|name| said(&format!("{way}{name}")));
+        assert_eq!(there, absent, "{way}");
+    }
+}
+
 /// What is said of a mesh named `path`, with this text there.
 fn told(place: &str, text: &str, path: &str, options: &FrontOptions) -> String {
     let folder = folder();
@@ -81,8 +113,15 @@ fn the_folder_above_lends_meshes_and_pictures_alone() {
     ] {
         let findings = told(place, text, place, &options);
         assert!(
-            findings.starts_with("RE002 error") && !findings.contains("secret"),
+            findings.starts_with("RE001 error") && !findings.contains("secret"),
             "{place}: {findings}"
+        );
+        let absent = told("other.txt", text, place, &options);
+        let first = |said: &str| said.lines().next().map(str::to_owned);
+        assert_eq!(
+            (first(&findings), findings.lines().count()),
+            (first(&absent), absent.lines().count()),
+            "whether there is one is not told"
         );
         // The scene's own folder and one that the user allows may hold such a file.
         assert!(
@@ -106,7 +145,7 @@ fn the_folder_above_lends_meshes_and_pictures_alone() {
         .findings,
         ""
     );
-    for (name, code) in [("a.png", None), ("a.jpg", None), ("a.txt", Some("RE002"))] {
+    for (name, code) in [("a.png", None), ("a.jpg", None), ("a.txt", Some("RE001"))] {
         let (grey, findings) = found(&[(name, 7)], name, None);
         assert_eq!(
             (grey.is_none(), findings.get(..5)),

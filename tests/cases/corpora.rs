@@ -37,6 +37,13 @@ const TARGETS: &[Target] = &[
     ("folder", inputs::folder),
     ("part", run::part),
     ("arguments", cli::trial::arguments),
+    ("fix", run::fix),
+    ("lsp", cli::trial::messages),
+    ("ies", inputs::ies),
+    ("mtl", inputs::mtl),
+    ("ply", inputs::ply),
+    ("stl", inputs::stl),
+    ("written", run::written),
 ];
 
 /// A trial for the seeds of each target, and for each file of its corpus.

@@ -63,6 +63,45 @@ fn a_pattern_is_what_fits_it_but_for_what_is_hidden() {
     assert_eq!(told(&one), ["[x].png"], "a file of that name is meant");
 }
 
+/// Neither round in circles nor out of the folder.
+#[cfg(unix)]
+#[test]
+fn no_walk_follows_links() {
+    use std::os::unix::ffi::OsStrExt;
+    use std::os::unix::fs::symlink;
+    let (shelf, elsewhere) = (shelf(), tempfile::tempdir().unwrap());
+    fs::write(elsewhere.path().join("secret.json"), "password: hunter2").unwrap();
+    let path = |name: &str| shelf.path().join("set").join(name);
+    for name in ["l1", "l2", "deep/up"] {
+        symlink(".", path(name)).unwrap();
+    }
+    symlink(elsewhere.path().join("secret.json"), path("x.json")).unwrap();
+    symlink(elsewhere.path(), path("away")).unwrap();
+    let odd = std::ffi::OsStr::from_bytes(b"\xff.json");
+    fs::write(path("deep").join(odd), SCENE.replace("[40, 30]", "[4, 3]")).unwrap();
+    for (meant, count) in [
+        ("set", 4),
+        ("set/**/*.json", 4),
+        ("set/*", 5),
+        ("set/*.json", 2),
+        ("s?t/*/*.json", 2),
+        ("*/[a-b].json", 2),
+        ("./set/*.json", 2),
+    ] {
+        let checked = rtc(&shelf, &["check", meant, "--message-format", "json"]);
+        let said = stderr(&checked) + &String::from_utf8_lossy(&checked.stdout);
+        assert!(!said.contains("hunter2"), "{meant}: {said}");
+        let made = rtc(&shelf, &["render", meant, "-o", "out/"]);
+        assert_eq!((code(&made), told(&made).len()), (0, count), "{meant}");
+    }
+    for meant in ["set/x.*", "set/l?/a.json", "set/away/*"] {
+        let expected = if meant.ends_with("away/*") { 1 } else { 2 };
+        assert_eq!(code(&rtc(&shelf, &["check", meant])), expected, "{meant}");
+    }
+    // What is named is followed.
+    assert_eq!(code(&rtc(&shelf, &["check", "set/l1/a.json"])), 0);
+}
+
 #[test]
 fn a_failure_is_told_and_the_rest_goes_on() {
     let shelf = shelf();

@@ -113,6 +113,27 @@ fn links_and_permissions_stay() {
     assert_eq!(names(folder.path()), ["a.yaml", "own.yaml"]);
 }
 
+/// No edit goes through a link that leaves its folder.
+#[cfg(unix)]
+#[test]
+fn what_a_link_leads_out_to_is_not_edited() {
+    let (folder, elsewhere) = (tempfile::tempdir().unwrap(), put(TYPED));
+    std::os::unix::fs::symlink(
+        elsewhere.path().join("a.yaml"),
+        folder.path().join("a.yaml"),
+    )
+    .unwrap();
+    for args in [&["check", "--fix", "a.yaml"][..], &["fmt", "a.yaml"]] {
+        let refused = rtc(&folder, args);
+        let said = stderr(&refused);
+        assert!(
+            code(&refused) == 2 && said.contains("it is a link that leaves its folder"),
+            "{args:?}: {said}"
+        );
+        assert_eq!(text(&elsewhere), TYPED);
+    }
+}
+
 /// Codes and severities of what `rtc check` finds in a file.
 fn found(folder: &Path, name: &str) -> Vec<String> {
     let words = [

@@ -9,6 +9,8 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise, and makes the files it needs"
 )]
+#[cfg(unix)]
+mod action;
 mod checkpoints;
 mod diff;
 mod exposure;
@@ -22,6 +24,8 @@ mod interplay;
 mod layouts;
 mod leads;
 mod levels;
+#[cfg(unix)]
+mod links;
 mod looks;
 #[cfg(unix)]
 mod lsp;

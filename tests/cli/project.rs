@@ -44,7 +44,16 @@ fn levels_and_limits_hold_where_no_flag_does() {
     );
     let (exit, said) = checked(&shelf, &[]);
     assert_eq!(exit, 1);
-    assert!(!said.contains("rtc.toml"), "nothing is wrong in it: {said}");
+    assert!(
+        said.contains("note[IO006]: settings from `set/rtc.toml`"),
+        "{said}"
+    );
+    assert_eq!(
+        stderr(&rtc(&shelf, &["check", "-q", SCENE_BELOW]))
+            .matches("IO006")
+            .count(),
+        0
+    );
     let pixels = "[limits]\npixels = 5\n";
     fs::write(shelf.path().join("set/rtc.toml"), pixels).unwrap();
     let (exit, said) = checked(&shelf, &[]);
@@ -115,7 +124,9 @@ fn files_may_lie_in_its_asset_root_which_lies_with_it() {
     );
     assert_eq!(code(&made), 0, "{}", stderr(&made));
     let (exit, said) = checked(&shelf, &[]);
-    assert_eq!(exit, 0, "{said}");
+    assert!(exit == 0 && said.contains("warning[IO007]"), "{said}");
+    let (exit, said) = checked(&shelf, &["--trust-project"]);
+    assert!(exit == 0 && !said.contains("IO007"), "{said}");
     fs::write(
         shelf.path().join("set/rtc.toml"),
         "asset-root = \"../..\"\n",
@@ -158,4 +169,106 @@ fn mistakes_are_told_all_and_with_their_place() {
     }
     fs::write(shelf.path().join("set/rtc.toml"), "#".repeat(70_000)).unwrap();
     assert_eq!(checked(&shelf, &[]).0, 2, "it is too large");
+}
+
+/// A scene whose picture has more pixels than it may have by default, and an `rtc.toml` that lifts all
+/// limits.
+fn greedy() -> TempDir {
+    let shelf = shelf(
+        "[limits]\nmemory = \"4000GiB\"\npixels = \"4000GiB\"\nnodes = \"4000GiB\"\nrays = \"4000GiB\"\n",
+    );
+    let camera =
+        "Camera: {eye: [0, 0, 50], center: [0, 0, 0], up: [0, 1, 0], viewSize: [20000, 20000]}";
+    let scene = WARNED.replace("Eye: [0, 0, 50]", camera);
+    fs::write(shelf.path().join(SCENE_BELOW), scene).unwrap();
+    shelf
+}
+
+#[test]
+fn a_strangers_file_lifts_no_limits() {
+    let shelf = greedy();
+    let (exit, said) = checked(&shelf, &[]);
+    assert!(exit == 1 && said.contains("error[VA009]"), "{said}");
+    assert_eq!(said.matches("warning[IO007]").count(), 4, "{said}");
+    let (exit, said) = checked(&shelf, &["--trust-project"]);
+    assert!(exit == 0 && !said.contains("IO007"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn the_user_trusts_folders_by_settings_of_their_own() {
+    use std::os::unix::fs::PermissionsExt;
+    let (shelf, home) = (greedy(), tempfile::tempdir().unwrap());
+    let config = home.path().join("rtc/config.toml");
+    fs::create_dir(home.path().join("rtc")).unwrap();
+    let check = |text: &str, mode: u32| {
+        fs::write(&config, text).unwrap();
+        fs::set_permissions(&config, fs::Permissions::from_mode(mode)).unwrap();
+        let made = Command::new(env!("CARGO_BIN_EXE_rtc"))
+            .args(["check", SCENE_BELOW])
+            .current_dir(shelf.path())
+            .env("XDG_CONFIG_HOME", home.path())
+            .output();
+        code(&made.unwrap())
+    };
+    let list = |folder: &Path| format!("trusted-projects = [\"/none\", {folder:?}]\n");
+    assert_eq!(check(&list(&shelf.path().join("set")), 0o600), 0);
+    assert_eq!(check(&list(shelf.path()), 0o664), 0);
+    assert_eq!(check(&list(shelf.path()), 0o666), 1, "others may write it");
+    assert_eq!(check(&list(&shelf.path().join("set/deep")), 0o600), 1);
+    for wrong in [
+        "trusted = []",
+        "trusted-projects = 1",
+        "trusted-projects = [1]",
+        "[",
+    ] {
+        assert_eq!(check(wrong, 0o600), 2, "{wrong}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn what_others_may_have_written_is_not_read() {
+    use std::os::unix::fs::PermissionsExt;
+    let shelf = shelf("[levels]\nwarnings = \"deny\"\n");
+    let file = shelf.path().join("set/rtc.toml");
+    assert_eq!(checked(&shelf, &[]).0, 1);
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o666)).unwrap();
+    let (exit, said) = checked(&shelf, &[]);
+    assert!(
+        exit == 0 && said.contains("warning[IO007]: `set/rtc.toml` is not read"),
+        "{said}"
+    );
+    assert_eq!(checked(&shelf, &["--trust-project"]).0, 1);
+}
+
+/// Nothing of what it leads to is told, not even whether it is there.
+#[cfg(unix)]
+#[test]
+fn a_link_that_leaves_its_folder_is_not_read() {
+    use std::os::unix::fs::symlink;
+    let shelf = shelf("");
+    let file = shelf.path().join("set/rtc.toml");
+    fs::write(shelf.path().join("secret"), "password hunter2\n").unwrap();
+    let told = |target: &str| {
+        fs::remove_file(&file).unwrap();
+        symlink(target, &file).unwrap();
+        let trusted = checked(&shelf, &["--trust-project"]);
+        let said = checked(&shelf, &[]);
+        assert!(!said.1.contains("hunter2") && said == trusted, "{}", said.1);
+        said
+    };
+    let (exit, said) = told("../secret");
+    assert!(
+        exit == 0 && said.contains("it is a link that leaves its folder"),
+        "{said}"
+    );
+    assert_eq!(told("../absent").1, said);
+    assert_eq!(told("/dev/zero").1, said);
+    fs::write(
+        shelf.path().join("set/own.toml"),
+        "[levels]\nwarnings = \"deny\"\n",
+    )
+    .unwrap();
+    assert_eq!(told("own.toml").0, 1, "within its folder it is followed");
 }

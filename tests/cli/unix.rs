@@ -27,25 +27,51 @@ fn a_new_file_is_for_all_and_an_old_one_keeps_its_permissions() {
 }
 
 #[test]
-fn links_and_devices_stay_what_they_are() {
+fn devices_stay_what_they_are() {
     let folder = folder();
-    fs::write(folder.path().join("real.png"), "").unwrap();
-    symlink("real.png", folder.path().join("link.png")).unwrap();
-    symlink("/dev/null", folder.path().join("null.png")).unwrap();
-    for name in ["link.png", "null.png"] {
-        assert_eq!(code(&rtc(&folder, &["render", "ball.json", "-o", name])), 0);
+    for name in ["/dev/null", "/dev/../dev/null"] {
+        let args = ["compile", "ball.json", "--emit", "ir", "-o", name];
+        assert_eq!(code(&rtc(&folder, &args)), 0);
+    }
+    assert!(!fs::metadata("/dev/null").unwrap().is_file());
+}
+
+/// Wherever a file is meant.
+#[test]
+fn pipes_and_devices_are_no_files() {
+    let folder = folder();
+    let pipe = folder.path().join("pipe.png");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    fs::copy(
+        pipe.with_file_name("ball.json"),
+        folder.path().join("b.json"),
+    )
+    .unwrap();
+    symlink("pipe.png", folder.path().join("pipe.yaml")).unwrap();
+    let cases: [&[&str]; 7] = [
+        &["check", "pipe.yaml"],
+        &["render", "pipe.yaml"],
+        &["fmt", "pipe.yaml"],
+        &["diff", "pipe.png", "pipe.png"],
+        &["diff", "/dev/zero.png", "pipe.png"],
+        &["render", "ball.json", "--env", "pipe.png"],
+        &["merge", "pipe.png", "-o", "x.png"],
+    ];
+    for args in cases {
+        let refused = rtc(&folder, args);
+        let said = stderr(&refused);
+        assert_eq!(code(&refused), 2, "{args:?}: {said}");
         assert!(
-            fs::symlink_metadata(folder.path().join(name))
-                .unwrap()
-                .is_symlink()
+            said.contains("no regular file") || args[1].starts_with("/dev"),
+            "{args:?}: {said}"
         );
     }
-    assert!(
-        fs::read(folder.path().join("real.png"))
-            .unwrap()
-            .starts_with(b"\x89PNG")
-    );
-    assert!(!fs::metadata("/dev/null").unwrap().is_file());
 }
 
 #[test]

@@ -26,6 +26,7 @@ mod precision;
 mod sensitivity;
 mod stage;
 mod validation;
+mod written;
 
 use crate::repo::root;
 use crate::small::{bits, proven};

@@ -84,7 +84,7 @@ fn settled(
 ) -> Result<RenderSubject, Failure> {
     let mut setup = wanted(&args.wanted, &args.look, Path::new(&args.picture))?;
     refuse_layers(&setup)?;
-    let settled = project::picture(&args.file, Goal::default())?;
+    let settled = project::picture(&args.file, &args.reading, Goal::default())?;
     setup.overrides = setup.overrides.or(settled);
     let mut subject = input::subject(&mut setup, &mut input, talk)?;
     let scene = &subject.proven.lowered.scene;

@@ -10,8 +10,10 @@ use super::gate::{self, JudgedGate};
 use super::input;
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
+use super::shown::over_limit;
 use rtc_codec::Change;
 use rtc_image::{FileFormat, Image, Picture, ShownPicture};
+use rtc_source::{Budget, Resource};
 use rtc_study::{Difference, SliderPage, heat_map, slider_page, told};
 use serde_json::Value;
 
@@ -20,6 +22,18 @@ struct DiffOutputs {
     map: Option<Output>,
     page: Option<Output>,
 }
+
+impl DiffOutputs {
+    fn are_none(&self) -> bool {
+        self.map.is_none() && self.page.is_none()
+    }
+}
+
+/// Bytes of a pixel that a map takes: FLIP, its colour, and the file.
+const MAP_PIXEL: u64 = 40;
+
+/// Bytes of a pixel that a page takes besides: both pictures and their copies.
+const PAGE_PIXEL: u64 = 104;
 
 /// Compares two pictures or two scenes, and says how they differ.
 pub(super) fn run(args: &Diff) -> Result<(), Failure> {
@@ -39,41 +53,71 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
     }
 }
 
+/// What is compared.
+struct Compared<'a> {
+    /// The new picture and the old one, of one size; none of files that are the same.
+    pictures: Option<[&'a ShownPicture; 2]>,
+    size: [u32; 2],
+    /// What differs in their scenes.
+    changes: Option<&'a [Change]>,
+}
+
 /// Writes what was asked for, tells how two pictures differ, and their scenes, and passes the gates.
 fn report(
     args: &Diff,
     outputs: DiffOutputs,
-    [new, old]: [&ShownPicture; 2],
-    changes: Option<&[Change]>,
+    compared: &Compared<'_>,
+    budget: &Budget,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    let size = [new.display.width, new.display.height];
-    let (found, flips) = Difference::of(new, old, args.levels);
+    let found = match compared.pictures {
+        None => Difference::none(args.levels),
+        Some([new, old]) if outputs.are_none() => Difference::of(new, old, args.levels),
+        Some(pictures) => write(args, outputs, (compared, pictures), budget, interrupt)?,
+    };
+    let gates = args.gate.as_ref();
+    let judged = gates.map_or_else(Vec::new, |gates| gates.judged(|name| measure(&found, name)));
+    if args.json {
+        output::to_stdout(json(args, compared, &found, &judged)?.as_bytes())?;
+    } else if !args.talk.quiet {
+        let scenes = compared.changes.map_or_else(String::new, changed);
+        output::to_stdout((scenes + &words(args, compared.size, &found)).as_bytes())?;
+    }
+    gate::pass(&judged, args.talk.quiet)
+}
+
+/// Writes the map and the page of two pictures, and hands on how they differ.
+fn write(
+    args: &Diff,
+    outputs: DiffOutputs,
+    (compared, pictures): (&Compared<'_>, [&ShownPicture; 2]),
+    budget: &Budget,
+    interrupt: &Interrupt,
+) -> Result<Difference, Failure> {
+    let [width, height] = compared.size.map(u64::from);
+    let bytes = width * height * (MAP_PIXEL + u64::from(outputs.page.is_some()) * PAGE_PIXEL);
+    let charged = budget.charge(Resource::Memory, bytes);
+    charged.map_err(|fault| over_limit("what is written of the difference", &fault))?;
+    let [new, old] = pictures;
+    let (found, flips) = Difference::mapped(new, old, args.levels);
     if let Some(output) = outputs.map {
-        output.commit(&map_file(heat_map(size, &flips))?, interrupt)?;
+        output.commit(&map_file(heat_map(compared.size, &flips))?, interrupt)?;
     }
     if let Some(output) = outputs.page {
+        let images = pictures.map(ShownPicture::image);
         let page = slider_page(&SliderPage {
             names: [&args.new, &args.old]
                 .map(|path| path.display().to_string())
                 .each_ref()
                 .map(String::as_str),
-            pictures: [&new.display, &old.display],
+            pictures: images.each_ref(),
             difference: &found,
             flips: &flips,
-            changes,
+            changes: compared.changes,
         });
         output.commit(page.as_bytes(), interrupt)?;
     }
-    let gates = args.gate.as_ref();
-    let judged = gates.map_or_else(Vec::new, |gates| gates.judged(|name| measure(&found, name)));
-    if args.json {
-        output::to_stdout(json(args, size, (&found, changes), &judged)?.as_bytes())?;
-    } else if !args.talk.quiet {
-        let scenes = changes.map_or_else(String::new, changed);
-        output::to_stdout((scenes + &words(args, size, &found)).as_bytes())?;
-    }
-    gate::pass(&judged, args.talk.quiet)
+    Ok(found)
 }
 
 /// The map of differences as a PNG.
@@ -145,19 +189,19 @@ fn words(args: &Diff, [width, height]: [u32; 2], found: &Difference) -> String {
 
 fn json(
     args: &Diff,
-    size: [u32; 2],
-    (found, changes): (&Difference, Option<&[Change]>),
+    compared: &Compared<'_>,
+    found: &Difference,
     gates: &[JudgedGate],
 ) -> Result<String, Failure> {
     let mut object = serde_json::json!({
         "schema": "rtc-diff/1",
         "picture": args.new.display().to_string(),
         "reference": args.old.display().to_string(),
-        "size": size,
+        "size": compared.size,
         "difference": found,
         "gates": gates,
     });
-    if let Some(changes) = changes {
+    if let Some(changes) = compared.changes {
         object["changes"] = serde_json::to_value(changes).unwrap_or(Value::Null);
     }
     let text = serde_json::to_string_pretty(&object);

@@ -1,27 +1,20 @@
-//! Two pictures from files.
+//! Two pictures from files: what decoding them takes is charged before.
 
 use super::super::Failure;
 use super::super::args::Diff;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
-use super::{DiffOutputs, report};
-use rtc_image::ShownPicture;
-use rtc_source::{Loader, SourceMap};
+use super::super::shown::{charge, decoded, opened, read};
+use super::{Compared, DiffOutputs, report};
+use rtc_image::{ShownFile, ShownPicture};
+use rtc_source::{Budget, SourceMap};
 use std::path::Path;
-
-/// The largest picture file that is read, in bytes.
-const MAX_BYTES: u64 = 1 << 32;
-
-/// The most pixels of a picture, unless more are allowed: some 200 bytes each are taken for two pictures
-/// and what the eye makes of them.
-const MAX_PIXELS: u64 = 1 << 25;
 
 /// Compares two pictures, and says how they differ.
 pub(super) fn run(args: &Diff) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
-    let map = SourceMap::default();
-    let (new, old) = (read(&args.new, args, &map)?, read(&args.old, args, &map)?);
-    fitting(args, &new, &old)?;
+    let map = SourceMap::with_limits(args.reading.limits(|_| ()));
+    let (new, old) = (read(&args.new, &map)?, read(&args.old, &map)?);
     let open = |path: &Option<_>| {
         let path: Option<&Path> = path.as_deref();
         path.map(|path| Output::apart_from(path, &map)).transpose()
@@ -30,39 +23,64 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
         map: open(&args.output)?,
         page: open(&args.html)?,
     };
-    report(args, outputs, [&new, &old], None, &interrupt)
+    let budget = map.budget();
+    let file = opened(&args.new, &new, budget)?;
+    let same = Compared {
+        pictures: None,
+        size: file.size(),
+        changes: None,
+    };
+    if new == old && outputs.are_none() {
+        return report(args, outputs, &same, budget, &interrupt);
+    }
+    let pictures = both(args, file, opened(&args.old, &old, budget)?, budget)?;
+    let compared = Compared {
+        pictures: Some(pictures.each_ref()),
+        size: pictures[0].size(),
+        changes: None,
+    };
+    report(args, outputs, &compared, budget, &interrupt)
 }
 
-fn read(path: &Path, args: &Diff, map: &SourceMap) -> Result<ShownPicture, Failure> {
-    let name = path.display();
-    let bytes = Loader.bytes(path, MAX_BYTES, map);
-    let bytes = bytes.map_err(|error| Failure::Trouble(format!("`{name}`: {error}")))?;
-    let most = if args.reading.allow_huge {
-        u64::MAX
-    } else {
-        MAX_PIXELS
-    };
-    ShownPicture::read(&bytes, most).map_err(|error| Failure::Trouble(format!("`{name}` {error}")))
+/// Decodes two pictures that can be compared.
+fn both(
+    args: &Diff,
+    new: ShownFile<'_>,
+    old: ShownFile<'_>,
+    budget: &Budget,
+) -> Result<[ShownPicture; 2], Failure> {
+    fitting(args, &new, &old)?;
+    charge(&args.new, new.cost(), budget)?;
+    charge(&args.old, old.cost(), budget)?;
+    let pictures = [decoded(&args.new, new)?, decoded(&args.old, old)?];
+    match pictures.each_ref().map(ShownPicture::size) {
+        [a, b] if a == b => Ok(pictures),
+        other => Err(sizes(args, other)),
+    }
 }
 
 /// Refuses pictures that can't be compared.
-fn fitting(args: &Diff, picture: &ShownPicture, reference: &ShownPicture) -> Result<(), Failure> {
-    let size = |picture: &ShownPicture| [picture.display.width, picture.display.height];
-    let names = [&args.new, &args.old].map(|path| path.display());
-    let [a, b] = [size(picture), size(reference)];
-    if a != b {
-        return Err(Failure::Trouble(format!(
-            "pictures of one size are compared: `{}` has {} × {} pixels, `{}` {} × {}",
-            names[0], a[0], a[1], names[1], b[0], b[1]
-        )));
-    }
-    if picture.linear.is_some() != reference.linear.is_some() {
-        let light = usize::from(reference.linear.is_some());
+fn fitting(args: &Diff, new: &ShownFile<'_>, old: &ShownFile<'_>) -> Result<(), Failure> {
+    if new.holds_light() != old.holds_light() {
+        let names = [&args.new, &args.old].map(|path| path.display());
+        let light = usize::from(old.holds_light());
         return Err(Failure::Trouble(format!(
             "`{}` holds values of light, and `{}` those of a display: compare two of a kind",
             names[light],
             names[1 - light]
         )));
     }
-    Ok(())
+    // The layer of an EXR that is compared may be smaller than its largest.
+    match new.size() == old.size() || new.holds_light() {
+        true => Ok(()),
+        false => Err(sizes(args, [new.size(), old.size()])),
+    }
+}
+
+fn sizes(args: &Diff, [a, b]: [[u32; 2]; 2]) -> Failure {
+    let names = [&args.new, &args.old].map(|path| path.display());
+    Failure::Trouble(format!(
+        "pictures of one size are compared: `{}` has {} × {} pixels, `{}` {} × {}",
+        names[0], a[0], a[1], names[1], b[0], b[1]
+    ))
 }

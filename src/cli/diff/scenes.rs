@@ -7,7 +7,7 @@ use super::super::output::Output;
 use super::super::render::ended;
 use super::super::talk::Talk;
 use super::super::{input, simd};
-use super::{DiffOutputs, report};
+use super::{Compared, DiffOutputs, report};
 use rtc_codec::changes;
 use rtc_image::{BackgroundFill, FileFormat, Picture, ShownPicture};
 use rtc_ir::{Camera, Scene};
@@ -58,7 +58,13 @@ fn carry_out(args: &Diff, talk: &mut Talk) -> Result<(), Failure> {
     let first = new.picture(talk, &interrupt)?;
     old.see_by(&new.scene().camera)?;
     let second = old.picture(talk, &interrupt)?;
-    report(args, outputs, [&first, &second], Some(&changed), &interrupt)
+    let compared = Compared {
+        pictures: Some([&first, &second]),
+        size: first.size(),
+        changes: Some(&changed),
+    };
+    let budget = new.input.map().budget();
+    report(args, outputs, &compared, budget, &interrupt)
 }
 
 impl Side {

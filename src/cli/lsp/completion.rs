@@ -8,6 +8,7 @@ use super::way::{Vocabulary, WayStep, way};
 use rtc_front::course;
 use rtc_source::tree::Tree;
 use serde_json::{Map, Value};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
@@ -213,11 +214,11 @@ fn is_named_by_scenes(name: &str) -> bool {
 
 /// The anchors of a text, as aliases.
 fn anchors(text: &str) -> Vec<CompletionItem> {
-    let mut names: Vec<&str> = Vec::new();
+    let (mut names, mut known) = (Vec::new(), BTreeSet::new());
     for piece in text.split('&').skip(1) {
         let end = piece.find(|c: char| c.is_whitespace() || ",[]{}".contains(c));
         let name = piece.split_at(end.unwrap_or(piece.len())).0;
-        if !name.is_empty() && !names.contains(&name) {
+        if !name.is_empty() && known.insert(name) {
             names.push(name);
         }
     }

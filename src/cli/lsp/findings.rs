@@ -12,7 +12,9 @@ use super::text::{Columns, TextLines};
 use super::uri::DocumentUri;
 use rtc_diag::{self as diag, Severity};
 use rtc_pipeline::{self as pipeline, FixWish};
-use rtc_source::Span;
+use rtc_source::{FileId, Span};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Who says what is found.
@@ -36,52 +38,93 @@ pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileFind
             related_information: None,
         });
     }
-    let (scene, lines) = (document.scene(), document.lines(columns));
-    for (checked, finding) in scene
-        .iter()
-        .flat_map(|own| own.findings.iter().map(move |f| (own, f)))
-    {
-        let (uri, diagnostic) = diagnostic(document, checked, finding, &lines);
-        match others.iter_mut().find(|(own, _)| *own == uri) {
-            _ if uri == document.uri => own.push(diagnostic),
-            Some((_, list)) => list.push(diagnostic),
-            None => others.push((uri, vec![diagnostic])),
+    let mut place_of: BTreeMap<String, usize> = BTreeMap::new();
+    if let Some(checked) = document.scene() {
+        let atlas = Atlas::new(document, checked, columns);
+        for finding in &checked.findings {
+            let (uri, diagnostic) = atlas.diagnostic(finding);
+            if uri == document.uri {
+                own.push(diagnostic);
+                continue;
+            }
+            let place = place_of.entry(uri.as_str().to_owned()).or_insert_with(|| {
+                others.push((uri, Vec::new()));
+                others.len() - 1
+            });
+            others[*place].1.push(diagnostic);
         }
     }
     others.insert(0, (document.uri.clone(), own));
     others
 }
 
-fn diagnostic(
-    document: &OpenText,
-    checked: &CheckedScene,
-    finding: &diag::Diagnostic,
-    lines: &TextLines<'_>,
-) -> (DocumentUri, EditorDiagnostic) {
-    let locate = |span| location(document, checked, span, lines);
-    let primary = finding.primary.as_ref().map(|label| locate(label.span));
-    let start = || Location::new(document.uri.clone(), Range::default());
-    let Location { uri, range } = primary.unwrap_or_else(start);
-    let related = finding
-        .secondary
-        .iter()
-        .map(|label| DiagnosticRelatedInformation {
-            location: locate(label.span),
-            message: label.text.clone(),
-        });
-    let diagnostic = EditorDiagnostic {
-        range,
-        severity: match finding.severity {
-            Severity::Error => DiagnosticSeverity::ERROR,
-            Severity::Warning => DiagnosticSeverity::WARNING,
-            Severity::Note => DiagnosticSeverity::HINT,
-        },
-        code: Some(finding.code.id),
-        source: SOURCE,
-        message: message(finding),
-        related_information: Some(related.collect()),
-    };
-    (uri, diagnostic)
+/// The files of a checked text, each with its lines: they are looked for once, for findings are many.
+struct Atlas<'d> {
+    document: &'d OpenText,
+    checked: &'d CheckedScene,
+    lines: TextLines<'d>,
+    /// The other files, and their lines if they are text.
+    others: RefCell<BTreeMap<FileId, (DocumentUri, Option<TextLines<'d>>)>>,
+}
+
+impl<'d> Atlas<'d> {
+    fn new(document: &'d OpenText, checked: &'d CheckedScene, columns: Columns) -> Self {
+        Self {
+            document,
+            checked,
+            lines: document.lines(columns),
+            others: RefCell::default(),
+        }
+    }
+
+    fn diagnostic(&self, finding: &diag::Diagnostic) -> (DocumentUri, EditorDiagnostic) {
+        let primary = finding.primary.as_ref();
+        let primary = primary.map(|label| self.location(label.span));
+        let start = || Location::new(self.document.uri.clone(), Range::default());
+        let Location { uri, range } = primary.unwrap_or_else(start);
+        let related = finding
+            .secondary
+            .iter()
+            .map(|label| DiagnosticRelatedInformation {
+                location: self.location(label.span),
+                message: label.text.clone(),
+            });
+        let diagnostic = EditorDiagnostic {
+            range,
+            severity: match finding.severity {
+                Severity::Error => DiagnosticSeverity::ERROR,
+                Severity::Warning => DiagnosticSeverity::WARNING,
+                Severity::Note => DiagnosticSeverity::HINT,
+            },
+            code: Some(finding.code.id),
+            source: SOURCE,
+            message: message(finding),
+            related_information: Some(related.collect()),
+        };
+        (uri, diagnostic)
+    }
+
+    /// Where a span stands.
+    fn location(&self, span: Span) -> Location {
+        let Span { file, start, end } = span;
+        let range = |lines: &TextLines<'_>| lines.range(start as usize, end as usize);
+        if self.checked.is_own(file) {
+            return Location::new(self.document.uri.clone(), range(&self.lines));
+        }
+        let mut others = self.others.borrow_mut();
+        let (uri, lines) = others.entry(file).or_insert_with(|| self.other(file));
+        let range = lines.as_ref().map_or_else(Range::default, range);
+        Location::new(uri.clone(), range)
+    }
+
+    /// Another file.
+    fn other(&self, file: FileId) -> (DocumentUri, Option<TextLines<'d>>) {
+        let map = self.checked.map();
+        let uri = place::uri(Path::new(map.name(file)));
+        let uri = uri.unwrap_or_else(|| self.document.uri.clone());
+        let text = map.text(file);
+        (uri, text.map(|text| self.lines.of_other(text)))
+    }
 }
 
 /// What is wrong, what is here, and what to do, a line each.
@@ -96,27 +139,6 @@ fn message(finding: &diag::Diagnostic) -> String {
         .chain(lines)
         .chain(hints);
     all.collect::<Vec<_>>().join("\n")
-}
-
-/// Where a span stands; `lines` are those of the text itself.
-fn location(
-    document: &OpenText,
-    checked: &CheckedScene,
-    span: Span,
-    lines: &TextLines<'_>,
-) -> Location {
-    let Span { file, start, end } = span;
-    let range = |lines: &TextLines<'_>| lines.range(start as usize, end as usize);
-    if checked.is_own(file) {
-        return Location::new(document.uri.clone(), range(lines));
-    }
-    let map = checked.map();
-    let uri = place::uri(Path::new(map.name(file))).unwrap_or_else(|| document.uri.clone());
-    Location::new(
-        uri,
-        map.text(file)
-            .map_or_else(Range::default, |text| range(&lines.of_other(text))),
-    )
 }
 
 /// The quick fixes of what is found in a range of a text that is checked; all that is sure at once where
@@ -140,8 +162,9 @@ pub(super) fn actions(
     let Some(checked) = document.scene() else {
         return Vec::new();
     };
+    let atlas = Atlas::new(document, checked, columns);
     let fixes = checked.findings.iter().flat_map(|finding| {
-        let (uri, told) = diagnostic(document, checked, finding, &lines);
+        let (uri, told) = atlas.diagnostic(finding);
         let is_here = uri == document.uri && touch(told.range, range);
         let hints = finding.hints.iter().filter(move |_| is_here);
         let changes = hints.filter_map(|hint| {

@@ -60,6 +60,28 @@ pub(super) fn run(args: args::Lsp) -> Result<(), Failure> {
     server.serve()
 }
 
+/// Hears messages, one a line; what there is to tell is told nobody.
+///
+/// # Panics
+/// If a fault of ours is told of.
+pub(super) fn hear_all(args: args::Lsp, messages: &[u8]) {
+    /// No more messages than these are heard.
+    const MOST: usize = 64;
+    let mut workspace = Workspace::new(args.reading);
+    for line in messages.split(|byte| *byte == b'\n').take(MOST) {
+        let mut told = match serde_json::from_slice(line) {
+            Ok(Message::Request(request)) => vec![workspace.answer(request).into()],
+            Ok(Message::Notification(own)) => workspace.note(own),
+            Ok(Message::Response(_)) | Err(_) => Vec::new(),
+        };
+        while let Some(more) = workspace.check_next() {
+            told.extend(more);
+        }
+        let told = serde_json::to_string(&told).unwrap_or_default();
+        assert!(!told.contains(open_text::FAULT), "{told}");
+    }
+}
+
 impl Server {
     /// Does what it is told, message by message; texts are checked when nothing else waits.
     fn serve(&mut self) -> Result<(), Failure> {

@@ -9,6 +9,7 @@ use super::place;
 use super::protocol::TextDocumentContentChangeEvent;
 use super::text::{Columns, TextLines};
 use super::uri::DocumentUri;
+use ropey::Rope;
 use rtc_diag::{Diagnostic, Severity};
 use rtc_ir::Lowered;
 use rtc_pipeline::{Input, Options, SourceKind};
@@ -17,6 +18,9 @@ use rtc_source::{EditedFiles, FileId, SourceMap};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// What is said of a fault of ours.
+pub(super) const FAULT: &str = "internal error of rtc; please report it";
 
 /// A text that an editor has open.
 pub(super) struct OpenText {
@@ -107,17 +111,19 @@ impl OpenText {
         changes: Vec<TextDocumentContentChangeEvent>,
         columns: Columns,
     ) {
+        let mut rope = Rope::from_str(&self.text);
         for change in changes {
             match change.range {
-                None => self.text = Arc::new(change.text),
+                None => rope = Rope::from_str(&change.text),
                 Some(range) => {
-                    let lines = TextLines::of(&self.text, columns);
-                    let start = lines.offset(range.start);
-                    let end = lines.offset(range.end).max(start);
-                    Arc::make_mut(&mut self.text).replace_range(start..end, &change.text);
+                    let start = columns.letter(&rope, range.start);
+                    let end = columns.letter(&rope, range.end).max(start);
+                    rope.remove(start..end);
+                    rope.insert(start, &change.text);
                 }
             }
         }
+        self.text = Arc::new(rope.into());
         (self.version, self.checked) = (version, None);
     }
 
@@ -143,7 +149,7 @@ impl OpenText {
             Ok(Ok(scene)) => CheckedText::Read(Box::new(scene)),
             Ok(Err(Failure::Trouble(words) | Failure::Input(words))) => CheckedText::Trouble(words),
             Ok(Err(_)) => CheckedText::Trouble("the scene can't be checked".to_owned()),
-            Err(_) => CheckedText::Trouble("internal error of rtc; please report it".to_owned()),
+            Err(_) => CheckedText::Trouble(FAULT.to_owned()),
         };
         self.checked = Some(checked);
     }
@@ -176,7 +182,7 @@ impl OpenText {
 
     /// How the text is read.
     pub(super) fn options(&self, reading: &Reading) -> Result<(Options, Option<Project>), Failure> {
-        let project = Project::of(&self.path)?;
+        let project = Project::of(&self.path, reading)?;
         let options = Options {
             edited: self.others.clone(),
             ..input::options(reading, project.as_ref())?

@@ -1,6 +1,7 @@
 //! Places in a text as editors count them: lines, and columns in UTF-16 or UTF-8.
 
 use super::protocol::{Position, PositionEncodingKind, Range};
+use ropey::Rope;
 
 /// The units of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +29,33 @@ impl Columns {
         }
     }
 
+    /// The character of a rope at a place; beyond the end of its line, or of the text, that end.
+    pub(super) fn letter(self, rope: &Rope, place: Position) -> usize {
+        let (line, column) = (place.line as usize, place.character as usize);
+        if line >= rope.len_lines() {
+            return rope.len_chars();
+        }
+        let start = rope.line_to_char(line);
+        let own = rope.line(line);
+        let is_break = |letter: &char| matches!(letter, '\n' | '\r');
+        let breaks = own
+            .chars_at(own.len_chars())
+            .reversed()
+            .take_while(is_break);
+        let end = start + own.len_chars() - breaks.count();
+        let letter = match self {
+            Self::Utf16 => {
+                let sought = rope.char_to_utf16_cu(start).saturating_add(column);
+                rope.utf16_cu_to_char(sought.min(rope.len_utf16_cu()))
+            }
+            Self::Utf8 => {
+                let sought = rope.char_to_byte(start).saturating_add(column);
+                rope.byte_to_char(sought.min(rope.len_bytes()))
+            }
+        };
+        letter.min(end)
+    }
+
     fn width(self, letter: char) -> usize {
         match self {
             Self::Utf16 => letter.len_utf16(),
@@ -42,7 +70,12 @@ pub(super) struct TextLines<'t> {
     columns: Columns,
     /// Where each line starts, in bytes.
     starts: Vec<usize>,
+    /// How many columns there are before each so many bytes: a line may be as long as the text.
+    widths: Vec<usize>,
 }
+
+/// So many bytes.
+const STRIDE: usize = 1 << 9;
 
 impl<'t> TextLines<'t> {
     pub(super) fn of(text: &'t str, columns: Columns) -> Self {
@@ -51,11 +84,26 @@ impl<'t> TextLines<'t> {
             **byte == b'\n' || (**byte == b'\r' && bytes.get(at + 1) != Some(&b'\n'))
         });
         let starts = std::iter::once(0).chain(ends.map(|(at, _)| at + 1));
-        Self {
+        let mut lines = Self {
             text,
             columns,
             starts: starts.collect(),
+            widths: vec![0],
+        };
+        for stride in 1..=text.len() / STRIDE {
+            let width = lines.width_before(stride * STRIDE);
+            lines.widths.push(width);
         }
+        lines
+    }
+
+    /// The columns before a byte, of all lines; of one within a character, before that.
+    fn width_before(&self, offset: usize) -> usize {
+        let known = (offset / STRIDE).min(self.widths.len() - 1);
+        let [from, to] = [known * STRIDE, offset].map(|at| self.text.floor_char_boundary(at));
+        let rest = self.text.get(from..to).unwrap_or_default();
+        let rest: usize = rest.chars().map(|c| self.columns.width(c)).sum();
+        self.widths[known] + rest
     }
 
     /// The lines of another text, in the same units.
@@ -72,8 +120,7 @@ impl<'t> TextLines<'t> {
     pub(super) fn position(&self, offset: usize) -> Position {
         let offset = self.text.floor_char_boundary(offset.min(self.text.len()));
         let line = self.line(offset);
-        let before = self.text.get(self.starts[line]..offset).unwrap_or_default();
-        let column: usize = before.chars().map(|c| self.columns.width(c)).sum();
+        let column = self.width_before(offset) - self.width_before(self.starts[line]);
         Position::new(to_u32(line), to_u32(column))
     }
 
@@ -95,8 +142,14 @@ impl<'t> TextLines<'t> {
             .unwrap_or(self.text.len());
         let own = self.text.get(start..next).unwrap_or_default();
         let own = own.trim_end_matches(['\n', '\r']);
-        let (mut left, mut offset) = (place.character as usize, start);
-        for letter in own.chars() {
+        let (end, column) = (start + own.len(), place.character as usize);
+        // From the last place that is known to be before.
+        let sought = self.width_before(start) + column;
+        let known = self.widths.partition_point(|width| *width <= sought) - 1;
+        let mut offset = self.text.floor_char_boundary(known * STRIDE);
+        offset = offset.clamp(start, end);
+        let mut left = sought - self.width_before(offset).min(sought);
+        for letter in self.text.get(offset..end).unwrap_or_default().chars() {
             let width = self.columns.width(letter);
             if left < width {
                 break;
@@ -127,6 +180,33 @@ fn to_u32(count: usize) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_rope_counts_as_lines_do_and_a_long_line_as_short_ones() {
+        let long = "aé😀\u{301}".repeat(400);
+        let text = format!("a😀b\r\ncé\rd\n\n{long}\r\n{long}");
+        let rope = Rope::from_str(&text);
+        for columns in [Columns::Utf16, Columns::Utf8] {
+            let lines = TextLines::of(&text, columns);
+            for (at, letter) in text.char_indices() {
+                let place = lines.position(at);
+                if "\r\n".contains(letter) {
+                    continue;
+                }
+                let before = text.split_at(at).0;
+                let start = before.rfind(['\n', '\r']).map_or(0, |at| at + 1);
+                let before = before.split_at(start).1;
+                let width: usize = before.chars().map(|c| columns.width(c)).sum();
+                assert_eq!(place.character as usize, width);
+                assert_eq!(lines.offset(place), at);
+            }
+            for (line, column) in (0..8).flat_map(|line| (0..3000).map(move |own| (line, own))) {
+                let place = Position::new(line, column);
+                let letter = columns.letter(&rope, place);
+                assert_eq!(rope.char_to_byte(letter), lines.offset(place), "{place:?}");
+            }
+        }
+    }
 
     #[test]
     fn columns_count_as_the_editor_does() {

@@ -5,7 +5,7 @@ use super::findings::{self, FileFindings};
 use super::method;
 use super::open_text::OpenText;
 use super::protocol::{
-    DidChangeTextDocumentParams, DidOpenTextDocumentParams, EditorDiagnostic,
+    DidChangeTextDocumentParams, DidOpenTextDocumentParams, EditorDiagnostic, Position,
     PublishDiagnosticsParams, TextDocumentParams,
 };
 use super::text::Columns;
@@ -18,6 +18,7 @@ use rtc_pipeline::SourceKind;
 use rtc_source::EditedFiles;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -193,12 +194,12 @@ impl Workspace {
         files.sort_unstable_by(|a, b| a.as_str().cmp(b.as_str()));
         files.dedup();
         let publish = |file: DocumentUri| {
-            let mut all: Vec<EditorDiagnostic> = Vec::new();
+            let (mut all, mut known) = (Vec::new(), BTreeSet::new());
             let told = self.documents.iter().flat_map(|own| &own.told);
             let of_file = told.filter(|(own, _): &&FileFindings| *own == file);
             for diagnostic in of_file.flat_map(|(_, list)| list) {
                 // The same may be found in a file by itself and by scenes that name it.
-                if !all.iter().any(|own| is_same(own, diagnostic)) {
+                if known.insert(own_words(diagnostic)) {
                     all.push(diagnostic.clone());
                 }
             }
@@ -215,8 +216,9 @@ impl Workspace {
     }
 }
 
-fn is_same(a: &EditorDiagnostic, b: &EditorDiagnostic) -> bool {
-    (&a.range, &a.code, &a.message) == (&b.range, &b.code, &b.message)
+/// What tells a diagnostic from others.
+fn own_words(own: &EditorDiagnostic) -> (Position, Position, Option<&str>, &str) {
+    (own.range.start, own.range.end, own.code, &own.message)
 }
 
 fn read<P: DeserializeOwned>(params: Value) -> Option<P> {

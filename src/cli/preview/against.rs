@@ -5,19 +5,22 @@ use super::board::{Manner, Shot};
 use super::scene::{self, ReadScene, ShownScene};
 use super::{Failure, args, input, shots};
 use crate::project::Project;
+use crate::shown;
 use crate::talk::Talk;
-use rtc_image::{FileFormat, Picture, PictureHead, ShownPicture};
+use rtc_image::{DecodeCost, FileFormat, Picture, PictureHead};
 use rtc_ir::Camera;
 use rtc_pipeline::{Input, Observer, PictureSetup, RenderError};
-use rtc_source::{Loader, SourceMap};
+use rtc_source::SourceMap;
 use std::io::Read as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
 
-/// The largest picture file that is compared with, in bytes, and the most pixels of it.
+/// The largest text of a commit, in bytes.
 const MAX_BYTES: u64 = 1 << 30;
-const MAX_PIXELS: u64 = 1 << 25;
+
+/// Bytes of a pixel that is made a PNG.
+const PNG_PIXEL: u64 = 32;
 
 /// What the picture is compared with.
 pub(super) enum Against {
@@ -42,7 +45,7 @@ impl Against {
             return Ok(None);
         };
         if input::is_picture(path) {
-            return Ok(Some(Self::Picture(picture(path)?)));
+            return Ok(Some(Self::Picture(picture(path, &args.reading)?)));
         }
         let text = match path.exists() {
             true => None,
@@ -50,7 +53,7 @@ impl Against {
         };
         let input = match text {
             Some(text) => {
-                let project = Project::of(&args.file)?;
+                let project = Project::of(&args.file, &args.reading)?;
                 let options = input::options(&args.reading, project.as_ref())?;
                 input::set_stage(Input::edited(&args.file, text, options), &args.stage)?
             }
@@ -120,12 +123,23 @@ impl OtherScene {
 }
 
 /// The picture in a file, as a PNG.
-fn picture(path: &Path) -> Result<Shot, Failure> {
+fn picture(path: &Path, reading: &args::Reading) -> Result<Shot, Failure> {
     let refused = |words: String| Failure::Trouble(format!("`{}`: {words}", path.display()));
-    let bytes = Loader.bytes(path, MAX_BYTES, &SourceMap::default());
-    let bytes = bytes.map_err(|error| refused(error.to_string()))?;
-    let shown = ShownPicture::read(&bytes, MAX_PIXELS);
-    let image = shown.map_err(|error| refused(error.to_string()))?.display;
+    let map = SourceMap::with_limits(reading.limits(|_| ()));
+    let bytes = shown::read(path, &map)?;
+    let file = shown::opened(path, &bytes, map.budget())?;
+    let DecodeCost {
+        pixels,
+        memory,
+        scratch,
+    } = file.cost();
+    let cost = DecodeCost {
+        pixels,
+        memory: memory.saturating_add(pixels.saturating_mul(PNG_PIXEL)),
+        scratch,
+    };
+    shown::charge(path, cost, map.budget())?;
+    let image = shown::decoded(path, file)?.image();
     let full = [image.width, image.height];
     let picture = Picture {
         image,

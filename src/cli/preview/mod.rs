@@ -46,7 +46,7 @@ pub(super) fn run(args: &args::Preview, typed: &[OsString]) -> Result<(), Failur
     let session = Session::new(args, RenderWords::new(typed), shown, against)?;
     let (listener, port) = serve::bind(args.port)?;
     let door = Door::new(port)?;
-    let project = Project::of(&args.file)?;
+    let project = Project::of(&args.file, &args.reading)?;
     let address = door.address();
     let routes = Routes {
         path: args.file.clone(),

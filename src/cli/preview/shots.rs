@@ -15,7 +15,7 @@ use std::sync::Arc;
 pub(super) fn setup(args: &args::Preview) -> Result<PictureSetup, Failure> {
     let setup = render::wanted(&args.wanted, &args.look, Path::new("preview.png"))?;
     render::refuse_layers(&setup)?;
-    let settled = project::picture(&args.file, Goal::default())?;
+    let settled = project::picture(&args.file, &args.reading, Goal::default())?;
     Ok(PictureSetup {
         threads: args.threads.map_or(0, usize::from),
         overrides: setup.overrides.or(settled),

@@ -2,20 +2,23 @@
 //! nothing else.
 
 mod read;
+mod trust;
 
 use super::Failure;
+use super::args::Reading;
 use rtc_diag::{Code, Diagnostic, FindingLevels, clip_path, codes};
 use rtc_passes::Overrides;
 use rtc_pipeline::Input;
-use rtc_source::{Limits, Loader, Resource, SourceMap, Span};
+use rtc_source::{Limits, LoadError, Loader, Resource, Span};
 use rtc_study::Goal;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use trust::Trust;
 
 /// The name of the file.
 const NAME: &str = "rtc.toml";
 
-/// The most bytes of it.
+/// The most bytes of it, and of the user's own settings.
 const MAX_BYTES: u64 = 64 << 10;
 
 /// A folder that has one of these is where the search ends.
@@ -27,11 +30,15 @@ pub(super) struct Project {
     bytes: Vec<u8>,
     settings: ProjectSettings,
     faults: Vec<ProjectFault>,
+    /// Why it was not read, and says nothing.
+    withheld: Option<&'static str>,
 }
 
 /// What it says.
 #[derive(Default)]
 struct ProjectSettings {
+    /// Whether it may raise limits.
+    is_trusted: bool,
     levels: FindingLevels,
     limits: Vec<(Resource, u64)>,
     asset_root: Option<PathBuf>,
@@ -51,15 +58,20 @@ struct ProjectFault {
 impl Project {
     /// That of a scene: in its folder, or the nearest above up to the root of a repository. Standard
     /// input lies in the current folder.
-    pub(super) fn of(scene: &Path) -> Result<Option<Self>, Failure> {
-        let Some(path) = nearest_file(scene) else {
+    pub(super) fn of(scene: &Path, reading: &Reading) -> Result<Option<Self>, Failure> {
+        let Some((path, scenes)) = nearest_file(scene) else {
             return Ok(None);
         };
-        let bytes = Loader.bytes(&path, MAX_BYTES, &SourceMap::default());
-        let bytes = bytes.map_err(|error| {
-            Failure::Trouble(format!("can't read `{}`: {error}", path.display()))
-        })?;
-        let (settings, faults) = read::read(&bytes, path.parent().unwrap_or(Path::new("")));
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let (bytes, withheld) = match content(&path, &folder, reading)? {
+            Ok(bytes) => (bytes, None),
+            Err(reason) => (Vec::new(), Some(reason)),
+        };
+        let trust = match reading.trust_project || trust::is_listed(&folder)? {
+            true => Trust::Full,
+            false => Trust::Within(scenes),
+        };
+        let (settings, faults) = read::read(&bytes, &folder, trust);
         // As a person in this folder would name it.
         let here = std::env::current_dir().ok();
         let here = here.and_then(|here| path.strip_prefix(here).ok().map(Path::to_owned));
@@ -68,6 +80,7 @@ impl Project {
             bytes,
             settings,
             faults,
+            withheld,
         }))
     }
 
@@ -78,10 +91,13 @@ impl Project {
         levels
     }
 
-    /// Sets the limits that it sets.
+    /// Sets the limits that it sets, or lowers them only.
     pub(super) fn set_limits(&self, limits: &mut Limits) {
         for (resource, limit) in &self.settings.limits {
-            limits.set(*resource, *limit);
+            match self.settings.is_trusted {
+                true => limits.set(*resource, *limit),
+                false => limits.lower(*resource, *limit),
+            }
         }
     }
 
@@ -92,8 +108,13 @@ impl Project {
 
     /// Tells of it among the findings of a scene.
     pub(super) fn tell(&self, input: &mut Input) {
-        let file = input.add_text(&self.path, self.bytes.clone());
         let path = self.path.display().to_string();
+        if let Some(reason) = self.withheld {
+            let message = format!("`{}` is not read: {reason}", clip_path(&path));
+            let found = Diagnostic::new(&codes::SETTINGS_UNTRUSTED, message);
+            return input.push(found.hint("`--trust-project` has it read, unless it is a link"));
+        }
+        let file = input.add_text(&self.path, self.bytes.clone());
         let message = format!("settings from `{}`", clip_path(&path));
         input.push(Diagnostic::new(&codes::SETTINGS_READ, message));
         let to_u32 = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
@@ -112,9 +133,9 @@ impl Project {
 
 /// How the pictures of a scene are made by its project. A compiled scene has that settled, and what is
 /// sampled until it is good enough has no number of samples.
-pub(super) fn picture(scene: &Path, goal: Goal) -> Result<Overrides, Failure> {
+pub(super) fn picture(scene: &Path, reading: &Reading, goal: Goal) -> Result<Overrides, Failure> {
     let is_compiled = scene.extension().is_some_and(|own| own == "rtir");
-    let project = Project::of(scene)?.filter(|_| !is_compiled);
+    let project = Project::of(scene, reading)?.filter(|_| !is_compiled);
     let settled = project.map_or_else(Overrides::default, |own| own.settings.render);
     Ok(match goal {
         Goal {
@@ -130,14 +151,39 @@ pub(super) fn picture(scene: &Path, goal: Goal) -> Result<Overrides, Failure> {
     })
 }
 
-/// The file that holds for a scene.
-fn nearest_file(scene: &Path) -> Option<PathBuf> {
-    let folder = scene.parent().filter(|own| !own.as_os_str().is_empty());
-    let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok()?;
-    for folder in folder.ancestors() {
+/// What is in the file at a path in a folder free of links, or why it is not read.
+fn content(
+    path: &Path,
+    folder: &Path,
+    reading: &Reading,
+) -> Result<Result<Vec<u8>, &'static str>, Failure> {
+    const LINK: &str = "it is a link that leaves its folder";
+    let is_link = path.is_symlink();
+    match Loader.owned(path, MAX_BYTES) {
+        Ok(file) if !file.path.starts_with(folder) => Ok(Err(LINK)),
+        Ok(file) if !file.is_own && !reading.trust_project => {
+            Ok(Err("it belongs to another user, or all may write it"))
+        }
+        Ok(file) => Ok(Ok(file.bytes)),
+        // Whether there is anything outside is not told.
+        Err(_) if is_link => Ok(Err(LINK)),
+        Err(LoadError::NotRegular) => Ok(Err("it is no regular file")),
+        Err(error) => Err(Failure::Trouble(format!(
+            "can't read `{}`: {error}",
+            path.display()
+        ))),
+    }
+}
+
+/// The file that holds for a scene, and the folder of the scene, both free of links; the file itself may
+/// be one.
+fn nearest_file(scene: &Path) -> Option<(PathBuf, PathBuf)> {
+    let own = scene.parent().filter(|own| !own.as_os_str().is_empty());
+    let own = own.unwrap_or(Path::new(".")).canonicalize().ok()?;
+    for folder in own.ancestors() {
         let path = folder.join(NAME);
-        if path.is_file() {
-            return Some(path);
+        if path.symlink_metadata().is_ok_and(|there| !there.is_dir()) {
+            return Some((path, own));
         }
         if folder.join(END).exists() {
             return None;

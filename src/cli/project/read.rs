@@ -1,9 +1,10 @@
 //! The text of an `rtc.toml`: each key and value, all mistakes with their place.
 
 use super::super::parse;
+use super::trust::Trust;
 use super::{ProjectFault, ProjectSettings};
 use rtc_diag::{Code, FindingLevel, LevelSubject, clip, codes, nearest};
-use rtc_source::Resource;
+use rtc_source::{Limits, Resource};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -26,11 +27,19 @@ const RENDER_KEYS: [&str; 7] = [
 type Key<'t> = Spanned<DeString<'t>>;
 type Value<'t> = Spanned<DeValue<'t>>;
 
-/// What a text says that lies in a folder, and what is wrong with it.
-pub(super) fn read(bytes: &[u8], folder: &Path) -> (ProjectSettings, Vec<ProjectFault>) {
+/// What a text says that lies in a folder, as far as it is trusted, and what is wrong with it.
+pub(super) fn read(
+    bytes: &[u8],
+    folder: &Path,
+    trust: Trust,
+) -> (ProjectSettings, Vec<ProjectFault>) {
     let mut reader = ProjectReader {
         folder,
-        settings: ProjectSettings::default(),
+        settings: ProjectSettings {
+            is_trusted: matches!(trust, Trust::Full),
+            ..ProjectSettings::default()
+        },
+        trust,
         faults: Vec::new(),
     };
     match std::str::from_utf8(bytes) {
@@ -49,6 +58,7 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> (ProjectSettings, Vec<Project
 
 struct ProjectReader<'f> {
     folder: &'f Path,
+    trust: Trust,
     settings: ProjectSettings,
     faults: Vec<ProjectFault>,
 }
@@ -92,7 +102,11 @@ impl ProjectReader<'_> {
             (folder.is_dir() && folder.starts_with(self.folder)).then_some(folder)
         });
         match found {
-            Some(folder) => self.settings.asset_root = Some(folder),
+            Some(folder) if self.is_lent(&folder) => self.settings.asset_root = Some(folder),
+            Some(_) => self.untrusted(
+                value.span(),
+                "`asset-root` is left out: it is not in the folder of the scene",
+            ),
             None => self.fault(
                 value.span(),
                 expected.to_owned(),
@@ -128,7 +142,14 @@ impl ProjectReader<'_> {
         }
         let limit = written(value.get_ref()).ok_or_else(String::new);
         match limit.and_then(|number| parse::limit(&format!("{name}={number}"))) {
-            Ok(limit) => self.settings.limits.push(limit),
+            Ok(limit) => {
+                let is_raised = limit.1 > Limits::default().of(limit.0, 0);
+                if is_raised && !self.settings.is_trusted {
+                    let message = format!("`{name}` is not raised, only lowered");
+                    self.untrusted(value.span(), &message);
+                }
+                self.settings.limits.push(limit);
+            }
             Err(_) => {
                 let message = format!("`{name}` is a number, which a unit may follow");
                 self.fault(value.span(), message, "write it as 5000000 or `\"2GiB\"`");
@@ -183,6 +204,25 @@ impl ProjectReader<'_> {
             message: format!("unknown key `{}`", clip(name)),
             hint: Some(hint),
             meant: meant.map(str::to_owned),
+        });
+    }
+
+    /// Whether the scene may name the files in a folder.
+    fn is_lent(&self, folder: &Path) -> bool {
+        match &self.trust {
+            Trust::Full => true,
+            Trust::Within(own) => folder.starts_with(own),
+        }
+    }
+
+    /// Tells of what only a trusted file may have.
+    fn untrusted(&mut self, at: Range<usize>, message: &str) {
+        self.faults.push(ProjectFault {
+            code: &codes::SETTINGS_UNTRUSTED,
+            at,
+            message: format!("{message}, for this file is not trusted"),
+            hint: Some("`--trust-project` trusts it if you do".to_owned()),
+            meant: None,
         });
     }
 

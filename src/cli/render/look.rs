@@ -2,6 +2,7 @@
 
 use super::super::Failure;
 use super::super::args::{BitDepth, LookArgs};
+use super::super::output::is_stdout;
 use rtc_color::Tone;
 use rtc_image::FileFormat;
 use rtc_pipeline::{OutputLook, PictureSetup};
@@ -40,7 +41,7 @@ pub(crate) fn kind(output: &Path, bits: Option<BitDepth>) -> Result<FileFormat, 
     let extension = output
         .extension()
         .map(|extension| extension.to_string_lossy().to_lowercase());
-    let is_stdout = output.as_os_str() == "-";
+    let is_stdout = is_stdout(output);
     match (extension.as_deref(), bits) {
         (Some("exr"), Some(BitDepth::ThirtyTwo) | None) => Ok(FileFormat::Exr),
         (Some("exr"), Some(BitDepth::Sixteen)) => Ok(FileFormat::ExrHalf),

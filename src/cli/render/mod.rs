@@ -93,13 +93,13 @@ impl RenderSetup {
             (None, None) => beside_here(args)?,
         };
         let turntable = Views::new(args.turntable, args.frames)?;
-        if turntable.is_some() && output.as_os_str() == "-" {
+        if turntable.is_some() && output::is_stdout(&output) {
             return Err(Failure::Trouble(
                 "a turntable is many pictures; give `-o NAME-%04d.png`".to_owned(),
             ));
         }
         output::refuse_terminal(&output)?;
-        if args.show && output.as_os_str() == "-" {
+        if args.show && output::is_stdout(&output) {
             return Err(Failure::Trouble(
                 "`--show` takes standard output; give the picture a name by `-o`".to_owned(),
             ));
@@ -113,7 +113,7 @@ impl RenderSetup {
         let picture = part.as_ref().map_or(output.as_path(), PartSetup::picture);
         let picture = still.as_deref().unwrap_or(picture);
         let asked = args.wanted.overrides();
-        let settled = project::picture(args.file(), goal)?;
+        let settled = project::picture(args.file(), &args.reading, goal)?;
         let picture = PictureSetup {
             overrides: asked.or(settled),
             goal,
@@ -128,7 +128,7 @@ impl RenderSetup {
             || rate.is_some()
             || part.is_some()
             || args.checkpoint.is_some()
-            || output.as_os_str() == "-";
+            || output::is_stdout(&output);
         if is_one_file {
             refuse_layers(&picture)?;
         }

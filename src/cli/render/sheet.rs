@@ -62,7 +62,7 @@ impl Sheet {
             let bytes =
                 path.and_then(|path| Loader.bytes(path, MAX_BYTES, &SourceMap::default()).ok());
             let read = bytes.and_then(|bytes| ShownPicture::read(&bytes, u64::MAX).ok());
-            (name, read.map(|picture| for_sheet(picture.display)))
+            (name, read.map(|picture| for_sheet(picture.image())))
         });
         let sheet = contact_sheet(&pictures.collect::<Vec<_>>());
         let bytes = Picture::opaque(sheet).encode(FileFormat::Png8);

@@ -23,7 +23,7 @@ pub(super) fn show(path: &Path) -> Result<(), Failure> {
     let columns = std::env::var("COLUMNS").ok();
     let columns = columns.and_then(|columns| columns.parse().ok());
     let width = columns.unwrap_or(WIDTH).clamp(1, WIDEST);
-    output::to_stdout(half_blocks(&shrunk(picture.display, [width, width])).as_bytes())
+    output::to_stdout(half_blocks(&shrunk(picture.image(), [width, width])).as_bytes())
 }
 
 /// The picture in lines of upper halves of blocks: their colour is that of the upper pixel, what is behind

@@ -21,4 +21,9 @@ super::codes! { IO:
     SETTINGS_READ = "IO006", Note, "settings came from an `rtc.toml`",
         "It lies in the folder of the scene, or is the nearest above it; the search ends where a repository does, at a folder with \
          a `.git`. What the command line says goes before it.";
+    SETTINGS_UNTRUSTED = "IO007", Warning, "an `rtc.toml` asks for more than one that is not trusted may have",
+        "Whoever wrote a scene may have written the `rtc.toml` beside it. So it may lower limits and not raise them, and its \
+         `asset-root` lies in the folder of the scene or below. Not read at all is one of another user, one that all may write, \
+         and a link that leaves its folder. `--trust-project` trusts it for one run; `trusted-projects = [\"/a/folder\"]` in the user's \
+         own `rtc/config.toml` (in `$XDG_CONFIG_HOME` or `~/.config`) trusts those in that folder and below.";
 }

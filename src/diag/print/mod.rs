@@ -16,7 +16,7 @@ mod window;
 #[cfg(test)]
 mod tests;
 
-use super::{Diagnostic, Severity, Sink};
+use super::{Diagnostic, Severity, Sink, codes};
 use fold::Fold;
 use rtc_source::SourceMap;
 
@@ -80,6 +80,8 @@ pub struct Printer {
     options: PrintOptions,
     omitted: usize,
     results: Vec<serde_json::Value>,
+    /// Which settings hold, as it was told last.
+    settings: Option<String>,
 }
 
 impl Printer {
@@ -91,14 +93,23 @@ impl Printer {
             options,
             omitted: 0,
             results: Vec::new(),
+            settings: None,
         }
+    }
+
+    /// Which settings hold is told once wherever warnings are: what nobody typed surprises.
+    fn tells_settings(&self, finding: &Diagnostic) -> bool {
+        finding.code.id == codes::SETTINGS_READ.id
+            && self.options.least != Severity::Error
+            && self.settings.as_ref() != Some(&finding.message)
     }
 
     /// The text for the findings of the file `name`; empty if there are none to show.
     pub fn file(&mut self, name: &str, mut sink: Sink, map: &SourceMap) -> String {
         sink.sort();
         let visible = |diagnostic: &&Diagnostic| {
-            self.format.is_for_programs() || diagnostic.severity <= self.options.least
+            let is_shown = diagnostic.severity <= self.options.least;
+            self.format.is_for_programs() || is_shown || self.tells_settings(diagnostic)
         };
         let found: Vec<&Diagnostic> = sink.kept().iter().filter(visible).collect();
         let folds = match self.format {
@@ -129,6 +140,12 @@ impl Printer {
                 String::new()
             }
         };
+        let told = found
+            .iter()
+            .find(|finding| finding.code.id == codes::SETTINGS_READ.id);
+        if let Some(finding) = told {
+            self.settings = Some(finding.message.clone());
+        }
         text + &self.after(name, &found, hidden)
     }
 

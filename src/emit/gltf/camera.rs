@@ -90,7 +90,7 @@ impl GltfWriter<'_> {
         document::Projection::Orthographic {
             xmag,
             ymag,
-            zfar: f64::from(single(far)),
+            zfar: short(far),
             znear: 0.0,
         }
     }
@@ -100,6 +100,15 @@ fn perspective([width, height]: [f64; 2], distance: f64) -> document::Projection
     document::Projection::Perspective {
         aspect_ratio: width / height,
         yfov: 2.0 * atan2(height, distance),
-        znear: f64::from(single(NEAR * distance)),
+        znear: short(NEAR * distance),
+    }
+}
+
+/// A distance above 0 in the few digits of a 32-bit float, if there is one as long.
+fn short(distance: f64) -> f64 {
+    let rounded = f64::from(single(distance));
+    match rounded.is_normal() {
+        true => rounded,
+        false => distance.clamp(f64::MIN_POSITIVE, f64::MAX),
     }
 }

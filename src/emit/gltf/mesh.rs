@@ -120,7 +120,7 @@ impl GltfWriter<'_> {
             }
         }
         if !tangents.is_empty() && !normals.is_empty() {
-            let tangents = self.rounded(tangents, place)?;
+            let tangents = self.tangents(tangents, normals, place)?;
             of_vertices.tangent = Some(self.floats(&tangents, false));
         }
         if !colors.is_empty() {
@@ -177,6 +177,29 @@ impl GltfWriter<'_> {
             }
         }
         Some(vectors)
+    }
+
+    /// Tangents of length 1 with a side of ±1, as glTF wants them; those that are so keep their bits. One
+    /// without a direction takes one across its normal.
+    fn tangents(
+        &mut self,
+        tangents: &Column<4>,
+        normals: &Column<3>,
+        place: Place,
+    ) -> Option<Vec<[f32; 4]>> {
+        let mut rounded = self.rounded(tangents, place)?;
+        for (at, tangent) in rounded.iter_mut().enumerate() {
+            let [x, y, z, side] = tangents.at(at);
+            let own = Vec3::new(x, y, z);
+            if !UNIT.contains(&own.length()) {
+                let across = || Vec3::from_array(normals.at(at)).any_orthogonal_vector();
+                let own = unit(own).or_else(|| unit(across()));
+                let [x, y, z] = own.unwrap_or(Vec3::X).to_array().map(single);
+                *tangent = [x, y, z, tangent[3]];
+            }
+            tangent[3] = if side < 0.0 { -1.0 } else { 1.0 };
+        }
+        Some(rounded)
     }
 
     /// Normals of length 1, as glTF wants them; those that have it keep their bits. One without a

@@ -9,7 +9,6 @@ mod layout;
 mod png;
 mod webp;
 
-use super::Image;
 use super::format::PictureFormat;
 use layout::PixelLayout;
 use std::fmt;
@@ -25,6 +24,21 @@ pub struct Pixels {
     pub has_alpha: bool,
     /// Rows from the top; red, green, blue.
     pub bytes: Vec<u8>,
+}
+
+/// Pixels as a file codes them.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct CodedPixels {
+    layout: PixelLayout,
+    bytes: Vec<u8>,
+}
+
+impl CodedPixels {
+    /// Red, green, blue and opacity of a pixel, from 0 to 1.
+    pub(super) fn values(&self, index: usize) -> [f64; 4] {
+        let size = self.layout.bytes();
+        self.layout.values(&self.bytes[index * size..][..size])
+    }
 }
 
 /// What becomes of the opacity of a picture.
@@ -216,32 +230,25 @@ impl<'a> PixelFile<'a> {
         })
     }
 
-    /// Decodes it to values from 0 to 1, 16 bits where it has them, multiplied with the opacity; and the
-    /// opacity, if there is one.
+    /// Decodes it as it is coded, 16 bits where it has them.
     ///
     /// # Errors
     /// As of [`Self::decode`].
-    pub fn decode_wide(self) -> Result<(Image, Option<Vec<f64>>), DecodeError> {
-        let (layout, size) = (self.layout(), self.size);
-        let mut bytes = size.buffer(layout.bytes())?;
+    pub(super) fn decode_coded(self) -> Result<CodedPixels, DecodeError> {
+        let layout = self.layout();
+        let mut bytes = self.size.buffer(layout.bytes())?;
         match self.decoder {
             Decoder::Png(png) => png.decode(&mut bytes)?,
             Decoder::Jpeg(jpeg) => jpeg.decode(&mut bytes)?,
             Decoder::WebP(webp) => webp.decode(&mut bytes)?,
         }
-        let coded = || bytes.chunks_exact(layout.bytes());
-        let shown = |pixel: &[u8]| {
-            let [r, g, b, opacity] = layout.values(pixel);
-            [r, g, b].map(|value| value * opacity)
-        };
-        let image = Image {
-            width: size.width,
-            height: size.height,
-            pixels: coded().map(shown).collect(),
-        };
-        let opacity = |pixel: &[u8]| layout.values(pixel)[3];
-        let alpha = layout.has_alpha().then(|| coded().map(opacity).collect());
-        Ok((image, alpha))
+        Ok(CodedPixels { layout, bytes })
+    }
+
+    /// Its width and height in pixels.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        [self.size.width, self.size.height]
     }
 
     /// How the decoder lays out pixels.

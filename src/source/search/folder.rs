@@ -12,6 +12,9 @@ const OF_THE_SYSTEM: [&str; 5] = ["/proc", "/sys", "/dev", "/etc", "/private/etc
 /// Folders of homes.
 const OF_HOMES: [&str; 3] = ["/home", "/Users", "C:\\Users"];
 
+/// The most parts of a path that are followed, those of links too.
+const MOST_STEPS: usize = 400;
+
 /// A folder.
 #[derive(Clone, Debug)]
 pub struct Folder {
@@ -79,6 +82,42 @@ impl Folder {
         }
     }
 
+    /// Whether a link on the way to a place in it leads out, whatever is there: only what lies in the
+    /// folder is looked at.
+    pub(super) fn leads_out(&self, place: &Path) -> bool {
+        if self.files.is_some() {
+            return false;
+        }
+        let mut way: Vec<PathBuf> = parts_from_last(place);
+        let mut at = self.resolved.clone();
+        for _ in 0..MOST_STEPS {
+            let Some(part) = way.pop() else {
+                return false;
+            };
+            match part.as_os_str() == ".." {
+                true => drop(at.pop()),
+                false => at.push(part),
+            }
+            let Ok(there) = fs::symlink_metadata(&at) else {
+                return !at.starts_with(&self.resolved);
+            };
+            if there.is_symlink()
+                && let Ok(target) = fs::read_link(&at)
+            {
+                // From the root it leads out even where it comes back; who follows it sees that.
+                at.pop();
+                if target.has_root() {
+                    at = PathBuf::new();
+                }
+                way.extend(parts_from_last(&target));
+            }
+            if !at.starts_with(&self.resolved) {
+                return true;
+            }
+        }
+        false
+    }
+
     /// A place in it, free of links.
     pub(super) fn resolve(&self, place: &Path) -> Option<PathBuf> {
         match &self.files {
@@ -125,4 +164,14 @@ impl Folder {
                 .any(|homes| path.parent() == Some(Path::new(homes)));
         names >= 2 && !of_system && !is_home
     }
+}
+
+/// The names on the way to a place, and `..`, the first of them last.
+fn parts_from_last(place: &Path) -> Vec<PathBuf> {
+    let is_step =
+        |part: &Component<'_>| matches!(part, Component::Normal(_) | Component::ParentDir);
+    let parts = place.components().filter(is_step);
+    let mut parts: Vec<PathBuf> = parts.map(|part| part.as_os_str().into()).collect();
+    parts.reverse();
+    parts
 }

@@ -23,16 +23,15 @@ impl Search {
         // A link may lead out of the scene's folder.
         let place = folder.resolve(&place);
         let place = place.filter(|place| place.starts_with(&folder.resolved));
-        let names = place.map(|place| folder.names(&place));
-        let names = names.into_iter().flatten().take(MAX_NEIGHBOURS);
+        let listing = place.map(|place| self.listings.of(folder, &place));
         let is_of_kind = |name: &String| {
             let extension = Path::new(name).extension().unwrap_or_default();
             let extension = extension.to_string_lossy().to_lowercase();
             !name.starts_with('.') && kind.extensions.contains(&&*extension)
         };
-        let mut names: Vec<String> = names.filter(is_of_kind).collect();
-        names.sort_unstable();
-        names
+        let names = listing.iter().flat_map(|own| &own.names);
+        let names = names.take(MAX_NEIGHBOURS).cloned();
+        names.filter(is_of_kind).collect()
     }
 
     /// The path of a file that was found, from the first of the folders that it lies below, with `/`

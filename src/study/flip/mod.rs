@@ -18,6 +18,9 @@ use rtc_math::{Vec3, exp, pow};
 /// Pixels in a degree of view for a 0.7 m wide monitor of 3840 pixels, seen from 0.7 m.
 pub const PIXELS_PER_DEGREE: f64 = 67.020_645;
 
+/// How many pixels away the eye's blur reaches at [`PIXELS_PER_DEGREE`].
+pub(super) const REACH: u32 = 10;
+
 /// The difference of each pixel, row by row; the pictures are of one size.
 #[must_use]
 pub fn flip(reference: &Image, test: &Image, pixels_per_degree: f64) -> Vec<f64> {
@@ -367,6 +370,17 @@ mod tests {
             (mean - 0.303_949).abs() < 5e-4 && (max - 0.738_713).abs() < 2e-3,
             "{mean} {max}"
         );
+    }
+
+    #[test]
+    fn no_filter_reaches_farther_than_is_told() {
+        let Eye {
+            sensitivity,
+            feature,
+        } = Eye::new(PIXELS_PER_DEGREE);
+        let lines = sensitivity.iter().flatten().map(|(_, line)| line);
+        let reach = lines.chain([&feature.smooth]).map(|line| line.len() / 2);
+        assert_eq!(reach.max(), Some(REACH as usize));
     }
 
     #[test]

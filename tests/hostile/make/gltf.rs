@@ -27,7 +27,7 @@ fn check(name: &'static str, expected: Option<&'static str>, json: &str, chunk: 
 }
 
 /// A `.glb` of an asset of this JSON, without its braces and its version.
-fn glb(json: &str, chunk: &[u8]) -> Vec<u8> {
+pub(super) fn glb(json: &str, chunk: &[u8]) -> Vec<u8> {
     let json = format!(r#"{{"asset":{{"version":"2.0"}},{json}}}"#).into_bytes();
     let mut bytes = [b"glTF".as_slice(), &2_u32.to_le_bytes(), &[0; 4]].concat();
     for (kind, own, filler) in [(b"JSON", json.as_slice(), b' '), (b"BIN\0", chunk, 0)] {

@@ -2,6 +2,7 @@
 //! cost.
 
 pub(crate) mod gltf;
+pub(crate) mod many;
 pub(crate) mod media;
 mod webp;
 

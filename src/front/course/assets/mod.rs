@@ -134,6 +134,7 @@ impl<'run> Port<'run> {
                 loader: Loader,
                 map,
                 sink,
+                compared: 0,
             },
             images: Known::default(),
             sampled: Known::default(),
@@ -210,7 +211,12 @@ struct Porter<'run> {
     loader: Loader,
     map: &'run mut SourceMap,
     sink: &'run mut Sink,
+    /// How many names were compared with ones that are not there.
+    compared: usize,
 }
+
+/// The most names that are compared so: of many files that are not there the first are told of best.
+const MOST_COMPARED: usize = 1 << 16;
 
 /// What a lenient run does without a file.
 #[derive(Clone, Copy)]
@@ -275,10 +281,14 @@ impl Porter<'_> {
     }
 
     /// A file in the place of the one that is wanted, with a similar name or another extension.
-    fn similar(&self, wish: &Wanted) -> Option<String> {
+    fn similar(&mut self, wish: &Wanted) -> Option<String> {
+        if self.compared >= MOST_COMPARED {
+            return None;
+        }
         let path = wish.path.replace('\\', "/");
         let (folder, name) = path.rsplit_once('/').unwrap_or(("", &path));
         let names = self.search.neighbours(&path, kind_of(&wish.asset));
+        self.compared += names.len();
         let stem = |name: &str| name.rsplit_once('.').map(|(stem, _)| stem.to_lowercase());
         let same = names.iter().find(|other| stem(other) == stem(name));
         let found = same.map(String::as_str);

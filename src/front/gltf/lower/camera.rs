@@ -67,9 +67,9 @@ impl Lowering<'_, '_, '_> {
     fn own(&self, seen: &Seen) -> Option<(NodeId, Camera)> {
         let at = *self.doc.cameras.get(seen.camera)?;
         let fields = Fields::new(self.report.json, at).moved(&self.materials.moved);
-        let mut camera = through(projection(fields)?, seen.world)?;
+        let (mut camera, ahead) = through(projection(fields)?, seen.world)?;
         if let Some(own) = fields.own() {
-            refine(&mut camera, own);
+            refine(&mut camera, ahead, own);
         }
         Some((at, camera))
     }
@@ -97,8 +97,8 @@ impl Lowering<'_, '_, '_> {
     }
 }
 
-/// The camera of a projection at a place; none if the place has no volume.
-fn through(projection: Projection, world: DAffine3) -> Option<Camera> {
+/// The camera of a projection at a place, and where it looks; none if the place has no volume.
+fn through(projection: Projection, world: DAffine3) -> Option<(Camera, Vec3)> {
     // The directions of the axes count; scale does not.
     let z = unit(world.z_axis)?;
     let x = unit(world.x_axis - z * world.x_axis.dot(z))?;
@@ -116,28 +116,31 @@ fn through(projection: Projection, world: DAffine3) -> Option<Camera> {
         }
         Projection::Orthographic { xmag, ymag } => ([xmag, ymag], ir::Projection::Orthographic),
     };
-    Some(camera(world.translation, [x, y, z], half, kind))
+    Some((camera(world.translation, [x, y, z], half, kind), -z))
 }
 
 /// Gives a camera what glTF has no words for: the size of its picture, the plane of focus, where
 /// the middle of the picture lies, in halves of it, and the lens.
-fn refine(camera: &mut Camera, own: Fields<'_, '_>) {
+fn refine(camera: &mut Camera, ahead: Vec3, own: Fields<'_, '_>) {
     let [eye, center, right, up] =
         [camera.eye, camera.center, camera.right, camera.up].map(Vec3::from_array);
     let [width, height] = camera.size;
     let size = [own.count_or("width", width), own.count_or("height", height)];
     let distance = own.number_or("focusDistance", 1.0);
     // Halves of the picture in the plane of focus; those of parallel rays are the same in all.
+    let reach = reach(eye);
     let far = match camera.projection {
-        ir::Projection::Perspective => distance,
+        ir::Projection::Perspective => distance / reach,
         ir::Projection::Orthographic => 1.0,
     };
+    // From far away the difference of two places says little of a direction.
+    let ahead = if reach > 1.0 { ahead } else { center - eye };
     let half = [
         right * (far * f64::from(width) / 2.0),
         up * (far * f64::from(height) / 2.0),
     ];
     let [across, upward] = own.vector_or("shift", [0.0; 2]);
-    let middle = eye + (center - eye) * distance + half[0] * across + half[1] * upward;
+    let middle = eye + ahead * distance + half[0] * across + half[1] * upward;
     camera.center = middle.to_array();
     camera.right = (half[0] * (2.0 / f64::from(size[0]))).to_array();
     camera.up = (half[1] * (2.0 / f64::from(size[1]))).to_array();
@@ -146,6 +149,15 @@ fn refine(camera: &mut Camera, own: Fields<'_, '_>) {
         radius: own.number_or("lensRadius", 0.0),
         samples: own.count_or("lensSamples", 1),
     };
+}
+
+/// How far before a camera its plane of focus is where nothing else is said: 1, or farther where the places
+/// of both would be hard to tell apart, a power of two.
+fn reach(eye: Vec3) -> f64 {
+    const NEAR: f64 = 1_048_576.0;
+    let far = (eye.abs().max_element() / NEAR).clamp(1.0, f64::MAX);
+    // The bits of the exponent.
+    f64::from_bits(far.to_bits() & (0x7ff << 52))
 }
 
 /// A camera at `eye` that sees so much to each side at distance 1.
@@ -157,9 +169,14 @@ fn camera(eye: Vec3, [x, y, z]: [Vec3; 3], half: [f64; 2], projection: ir::Proje
         reason = "clamped"
     )]
     let width = (f64::from(HEIGHT) * ratio).round().clamp(1.0, 16384.0) as u32;
+    let reach = reach(eye);
+    let half = match projection {
+        ir::Projection::Perspective => half.map(|half| half * reach),
+        ir::Projection::Orthographic => half,
+    };
     Camera {
         eye: eye.to_array(),
-        center: (eye - z).to_array(),
+        center: (eye - z * reach).to_array(),
         right: (x * (2.0 * half[0] / f64::from(width))).to_array(),
         up: (y * (2.0 * half[1] / f64::from(HEIGHT))).to_array(),
         size: [width, HEIGHT],
@@ -174,8 +191,8 @@ fn camera(eye: Vec3, [x, y, z]: [Vec3; 3], half: [f64; 2], projection: ir::Proje
 /// The size that a pixel in the picture of the camera that we choose has at the middle of the ball.
 pub(super) fn pixel(ball: Ball) -> f64 {
     let camera = looking_at(ball);
-    let distance = Vec3::from_array(camera.eye).distance(ball.center);
-    Vec3::from_array(camera.up).length() * distance
+    let eye = Vec3::from_array(camera.eye);
+    Vec3::from_array(camera.up).length() / reach(eye) * eye.distance(ball.center)
 }
 
 /// A camera that sees the whole ball.

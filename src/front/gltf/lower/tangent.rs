@@ -1,6 +1,9 @@
 //! Tangents where an asset has none: those of MikkTSpace, as glTF prescribes.
 //!
 //! Corners of one vertex may get different tangents, so vertices are split where they do.
+//!
+//! MikkTSpace compares all corners at a place with each other. So a place of very many counts as several side
+//! by side, each with its part of them.
 
 use super::mesh::{pick, to_u32};
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
@@ -11,7 +14,12 @@ use rtc_math::Vec3;
 struct Corners<'m> {
     mesh: &'m Mesh,
     tangents: Vec<[f64; 4]>,
+    /// Of each corner, in which part of its place it is; empty if all places are whole.
+    parts: Vec<u16>,
 }
+
+/// The most corners at a place that are compared with each other.
+const MOST: u32 = 512;
 
 /// Functions that give the same bits on every machine.
 struct Libm;
@@ -46,10 +54,11 @@ impl Geometry<Libm> for Corners<'_> {
     }
 
     fn position(&self, face: usize, vert: usize) -> [f32; 3] {
-        self.mesh
-            .positions
-            .at(self.vertex(face, vert))
-            .map(|number| number as f32)
+        let position = self.mesh.positions.at(self.vertex(face, vert));
+        let [x, y, z] = position.map(|number| number as f32);
+        let part = self.parts.get(3 * face + vert).copied().unwrap_or(0);
+        // By so many of the smallest steps.
+        [f32::from_bits(x.to_bits().wrapping_add(part.into())), y, z]
     }
 
     fn normal(&self, face: usize, vert: usize) -> [f32; 3] {
@@ -91,6 +100,7 @@ pub(super) fn generate(mesh: &mut Mesh) {
     }
     let mut corners = Corners {
         mesh,
+        parts: parts(mesh),
         tangents: vec![[1.0, 0.0, 0.0, 1.0]; 3 * mesh.triangles.len()],
     };
     if generate_tangents(&mut corners).is_err() {
@@ -98,6 +108,52 @@ pub(super) fn generate(mesh: &mut Mesh) {
     }
     let tangents = corners.tangents;
     split(mesh, &tangents);
+}
+
+/// In which part of its place each corner is; empty if all places are whole. Corners that are alike stay
+/// together as far as they can.
+fn parts(mesh: &Mesh) -> Vec<u16> {
+    if mesh.triangles.len() <= MOST as usize {
+        return Vec::new();
+    }
+    let corners = || mesh.triangles.iter().flatten();
+    let mut counts = vec![0_u32; mesh.positions.len()];
+    corners().for_each(|corner| counts[*corner as usize] += 1);
+    let mut order: Vec<u32> = (0..to_u32(counts.len())).collect();
+    order.sort_by_cached_key(|vertex| key(mesh, *vertex));
+    // The first of its corners among those at its place; none if those are few.
+    let mut next: Vec<Option<u32>> = vec![None; counts.len()];
+    let is_at_one_place = |a: &u32, b: &u32| key(mesh, *a)[..3] == key(mesh, *b)[..3];
+    for place in order.chunk_by(is_at_one_place) {
+        let all: u32 = place.iter().map(|vertex| counts[*vertex as usize]).sum();
+        let mut first = 0;
+        for vertex in place.iter().filter(|_| all > MOST) {
+            next[*vertex as usize] = Some(first);
+            first += counts[*vertex as usize];
+        }
+    }
+    if next.iter().all(Option::is_none) {
+        return Vec::new();
+    }
+    let part = |corner: &u32| {
+        let next = next[*corner as usize].as_mut()?;
+        *next += 1;
+        u16::try_from((*next - 1) / MOST).ok()
+    };
+    corners().map(part).map(Option::unwrap_or_default).collect()
+}
+
+/// By what MikkTSpace tells vertices apart: the place, the normal, the texture coordinates.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "MikkTSpace computes in 32-bit floats"
+)]
+fn key(mesh: &Mesh, vertex: u32) -> [u32; 8] {
+    let at = vertex as usize;
+    let [[x, y, z], [nx, ny, nz]] = [mesh.positions.at(at), mesh.normals.at(at)];
+    let [u, v] = mesh.uvs.at(at);
+    // Zeros of both signs are one number.
+    [x, y, z, nx, ny, nz, u, v].map(|number| (number as f32 + 0.0).to_bits())
 }
 
 /// Gives each corner a vertex of its own, with the normal of its triangle.
@@ -157,6 +213,53 @@ fn split(mesh: &mut Mesh, tangents: &[[f64; 4]]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Triangles about a point: with one vertex for it, one each that are alike, or that differ.
+    fn fan(count: u32, hub: usize) -> Mesh {
+        let around = |k: u32| {
+            let angle = f64::from(k) / f64::from(count) * 6.0;
+            [libm::cos(angle), libm::sin(angle), 0.0]
+        };
+        let first = if hub == 0 { 1 } else { count };
+        let hubs = (0..first).map(|_| [0.0; 3]);
+        let positions: Vec<[f64; 3]> = hubs.chain((0..=count).map(around)).collect();
+        let lean = |at: u32| if hub == 2 { 1e-6 * f64::from(at) } else { 0.0 };
+        let normals = (0..to_u32(positions.len())).map(|at| [lean(at), 0.0, 1.0]);
+        Mesh {
+            uvs: positions.iter().map(|[x, y, _]| [*x, *y]).collect(),
+            normals: normals.collect(),
+            positions: positions.into_iter().collect(),
+            triangles: (0..count)
+                .map(|k| [k.min(first - 1), first + k, first + k + 1])
+                .collect(),
+            ..Mesh::default()
+        }
+    }
+
+    /// How many pairs of corners at one place there are to compare.
+    fn pairs(mesh: &Mesh) -> usize {
+        let parts = parts(mesh);
+        let mut counts = std::collections::BTreeMap::new();
+        for (at, corner) in mesh.triangles.iter().flatten().enumerate() {
+            let part = parts.get(at).copied().unwrap_or(0);
+            let place = mesh.positions.at(*corner as usize).map(f64::to_bits);
+            *counts.entry((place, part)).or_insert(0) += 1;
+        }
+        counts.values().map(|count: &usize| count * count).sum()
+    }
+
+    #[test]
+    fn the_work_of_a_fan_grows_as_its_triangles_do() {
+        for hub in 0..3 {
+            let [once, twice, four] = [4096, 8192, 16_384].map(|n| pairs(&fan(n, hub)));
+            assert!(twice <= 2 * once + 4096 && four <= 2 * twice + 4096);
+            assert_eq!(parts(&fan(512, hub)), Vec::<u16>::new(), "few are whole");
+            let mut mesh = fan(5000, hub);
+            generate(&mut mesh);
+            let near = |own: [f64; 4]| (own[0] - 1.0).abs() < 1e-3 && own[3] == -1.0;
+            assert!((0..mesh.tangents.len()).all(|at| near(mesh.tangents.at(at))));
+        }
+    }
 
     #[test]
     fn tangents_follow_u_and_vertices_split_where_it_is_mirrored() {

@@ -203,6 +203,10 @@ impl Branch {
         leaves: &Leaves<C>,
         take: &mut impl FnMut(LeftPart<'items>) -> Option<LeftPart<'items>>,
     ) -> u32 {
+        let part = match part.may_hold_copies() {
+            true => part.without_copies(&leaves.corners),
+            false => part,
+        };
         if part.items.len() <= TRIANGLES {
             self.is_exact &= leaves.fill(part.items);
             return LEAF | to_u32(part.first) << 2 | to_u32(part.items.len() - 1);

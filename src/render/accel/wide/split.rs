@@ -5,7 +5,8 @@ use super::{Builders, HEURISTIC_DEPTH};
 use crate::accel::lanes::{TRIANGLES, TriangleRow, WIDTH};
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
-use rtc_math::Lanes;
+use rtc_math::{Lanes, Vec3};
+use std::collections::BTreeSet;
 
 /// The most bins of an axis.
 const BINS: usize = 16;
@@ -94,6 +95,8 @@ pub(super) struct Part<'items> {
     pub(super) items: &'items mut [TriangleRow],
     bounds: LaneBox,
     centers: LaneBox,
+    /// No two of them have the same corners.
+    is_sifted: bool,
 }
 
 /// A border between two bins of an axis.
@@ -122,6 +125,34 @@ impl<'items> Part<'items> {
             items,
             bounds,
             centers,
+            is_sifted: false,
+        }
+    }
+
+    /// Whether it is large, with all boxes at one place, and some of its triangles may be the same.
+    pub(super) fn may_hold_copies(&self) -> bool {
+        let is_point = |axis: usize| self.centers.min[axis] == self.centers.max[axis];
+        !self.is_sifted && self.items.len() > TRIANGLES && (0..3).all(is_point)
+    }
+
+    /// The same without those that have the corners of one with a lower number, which is what a ray hits
+    /// that meets both. Their rows stay unused.
+    pub(super) fn without_copies(self, corners: impl Fn(u32) -> [Vec3; 3]) -> Self {
+        self.items.sort_unstable_by_key(BoxedItem::number);
+        let mut known = BTreeSet::new();
+        let mut kept = 0;
+        for at in 0..self.items.len() {
+            let corners = corners(self.items[at].number());
+            // Zeros of both signs are one place.
+            let bits = corners.map(|corner| (corner + Vec3::ZERO).to_array().map(f64::to_bits));
+            if known.insert(bits) {
+                self.items.swap(kept, at);
+                kept += 1;
+            }
+        }
+        Self {
+            is_sifted: true,
+            ..Self::of(self.first, &mut self.items[..kept])
         }
     }
 
@@ -136,6 +167,7 @@ impl<'items> Part<'items> {
         let is_deep = depth >= HEURISTIC_DEPTH;
         let weight = |part: &Self| match part.items.len() {
             0..=TRIANGLES => 0.0,
+            _ if part.may_hold_copies() => 0.0,
             count if is_deep => count as f32,
             _ => part.bounds.half_area().max(f32::MIN_POSITIVE),
         };
@@ -213,6 +245,7 @@ impl<'items> Part<'items> {
             items,
             bounds: border.sides[side],
             centers: centers[side],
+            is_sifted: self.is_sifted,
         };
         [part(below, 0), part(above, 1)]
     }
@@ -227,10 +260,8 @@ impl<'items> Part<'items> {
             order.then(a.number().cmp(&b.number()))
         });
         let (first, second) = self.items.split_at_mut(middle);
-        [
-            Self::of(self.first, first),
-            Self::of(self.first + middle, second),
-        ]
+        let (second, is_sifted) = (Self::of(self.first + middle, second), self.is_sifted);
+        [Self::of(self.first, first), second].map(|half| Self { is_sifted, ..half })
     }
 }
 

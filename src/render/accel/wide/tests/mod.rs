@@ -1,5 +1,6 @@
 //! Whatever is hit is visited, and little else.
 
+mod copies;
 mod together;
 
 use super::*;
@@ -351,23 +352,4 @@ fn a_triangle_of_a_surface_takes_few_bytes() {
     let each = bytes as f64 / count as f64;
     println!("{each:.1} bytes a triangle");
     assert!(each < 60.0, "{each}");
-}
-
-/// Equal boxes leave the heuristic nothing to choose by.
-#[test]
-fn equal_triangles_build_a_hierarchy_that_ends() {
-    let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
-    let wide = Wide::build(Builders::All, SimdLevel::best(), 5000, 0.0, |_| corners).unwrap();
-    let (mut visits, ray) = (
-        0,
-        Ray {
-            origin: Vec3::new(0.2, 0.2, 1.0),
-            direction: Vec3::NEG_Z,
-        },
-    );
-    wide.walk(&ray, f64::INFINITY, &mut |_: Candidate<'_>| {
-        visits += 1;
-        f64::INFINITY
-    });
-    assert_eq!(visits, 5000);
 }

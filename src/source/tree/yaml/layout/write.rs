@@ -9,7 +9,7 @@ const STEP: usize = 2;
 pub(super) fn write(source: &str, items: &[LayoutItem]) -> String {
     let mut writer = LayoutWriter {
         source,
-        items,
+        opened_after: opened_after(items),
         text: String::with_capacity(source.len()),
         column: 0,
         end: 0,
@@ -33,6 +33,26 @@ pub(super) fn write(source: &str, items: &[LayoutItem]) -> String {
     writer.text
 }
 
+/// Of each item the list or map that is opened by the next one that is no comment, and where that starts.
+fn opened_after(items: &[LayoutItem]) -> Vec<Option<(usize, BlockKind)>> {
+    let mut next = None;
+    let mut opened: Vec<_> = items
+        .iter()
+        .rev()
+        .map(|item| {
+            let after = next;
+            match item {
+                LayoutItem::Piece(piece) if piece.kind == PieceKind::Comment => {}
+                LayoutItem::Piece(piece) => next = piece.opens.map(|kind| (piece.start, kind)),
+                LayoutItem::End => next = None,
+            }
+            after
+        })
+        .collect();
+    opened.reverse();
+    opened
+}
+
 /// A list or map without brackets that is open.
 struct Level {
     kind: BlockKind,
@@ -43,7 +63,8 @@ struct Level {
 
 struct LayoutWriter<'s> {
     source: &'s str,
-    items: &'s [LayoutItem],
+    /// Of each item the list or map that is opened by what comes after it and after its comments.
+    opened_after: Vec<Option<(usize, BlockKind)>>,
     text: String,
     /// Where the text has come to in its line.
     column: usize,
@@ -145,13 +166,7 @@ impl<'s> LayoutWriter<'s> {
     /// be the one that follows.
     fn comment_column(&self, index: usize, comment: &Piece) -> usize {
         let stood = self.stood(comment.start);
-        let mut after = self.items.iter().skip(index + 1);
-        let next = after.find_map(|item| match item {
-            LayoutItem::Piece(piece) if piece.kind == PieceKind::Comment => None,
-            LayoutItem::Piece(piece) => Some(piece.opens.map(|kind| (piece.start, kind))),
-            LayoutItem::End => Some(None),
-        });
-        if let Some((start, kind)) = next.flatten()
+        if let Some((start, kind)) = self.opened_after[index]
             && self.stood(start) <= stood
         {
             return self.opened(kind);

@@ -1,0 +1,4 @@
+//! A file of materials is read or refused.
+
+#![no_main]
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc_fuzz::mtl(bytes));

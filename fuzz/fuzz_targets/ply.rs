@@ -1,0 +1,4 @@
+//! A PLY file is read or refused.
+
+#![no_main]
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc_fuzz::ply(bytes));

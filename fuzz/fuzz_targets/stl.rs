@@ -1,0 +1,4 @@
+//! An STL file is read or refused.
+
+#![no_main]
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc_fuzz::stl(bytes));

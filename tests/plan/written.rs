@@ -1,0 +1,38 @@
+//! What made-up scenes, of any size, are written as is accepted when it is read.
+
+use super::dice::Dice;
+use crate::scale::scaled;
+use rtc::internals::ir::{Column, Projection, Scene};
+use rtc::internals::math::ldexp;
+use rtc::internals::pipeline::trial::is_written;
+
+const SCENES: u64 = 240;
+
+/// Powers of two that lengths are multiplied by: beyond the range of 32-bit floats and of their squares,
+/// and within.
+const POWERS: [i32; 7] = [0, -160, -130, -60, 60, 100, 110];
+
+/// A made-up scene, by turns orthographic, and with tangents of any length.
+fn scene(seed: u64) -> Scene {
+    let mut scene = Dice::new(seed).scene();
+    if seed.is_multiple_of(3) {
+        scene.camera.projection = Projection::Orthographic;
+    }
+    for mesh in &mut scene.meshes {
+        let normals: Vec<[f64; 3]> = mesh.positions.iter().map(|_| [0.0, 3.0, 4.0]).collect();
+        let length = [0.0, 1e-30, 0.5, 1.0, 1e30][(seed % 5) as usize];
+        mesh.tangents = normals.iter().map(|_| [length, 0.0, 0.0, -0.3]).collect();
+        mesh.normals = Column::rounded(normals);
+    }
+    let power = POWERS[(seed % 7) as usize];
+    scaled(&scene, ldexp(1.0, power))
+}
+
+#[test]
+fn what_is_written_is_accepted() {
+    for seed in 0..SCENES {
+        // Of a failure the last number printed is the culprit.
+        println!("{seed}");
+        is_written(scene(seed));
+    }
+}
