@@ -17,7 +17,7 @@ use rtc_math::Vec3;
 const SCALES: [f64; 3] = [1.0 / 1_048_576.0, 1.0, 1_073_741_824.0];
 
 /// The first root of a ray.
-type First<'a> = &'a dyn Fn(&Ray) -> Option<f64>;
+type First = Box<dyn Fn(&Ray) -> Option<f64>>;
 
 /// A point and the normal there.
 type Eye = ([f64; 3], [f64; 3]);
@@ -35,15 +35,10 @@ fn directions() -> impl Iterator<Item = Vec3> {
 
 /// Asks a shape that `make` builds about a centre and in a scale, from eyes given in its own frame. Outwards a convex shape is
 /// not seen, any other not at once; inwards its far side is.
-fn look(
-    name: &str,
-    make: impl Fn(Vec3, f64) -> Box<dyn Fn(&Ray) -> Option<f64>>,
-    is_convex: bool,
-    eyes: &[Eye],
-) {
+fn look(name: &str, make: impl Fn(Vec3, f64) -> First, is_convex: bool, eyes: &[Eye]) {
     for scale in SCALES {
         let center = Vec3::new(3.0, -7.0, 9.0) * scale;
-        let first: First<'_> = &make(center, scale);
+        let first = make(center, scale);
         for (point, normal) in eyes {
             let origin = center + Vec3::from_array(*point) * scale;
             for direction in directions() {
@@ -59,7 +54,7 @@ fn look(
     }
 }
 
-fn asked<S: Geometry + 'static>(shape: S) -> Box<dyn Fn(&Ray) -> Option<f64>> {
+fn asked<S: Geometry + 'static>(shape: S) -> First {
     Box::new(move |ray| {
         shape
             .intersect(ray, &Shear::new(ray), f64::INFINITY)
@@ -140,11 +135,11 @@ fn what_is_flat_is_not_seen_from_its_own_plane() {
             c + Vec3::Y * s,
         ]
     };
-    let flat: [(&str, fn(Vec3, f64) -> Box<dyn Fn(&Ray) -> Option<f64>>); 2] = [
+    let flat: [(&str, fn(Vec3, f64) -> First); 2] = [
         ("plane", |center, _| asked(Plane::new(center, Vec3::Z))),
         ("disc", |center, s| asked(Disc::new(center, Vec3::Z, s))),
     ];
-    let mut all: Vec<(&str, Box<dyn Fn(&Ray) -> Option<f64>>)> = Vec::new();
+    let mut all: Vec<(&str, First)> = Vec::new();
     for scale in SCALES {
         let center = Vec3::new(3.0, -7.0, 9.0) * scale;
         all.extend(flat.iter().map(|(name, make)| (*name, make(center, scale))));
