@@ -6,10 +6,12 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise and makes the files it reads"
 )]
+mod elements;
 mod forms;
 mod mesh;
 mod mtl;
 mod names;
+mod oracle;
 mod outside;
 mod picture;
 mod search;

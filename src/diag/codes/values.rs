@@ -74,6 +74,9 @@ super::codes! { VA:
     SHADOW_IN_PATHS = "VA024", Warning, "an object without a shadow stands in a scene of paths",
         "`shadow: false` is followed by `RenderMode: phong`. Paths find light by chance as well as by aim, and an object \
          that stops one of the two would give light twice or never, so there it casts its shadow.";
+    LOST_PARTS = "VA026", Warning, "a material says more than the integrator shows",
+        "Paths show of Phong's model no height field (`bumpMap`) and no map of `ks`; Phong's model shows of a `standard` material \
+         its colour and how rough it is, without its maps, its light and its layers. The hint says which integrator shows them.";
     OUT_OF_RANGE = "VA101", Error, "a number is outside the range of its key",
         "The message says which values the key takes: counts are not negative and below 2^32, the sides of an image are at \
          most 65535 pixels.";

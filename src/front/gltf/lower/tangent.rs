@@ -2,7 +2,8 @@
 //!
 //! Corners of one vertex may get different tangents, so vertices are split where they do.
 
-use super::mesh::{pick, to_u32};
+use super::mesh::to_u32;
+use crate::solid::pick;
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use rtc_ir::{Column, Mesh};
 use rtc_math::Vec3;
