@@ -139,6 +139,32 @@ function mutant(bytes) {
     return close(asset);
 }
 
+// Some bytes of accessors and images changed: in the binary chunk of a .glb, else in a data URI; null if there is none.
+const WORDS_OF_BYTES = [0, 0x7fc00000, 0x7f800000, 0xff800000, 0x3f800000, 0xbf800000, 0x7f7fffff, 0xffffffff, 1];
+function breakBytes(data) {
+    for (let changes = 1 + below(4); changes > 0 && data.length > 4; changes -= 1) {
+        const at = below(data.length - 4);
+        if (random() < 0.4) data.writeUInt32LE(one(WORDS_OF_BYTES), at & ~3);
+        else data[at] = one([data[at] ^ (1 << below(8)), 0, 255, below(256)]);
+    }
+    return data;
+}
+function mutantOfBytes(bytes) {
+    const { json, rest } = open(bytes);
+    if (rest && rest.length > 12) {
+        const own = Buffer.from(bytes);
+        breakBytes(own.subarray(own.length - rest.length + 8));
+        return own;
+    }
+    const holders = [...(json.buffers ?? []), ...(json.images ?? [])];
+    const written = holders.filter(({ uri }) => /^data:[^,]*;base64,/.test(uri ?? ''));
+    if (rest || written.length === 0) return null;
+    const holder = one(written);
+    const [head, data] = holder.uri.split(',');
+    holder.uri = `${head},${breakBytes(Buffer.from(data, 'base64')).toString('base64')}`;
+    return close({ json });
+}
+
 // What the validator finds in a file: the names of errors (0) and warnings (1). What lies in extensions that it says it does
 // not know is left out, here and of what rtc finds.
 async function official(file) {
@@ -244,10 +270,19 @@ for (let index = 0; index < Number(count); index += 1) {
     mutants[index % 2].push(file);
     verdicts.set(file, await official(file));
 }
+const bytesOf = [];
+const whole = sources.flat().filter((file) => isSound(file) && mutantOfBytes(readFileSync(file)) !== null);
+for (let index = 0; whole.length > 0 && index < Number(count) / 2; index += 1) {
+    const source = one(whole);
+    const file = source.replace(/(\.\w+)$/, `.bytes-${index}$1`);
+    writeFileSync(file, mutantOfBytes(readFileSync(source)));
+    bytesOf.push(file);
+    verdicts.set(file, await official(file));
+}
 ours([...verdicts.keys()]).forEach((own, file) => (verdicts.get(file).own = own));
 
 const groups = [...names.map((name, at) => [`\`${name}\``, originals[at]]),
-    ...names.map((name, at) => [`mutants of \`${name}\``, mutants[at]])];
+    ...names.map((name, at) => [`mutants of \`${name}\``, mutants[at]]), ['bytes of accessors and images', bytesOf]];
 const about = `The sets of error codes that rtc and gltf-validator ${validator.version()} of Khronos find in a file, compared: ` +
     `${count} mutants, seed ${seed}. What lies in extensions that the validator says it does not know is left out,\n` +
     'and so are files on which the validator itself fails.';

@@ -8,6 +8,7 @@
 
 mod cases;
 mod hashed;
+mod obj_oracle;
 mod repo;
 mod scale;
 mod scene_laws;

@@ -21,6 +21,7 @@ mod honest;
 mod ir_schema;
 mod laws;
 mod numbers;
+mod obj_oracle;
 mod path;
 mod pictures;
 mod plain;

@@ -6,6 +6,7 @@ mod foreign;
 pub mod gltf;
 pub mod mesh;
 pub mod pixels;
+mod solid;
 mod words;
 
 pub use foreign::foreign;

@@ -38,7 +38,7 @@ impl From<DecodeError> for Refused {
 /// If the bytes are no such file, damaged, or ask for too much.
 pub fn decode(bytes: &[u8], opacity: Opacity, budget: &Budget) -> Result<Pixels, Refused> {
     let file = PixelFile::open(bytes, opacity, budget.limit(Resource::Pixels))?;
-    charge(file.cost(), budget)?;
+    charge(file.cost(), Resource::Textures, budget)?;
     Ok(file.decode()?)
 }
 
@@ -62,7 +62,7 @@ pub fn admit<'a>(
 ) -> Result<Admitted<'a>, Refused> {
     let most_pixels = budget.limit(Resource::Pixels);
     let cost = PixelFile::open(bytes, opacity, most_pixels)?.cost();
-    charge(cost, budget)?;
+    charge(cost, Resource::Textures, budget)?;
     Ok(Admitted {
         bytes,
         opacity,
@@ -88,7 +88,7 @@ pub fn decode_all(
     let has_room = |pool: &ThreadPool| {
         let at_once = pool.current_num_threads().min(files.len()) as u64;
         let scratch = scratch.saturating_mul(at_once);
-        budget.has(Resource::Memory, scratch).is_ok()
+        budget.has(Resource::Textures, scratch).is_ok()
     };
     let pool = || ThreadPoolBuilder::new().num_threads(threads).build().ok();
     let several = files.len() > 1 && threads != 1;
@@ -104,7 +104,7 @@ pub fn decode_all(
 /// As [`decode`].
 pub fn decode_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, Refused> {
     let file = RadianceFile::open(bytes, budget.limit(Resource::Pixels))?;
-    charge(file.cost(), budget)?;
+    charge(file.cost(), Resource::Memory, budget)?;
     Ok(file.decode()?)
 }
 
@@ -155,7 +155,7 @@ pub(super) fn refusal(fault: &Refused, what: &str, formats: &'static str) -> Dia
     Diagnostic::new(code, format!("{what} {fault}")).hint(hint)
 }
 
-fn charge(cost: DecodeCost, budget: &Budget) -> Result<(), Refused> {
+fn charge(cost: DecodeCost, resource: Resource, budget: &Budget) -> Result<(), Refused> {
     let DecodeCost {
         pixels,
         memory,
@@ -166,9 +166,7 @@ fn charge(cost: DecodeCost, budget: &Budget) -> Result<(), Refused> {
         .map_err(Refused::Limit)?;
     // What is given back at once only has to be there.
     budget
-        .has(Resource::Memory, memory.saturating_add(scratch))
+        .has(resource, memory.saturating_add(scratch))
         .map_err(Refused::Limit)?;
-    budget
-        .charge(Resource::Memory, memory)
-        .map_err(Refused::Limit)
+    budget.charge(resource, memory).map_err(Refused::Limit)
 }

@@ -200,6 +200,11 @@ impl<'a> Lines<'a> {
         Self { file, at }
     }
 
+    /// Whether nothing is left of the file.
+    pub(super) fn is_at_end(&self) -> bool {
+        self.at >= self.file.len()
+    }
+
     /// Puts the words of the next line that has any into `words`; false at the end of the file.
     pub(super) fn next(&mut self, words: &mut Vec<Word<'a>>) -> bool {
         words.clear();

@@ -50,6 +50,8 @@ pub struct Framing {
     pub yfov: Option<f64>,
     /// Width and height of the picture in pixels; square without.
     pub size: Option<[u32; 2]>,
+    /// The surface that is the ground of the studio, which takes no part.
+    pub ground: Option<usize>,
 }
 
 impl Framing {
@@ -65,7 +67,7 @@ impl Framing {
         let aspect = f64::from(size[0]) / f64::from(size[1]);
         let tangents = [tangent * aspect, tangent];
         let mut fit = Fit::new(axes, tangents.map(|tangent| tangent * SPAN));
-        Subject::of(scene).corners(&mut |corner| fit.add(corner - ball.center));
+        Subject::of(scene, self.ground).corners(&mut |corner| fit.add(corner - ball.center));
         let Some((eye, depth)) = fit.eye() else {
             return;
         };
@@ -92,7 +94,7 @@ impl Framing {
 
 /// The box around the subject of a scene; `None` if it stands on a ground of its own, or is nothing.
 pub(super) fn standing(scene: &Scene) -> Option<[Vec3; 2]> {
-    let subject = Subject::of(scene);
+    let subject = Subject::of(scene, None);
     let mut around = EMPTY;
     subject.corners(&mut |corner| around = [around[0].min(corner), around[1].max(corner)]);
     (!subject.has_ground && around[0].x <= around[1].x).then_some(around)
@@ -175,8 +177,8 @@ struct Subject<'scene> {
 }
 
 impl<'scene> Subject<'scene> {
-    /// All surfaces that show, but for those that others stand on.
-    fn of(scene: &'scene Scene) -> Self {
+    /// All surfaces that show, but for that of this index and those that others stand on.
+    fn of(scene: &'scene Scene, ground: Option<usize>) -> Self {
         let shows = |surface: &&Surface| {
             let material = scene.materials.get(surface.material.0 as usize);
             !material.is_some_and(is_invisible)
@@ -184,16 +186,21 @@ impl<'scene> Subject<'scene> {
         let triangles =
             |surface: &&Surface| mesh(scene, surface).map_or(0, |(mesh, ..)| mesh.triangles.len());
         let count = scene.surfaces.iter().map(|surface| triangles(&surface));
+        let own = || {
+            let all = scene.surfaces.iter().enumerate();
+            all.filter(|(index, _)| Some(*index) != ground)
+                .map(|(_, surface)| surface)
+        };
         let mut subject = Self {
             scene,
-            surfaces: scene.surfaces.iter().filter(shows).collect(),
+            surfaces: own().filter(shows).collect(),
             boxes: scene.mesh_boxes(),
             vertices: (count.fold(0, usize::saturating_add) <= TRIANGLES)
                 .then(|| scene.meshes.iter().map(used).collect()),
             has_ground: false,
         };
         if subject.surfaces.is_empty() {
-            subject.surfaces = scene.surfaces.iter().collect();
+            subject.surfaces = own().collect();
         }
         subject.leave_ground();
         subject

@@ -21,19 +21,20 @@ const GAP: f64 = 1e-3;
 const RINGS: u32 = 12;
 const CORNERS: u32 = 48;
 
-/// Lays the ground under a box. It is seen from above alone.
-pub(super) fn lay(scene: &mut Scene, [low, high]: [Vec3; 2]) {
+/// Lays the ground under a box, if that has an extent; the index of its surface. It is seen from above
+/// alone.
+pub(super) fn lay(scene: &mut Scene, [low, high]: [Vec3; 2]) -> Option<usize> {
     let middle = low + (high - low) / 2.0;
     let half = Vec3::new(high.x - low.x, 0.0, high.z - low.z).length() / 2.0;
     // What stands upright without any depth has a shadow as long as it is high.
     let half = half.max((high.y - low.y) / 2.0);
     if !(middle.is_finite() && half > 0.0) {
-        return;
+        return None;
     }
     let center = Vec3::new(middle.x, low.y - GAP * half, middle.z);
     let (mesh, material) = (scene.meshes.len(), scene.materials.len());
     let [Ok(mesh), Ok(material)] = [mesh, material].map(u32::try_from) else {
-        return;
+        return None;
     };
     scene.meshes.push(disc());
     scene.materials.push(Material::Standard(Box::new(Standard {
@@ -57,6 +58,7 @@ pub(super) fn lay(scene: &mut Scene, [low, high]: [Vec3; 2]) {
         material: MaterialId(material),
         casts_no_shadow: false,
     });
+    Some(scene.surfaces.len() - 1)
 }
 
 /// A disc of radius 1 around the origin that faces +y; its alpha falls to 0 at its edge.

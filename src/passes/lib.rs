@@ -10,10 +10,11 @@ mod stage;
 mod studio;
 
 pub use framing::{Framing, Orbit};
+pub use lit::glowing;
 pub use overrides::Overrides;
 pub use settings::set;
 pub use stage::{
-    EnvironmentOverride, FillLight, IntegratorChoice, Stage, Staged, StudioChoice, Sun, View,
-    add_light, remove_lights,
+    EnvironmentOverride, FillLight, IntegratorChoice, SceneKind, Stage, Staged, StudioChoice, Sun,
+    View, add_light, remove_lights,
 };
 pub use studio::fill;

@@ -1,5 +1,6 @@
 //! Whether a scene brings light: a light, an environment, or surfaces that glow enough.
 
+use super::SceneKind;
 use glam::DAffine3;
 use rtc_color::srgb_decoded;
 use rtc_ir::{Image, Light, Material, Pixels, Scene, Shape, Surface, Texture};
@@ -11,14 +12,31 @@ use std::f64::consts::TAU;
 const FAINT: f64 = 0.05;
 
 /// Whether the scene brings light: a light, an environment (a dark one is meant so), or surfaces
-/// that glow enough.
+/// that glow; those of an asset only if they glow enough, those of a scene text are meant so.
 ///
 /// Surfaces of radiance L and area A inside a ball of radius R send about π·L·A over it, so a white
 /// surface in it would show about L·A/(4·π·R²). If that is less than [`FAINT`], they are labels,
 /// lamps on a dashboard or eyes: they light nothing, and the studio is wanted. Unlit materials
 /// light nothing at all.
-pub(super) fn is_lit(scene: &Scene) -> bool {
-    scene.environment.is_some() || scene.lights.iter().any(Light::shines) || glow(scene) >= FAINT
+pub(super) fn is_lit(scene: &Scene, kind: SceneKind) -> bool {
+    let glows = || match kind {
+        SceneKind::Text => glowing(scene).contains(&true),
+        SceneKind::Asset | SceneKind::BareAsset => glow(scene) >= FAINT,
+    };
+    scene.environment.is_some() || scene.lights.iter().any(Light::shines) || glows()
+}
+
+/// Of each surface, whether it glows.
+#[must_use]
+pub fn glowing(scene: &Scene) -> Vec<bool> {
+    let materials = scene.materials.iter();
+    let glows: Vec<bool> = materials
+        .map(|material| emission(scene, material) > 0.0)
+        .collect();
+    let surfaces = scene.surfaces.iter();
+    surfaces
+        .map(|surface| glows.get(surface.material.0 as usize) == Some(&true))
+        .collect()
 }
 
 /// What the surfaces that glow would make a white surface show, by the strongest channel.

@@ -32,6 +32,17 @@ pub struct Stage {
     pub ground: Option<bool>,
 }
 
+/// What a scene was read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SceneKind {
+    /// A text that says how it is seen and lit.
+    Text,
+    /// An asset with a camera.
+    Asset,
+    /// An asset without one.
+    BareAsset,
+}
+
 /// Whether a scene whose paths are traced stands in the studio.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StudioChoice {
@@ -115,13 +126,14 @@ pub struct Staged {
 const FAR: f64 = 1e4;
 
 impl Stage {
-    /// Puts view and light into a scene; a bare one is an asset without a camera of its own.
+    /// Puts view and light into a scene.
     ///
     /// # Errors
     /// If the view has no direction, or no upward one.
-    pub fn apply(&self, lowered: &mut Lowered, is_bare: bool) -> Result<Staged, BasisFault> {
+    pub fn apply(&self, lowered: &mut Lowered, kind: SceneKind) -> Result<Staged, BasisFault> {
         let Lowered { scene, origins } = lowered;
-        let framing = self
+        let is_bare = kind == SceneKind::BareAsset;
+        let mut framing = self
             .view
             .framing(&scene.camera, !is_bare || self.all_around);
         if let Some(framing) = &framing {
@@ -151,12 +163,15 @@ impl Stage {
         if !matches!(scene.settings.mode, Mode::Path(_)) {
             stand_lights(scene);
         }
-        let (is_dark, fill) = self.enter_studio(scene);
+        let (is_dark, fill) = self.enter_studio(scene, kind);
         let stands = (is_dark || self.studio == StudioChoice::On) && is_bare && !scene.is_unlit();
         if self.ground.unwrap_or(stands)
             && let Some(around) = framing::standing(scene)
         {
-            ground::lay(scene, around);
+            let ground = ground::lay(scene, around);
+            if let Some(framing) = &mut framing {
+                framing.ground = ground;
+            }
         }
         Ok(Staged {
             is_dark,
@@ -167,11 +182,11 @@ impl Stage {
 
     /// Puts a scene whose paths are traced into the studio, if it is to stand there; whether it was
     /// dark, and whether the studio is still to fill in.
-    fn enter_studio(&self, scene: &mut Scene) -> (bool, FillLight) {
+    fn enter_studio(&self, scene: &mut Scene, kind: SceneKind) -> (bool, FillLight) {
         if !matches!(scene.settings.mode, Mode::Path(_)) {
             return (false, FillLight::Never);
         }
-        let is_dark = self.studio == StudioChoice::Auto && !lit::is_lit(scene);
+        let is_dark = self.studio == StudioChoice::Auto && !lit::is_lit(scene, kind);
         if is_dark || self.studio == StudioChoice::On {
             studio::enter(scene, 1.0);
         }
@@ -197,6 +212,7 @@ impl View {
             orbit: self.orbit.unwrap_or_default(),
             yfov: self.yfov.or(own),
             size: Some(camera.size),
+            ground: None,
         })
     }
 

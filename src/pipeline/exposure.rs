@@ -8,7 +8,8 @@ use super::Renderer;
 use rtc_color::luminance;
 use rtc_ir::{Camera, Mode, Scene};
 use rtc_math::{exp, ln, pow};
-use rtc_render::{Background, Film, Job, OnPixel, Values};
+use rtc_passes::glowing;
+use rtc_render::{Aov, Background, Film, Job, OnPixel, Values};
 use rtc_valid::{Proof, revalidate};
 
 /// The small render: its sides in pixels, and the paths of each.
@@ -29,7 +30,8 @@ const SEEN: f64 = 0.01;
 pub struct OwnLight {
     /// The exposure that shows it, in whole thirds of a stop; 0 if its surfaces are dark.
     pub stops: f64,
-    /// The part of its surfaces that is seen then, of those in the picture, in [0, 1].
+    /// The part of its surfaces that is seen then, of those in the picture that don't glow themselves,
+    /// in [0, 1].
     pub seen: f64,
 }
 
@@ -52,12 +54,20 @@ impl Renderer {
             ..Job::default()
         };
         let film = self.render(&job, on_pixel);
+        let numbers = self.layers(&[Aov::Instance], &job, &|| true);
         self.change(own);
-        film.map(|film| {
-            let stops = if exposes { stops(&film) } else { 0.0 };
-            let seen = seen(&film, stops);
-            OwnLight { stops, seen }
-        })
+        let (film, numbers) = (film?, numbers?);
+        let stops = if exposes { stops(&film) } else { 0.0 };
+        let glowing = glowing(scene);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "surfaces are counted from 1"
+        )]
+        let glows = |number: &f32| glowing.get((*number as usize).wrapping_sub(1)) == Some(&true);
+        let glows: Vec<bool> = numbers.values.iter().map(glows).collect();
+        let seen = seen(&film, &glows, stops);
+        Some(OwnLight { stops, seen })
     }
 }
 
@@ -79,7 +89,7 @@ fn small(scene: &Scene, camera: &Camera) -> Proof {
 
 /// The exposure at which the surfaces of a film are neither too dark nor too bright.
 fn stops(film: &Film) -> f64 {
-    let shown = surfaces(film);
+    let shown = surfaces(film).map(|(_, pixel)| pixel);
     let is_lit = |pixel: &[f64; 3]| luminance(*pixel) > 0.0 && luminance(*pixel).is_finite();
     let lit: Vec<[f64; 3]> = shown.filter(is_lit).collect();
     let mut brightest: Vec<f64> = lit.iter().map(|[r, g, b]| r.max(*g).max(*b)).collect();
@@ -103,21 +113,30 @@ fn stops(film: &Film) -> f64 {
     (3.0 * stops).round() / 3.0
 }
 
-/// The part of the surfaces of a film that is seen at an exposure.
-fn seen(film: &Film, stops: f64) -> f64 {
+/// The part of the surfaces of a film that is seen at an exposure, of the pixels that don't glow; all
+/// if there are no others.
+fn seen(film: &Film, glows: &[bool], stops: f64) -> f64 {
     let least = SEEN * pow(2.0, -stops);
-    let (all, seen) = surfaces(film).fold((0_u32, 0_u32), |(all, seen), pixel| {
+    let lit = surfaces(film).filter(|(index, _)| glows.get(*index) != Some(&true));
+    let (all, seen) = lit.fold((0_u32, 0_u32), |(all, seen), (_, pixel)| {
         (all + 1, seen + u32::from(luminance(pixel) >= least))
     });
-    f64::from(seen) / f64::from(all.max(1))
+    if all == 0 {
+        1.0
+    } else {
+        f64::from(seen) / f64::from(all)
+    }
 }
 
-/// The pixels of a film that show a surface. What covers a pixel in part is as bright as if it covered
-/// it whole.
-fn surfaces(film: &Film) -> impl Iterator<Item = [f64; 3]> {
-    let pixels = film.image.pixels.iter().zip(&film.coverage);
-    let covered = pixels.filter(|(_, covered)| **covered > 0.0);
-    covered.map(|(pixel, covered)| pixel.map(|value| value / f64::from(*covered)))
+/// The pixels of a film that show a surface, by their indices. What covers a pixel in part is as bright
+/// as if it covered it whole.
+fn surfaces(film: &Film) -> impl Iterator<Item = (usize, [f64; 3])> {
+    let pixels = film.image.pixels.iter().zip(&film.coverage).enumerate();
+    let covered = pixels.filter(|(_, (_, covered))| **covered > 0.0);
+    covered.map(|(index, (pixel, covered))| {
+        let whole = pixel.map(|value| value / f64::from(*covered));
+        (index, whole)
+    })
 }
 
 #[cfg(test)]
@@ -184,9 +203,13 @@ mod tests {
             counts,
         };
         assert_eq!(
-            [0.0, 3.0, -2.0].map(|stops| seen(&film, stops)),
+            [0.0, 3.0, -2.0].map(|stops| seen(&film, &[], stops)),
             [0.25, 1.0, 0.0]
         );
+        // Of the ten bright ones five glow, and then all that are there.
+        let glows = |count: usize| (0..100).map(|index| index < count).collect::<Vec<_>>();
+        let seen = |count| seen(&film, &glows(count), 0.0);
+        assert_eq!([5, 40].map(seen), [1.0 / 7.0, 1.0]);
     }
 
     #[test]

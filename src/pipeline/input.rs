@@ -6,7 +6,7 @@ use rtc_diag::{Diagnostic, Sink, codes};
 use rtc_emit::{self as emit, TwinScene, gltf::GltfAsset};
 use rtc_front::{gltf, mesh, pixels};
 use rtc_ir::{Field, Light, Lowered, Noun, Place, Scene};
-use rtc_passes::{EnvironmentOverride, FillLight, Framing, Stage};
+use rtc_passes::{EnvironmentOverride, FillLight, Framing, SceneKind, Stage};
 use rtc_source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
 use rtc_valid::Proof;
 use std::io::Read;
@@ -225,9 +225,13 @@ impl Input {
         let camera = lowered
             .origins
             .span(Place::new(Noun::Camera, 0, Field::Whole));
-        let is_bare = is_asset && camera.is_none();
+        let kind = match (is_asset, camera) {
+            (false, _) => SceneKind::Text,
+            (true, Some(_)) => SceneKind::Asset,
+            (true, None) => SceneKind::BareAsset,
+        };
         provenance.is_lit_asset &= !wanted.without_lights;
-        if let Some(staged) = stage(lowered, wanted, is_bare, &mut self.sink) {
+        if let Some(staged) = stage(lowered, wanted, kind, &mut self.sink) {
             // A scene that says how it is lit is shown as it says.
             let is_meant = staged.fill == FillLight::IfDim && !is_asset;
             provenance.fill = if is_meant {

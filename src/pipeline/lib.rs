@@ -42,7 +42,7 @@ use rtc_front::{course, gltf, mesh};
 use rtc_image::Layers;
 use rtc_ir::{Field, Lowered, Noun, Origins, Place, Scene};
 use rtc_math::BasisFault;
-use rtc_passes::{Stage, Staged};
+use rtc_passes::{SceneKind, Stage, Staged};
 use rtc_plan::{self as plan, Plan};
 use rtc_render::{
     self as render, AnyWorld, Aov, Film, FilmError, Job, Mismatch, OnPixel, PartialFilm, SimdLevel,
@@ -145,15 +145,15 @@ fn refuse_choices(options: &front::FrontOptions, has_assets: bool, sink: &mut Si
     }
 }
 
-/// Puts view and light into a scene that was read, and what has no light into the studio; a bare one
-/// is an asset without a camera of its own. `None` if that is not possible; the sink says why.
+/// Puts view and light into a scene that was read, and what has no light into the studio. `None` if
+/// that is not possible; the sink says why.
 pub fn stage(
     lowered: &mut Lowered,
     stage: &Stage,
-    is_bare: bool,
+    kind: SceneKind,
     sink: &mut Sink,
 ) -> Option<Staged> {
-    let mismatch = match stage.apply(lowered, is_bare) {
+    let mismatch = match stage.apply(lowered, kind) {
         Ok(staged) => {
             if staged.is_dark {
                 let note = Diagnostic::new(

@@ -9,6 +9,8 @@ use rtc_valid::revalidate;
 
 /// The light of a scene shows most of it if that part of its surfaces is seen.
 const MOST: f64 = 0.5;
+/// What glows was hardly made to light the rest, so without lights all but that is to be seen.
+const ALL: f64 = 0.95;
 
 /// The view by which the light of all pictures is found.
 pub(super) struct FirstView {
@@ -52,7 +54,8 @@ impl PictureSetup {
             renderer.own_light(&proven.lowered.scene, &first.camera, exposes, &on_pixel)
         });
         let OwnLight { stops, seen } = light.ok_or(RenderError::Stopped)?;
-        if fill == FillLight::Always || (fill == FillLight::IfDim && seen < MOST) {
+        let least = if is_lit_asset { MOST } else { ALL };
+        if fill == FillLight::Always || (fill == FillLight::IfDim && seen < least) {
             passes::fill(&mut proven.lowered.scene, stops);
             proven.scene = revalidate(&proven.lowered.scene);
             subject.renderer = None;

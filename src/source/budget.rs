@@ -10,8 +10,10 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 /// What a run takes of the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resource {
-    /// Bytes of what files become: pixels, vertices, data decompressed, parts of the IR.
+    /// Bytes of what files become, textures aside.
     Memory,
+    /// Bytes of textures, as large as their files say that they are.
+    Textures,
     /// Pixels of all images decoded, and of the picture.
     Pixels,
     /// Vertices made, each as often as it is made: for every primitive, morph target and pose.
@@ -33,10 +35,14 @@ struct Row {
     base: u64,
     /// How much the limit grows for every KiB read.
     per_kib: u64,
+    /// How much it grows for every KiB before that, and until which limit.
+    first: (u64, u64),
     text: &'static str,
 }
 
 const MIB: u64 = 1 << 20;
+/// A limit that grows alike for all that is read.
+const NONE: (u64, u64) = (0, 0);
 
 /// The limits by default, in the order of [`Resource`].
 const TABLE: [Row; COUNT] = [
@@ -45,13 +51,24 @@ const TABLE: [Row; COUNT] = [
         name: "memory",
         base: 192 * MIB,
         per_kib: 32 << 10,
-        text: "bytes of what files become: pixels, vertices, data decompressed, parts of the IR",
+        first: NONE,
+        text: "bytes of what files become: vertices, data decompressed, parts of the IR, the picture of an environment",
+    },
+    // Ordinary pictures take a byte for some hundred pixels at most, and many of them 2 GiB in all.
+    Row {
+        resource: Resource::Textures,
+        name: "textures",
+        base: 192 * MIB,
+        per_kib: 32 << 10,
+        first: (MIB, 2048 * MIB),
+        text: "bytes of textures, as large as their files say that they are",
     },
     Row {
         resource: Resource::Pixels,
         name: "pixels",
         base: 1 << 28,
         per_kib: 0,
+        first: NONE,
         text: "pixels of all images decoded, and of the picture",
     },
     Row {
@@ -59,6 +76,7 @@ const TABLE: [Row; COUNT] = [
         name: "vertices",
         base: 1 << 24,
         per_kib: 1 << 10,
+        first: NONE,
         text: "vertices made, each as often as it is made: for every primitive, morph target and pose",
     },
     Row {
@@ -66,6 +84,7 @@ const TABLE: [Row; COUNT] = [
         name: "surfaces",
         base: 1 << 20,
         per_kib: 1 << 6,
+        first: NONE,
         text: "surfaces placed: primitives times the instances of each",
     },
     Row {
@@ -73,6 +92,7 @@ const TABLE: [Row; COUNT] = [
         name: "nodes",
         base: 1 << 21,
         per_kib: 1 << 10,
+        first: NONE,
         text: "values in the texts of scenes and assets, those behind aliases each time",
     },
     Row {
@@ -80,6 +100,7 @@ const TABLE: [Row; COUNT] = [
         name: "findings",
         base: 10_000,
         per_kib: 0,
+        first: NONE,
         text: "findings kept; further ones are counted",
     },
     Row {
@@ -87,11 +108,12 @@ const TABLE: [Row; COUNT] = [
         name: "rays",
         base: 1 << 32,
         per_kib: 0,
+        first: NONE,
         text: "rays of a picture",
     },
 ];
 
-const COUNT: usize = 7;
+const COUNT: usize = 8;
 
 impl Resource {
     /// All of them, in the order of the table.
@@ -140,11 +162,20 @@ impl Limits {
     /// The limit on a resource of a run that has read so many bytes.
     #[must_use]
     pub fn of(&self, resource: Resource, read: u64) -> u64 {
-        let Row { base, per_kib, .. } = resource.row();
-        let grown = u128::from(read) * u128::from(*per_kib) / 1024 + u128::from(*base);
+        let Row {
+            base,
+            per_kib,
+            first: (first, until),
+            ..
+        } = resource.row();
+        let grown = |per_kib: u64| u128::from(read) * u128::from(per_kib) / 1024;
+        let base = u128::from(*base);
+        let begun = (base + grown(*first)).min(base.max(u128::from(*until)));
         let most = self.most[resource as usize].unwrap_or(u64::MAX);
-        let grown = u64::try_from(grown).unwrap_or(u64::MAX).min(most);
-        self.asked[resource as usize].unwrap_or(grown)
+        let all = u64::try_from(begun + grown(*per_kib))
+            .unwrap_or(u64::MAX)
+            .min(most);
+        self.asked[resource as usize].unwrap_or(all)
     }
 }
 
@@ -167,11 +198,12 @@ impl fmt::Display for Exceeded {
             limit,
         } = *self;
         match resource {
-            Resource::Memory => {
+            Resource::Memory | Resource::Textures => {
                 write!(
                     f,
-                    "it would take {} of memory, and the limit is {}",
+                    "it would take {} of {}, and the limit is {}",
                     Size(total),
+                    resource.name(),
                     Size(limit)
                 )
             }
@@ -295,7 +327,7 @@ together, and what is used often is charged once if it is made once. `--limit NA
 and `GiB` may follow the number), `--allow-huge` lifts all of them.
 
 | name | limit | and for every KiB read | of what |
-| --- | ---: | ---: | --- |
+| --- | ---: | --- | --- |
 "
     .to_owned();
     for Row {
@@ -303,13 +335,14 @@ and `GiB` may follow the number), `--allow-huge` lifts all of them.
         name,
         base,
         per_kib,
+        first: (first, until),
         text,
     } in TABLE
     {
-        let more = if per_kib == 0 {
-            String::new()
-        } else {
-            per_kib.to_string()
+        let more = match (per_kib, first) {
+            (0, _) => String::new(),
+            (_, 0) => per_kib.to_string(),
+            _ => format!("{per_kib}, and {first} up to {until}"),
         };
         // Writing to a string does not fail.
         let _ = writeln!(page, "| `{name}` | {base} | {more} | {text} |");
@@ -362,6 +395,15 @@ mod tests {
         assert_eq!(limits.of(Resource::Nodes, 1 << 30), 5);
         limits.set(Resource::Nodes, 9);
         assert_eq!(limits.of(Resource::Nodes, 0), 9);
+    }
+
+    #[test]
+    fn textures_may_take_two_gib_if_their_files_are_no_smaller_than_such_files_are() {
+        let limit = |read| Limits::default().of(Resource::Textures, read);
+        assert_eq!(limit(1024), 193 * MIB + (32 << 10));
+        // Eight JPEGs of 4096 × 4096 in 4.7 MB.
+        assert!(limit(4_700_000) >= 2048 * MIB);
+        assert_eq!(limit(1 << 30), 2048 * MIB + (32 << 30));
     }
 
     #[test]

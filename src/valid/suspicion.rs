@@ -17,6 +17,7 @@ pub(super) fn suspicions(scene: &ir::Scene, check: &mut Check<'_>) {
     shadows_of_paths(scene, check);
     tiny_picture(scene, check);
     inside::eye(scene, check);
+    lost_parts(scene, check);
     for (index, material) in scene.materials.iter().enumerate() {
         let Some(phong) = material.phong() else {
             continue;
@@ -174,4 +175,58 @@ fn shadows_of_paths(scene: &ir::Scene, check: &mut Check<'_>) {
             finding,
         );
     }
+}
+
+/// Warns of what the integrator does not show of materials.
+fn lost_parts(scene: &ir::Scene, check: &mut Check<'_>) {
+    let is_traced = matches!(scene.settings.mode, ir::Mode::Path(_));
+    if !is_traced && !matches!(scene.settings.mode, ir::Mode::Phong | ir::Mode::Gooch(_)) {
+        return;
+    }
+    let mut is_used = vec![false; scene.materials.len()];
+    for surface in &scene.surfaces {
+        if let Some(is_used) = is_used.get_mut(surface.material.0 as usize) {
+            *is_used = true;
+        }
+    }
+    for (index, material) in scene.materials.iter().enumerate() {
+        let (message, hint) = match material {
+            _ if !is_used[index] => continue,
+            ir::Material::Phong(phong) if is_traced && has_hidden_maps(phong) => (
+                "paths don't show the height field of a material, nor a map of its `ks`",
+                "a `normalMap` shows in both",
+            ),
+            ir::Material::Standard(standard) if !is_traced && is_more_than_phong(standard) => (
+                "of a `standard` material the colour shows and how rough it is, no more",
+                "traced paths show all of it: `RenderMode: path`, or `--integrator path`",
+            ),
+            ir::Material::Phong(_) | ir::Material::Standard(_) => continue,
+        };
+        let finding = Diagnostic::new(&codes::LOST_PARTS, message).hint(hint);
+        let label = "it says more than is shown";
+        check.report(place(Noun::Material, index, Field::Whole), label, finding);
+    }
+}
+
+/// Whether a material of Phong's model has maps that its twin along paths has no place for.
+fn has_hidden_maps(phong: &ir::Phong) -> bool {
+    let bends = phong.bump.is_some() && phong.normal_map.is_none();
+    bends || (phong.specular_map.is_some() && phong.ks > 0.0)
+}
+
+/// Whether a material of glTF says more than Phong's model takes of it.
+fn is_more_than_phong(standard: &ir::Standard) -> bool {
+    let layers = [
+        standard.transmission,
+        standard.clearcoat,
+        standard.iridescence,
+        standard.anisotropy,
+        standard.diffuse_transmission,
+    ];
+    let colors = [standard.emissive, standard.sheen_color];
+    standard.maps().next().is_some()
+        || layers.iter().any(|weight| *weight > 0.0)
+        || colors.iter().flatten().any(|channel| *channel > 0.0)
+        || standard.alpha != ir::Alpha::Opaque
+        || standard.unlit
 }

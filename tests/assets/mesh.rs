@@ -24,7 +24,7 @@ fn list<const N: usize>(column: &Column<N>) -> Vec<[f64; N]> {
 #[test]
 fn obj_files_become_triangles() {
     let text = "# caf\u{e9}\no cube\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 1\nv 1 1 0 0.5 0.5 0.5\ng half\nv 0 0.1 0\nusemtl red\n\
-                f 1 2 \\\n 3 -1\ns 1\ng other\nf -4 -2 -1\n";
+                f 1 2 \\\n 3 -1\ns off\ng other\nf -4 -2 -1\n";
     let latin1: Vec<u8> = text.chars().map(|c| c as u8).collect();
     for bytes in [
         text.as_bytes(),
@@ -34,7 +34,9 @@ fn obj_files_become_triangles() {
         let Outcome {
             lowered, findings, ..
         } = mesh(bytes);
-        assert_eq!(findings, "");
+        let traced =
+            "RE007 warning scene.yaml:1:3 the colours of its vertices show in traced paths alone\n";
+        assert_eq!(findings, traced);
         let mesh = &lowered.scene.meshes[0];
         assert_eq!(
             list(&mesh.positions),
@@ -104,13 +106,13 @@ fn off_files_become_triangles() {
         let Outcome {
             lowered, findings, ..
         } = mesh(&text);
-        assert_eq!(findings, "", "{text}");
+        assert!(findings.contains("colours"), "{text}");
         let mesh = &lowered.scene.meshes[0];
-        assert_eq!(*mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 2, 3]]);
-        assert_eq!(
-            (mesh.positions.at(2), mesh.positions.len()),
-            ([1.0, 1.0, 0.0], 4)
-        );
+        let corners = mesh.triangles.iter().flatten();
+        let corners: Vec<_> = corners.map(|at| mesh.positions.at(*at as usize)).collect();
+        let expected = [0, 1, 2, 0, 2, 3, 0, 2, 3]
+            .map(|at| [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]][at]);
+        assert_eq!(corners, expected);
     }
     let normals = mesh("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 1 0 0\n3 0 1 2\n")
         .lowered
@@ -184,7 +186,10 @@ fn faults_of_obj_files_have_their_place_there() {
             format!("{corners}f a b c\n"),
             "m.obj:4:3 `a` is not a whole number",
         ),
-        (corners.to_owned(), "m.obj:1:1 the mesh has no faces"),
+        (
+            "o nothing\nv 0 0 0\nf 1 1\n".to_owned(),
+            "m.obj:3:1 faces need three corners",
+        ),
     ]);
 }
 
@@ -232,7 +237,7 @@ fn nothing_is_told_from_a_file_that_is_no_mesh() {
             "{findings}"
         );
         assert!(
-            findings.ends_with("/inner/m.obj` is no OBJ, OFF, STL or PLY\n")
+            findings.ends_with("/inner/m.obj` is no OBJ, OFF, STL, PLY or XYZ\n")
                 && !findings.contains("secret"),
             "{findings}"
         );
@@ -246,8 +251,8 @@ fn nothing_is_told_from_a_file_that_is_no_mesh() {
 
 #[test]
 fn what_does_not_show_is_told() {
-    let outcome = mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2\nf 1 2 3\n");
-    let expected = "RE007 warning m.obj:4:1 2 elements of this file don't show: lines and points have no surface\n";
+    let outcome = mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\ncurv 0 1 1 2\nf 1 2\nf 1 2 3\n");
+    let expected = "RE007 warning m.obj:4:1 2 elements of this file don't show: free-form curves and surfaces are not supported\n";
     assert_eq!(
         (
             outcome.findings.as_str(),

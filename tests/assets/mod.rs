@@ -7,10 +7,12 @@
     reason = "a test stops at the first surprise and makes the files it reads"
 )]
 mod climbing;
+mod elements;
 mod forms;
 mod mesh;
 mod mtl;
 mod names;
+mod oracle;
 mod outside;
 mod picture;
 mod search;

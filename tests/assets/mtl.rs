@@ -5,8 +5,10 @@ use super::{folder, write};
 use proptest::prelude::*;
 use rtc::internals::diag::Sink;
 use rtc::internals::emit::course::emit;
-use rtc::internals::front::mesh::mtl;
-use rtc::internals::ir::{Instance, Lowered, Phong, Scene, Shape};
+use rtc::internals::front::mesh::mtl::{self, MtlMap};
+use rtc::internals::ir::{
+    Alpha, Instance, Lowered, Map, Material, Phong, Scene, Shape, Standard, Texture,
+};
 use rtc::internals::pipeline::{Options, load};
 use rtc::internals::source::{Budget, Loader, SourceMap};
 use std::path::Path;
@@ -167,42 +169,218 @@ fn statements_become_the_words_of_the_course() {
 }
 
 #[test]
-fn options_of_maps_are_passed_over_and_told_if_they_count() {
-    let file = |options: &str| {
+fn options_of_maps_are_read_or_told_if_they_count() {
+    let read = |options: &str| {
         let text = format!("newmtl a\nmap_Kd {options} a b.png\n");
         let library = mtl::parse(text.as_bytes(), &Budget::default()).unwrap();
         let map = library.materials["a"].color_map.clone().unwrap();
         let told = library.not_shown.map(|(first, _)| first.message);
         (map.value, told.unwrap_or_default())
     };
-    for plain in [
+    let plain = MtlMap::of("a b.png".to_owned());
+    for options in [
         "",
         "-s 1 1.0 1 -o 0 0",
         "-clamp off -bm 1.000",
         "-blendu on -mm 0 1",
     ] {
-        assert_eq!(
-            file(plain),
-            ("a b.png".to_owned(), String::new()),
-            "{plain}"
+        assert_eq!(read(options), (plain.clone(), String::new()), "{options}");
+    }
+    let (map, told) = read("-s 2 3 -o 0.25 -clamp on -bm 0.3");
+    assert_eq!((map.scale, map.offset), ([2.0, 3.0], [0.25, 0.0]));
+    assert!(map.clamps && map.height == 0.3 && map.placed.is_some() && told.is_empty());
+    let (map, told) = read("-mm 0 2 -t 1");
+    assert_eq!(
+        (map, told.as_str()),
+        (plain, "the option `-mm` is not read")
+    );
+}
+
+/// What an OBJ by itself, whose paths are traced, and one in a scene of Phong's model say of a material.
+fn in_both(statements: &str) -> [(Material, String); 2] {
+    let folder = folder();
+    let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";
+    write(&folder, "inner/m.obj", obj);
+    write(&folder, "inner/m.mtl", format!("newmtl a\n{statements}\n"));
+    write(&folder, "inner/map.png", super::png([200, 100, 50]));
+    let inner = folder.path().join("inner");
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = Loader.file(&inner.join("m.obj"), &mut map).unwrap();
+    let alone = load(file, &mut map, &Options::default(), &mut sink).unwrap();
+    let told = sink
+        .kept()
+        .iter()
+        .map(|finding| format!("{} {}\n", finding.code, finding.message));
+    let alone = (alone.scene, told.collect::<String>());
+    let in_scene = read(&inner, "- {type: mesh, file: m.obj}\n");
+    [alone, (in_scene.0.scene, in_scene.1)].map(|(scene, told)| {
+        let material = scene.surfaces[0].material.0 as usize;
+        (scene.materials[material].clone(), told)
+    })
+}
+
+/// Every statement of a material changes it or is told, whichever integrator shows it.
+#[test]
+fn no_statement_is_lost_in_silence() {
+    let statements = [
+        "Kd .1 .2 .3",
+        "Ks .4 .4 .4",
+        "Ns 77",
+        "Ks .4 .4 .4\nNs 77\nNi 1.7\nillum 7\nd .5",
+        "Ke 5 3 1",
+        "Tf .1 .2 .3",
+        "illum 7\nTf .1 .2 .3",
+        "d .5",
+        "Tr .5",
+        "d 0",
+        "Tr 1",
+        "illum 4",
+        "Pr .3",
+        "Pm .3",
+        "Ps .3",
+        "Pc .3",
+        "Pc .3\nPcr .2",
+        "aniso .3",
+        "aniso .3\nanisor .3",
+        "map_Kd map.png",
+        "Ks 1 1 1\nmap_Ks map.png",
+        "norm map.png",
+        "map_Bump map.png",
+        "bump -bm 3 map.png",
+        "map_d map.png",
+        "map_Ke map.png",
+        "map_Pr map.png",
+        "map_Pm map.png",
+        "map_Ns map.png",
+        "disp map.png",
+        "decal map.png",
+        "refl map.png",
+        "map_Kd -s 2 2 map.png",
+        "map_Kd -o .5 map.png",
+        "map_Kd -clamp on map.png",
+        "map_Kd -mm .1 .9 map.png",
+    ];
+    let none = in_both("");
+    for statement in statements {
+        // The last line alone is asked of; what stands before it is what it needs.
+        let before = statement.rsplit_once('\n').map_or("", |(before, _)| before);
+        for (index, (with, told)) in in_both(statement).into_iter().enumerate() {
+            let (without, silent) = match before {
+                "" => none[index].clone(),
+                _ => in_both(before)[index].clone(),
+            };
+            assert!(
+                with != without || told != silent,
+                "{statement} ({index}): {told}"
+            );
+        }
+    }
+}
+
+#[test]
+fn statements_become_parts_of_the_material_of_gltf() {
+    let standard = |statements: &str| match in_both(statements) {
+        [(Material::Standard(standard), told), _] => (*standard, told),
+        [(Material::Phong(_), _), _] => panic!("paths are traced"),
+    };
+    let (glow, told) = standard("Kd 0 0 0\nKe 5 3 1\nPr .3\nPm .7\nPc .2\nPcr .1");
+    assert_eq!((glow.emissive, told.as_str()), ([5.0, 3.0, 1.0], ""));
+    assert_eq!((glow.roughness, glow.metallic), (0.3, 0.7));
+    assert_eq!((glow.clearcoat, glow.clearcoat_roughness), (0.2, 0.1));
+    let (veil, _) = standard("Kd 1 0 0\nd .25");
+    assert_eq!(
+        (veil.base_color, veil.alpha),
+        ([1.0, 0.0, 0.0, 0.25], Alpha::Blend)
+    );
+    let (opaque, told) = standard("Kd 1 0 0\nTr 1");
+    assert_eq!(
+        (opaque.base_color, opaque.alpha),
+        ([1.0, 0.0, 0.0, 1.0], Alpha::Opaque)
+    );
+    assert_eq!(told, "SC013 `Tr 1` is read as opaque\n");
+    let (clear, told) = standard("Kd 1 0 0\nd 0");
+    assert_eq!(clear.base_color[3], 0.0);
+    assert!(
+        told.contains("nothing is seen of a material of this opacity"),
+        "{told}"
+    );
+    let (glass, _) = standard("Kd 0 0 0\nillum 4\nNi 1.4\nTf .9 1 .9");
+    assert_eq!(
+        (glass.transmission, glass.thickness, glass.ior),
+        (1.0, 1.0, 1.4)
+    );
+    assert_eq!(
+        (glass.base_color, glass.roughness),
+        ([0.9, 1.0, 0.9, 1.0], 0.0)
+    );
+    let (bent, told) = standard("norm map.png");
+    assert!(bent.normal_map.is_some() && told.is_empty(), "{told}");
+    let (placed, _) = standard("map_Kd -s 2 3 -o .25 .5 map.png");
+    let map = placed.base_color_map.unwrap();
+    assert_eq!(
+        map.texture_from_surface,
+        Some([[2.0, 0.0, 0.25], [0.0, -3.0, 0.5]])
+    );
+}
+
+#[test]
+fn maps_of_several_pictures_are_baked() {
+    let scene = |statements: &str| {
+        let folder = folder();
+        write(&folder, "inner/m.obj", OBJ);
+        write(
+            &folder,
+            "inner/m.mtl",
+            format!("newmtl a\n{statements}\nnewmtl b\n"),
         );
-    }
-    for (counts, option) in [
-        ("-s 2 2", "-s"),
-        ("-clamp on", "-clamp"),
-        ("-o 0 0 0 -bm 0.3", "-bm"),
-    ] {
-        let told = format!("the option `{option}` is not read");
-        assert_eq!(file(counts), ("a b.png".to_owned(), told));
-    }
+        let inner = folder.path().join("inner");
+        for (name, color) in [
+            ("c.png", [10, 20, 30]),
+            ("m.png", [99; 3]),
+            ("n.png", [60; 3]),
+        ] {
+            write(&folder, &format!("inner/{name}"), super::png(color));
+        }
+        let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+        let file = Loader.file(&inner.join("m.obj"), &mut map).unwrap();
+        load(file, &mut map, &Options::default(), &mut sink)
+            .unwrap()
+            .scene
+    };
+    let pixels = |scene: &Scene, of: fn(&Standard) -> &Option<Map>| {
+        let standards = scene
+            .materials
+            .iter()
+            .filter_map(|material| match material {
+                Material::Standard(standard) => of(standard).as_ref(),
+                Material::Phong(_) => None,
+            });
+        let map = standards.collect::<Vec<_>>().pop().unwrap();
+        let Texture::Sampled(sampled) = &scene.textures[map.texture.0 as usize] else {
+            panic!("it is laid as glTF lays it");
+        };
+        let image = &scene.images[sampled.image.0 as usize];
+        image.pixels[..image.kind.bytes()].to_vec()
+    };
+    let veiled = scene("map_Kd c.png\nmap_d m.png");
+    assert_eq!(pixels(&veiled, |own| &own.base_color_map), [10, 20, 30, 99]);
+    let metal = scene("map_Pr m.png\nmap_Pm n.png");
+    assert_eq!(
+        pixels(&metal, |own| &own.metallic_roughness_map),
+        [255, 99, 60]
+    );
+    // A height field without slopes.
+    let even = scene("map_Bump m.png");
+    assert_eq!(pixels(&even, |own| &own.normal_map), [128, 128, 255]);
 }
 
 /// Lines of statements, most of them nearly right.
 fn statements() -> impl Strategy<Value = String> {
     let word = prop::sample::select(vec![
         "newmtl", "Kd", "ka", "KS", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "bump", "-bm", "-s",
-        "-clamp", "-o", "on", "1", "0.5", "-3", "1e400", "nan", "xyz", "spectral", "-halo", "\\\n",
-        "\n", "\n", "#", "é", "\0", "a.png", "map_Ka", "Ke",
+        "-clamp", "-o", "on", "Pr", "Tf", "map_d", "map_Pr", "norm", "1", "0.5", "-3", "1e400",
+        "nan", "xyz", "spectral", "-halo", "\\\n", "\n", "\n", "#", "é", "\0", "a.png", "map_Ka",
+        "Ke",
     ]);
     prop::collection::vec(word, 0..80).prop_map(|words| words.join(" "))
 }

@@ -112,3 +112,70 @@ fn an_asset_in_the_studio_casts_its_shadow_on_a_ground() {
         assert_eq!(picture(args), off, "{args:?}");
     }
 }
+
+/// The mean of all channels of the picture of a scene text, and what is said of it.
+fn lit(text: &str) -> (f64, String) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("scene.yaml"), text).unwrap();
+    let output = rtc(
+        &folder,
+        &["render", "scene.yaml", "-v", "-o", "x.png", "--spp", "64"],
+    );
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let picture = image::open(folder.path().join("x.png")).unwrap().to_rgb8();
+    let sum: f64 = picture.as_raw().iter().map(|value| f64::from(*value)).sum();
+    (sum / picture.as_raw().len() as f64, stderr(&output))
+}
+
+#[test]
+fn a_scene_text_that_glows_is_lit_by_that_alone() {
+    let text = |shape: &str, radiance: f64| {
+        format!(
+            "Camera: {{eye: [0, 0, 8], center: [0, 0, 0], up: [0, 0.275, 0], viewSize: [16, 16]}}\nRenderMode: path\n\
+             MaxRecursionDepth: 3\nObjects:\n- {{type: quad, position: [-2, -2, -2], up: [0, 0, 4], side: [4, 0, 0], material: \
+             {{type: standard, baseColor: [.8, .8, .8, 1], metallic: 0, doubleSided: true}}}}\n- {{{shape}, material: \
+             {{type: standard, baseColor: [0, 0, 0, 1], emissive: [{radiance}, {radiance}, {radiance}], doubleSided: true}}}}\n"
+        )
+    };
+    let shapes = [
+        "type: sphere, position: [0, 0, 0], radius: .1",
+        "type: quad, position: [-.1, 1, -.1], up: [0, 0, .2], side: [.2, 0, 0]",
+        "type: sphere, position: [0, 9, 0], radius: .5",
+    ];
+    for shape in shapes {
+        let pictures = [8.0, 1.0, 0.01].map(|radiance| lit(&text(shape, radiance)));
+        assert!(
+            pictures.iter().all(|(_, told)| !told.contains("studio")),
+            "{shape}: {pictures:?}"
+        );
+        let means = pictures.map(|(mean, _)| mean);
+        assert!(
+            means[0] > means[1] && means[1] >= means[2],
+            "{shape}: {means:?}"
+        );
+    }
+    // What does not glow stands in the studio still.
+    assert!(lit(&text(shapes[0], 0.0)).1.contains("studio"));
+}
+
+#[test]
+fn the_studio_lights_what_a_glowing_part_of_an_asset_does_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let asset = include_bytes!("models/emissive-switches-studio-off.glb");
+    fs::write(folder.path().join("x.glb"), asset).unwrap();
+    let args = [
+        "render", "x.glb", "-o", "x.png", "--spp", "16", "--size", "48x48",
+    ];
+    let output = rtc(&folder, &args);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("filled in by the studio"),
+        "{}",
+        stderr(&output)
+    );
+    let picture = image::open(folder.path().join("x.png")).unwrap().to_rgb8();
+    let dark = picture
+        .pixels()
+        .filter(|pixel| pixel.0.iter().all(|value| *value <= 8));
+    assert_eq!(dark.count(), 0);
+}

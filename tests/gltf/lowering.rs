@@ -112,11 +112,19 @@ fn what_is_asked_for_and_not_there_is_an_error_with_its_code() {
 #[test]
 fn mended_assets_show_the_triangle_that_was_meant() {
     let cases = [
+        "GL001/json-lenient.glb",
         "GL002/unaligned-lenient.glb",
         "GL002/padded-lenient.glb",
+        "GL004/bom-lenient.gltf",
+        "GL005/same-lenient.gltf",
         "GL009/arrays-lenient.gltf",
         "GL010/stride-lenient.gltf",
         "GL012/channels-lenient.gltf",
+        "GL013/offset-lenient.gltf",
+        "GL019/undeclared-lenient.gltf",
+        "GL021/media-lenient.gltf",
+        "GL021/space-lenient.gltf",
+        "GL025/target-lenient.gltf",
         "GL026/unaligned-lenient.gltf",
         "GL028/unused-lenient.gltf",
         "GL031/no-bounds-lenient.gltf",
@@ -348,4 +356,41 @@ fn a_camera_that_is_not_there_sees_all_of_it() {
         eye.x > ball.center.x && eye.y > ball.center.y && eye.z > ball.center.z,
         "a three-quarter view"
     );
+}
+
+#[test]
+fn instances_are_as_many_as_any_attribute_has() {
+    let asset = include_bytes!("../cli/models/instancing-id-only-vanishes.glb");
+    let scene = lower(asset.to_vec(), front::FrontOptions::default());
+    assert_eq!((scene.meshes.len(), scene.surfaces.len()), (1, 3));
+}
+
+#[test]
+fn points_that_differ_in_where_they_are_alone_are_made_once() {
+    let text = r#"{
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [{"mesh": 0}, {"mesh": 1, "translation": [5, 0, 0]}, {"mesh": 0, "scale": [2, 2, 2]}],
+        "meshes": [
+            {"primitives": [{"attributes": {"POSITION": 0}, "mode": 0}]},
+            {"primitives": [{"attributes": {"POSITION": 0}, "mode": 0, "material": 0}]}
+        ],
+        "materials": [{}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3, "min": [0, 0, 0], "max": [1, 1, 0]}
+        ],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [
+            {"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}
+        ]
+    }"#;
+    let scene = lower(text.as_bytes().to_vec(), front::FrontOptions::default());
+    let of = |surface: &rtc::internals::ir::Surface| {
+        let Shape::Instance(instance) = &surface.shape else {
+            panic!("points are meshes");
+        };
+        (instance.mesh.0, instance.world_from_object[3])
+    };
+    let shown: Vec<_> = scene.surfaces.iter().map(of).collect();
+    assert_eq!(shown, [(0, [0.0; 3]), (0, [5.0, 0.0, 0.0]), (1, [0.0; 3])]);
 }

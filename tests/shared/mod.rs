@@ -16,6 +16,7 @@ mod figures;
 mod gltf;
 mod laws;
 mod looks;
+mod objs;
 mod oracle;
 mod paths;
 mod pictures;
@@ -38,6 +39,7 @@ pub(crate) fn trials() -> Vec<Trial> {
         gltf::trials(),
         laws::trials(),
         looks::trials(),
+        objs::trials(),
         paths::trials(),
         pictures::trials(),
         plain::trials(),

@@ -6,7 +6,7 @@ use crate::texts::assert_comes_back;
 use libtest_mimic::Trial;
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Field, Noun, Place};
-use rtc::internals::passes::Stage;
+use rtc::internals::passes::{SceneKind, Stage};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{Loader, SourceMap};
 use std::path::Path;
@@ -20,7 +20,10 @@ fn comes_back(path: &Path) {
     let file = Loader.file(path, &mut map).unwrap();
     let mut lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink).unwrap();
     let camera = Place::new(Noun::Camera, 0, Field::Whole);
-    let is_bare = lowered.origins.span(camera).is_none();
-    pipeline::stage(&mut lowered, &Stage::default(), is_bare, &mut sink).unwrap();
+    let kind = match lowered.origins.span(camera) {
+        Some(_) => SceneKind::Asset,
+        None => SceneKind::BareAsset,
+    };
+    pipeline::stage(&mut lowered, &Stage::default(), kind, &mut sink).unwrap();
     assert_comes_back(&lowered.scene);
 }

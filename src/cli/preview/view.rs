@@ -4,7 +4,7 @@
 use crate::parse;
 use rtc_ir::{Camera, Field, Lowered, Noun, Place};
 use rtc_math::{Vec3, shortest, unit};
-use rtc_passes::{Stage, StudioChoice, View};
+use rtc_passes::{SceneKind, Stage, StudioChoice, View};
 use rtc_pipeline::{Input, Options};
 use rtc_source::{SourceMap, Span};
 use serde::Deserialize;
@@ -100,7 +100,7 @@ impl Gaze {
             ground: Some(false),
             ..Stage::default()
         };
-        stage.apply(lowered, false).is_ok()
+        stage.apply(lowered, SceneKind::Text).is_ok()
     }
 }
 

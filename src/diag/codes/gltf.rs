@@ -3,7 +3,8 @@
 super::codes! { GL:
     GLB_HEADER = "GL001", Error, "the header of a .glb file is not sound",
         "A .glb file starts with twelve bytes: the letters glTF, the version 2 and the length of the whole file. The \
-         file is no .glb, or a copy or download was cut off. Export or copy it again.",
+         file is no .glb, or a copy or download was cut off. Export or copy it again. With `--lenient` the JSON of a .gltf \
+         that is named .glb is read, with a warning.",
         ["GLB_INVALID_MAGIC", "GLB_INVALID_VERSION", "GLB_UNEXPECTED_END_OF_HEADER", "GLB_LENGTH_TOO_SMALL",
          "GLB_LENGTH_MISMATCH"];
     GLB_CHUNK = "GL002", Error, "the chunks of a .glb file are not sound",
@@ -19,10 +20,11 @@ super::codes! { GL:
         ["GLB_UNKNOWN_CHUNK_TYPE", "GLB_EXTRA_DATA", "BUFFER_GLB_CHUNK_TOO_BIG", "DATA_URI_GLB"];
     GLTF_NOT_JSON = "GL004", Error, "the text of a glTF asset is not JSON",
         "The text of a glTF asset is JSON (RFC 8259) in UTF-8 without a byte order mark. The label stands at the first \
-         byte that can't be. Values lie in each other at most 512 deep.",
+         byte that can't be. Values lie in each other at most 512 deep. With `--lenient` a byte order mark is passed over, with \
+         a warning.",
         ["INVALID_JSON"];
     GLTF_KEY_TWICE = "GL005", Error, "a key stands twice in one JSON object",
-        "Only one of the two could count, and readers of JSON do not agree on which. glTF forbids it.";
+        "Only one of the two could count, and readers of JSON do not agree on which. glTF forbids it. With `--lenient` it is a warning where both say the same.";
     GLTF_TYPE = "GL006", Error, "a value of a glTF asset has another type than its property",
         "The type of each property is laid down in the glTF 2.0 specification; the message says which it is. The \
          property is treated as absent.",
@@ -53,7 +55,8 @@ super::codes! { GL:
          With `--lenient` the last of two channels that move the same counts, with a warning.",
         ["DUPLICATE_ELEMENTS", "KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT", "ANIMATION_DUPLICATE_TARGETS"];
     GLTF_TOGETHER = "GL013", Error, "properties of a glTF asset don't go together",
-        "Some properties exclude each other, others need another one beside them; the message says which.",
+        "Some properties exclude each other, others need another one beside them; the message says which. With `--lenient` an \
+         offset without a view is passed over, with a warning.",
         ["ONE_OF_MISMATCH", "UNSATISFIED_DEPENDENCY", "NODE_MATRIX_TRS",
          "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE", "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH"];
     GLTF_REFERENCE = "GL014", Error, "a reference of a glTF asset leads nowhere",
@@ -74,13 +77,16 @@ super::codes! { GL:
         ["UNSUPPORTED_EXTENSION"];
     GLTF_EXTENSION = "GL019", Error, "an extension of a glTF asset is misused",
         "Each extension that is used is listed in `extensionsUsed`, those that an asset can't do without also in \
-         `extensionsRequired`, and each has the places where it may stand.",
+         `extensionsRequired`, and each has the places where it may stand. With `--lenient` one that is not listed is taken as \
+         listed, with a warning.",
         ["UNDECLARED_EXTENSION", "UNEXPECTED_EXTENSION_OBJECT", "UNUSED_EXTENSION_REQUIRED", "NON_REQUIRED_EXTENSION"];
     GLTF_EXTENSION_ODD = "GL020", Warning, "an extension of a glTF asset is used oddly",
         "Names of extensions have a registered prefix, an underscore and a name; some extensions don't go together.",
         ["INVALID_EXTENSION_NAME_FORMAT", "UNRESERVED_EXTENSION_PREFIX", "MULTIPLE_EXTENSIONS"];
     GLTF_URI = "GL021", Error, "a URI of a glTF asset is not valid",
-        "A URI is a relative path, or a data URI: `data:`, a media type, `;base64`, a comma and Base64.",
+        "A URI is a relative path, or a data URI: `data:`, a media type, `;base64`, a comma and Base64. With `--lenient` white \
+         space in Base64 is passed over, backslashes are slashes, and the bytes of a buffer count whatever their media type, \
+         each with a warning.",
         ["INVALID_URI", "BUFFER_DATA_URI_MIME_TYPE_INVALID"];
     GLTF_OUTSIDE = "GL022", Error, "a URI of a glTF asset leads out of its folder",
         "An asset may come from anywhere, so it may not read any file: only those below its own folder, those below \
@@ -96,7 +102,7 @@ super::codes! { GL:
     GLTF_VIEW = "GL025", Error, "a buffer view of a glTF asset is not sound",
         "A buffer view is a stretch of a buffer. It must lie within, serve one purpose only, and has a stride only if \
          it holds the attributes of vertices. With `--lenient` attributes that share a view without a stride are each \
-         taken as packed, with a warning.",
+         taken as packed, and a view serves what uses it whatever its target, with a warning.",
         ["BUFFER_VIEW_TOO_LONG", "BUFFER_VIEW_TOO_BIG_BYTE_STRIDE", "BUFFER_VIEW_INVALID_BYTE_STRIDE",
          "BUFFER_VIEW_TARGET_OVERRIDE", "IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE", "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE",
          "MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE", "MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE",
@@ -168,7 +174,8 @@ super::codes! { GL:
         ["NODE_MATRIX_NON_TRS", "ACCESSOR_INVALID_IBM"];
     GLTF_SKIN = "GL039", Error, "a skin of a glTF asset is not sound",
         "The joints of a skin hang on one root, in the scene of the mesh that they move, and the weights of a vertex \
-         sum to 1 over different joints.",
+         sum to 1 over different joints. With `--lenient` a `skeleton` that is not above all joints is passed over, with a \
+         warning.",
         ["SKIN_NO_COMMON_ROOT", "SKIN_SKELETON_INVALID", "NODE_SKIN_NO_SCENE", "NODE_SKIN_WITH_NON_SKINNED_MESH",
          "ACCESSOR_JOINTS_INDEX_OOB", "ACCESSOR_JOINTS_INDEX_DUPLICATE", "ACCESSOR_WEIGHTS_NEGATIVE",
          "ACCESSOR_WEIGHTS_NON_NORMALIZED"];
@@ -183,8 +190,8 @@ super::codes! { GL:
          "ANIMATION_CHANNEL_TARGET_NODE_MATRIX", "ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS"];
     GLTF_IMAGE = "GL042", Error, "an image of a glTF asset can't be read",
         "Images are PNG or JPEG, or WebP with its extension, and are what their media type says. A damaged image shows \
-         itself by the words of its decoder. With `--lenient` its bytes count where they are not what the type says, with \
-         a warning.",
+         itself by the words of its decoder. With `--lenient` its bytes count where they are not what the type says, and a \
+         WebP is read without its extension, with a warning.",
         ["IMAGE_DATA_INVALID", "IMAGE_UNEXPECTED_EOS", "IMAGE_MIME_TYPE_INVALID", "IMAGE_NON_ENABLED_MIME_TYPE",
          "TEXTURE_INVALID_IMAGE_MIME_TYPE"];
     GLTF_IMAGE_ODD = "GL043", Warning, "an image of a glTF asset has features that are not supported",

@@ -23,12 +23,12 @@ super::codes! { RE:
         "A small file can ask for much memory, so the size is looked at before a texture is decoded: at most 16384 × \
          16384 pixels, unless `--limit pixels=…` allows more. Scale the picture down.";
     BAD_MESH_FILE = "RE006", Error, "a mesh file is faulty",
-        "Meshes are Wavefront OBJ, OFF, STL or PLY; of another file nothing is shown. The label is at the first place that \
-         can't be: a number that is missing or not finite, a corner that refers to a vertex that is not there, a face of fewer than three corners. Export the mesh \
+        "Meshes are Wavefront OBJ, OFF, STL or PLY, or points as XYZ; of another file nothing is shown. The label is at the first place that \
+         can't be: a number that is missing or not finite, or, where no face is left, a corner that refers to a vertex that is not there or a face of fewer than three corners. Export the mesh \
          again. With `--lenient` the object is left out, with a warning.";
     NOT_DRAWN = "RE007", Warning, "a mesh file holds elements that don't show",
-        "Points and lines have no surface, and free-form curves and surfaces are not supported; only faces show. Convert \
-         the others to faces when exporting.";
+        "A face with a corner that is not there, or with fewer than three, is left out; free-form curves and surfaces are not \
+         supported, nor colours of faces beside those of vertices, and colours show in traced paths alone. The message says why the first does not show.";
     NORMALS_AS_BUMP = "RE008", Note, "a bump map holds normals and is used as a normal map",
         "A bump map is grey, its brightness the height of the surface. This one is coloured as normal maps are: blue \
          along the normal, red and green across. It is used as one; `normalMap` says so from the start.";
@@ -39,7 +39,8 @@ super::codes! { RE:
     BAD_MTL = "RE010", Warning, "the materials of a mesh are not all as its MTL says",
         "A mesh that has no material of its own, or `materials: mtl`, takes those that its OBJ names. Here the MTL file is \
          not beside it, a statement in it can't be read or shows nothing, or it has no material that faces ask for. The mesh \
-         stays; the message says what is missing.";
+         stays; the message says what is missing. Phong's model shows the colours and maps of Wavefront's own statements, traced \
+         paths also light (`Ke`), the physical ones (`Pr`, `Pm`, `Ps`, `Pc`, `aniso`), `map_d`, `Tf` of what refracts, and where maps lie.";
     MTL_UNUSED = "RE011", Note, "the materials of a mesh file are not used",
         "The scene gives the mesh a material, and that counts. With `materials: mtl` those of the MTL do that the OBJ names.";
 }

@@ -75,6 +75,9 @@ super::codes! { VA:
     SHADOW_IN_PATHS = "VA024", Warning, "an object without a shadow stands in a scene of paths",
         "`shadow: false` is followed by `RenderMode: phong`. Paths find light by chance as well as by aim, and an object \
          that stops one of the two would give light twice or never, so there it casts its shadow.";
+    LOST_PARTS = "VA026", Warning, "a material says more than the integrator shows",
+        "Paths show of Phong's model no height field (`bumpMap`) and no map of `ks`; Phong's model shows of a `standard` material \
+         its colour and how rough it is, without its maps, its light and its layers. The hint says which integrator shows them.";
     INVISIBLE = "VA030", Warning, "an object has no size",
         "A radius, or the size of a box or a mesh, is 0, so no ray can hit the object. It is left out of the picture. Some \
          files switch objects off in this way.";

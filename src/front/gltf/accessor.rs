@@ -164,8 +164,9 @@ fn depends(accessor: &Accessor, report: &mut AssetReport<'_, '_>) {
         .get(accessor.at, "byteOffset")
         .filter(|_| accessor.view.is_none())
     {
-        let message = "there is an offset, and no view that it could be in".to_owned();
-        report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
+        let message = "there is an offset, and no view that it could be in";
+        let (alias, mended) = ("UNSATISFIED_DEPENDENCY", "it is passed over");
+        report.mend(&codes::GLTF_TOGETHER, alias, at, message, mended);
     }
 }
 

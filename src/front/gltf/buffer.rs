@@ -179,13 +179,12 @@ fn stride(view: &BufferView, report: &mut AssetReport<'_, '_>) {
         );
     }
     if view.target == Some(Purpose::Indices) {
-        let message = "a view of indices has a stride".to_owned();
-        report.say(
-            &codes::GLTF_VIEW,
+        let message = "a view of indices has a stride";
+        let (alias, mended) = (
             "BUFFER_VIEW_INVALID_BYTE_STRIDE",
-            at,
-            message,
+            "what uses it says what it holds",
         );
+        report.mend(&codes::GLTF_VIEW, alias, at, message, mended);
     }
 }
 
@@ -216,12 +215,8 @@ impl Purposes {
                     purpose.name(),
                     first.name()
                 );
-                report.say(
-                    &codes::GLTF_VIEW,
-                    "BUFFER_VIEW_TARGET_OVERRIDE",
-                    at,
-                    message,
-                );
+                let (alias, mended) = ("BUFFER_VIEW_TARGET_OVERRIDE", "it serves both");
+                report.mend(&codes::GLTF_VIEW, alias, at, &message, mended);
             }
             Some(_) => {}
         }

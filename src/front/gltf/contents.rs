@@ -161,14 +161,18 @@ fn values(
     if !is_float && accessor.min.is_none() && accessor.max.is_none() {
         return Vec::new();
     }
-    let (mut least, mut most) = ([f64::INFINITY; 16], [f64::NEG_INFINITY; 16]);
+    // The first element counts whatever it is, of the others those that compare, as the validator has it.
+    let (mut least, mut most) = ([0.0; 16], [0.0; 16]);
     let mut bad = Vec::new();
     elements.each(|at, element| {
         for (component, number) in element.iter().enumerate() {
-            if number.is_finite() {
-                least[component] = least[component].min(*number);
-                most[component] = most[component].max(*number);
-            } else if bad.last() != Some(&at) {
+            if at == 0 || *number < least[component] {
+                least[component] = *number;
+            }
+            if at == 0 || *number > most[component] {
+                most[component] = *number;
+            }
+            if !number.is_finite() && bad.last() != Some(&at) {
                 bad.push(at);
             }
         }
@@ -229,7 +233,7 @@ fn bound(
     report: &mut AssetReport<'_, '_>,
 ) {
     let own = all[component];
-    if own.total_cmp(&found).is_eq() || own - found == 0.0 || !found.is_finite() {
+    if own.total_cmp(&found).is_eq() || own - found == 0.0 {
         return;
     }
     let is_min = key == "min";
@@ -247,8 +251,8 @@ fn bound(
         shortest(found)
     );
     report.mend(&codes::GLTF_BOUNDS, mismatch, at, &message, BOUNDS);
-    if (is_min && found < own) || (!is_min && found > own) {
-        let beyond = beyond.get_or_insert_with(|| count_beyond(elements, all, is_min))[component];
+    let beyond = beyond.get_or_insert_with(|| count_beyond(elements, all, is_min))[component];
+    if beyond > 0 {
         let message = format!(
             "{beyond} elements are beyond `{key}`, which is {}",
             shortest(own)

@@ -72,8 +72,7 @@ pub(super) fn meet(
             );
         }
         Demand::Sign if components == 4 => {
-            let off =
-                |_: usize, element: &[f64]| (elements.fraction(element[3]).abs() - 1.0).abs() > 0.0;
+            let off = |_: usize, element: &[f64]| elements.fraction(element[3]).abs() - 1.0 != 0.0;
             tell(
                 elements,
                 off,
@@ -85,7 +84,7 @@ pub(super) fn meet(
         }
         Demand::Clamped if elements.layout.component.range().is_none() => {
             let off = |_: usize, element: &[f64]| {
-                element.iter().any(|number| !(0.0..=1.0).contains(number))
+                element.iter().any(|number| *number < 0.0 || *number > 1.0)
             };
             tell(
                 elements,
@@ -205,7 +204,8 @@ fn indices(
         let index = element[0];
         if index - greatest == 0.0 {
             restart.get_or_insert(at);
-        } else if index >= limit {
+        }
+        if index >= limit {
             beyond.get_or_insert((at, index));
         }
         corners[at % 3] = index;

@@ -202,7 +202,8 @@ pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut Asset
                     return report.exceeded(at, "the image", &fault);
                 }
                 Some(Err(Refusal::Fault(fault))) => Err(fault),
-                None => unreachable!("`decoded` leaves out only what comes after a limit"),
+                // One of them asks for too much, and is told.
+                None => continue,
             },
         };
         match &picture {
@@ -232,9 +233,9 @@ fn check_media(
         report.mend(&codes::GLTF_IMAGE, alias, at, &message, mended);
     }
     if format == ImageCoding::WebP && !doc.uses("EXT_texture_webp") {
-        let message = "a WebP image needs the extension `EXT_texture_webp`".to_owned();
-        let alias = "IMAGE_NON_ENABLED_MIME_TYPE";
-        report.say(&codes::GLTF_IMAGE, alias, at, message);
+        let message = "a WebP image needs the extension `EXT_texture_webp`";
+        let (alias, mended) = ("IMAGE_NON_ENABLED_MIME_TYPE", "it is read");
+        report.mend(&codes::GLTF_IMAGE, alias, at, message, mended);
     }
 }
 
@@ -277,6 +278,13 @@ fn decoded(
                 }
             }
         }
+    }
+    // What is refused for its size is not worth decoding the rest.
+    if pictures
+        .values()
+        .any(|own| matches!(own, Err(Refusal::Limit(_))))
+    {
+        return pictures;
     }
     let (places, files): (Vec<_>, Vec<_>) = admitted.into_iter().unzip();
     let made = pixels::decode_all(&files, threads, budget).into_iter();

@@ -90,6 +90,25 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
         check_coats(doc, fields, report);
         check_emission(doc, fields, report);
     }
+    tell_occlusion(doc, report);
+}
+
+/// Says once that shade that was baked is not shown: what hides the light is in the scene.
+fn tell_occlusion(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
+    let json = report.json;
+    let mut baked = doc
+        .materials
+        .iter()
+        .filter_map(|material| json.get(*material, "occlusionTexture"));
+    let Some(first) = baked.next() else { return };
+    let message = match baked.count() {
+        0 => "the shade of an `occlusionTexture` is not shown: paths find it themselves".to_owned(),
+        more => format!(
+            "the shade of {} `occlusionTexture`s is not shown: paths find it themselves",
+            more + 1
+        ),
+    };
+    report.say(&codes::GLTF_REMARK, "", first, message);
 }
 
 /// Unlit and specular-glossiness replace the model that other extensions extend.

@@ -41,7 +41,7 @@ mod unused;
 mod uri;
 mod usage;
 
-pub(super) use lower::{SURFACE, empty, looking_at};
+pub(super) use lower::{SURFACE, empty, looking_at, pixel};
 pub use summary::{AnimationSummary, AssetSummary, summary};
 
 use super::FrontOptions;
@@ -51,7 +51,7 @@ use demand::Demands;
 use document::Document;
 use report::AssetReport;
 use resource::Resources;
-use rtc_diag::{Diagnostic, Sink, codes};
+use rtc_diag::{Diagnostic, Severity, Sink, codes};
 use rtc_ir::Lowered;
 use rtc_source::tree::{Tree, json};
 use rtc_source::{FileId, Resource, Search, SourceMap, Span};
@@ -118,7 +118,7 @@ pub fn lower(
 ) -> Option<Lowered> {
     let bytes = map.bytes(file);
     let parts = parts(file, map, options.lenient, sink)?;
-    let (base, text) = text(file, bytes, &parts, sink)?;
+    let (base, text) = text(file, bytes, &parts, options.lenient, sink)?;
     let tree = match json::parse(file, base, text) {
         Ok(tree) => tree,
         Err(fault) => {
@@ -130,7 +130,7 @@ pub fn lower(
             return None;
         }
     };
-    check_keys(&tree, sink);
+    check_keys(&tree, options.lenient, sink);
     let mut report = AssetReport::new(&tree, sink, options, map.budget());
     let root = tree.root();
     let is_small = report.charge(Resource::Nodes, tree.count() as u64, root, "the asset")
@@ -151,15 +151,23 @@ pub fn lower(
 
 fn parts(file: FileId, map: &SourceMap, is_lenient: bool, sink: &mut Sink) -> Option<Parts> {
     let bytes = map.bytes(file);
-    if container::is_glb(map.name(file), bytes) {
-        container::open(file, bytes, is_lenient, sink)
-    } else {
-        Some(Parts {
+    let is_glb = container::is_glb(map.name(file), bytes);
+    let is_misnamed = is_glb && opens_object(bytes);
+    if is_misnamed {
+        let message = "the file is named `.glb` and is the JSON of a `.gltf`";
+        let finding = Diagnostic::new(&codes::GLB_HEADER, message).alias("GLB_INVALID_MAGIC");
+        let finding = mended(finding, is_lenient, "its content counts");
+        sink.push(finding.at(Span::new(file, 0, 1), "JSON begins here"));
+    }
+    match (is_glb, is_misnamed) {
+        (true, false) => container::open(file, bytes, is_lenient, sink),
+        (true, true) if !is_lenient => None,
+        _ => Some(Parts {
             json: 0..bytes.len(),
             bin: None,
             is_glb: false,
             is_whole: true,
-        })
+        }),
     }
 }
 
@@ -168,6 +176,7 @@ fn text<'s>(
     file: FileId,
     bytes: &'s [u8],
     parts: &Parts,
+    is_lenient: bool,
     sink: &mut Sink,
 ) -> Option<(u32, &'s str)> {
     let offset = |at: usize| u32::try_from(parts.json.start + at).unwrap_or(u32::MAX);
@@ -185,11 +194,20 @@ fn text<'s>(
     let Some(rest) = text.strip_prefix(BOM) else {
         return Some((offset(0), text));
     };
-    sink.push(not_json(
-        Span::new(file, offset(0), offset(BOM.len())),
-        "the text starts with a byte order mark",
-    ));
+    let mark = Span::new(file, offset(0), offset(BOM.len()));
+    let finding = not_json(mark, "the text starts with a byte order mark");
+    sink.push(mended(finding, is_lenient, "it is passed over"));
     Some((offset(BOM.len()), rest))
+}
+
+/// A finding of what importers mend: lenient a warning that says how, else an error whose hint does.
+fn mended(mut finding: Diagnostic, is_lenient: bool, mended: &str) -> Diagnostic {
+    if is_lenient {
+        finding.message = format!("{}: {mended}", finding.message);
+        finding.severity(Severity::Warning)
+    } else {
+        finding.hint(format!("`--lenient` mends this: {mended}"))
+    }
 }
 
 fn not_json(span: Span, message: &str) -> Diagnostic {
@@ -198,14 +216,23 @@ fn not_json(span: Span, message: &str) -> Diagnostic {
         .alias("INVALID_JSON")
 }
 
-fn check_keys(tree: &Tree<'_>, sink: &mut Sink) {
+fn check_keys(tree: &Tree<'_>, is_lenient: bool, sink: &mut Sink) {
     for (first, second) in tree.duplicate_keys() {
         let code = &codes::GLTF_KEY_TWICE;
-        sink.push_with(code, code.severity, || {
+        let are_equal = tree.are_alike(*first, *second);
+        let severity = match are_equal && is_lenient {
+            true => Severity::Warning,
+            false => code.severity,
+        };
+        sink.push_with(code, severity, || {
             let key = report::shown(tree.text(*second).unwrap_or_default());
             let message = format!("the key `{key}` stands twice in one object");
             let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message)
                 .at(tree.span(*second), "the second");
+            let finding = match are_equal {
+                true => mended(finding, is_lenient, "both say the same"),
+                false => finding,
+            };
             finding
                 .also(tree.span(*first), "the first")
                 .pointer(tree.pointer(*second))
@@ -224,9 +251,12 @@ fn shape<'s>(
         return None;
     }
     let is_known = header::check_version(report);
-    schema::walk(is_known, report);
+    let extensions = schema::walk(is_known, report);
     header::check_extensions(report);
-    is_known.then(|| Document::read(tree, is_glb))
+    is_known.then(|| Document {
+        extensions,
+        ..Document::read(tree, is_glb)
+    })
 }
 
 /// Brings the files of an asset, and checks how its parts fit together and what is in them.

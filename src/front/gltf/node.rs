@@ -37,8 +37,30 @@ pub(super) struct Node {
     pub(super) visible: bool,
     /// The nodes that show the same in less detail (`MSFT_lod`).
     pub(super) coarser: Vec<usize>,
-    /// Accessors that place many of its mesh: translation, rotation, scale.
-    pub(super) instances: Option<[Option<usize>; 3]>,
+    /// What places many of its mesh.
+    pub(super) instances: Option<Instancing>,
+}
+
+/// The accessors of `EXT_mesh_gpu_instancing`.
+#[derive(Clone, Debug)]
+pub(super) struct Instancing {
+    /// Translation, rotation, scale.
+    pub(super) parts: [Option<usize>; 3],
+    /// Those of all attributes, of an application's own too: each says how many instances there are.
+    pub(super) all: Vec<usize>,
+}
+
+impl Instancing {
+    fn read(attributes: Fields<'_, '_>) -> Self {
+        let pairs = attributes.json.pairs(attributes.at);
+        let accessors = pairs.filter_map(|(_, at)| attributes.json.whole(at));
+        Self {
+            parts: ["TRANSLATION", "ROTATION", "SCALE"].map(|name| attributes.index(name)),
+            all: accessors
+                .filter_map(|at| usize::try_from(at).ok())
+                .collect(),
+        }
+    }
 }
 
 /// How a node is placed in its parent.
@@ -82,8 +104,7 @@ impl Node {
             coarser: fields
                 .extension(LEVELS)
                 .map_or_else(Vec::new, |fields| fields.indices("ids")),
-            instances: instancing
-                .map(|fields| ["TRANSLATION", "ROTATION", "SCALE"].map(|name| fields.index(name))),
+            instances: instancing.map(Instancing::read),
         }
     }
 }

@@ -131,7 +131,17 @@ impl<'m> Resources<'m> {
         report: &mut AssetReport<'_, '_>,
     ) -> Option<Found> {
         let text = report.json.text(at)?;
-        match uri::parse(text) {
+        let parsed = uri::parse(text).or_else(|fault| {
+            let (uri, message, mended) = uri::mended(text).ok_or(fault)?;
+            let message = format!("`{}` {message}", shown(text));
+            report.mend(&codes::GLTF_URI, "INVALID_URI", at, &message, mended);
+            // What is not mended is told, and no file is read for it.
+            match report.is_lenient() {
+                true => Ok(uri),
+                false => Err(UriFault::Told),
+            }
+        });
+        match parsed {
             Ok(Uri::Data { media, bytes }) => {
                 if is_glb {
                     let message = "data is written in Base64 where a chunk would do".to_owned();
@@ -160,6 +170,7 @@ impl<'m> Resources<'m> {
                 report.say(&codes::GLTF_URI, "INVALID_URI", at, message);
                 None
             }
+            Err(UriFault::Told) => None,
             Err(UriFault::Outside(how)) => {
                 outside(text, how, at, report);
                 None
@@ -262,12 +273,8 @@ fn is_buffer(media: Option<&str>, at: NodeId, report: &mut AssetReport<'_, '_>) 
             "the media type of a buffer is application/octet-stream, not `{}`",
             shown(media)
         );
-        report.say(
-            &codes::GLTF_URI,
-            "BUFFER_DATA_URI_MIME_TYPE_INVALID",
-            at,
-            message,
-        );
+        let (alias, mended) = ("BUFFER_DATA_URI_MIME_TYPE_INVALID", "its bytes count");
+        report.mend(&codes::GLTF_URI, alias, at, &message, mended);
     }
-    is_buffer
+    is_buffer || report.is_lenient()
 }

@@ -208,7 +208,8 @@ fn check_tree(
     {
         let at = report.json.at_or(skin.at, "skeleton");
         let message = format!("not all joints lie below node {skeleton}");
-        report.say(&codes::GLTF_SKIN, "SKIN_SKELETON_INVALID", at, message);
+        let (alias, mended) = ("SKIN_SKELETON_INVALID", "the hint is passed over");
+        report.mend(&codes::GLTF_SKIN, alias, at, &message, mended);
     }
 }
 

@@ -59,7 +59,7 @@ pub fn summary(file: FileId, map: &SourceMap) -> Option<AssetSummary> {
     // What is wrong with it is told when it is lowered.
     let mut sink = Sink::default();
     let parts = parts(file, map, true, &mut sink)?;
-    let (base, text) = text(file, map.bytes(file), &parts, &mut sink)?;
+    let (base, text) = text(file, map.bytes(file), &parts, true, &mut sink)?;
     let tree = json::parse(file, base, text).ok()?;
     let root = Fields::new(&tree, tree.root());
     let words = |key| -> Vec<String> {

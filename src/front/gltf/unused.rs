@@ -19,9 +19,10 @@ impl Readers {
         }
         let samplers = doc.animations.iter().flat_map(|own| &own.samplers);
         let keyframes = samplers.flat_map(|own| [own.input, own.output]);
-        let instances = doc.nodes.iter().filter_map(|node| node.instances);
+        let instances = doc.nodes.iter().filter_map(|node| node.instances.as_ref());
+        let instances = instances.flat_map(|own| own.parts);
         let matrices = doc.skins.iter().map(|skin| skin.matrices);
-        let whole = keyframes.chain(instances.flatten()).chain(matrices);
+        let whole = keyframes.chain(instances).chain(matrices);
         for accessor in whole.flatten() {
             readers.0.insert(accessor, None);
         }

@@ -37,6 +37,8 @@ pub(super) enum UriFault {
     Malformed(&'static str),
     /// It leads out of the folder, in this way.
     Outside(&'static str),
+    /// It is one that importers mend, and was told.
+    Told,
 }
 
 /// Reads a URI.
@@ -74,6 +76,21 @@ pub(super) fn parse(uri: &str) -> Result<Uri, UriFault> {
     } else {
         Ok(Uri::Path(path))
     }
+}
+
+/// What importers make of a URI that is none: what is wrong with it, and how it is mended. A mended path
+/// leads nowhere that another may not.
+pub(super) fn mended(uri: &str) -> Option<(Uri, &'static str, &'static str)> {
+    if strip_scheme(uri, "data").is_some() {
+        let joined: String = uri.split_ascii_whitespace().collect();
+        let is_broken = joined.len() < uri.len();
+        let data = parse(&joined).ok().filter(|_| is_broken)?;
+        return Some((data, "has white space in its data", "it is passed over"));
+    }
+    let turned = uri.replace('\\', "/");
+    let path = parse(&turned).ok().filter(|_| turned != uri)?;
+    let is_path = matches!(path, Uri::Path(_));
+    is_path.then_some((path, "has backslashes", "they are taken as slashes"))
 }
 
 fn in_scheme(byte: u8) -> bool {
@@ -184,6 +201,30 @@ mod tests {
                 parse(uri)
             );
         }
+    }
+
+    #[test]
+    fn what_is_mended_stays_below_the_folder_too() {
+        let path = |uri| mended(uri).map(|(uri, ..)| uri);
+        assert_eq!(path("a\\b.bin"), Some(Uri::Path("a/b.bin".to_owned())));
+        for uri in [
+            "..\\x",
+            "a\\..\\x",
+            "\\x",
+            "C:\\x",
+            "\\\\host\\x",
+            "%2e%2e%5cx",
+            "x",
+        ] {
+            assert_eq!(mended(uri), None, "{uri}");
+        }
+        let bytes = vec![0, 1, 2];
+        let media = String::new();
+        assert_eq!(
+            path("data:;base64,AA\nE C"),
+            Some(Uri::Data { media, bytes })
+        );
+        assert_eq!(path("data:;base64,`\n"), None);
     }
 
     #[test]

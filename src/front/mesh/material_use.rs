@@ -52,6 +52,16 @@ impl MaterialUse {
         self.current = name(rest, file).unwrap_or_default();
     }
 
+    /// What the next face asks for.
+    pub(super) fn current(&self) -> &Named {
+        &self.current
+    }
+
+    /// The faces that follow ask for a material that was asked for before.
+    pub(super) fn resume(&mut self, named: Named) {
+        self.current = named;
+    }
+
     /// Materials are in another file; `rest` is what follows `mtllib`.
     pub(super) fn library(&mut self, rest: &[Word<'_>], file: &[u8]) {
         let whole = name(rest, file);

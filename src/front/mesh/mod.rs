@@ -1,4 +1,5 @@
-//! Mesh files, OBJ, OFF, STL or PLY, told apart by content: bytes to vertices and triangles.
+//! Mesh files, OBJ, OFF, STL, PLY or points as XYZ, told apart by content: bytes to vertices and
+//! triangles.
 //!
 //! What a mesh takes is charged before it is there; every fault has its place in the file. Who asked
 //! for the file, and what is done without it, is the affair of others.
@@ -8,7 +9,12 @@ pub mod mtl;
 mod obj;
 mod off;
 mod ply;
+mod polygon;
+mod polygons;
 mod stl;
+mod stroke;
+mod tint;
+mod xyz;
 
 pub use crate::words::{Unread, WordFault, WordSpan};
 pub use material_use::{MaterialUse, Named};
@@ -16,6 +22,7 @@ pub use material_use::{MaterialUse, Named};
 use crate::words::{Lines, Word};
 use rtc_ir::Mesh;
 use rtc_source::{Budget, Exceeded, Resource};
+use stroke::{Pen, Segments, join};
 
 /// So many faults of one file are told.
 pub const MAX_FAULTS: usize = 10;
@@ -31,6 +38,31 @@ pub struct Parsed {
     pub not_drawn: Option<(WordFault, usize)>,
     /// Which materials it asks for.
     pub material_use: MaterialUse,
+    /// The picture of all its faces, where it names one itself.
+    pub texture: Option<Named>,
+}
+
+impl Parsed {
+    /// An element does not show; of the first one the fault is kept.
+    fn skip(&mut self, fault: impl FnOnce() -> WordFault) {
+        self.not_drawn.get_or_insert_with(|| (fault(), 0)).1 += 1;
+    }
+}
+
+/// Bytes of what a mesh has for each vertex, in 64 bits.
+fn columns(mesh: &Mesh) -> u64 {
+    let column = |is_there: bool, numbers: u64| if is_there { 8 * numbers } else { 0 };
+    column(true, 3)
+        + column(!mesh.normals.is_empty(), 3)
+        + column(!mesh.uvs.is_empty(), 2)
+        + column(!mesh.second_uvs.is_empty(), 2)
+        + column(!mesh.tangents.is_empty(), 4)
+        + column(!mesh.colors.is_empty(), 2)
+}
+
+/// A count of what a file holds.
+fn to_u32(count: usize) -> u32 {
+    u32::try_from(count).unwrap_or(u32::MAX)
 }
 
 /// Charges what a mesh holds, and frees what it has no use for.
@@ -59,7 +91,7 @@ fn charge(mesh: &mut Mesh, budget: &Budget) -> Result<(), Exceeded> {
 }
 
 /// What the names of such files end in, in lower case.
-pub const EXTENSIONS: &[&str] = &["obj", "off", "stl", "ply"];
+pub const EXTENSIONS: &[&str] = &["obj", "off", "stl", "ply", "xyz"];
 
 /// Whether a file of this name and these bytes is a mesh.
 #[must_use]
@@ -86,7 +118,7 @@ pub fn is_mesh(head: &[u8]) -> bool {
     let (mut lines, mut words) = (first_lines(head), Vec::new());
     let has_words = lines.next(&mut words);
     if !has_words || !obj::is_keyword(&words[0]) {
-        return has_words && off::is_head(&words[0]);
+        return has_words && (off::is_head(&words[0]) || xyz::is_head(head));
     }
     let is_vertex = |words: &[Word<'_>]| matches!(words, [Word { bytes: b"v", .. }, x, ..] if x.number().is_ok());
     while !is_vertex(&words) {
@@ -104,17 +136,26 @@ pub fn is_mesh(head: &[u8]) -> bool {
 pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     let mut words = Vec::new();
     first_lines(bytes).next(&mut words);
-    let parsed = match words.first() {
+    let mut parsed = match words.first() {
         _ if ply::is_head(bytes) => ply::parse(bytes, budget)?,
         _ if stl::is_head(bytes) => stl::parse(bytes, budget)?,
         Some(head) if off::is_head(head) => off::parse(bytes, budget)?,
+        _ if xyz::is_head(bytes) => xyz::parse(bytes, budget)?,
         Some(_) | None => obj::parse(bytes, budget)?,
     };
+    if parsed.mesh.triangles.is_empty() && parsed.not_drawn.is_none() {
+        let vertices = std::mem::take(&mut parsed.mesh);
+        let points = Pen::new(&vertices, budget).draw(Segments::points(&vertices))?;
+        join(&mut parsed.mesh, points);
+    }
+    charge(&mut parsed.mesh, budget)?;
     if parsed.mesh.triangles.is_empty() {
         let head = words.first().filter(|head| head.bytes.len() < 80);
-        let fault = head
-            .unwrap_or(&Word::START)
-            .fault("the mesh has no faces", "nothing is drawn");
+        let none = || {
+            head.unwrap_or(&Word::START)
+                .fault("the mesh has no faces, lines or points", "nothing is drawn")
+        };
+        let fault = parsed.not_drawn.map_or_else(none, |(fault, _)| fault);
         return Err(Unread::Faults(vec![fault]));
     }
     Ok(parsed)

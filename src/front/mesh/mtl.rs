@@ -3,6 +3,10 @@
 //!
 //! No fault makes a file worthless: what is not understood is left out, and told with its place.
 
+mod map;
+
+pub use map::MtlMap;
+
 use super::material_use::name;
 use super::{MAX_FAULTS, Unread, WordSpan, first_lines};
 use crate::words::{Lines, Word, WordFault};
@@ -48,14 +52,42 @@ pub struct MtlMaterial {
     pub index: Option<Said<f64>>,
     /// `illum`, the number of the illumination model, 0 to 10.
     pub model: Option<Said<u8>>,
+    /// `Ke`, the radiance, each channel in 0..=1e6.
+    pub emissive: Option<Said<[f64; 3]>>,
+    /// `Tf`, the colour that light has behind it, each channel in 0..=1e6.
+    pub filter: Option<Said<[f64; 3]>>,
+    /// `Pr`, the roughness, in 0..=1.
+    pub roughness: Option<Said<f64>>,
+    /// `Pm`, how much of it is metal, in 0..=1.
+    pub metallic: Option<Said<f64>>,
+    /// `Ps`, its sheen, in 0..=1.
+    pub sheen: Option<Said<f64>>,
+    /// `Pc`, how much of it is under a clear coat, in 0..=1.
+    pub clearcoat: Option<Said<f64>>,
+    /// `Pcr`, how rough the coat is, in 0..=1.
+    pub clearcoat_roughness: Option<Said<f64>>,
+    /// `aniso`, how much the mirror image is drawn out, in 0..=1.
+    pub anisotropy: Option<Said<f64>>,
+    /// `anisor`, in which direction, in turns from that of u, in 0..=1.
+    pub anisotropy_rotation: Option<Said<f64>>,
     /// `map_Kd`.
-    pub color_map: Option<Said<String>>,
+    pub color_map: Option<Said<MtlMap>>,
     /// `map_Ks`.
-    pub specular_map: Option<Said<String>>,
+    pub specular_map: Option<Said<MtlMap>>,
     /// `norm`.
-    pub normal_map: Option<Said<String>>,
+    pub normal_map: Option<Said<MtlMap>>,
     /// `map_Bump` or `bump`.
-    pub bump: Option<Said<String>>,
+    pub bump: Option<Said<MtlMap>>,
+    /// `map_d`.
+    pub opacity_map: Option<Said<MtlMap>>,
+    /// `map_Ke`.
+    pub emissive_map: Option<Said<MtlMap>>,
+    /// `map_Pr`.
+    pub roughness_map: Option<Said<MtlMap>>,
+    /// `map_Pm`.
+    pub metallic_map: Option<Said<MtlMap>>,
+    /// Whether `Tr` alone said the opacity, 1 of it: some programs write so what hides all.
+    pub is_transparency_1: bool,
 }
 
 /// True if a file that begins so has materials: its first statement is `newmtl`.
@@ -107,12 +139,12 @@ struct Reader<'a> {
 enum Statement {
     Color(fn(&mut MtlMaterial) -> &mut Option<Said<[f64; 3]>>),
     Number(fn(&mut MtlMaterial) -> &mut Option<Said<f64>>),
-    Map(fn(&mut MtlMaterial) -> &mut Option<Said<String>>),
+    /// A number from 0 to 1.
+    Fraction(fn(&mut MtlMaterial) -> &mut Option<Said<f64>>),
+    Map(fn(&mut MtlMaterial) -> &mut Option<Said<MtlMap>>),
     Opacity,
     Transparency,
     Model,
-    /// It shows nothing if all its numbers are this.
-    Nothing(f64),
     /// It repeats the map of the diffuse colour, or says what is not shown.
     AmbientMap,
     /// It changes no picture.
@@ -135,8 +167,25 @@ const STATEMENTS: &[(&str, Statement)] = &[
     ("map_bump", Statement::Map(|m| &mut m.bump)),
     ("bump", Statement::Map(|m| &mut m.bump)),
     ("map_ka", Statement::AmbientMap),
-    ("ke", Statement::Nothing(0.0)),
-    ("tf", Statement::Nothing(1.0)),
+    ("ke", Statement::Color(|m| &mut m.emissive)),
+    ("tf", Statement::Color(|m| &mut m.filter)),
+    ("pr", Statement::Fraction(|m| &mut m.roughness)),
+    ("pm", Statement::Fraction(|m| &mut m.metallic)),
+    ("ps", Statement::Fraction(|m| &mut m.sheen)),
+    ("pc", Statement::Fraction(|m| &mut m.clearcoat)),
+    ("pcr", Statement::Fraction(|m| &mut m.clearcoat_roughness)),
+    ("aniso", Statement::Fraction(|m| &mut m.anisotropy)),
+    (
+        "anisor",
+        Statement::Fraction(|m| &mut m.anisotropy_rotation),
+    ),
+    ("map_d", Statement::Map(|m| &mut m.opacity_map)),
+    ("map_ke", Statement::Map(|m| &mut m.emissive_map)),
+    ("map_emissive", Statement::Map(|m| &mut m.emissive_map)),
+    ("map_pr", Statement::Map(|m| &mut m.roughness_map)),
+    ("map_pm", Statement::Map(|m| &mut m.metallic_map)),
+    ("map_norm", Statement::Map(|m| &mut m.normal_map)),
+    ("map_kn", Statement::Map(|m| &mut m.normal_map)),
     ("sharpness", Statement::Silent),
     ("map_aat", Statement::Silent),
 ];
@@ -204,14 +253,22 @@ impl Reader<'_> {
                 let value = number(&head, rest.first(), LARGEST)?;
                 *slot(material) = Some(Said { value, at });
             }
+            Statement::Fraction(slot) => {
+                let value = number(&head, rest.first(), 1.0)?;
+                *slot(material) = Some(Said { value, at });
+            }
             Statement::Opacity => {
                 let value = number(&head, after_halo(rest).first(), 1.0)?;
                 material.opacity = Some(Said { value, at });
+                material.is_transparency_1 = false;
             }
             Statement::Transparency => {
                 let value = 1.0 - number(&head, rest.first(), 1.0)?;
                 // Where both are said, the opacity counts.
-                material.opacity.get_or_insert(Said { value, at });
+                if material.opacity.is_none() {
+                    material.opacity = Some(Said { value, at });
+                    material.is_transparency_1 = value == 0.0;
+                }
             }
             Statement::Model => {
                 material.model = Some(Said {
@@ -219,27 +276,37 @@ impl Reader<'_> {
                     at,
                 });
             }
-            Statement::Map(slot) => {
-                let (value, option) = map(&head, rest, self.file)?;
-                *slot(material) = Some(Said { value, at });
-                if let Some(option) = option {
-                    self.skip(
-                        &option,
-                        format!("the option `{}` is not read", option.text()),
-                    );
-                }
-            }
-            Statement::Nothing(nothing) => {
-                let is_nothing = |word: &Word<'_>| word.number().ok() == Some(nothing);
-                self.not_shown(&head, rest.iter().all(is_nothing));
-            }
-            Statement::AmbientMap => {
-                let (file, _) = map(&head, rest, self.file)?;
-                let color = material.color_map.as_ref();
-                let is_shown = color.is_none_or(|color| color.value == file);
-                self.not_shown(&head, is_shown);
-            }
+            Statement::Map(_) | Statement::AmbientMap => return self.map(statement, head, rest),
             Statement::Silent => {}
+        }
+        Ok(())
+    }
+
+    /// A statement of a map.
+    fn map(
+        &mut self,
+        statement: Statement,
+        head: Word<'_>,
+        rest: &[Word<'_>],
+    ) -> Result<(), WordFault> {
+        let at = rest
+            .last()
+            .map_or(head, |last| head.through(last, self.file));
+        let (value, unread) = map::read(&head, rest, self.file)?;
+        let Some((_, material)) = &mut self.current else {
+            return Ok(());
+        };
+        if let Statement::Map(slot) = statement {
+            let at = at.place();
+            *slot(material) = Some(Said { value, at });
+            if let Some(option) = unread {
+                let why = format!("the option `{}` is not read", option.text());
+                self.skip(&option, why);
+            }
+        } else {
+            let color = material.color_map.as_ref();
+            let is_shown = color.is_none_or(|color| color.value.file == value.file);
+            self.not_shown(&head, is_shown);
         }
         Ok(())
     }
@@ -303,57 +370,5 @@ fn after_halo<'w, 'a>(rest: &'w [Word<'a>]) -> &'w [Word<'a>] {
             rest @ ..,
         ] => rest,
         _ => rest,
-    }
-}
-
-/// The file of a map, and its first option that would change the picture.
-fn map<'a>(
-    head: &Word<'a>,
-    rest: &[Word<'a>],
-    file: &[u8],
-) -> Result<(String, Option<Word<'a>>), WordFault> {
-    let (mut rest, mut changes) = (rest, None);
-    while let Some((option, others)) = rest.split_first() {
-        let Some(plain) = plain_values(option.bytes) else {
-            break;
-        };
-        // The trailing numbers of offsets and scales may be left out; the file follows.
-        let most = plain.len().min(others.len().saturating_sub(1));
-        let is_value = |(word, plain): &(&Word<'_>, &&str)| {
-            word.number().is_ok() || plain.parse::<f64>().is_err()
-        };
-        let values = others[..most].iter().zip(plain).take_while(is_value);
-        let (mut count, mut is_plain) = (0, true);
-        for (word, plain) in values {
-            let is_same = word.bytes == plain.as_bytes()
-                || word
-                    .number()
-                    .ok()
-                    .is_some_and(|number| plain.parse() == Ok(number));
-            (count, is_plain) = (count + 1, is_plain && is_same);
-        }
-        if !is_plain {
-            changes.get_or_insert(*option);
-        }
-        rest = &others[count..];
-    }
-    let missing = || head.fault(format!("`{}` names no file", head.text()), "left out");
-    let named = name(rest, file).ok_or_else(missing)?;
-    Ok((named.text, changes))
-}
-
-/// The values of an option of a map that leave it as it is.
-fn plain_values(option: &[u8]) -> Option<&'static [&'static str]> {
-    match option {
-        b"-bm" => Some(&["1"]),
-        b"-mm" => Some(&["0", "1"]),
-        b"-o" | b"-t" => Some(&["0", "0", "0"]),
-        b"-s" => Some(&["1", "1", "1"]),
-        b"-boost" => Some(&["0"]),
-        b"-blendu" | b"-blendv" => Some(&["on"]),
-        b"-cc" | b"-clamp" => Some(&["off"]),
-        b"-imfchan" => Some(&["l"]),
-        b"-texres" | b"-type" => Some(&["as it is"]),
-        _ => None,
     }
 }

@@ -2,34 +2,35 @@
 //!
 //! Nothing is allocated by a count: the lines that are there are read.
 
-use super::{MAX_FAULTS, Parsed, Unread, charge};
+use super::polygons::{CORNER, Polygons};
+use super::stroke::{Pen, Segments, join};
+use super::tint::Tints;
+use super::{MAX_FAULTS, Parsed, Unread};
 use crate::words::{Lines, Word, WordFault, numbers};
-use rtc_source::{Budget, Resource};
+use rtc_source::{Budget, Exceeded, Resource};
 
 /// True if the word opens an OFF file of any kind.
 pub(super) fn is_head(word: &Word<'_>) -> bool {
     word.bytes.ends_with(b"OFF") && word.bytes.len() <= 6
 }
 
-/// Reads an OFF. Normals of vertices are kept, colours are not.
+/// Reads an OFF. Normals and colours of vertices are kept, of faces colours.
 pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
-    // A corner of two bytes becomes a triangle of twelve, in a list that grows by doubling.
-    budget.has(Resource::Memory, 12 * bytes.len() as u64)?;
+    // A corner takes two bytes.
+    budget.has(Resource::Memory, (CORNER / 2 * bytes.len()) as u64)?;
     let mut reader = Reader {
         lines: Lines::new(bytes),
         words: Vec::new(),
     };
-    let mut faults = Vec::new();
-    let mut parsed = Parsed::default();
+    let (mut faults, mut content) = (Vec::new(), Content::default());
     match head(&mut reader) {
-        Ok(head) => body(&mut reader, &head, &mut parsed, &mut faults),
+        Ok(head) => body(&mut reader, &head, &mut content, &mut faults),
         Err(fault) => faults.push(fault),
     }
     if !faults.is_empty() {
         return Err(Unread::Faults(faults));
     }
-    charge(&mut parsed.mesh, budget)?;
-    Ok(parsed)
+    Ok(content.finish(budget)?)
 }
 
 struct Reader<'a> {
@@ -100,13 +101,40 @@ fn head<'a>(reader: &mut Reader<'a>) -> Result<Head<'a>, WordFault> {
     })
 }
 
+/// What an OFF holds.
+#[derive(Default)]
+struct Content {
+    parsed: Parsed,
+    polygons: Polygons,
+    /// The colour of each polygon.
+    tints: Tints,
+    strokes: Segments,
+}
+
+impl Content {
+    fn finish(mut self, budget: &Budget) -> Result<Parsed, Exceeded> {
+        let mut parsed = self.parsed;
+        if parsed.mesh.colors.is_empty() {
+            self.polygons.colors = self.tints.linear();
+        } else if !self.tints.is_empty() {
+            parsed.skip(|| Word::START.fault("its vertices have colours", "faces have too"));
+        }
+        let missing = || Word::START.fault("a corner is not there", "in this file");
+        self.polygons.cut(&mut parsed, missing, budget)?;
+        let source = parsed.mesh.clone();
+        let drawn = Pen::new(&source, budget).draw(self.strokes)?;
+        join(&mut parsed.mesh, drawn);
+        Ok(parsed)
+    }
+}
+
 fn body<'a>(
     reader: &mut Reader<'a>,
     head: &Head<'a>,
-    parsed: &mut Parsed,
+    content: &mut Content,
     faults: &mut Vec<WordFault>,
 ) {
-    let (mut positions, mut normals) = (Vec::new(), Vec::new());
+    let (mut positions, mut normals, mut tints) = (Vec::new(), Vec::new(), Tints::default());
     for _ in 0..head.vertices.value {
         let words = match reader.line(&head.vertices) {
             Ok(words) => words,
@@ -116,6 +144,8 @@ fn body<'a>(
             Ok((position, normal)) => {
                 positions.push(position);
                 normals.extend(normal);
+                let read = if head.has_normals { 6 } else { 3 };
+                tint(words.get(read..).unwrap_or_default(), &mut tints);
             }
             Err(fault) => faults.push(fault),
         }
@@ -123,15 +153,30 @@ fn body<'a>(
             return;
         }
     }
-    (parsed.mesh.positions, parsed.mesh.normals) = (positions.into(), normals.into());
+    let mesh = &mut content.parsed.mesh;
+    (mesh.positions, mesh.normals) = (positions.into(), normals.into());
+    mesh.colors = tints.column();
     for _ in 0..head.faces.value {
         match reader.line(&head.faces) {
-            Ok(words) => faults.extend(face(words, &head.vertices, parsed).err()),
+            Ok(words) => faults.extend(face(words, &head.vertices, content).err()),
             Err(end) => return faults.push(end),
         }
         if faults.len() >= MAX_FAULTS {
             return;
         }
+    }
+}
+
+/// Adds the colour that some words are, if they are one.
+fn tint(words: &[Word<'_>], tints: &mut Tints) {
+    let channels: Vec<f64> = words
+        .iter()
+        .take(4)
+        .map_while(|word| word.number().ok())
+        .collect();
+    match channels.len() {
+        3 | 4 => tints.push(&channels),
+        _ => tints.skip(),
     }
 }
 
@@ -145,44 +190,48 @@ fn vertex(
     Ok((position, has_normals.then(normal).transpose()?))
 }
 
-/// A polygon, as the fan of its triangles; what follows its corners is its colour.
-fn face(words: &[Word<'_>], vertices: &Count<'_>, parsed: &mut Parsed) -> Result<(), WordFault> {
+/// A polygon; what follows its corners is its colour. Of two corners it is a line, of one a point.
+fn face(words: &[Word<'_>], vertices: &Count<'_>, content: &mut Content) -> Result<(), WordFault> {
     let (head, rest) = (&words[0], &words[1..]);
     let arity = head.integer()?;
     let corners = usize::try_from(arity)
         .ok()
-        .and_then(|arity| rest.get(..arity));
-    let Some(corners) = corners else {
+        .and_then(|arity| rest.split_at_checked(arity));
+    let Some((corners, color)) = corners else {
         let message = format!("a face of {arity} corners names {}", rest.len());
         return Err(head.fault(message, "on this line"));
     };
+    for corner in corners {
+        match index(corner, vertices)? {
+            Ok(vertex) => content.polygons.corner(vertex),
+            Err(fault) => {
+                content.polygons.take_back();
+                content.parsed.skip(|| fault);
+                return Ok(());
+            }
+        }
+    }
     if corners.len() < 3 {
-        let fault = head.fault("faces need three corners", "the first one");
-        parsed.not_drawn.get_or_insert((fault, 0)).1 += 1;
+        let row = content.polygons.take_back();
+        content.strokes.row(&row);
         return Ok(());
     }
-    let indices = corners
-        .iter()
-        .map(|corner| index(corner, vertices))
-        .collect::<Result<Vec<u32>, WordFault>>()?;
-    parsed.mesh.triangles.extend(
-        indices[1..]
-            .windows(2)
-            .map(|pair| [indices[0], pair[0], pair[1]]),
-    );
+    content.polygons.end();
+    tint(color, &mut content.tints);
     Ok(())
 }
 
-fn index(corner: &Word<'_>, vertices: &Count<'_>) -> Result<u32, WordFault> {
+/// The vertex that a corner is; a fault within if there is none.
+fn index(corner: &Word<'_>, vertices: &Count<'_>) -> Result<Result<u32, WordFault>, WordFault> {
     let number = corner.integer()?;
     let index = u32::try_from(number)
         .ok()
         .filter(|index| (*index as usize) < vertices.value);
-    index.ok_or_else(|| {
+    Ok(index.ok_or_else(|| {
         let message = format!(
             "a face refers to vertex {number}, and there are {}, from 0",
             vertices.value
         );
         corner.fault(message, "there is no such vertex")
-    })
+    }))
 }

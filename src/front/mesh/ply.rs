@@ -6,11 +6,14 @@ mod body;
 mod head;
 mod vertex;
 
-use super::{MAX_FAULTS, Parsed, Unread, charge};
+use super::polygons::{CORNER, Polygons};
+use super::stroke::{Pen, Segments, join};
+use super::tint::decoded;
+use super::{Parsed, Unread};
 use crate::words::{Word, WordFault};
 use body::PlyBody;
-use head::PlyElement;
-use rtc_source::{Budget, Resource};
+use head::{PlyElement, PlyProperty};
+use rtc_source::{Budget, Exceeded, Resource};
 
 /// True if a file that begins so is a PLY.
 pub(super) fn is_head(head: &[u8]) -> bool {
@@ -18,106 +21,284 @@ pub(super) fn is_head(head: &[u8]) -> bool {
 }
 
 /// Reads a PLY. Of vertices it keeps positions, normals, texture coordinates, tangents and colours, of
-/// faces their corners.
+/// faces and strips their corners, of faces colours and texture coordinates, and edges.
 pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     let one = |fault| Unread::Faults(vec![fault]);
-    let (elements, form, start) = head::read(bytes).map_err(one)?;
-    let mut body = PlyBody::new(bytes, start, form);
-    let (mut parsed, mut faults) = (Parsed::default(), Vec::new());
-    for element in &elements {
-        if !body.has_room(element) {
-            return Err(one(element.is_cut_off()));
-        }
-        match element.name.bytes {
-            b"vertex" => vertex::read(element, &mut body, &mut parsed.mesh, budget)?,
-            // Any number of nothing.
-            _ if element.properties.is_empty() => {}
-            b"face" => {
-                let corner = element.properties.iter().find(|own| own.is_corners());
-                let size = corner.map_or(1, |corner| body.least(corner.kind));
-                // An index becomes a triangle of twelve bytes, in a list that grows by doubling.
-                let at_most = 24 * body.left() / size;
-                budget.has(Resource::Memory, at_most as u64)?;
-                faces(element, &mut body, &mut parsed, &mut faults).map_err(one)?;
-            }
-            b"tristrips" => {
-                let message = "strips of triangles are not read";
-                return Err(one(element.name.fault(message, "export faces")));
-            }
-            _ => skip(element, &mut body).map_err(one)?,
+    let mut head = head::read(bytes).map_err(one)?;
+    let mut reader = Reader {
+        body: PlyBody::new(bytes, &head),
+        vertices: head.vertices(),
+        parsed: Parsed::default(),
+        polygons: Polygons::default(),
+        strokes: Segments::default(),
+        long: 0,
+    };
+    for element in &head.elements {
+        reader.element(element, budget)?;
+    }
+    let mut parsed = reader.finish(budget)?;
+    if let Some((texture, count)) = head.textures.take() {
+        parsed.material_use.face(0);
+        parsed.texture = Some(texture);
+        for _ in 1..count {
+            parsed.skip(|| Word::START.fault("faces have one picture alone", "it names more"));
         }
     }
-    let count = parsed.mesh.positions.len();
-    let corners = parsed.mesh.triangles.iter().flatten();
-    if faults.is_empty() && corners.into_iter().any(|corner| *corner as usize >= count) {
-        let message =
-            format!("a face refers to a vertex that is not there; there are {count}, from 0");
-        faults.push(Word::START.fault(message, "in this file"));
-    }
-    if !faults.is_empty() {
-        return Err(Unread::Faults(faults));
-    }
-    charge(&mut parsed.mesh, budget)?;
     Ok(parsed)
 }
 
-/// The faces, each as the fan of its triangles.
-fn faces(
-    element: &PlyElement<'_>,
-    body: &mut PlyBody<'_>,
-    parsed: &mut Parsed,
-    faults: &mut Vec<WordFault>,
-) -> Result<(), WordFault> {
-    let Parsed {
-        mesh, not_drawn, ..
-    } = parsed;
-    let triangles: &mut Vec<[u32; 3]> = &mut mesh.triangles;
-    for _ in 0..element.count {
-        for property in &element.properties {
-            let Some(length) = property.length.filter(|_| property.is_corners()) else {
-                body.skip(property, element)?;
-                continue;
-            };
-            let corners = body.count(length, element)?;
-            let mut fan = [0; 2];
-            for at in 0..corners {
-                let number = body.number(property.kind, element)?;
-                let Some(corner) = whole(number) else {
-                    faults
-                        .push(body.fault("a face refers to a vertex by no number from 0", "here"));
-                    if faults.len() >= MAX_FAULTS {
-                        return Ok(());
-                    }
-                    continue;
-                };
-                if at > 1 {
-                    triangles.push([fan[0], fan[1], corner]);
-                }
-                fan[usize::from(at > 0)] = corner;
-            }
-            if corners < 3 {
-                let first = || {
-                    (
-                        element
-                            .name
-                            .fault("faces need three corners", "one of these"),
-                        0,
-                    )
-                };
-                not_drawn.get_or_insert_with(first).1 += 1;
-            }
-        }
-    }
-    Ok(())
+/// What was read so far.
+struct Reader<'a> {
+    body: PlyBody<'a>,
+    /// How many vertices there are to be.
+    vertices: usize,
+    parsed: Parsed,
+    polygons: Polygons,
+    strokes: Segments,
+    /// How many rows of faces have more numbers than they should.
+    long: usize,
 }
 
-fn skip(element: &PlyElement<'_>, body: &mut PlyBody<'_>) -> Result<(), WordFault> {
-    for _ in 0..element.count {
-        for property in &element.properties {
-            body.skip(property, element)?;
+impl<'a> Reader<'a> {
+    fn element(&mut self, element: &PlyElement<'a>, budget: &Budget) -> Result<(), Unread> {
+        let one = |fault| Unread::Faults(vec![fault]);
+        if !self.body.has_room(element) {
+            return Err(one(element.is_cut_off()));
         }
+        match element.name.bytes {
+            b"vertex" => {
+                vertex::read(element, &mut self.body, &mut self.parsed.mesh, budget)?;
+            }
+            // Any number of nothing.
+            _ if element.properties.is_empty() => {}
+            b"face" | b"tristrips" | b"edge" => {
+                let corner = element.properties.iter().find(|own| own.is_corners());
+                let size = corner.map_or(1, |corner| self.body.least(corner.kind));
+                let at_most = CORNER * self.body.left() / size;
+                budget.has(Resource::Memory, at_most as u64)?;
+                match element.name.bytes {
+                    b"face" => self.faces(element).map_err(one)?,
+                    b"edge" => self.edges(element).map_err(one)?,
+                    _ => self.strips(element).map_err(one)?,
+                }
+            }
+            _ => self.skip(element).map_err(one)?,
+        }
+        Ok(())
     }
-    Ok(())
+
+    fn finish(mut self, budget: &Budget) -> Result<Parsed, Exceeded> {
+        let Self {
+            mut parsed,
+            mut polygons,
+            strokes,
+            ..
+        } = self;
+        // Where lines are longer than they should be, which number is which part of a colour is open.
+        if self.long > 0 || polygons.colors.len() < polygons.count() {
+            polygons.colors.clear();
+        }
+        if polygons.uvs.len() < polygons.corners() {
+            polygons.uvs.clear();
+        }
+        if !polygons.colors.is_empty() && !parsed.mesh.colors.is_empty() {
+            polygons.colors.clear();
+            parsed.skip(|| Word::START.fault("its vertices have colours", "faces have too"));
+        }
+        let missing = || Word::START.fault("a corner is not there", "in this file");
+        self.long = 0;
+        polygons.cut(&mut parsed, missing, budget)?;
+        let source = parsed.mesh.clone();
+        let drawn = Pen::new(&source, budget).draw(strokes)?;
+        join(&mut parsed.mesh, drawn);
+        Ok(parsed)
+    }
+
+    /// The vertex that the next number is; none, and told, if there is no such.
+    fn vertex(
+        &mut self,
+        property: &PlyProperty<'_>,
+        element: &PlyElement<'_>,
+    ) -> Result<Option<u32>, WordFault> {
+        let number = self.body.number(property.kind, element)?;
+        let vertex = whole(number).filter(|vertex| (*vertex as usize) < self.vertices);
+        Ok(vertex)
+    }
+
+    /// An element does not show, since the vertex that was read last is not there.
+    fn no_vertex(&mut self) {
+        let Self {
+            body,
+            parsed,
+            vertices,
+            ..
+        } = self;
+        parsed.skip(|| {
+            let message = format!("it refers to a vertex that is not one of {vertices}, from 0");
+            body.fault(&message, "there is no such vertex")
+        });
+    }
+
+    fn faces(&mut self, element: &PlyElement<'_>) -> Result<(), WordFault> {
+        let channels: Vec<_> = element.properties.iter().map(vertex::channel).collect();
+        for _ in 0..element.count {
+            let (mut color, mut is_sound) = ([0.0, 0.0, 0.0, 1.0], true);
+            let (mut has_color, mut corners) = (false, 0);
+            let mut uvs = Vec::new();
+            for (property, channel) in element.properties.iter().zip(&channels) {
+                match (property.length, channel) {
+                    (Some(length), _) if property.is_corners() => {
+                        corners = self.body.count(length, element)?;
+                        is_sound = self.corners(corners, property, element)?;
+                    }
+                    (Some(length), _) if property.is_uvs() => {
+                        for _ in 0..self.body.count(length, element)? {
+                            uvs.push(self.body.number(property.kind, element)?);
+                        }
+                    }
+                    (None, Some((channel, kind))) => {
+                        color[*channel] = kind.fraction(self.body.number(*kind, element)?);
+                        has_color = true;
+                    }
+                    _ => self.body.skip(property, element)?,
+                }
+            }
+            if self.body.end_row() {
+                self.long += 1;
+                let body = &self.body;
+                let message = "a line has more numbers than properties, so its colour is open";
+                self.parsed
+                    .skip(|| body.line_fault(message, "the first such line"));
+            }
+            if !is_sound || corners < 3 {
+                self.polygons.take_back();
+            }
+            if is_sound && corners < 3 {
+                let name = &element.name;
+                self.parsed
+                    .skip(|| name.fault("faces need three corners", "one of these"));
+            }
+            if is_sound && corners >= 3 {
+                self.polygons.end();
+                if has_color {
+                    let [r, g, b] = [color[0], color[1], color[2]].map(decoded);
+                    self.polygons.colors.push([r, g, b, opacity(color[3])]);
+                }
+                let pairs = uvs.as_chunks::<2>().0;
+                if pairs.len() == corners as usize
+                    && pairs.iter().flatten().all(|uv| uv.is_finite())
+                {
+                    self.polygons.uvs.extend(pairs);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the corners of a face; whether all are there.
+    fn corners(
+        &mut self,
+        count: u32,
+        property: &PlyProperty<'_>,
+        element: &PlyElement<'_>,
+    ) -> Result<bool, WordFault> {
+        let mut is_sound = true;
+        for _ in 0..count {
+            match self.vertex(property, element)? {
+                Some(vertex) => self.polygons.corner(vertex),
+                None if is_sound => {
+                    is_sound = false;
+                    self.no_vertex();
+                }
+                None => {}
+            }
+        }
+        Ok(is_sound)
+    }
+
+    /// Strips of triangles, each next one turned over; −1 begins another.
+    fn strips(&mut self, element: &PlyElement<'_>) -> Result<(), WordFault> {
+        for _ in 0..element.count {
+            for property in &element.properties {
+                let Some(length) = property.length.filter(|_| property.is_corners()) else {
+                    self.body.skip(property, element)?;
+                    continue;
+                };
+                let mut strip: Vec<u32> = Vec::new();
+                let mut is_odd = false;
+                for _ in 0..self.body.count(length, element)? {
+                    let Some(corner) = self.vertex(property, element)? else {
+                        if !self.body.was(-1.0) {
+                            self.no_vertex();
+                        }
+                        (strip, is_odd) = (Vec::new(), false);
+                        continue;
+                    };
+                    if let [a, b] = *strip {
+                        // A corner twice turns the strip, and shows nothing.
+                        if a != b && b != corner && corner != a {
+                            let three = if is_odd {
+                                [b, a, corner]
+                            } else {
+                                [a, b, corner]
+                            };
+                            three.into_iter().for_each(|own| self.polygons.corner(own));
+                            self.polygons.end();
+                        }
+                        is_odd = !is_odd;
+                        strip.remove(0);
+                    }
+                    strip.push(corner);
+                }
+            }
+            self.body.end_row();
+        }
+        Ok(())
+    }
+
+    /// Lines from a vertex to another.
+    fn edges(&mut self, element: &PlyElement<'_>) -> Result<(), WordFault> {
+        let is_end = |own: &&PlyProperty<'_>| matches!(own.name.bytes, b"vertex1" | b"vertex2");
+        if element.properties.iter().filter(is_end).count() != 2 {
+            return self.skip(element);
+        }
+        for _ in 0..element.count {
+            let mut ends = Vec::new();
+            for property in &element.properties {
+                if matches!(property.name.bytes, b"vertex1" | b"vertex2")
+                    && property.length.is_none()
+                {
+                    ends.push(self.vertex(property, element)?);
+                } else {
+                    self.body.skip(property, element)?;
+                }
+            }
+            self.body.end_row();
+            match *ends {
+                [Some(from), Some(to)] => self.strokes.row(&[from, to]),
+                _ => self.no_vertex(),
+            }
+        }
+        Ok(())
+    }
+
+    fn skip(&mut self, element: &PlyElement<'_>) -> Result<(), WordFault> {
+        for _ in 0..element.count {
+            for property in &element.properties {
+                self.body.skip(property, element)?;
+            }
+            self.body.end_row();
+        }
+        Ok(())
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounded to what the IR stores"
+)]
+fn opacity(alpha: f64) -> f32 {
+    alpha as f32
 }
 
 /// A number that is an index.

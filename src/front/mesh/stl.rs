@@ -3,7 +3,8 @@
 //!
 //! The normals of the file are not read: the order of the corners says the same.
 
-use super::{MAX_FAULTS, Parsed, Unread, charge, first_lines};
+use super::tint::decoded;
+use super::{MAX_FAULTS, Parsed, Unread, first_lines, to_u32};
 use crate::words::{Lines, Word, WordFault, numbers};
 use rtc_ir::Mesh;
 use rtc_source::{Budget, Resource};
@@ -23,74 +24,132 @@ pub(super) fn is_head(head: &[u8]) -> bool {
 }
 
 fn is_text(head: &[u8]) -> bool {
-    let mut words = Vec::new();
-    first_lines(head).next(&mut words)
-        && words[0].bytes.eq_ignore_ascii_case(b"solid")
-        && memchr::memmem::find(head, b"facet").is_some()
+    let (mut lines, mut words) = (first_lines(head), Vec::new());
+    if !lines.next(&mut words) || !words[0].bytes.eq_ignore_ascii_case(b"solid") {
+        return false;
+    }
+    let is_facet = |word: &Word<'_>| word.bytes.eq_ignore_ascii_case(b"facet");
+    while !words.iter().any(is_facet) {
+        if !lines.next(&mut words) {
+            return false;
+        }
+    }
+    true
 }
 
-/// Whether it is as long as its count says; of a file of which more is there, whether it may be.
+/// Whether it is as long as its count says, or longer and begins with triangles; of a file of which
+/// more is there, whether it may be.
 fn is_binary(head: &[u8]) -> bool {
-    let Some(Ok(count)) = head.get(HEAD - 4..HEAD).map(<[u8; 4]>::try_from) else {
+    let Some(count) = count(head) else {
         return false;
     };
-    let (count, length) = (u32::from_le_bytes(count), head.len() as u64);
+    let length = head.len() as u64;
     // More than an address of 32 bits may hold.
     let size = HEAD as u64 + TRIANGLE as u64 * u64::from(count);
     let is_cut = head.len() == LOOKED_AT && size > length;
-    count > 0 && (length == size || (is_cut && is_finite(head)))
+    let are_triangles = || triangles(head, count).iter().all(is_triangle);
+    count > 0 && (length == size || ((is_cut || length > size) && are_triangles()))
 }
 
-/// Whether the first triangles are made of numbers.
-fn is_finite(head: &[u8]) -> bool {
-    let triangles = head[HEAD..].as_chunks::<TRIANGLE>().0;
-    triangles
-        .iter()
-        .flat_map(corners)
-        .flatten()
-        .all(f64::is_finite)
+/// How many triangles a binary file says that it has.
+fn count(head: &[u8]) -> Option<u32> {
+    let count = head.get(HEAD - 4..HEAD)?.try_into().ok()?;
+    Some(u32::from_le_bytes(count))
 }
 
-/// The corners of a binary triangle.
-fn corners(triangle: &[u8; TRIANGLE]) -> [[f64; 3]; 3] {
-    let floats = triangle[12..48].as_chunks::<4>().0;
+/// The triangles of a binary file, of those that it says it has; what follows them is not read.
+fn triangles(bytes: &[u8], count: u32) -> &[[u8; TRIANGLE]] {
+    let there = bytes[HEAD..].as_chunks::<TRIANGLE>().0;
+    &there[..there.len().min(count as usize)]
+}
+
+/// Whether some bytes are a triangle: numbers, and a normal of length 0 or 1.
+fn is_triangle(triangle: &[u8; TRIANGLE]) -> bool {
+    let [normal, a, b, c] = vectors(triangle);
+    let square: f64 = normal.iter().map(|number| number * number).sum();
+    let is_normal = square == 0.0 || (0.9..1.1).contains(&square);
+    is_normal && [a, b, c].iter().flatten().all(|number| number.is_finite())
+}
+
+/// The normal and the corners of a binary triangle.
+fn vectors(triangle: &[u8; TRIANGLE]) -> [[f64; 3]; 4] {
+    let floats = triangle[..48].as_chunks::<4>().0;
     let number = |at: usize| f64::from(f32::from_le_bytes(floats[at]));
-    [0, 3, 6].map(|at| [number(at), number(at + 1), number(at + 2)])
+    [0, 3, 6, 9].map(|at| [number(at), number(at + 1), number(at + 2)])
+}
+
+/// The colours of the triangles of a binary file, linear; none if it has none.
+///
+/// Two programs keep them in the last two bytes, five bits a channel. By VisCAM the highest bit says
+/// that there is a colour, red is in the highest bits; by Magics the head has the colour of the whole
+/// behind `COLOR=`, which a triangle has whose highest bit is set, and red is in the lowest bits.
+fn colors(bytes: &[u8], triangles: &[[u8; TRIANGLE]]) -> Vec<[f32; 4]> {
+    const HAS: u16 = 1 << 15;
+    let code = |triangle: &[u8; TRIANGLE]| u16::from_le_bytes([triangle[48], triangle[49]]);
+    let channel = |code: u16, shift: u16| decoded(f64::from(code >> shift & 31) / 31.0);
+    let whole = memchr::memmem::find(&bytes[..HEAD - 4], b"COLOR=");
+    let whole = whole.and_then(|at| bytes.get(at + 6..at + 9));
+    match whole {
+        Some(whole) => {
+            let whole = [0, 1, 2].map(|at| decoded(f64::from(whole[at]) / 255.0));
+            let color = |triangle: &[u8; TRIANGLE]| match code(triangle) {
+                code if code & HAS != 0 => whole,
+                code => [0, 5, 10].map(|shift| channel(code, shift)),
+            };
+            triangles.iter().map(|own| opaque(color(own))).collect()
+        }
+        None if triangles.iter().any(|own| code(own) & HAS != 0) => {
+            let color = |triangle: &[u8; TRIANGLE]| match code(triangle) {
+                code if code & HAS != 0 => [10, 5, 0].map(|shift| channel(code, shift)),
+                _ => GREY,
+            };
+            triangles.iter().map(|own| opaque(color(own))).collect()
+        }
+        None => Vec::new(),
+    }
+}
+
+/// What has no colour among triangles that have, linear.
+const GREY: [f32; 3] = [0.7; 3];
+
+fn opaque([r, g, b]: [f32; 3]) -> [f32; 4] {
+    [r, g, b, 1.0]
 }
 
 /// Reads an STL.
 pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
-    // A binary triangle becomes three positions and three numbers; a line of text one position, in
-    // a list that grows by doubling.
-    budget.has(Resource::Memory, 4 * bytes.len() as u64)?;
-    let (positions, faults) = match is_binary(bytes) {
-        true => binary(bytes),
-        false => text(bytes),
+    // A binary triangle becomes three positions, three colours and three numbers; a line of text one
+    // position, in a list that grows by doubling.
+    budget.has(Resource::Memory, 5 * bytes.len() as u64)?;
+    let binary_triangles = count(bytes).filter(|_| is_binary(bytes));
+    let binary_triangles = binary_triangles.map(|count| triangles(bytes, count));
+    let mut parsed = Parsed::default();
+    let (positions, faults) = match binary_triangles {
+        Some(triangles) => binary(triangles),
+        None => text(bytes, &mut parsed),
     };
     if !faults.is_empty() {
         return Err(Unread::Faults(faults));
     }
-    let count = u32::try_from(positions.len() / 3).unwrap_or(u32::MAX / 3);
-    let mut mesh = Mesh {
+    let count = to_u32(positions.len() / 3);
+    let colors = binary_triangles.map_or_else(Vec::new, |triangles| colors(bytes, triangles));
+    let corners = colors.into_iter().flat_map(|color| [color; 3]);
+    parsed.mesh = Mesh {
         positions: positions.into(),
+        colors: corners.collect::<Vec<_>>().into(),
         triangles: (0..count)
             .map(|at| [3 * at, 3 * at + 1, 3 * at + 2])
             .collect(),
         ..Mesh::default()
     };
-    charge(&mut mesh, budget)?;
-    Ok(Parsed {
-        mesh,
-        ..Parsed::default()
-    })
+    Ok(parsed)
 }
 
-fn binary(bytes: &[u8]) -> (Vec<[f64; 3]>, Vec<WordFault>) {
-    let triangles = bytes[HEAD..].as_chunks::<TRIANGLE>().0;
+fn binary(triangles: &[[u8; TRIANGLE]]) -> (Vec<[f64; 3]>, Vec<WordFault>) {
     let mut positions = Vec::with_capacity(3 * triangles.len());
     let mut faults = Vec::new();
     for (at, triangle) in triangles.iter().enumerate() {
-        let corners = corners(triangle);
+        let [_, corners @ ..] = vectors(triangle);
         if !corners.iter().flatten().all(|number| number.is_finite()) {
             let start = HEAD + TRIANGLE * at;
             let message = "a corner of a triangle is not finite";
@@ -108,10 +167,13 @@ fn binary(bytes: &[u8]) -> (Vec<[f64; 3]>, Vec<WordFault>) {
     (positions, faults)
 }
 
-fn text(bytes: &[u8]) -> (Vec<[f64; 3]>, Vec<WordFault>) {
+fn text(bytes: &[u8], parsed: &mut Parsed) -> (Vec<[f64; 3]>, Vec<WordFault>) {
     let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
     let (mut positions, mut faults) = (Vec::new(), Vec::new());
     while lines.next(&mut words) && faults.len() < MAX_FAULTS {
+        if words[0].bytes.eq_ignore_ascii_case(b"color") {
+            parsed.skip(|| words[0].fault("colours of a text are not read", "the first one"));
+        }
         faults.extend(statement(&words, &mut positions).err());
     }
     if !positions.len().is_multiple_of(3) && faults.is_empty() {

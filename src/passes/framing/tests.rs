@@ -179,3 +179,19 @@ fn what_has_no_extent_keeps_its_camera() {
         assert_eq!(scene.camera, before);
     }
 }
+
+#[test]
+fn the_ground_of_the_studio_takes_no_part() {
+    let flat = [[[-1.0, 0.0, -1.0], [1.0, 0.0, 1.0]]];
+    let mut scene = scene(&flat);
+    let [low, high] = flat[0].map(Vec3::from_array);
+    let ground = crate::ground::lay(&mut scene, [low, high]);
+    assert_eq!(ground, Some(1));
+    let framing = Framing {
+        ground,
+        ..Framing::default()
+    };
+    framing.apply(&mut scene);
+    let spans = shown(&scene, &flat).map(|[least, most]| (most - least) / 2.0);
+    assert!((spans[0].max(spans[1]) - SPAN).abs() < 1e-9, "{spans:?}");
+}

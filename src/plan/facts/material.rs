@@ -52,6 +52,7 @@ fn standard_of_phong(phong: &Phong) -> Standard {
     Standard {
         base_color: [r, g, b, UnitInterval::ONE],
         base_color_map: phong.maps.as_ref().and_then(|maps| maps.color).map(whole),
+        normal_map: phong.maps.as_ref().and_then(|maps| maps.normal).map(whole),
         metallic: UnitInterval::saturating(fit.metallic),
         roughness: UnitInterval::saturating(fit.roughness),
         specular: UnitInterval::saturating(fit.specular),

@@ -369,6 +369,13 @@ impl<'s> Tree<'s> {
         list.into_iter().flat_map(|list| self.items(list))
     }
 
+    /// Whether the values behind two keys are written alike.
+    #[must_use]
+    pub fn are_alike(&self, first: NodeId, second: NodeId) -> bool {
+        let value = |key: NodeId| self.written(NodeId(key.0 + 1));
+        value(first) == value(second)
+    }
+
     /// The keys that stand again in their map: the first of each, and another.
     #[must_use]
     pub fn duplicate_keys(&self) -> &[(NodeId, NodeId)] {

@@ -10,7 +10,7 @@ use rtc::internals::image::{
     Association, BackgroundFill, FileFormat, Image, Layers, Look, Picture,
 };
 use rtc::internals::ir::Lowered;
-use rtc::internals::passes::{EnvironmentOverride, Stage};
+use rtc::internals::passes::{EnvironmentOverride, SceneKind, Stage};
 use rtc::internals::pipeline::{self, Renderer};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{AnyWorld, Aov, Background, Job, Values};
@@ -98,7 +98,12 @@ fn stage(
         without_lights: false,
         ..Stage::default()
     };
-    pipeline::stage(lowered, &stage, false, sink);
+    let is_asset = |own| own == "gltf" || own == "glb";
+    let kind = match case.extension().is_some_and(is_asset) {
+        true => SceneKind::Asset,
+        false => SceneKind::Text,
+    };
+    pipeline::stage(lowered, &stage, kind, sink);
     Ok(())
 }
 

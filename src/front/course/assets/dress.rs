@@ -1,9 +1,9 @@
 //! MeshFiles dressed by the materials that their files ask for: one surface becomes one for each
 //! material, where those count.
 
+use super::Porter;
 use super::mesh::{MeshFile, MeshFiles};
 use super::mtl::Shelf;
-use super::{Porter, Wanted};
 use crate::mesh::Named;
 use crate::{gltf, over_limit};
 use rtc_diag::{Diagnostic, codes};
@@ -42,13 +42,13 @@ struct Wardrobe {
     parts: Vec<MeshId>,
 }
 
-/// Dresses meshes whose files were brought; returns the images that their materials wait for.
+/// Dresses meshes whose files were brought; returns the materials, with the images that they wait for.
 pub(super) fn dress(
     dressings: &[Dressing],
     meshes: &MeshFiles,
     lowered: &mut Lowered,
     porter: &mut Porter<'_>,
-) -> Vec<Wanted> {
+) -> Shelf {
     let scene = &lowered.scene;
     let kept = dressings
         .iter()
@@ -71,7 +71,7 @@ pub(super) fn dress(
             break;
         }
     }
-    dresser.shelf.wanted
+    dresser.shelf
 }
 
 /// The mesh in its place that a surface is.
@@ -228,6 +228,10 @@ impl Dresser<'_, '_> {
         let materials = &file.material_use.materials;
         let count = materials.iter().filter(|named| !named.text.is_empty());
         let message = match count.count() {
+            _ if file.texture.is_some() => {
+                "the picture of the mesh file is unused: the mesh has the material of the scene"
+                    .to_owned()
+            }
             1 => "the material of its MTL is unused: the mesh has that of the scene".to_owned(),
             count => {
                 format!("{count} materials of its MTL are unused: the mesh has that of the scene")

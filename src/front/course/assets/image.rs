@@ -80,7 +80,7 @@ pub(super) fn settle(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scen
 
 /// What is done without the file.
 fn without(wish: &Wanted) -> Without {
-    if let Asset::Map(_) = wish.asset {
+    if let Asset::Map(_) | Asset::Mask(_) = wish.asset {
         Without::Map
     } else {
         Without::Color
@@ -155,7 +155,7 @@ pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
 }
 
 /// True if most pixels, taken as 2·rgb − 1, are directions that point out of the surface.
-fn holds_normals(pixels: &[u8]) -> bool {
+pub(super) fn holds_normals(pixels: &[u8]) -> bool {
     let pixels = pixels.as_chunks::<3>().0;
     let is_normal = |pixel: &&[u8; 3]| {
         let [x, y, z] = pixel.map(|channel| f64::from(channel) / 127.5 - 1.0);

@@ -2,7 +2,7 @@
 
 use super::text::TextKind;
 use super::{Known, Porter, Wanted, Without};
-use crate::mesh::{EXTENSIONS, MaterialUse, Parsed, is_mesh, parse};
+use crate::mesh::{EXTENSIONS, MaterialUse, Named, Parsed, is_mesh, parse};
 use crate::over_limit;
 use rtc_diag::{Diagnostic, Sink, clip, codes};
 use rtc_ir::{Lowered, Mesh, MeshId, Mode, Scene, Shape};
@@ -13,7 +13,7 @@ use std::ops::Range;
 /// Such files.
 pub(super) const TEXT: TextKind = TextKind {
     noun: "mesh",
-    is_not: "no OBJ, OFF, STL or PLY",
+    is_not: "no OBJ, OFF, STL, PLY or XYZ",
     code: &codes::BAD_MESH_FILE,
     without: Without::Object,
     // Some two million triangles.
@@ -40,6 +40,8 @@ pub(super) struct MeshFile {
     /// The mesh of the scene that is all of it, if there is one.
     pub(super) home: Option<MeshId>,
     pub(super) material_use: MaterialUse,
+    /// The picture of all its faces, where it names one itself.
+    pub(super) texture: Option<Named>,
     pub(super) file: FileId,
     /// Its path from a folder that is searched.
     pub(super) path: String,
@@ -141,11 +143,13 @@ impl MeshFile {
             mesh: whole,
             not_drawn: _,
             material_use,
+            texture,
         } = parsed;
         Self {
             whole,
             home: None,
             material_use,
+            texture,
             file,
             path,
         }
@@ -211,8 +215,11 @@ fn extract(
             used.push(*corner);
         }
     }
-    let vertex =
-        24 + 16 * u64::from(!mesh.uvs.is_empty()) + 24 * u64::from(!mesh.normals.is_empty());
+    let column = |is_empty: bool, bytes: u64| if is_empty { 0 } else { bytes };
+    let vertex = 24
+        + column(mesh.uvs.is_empty(), 16)
+        + column(mesh.normals.is_empty(), 24)
+        + column(mesh.colors.is_empty(), 32);
     budget.charge(Resource::Vertices, used.len() as u64)?;
     let memory = vertex * used.len() as u64 + 12 * triangles().count() as u64;
     budget.charge(Resource::Memory, memory)?;

@@ -55,6 +55,8 @@ pub enum Asset {
     Photometry(usize),
     /// An image that a material of a mesh file names, of one pixel until its file is there.
     Map(ImageId),
+    /// The same with its opacity.
+    Mask(ImageId),
     /// The materials of a mesh.
     Materials,
 }
@@ -63,9 +65,11 @@ impl Asset {
     /// The noun of the IR that the file becomes, if it is one.
     pub(super) fn place(&self) -> Option<Place> {
         match self {
-            Self::Image(id) | Self::Sampled(id) | Self::Environment(id) | Self::Map(id) => {
-                Some((Noun::Image, id.0))
-            }
+            Self::Image(id)
+            | Self::Sampled(id)
+            | Self::Environment(id)
+            | Self::Map(id)
+            | Self::Mask(id) => Some((Noun::Image, id.0)),
             Self::Mesh(id) => Some((Noun::Mesh, id.0)),
             Self::Gltf(_) | Self::Photometry(_) | Self::Materials => None,
         }
@@ -147,9 +151,10 @@ impl<'run> Port<'run> {
 
     /// Dresses the meshes, and has textures look at the images that came.
     fn finish(mut self, dressings: &[Dressing], lowered: &mut Lowered) {
-        let wanted = dress::dress(dressings, &self.meshes, lowered, &mut self.porter);
-        self.unload(wanted, lowered);
+        let shelf = dress::dress(dressings, &self.meshes, lowered, &mut self.porter);
+        self.unload(shelf.wanted, lowered);
         image::settle(&self.image_of, &mut lowered.scene);
+        mtl::bake(shelf.bakes, &self.image_of, lowered, &mut self.porter);
         image::find_normal_maps(lowered, self.porter.sink);
         lowered.origins.finish();
     }
@@ -164,7 +169,7 @@ impl<'run> Port<'run> {
                     let image = image::bring(id, &wish, lowered, kind, porter);
                     self.image_of.insert(id.0, image);
                 }
-                Asset::Sampled(id) => {
+                Asset::Sampled(id) | Asset::Mask(id) => {
                     let kind = (&mut self.sampled, Opacity::Kept);
                     let image = image::bring(id, &wish, lowered, kind, porter);
                     self.image_of.insert(id.0, image);
@@ -335,7 +340,7 @@ impl Porter<'_> {
 /// The kind of file that an asset is in.
 fn kind_of(asset: &Asset) -> &'static FileKind {
     match asset {
-        Asset::Image(_) | Asset::Sampled(_) | Asset::Map(_) => &PICTURES,
+        Asset::Image(_) | Asset::Sampled(_) | Asset::Map(_) | Asset::Mask(_) => &PICTURES,
         Asset::Mesh(_) => &mesh::TEXT.file,
         Asset::Environment(_) => &environment::KIND,
         Asset::Gltf(_) => &gltf::KIND,

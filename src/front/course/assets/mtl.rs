@@ -1,17 +1,24 @@
-//! The MTL files that an OBJ names, and their materials as Phong's model says them.
+//! The MTL files that an OBJ names, and their materials: as Phong's model says them, and where paths are
+//! traced as the material of glTF does.
+
+mod bake;
+mod phong;
+mod shelf;
+mod standard;
+
+pub(super) use bake::bake;
+pub(super) use shelf::Shelf;
 
 use super::mesh::MeshFile;
 use super::text::TextKind;
 use super::{Asset, Porter, Wanted, Without};
 use crate::mesh::Named;
-use crate::mesh::mtl::{Library, MtlMaterial, Said, is_mtl, parse};
+use crate::mesh::mtl::{Library, is_mtl, parse};
+use phong::weight;
 use rtc_diag::{Diagnostic, Severity, codes};
-use rtc_ir::{
-    Bump, Field, Image, Lowered, Material, MaterialId, Mode, Noun, Phong, Pixels, Place, Texture,
-    TextureId,
-};
+use rtc_ir::{Lowered, MaterialId, Mode};
 use rtc_source::{FileId, FileKind, Span};
-use std::collections::BTreeMap;
+use shelf::beside;
 
 /// Such files.
 pub(super) const TEXT: TextKind = TextKind {
@@ -25,17 +32,6 @@ pub(super) const TEXT: TextKind = TextKind {
         begins: is_mtl,
     },
 };
-
-/// The part of the light that a surface scatters as ambient light, at most: programs write a `Ka` of
-/// 1 and mean an ambient light that scenes of the course don't have.
-const MOST_AMBIENT: f64 = 0.2;
-
-/// The materials brought so far, and the images that they wait for.
-#[derive(Default)]
-pub(super) struct Shelf {
-    pub(super) wanted: Vec<Wanted>,
-    textures: BTreeMap<String, TextureId>,
-}
 
 /// A library with its file.
 struct Shelved {
@@ -67,7 +63,8 @@ impl MeshFile {
 
     /// Whether it asks for materials of a file that is there.
     pub(super) fn has_library(&self, porter: &Porter<'_>) -> bool {
-        self.material_use.names_any() && self.libraries(porter).next().is_some()
+        let names_any = || self.material_use.names_any();
+        self.texture.is_some() || (names_any() && self.libraries(porter).next().is_some())
     }
 
     /// The material of the scene for each material that the faces ask for; `None` if there is none
@@ -78,6 +75,9 @@ impl MeshFile {
         lowered: &mut Lowered,
         porter: &mut Porter<'_>,
     ) -> Option<Vec<Option<MaterialId>>> {
+        if let Some(texture) = &self.texture {
+            return Some(vec![Some(shelf.plain(self, texture, lowered))]);
+        }
         if !self.material_use.names_any() {
             return None;
         }
@@ -107,6 +107,7 @@ impl MeshFile {
                 .sink
                 .push(finding.at(first.at.span(self.file), "faces go without it"));
         }
+        shelf.tell(porter.sink);
         self.note_mirrors(&libraries, lowered, porter);
         materials.iter().any(Option::is_some).then_some(materials)
     }
@@ -196,145 +197,4 @@ fn tell(library: &Library, file: FileId, porter: &mut Porter<'_>) {
             .sink
             .push(finding.at(first.span(file), first.label.as_str()));
     }
-}
-
-/// The path of a file named in the one at `path`; of a path from a root or a drive the last part.
-fn beside(path: &str, name: &str) -> String {
-    let name = name.replace('\\', "/");
-    let is_absolute = name.starts_with('/') || name.as_bytes().get(1) == Some(&b':');
-    let name = match name.rsplit_once('/') {
-        Some((_, last)) if is_absolute => last,
-        _ => &name,
-    };
-    match path.rsplit_once('/') {
-        Some((folder, _)) => format!("{folder}/{name}"),
-        None => name.to_owned(),
-    }
-}
-
-/// The mean of three channels, of grey to the last bit.
-fn mean([r, g, b]: [f64; 3]) -> f64 {
-    if r == g && g == b {
-        r
-    } else {
-        (r + g + b) / 3.0
-    }
-}
-
-/// The weight of the highlight.
-fn weight(material: &MtlMaterial) -> f64 {
-    let is_matt = material.model.as_ref().is_some_and(|model| model.value < 2);
-    let specular = material.specular.as_ref().filter(|_| !is_matt);
-    specular.map_or(0.0, |specular| mean(specular.value))
-}
-
-/// The numbers of a material in Phong's model; its maps aside.
-fn phong(material: &MtlMaterial) -> Phong {
-    let diffuse = material.diffuse.as_ref().map(|diffuse| diffuse.value);
-    let largest = diffuse.map_or(1.0, |[r, g, b]| r.max(g).max(b));
-    let color = diffuse.unwrap_or([DIFFUSE; 3]);
-    let kd = match material.color_map {
-        // A map of something black would be as good as none.
-        Some(_) if largest > 0.0 => largest,
-        _ => 1.0,
-    };
-    let ambient = material.ambient.as_ref();
-    let ka = ambient.map_or(MOST_AMBIENT, |ambient| mean(ambient.value));
-    let bends = material.model.as_ref();
-    let is_glass = bends.is_some_and(|model| matches!(model.value, 4 | 6 | 7 | 9));
-    let clear = if is_glass { 0.0 } else { 1.0 };
-    let opacity = material
-        .opacity
-        .as_ref()
-        .map_or(clear, |opacity| opacity.value);
-    let index = material.index.as_ref().map_or(1.0, |index| index.value);
-    Phong {
-        color,
-        ka: opacity * ka.min(MOST_AMBIENT),
-        kd: opacity * kd,
-        ks: weight(material),
-        n: material
-            .exponent
-            .as_ref()
-            .map_or(EXPONENT, |exponent| exponent.value),
-        kt: 1.0 - opacity,
-        eta: if is_glass && opacity < 1.0 && index > 0.0 {
-            index
-        } else {
-            1.0
-        },
-        ..Phong::MATT
-    }
-}
-
-/// The diffuse reflectance of a material that says none.
-const DIFFUSE: f64 = 0.8;
-
-/// The exponent of a material that says none.
-const EXPONENT: f64 = 10.0;
-
-impl Shelf {
-    /// Adds a material to the scene.
-    fn add(
-        &mut self,
-        shelved: &Shelved,
-        material: &MtlMaterial,
-        lowered: &mut Lowered,
-    ) -> MaterialId {
-        let mut phong = phong(material);
-        let mut map = |slot: &Option<Said<String>>, lowered: &mut Lowered| {
-            Some(self.texture(shelved, slot.as_ref()?, lowered))
-        };
-        phong.color_map = map(&material.color_map, lowered);
-        phong.specular_map = map(&material.specular_map, lowered);
-        phong.normal_map = map(&material.normal_map, lowered);
-        phong.bump = map(&material.bump, lowered).map(|texture| Bump {
-            texture,
-            height: 1.0,
-        });
-        let Lowered { scene, origins } = lowered;
-        let index = scene.materials.len();
-        scene.materials.push(Material::Phong(phong));
-        let bump = material.bump.as_ref().map(|bump| bump.at);
-        for (field, at) in [(Field::Whole, Some(material.at)), (Field::Bump, bump)] {
-            let span = at.map(|at| at.span(shelved.file));
-            origins.record(Place::new(Noun::Material, index, field), span);
-        }
-        MaterialId(id(index))
-    }
-
-    /// The texture of a file that a material names, of one white pixel until the file is there.
-    fn texture(
-        &mut self,
-        shelved: &Shelved,
-        file: &Said<String>,
-        lowered: &mut Lowered,
-    ) -> TextureId {
-        let path = beside(&shelved.path, &file.value);
-        if let Some(known) = self.textures.get(&path) {
-            return *known;
-        }
-        let scene = &mut lowered.scene;
-        let image = scene.add_image(Image {
-            name: path.clone(),
-            width: 1,
-            height: 1,
-            kind: Pixels::Rgb8,
-            pixels: vec![255; 3].into(),
-        });
-        let texture = TextureId(id(scene.textures.len()));
-        scene.textures.push(Texture::Image(image));
-        self.wanted.push(Wanted {
-            asset: Asset::Map(image),
-            path: path.clone(),
-            span: Some(file.at.span(shelved.file)),
-        });
-        self.textures.insert(path, texture);
-        texture
-    }
-}
-
-/// An index of the scene.
-fn id(index: usize) -> u32 {
-    u32::try_from(index).unwrap_or(u32::MAX)
 }

@@ -22,7 +22,7 @@ use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 record! {
-    /// A mesh from an OBJ, OFF, STL or PLY file.
+    /// A mesh from an OBJ, OFF, STL or PLY file, or points from an XYZ file.
     struct Mesh, "mesh" {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"], json "type";
@@ -53,7 +53,8 @@ record! {
         /// 1, `map_Kd` the `texture`, with the largest channel of `Kd` as `kd` if it is above 0; `ka` is the mean of `Ka`, at
         /// most 0.2; `ks` is the mean of `Ks`, 0 under `illum` 0 and 1, `map_Ks` the `specularMap`, `Ns` the `n`, `map_Bump` the
         /// `bump`, `norm` the `normalMap`. What `d` or `Tr` lets through is `kt`, and less of `ka` and `kd`; `Ni` is the `eta`
-        /// under `illum` 4, 6, 7 and 9, which are clear without `d` and `Tr`.
+        /// under `illum` 4, 6, 7 and 9, which are clear without `d` and `Tr`. Where paths are traced they become the `standard`
+        /// material, which shows `Ke`, `Tf`, `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `map_d`, `map_Ke`, `map_Pr`, `map_Pm` and how maps lie, too.
         materials: Spanned<MaterialSource>, optional, keys!["materials"];
         /// Of an OBJ: the faces alone that ask for the material of this name by `usemtl`; empty for those that ask for none.
         part: Spanned<PartName>, optional, keys!["part"];

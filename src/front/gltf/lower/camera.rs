@@ -189,7 +189,7 @@ fn camera(eye: Vec3, [x, y, z]: [Vec3; 3], half: [f64; 2], projection: ir::Proje
 }
 
 /// The size that a pixel in the picture of the camera that we choose has at the middle of the ball.
-pub(super) fn pixel(ball: Ball) -> f64 {
+pub(crate) fn pixel(ball: Ball) -> f64 {
     let camera = looking_at(ball);
     let eye = Vec3::from_array(camera.eye);
     Vec3::from_array(camera.up).length() / reach(eye) * eye.distance(ball.center)

@@ -8,6 +8,7 @@ use super::super::report::AssetReport;
 use super::shape::{Deformation, ShapeId};
 use super::uv::TexCoordSets;
 use super::{deform, tangent, topology};
+use crate::solid::{is_finite, pick};
 use rtc_ir::{self as ir, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
 use rtc_source::Resource;
 use rtc_source::tree::NodeId;
@@ -29,8 +30,11 @@ pub(super) struct Meshes<'d> {
     parts: BTreeMap<Parts<'d>, usize>,
     of_primitive: BTreeMap<NodeId, usize>,
     /// The mesh of each that was asked for; none if it has no surface.
-    made: BTreeMap<(usize, ShapeId, bool, TexCoordSets), Option<MeshId>>,
+    made: BTreeMap<MeshKey, Option<MeshId>>,
 }
+
+/// What two meshes that are wanted have in common if they are the same.
+pub(super) type MeshKey = (usize, ShapeId, bool, TexCoordSets);
 
 /// Names and accessors.
 type Pairs<'d> = Vec<(&'d str, usize)>;
@@ -72,8 +76,7 @@ impl<'d> Meshes<'d> {
         report: &mut AssetReport<'_, '_>,
     ) -> Option<MeshId> {
         let primitive = wanted.primitive;
-        let (tangents, uv_sets) = (wanted.needs_tangents, wanted.uv_sets);
-        let key = (self.parts(primitive), wanted.shape.0, tangents, uv_sets);
+        let key = self.key(wanted);
         let known = self.made.get(&key).copied();
         let made = known.unwrap_or_else(|| {
             let is_small = charge(doc, wanted, report);
@@ -92,6 +95,13 @@ impl<'d> Meshes<'d> {
             self.made.insert(key, made);
         }
         made
+    }
+
+    /// What a mesh that is wanted has in common with the same.
+    pub(super) fn key(&mut self, wanted: &WantedMesh<'d, '_>) -> MeshKey {
+        let (tangents, uv_sets) = (wanted.needs_tangents, wanted.uv_sets);
+        let parts = self.parts(wanted.primitive);
+        (parts, wanted.shape.0, tangents, uv_sets)
     }
 
     /// The name of what a primitive is made of.
@@ -263,19 +273,6 @@ pub(super) fn vertices(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Optio
     Some(mesh)
 }
 
-/// True if all numbers of the vertices are finite.
-pub(super) fn is_finite(mesh: &Mesh) -> bool {
-    fn all<const N: usize>(column: &Column<N>) -> bool {
-        (0..column.len()).all(|at| column.at(at).iter().all(|number| number.is_finite()))
-    }
-    all(&mesh.positions)
-        && all(&mesh.normals)
-        && all(&mesh.tangents)
-        && all(&mesh.uvs)
-        && all(&mesh.second_uvs)
-        && all(&mesh.colors)
-}
-
 /// Colours with alpha, each channel from 0 to 1.
 fn colors(elements: &Elements<'_>) -> Column<4> {
     let has_alpha = elements.layout.components() == 4;
@@ -286,27 +283,6 @@ fn colors(elements: &Elements<'_>) -> Column<4> {
 /// Colours, each channel kept from 0 to 1.
 pub(super) fn clamped(colors: impl Iterator<Item = [f64; 4]>) -> Column<4> {
     Column::rounded(colors.map(|color| color.map(|channel| channel.clamp(0.0, 1.0))))
-}
-
-/// Makes a mesh of these vertices of it, whatever its triangles say.
-pub(super) fn pick(mesh: &mut Mesh, vertices: &[u32]) {
-    let Mesh {
-        name: _,
-        part: _,
-        positions,
-        normals,
-        uvs,
-        second_uvs,
-        tangents,
-        colors,
-        triangles: _,
-    } = mesh;
-    *positions = positions.pick(vertices);
-    *normals = normals.pick(vertices);
-    *uvs = uvs.pick(vertices);
-    *second_uvs = second_uvs.pick(vertices);
-    *tangents = tangents.pick(vertices);
-    *colors = colors.pick(vertices);
 }
 
 /// A count of a scene, which is far below 2^32.

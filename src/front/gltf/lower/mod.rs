@@ -16,7 +16,7 @@ mod texture;
 mod topology;
 mod uv;
 
-pub(crate) use camera::looking_at;
+pub(crate) use camera::{looking_at, pixel};
 
 use super::document::Document;
 use super::field::Fields;
@@ -157,7 +157,7 @@ impl Lowering<'_, '_, '_> {
         let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else {
             return true;
         };
-        let places = node.instances.filter(|_| node.skin.is_none());
+        let places = node.instances.as_ref().filter(|_| node.skin.is_none());
         let count = places.map_or(1, |own| Places::many(doc, DAffine3::IDENTITY, own).count());
         let count = (count as u64).saturating_mul(mesh.primitives.len() as u64);
         let memory = count.saturating_mul(SURFACE + node.name.len() as u64);
@@ -200,7 +200,7 @@ impl Lowering<'_, '_, '_> {
         else {
             return;
         };
-        let places = match (skin, node.instances) {
+        let places = match (skin, &node.instances) {
             (Some(_), _) => Places::one(DAffine3::IDENTITY),
             (None, Some(instances)) => Places::many(doc, world, instances),
             (None, None) => Places::one(world),
@@ -221,7 +221,8 @@ impl Lowering<'_, '_, '_> {
             };
             if is_stroked {
                 let target = (&mut self.scene, &mut self.origins);
-                let made = self.strokes.make(doc, &made, &places, target, self.report);
+                let made = (&made, self.meshes.key(&made));
+                let made = self.strokes.make(doc, made, &places, target, self.report);
                 let material = self.material_of_strokes(primitive, material);
                 for (id, world) in made {
                     self.surface(id, world, material, &node.name, node.at);

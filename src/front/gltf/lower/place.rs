@@ -2,6 +2,7 @@
 
 use super::super::document::Document;
 use super::super::elements::Elements;
+use super::super::node::Instancing;
 use super::pose::Pose;
 use glam::{DAffine3, DQuat};
 use rtc_math::{Vec3, unit};
@@ -84,6 +85,7 @@ pub(super) struct Places<'d> {
     world: DAffine3,
     /// The instances of `EXT_mesh_gpu_instancing` at the node: translations, rotations and scales.
     instances: Option<[Option<Elements<'d>>; 3]>,
+    count: usize,
 }
 
 impl<'d> Places<'d> {
@@ -92,29 +94,27 @@ impl<'d> Places<'d> {
         Self {
             world,
             instances: None,
+            count: 1,
         }
     }
 
-    /// Those of instances, by their accessors.
-    pub(super) fn many(
-        doc: &'d Document<'_>,
-        world: DAffine3,
-        accessors: [Option<usize>; 3],
-    ) -> Self {
-        let instances = accessors.map(|accessor| Elements::of(doc, doc.accessors.get(accessor?)?));
+    /// Those of instances.
+    pub(super) fn many(doc: &'d Document<'_>, world: DAffine3, own: &Instancing) -> Self {
+        let elements = |accessor| Elements::of(doc, doc.accessors.get(accessor)?);
+        let parts = own.parts.map(|accessor| elements(accessor?));
+        let read = parts.iter().flatten().map(|own| own.count);
+        let all = own.all.iter();
+        let said = all.filter_map(|accessor| doc.accessors.get(*accessor)?.count);
         Self {
             world,
-            instances: Some(instances),
+            count: said.chain(read).min().unwrap_or(0),
+            instances: Some(parts),
         }
     }
 
     /// How many there are.
     pub(super) fn count(&self) -> usize {
-        let counts =
-            |own: &[Option<Elements<'_>>; 3]| own.iter().flatten().map(|own| own.count).min();
-        self.instances
-            .as_ref()
-            .map_or(1, |own| counts(own).unwrap_or(0))
+        self.count
     }
 
     /// The place at `at`, which is below the count.

@@ -5,7 +5,8 @@
 //! MikkTSpace compares all corners at a place with each other. So a place of very many counts as several side
 //! by side, each with its part of them.
 
-use super::mesh::{pick, to_u32};
+use super::mesh::to_u32;
+use crate::solid::pick;
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use rtc_ir::{Column, Mesh};
 use rtc_math::Vec3;

@@ -13,12 +13,13 @@ const HEADER: [&str; 3] = ["asset", "extensionsUsed", "extensionsRequired"];
 
 /// Checks the shape of the whole asset, and that its references lead somewhere; only of its header
 /// if the rest `is_known` not.
-pub(in super::super) fn walk(is_known: bool, report: &mut AssetReport<'_, '_>) {
+pub(in super::super) fn walk(is_known: bool, report: &mut AssetReport<'_, '_>) -> BTreeSet<String> {
     let root = report.json.root();
     if report.json.kind(root) != NodeKind::Map {
         let kind = report.json.kind(root).name();
         let message = format!("an asset is an object, and this is {kind}");
-        return report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", root, message);
+        report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", root, message);
+        return BTreeSet::new();
     }
     let json = report.json;
     let declared = json
@@ -53,6 +54,7 @@ pub(in super::super) fn walk(is_known: bool, report: &mut AssetReport<'_, '_>) {
     if is_known {
         walk.tell_unused();
     }
+    walk.declared
 }
 
 /// An element of a list of parts.
@@ -66,7 +68,7 @@ enum Slot {
 
 pub(super) struct Walk<'w, 'r, 's> {
     pub(super) report: &'w mut AssetReport<'r, 's>,
-    /// The extensions in `extensionsUsed`.
+    /// The extensions in `extensionsUsed`; lenient, also those that should be there.
     declared: BTreeSet<String>,
     /// What is in each pool.
     slots: [Vec<Slot>; POOLS.len()],
@@ -161,13 +163,13 @@ impl Walk<'_, '_, '_> {
                     "the extension `{}` is not listed in `extensionsUsed`",
                     shown(name)
                 );
-                self.report.say(
-                    &codes::GLTF_EXTENSION,
-                    "UNDECLARED_EXTENSION",
-                    value,
-                    message,
-                );
-                continue;
+                let (alias, mended) = ("UNDECLARED_EXTENSION", "it is taken as listed");
+                self.report
+                    .mend(&codes::GLTF_EXTENSION, alias, value, &message, mended);
+                if !self.report.is_lenient() {
+                    continue;
+                }
+                self.declared.insert(name.to_owned());
             }
             let Some(extension) = extension::find(name) else {
                 continue;

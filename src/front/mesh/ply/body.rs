@@ -1,6 +1,6 @@
 //! The body of a PLY, number by number.
 
-use super::head::{NumberKind, PlyElement, PlyForm, PlyProperty};
+use super::head::{NumberKind, PlyElement, PlyForm, PlyHead, PlyProperty};
 use crate::words::{Lines, Word, WordFault};
 use std::ops::Range;
 
@@ -14,20 +14,38 @@ pub(super) struct PlyBody<'a> {
     words: Vec<Word<'a>>,
     /// How many words of the line were read.
     used: usize,
+    /// Whether each row may have a line of its own.
+    is_by_lines: bool,
+    /// How many lines were begun.
+    line: usize,
+    /// The line on which the row began, if at its start.
+    row_line: Option<usize>,
     /// The number that was read last.
     last: Range<usize>,
+    value: f64,
 }
 
 impl<'a> PlyBody<'a> {
-    pub(super) fn new(bytes: &'a [u8], body: usize, form: PlyForm) -> Self {
+    /// The body of a file whose head says so.
+    pub(super) fn new(bytes: &'a [u8], head: &PlyHead<'_>) -> Self {
+        let (body, form) = (head.start, head.form);
+        let rows = head
+            .elements
+            .iter()
+            .filter(|own| !own.properties.is_empty());
+        let rows = rows.fold(0_usize, |sum, own| sum.saturating_add(own.count));
         Self {
             bytes,
             form,
+            is_by_lines: form == PlyForm::Text && has_lines(&bytes[body..], rows),
             at: body,
             lines: Lines::from(bytes, body),
             words: Vec::new(),
             used: 0,
+            line: 0,
+            row_line: Some(1),
             last: body..body,
+            value: 0.0,
         }
     }
 
@@ -62,16 +80,30 @@ impl<'a> PlyBody<'a> {
         kind: NumberKind,
         element: &PlyElement<'_>,
     ) -> Result<f64, WordFault> {
-        match self.form {
+        self.value = match self.form {
             PlyForm::Text => self.word(element),
             PlyForm::LittleEndian => self.binary(kind, element, false),
             PlyForm::BigEndian => self.binary(kind, element, true),
+        }?;
+        Ok(self.value)
+    }
+
+    /// The row ends; true if it is all of a line but for numbers that no property has, which are passed
+    /// over.
+    pub(super) fn end_row(&mut self) -> bool {
+        let is_whole = self.is_by_lines && self.row_line == Some(self.line);
+        let has_more = is_whole && self.used < self.words.len();
+        if has_more {
+            self.used = self.words.len();
         }
+        self.row_line = (self.used == self.words.len()).then_some(self.line + 1);
+        has_more
     }
 
     fn word(&mut self, element: &PlyElement<'_>) -> Result<f64, WordFault> {
         if self.used == self.words.len() {
             self.used = 0;
+            self.line += 1;
             if !self.lines.next(&mut self.words) {
                 return Err(element.is_cut_off());
             }
@@ -140,8 +172,26 @@ impl<'a> PlyBody<'a> {
         Ok(())
     }
 
+    /// Whether the number that was read last is this one.
+    pub(super) fn was(&self, number: f64) -> bool {
+        self.value == number
+    }
+
+    /// A fault at the line that is read, of a text.
+    pub(super) fn line_fault(&self, message: &str, label: &str) -> WordFault {
+        let first = self.words.first().copied().unwrap_or(Word::START);
+        first.fault(message, label)
+    }
+
     /// A fault at the number that was read last.
     pub(super) fn fault(&self, message: &str, label: &str) -> WordFault {
         WordFault::new(self.last.clone(), message, label)
     }
+}
+
+/// Whether a text has at least so many lines that are not empty.
+fn has_lines(text: &[u8], rows: usize) -> bool {
+    let lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
+    let mut lines = lines.filter(|line| !line.trim_ascii().is_empty());
+    rows == 0 || lines.nth(rows - 1).is_some()
 }

@@ -1,6 +1,6 @@
 //! The head of a PLY: its form, and the elements with their properties, in the order of the body.
 
-use super::super::material_use::name;
+use super::super::material_use::{Named, name};
 use crate::words::{Lines, Word, WordFault};
 
 /// How the numbers of the body are written.
@@ -89,6 +89,11 @@ impl PlyProperty<'_> {
         let is_named = matches!(self.name.bytes, b"vertex_indices" | b"vertex_index");
         is_named && self.length.is_some()
     }
+
+    /// Whether it lists the texture coordinates of the corners of a face.
+    pub(super) fn is_uvs(&self) -> bool {
+        self.name.bytes == b"texcoord" && self.length.is_some()
+    }
 }
 
 impl PlyElement<'_> {
@@ -103,12 +108,36 @@ impl PlyElement<'_> {
     }
 }
 
-/// The elements, the form of the body, and where it begins.
-pub(super) fn read(bytes: &[u8]) -> Result<(Vec<PlyElement<'_>>, PlyForm, usize), WordFault> {
+/// What the head says.
+pub(super) struct PlyHead<'a> {
+    pub(super) elements: Vec<PlyElement<'a>>,
+    pub(super) form: PlyForm,
+    /// Where the body begins.
+    pub(super) start: usize,
+    /// The pictures that comments name: the first, and how many.
+    pub(super) textures: Option<(Named, usize)>,
+}
+
+impl PlyHead<'_> {
+    /// How many vertices there are to be.
+    pub(super) fn vertices(&self) -> usize {
+        let mut elements = self.elements.iter();
+        let vertices = elements.find(|element| element.name.bytes == b"vertex");
+        vertices.map_or(0, |element| element.count)
+    }
+}
+
+/// Reads the head.
+pub(super) fn read(bytes: &[u8]) -> Result<PlyHead<'_>, WordFault> {
     let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
-    let (mut elements, mut form) = (Vec::new(), None);
+    let (mut elements, mut form, mut textures) = (Vec::new(), None, None);
     while lines.next(&mut words) {
         match (words[0].bytes, &words[1..]) {
+            (b"comment", [word, rest @ ..]) if word.bytes.eq_ignore_ascii_case(b"texturefile") => {
+                if let Some(file) = name(rest, bytes) {
+                    textures.get_or_insert((file, 0)).1 += 1;
+                }
+            }
             (b"ply" | b"comment" | b"obj_info", _) => {}
             (b"format", [word, ..]) => form = Some(form_of(word)?),
             (b"element", [name, count, ..]) => elements.push(element(*name, *count)?),
@@ -121,7 +150,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Vec<PlyElement<'_>>, PlyForm, usize)
             (b"end_header", _) => {
                 let form = form
                     .ok_or_else(|| words[0].fault("the head says no `format`", "it ends here"))?;
-                return Ok((elements, form, end(&words[0], bytes)));
+                return Ok(PlyHead {
+                    elements,
+                    form,
+                    start: end(&words[0], bytes),
+                    textures,
+                });
             }
             _ => {
                 let head = name(&words, bytes).map_or_else(String::new, |line| line.text);

@@ -1,9 +1,9 @@
 //! The vertices of a PLY, each column in the precision of its properties.
 
 use super::super::Unread;
+use super::super::tint::decoded;
 use super::body::PlyBody;
 use super::head::{NumberKind, PlyElement, PlyProperty};
-use rtc_color::srgb_decoded;
 use rtc_ir::Mesh;
 use rtc_math::Column;
 use rtc_source::{Budget, Resource};
@@ -133,6 +133,7 @@ pub(super) fn read(
     let mut coded = Vec::new();
     for _ in 0..count {
         let row = row(element, &slots, body)?;
+        body.end_row();
         positions.push(&row);
         normals.push(&row);
         uvs.push(&row);
@@ -195,10 +196,17 @@ fn row(
 
 /// The colour of a vertex, which is coded as sRGB does.
 fn color(row: &VertexRow) -> [f32; 4] {
-    let [r, g, b] = [row[COLOR], row[COLOR + 1], row[COLOR + 2]].map(srgb_decoded);
+    let [r, g, b] = [row[COLOR], row[COLOR + 1], row[COLOR + 2]].map(decoded);
     #[expect(
         clippy::cast_possible_truncation,
         reason = "rounded to what the IR stores"
     )]
-    [r, g, b, row[ALPHA]].map(|channel| channel as f32)
+    [r, g, b, row[ALPHA] as f32]
+}
+
+/// Which channel of a colour that is coded as sRGB a property is, and its type.
+pub(super) fn channel(property: &PlyProperty<'_>) -> Option<(usize, NumberKind)> {
+    let (at, kind) = slot(property)?;
+    let channel = at.checked_sub(COLOR).filter(|channel| *channel < 4)?;
+    Some((channel, kind))
 }

@@ -1,0 +1,254 @@
+//! Maps of glTF's material that are made of several pictures of an MTL, or of another kind of picture: a
+//! colour with its opacity, roughness beside metal, normals of heights.
+
+use super::super::Porter;
+use super::super::image::holds_normals;
+use super::shelf::Laid;
+use crate::over_limit;
+use rtc_diag::{Diagnostic, clip_path, codes};
+use rtc_ir::{
+    Image, ImageId, Lowered, Map, Material, MaterialId, Pixels, Sampled, Scene, Standard, Texture,
+    TextureId,
+};
+use rtc_source::{Resource, Span};
+use std::collections::BTreeMap;
+
+/// A map to be made once its pictures are there.
+pub(in super::super) struct Bake {
+    pub(super) material: MaterialId,
+    pub(super) baked: Baked,
+    pub(super) laid: Laid,
+    pub(super) span: Span,
+}
+
+/// What it is made of.
+pub(super) enum Baked {
+    /// The colour, and how much it hides.
+    Opacity {
+        color: Option<ImageId>,
+        mask: ImageId,
+    },
+    /// How rough, and how much metal.
+    MetalRough {
+        rough: Option<ImageId>,
+        metal: Option<ImageId>,
+    },
+    /// How high, and how high white is above black, as a share of the width of a texel.
+    Normals { heights: ImageId, height: f64 },
+}
+
+/// A picture, looked up by the pixels of another size.
+struct Source<'a>(&'a Image);
+
+impl Source<'_> {
+    /// The pixel in which that of a picture of a size lies, with its opacity.
+    fn at(&self, [x, y]: [u32; 2], [width, height]: [u32; 2]) -> [u8; 4] {
+        let scaled =
+            |at: u32, own: u32, size: u32| u64::from(at) * u64::from(own) / u64::from(size);
+        let column = scaled(x, self.0.width, width);
+        let index = scaled(y, self.0.height, height) * u64::from(self.0.width) + column;
+        let size = self.0.kind.bytes();
+        let at = usize::try_from(index)
+            .unwrap_or(usize::MAX)
+            .saturating_mul(size);
+        match self.0.pixels.get(at..at + size) {
+            Some([r, g, b]) => [*r, *g, *b, u8::MAX],
+            Some([r, g, b, alpha]) => [*r, *g, *b, *alpha],
+            _ => [u8::MAX; 4],
+        }
+    }
+
+    fn size(&self) -> [u32; 2] {
+        [self.0.width, self.0.height]
+    }
+
+    fn has_opacity(&self) -> bool {
+        let pixels = self.0.pixels.as_chunks::<4>().0;
+        self.0.kind == Pixels::Rgba8 && pixels.iter().any(|[.., alpha]| *alpha < u8::MAX)
+    }
+}
+
+/// Makes the maps. `image_of` says which image came of each that was wanted; where none did, there is no
+/// map.
+pub(in super::super) fn bake(
+    bakes: Vec<Bake>,
+    image_of: &BTreeMap<u32, Option<ImageId>>,
+    lowered: &mut Lowered,
+    porter: &mut Porter<'_>,
+) {
+    let came = |image: ImageId| image_of.get(&image.0).copied().flatten();
+    // One map for all materials that name the same pictures.
+    let mut known: BTreeMap<String, ImageId> = BTreeMap::new();
+    for bake in bakes {
+        let scene = &mut lowered.scene;
+        let baked = match bake.baked {
+            Baked::Opacity { color, mask } => came(mask).map(|mask| Baked::Opacity {
+                color: color.and_then(came),
+                mask,
+            }),
+            Baked::MetalRough { rough, metal } => Some(Baked::MetalRough {
+                rough: rough.and_then(came),
+                metal: metal.and_then(came),
+            }),
+            Baked::Normals { heights, height } => {
+                came(heights).map(|heights| Baked::Normals { heights, height })
+            }
+        };
+        let Some(baked) = baked else { continue };
+        let key = baked.key();
+        let image = match (known.get(&key), &baked) {
+            (Some(image), _) => *image,
+            (None, Baked::Normals { heights, .. })
+                if scene
+                    .images
+                    .get(heights.0 as usize)
+                    .is_some_and(|own| holds_normals(&own.pixels)) =>
+            {
+                tell_normals(scene, *heights, bake.span, porter);
+                *heights
+            }
+            (None, _) => {
+                let bytes = baked.bytes(scene);
+                if let Err(fault) = porter.map.budget().charge(Resource::Textures, bytes) {
+                    let finding = over_limit("the picture", &fault).at(bake.span, "named here");
+                    porter.sink.push(finding);
+                    return;
+                }
+                let Some(image) = baked.image(scene) else {
+                    continue;
+                };
+                scene.add_image(image)
+            }
+        };
+        known.insert(key, image);
+        let texture = TextureId(u32::try_from(scene.textures.len()).unwrap_or(u32::MAX));
+        scene.textures.push(Texture::Sampled(Sampled {
+            image,
+            wrap: [bake.laid.wrap; 2],
+            filter: rtc_ir::Filter::Linear,
+        }));
+        let map = Map {
+            texture,
+            set: 0,
+            texture_from_surface: Some(bake.laid.texture_from_surface),
+        };
+        let material = scene.materials.get_mut(bake.material.0 as usize);
+        if let Some(Material::Standard(standard)) = material {
+            *baked.slot(standard) = Some(map);
+        }
+    }
+}
+
+fn tell_normals(scene: &Scene, image: ImageId, span: Span, porter: &mut Porter<'_>) {
+    let name = scene
+        .images
+        .get(image.0 as usize)
+        .map_or("", |image| &*image.name);
+    let message = format!(
+        "`{}` holds normals, so it is used as a normal map",
+        clip_path(name)
+    );
+    let note = Diagnostic::new(&codes::NORMALS_AS_BUMP, message).at(span, "holds normals");
+    porter.sink.push(note.hint("name it by `norm`"));
+}
+
+impl Baked {
+    /// What two of the same pictures have in common.
+    fn key(&self) -> String {
+        match self {
+            Self::Opacity { color, mask } => format!("opacity {color:?} {mask:?}"),
+            Self::MetalRough { rough, metal } => format!("metal {rough:?} {metal:?}"),
+            Self::Normals { heights, height } => format!("normals {heights:?} {height}"),
+        }
+    }
+
+    /// The map that it becomes.
+    fn slot<'m>(&self, material: &'m mut Standard) -> &'m mut Option<Map> {
+        match self {
+            Self::Opacity { .. } => &mut material.base_color_map,
+            Self::MetalRough { .. } => &mut material.metallic_roughness_map,
+            Self::Normals { .. } => &mut material.normal_map,
+        }
+    }
+
+    fn sources<'a>(&self, scene: &'a Scene) -> [Option<Source<'a>>; 2] {
+        let source = |image: Option<ImageId>| Some(Source(scene.images.get(image?.0 as usize)?));
+        match self {
+            Self::Opacity { color, mask } => [source(*color), source(Some(*mask))],
+            Self::MetalRough { rough, metal } => [source(*rough), source(*metal)],
+            Self::Normals { heights, .. } => [source(Some(*heights)), None],
+        }
+    }
+
+    /// As large as the larger one.
+    fn size(&self, scene: &Scene) -> [u32; 2] {
+        let sources = self.sources(scene).into_iter().flatten();
+        sources.fold([1; 2], |[width, height], source| {
+            let [own, high] = source.size();
+            [width.max(own), height.max(high)]
+        })
+    }
+
+    fn bytes(&self, scene: &Scene) -> u64 {
+        let [width, height] = self.size(scene);
+        4 * u64::from(width) * u64::from(height)
+    }
+
+    fn image(&self, scene: &Scene) -> Option<Image> {
+        let size = self.size(scene);
+        let sources = self.sources(scene);
+        let name = sources.iter().flatten().next()?.0.name.clone();
+        let [first, second] = &sources;
+        let at = |source: &Option<Source<'_>>, place: [u32; 2]| {
+            source
+                .as_ref()
+                .map_or([u8::MAX; 4], |own| own.at(place, size))
+        };
+        let hides = second.as_ref().is_some_and(Source::has_opacity);
+        let places = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+        let (kind, pixels): (Pixels, Vec<u8>) = match self {
+            Self::Opacity { .. } => {
+                let pixel = |place| {
+                    let ([r, g, b, _], [grey, _, _, alpha]) = (at(first, place), at(second, place));
+                    [r, g, b, if hides { alpha } else { grey }]
+                };
+                (Pixels::Rgba8, places.flat_map(pixel).collect())
+            }
+            Self::MetalRough { .. } => {
+                let pixel = |place| [u8::MAX, at(first, place)[0], at(second, place)[0]];
+                (Pixels::Rgb8, places.flat_map(pixel).collect())
+            }
+            Self::Normals { height, .. } => {
+                let [width, rows] = size;
+                let at = |x: u32, y: u32| {
+                    let [r, g, b, _] = at(first, [x % width, y % rows]);
+                    (f64::from(r) + f64::from(g) + f64::from(b)) / 765.0
+                };
+                let pixel = |[x, y]: [u32; 2]| {
+                    let right = at(x + 1, y) - at(x + width - 1, y);
+                    let up = at(x, y + rows - 1) - at(x, y + 1);
+                    coded([-height * right / 2.0, -height * up / 2.0, 1.0])
+                };
+                (Pixels::Rgb8, places.flat_map(pixel).collect())
+            }
+        };
+        Some(Image {
+            name,
+            width: size[0],
+            height: size[1],
+            kind,
+            pixels: pixels.into(),
+        })
+    }
+}
+
+/// A direction as a normal map codes it.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "from 0 to 255"
+)]
+fn coded(direction: [f64; 3]) -> [u8; 3] {
+    let square: f64 = direction.iter().map(|part| part * part).sum();
+    direction.map(|part| ((part / square.sqrt() + 1.0) * 127.5).round() as u8)
+}

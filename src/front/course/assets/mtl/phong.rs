@@ -1,0 +1,78 @@
+//! A material of an MTL in Phong's model.
+
+use crate::mesh::mtl::MtlMaterial;
+use rtc_ir::Phong;
+
+/// The part of the light that a surface scatters as ambient light, at most: programs write a `Ka` of
+/// 1 and mean an ambient light that scenes of the course don't have.
+const MOST_AMBIENT: f64 = 0.2;
+
+/// The diffuse reflectance of a material that says none.
+pub(super) const DIFFUSE: f64 = 0.8;
+
+/// The exponent of a material that says none.
+const EXPONENT: f64 = 10.0;
+
+/// The mean of three channels, of grey to the last bit.
+fn mean([r, g, b]: [f64; 3]) -> f64 {
+    if r == g && g == b {
+        r
+    } else {
+        (r + g + b) / 3.0
+    }
+}
+
+/// The weight of the highlight.
+pub(super) fn weight(material: &MtlMaterial) -> f64 {
+    let is_matt = material.model.as_ref().is_some_and(|model| model.value < 2);
+    let specular = material.specular.as_ref().filter(|_| !is_matt);
+    specular.map_or(0.0, |specular| mean(specular.value))
+}
+
+/// Whether light goes through by refraction.
+pub(super) fn is_glass(material: &MtlMaterial) -> bool {
+    let model = material.model.as_ref();
+    model.is_some_and(|model| matches!(model.value, 4 | 6 | 7 | 9))
+}
+
+/// How much a material hides what is behind it, 0 to 1. `Tr 1` is read as all: programs that write it
+/// for what can't be seen at all are the fewer.
+pub(super) fn opacity(material: &MtlMaterial) -> f64 {
+    let clear = if is_glass(material) { 0.0 } else { 1.0 };
+    let said = material.opacity.as_ref();
+    let said = said.filter(|_| !material.is_transparency_1 || is_glass(material));
+    said.map_or(clear, |opacity| opacity.value)
+}
+
+/// The numbers of a material in Phong's model; its maps aside.
+pub(super) fn phong(material: &MtlMaterial) -> Phong {
+    let diffuse = material.diffuse.as_ref().map(|diffuse| diffuse.value);
+    let largest = diffuse.map_or(1.0, |[r, g, b]| r.max(g).max(b));
+    let color = diffuse.unwrap_or([DIFFUSE; 3]);
+    let kd = match material.color_map {
+        // A map of something black would be as good as none.
+        Some(_) if largest > 0.0 => largest,
+        _ => 1.0,
+    };
+    let ambient = material.ambient.as_ref();
+    let ka = ambient.map_or(MOST_AMBIENT, |ambient| mean(ambient.value));
+    let (is_glass, opacity) = (is_glass(material), opacity(material));
+    let index = material.index.as_ref().map_or(1.0, |index| index.value);
+    Phong {
+        color,
+        ka: opacity * ka.min(MOST_AMBIENT),
+        kd: opacity * kd,
+        ks: weight(material),
+        n: material
+            .exponent
+            .as_ref()
+            .map_or(EXPONENT, |exponent| exponent.value),
+        kt: 1.0 - opacity,
+        eta: if is_glass && opacity < 1.0 && index > 0.0 {
+            index
+        } else {
+            1.0
+        },
+        ..Phong::MATT
+    }
+}

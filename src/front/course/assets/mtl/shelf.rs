@@ -1,0 +1,308 @@
+//! The materials of mesh files as they come into the scene, and the images that they wait for.
+
+use super::super::mesh::MeshFile;
+use super::super::{Asset, Wanted};
+use super::bake::Bake;
+use super::{Shelved, phong, standard};
+use crate::mesh::mtl::{MtlMap, MtlMaterial, Said};
+use crate::mesh::{Named, WordSpan};
+use rtc_diag::{Diagnostic, Severity, Sink, codes};
+use rtc_ir::{
+    Bump, Field, Image, ImageId, Lowered, Map, Material, MaterialId, Mode, Noun, Phong, Pixels,
+    Place, Sampled, Texture, TextureId, Wrap,
+};
+use rtc_source::Span;
+use std::collections::BTreeMap;
+
+/// The materials brought so far, and the images that they wait for.
+#[derive(Default)]
+pub(in super::super) struct Shelf {
+    pub(in super::super) wanted: Vec<Wanted>,
+    /// What is made of images once they are there.
+    pub(in super::super) bakes: Vec<Bake>,
+    images: BTreeMap<(String, bool), ImageId>,
+    textures: BTreeMap<(u32, Option<bool>), TextureId>,
+    /// What of materials does not show: the first, why, and how many.
+    lost: Option<(Span, String, usize)>,
+    /// Where `Tr 1` stands.
+    transparency: Option<Span>,
+}
+
+/// A picture that a material names, and where.
+pub(super) struct Pictured<'a> {
+    pub(super) path: String,
+    pub(super) map: &'a MtlMap,
+    pub(super) span: Span,
+}
+
+impl Shelved {
+    /// A map of one of its materials.
+    pub(super) fn map<'a>(&self, map: &'a Said<MtlMap>) -> Pictured<'a> {
+        Pictured {
+            path: beside(&self.path, &map.value.file),
+            map: &map.value,
+            span: map.at.span(self.file),
+        }
+    }
+}
+
+impl Shelf {
+    /// Adds a material to the scene.
+    pub(super) fn add(
+        &mut self,
+        shelved: &Shelved,
+        material: &MtlMaterial,
+        lowered: &mut Lowered,
+    ) -> MaterialId {
+        if material.is_transparency_1 && !phong::is_glass(material) {
+            let at = material.opacity.as_ref().map(|opacity| opacity.at);
+            self.transparency = self.transparency.or(at.map(|at| at.span(shelved.file)));
+        }
+        let index = lowered.scene.materials.len();
+        let made = match lowered.scene.settings.mode {
+            Mode::Path(_) => self.standard(shelved, material, id(index), lowered),
+            Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
+                Material::Phong(self.phong(shelved, material, lowered))
+            }
+        };
+        let Lowered { scene, origins } = lowered;
+        scene.materials.push(made);
+        let bump = material.bump.as_ref().map(|bump| bump.at);
+        for (field, at) in [(Field::Whole, Some(material.at)), (Field::Bump, bump)] {
+            let span = at.map(|at| at.span(shelved.file));
+            origins.record(Place::new(Noun::Material, index, field), span);
+        }
+        MaterialId(id(index))
+    }
+
+    fn standard(
+        &mut self,
+        shelved: &Shelved,
+        material: &MtlMaterial,
+        index: u32,
+        lowered: &mut Lowered,
+    ) -> Material {
+        for (at, what) in standard::lost(material) {
+            self.lose(at.span(shelved.file), what);
+        }
+        let made = standard::standard(material);
+        let made = self.with_maps(made, shelved, material, MaterialId(index), lowered);
+        Material::Standard(Box::new(made))
+    }
+
+    fn phong(&mut self, shelved: &Shelved, material: &MtlMaterial, lowered: &mut Lowered) -> Phong {
+        for (at, what) in beyond_phong(material) {
+            self.lose(
+                at.span(shelved.file),
+                format!("{what} in traced paths alone"),
+            );
+        }
+        let mut phong = phong::phong(material);
+        let mut texture = |map: &Option<Said<MtlMap>>| {
+            let image = self.image(&shelved.map(map.as_ref()?), false, lowered);
+            Some(self.texture(image, None, lowered))
+        };
+        phong.color_map = texture(&material.color_map);
+        phong.specular_map = texture(&material.specular_map);
+        phong.normal_map = texture(&material.normal_map);
+        let bump = texture(&material.bump);
+        phong.bump = bump.zip(material.bump.as_ref()).map(|(texture, map)| Bump {
+            texture,
+            height: map.value.height,
+        });
+        phong
+    }
+
+    /// Adds a material of one picture, as a mesh file names it that has no other materials.
+    pub(super) fn plain(
+        &mut self,
+        mesh: &MeshFile,
+        texture: &Named,
+        lowered: &mut Lowered,
+    ) -> MaterialId {
+        let shelved = Shelved {
+            library: crate::mesh::mtl::Library::default(),
+            file: mesh.file,
+            path: mesh.path.clone(),
+        };
+        let map = Said {
+            value: MtlMap::of(texture.text.clone()),
+            at: texture.at,
+        };
+        let white = Said {
+            value: [1.0; 3],
+            at: texture.at,
+        };
+        let material = MtlMaterial {
+            at: texture.at,
+            diffuse: Some(white),
+            color_map: Some(map),
+            ..MtlMaterial::default()
+        };
+        self.add(&shelved, &material, lowered)
+    }
+
+    /// Something of a material does not show.
+    pub(super) fn lose(&mut self, span: Span, why: String) {
+        self.lost.get_or_insert((span, why, 0)).2 += 1;
+    }
+
+    /// Tells what of the materials does not show, or was read in one of two ways.
+    pub(super) fn tell(&mut self, sink: &mut Sink) {
+        if let Some((span, why, count)) = self.lost.take() {
+            let message = match count {
+                1 => format!("a statement of the MTL has no effect: {why}"),
+                _ => format!("{count} statements of the MTL have no effect: {why}"),
+            };
+            sink.push(Diagnostic::new(&codes::BAD_MTL, message).at(span, "the first one"));
+        }
+        if let Some(span) = self.transparency.take() {
+            let message = "`Tr 1` is read as opaque";
+            let note = Diagnostic::new(&codes::TWO_READINGS, message).severity(Severity::Note);
+            let note = note.at(span, "in some programs nothing of it is seen");
+            sink.push(note.hint("`d 1` is opaque and `d 0` invisible in all"));
+        }
+    }
+
+    /// The image that a map names, of one white pixel until its file is there, with its opacity or
+    /// without.
+    pub(super) fn image(
+        &mut self,
+        map: &Pictured<'_>,
+        has_opacity: bool,
+        lowered: &mut Lowered,
+    ) -> ImageId {
+        let key = (map.path.clone(), has_opacity);
+        if let Some(known) = self.images.get(&key) {
+            return *known;
+        }
+        let image = lowered.scene.add_image(Image {
+            name: map.path.clone(),
+            width: 1,
+            height: 1,
+            kind: Pixels::Rgb8,
+            pixels: vec![255; 3].into(),
+        });
+        self.wanted.push(Wanted {
+            asset: match has_opacity {
+                true => Asset::Mask(image),
+                false => Asset::Map(image),
+            },
+            path: map.path.clone(),
+            span: Some(map.span),
+        });
+        self.images.insert(key, image);
+        image
+    }
+
+    /// The texture of an image: as the course lays it, or as glTF does with what lies beyond its edge.
+    pub(super) fn texture(
+        &mut self,
+        image: ImageId,
+        wrap: Option<Wrap>,
+        lowered: &mut Lowered,
+    ) -> TextureId {
+        let textures = &mut lowered.scene.textures;
+        let clamps = wrap.map(|wrap| wrap == Wrap::Clamp);
+        *self.textures.entry((image.0, clamps)).or_insert_with(|| {
+            textures.push(match wrap {
+                None => Texture::Image(image),
+                Some(wrap) => Texture::Sampled(Sampled {
+                    image,
+                    wrap: [wrap; 2],
+                    filter: rtc_ir::Filter::Linear,
+                }),
+            });
+            TextureId(id(textures.len() - 1))
+        })
+    }
+
+    /// A map of the material of glTF, as the MTL lays it.
+    pub(super) fn laid(
+        &mut self,
+        map: &Pictured<'_>,
+        image: ImageId,
+        lowered: &mut Lowered,
+    ) -> Map {
+        let laid = Laid::of(map.map);
+        Map {
+            texture: self.texture(image, Some(laid.wrap), lowered),
+            set: 0,
+            texture_from_surface: Some(laid.texture_from_surface),
+        }
+    }
+}
+
+/// How a picture lies on a surface.
+pub(super) struct Laid {
+    pub(super) wrap: Wrap,
+    pub(super) texture_from_surface: [[f64; 3]; 2],
+}
+
+impl Laid {
+    pub(super) fn of(map: &MtlMap) -> Self {
+        let ([u, v], [right, up]) = (map.scale, map.offset);
+        Self {
+            wrap: if map.clamps {
+                Wrap::Clamp
+            } else {
+                Wrap::Repeat
+            },
+            // The first row of the picture is its top.
+            texture_from_surface: [[u, 0.0, right], [0.0, -v, 1.0 - up]],
+        }
+    }
+}
+
+/// What of a material Phong's model has no words for, and what is said of it.
+fn beyond_phong(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
+    let m = material;
+    let number = |said: &Option<Said<f64>>| said.as_ref().map(|said| said.at);
+    let map = |said: &Option<Said<MtlMap>>| said.as_ref().map(|said| said.at);
+    let color = |said: &Option<Said<[f64; 3]>>, nothing: f64| {
+        let said = said.as_ref();
+        let said = said.filter(|said| said.value.iter().any(|channel| *channel != nothing));
+        said.map(|said| said.at)
+    };
+    let placed = |said: &Option<Said<MtlMap>>| said.as_ref().and_then(|said| said.value.placed);
+    let parts = [
+        ("`Ke` shows", color(&m.emissive, 0.0)),
+        ("`Tf` shows", color(&m.filter, 1.0)),
+        ("`Pr` shows", number(&m.roughness)),
+        ("`Pm` shows", number(&m.metallic)),
+        ("`Ps` shows", number(&m.sheen)),
+        ("`Pc` shows", number(&m.clearcoat)),
+        ("`Pcr` shows", number(&m.clearcoat_roughness)),
+        ("`aniso` shows", number(&m.anisotropy)),
+        ("`anisor` shows", number(&m.anisotropy_rotation)),
+        ("`map_d` shows", map(&m.opacity_map)),
+        ("`map_Ke` shows", map(&m.emissive_map)),
+        ("`map_Pr` shows", map(&m.roughness_map)),
+        ("`map_Pm` shows", map(&m.metallic_map)),
+        ("options of `map_Kd` show", placed(&m.color_map)),
+        ("options of `map_Ks` show", placed(&m.specular_map)),
+        ("options of `norm` show", placed(&m.normal_map)),
+    ];
+    let said = parts.into_iter();
+    said.filter_map(|(what, at)| Some((at?, what.to_owned())))
+        .collect()
+}
+
+/// The path of a file named in the one at `path`; of a path from a root or a drive the last part.
+pub(super) fn beside(path: &str, name: &str) -> String {
+    let name = name.replace('\\', "/");
+    let is_absolute = name.starts_with('/') || name.as_bytes().get(1) == Some(&b':');
+    let name = match name.rsplit_once('/') {
+        Some((_, last)) if is_absolute => last,
+        _ => &name,
+    };
+    match path.rsplit_once('/') {
+        Some((folder, _)) => format!("{folder}/{name}"),
+        None => name.to_owned(),
+    }
+}
+
+/// An index of the scene.
+fn id(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX)
+}

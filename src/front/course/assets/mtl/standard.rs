@@ -1,0 +1,191 @@
+//! A material of an MTL as glTF's says it, for traced paths.
+
+use super::bake::{Bake, Baked};
+use super::phong::{is_glass, opacity, weight};
+use super::shelf::{Laid, Shelf};
+use super::{Shelved, phong};
+use crate::mesh::WordSpan;
+use crate::mesh::mtl::{MtlMap, MtlMaterial, Said};
+use rtc_ir::{Alpha, ImageId, Lowered, MaterialId, Standard};
+use rtc_tables::{PhongTerms, fit_phong};
+use std::f64::consts::TAU;
+
+/// The index of refraction of a material that says none.
+const IOR: f64 = 1.5;
+/// How rough a sheen is, of which an MTL says nothing.
+const SHEEN: f64 = 0.5;
+
+/// What of a material does not show along paths, and why; ambient light is no part of them.
+pub(super) fn lost(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
+    let m = material;
+    let filter = m.filter.as_ref().filter(|filter| filter.value != [1.0; 3]);
+    let filter = filter.filter(|_| !is_glass(m));
+    let filter = filter.map(|said| (said.at, "`Tf` is of what refracts (`illum` 4, 6, 7, 9)"));
+    let bump = m.bump.as_ref().filter(|_| m.normal_map.is_some());
+    let bump = bump.map(|said| (said.at, "`norm` bends the same normals as `map_Bump`"));
+    let clear = m
+        .opacity
+        .as_ref()
+        .filter(|_| opacity(m) == 0.0 && !is_glass(m));
+    let clear = clear.map(|said| (said.at, "nothing is seen of a material of this opacity"));
+    let parts = [filter, bump, clear].into_iter().flatten();
+    parts.map(|(at, what)| (at, what.to_owned())).collect()
+}
+
+/// The material without its maps.
+///
+/// The diffuse colour is the base, without one a mirror a metal; the exponent of the highlight is the
+/// roughness as it is of Phong's model elsewhere, and `Ks` its strength, of which programs write a half
+/// where they mean that of an index of 1.5. What refracts has the colour of `Tf`.
+pub(super) fn standard(material: &MtlMaterial) -> Standard {
+    let m = material;
+    let own = phong::phong(m);
+    let is_pbr = is_physical(m);
+    let fit = fit_phong(&PhongTerms {
+        color: own.color,
+        kd: if opacity(m) > 0.0 {
+            own.kd / opacity(m)
+        } else {
+            own.kd
+        },
+        ks: own.ks,
+        n: own.n,
+        kt: 0.0,
+        eta: own.eta,
+    });
+    let glass = is_glass(m) && opacity(m) < 1.0;
+    let fraction = |channel: f64| channel.clamp(0.0, 1.0);
+    let [r, g, b] = match (glass, &m.filter) {
+        (true, Some(filter)) => filter.value.map(fraction),
+        (true, None) => [1.0; 3],
+        (false, _) => base(m, fit.metallic > 0.0),
+    };
+    let value = |said: &Option<Said<f64>>| said.as_ref().map(|said| said.value);
+    let ior = value(&m.index).filter(|index| *index > 1.0).unwrap_or(IOR);
+    let alpha = if glass { 1.0 } else { opacity(m) };
+    let is_mapped = |map: &Option<Said<MtlMap>>| map.is_some();
+    let base = Standard {
+        base_color: [r, g, b, alpha],
+        metallic: match value(&m.metallic) {
+            Some(metallic) => metallic,
+            None if is_mapped(&m.metallic_map) => 1.0,
+            None if is_pbr || glass => 0.0,
+            None => fit.metallic,
+        },
+        roughness: match value(&m.roughness) {
+            Some(roughness) => roughness,
+            None if is_mapped(&m.roughness_map) => 1.0,
+            None if glass => 0.0,
+            None => fit.roughness,
+        },
+        specular: match is_pbr || glass || fit.metallic > 0.0 {
+            true => 1.0,
+            false => fraction(2.0 * weight(m)),
+        },
+        ior,
+        transmission: if glass { 1.0 - opacity(m) } else { 0.0 },
+        thickness: if glass { 1.0 } else { 0.0 },
+        alpha: match alpha < 1.0 || is_mapped(&m.opacity_map) {
+            true => Alpha::Blend,
+            false => Alpha::Opaque,
+        },
+        double_sided: true,
+        ..Standard::default()
+    };
+    over(base, m)
+}
+
+/// Whether its base is said in physical words.
+fn is_physical(m: &MtlMaterial) -> bool {
+    let numbers = m.roughness.is_some() || m.metallic.is_some();
+    numbers || m.roughness_map.is_some() || m.metallic_map.is_some()
+}
+
+/// A material with its light and what lies over its base.
+fn over(base: Standard, m: &MtlMaterial) -> Standard {
+    let value = |said: &Option<Said<f64>>| said.as_ref().map_or(0.0, |said| said.value);
+    let emissive = m.emissive.as_ref().map_or([0.0; 3], |said| said.value);
+    let is_mapped = emissive == [0.0; 3] && m.emissive_map.is_some();
+    let sheen = value(&m.sheen);
+    Standard {
+        emissive: if is_mapped { [1.0; 3] } else { emissive },
+        clearcoat: value(&m.clearcoat),
+        clearcoat_roughness: value(&m.clearcoat_roughness),
+        sheen_color: [sheen; 3],
+        sheen_roughness: if sheen > 0.0 { SHEEN } else { 0.0 },
+        anisotropy: value(&m.anisotropy),
+        anisotropy_rotation: TAU * value(&m.anisotropy_rotation),
+        ..base
+    }
+}
+
+/// The base colour: that of the mirror image of a metal, else the diffuse one.
+fn base(m: &MtlMaterial, is_mirror: bool) -> [f64; 3] {
+    let own = match is_mirror {
+        true => m.specular.as_ref(),
+        false => m.diffuse.as_ref(),
+    };
+    let own = own.map_or([phong::DIFFUSE; 3], |said| said.value);
+    let is_black = own == [0.0; 3];
+    // A map of something black would be as good as none.
+    let own = if is_black && m.color_map.is_some() {
+        [1.0; 3]
+    } else {
+        own
+    };
+    own.map(|channel| channel.clamp(0.0, 1.0))
+}
+
+impl Shelf {
+    /// The material with its maps, those that are made of several pictures to be baked.
+    pub(super) fn with_maps(
+        &mut self,
+        mut made: Standard,
+        shelved: &Shelved,
+        m: &MtlMaterial,
+        material: MaterialId,
+        lowered: &mut Lowered,
+    ) -> Standard {
+        let mut image = |map: &Option<Said<MtlMap>>, has_opacity: bool| -> Option<ImageId> {
+            Some(self.image(&shelved.map(map.as_ref()?), has_opacity, lowered))
+        };
+        let color = image(&m.color_map, false);
+        let mask = image(&m.opacity_map, true);
+        let [rough, metal] = [&m.roughness_map, &m.metallic_map].map(|map| image(map, false));
+        let heights = image(&m.bump, false).filter(|_| m.normal_map.is_none());
+        let plain = [&m.specular_map, &m.normal_map, &m.emissive_map].map(|map| image(map, false));
+        let mut laid = |map: &Option<Said<MtlMap>>, image: Option<ImageId>| {
+            Some(self.laid(&shelved.map(map.as_ref()?), image?, lowered))
+        };
+        made.base_color_map = laid(&m.color_map, color);
+        made.specular_color_map = laid(&m.specular_map, plain[0]);
+        made.normal_map = laid(&m.normal_map, plain[1]);
+        made.emissive_map = laid(&m.emissive_map, plain[2]);
+        let mut bake = |map: &Option<Said<MtlMap>>, baked: Baked| {
+            let Some(map) = map else { return };
+            self.bakes.push(Bake {
+                material,
+                baked,
+                laid: Laid::of(&map.value),
+                span: map.at.span(shelved.file),
+            });
+        };
+        if let Some(mask) = mask {
+            let laid = m.color_map.as_ref().or(m.opacity_map.as_ref()).cloned();
+            bake(&laid, Baked::Opacity { color, mask });
+        }
+        if rough.is_some() || metal.is_some() {
+            let first = m
+                .roughness_map
+                .as_ref()
+                .or(m.metallic_map.as_ref())
+                .cloned();
+            bake(&first, Baked::MetalRough { rough, metal });
+        }
+        if let Some(heights) = heights {
+            let height = m.bump.as_ref().map_or(1.0, |map| map.value.height);
+            bake(&m.bump, Baked::Normals { heights, height });
+        }
+        made
+    }
+}

@@ -1,0 +1,64 @@
+//! The corners of faces of an OBJ, as indices.
+
+use crate::words::{Word, WordFault};
+
+/// How many there are of what corners refer to: positions, texture coordinates, normals.
+pub(super) type CornerCounts = [usize; 3];
+
+/// What a corner refers to, from 0.
+pub(super) type Corner = [Option<u32>; 3];
+
+/// What corners refer to, in the order of their parts.
+const NOUNS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
+
+/// The indices of a corner, from 0: `v`, `v/vt`, `v//vn` or `v/vt/vn`, each from 1 or, negative,
+/// from the last so far.
+pub(super) fn indices(
+    corner: &Word<'_>,
+    so_far: CornerCounts,
+    total: CornerCounts,
+) -> Result<Corner, WordFault> {
+    if corner.bytes[0] == b'/' {
+        return Err(corner.fault(
+            format!("the corner `{}` has no vertex", corner.text()),
+            "a corner of a face",
+        ));
+    }
+    let mut found = [None; 3];
+    for (part, index) in corner.split(b'/').enumerate() {
+        let Some(slot) = found.get_mut(part) else {
+            return Err(corner.fault(
+                format!("`{}` has more than three parts", corner.text()),
+                "a corner of a face",
+            ));
+        };
+        if !index.bytes.is_empty() {
+            *slot = Some(resolve(&index, NOUNS[part], so_far[part], total[part])?);
+        }
+    }
+    Ok(found)
+}
+
+fn resolve(index: &Word<'_>, noun: &str, so_far: usize, total: usize) -> Result<u32, WordFault> {
+    let number = index.integer()?;
+    let distance = usize::try_from(number.unsigned_abs()).unwrap_or(usize::MAX);
+    let resolved = if number < 0 {
+        so_far.checked_sub(distance)
+    } else {
+        distance.checked_sub(1)
+    };
+    resolved
+        .filter(|index| *index < total)
+        .and_then(|index| u32::try_from(index).ok())
+        .ok_or_else(|| {
+            let there = if number < 0 {
+                format!("{so_far} stand before it")
+            } else {
+                format!("the file has {total}")
+            };
+            index.fault(
+                format!("a face refers to {noun} {number}, and {there}"),
+                format!("there is no such {noun}"),
+            )
+        })
+}

@@ -1,0 +1,126 @@
+//! The polygons of a file until its vertices are there; then their triangles.
+
+use super::polygon::Cutter;
+use super::{Parsed, to_u32};
+use crate::words::WordFault;
+use rtc_ir::Mesh;
+use rtc_source::{Budget, Exceeded, Resource};
+
+/// Polygons, each a run of corners, some with a colour of their own or texture coordinates of their
+/// corners.
+#[derive(Default)]
+pub(super) struct Polygons {
+    /// The vertices of all corners, some of them not there.
+    corners: Vec<u32>,
+    /// Where each polygon ends.
+    ends: Vec<u32>,
+    /// The colour of each, linear, if they have any.
+    pub(super) colors: Vec<[f32; 4]>,
+    /// The texture coordinates of each corner, if they have any.
+    pub(super) uvs: Vec<[f64; 2]>,
+}
+
+/// The memory that a corner takes until its polygon is cut, lists that grow by doubling included.
+pub(super) const CORNER: usize = 24;
+
+impl Polygons {
+    /// Adds the next corner.
+    pub(super) fn corner(&mut self, vertex: u32) {
+        self.corners.push(vertex);
+    }
+
+    /// The last polygon has all its corners.
+    pub(super) fn end(&mut self) {
+        self.ends.push(to_u32(self.corners.len()));
+    }
+
+    /// The corners of the last polygon are not of one.
+    pub(super) fn take_back(&mut self) -> Vec<u32> {
+        let first = self.first();
+        self.uvs.truncate(first);
+        self.corners.split_off(first)
+    }
+
+    /// How many polygons there are.
+    pub(super) fn count(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// How many corners they have in all.
+    pub(super) fn corners(&self) -> usize {
+        self.corners.len()
+    }
+
+    fn first(&self) -> usize {
+        self.ends.last().map_or(0, |end| *end as usize)
+    }
+
+    /// Puts the triangles into the mesh, which has all its vertices. `missing` makes the fault of a
+    /// polygon with a corner that is not there.
+    ///
+    /// # Errors
+    /// If it would take more memory than there is.
+    pub(super) fn cut(
+        self,
+        parsed: &mut Parsed,
+        missing: impl Fn() -> WordFault,
+        budget: &Budget,
+    ) -> Result<(), Exceeded> {
+        let Self {
+            corners,
+            ends,
+            colors,
+            uvs,
+        } = self;
+        let are_apart = !colors.is_empty() || !uvs.is_empty();
+        let count = parsed.mesh.positions.len();
+        let mut cutter = Cutter::new(corners.len());
+        let (mut triangles, mut first) = (Vec::new(), 0);
+        for end in &ends {
+            let own = &corners[first..*end as usize];
+            if own.iter().any(|corner| *corner as usize >= count) {
+                parsed.skip(&missing);
+            } else {
+                let position = |at: usize| parsed.mesh.positions.at(own[at] as usize);
+                cutter.cut(own.len(), position, |three| {
+                    triangles.push(three.map(|at| match are_apart {
+                        true => to_u32(first + at),
+                        false => own[at],
+                    }));
+                });
+            }
+            first = *end as usize;
+        }
+        parsed.mesh.triangles = triangles.into();
+        if are_apart {
+            // All columns in 64 bits, at most.
+            budget.has(Resource::Memory, 160 * corners.len() as u64)?;
+            take_apart(&mut parsed.mesh, corners, count);
+            if !uvs.is_empty() {
+                parsed.mesh.uvs = uvs.into();
+            }
+            if !colors.is_empty() {
+                let starts = std::iter::once(0).chain(ends.iter().copied());
+                let runs = starts.zip(&ends).zip(colors);
+                let each = runs.flat_map(|((from, to), color)| (from..*to).map(move |_| color));
+                parsed.mesh.colors = each.collect::<Vec<_>>().into();
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Makes a vertex of each corner.
+fn take_apart(mesh: &mut Mesh, mut corners: Vec<u32>, count: usize) {
+    // Those that are not there are of no triangle.
+    for corner in &mut corners {
+        *corner = if (*corner as usize) < count {
+            *corner
+        } else {
+            0
+        };
+    }
+    if count > 0 {
+        crate::solid::pick(mesh, &corners);
+    }
+}

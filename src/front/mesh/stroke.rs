@@ -1,0 +1,149 @@
+//! The points and lines of mesh files, drawn as those of glTF are.
+
+use super::{columns, to_u32};
+use crate::solid::{Solid, radius, thin};
+use glam::DAffine3;
+use rtc_ir::{Ball, Column, Mesh};
+use rtc_math::Vec3;
+use rtc_source::{Budget, Exceeded, Resource};
+
+/// Bytes of the offset of a corner and its place, beside its columns, and of a triangle until it is
+/// rendered.
+const OFFSET: u64 = 48;
+const TRIANGLE: u64 = 108;
+
+/// Points and lines between vertices; a point is a line from a vertex to itself.
+#[derive(Debug, Default)]
+pub(super) struct Segments {
+    /// The ends of each.
+    pub(super) ends: Vec<[u32; 2]>,
+}
+
+impl Segments {
+    /// All vertices of a mesh as points.
+    pub(super) fn points(mesh: &Mesh) -> Self {
+        let all = 0..to_u32(mesh.positions.len());
+        Self {
+            ends: all.map(|vertex| [vertex; 2]).collect(),
+        }
+    }
+
+    /// The lines along a row of vertices, of one alone a point.
+    pub(super) fn row(&mut self, vertices: &[u32]) {
+        if let [one] = vertices {
+            self.ends.push([*one; 2]);
+        }
+        let pairs = vertices.windows(2);
+        self.ends.extend(pairs.map(|pair| [pair[0], pair[1]]));
+    }
+}
+
+/// What draws points and lines between the vertices of a mesh.
+pub(super) struct Pen<'run> {
+    source: &'run Mesh,
+    radius: f64,
+    budget: &'run Budget,
+}
+
+impl<'run> Pen<'run> {
+    /// A pen for a file that has these vertices.
+    pub(super) fn new(source: &'run Mesh, budget: &'run Budget) -> Self {
+        Self {
+            source,
+            radius: ball(source).map_or(0.0, radius),
+            budget,
+        }
+    }
+
+    /// The meshes about points and lines, none where there is nothing.
+    ///
+    /// # Errors
+    /// If they would take more memory than there is.
+    pub(super) fn draw(&self, strokes: Segments) -> Result<Vec<Mesh>, Exceeded> {
+        let (points, lines): (Vec<_>, Vec<_>) =
+            strokes.ends.into_iter().partition(|[from, to]| from == to);
+        let has_normals = !self.source.normals.is_empty();
+        let mut drawn = Vec::new();
+        for (ends, are_points) in [(points, true), (lines, false)] {
+            let count = ends.len() as u64;
+            let solid = Solid::of(are_points, has_normals, count);
+            let vertices = count * solid.corners.len() as u64;
+            let triangles = count * solid.triangles.len() as u64;
+            let vertex = OFFSET + columns(self.source);
+            self.budget.has(Resource::Vertices, vertices)?;
+            self.budget
+                .has(Resource::Memory, vertices * vertex + triangles * TRIANGLE)?;
+            let thin = thin(self.source, &ends, DAffine3::IDENTITY, solid);
+            drawn.extend(thin.map(|(own, offsets, world)| {
+                let corners = own.positions.iter().zip(offsets.iter());
+                let positions = corners.map(|(position, offset)| {
+                    let offset = self.radius * Vec3::from_array(offset);
+                    (world.translation + Vec3::from_array(position) + offset).to_array()
+                });
+                let positions = positions.collect();
+                Mesh { positions, ..own }
+            }));
+        }
+        Ok(drawn)
+    }
+}
+
+/// A ball around the vertices.
+fn ball(mesh: &Mesh) -> Option<Ball> {
+    let positions = || mesh.positions.iter().map(Vec3::from_array);
+    let low = positions().fold(Vec3::INFINITY, Vec3::min);
+    let high = positions().fold(Vec3::NEG_INFINITY, Vec3::max);
+    let center = low + (high - low) / 2.0;
+    let radius = (high - center).length();
+    // One point alone is as large as in a ball of radius 1.
+    let radius = if radius > 0.0 { radius } else { 1.0 };
+    (center.is_finite() && radius.is_finite()).then_some(Ball { center, radius })
+}
+
+/// Adds meshes to one. Of columns that some have the others have zeros, of colours white.
+pub(super) fn join(mesh: &mut Mesh, more: Vec<Mesh>) {
+    if more.is_empty() {
+        return;
+    }
+    let mut all = vec![std::mem::take(mesh)];
+    all.extend(more);
+    all.retain(|own| !own.positions.is_empty());
+    if let [_] = &*all {
+        *mesh = all.remove(0);
+        return;
+    }
+    *mesh = Mesh {
+        positions: column(&all, |own| &own.positions, 0.0),
+        normals: column(&all, |own| &own.normals, 0.0),
+        uvs: column(&all, |own| &own.uvs, 0.0),
+        second_uvs: column(&all, |own| &own.second_uvs, 0.0),
+        colors: column(&all, |own| &own.colors, 1.0),
+        ..Mesh::default()
+    };
+    let mut first = 0;
+    for own in &all {
+        let triangles = own.triangles.iter();
+        let moved = triangles.map(|corners| corners.map(|corner| first + corner));
+        mesh.triangles.extend(moved);
+        first += to_u32(own.positions.len());
+    }
+}
+
+/// A column of several meshes.
+fn column<const N: usize>(
+    meshes: &[Mesh],
+    of: impl Fn(&Mesh) -> &Column<N>,
+    none: f64,
+) -> Column<N> {
+    if meshes.iter().all(|own| of(own).is_empty()) {
+        return Column::default();
+    }
+    let mut all = Vec::with_capacity(meshes.iter().map(|own| own.positions.len()).sum());
+    for own in meshes {
+        match of(own).is_empty() {
+            true => all.extend(own.positions.iter().map(|_| [none; N])),
+            false => all.extend(of(own).iter()),
+        }
+    }
+    all.into()
+}

@@ -1,0 +1,120 @@
+//! XYZ: a point a line, its place, and then its colour or its normal or both, as programs that scan and
+//! measure write them.
+
+use super::tint::Tints;
+use super::{MAX_FAULTS, Parsed, Unread, first_lines};
+use crate::words::{Lines, Word, WordFault, numbers};
+use rtc_source::{Budget, Resource};
+
+/// So many lines are looked at to tell what a file is, and what its numbers are.
+const LOOKED_AT: usize = 64;
+
+/// The fewest and the most numbers of a line.
+const COUNTS: std::ops::RangeInclusive<usize> = 3..=10;
+
+/// True if the first lines are numbers, as many on each.
+pub(super) fn is_head(head: &[u8]) -> bool {
+    let (mut lines, mut words) = (first_lines(head), Vec::new());
+    let mut count = None;
+    for _ in 0..LOOKED_AT {
+        if !lines.next(&mut words) {
+            break;
+        }
+        let own = *count.get_or_insert(words.len());
+        // The last line may be cut off.
+        let is_cut = lines.is_at_end() && words.len() < own;
+        let are_numbers = || words.iter().all(|word| word.number().is_ok());
+        if !is_cut && (own != words.len() || !COUNTS.contains(&own) || !are_numbers()) {
+            return false;
+        }
+    }
+    count.is_some()
+}
+
+/// What the numbers after the place of a point are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Meaning {
+    Color,
+    Normal,
+}
+
+/// What the numbers of a line are from which place on.
+fn columns(bytes: &[u8]) -> Vec<(usize, Meaning)> {
+    let (mut lines, mut words) = (first_lines(bytes), Vec::new());
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    while rows.len() < LOOKED_AT && lines.next(&mut words) {
+        let row = words.iter().map_while(|word| word.number().ok());
+        rows.push(row.collect());
+    }
+    let count = rows.first().map_or(0, Vec::len);
+    let triples: &[usize] = match count {
+        6 => &[3],
+        // The strength of the echo stands before the colour.
+        7 | 10 => &[4, 7],
+        9 => &[3, 6],
+        _ => &[],
+    };
+    let meaning = |first: usize| {
+        let own = rows.iter().filter_map(|row| row.get(first..first + 3));
+        let is_unit = |own: &[f64]| {
+            let square: f64 = own.iter().map(|number| number * number).sum();
+            (square - 1.0).abs() < 0.02
+        };
+        if own.clone().all(is_unit) || own.flatten().any(|number| *number < 0.0) {
+            Meaning::Normal
+        } else {
+            Meaning::Color
+        }
+    };
+    let triples = triples.iter().filter(|first| **first + 3 <= count);
+    triples.map(|first| (*first, meaning(*first))).collect()
+}
+
+/// Reads an XYZ.
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
+    // A line of six bytes becomes a place, a normal and a colour, in lists that grow by doubling.
+    budget.has(Resource::Memory, 24 * bytes.len() as u64)?;
+    let columns = columns(bytes);
+    let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
+    let (mut positions, mut normals, mut tints) = (Vec::new(), Vec::new(), Tints::default());
+    let mut faults = Vec::new();
+    while lines.next(&mut words) && faults.len() < MAX_FAULTS {
+        let outcome = point(&words, &columns, &mut normals, &mut tints);
+        match outcome {
+            Ok(position) => positions.push(position),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    if !faults.is_empty() {
+        return Err(Unread::Faults(faults));
+    }
+    let mut parsed = Parsed::default();
+    parsed.mesh.positions = positions.into();
+    parsed.mesh.normals = normals.into();
+    parsed.mesh.colors = tints.column();
+    Ok(parsed)
+}
+
+/// The place of a point; its colour and its normal are added.
+fn point(
+    words: &[Word<'_>],
+    columns: &[(usize, Meaning)],
+    normals: &mut Vec<[f64; 3]>,
+    tints: &mut Tints,
+) -> Result<[f64; 3], WordFault> {
+    let position = numbers(&words[0], words)?;
+    let (mut normal, mut color) = (None, None);
+    for (first, meaning) in columns {
+        let own: [f64; 3] = numbers(&words[0], words.get(*first..).unwrap_or_default())?;
+        match meaning {
+            Meaning::Normal if normal.is_none() => normal = Some(own),
+            Meaning::Color if color.is_none() => color = Some(own),
+            Meaning::Normal | Meaning::Color => {}
+        }
+    }
+    normals.extend(normal);
+    if let Some(color) = color {
+        tints.push(&color);
+    }
+    Ok(position)
+}

@@ -1,0 +1,292 @@
+//! What points and lines become: meshes about them of a radius that is chosen later, since files say
+//! nothing of how thick they are.
+
+use crate::gltf;
+use glam::{DAffine3, DMat3};
+use rtc_ir::{Ball, Column, Mesh};
+use rtc_math::{Vec3, unit};
+
+/// From so many on, points and lines have the simplest solid.
+const MANY: u64 = 1 << 15;
+
+/// What a point or a line becomes: with normals a disc or a ribbon that faces them, so that it is lit
+/// as they say, else a solid.
+pub(crate) struct Solid {
+    /// From the point, or one end of a line: which end, and the offset at radius 1. Along a line lies
+    /// z, and y towards its normal; along the normal of a point lies z.
+    pub(crate) corners: &'static [(usize, [f64; 3])],
+    pub(crate) triangles: &'static [[u32; 3]],
+}
+
+/// 1/√3.
+const EDGE: f64 = 0.577_350_269_189_625_8;
+
+static TETRAHEDRON: Solid = Solid {
+    corners: &[
+        (0, [EDGE, EDGE, EDGE]),
+        (0, [EDGE, -EDGE, -EDGE]),
+        (0, [-EDGE, EDGE, -EDGE]),
+        (0, [-EDGE, -EDGE, EDGE]),
+    ],
+    triangles: &[[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]],
+};
+
+static OCTAHEDRON: Solid = Solid {
+    corners: &[
+        (0, [1.0, 0.0, 0.0]),
+        (0, [0.0, 1.0, 0.0]),
+        (0, [-1.0, 0.0, 0.0]),
+        (0, [0.0, -1.0, 0.0]),
+        (0, [0.0, 0.0, 1.0]),
+        (0, [0.0, 0.0, -1.0]),
+    ],
+    triangles: &[
+        [0, 1, 4],
+        [1, 2, 4],
+        [2, 3, 4],
+        [3, 0, 4],
+        [1, 0, 5],
+        [2, 1, 5],
+        [3, 2, 5],
+        [0, 3, 5],
+    ],
+};
+
+/// A prism with four sides and no ends, which at this width are not seen.
+static PRISM: Solid = Solid {
+    corners: &[
+        (0, [1.0, 0.0, 0.0]),
+        (0, [0.0, 1.0, 0.0]),
+        (0, [-1.0, 0.0, 0.0]),
+        (0, [0.0, -1.0, 0.0]),
+        (1, [1.0, 0.0, 0.0]),
+        (1, [0.0, 1.0, 0.0]),
+        (1, [-1.0, 0.0, 0.0]),
+        (1, [0.0, -1.0, 0.0]),
+    ],
+    triangles: &[
+        [0, 1, 5],
+        [0, 5, 4],
+        [1, 2, 6],
+        [1, 6, 5],
+        [2, 3, 7],
+        [2, 7, 6],
+        [3, 0, 4],
+        [3, 4, 7],
+    ],
+};
+
+/// √3/2.
+const HEIGHT: f64 = 0.866_025_403_784_438_6;
+
+static DISC: Solid = Solid {
+    corners: &[
+        (0, [1.0, 0.0, 0.0]),
+        (0, [0.5, HEIGHT, 0.0]),
+        (0, [-0.5, HEIGHT, 0.0]),
+        (0, [-1.0, 0.0, 0.0]),
+        (0, [-0.5, -HEIGHT, 0.0]),
+        (0, [0.5, -HEIGHT, 0.0]),
+    ],
+    triangles: &[[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]],
+};
+
+static RIBBON: Solid = Solid {
+    corners: &[
+        (0, [1.0, 0.0, 0.0]),
+        (0, [-1.0, 0.0, 0.0]),
+        (1, [-1.0, 0.0, 0.0]),
+        (1, [1.0, 0.0, 0.0]),
+    ],
+    triangles: &[[0, 1, 2], [0, 2, 3]],
+};
+
+/// Of many lines each is a tetrahedron, with an edge across each end: of any side something is seen.
+static WEDGE: Solid = Solid {
+    corners: &[
+        (0, [1.0, 0.0, 0.0]),
+        (0, [-1.0, 0.0, 0.0]),
+        (1, [0.0, 1.0, 0.0]),
+        (1, [0.0, -1.0, 0.0]),
+    ],
+    triangles: &[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
+};
+
+/// Of many points that have a normal each is a triangle.
+static SCALE: Solid = Solid {
+    corners: &[
+        (0, [1.0, 0.0, 0.0]),
+        (0, [-0.5, HEIGHT, 0.0]),
+        (0, [-0.5, -HEIGHT, 0.0]),
+    ],
+    triangles: &[[0, 1, 2]],
+};
+
+/// The radius, in pixels of the picture that is made of an asset without cameras.
+const RADIUS: f64 = 1.0;
+
+/// The radius of the points and lines of what a ball holds.
+pub(crate) fn radius(ball: Ball) -> f64 {
+    RADIUS * gltf::pixel(ball)
+}
+
+impl Solid {
+    /// That of `count` points or lines, with normals or without.
+    pub(crate) fn of(are_points: bool, have_normals: bool, count: u64) -> &'static Self {
+        match (are_points, have_normals) {
+            (true, true) if count < MANY => &DISC,
+            (true, true) => &SCALE,
+            (true, false) if count < MANY => &OCTAHEDRON,
+            (true, false) => &TETRAHEDRON,
+            (false, true) => &RIBBON,
+            (false, false) if count < MANY => &PRISM,
+            (false, false) => &WEDGE,
+        }
+    }
+}
+
+/// Solids without a radius about points, which are lines from a vertex to itself, or lines: a mesh
+/// about its first vertex, the offsets of its corners, and where it stands.
+pub(crate) fn thin(
+    source: &Mesh,
+    ends: &[[u32; 2]],
+    world: DAffine3,
+    solid: &Solid,
+) -> Option<(Mesh, Column<3>, DAffine3)> {
+    let place = |vertex: u32| {
+        let own = Vec3::from_array(source.positions.at(vertex as usize));
+        world.transform_point3(own)
+    };
+    // Normals turn with the inverse transpose.
+    let turned = world.matrix3.inverse().transpose();
+    let normal = |vertex: u32| {
+        let has_normals = !source.normals.is_empty();
+        let own = has_normals.then(|| Vec3::from_array(source.normals.at(vertex as usize)));
+        own.and_then(|own| unit(turned * own))
+    };
+    let (mut vertices, mut offsets, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    for ends in ends {
+        let frame = frame(ends.map(place), normal(ends[0]));
+        let first = u32::try_from(vertices.len()).unwrap_or(u32::MAX);
+        for (end, offset) in solid.corners {
+            vertices.push(ends[*end]);
+            offsets.push((frame * Vec3::from_array(*offset)).to_array());
+        }
+        let own = solid.triangles.iter();
+        triangles.extend(own.map(|corners| corners.map(|corner| first + corner)));
+    }
+    let anchor = place(*vertices.first()?);
+    let mut mesh = Mesh {
+        tangents: Column::default(),
+        ..source.clone()
+    };
+    pick(&mut mesh, &vertices);
+    mesh.positions = Column::rounded(vertices.iter().map(|at| (place(*at) - anchor).to_array()));
+    if !mesh.normals.is_empty() {
+        let normals = vertices.iter().map(|at| normal(*at).unwrap_or(Vec3::Z));
+        mesh.normals = Column::rounded(normals.map(|normal| normal.to_array()));
+    }
+    mesh.triangles = triangles.into();
+    let is_sound = anchor.is_finite() && is_finite(&mesh);
+    let world = DAffine3::from_translation(anchor);
+    is_sound.then(|| (mesh, Column::rounded(offsets), world))
+}
+
+/// The axes of the solid of a point or a line.
+fn frame([from, to]: [Vec3; 2], normal: Option<Vec3>) -> DMat3 {
+    let along = unit(to - from);
+    let z = along.or(normal).unwrap_or(Vec3::Z);
+    let across = along.and_then(|along| unit(normal?.cross(along)));
+    match across {
+        Some(x) => DMat3::from_cols(x, z.cross(x), z),
+        None => {
+            let (x, y) = z.any_orthonormal_pair();
+            DMat3::from_cols(x, y, z)
+        }
+    }
+}
+
+/// Makes a mesh of these vertices of it, whatever its triangles say.
+pub(crate) fn pick(mesh: &mut Mesh, vertices: &[u32]) {
+    let Mesh {
+        name: _,
+        part: _,
+        positions,
+        normals,
+        uvs,
+        second_uvs,
+        tangents,
+        colors,
+        triangles: _,
+    } = mesh;
+    *positions = positions.pick(vertices);
+    *normals = normals.pick(vertices);
+    *uvs = uvs.pick(vertices);
+    *second_uvs = second_uvs.pick(vertices);
+    *tangents = tangents.pick(vertices);
+    *colors = colors.pick(vertices);
+}
+
+/// True if all numbers of the vertices are finite.
+pub(crate) fn is_finite(mesh: &Mesh) -> bool {
+    fn all<const N: usize>(column: &Column<N>) -> bool {
+        (0..column.len()).all(|at| column.at(at).iter().all(|number| number.is_finite()))
+    }
+    all(&mesh.positions)
+        && all(&mesh.normals)
+        && all(&mesh.tangents)
+        && all(&mesh.uvs)
+        && all(&mesh.second_uvs)
+        && all(&mesh.colors)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn discs_and_ribbons_face_their_normals() {
+        let normal = Vec3::new(0.6, 0.0, 0.8);
+        let cases = [
+            (&DISC, [Vec3::ONE; 2]),
+            (&SCALE, [Vec3::ONE; 2]),
+            (&RIBBON, [Vec3::ZERO, Vec3::Y]),
+        ];
+        for (solid, ends) in cases {
+            let frame = frame(ends, Some(normal));
+            let corner = |at: u32| {
+                let (end, offset) = solid.corners[at as usize];
+                ends[end] + frame * Vec3::from_array(offset)
+            };
+            for triangle in solid.triangles {
+                let [a, b, c] = triangle.map(corner);
+                let own = (b - a).cross(c - a).normalize();
+                assert!((own - normal).length() < 1e-12, "{own}");
+            }
+        }
+    }
+
+    /// The volume by the divergence theorem, of a prism of height 1 its part of the sides.
+    fn volume(solid: &Solid) -> f64 {
+        let corner = |at: u32| {
+            let (end, offset) = solid.corners[at as usize];
+            Vec3::from_array(offset) + Vec3::Z * if end == 1 { 1.0 } else { 0.0 }
+        };
+        let parts = solid.triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(corner);
+            a.dot(b.cross(c)) / 6.0
+        });
+        parts.sum()
+    }
+
+    #[test]
+    fn solids_turn_outward() {
+        assert!((volume(&OCTAHEDRON) - 4.0 / 3.0).abs() < 1e-12);
+        let edge = 2.0 * 2.0_f64.sqrt() * EDGE;
+        let tetrahedron = edge * edge * edge / (6.0 * 2.0_f64.sqrt());
+        assert!((volume(&TETRAHEDRON) - tetrahedron).abs() < 1e-12);
+        // The sides of a prism are two thirds of the flux, its ends the rest.
+        assert!((volume(&PRISM) - 2.0 * 2.0 / 3.0).abs() < 1e-12);
+        assert!((volume(&WEDGE) - 2.0 / 3.0).abs() < 1e-12);
+    }
+}
