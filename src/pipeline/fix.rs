@@ -14,7 +14,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// The most bytes of text that are checked, and how often the largest text is none the less.
-const MOST_BYTES: usize = 4 << 20;
+const MOST_BYTES: usize = 2 << 20;
 const FEWEST_CHECKS: usize = 8;
 
 /// The most times that a text is checked.

@@ -206,3 +206,40 @@ fn scenes_are_compared_by_their_values_and_by_one_camera() {
     );
     assert_eq!(fs::read_to_string(path("ball.json")).unwrap(), old);
 }
+
+/// A PNG of a bit a pixel, all of them alike.
+fn flat(width: u32, height: u32, level: u8) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::One);
+    let mut writer = encoder.write_header().unwrap();
+    let rows = vec![level; (width.div_ceil(8) * height) as usize];
+    writer.write_image_data(&rows).unwrap();
+    drop(writer);
+    bytes
+}
+
+/// What decoding takes is charged before, and files that are the same are not decoded.
+#[test]
+fn small_files_of_many_pixels_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, level) in [("black.png", 0), ("white.png", 0xff)] {
+        fs::write(folder.path().join(name), flat(16_000, 16_000, level)).unwrap();
+    }
+    let (code, _, said) = diff(
+        &folder,
+        &["black.png", "white.png", "--limit", "memory=100MiB"],
+    );
+    assert!(
+        code == 2 && said.contains("of memory, and the limit is"),
+        "{said}"
+    );
+    let (code, told, _) = diff(&folder, &["black.png", "black.png"]);
+    assert_eq!(
+        (code, told.as_str()),
+        (0, "black.png and black.png: 16000×16000, no difference\n")
+    );
+    let (code, _, said) = diff(&folder, &["black.png", "black.png", "--limit", "pixels=9"]);
+    assert!(code == 2 && said.contains("pixels"), "{said}");
+}

@@ -20,7 +20,7 @@ pub(crate) fn all() -> Vec<Repro> {
         ),
         asked(
             "a picture of 9 000 triangles that are the same",
-            &["render", "-q", "a.obj", "--size", "200", "-o", "a.png"],
+            &["render", "-q", "a.obj", "--size", "100", "-o", "a.png"],
             vec![("a.obj", equal_triangles(9_000))],
             None,
         ),
