@@ -88,7 +88,7 @@ pub fn decode_all(
     let has_room = |pool: &ThreadPool| {
         let at_once = pool.current_num_threads().min(files.len()) as u64;
         let scratch = scratch.saturating_mul(at_once);
-        budget.has(Resource::Textures, scratch).is_ok()
+        budget.has(Resource::Memory, scratch).is_ok()
     };
     let pool = || ThreadPoolBuilder::new().num_threads(threads).build().ok();
     let several = files.len() > 1 && threads != 1;
@@ -164,9 +164,14 @@ fn charge(cost: DecodeCost, resource: Resource, budget: &Budget) -> Result<(), R
     budget
         .charge(Resource::Pixels, pixels)
         .map_err(Refused::Limit)?;
-    // What is given back at once only has to be there.
+    // What is given back at once only has to be there, and is no texture.
     budget
-        .has(resource, memory.saturating_add(scratch))
+        .has(Resource::Memory, scratch)
         .map_err(Refused::Limit)?;
+    if resource == Resource::Memory {
+        budget
+            .has(resource, memory.saturating_add(scratch))
+            .map_err(Refused::Limit)?;
+    }
     budget.charge(resource, memory).map_err(Refused::Limit)
 }
