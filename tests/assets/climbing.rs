@@ -43,7 +43,8 @@ fn the_folder_above_lends_pictures_alone() {
     assert_eq!(errors("../textures/none.png", NONE, None), ["GL023"]);
     assert_eq!(errors("../../t.png", NONE, None), ["GL022"]);
     let (image, buffer) = ("../textures/t.png", "../textures/four.bin");
-    assert_eq!(errors(image, buffer, None), ["GL022"]);
+    // Whether there is one is not told.
+    assert_eq!(errors(image, buffer, None), ["GL023"]);
     assert_eq!(errors(image, buffer, Some("textures")), [""; 0]);
     assert_eq!(
         errors("..\\\\textures\\\\t.png", NONE, Some("textures")),

@@ -95,11 +95,8 @@ fn the_material_of_the_scene_counts_unless_it_asks_for_those_of_the_file() {
 fn a_scene_with_the_materials_of_a_file_is_written_back() {
     let folder = folder();
     write(&folder, "inner/m.obj", OBJ);
-    write(
-        &folder,
-        "inner/m.mtl",
-        "newmtl a\nKd 1 0 0\nd 0.5\nillum 7\nNi 1.5\nnewmtl b\nKs 0.2 0.3 0.4\nNs 7\n",
-    );
+    let mtl = "newmtl a\nKd 1 0 0\nd 0.5\nillum 7\nNi 1.5\nnewmtl b\nKs 0.2 0.3 0.4\nNs 7\n";
+    write(&folder, "inner/m.mtl", mtl);
     let inner = folder.path().join("inner");
     let objects = format!(
         "- {{type: mesh, file: m.obj, fit: 2}}\n- {{type: mesh, file: m.obj, position: [1, 2, 3], part: b, material: {OWN}}}\n"

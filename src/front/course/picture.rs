@@ -119,6 +119,12 @@ impl Lowering {
             }),
         ) = (camera, image_size)
         {
+            if value.0.contains(&0) {
+                let message = || "the sides of a picture are at least 1 pixel".to_owned();
+                context.report(&codes::OUT_OF_RANGE, *span, message, |d| {
+                    d.at(*span, "0 here")
+                });
+            }
             let is_same = value.0 == [width, height];
             let message =
                 || format!("the `Camera` has the size of the picture: {width} × {height}");

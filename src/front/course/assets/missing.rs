@@ -1,0 +1,59 @@
+//! What is told of a file that is not found.
+
+use super::{Missing, Wanted};
+use rtc_diag::{Diagnostic, clip_path, codes};
+use std::path::PathBuf;
+
+/// The finding about a file that is not where it was looked for; `similar` is the name of one that is.
+pub(super) fn missing(wish: &Wanted, fault: &Missing, similar: Option<&str>) -> Diagnostic {
+    let name = clip_path(&wish.path);
+    match fault {
+        Missing::NoFolder => {
+            let message =
+                format!("`{name}` can't be looked for: a scene from a stream has no folder");
+            Diagnostic::new(&codes::FILE_OUTSIDE, message)
+                .at(wish.span, "no folder to look in")
+                .hint("name the folder of its files by `--asset-root`")
+        }
+        Missing::Absent(looked) => {
+            Diagnostic::new(&codes::FILE_NOT_FOUND, format!("there is no file `{name}`"))
+                .at(wish.span, "not found")
+                .hint(match similar {
+                    Some(name) => format!("did you mean `{}`?", clip_path(name)),
+                    None => places(looked),
+                })
+                .hint(ELSEWHERE)
+        }
+        Missing::Outside(looked) => {
+            let message = format!("`{name}` leads out of the folder of the scene");
+            Diagnostic::new(&codes::FILE_OUTSIDE, message)
+                .at(wish.span, "not followed")
+                .hint(places(looked))
+                .hint(ELSEWHERE)
+        }
+    }
+}
+
+/// What to do about a file that lies elsewhere.
+const ELSEWHERE: &str = "put the file beside the scene, or allow its folder by `--asset-root`";
+
+/// The places a file was looked for, the most telling ones if there are many.
+fn places(looked: &[PathBuf]) -> String {
+    const SHOWN: usize = 6;
+    let shown: Vec<String> = looked
+        .iter()
+        .take(SHOWN)
+        .map(|path| format!("`{}`", clip_path(&path.to_string_lossy())))
+        .collect();
+    let more = looked.len().saturating_sub(SHOWN);
+    let tail = if more > 0 {
+        format!(" and {more} more places")
+    } else {
+        String::new()
+    };
+    if shown.is_empty() {
+        "name a file".to_owned()
+    } else {
+        format!("looked for it at {}{tail}", shown.join(", "))
+    }
+}
