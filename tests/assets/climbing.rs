@@ -39,7 +39,7 @@ fn the_folder_above_lends_pictures_alone() {
     ] {
         assert_eq!(errors(image, NONE, None), [""; 0], "{image}");
     }
-    assert_eq!(errors("../textures/text.png", NONE, None), ["GL022"]);
+    assert_eq!(errors("../textures/text.png", NONE, None), ["GL023"]);
     assert_eq!(errors("../textures/none.png", NONE, None), ["GL023"]);
     assert_eq!(errors("../../t.png", NONE, None), ["GL022"]);
     let (image, buffer) = ("../textures/t.png", "../textures/four.bin");
