@@ -12,7 +12,7 @@ use super::{
     CHECKSUMS_COUNT, Decoded, NotFinite, image, mesh, newer, span, tree, typed, wrong_shape,
 };
 use rtc_diag::{Code, Diagnostic, codes};
-use rtc_ir::{Column, Display, Mesh, Scene, Surface, VERSION};
+use rtc_ir::{Display, Mesh, Scene, Surface, VERSION};
 use rtc_source::{FileId, Span};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -101,7 +101,7 @@ pub(super) fn encode<'s>(
         environment,
         display: _,
     } = scene;
-    if !meshes.iter().all(is_finite) {
+    if !meshes.iter().all(Mesh::is_finite) {
         return Err(NotFinite);
     }
     let mut body = SectionWriter::default();
@@ -143,29 +143,6 @@ pub(super) fn encode<'s>(
         head: head(&header),
         body,
     })
-}
-
-fn is_finite(mesh: &Mesh) -> bool {
-    fn column<const N: usize>(column: &Column<N>) -> bool {
-        column.iter().flatten().all(f64::is_finite)
-    }
-    let Mesh {
-        name: _,
-        part: _,
-        positions,
-        normals,
-        uvs,
-        second_uvs,
-        tangents,
-        colors,
-        triangles: _,
-    } = mesh;
-    column(positions)
-        && column(normals)
-        && column(uvs)
-        && column(second_uvs)
-        && column(tangents)
-        && column(colors)
 }
 
 /// All that stands before the first section.

@@ -1,5 +1,5 @@
-//! What points and lines become: meshes about them of a radius that is chosen later, since files say
-//! nothing of how thick they are.
+//! What points and lines become: meshes about them of a radius that is chosen later, since files
+//! say nothing of how thick they are.
 
 use crate::gltf;
 use glam::{DAffine3, DMat3};
@@ -9,11 +9,11 @@ use rtc_math::{Vec3, unit};
 /// From so many on, points and lines have the simplest solid.
 const MANY: u64 = 1 << 15;
 
-/// What a point or a line becomes: with normals a disc or a ribbon that faces them, so that it is lit
-/// as they say, else a solid.
+/// What a point or a line becomes: with normals a disc or a ribbon that faces them, so that it is
+/// lit as they say, else a solid.
 pub(crate) struct Solid {
-    /// From the point, or one end of a line: which end, and the offset at radius 1. Along a line lies
-    /// z, and y towards its normal; along the normal of a point lies z.
+    /// From the point, or one end of a line: which end, and the offset at radius 1. Along a line
+    /// lies z, and y towards its normal; along the normal of a point lies z.
     pub(crate) corners: &'static [(usize, [f64; 3])],
     pub(crate) triangles: &'static [[u32; 3]],
 }
@@ -101,7 +101,8 @@ static RIBBON: Solid = Solid {
     triangles: &[[0, 1, 2], [0, 2, 3]],
 };
 
-/// Of many lines each is a tetrahedron, with an edge across each end: of any side something is seen.
+/// Of many lines each is a tetrahedron, with an edge across each end: of any side something is
+/// seen.
 static WEDGE: Solid = Solid {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
@@ -187,7 +188,7 @@ pub(crate) fn thin(
         mesh.normals = Column::rounded(normals.map(|normal| normal.to_array()));
     }
     mesh.triangles = triangles.into();
-    let is_sound = anchor.is_finite() && is_finite(&mesh);
+    let is_sound = anchor.is_finite() && mesh.is_finite();
     let world = DAffine3::from_translation(anchor);
     is_sound.then(|| (mesh, Column::rounded(offsets), world))
 }
@@ -225,19 +226,6 @@ pub(crate) fn pick(mesh: &mut Mesh, vertices: &[u32]) {
     *second_uvs = second_uvs.pick(vertices);
     *tangents = tangents.pick(vertices);
     *colors = colors.pick(vertices);
-}
-
-/// True if all numbers of the vertices are finite.
-pub(crate) fn is_finite(mesh: &Mesh) -> bool {
-    fn all<const N: usize>(column: &Column<N>) -> bool {
-        (0..column.len()).all(|at| column.at(at).iter().all(|number| number.is_finite()))
-    }
-    all(&mesh.positions)
-        && all(&mesh.normals)
-        && all(&mesh.tangents)
-        && all(&mesh.uvs)
-        && all(&mesh.second_uvs)
-        && all(&mesh.colors)
 }
 
 #[cfg(test)]

@@ -43,3 +43,30 @@ pub struct Mesh {
     /// The corners of each triangle; its normal is (v1 − v0) × (v2 − v0).
     pub triangles: Shared<[u32; 3]>,
 }
+
+impl Mesh {
+    /// Whether all numbers of the vertices are finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        fn all<const N: usize>(column: &Column<N>) -> bool {
+            column.iter().flatten().all(f64::is_finite)
+        }
+        let Self {
+            name: _,
+            part: _,
+            positions,
+            normals,
+            uvs,
+            second_uvs,
+            tangents,
+            colors,
+            triangles: _,
+        } = self;
+        all(positions)
+            && all(normals)
+            && all(uvs)
+            && all(second_uvs)
+            && all(tangents)
+            && all(colors)
+    }
+}

@@ -170,8 +170,8 @@ pub struct Quad {
 }
 
 impl Quad {
-    /// Whether its corners lie so far out of one plane that a patch between them is seen to be bent:
-    /// by more than a thousandth of its longest side or diagonal.
+    /// Whether its corners lie so far out of one plane that a patch between them is seen to be
+    /// bent: by more than a thousandth of its longest side or diagonal.
     #[must_use]
     pub fn is_bent(&self) -> bool {
         const SEEN: f64 = 1e-3;

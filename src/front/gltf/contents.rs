@@ -161,7 +161,8 @@ fn values(
     if !is_float && accessor.min.is_none() && accessor.max.is_none() {
         return Vec::new();
     }
-    // The first element counts whatever it is, of the others those that compare, as the validator has it.
+    // The first element counts whatever it is, of the others those that compare, as the validator
+    // has it.
     let (mut least, mut most) = ([0.0; 16], [0.0; 16]);
     let mut bad = Vec::new();
     elements.each(|at, element| {

@@ -200,7 +200,8 @@ fn text<'s>(
     Some((offset(BOM.len()), rest))
 }
 
-/// A finding of what importers mend: lenient a warning that says how, else an error whose hint does.
+/// A finding of what importers mend: lenient a warning that says how, else an error whose hint
+/// does.
 fn mended(mut finding: Diagnostic, is_lenient: bool, mended: &str) -> Diagnostic {
     if is_lenient {
         finding.message = format!("{}: {mended}", finding.message);

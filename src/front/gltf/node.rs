@@ -46,7 +46,8 @@ pub(super) struct Node {
 pub(super) struct Instancing {
     /// Translation, rotation, scale.
     pub(super) parts: [Option<usize>; 3],
-    /// Those of all attributes, of an application's own too: each says how many instances there are.
+    /// Those of all attributes, of an application's own too: each says how many instances there
+    /// are.
     pub(super) all: Vec<usize>,
 }
 

@@ -122,8 +122,8 @@ impl<'m> Resources<'m> {
         }
     }
 
-    /// The bytes behind the URI at a node, of a kind that the folder above may lend; why there are none
-    /// is reported.
+    /// The bytes behind the URI at a node, of a kind that the folder above may lend; why there are
+    /// none is reported.
     fn fetch(
         &mut self,
         (at, kind): (NodeId, Option<&FileKind>),

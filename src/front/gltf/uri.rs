@@ -1,5 +1,5 @@
-//! URIs: data that is written in place, or a path below the folder of the asset or beside it; nothing
-//! else is followed.
+//! URIs: data that is written in place, or a path below the folder of the asset or beside it;
+//! nothing else is followed.
 
 use base64::Engine as _;
 use base64::alphabet::STANDARD;
@@ -78,8 +78,8 @@ pub(super) fn parse(uri: &str) -> Result<Uri, UriFault> {
     }
 }
 
-/// What importers make of a URI that is none: what is wrong with it, and how it is mended. A mended path
-/// leads nowhere that another may not.
+/// What importers make of a URI that is none: what is wrong with it, and how it is mended. A mended
+/// path leads nowhere that another may not.
 pub(super) fn mended(uri: &str) -> Option<(Uri, &'static str, &'static str)> {
     if strip_scheme(uri, "data").is_some() {
         let joined: String = uri.split_ascii_whitespace().collect();

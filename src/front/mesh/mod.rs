@@ -47,6 +47,19 @@ impl Parsed {
     fn skip(&mut self, fault: impl FnOnce() -> WordFault) {
         self.not_drawn.get_or_insert_with(|| (fault(), 0)).1 += 1;
     }
+
+    /// Adds what points and lines between its vertices look like.
+    ///
+    /// # Errors
+    /// If that would take more memory than there is.
+    fn draw(&mut self, segments: Segments, budget: &Budget) -> Result<(), Exceeded> {
+        if segments.ends.is_empty() {
+            return Ok(());
+        }
+        let drawn = Pen::new(&self.mesh, budget).draw(segments)?;
+        join(&mut self.mesh, drawn);
+        Ok(())
+    }
 }
 
 /// Bytes of what a mesh has for each vertex, in 64 bits.
@@ -144,6 +157,7 @@ pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
         Some(_) | None => obj::parse(bytes, budget)?,
     };
     if parsed.mesh.triangles.is_empty() && parsed.not_drawn.is_none() {
+        // Of points alone the vertices themselves are not kept.
         let vertices = std::mem::take(&mut parsed.mesh);
         let points = Pen::new(&vertices, budget).draw(Segments::points(&vertices))?;
         join(&mut parsed.mesh, points);

@@ -3,7 +3,7 @@
 //! Nothing is allocated by a count: the lines that are there are read.
 
 use super::polygons::{CORNER, Polygons};
-use super::stroke::{Pen, Segments, join};
+use super::stroke::Segments;
 use super::tint::Tints;
 use super::{MAX_FAULTS, Parsed, Unread};
 use crate::words::{Lines, Word, WordFault, numbers};
@@ -121,9 +121,7 @@ impl Content {
         }
         let missing = || Word::START.fault("a corner is not there", "in this file");
         self.polygons.cut(&mut parsed, missing, budget)?;
-        let source = parsed.mesh.clone();
-        let drawn = Pen::new(&source, budget).draw(self.strokes)?;
-        join(&mut parsed.mesh, drawn);
+        parsed.draw(self.strokes, budget)?;
         Ok(parsed)
     }
 }

@@ -7,7 +7,7 @@ mod head;
 mod vertex;
 
 use super::polygons::{CORNER, Polygons};
-use super::stroke::{Pen, Segments, join};
+use super::stroke::Segments;
 use super::tint::decoded;
 use super::{Parsed, Unread};
 use crate::words::{Word, WordFault};
@@ -87,15 +87,17 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn finish(mut self, budget: &Budget) -> Result<Parsed, Exceeded> {
+    fn finish(self, budget: &Budget) -> Result<Parsed, Exceeded> {
         let Self {
             mut parsed,
             mut polygons,
             strokes,
+            long,
             ..
         } = self;
-        // Where lines are longer than they should be, which number is which part of a colour is open.
-        if self.long > 0 || polygons.colors.len() < polygons.count() {
+        // Where lines are longer than they should be, which number is which part of a colour is
+        // open.
+        if long > 0 || polygons.colors.len() < polygons.count() {
             polygons.colors.clear();
         }
         if polygons.uvs.len() < polygons.corners() {
@@ -106,11 +108,8 @@ impl<'a> Reader<'a> {
             parsed.skip(|| Word::START.fault("its vertices have colours", "faces have too"));
         }
         let missing = || Word::START.fault("a corner is not there", "in this file");
-        self.long = 0;
         polygons.cut(&mut parsed, missing, budget)?;
-        let source = parsed.mesh.clone();
-        let drawn = Pen::new(&source, budget).draw(strokes)?;
-        join(&mut parsed.mesh, drawn);
+        parsed.draw(strokes, budget)?;
         Ok(parsed)
     }
 
@@ -121,8 +120,7 @@ impl<'a> Reader<'a> {
         element: &PlyElement<'_>,
     ) -> Result<Option<u32>, WordFault> {
         let number = self.body.number(property.kind, element)?;
-        let vertex = whole(number).filter(|vertex| (*vertex as usize) < self.vertices);
-        Ok(vertex)
+        Ok(whole(number).filter(|vertex| (*vertex as usize) < self.vertices))
     }
 
     /// An element does not show, since the vertex that was read last is not there.

@@ -1,8 +1,8 @@
-//! Polygons cut into triangles: as the fan of the first corner where that covers them, else ear by ear
-//! (Meisters, "Polygons have ears", American Mathematical Monthly 82, 1975).
+//! Polygons cut into triangles: as the fan of the first corner where that covers them, else ear by
+//! ear (Meisters, "Polygons have ears", American Mathematical Monthly 82, 1975).
 //!
-//! The corners are looked at along the axis nearest to the normal, and on which side of an edge one lies
-//! is decided exactly, so no notch is closed by rounding.
+//! The corners are looked at along the axis nearest to the normal, and on which side of an edge one
+//! lies is decided exactly, so no notch is closed by rounding.
 
 use rtc_math::{two_difference, two_product, two_sum};
 
@@ -60,7 +60,8 @@ impl Cutter {
         (2..self.ring.len()).for_each(|at| take([self.ring[0], self.ring[at - 1], self.ring[at]]));
     }
 
-    /// Looks at the corners along the axis nearest to the normal, so that they go round to the left.
+    /// Looks at the corners along the axis nearest to the normal, so that they go round to the
+    /// left.
     fn flatten(&mut self, count: usize, position: impl Fn(usize) -> [f64; 3]) {
         // The normal of Newell, from the first corner.
         let first = position(0);
@@ -110,7 +111,8 @@ impl Cutter {
         [(at + count - 1) % count, at, (at + 1) % count].map(|place| self.ring[place])
     }
 
-    /// A place of the ring that can be cut off; of those that have no area one if there is no other.
+    /// A place of the ring that can be cut off; of those that have no area one if there is no
+    /// other.
     fn ear(&mut self) -> Option<usize> {
         let mut flat = None;
         for at in 0..self.ring.len() {
@@ -138,8 +140,8 @@ impl Cutter {
     }
 }
 
-/// Above 0 if the way from `a` over `b` to `c` turns left, below if right, 0 if not at all: the sign is
-/// exact (Shewchuk, "Adaptive precision floating-point arithmetic", 1997).
+/// Above 0 if the way from `a` over `b` to `c` turns left, below if right, 0 if not at all: the
+/// sign is exact (Shewchuk, "Adaptive precision floating-point arithmetic", 1997).
 fn turn([ax, ay]: Flat, [bx, by]: Flat, [cx, cy]: Flat) -> f64 {
     /// (3 + 16 u)·u, for the rounding of two differences, a product and a difference.
     const ROUNDING: f64 = 3.330_669_073_875_471_6e-16;

@@ -80,9 +80,10 @@ fn vectors(triangle: &[u8; TRIANGLE]) -> [[f64; 3]; 4] {
 
 /// The colours of the triangles of a binary file, linear; none if it has none.
 ///
-/// Two programs keep them in the last two bytes, five bits a channel. By VisCAM the highest bit says
-/// that there is a colour, red is in the highest bits; by Magics the head has the colour of the whole
-/// behind `COLOR=`, which a triangle has whose highest bit is set, and red is in the lowest bits.
+/// Two programs keep them in the last two bytes, five bits a channel. By VisCAM the highest bit
+/// says that there is a colour, red is in the highest bits; by Magics the head has the colour of
+/// the whole behind `COLOR=`, which a triangle has whose highest bit is set, and red is in the
+/// lowest bits.
 fn colors(bytes: &[u8], triangles: &[[u8; TRIANGLE]]) -> Vec<[f32; 4]> {
     const HAS: u16 = 1 << 15;
     let code = |triangle: &[u8; TRIANGLE]| u16::from_le_bytes([triangle[48], triangle[49]]);
@@ -118,8 +119,8 @@ fn opaque([r, g, b]: [f32; 3]) -> [f32; 4] {
 
 /// Reads an STL.
 pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
-    // A binary triangle becomes three positions, three colours and three numbers; a line of text one
-    // position, in a list that grows by doubling.
+    // A binary triangle becomes three positions, three colours and three numbers; a line of text
+    // one position, in a list that grows by doubling.
     budget.has(Resource::Memory, 5 * bytes.len() as u64)?;
     let binary_triangles = count(bytes).filter(|_| is_binary(bytes));
     let binary_triangles = binary_triangles.map(|count| triangles(bytes, count));

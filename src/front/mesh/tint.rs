@@ -3,8 +3,8 @@
 use rtc_color::srgb_decoded;
 use rtc_ir::Column;
 
-/// Colours as files write them, coded as sRGB codes them, with alpha: each channel from 0 to 1, or, if
-/// any is above 1, to 255.
+/// Colours as files write them, coded as sRGB codes them, with alpha: each channel from 0 to 1, or,
+/// if any is above 1, to 255.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tints {
     colors: Vec<[f32; 4]>,

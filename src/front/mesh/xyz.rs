@@ -1,5 +1,5 @@
-//! XYZ: a point a line, its place, and then its colour or its normal or both, as programs that scan and
-//! measure write them.
+//! XYZ: a point a line, its place, and then its colour or its normal or both, as programs that scan
+//! and measure write them.
 
 use super::tint::Tints;
 use super::{MAX_FAULTS, Parsed, Unread, first_lines};

@@ -151,8 +151,8 @@ fn refine(camera: &mut Camera, ahead: Vec3, own: Fields<'_, '_>) {
     };
 }
 
-/// How far before a camera its plane of focus is where nothing else is said: 1, or farther where the places
-/// of both would be hard to tell apart, a power of two.
+/// How far before a camera its plane of focus is where nothing else is said: 1, or farther where
+/// the places of both would be hard to tell apart, a power of two.
 fn reach(eye: Vec3) -> f64 {
     const NEAR: f64 = 1_048_576.0;
     let far = (eye.abs().max_element() / NEAR).clamp(1.0, f64::MAX);

@@ -8,7 +8,7 @@ use super::super::report::AssetReport;
 use super::shape::{Deformation, ShapeId};
 use super::uv::TexCoordSets;
 use super::{deform, tangent, topology};
-use crate::solid::{is_finite, pick};
+use crate::solid::pick;
 use rtc_ir::{self as ir, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
 use rtc_source::Resource;
 use rtc_source::tree::NodeId;
@@ -229,7 +229,7 @@ fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>, is_lenient: bool) -> Op
     let count = usize::try_from(vertices_of(doc, wanted.primitive)).ok()?;
     let mut triangles = topology::triangles(doc, wanted.primitive, count)?;
     let mut mesh = vertices(doc, wanted)?;
-    let is_finite = !is_lenient || is_finite(&mesh);
+    let is_finite = !is_lenient || mesh.is_finite();
     if let Some(kept) = topology::compact(&mut triangles, count, !is_finite) {
         pick(&mut mesh, &kept);
     }

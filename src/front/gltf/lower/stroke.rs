@@ -26,8 +26,8 @@ const TRIANGLE: u64 = 108;
 pub(super) struct Strokes {
     /// Each with the offsets of its corners at radius 1.
     made: Vec<(MeshId, Column<3>)>,
-    /// Of what was wanted, by how it is turned and scaled, the mesh and the place of its first vertex;
-    /// none where it shows nothing.
+    /// Of what was wanted, by how it is turned and scaled, the mesh and the place of its first
+    /// vertex; none where it shows nothing.
     known: BTreeMap<(MeshKey, Turn), Option<(MeshId, Vec3)>>,
 }
 
@@ -41,8 +41,8 @@ pub(super) fn is_stroked(primitive: &Primitive) -> bool {
 
 impl Strokes {
     /// The meshes of a primitive of points or lines at its places, still without a radius, and where
-    /// each stands; none where it shows nothing or asks for too much. Places that differ in where they
-    /// are alone share a mesh.
+    /// each stands; none where it shows nothing or asks for too much. Places that differ in where
+    /// they are alone share a mesh.
     pub(super) fn make(
         &mut self,
         doc: &Document<'_>,
@@ -127,8 +127,8 @@ impl Source {
     }
 }
 
-/// Charges the points or lines of a primitive, turned in one way; the solid that they get comes back,
-/// none if that is too much.
+/// Charges the points or lines of a primitive, turned in one way; the solid that they get comes
+/// back, none if that is too much.
 fn charge(
     doc: &Document<'_>,
     wanted: &WantedMesh<'_, '_>,

@@ -2,8 +2,8 @@
 //!
 //! Corners of one vertex may get different tangents, so vertices are split where they do.
 //!
-//! MikkTSpace compares all corners at a place with each other. So a place of very many counts as several side
-//! by side, each with its part of them.
+//! MikkTSpace compares all corners at a place with each other. So a place of very many counts as
+//! several side by side, each with its part of them.
 
 use super::mesh::to_u32;
 use crate::solid::pick;
@@ -111,8 +111,8 @@ pub(super) fn generate(mesh: &mut Mesh) {
     split(mesh, &tangents);
 }
 
-/// In which part of its place each corner is; empty if all places are whole. Corners that are alike stay
-/// together as far as they can.
+/// In which part of its place each corner is; empty if all places are whole. Corners that are alike
+/// stay together as far as they can.
 fn parts(mesh: &Mesh) -> Vec<u16> {
     if mesh.triangles.len() <= MOST as usize {
         return Vec::new();

@@ -65,8 +65,8 @@ impl Check {
         Ok(smoothing)
     }
 
-    /// What lines and points show, each with the material that they ask for; all vertices as points if
-    /// nothing else is there.
+    /// What lines and points show, each with the material that they ask for; all vertices as points
+    /// if nothing else is there.
     fn drawn(&mut self, budget: &Budget) -> Result<Vec<(Named, Mesh)>, Exceeded> {
         let has_nothing = self.triangles == 0 && self.not_drawn.is_none();
         if self.strokes.is_empty() && !has_nothing {

@@ -1,6 +1,6 @@
-//! Smoothing groups of an OBJ: a corner without a normal has the mean of those of the faces of its group
-//! around it, weighed by their angles there (Thürmer and Wüthrich, "Computing vertex normals from
-//! polygonal facets", Journal of Graphics Tools 3, 1998).
+//! Smoothing groups of an OBJ: a corner without a normal has the mean of those of the faces of its
+//! group around it, weighed by their angles there (Thürmer and Wüthrich, "Computing vertex normals
+//! from polygonal facets", Journal of Graphics Tools 3, 1998).
 
 use super::corner::Corner;
 use crate::mesh::to_u32;

@@ -88,8 +88,8 @@ impl<'a> PlyBody<'a> {
         Ok(self.value)
     }
 
-    /// The row ends; true if it is all of a line but for numbers that no property has, which are passed
-    /// over.
+    /// The row ends; true if it is all of a line but for numbers that no property has, which are
+    /// passed over.
     pub(super) fn end_row(&mut self) -> bool {
         let is_whole = self.is_by_lines && self.row_line == Some(self.line);
         let has_more = is_whole && self.used < self.words.len();
