@@ -1,16 +1,16 @@
 //! Directional albedos of the lobes, tabulated over cosine and roughness.
 //!
-//! The tables are in `albedo.bin`, for they take half a second to integrate. A test integrates them
-//! by the same functions that shade, and finds the same bits; `RTC_UPDATE=1 cargo test --lib albedo`
-//! writes the file.
+//! The tables are in `*.bin`, for they take a second to integrate. Tests integrate them by the same
+//! functions that shade, and find the same bits; `RTC_UPDATE=1 cargo test -p rtc-render albedo`
+//! writes the files.
 
 use super::fresnel::schlick;
 use super::warp::direction_turned;
 use rtc_math::Vec3;
 use std::sync::LazyLock;
 
-pub(super) mod brushed;
-pub(super) mod glass;
+pub(super) mod anisotropic;
+pub(super) mod dielectric;
 
 /// Entries along the cosine, denser towards grazing: entry i is at (i/(n − 1))².
 const COSINES: usize = 32;
@@ -32,8 +32,6 @@ pub(super) struct Tables {
     sheen: Vec<[f64; 2]>,
     /// Means over the hemisphere, weighted by the cosine, per roughness.
     means: Vec<[f64; 2]>,
-    /// Schlick's curve at the half-way vector, per cosine of the viewer.
-    half_way: Vec<[f64; 2]>,
 }
 
 /// The albedo of a microfacet lobe with Schlick's reflectance: `f0·e0 + f90·e90`.
@@ -88,7 +86,6 @@ impl Tables {
             specular,
             sheen,
             means,
-            half_way: (0..COSINES).map(half_way).collect(),
         }
     }
 
@@ -106,22 +103,24 @@ impl Tables {
         Split { e0, e90 }
     }
 
-    /// The mean of Schlick's curve at the half-way vector to directions over the hemisphere, weighted by their cosine.
-    pub(super) fn half_way(&self, cosine: f64) -> f64 {
-        between(&self.half_way, cosine)[0]
-    }
-
     /// The albedo of white sheen.
     pub(super) fn sheen(&self, roughness: f64, cosine: f64) -> f64 {
         look_up(&self.sheen, roughness, cosine)[0]
     }
 }
 
-/// The mean of Schlick's curve at the half-way vector for the cosine of an entry, by the midpoint rule.
-fn half_way(entry: usize) -> [f64; 2] {
+/// The mean of Schlick's curve at the half-way vector to directions over the hemisphere, weighted
+/// by their cosine. Its table is made at the first call.
+pub(super) fn half_way(cosine: f64) -> f64 {
+    static TABLE: LazyLock<Vec<[f64; 2]>> =
+        LazyLock::new(|| (0..COSINES).map(half_way_of).collect());
+    between(&TABLE, cosine)[0]
+}
+
+/// The same for the cosine of an entry, by the midpoint rule.
+fn half_way_of(entry: usize) -> [f64; 2] {
     const STEPS: u32 = 32;
-    let root = entry as f64 / (COSINES - 1) as f64;
-    let cosine = root * root;
+    let cosine = squared_fraction(entry, COSINES);
     let wo = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
     let step = |k: u32| (f64::from(k) + 0.5) / f64::from(STEPS);
     let pairs = (0..STEPS).flat_map(|i| (0..STEPS).map(move |j| [i, j]));
@@ -133,6 +132,16 @@ fn half_way(entry: usize) -> [f64; 2] {
         })
         .sum();
     [sum / f64::from(STEPS * STEPS), 0.0]
+}
+
+/// Where an entry lies on its axis, from 0 to 1.
+fn fraction(entry: usize, count: usize) -> f64 {
+    entry as f64 / (count - 1) as f64
+}
+
+/// Its square: where it lies on an axis that is denser towards 0.
+fn squared_fraction(entry: usize, count: usize) -> f64 {
+    fraction(entry, count) * fraction(entry, count)
 }
 
 /// Interpolates bilinearly between four entries.
@@ -160,7 +169,8 @@ fn place(fraction: f64, count: usize) -> (usize, f64) {
     (entry, scaled - entry as f64)
 }
 
-/// Interpolates linearly along each of `D` axes of a table, of so many entries each, in the order of the axes.
+/// Interpolates linearly along each of `D` axes of a table: the place on each, from 0 to 1, and how
+/// many entries it has.
 fn interpolate<const D: usize, const N: usize>(
     table: &[[f32; N]],
     axes: [(f64, usize); D],

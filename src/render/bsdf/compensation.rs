@@ -4,7 +4,7 @@
 //! returns exactly the energy that single bounces lose, and a diffuse base that receives exactly
 //! the energy that both lobes leave. Both are reciprocal; a white surface in a white sky is white.
 
-use super::albedo::{Split, brushed, tables};
+use super::albedo::{Split, anisotropic, half_way, tables};
 use super::fresnel::Fresnel;
 use super::ggx::Ggx;
 use rtc_math::Vec3;
@@ -60,7 +60,7 @@ fn albedo(surface: Ggx, w: Vec3) -> Split {
     if surface.is_isotropic() {
         tables().specular(surface.mean_roughness(), w.z)
     } else {
-        brushed::albedo(surface, w)
+        anisotropic::albedo(surface, w)
     }
 }
 
@@ -69,7 +69,7 @@ fn mean_albedo(surface: Ggx) -> Split {
     if surface.is_isotropic() {
         tables().specular_mean(surface.mean_roughness())
     } else {
-        brushed::mean(surface)
+        anisotropic::mean(surface)
     }
 }
 
@@ -148,8 +148,9 @@ impl Compensation {
     }
 }
 
-/// The share of the base that is left where further bounces are left out: appendix B of glTF lets it scatter 1 − F of the half-way
-/// vector, and seen at grazing angles a surface would send out up to 1.7 times what it gets. It is 1 at all other angles.
+/// The factor of the diffuse base where further bounces are left out: appendix B of glTF lets the
+/// base scatter 1 − F of the half-way vector, and seen at grazing angles a surface would send out
+/// up to 1.7 times what it gets. It is 1 where the surface sends out no more than that.
 #[must_use]
 pub(super) fn grazing_share(surface: Ggx, dielectric: &Fresnel, wo: Vec3) -> f64 {
     let f0 = dielectric.at(1.0).max_element();
@@ -161,7 +162,7 @@ pub(super) fn grazing_share(surface: Ggx, dielectric: &Fresnel, wo: Vec3) -> f64
             .at(f0, f90)
             .max(e.whole() * dielectric.at(wo.z).max_element()),
     };
-    let base = 1.0 - f0 - (f90 - f0) * tables().half_way(wo.z);
+    let base = 1.0 - f0 - (f90 - f0) * half_way(wo.z);
     if base > 0.0 {
         ((1.0 - reflected) / base).clamp(0.0, 1.0)
     } else {

@@ -1,5 +1,5 @@
-//! The Fresnel reflectance of a smooth boundary: Schlick's formula, for glass that of a dielectric, or the interference of a
-//! thin film.
+//! The Fresnel reflectance of a smooth boundary: Schlick's formula, that of a dielectric where
+//! light goes through, or the interference of a thin film.
 
 use super::thin_film::ThinFilm;
 use rtc_math::Vec3;
@@ -30,17 +30,23 @@ pub(super) fn schlick(cosine: f64) -> f64 {
     square * square * x
 }
 
-/// The reflectance of unpolarised light by a boundary to a medium of an index above 1, from outside (Pharr, Jakob,
-/// Humphreys, "Physically Based Rendering" (4th ed.), §9.3.5), brought to go from 0 at normal to 1 at grazing incidence.
+/// The cosine of refraction by Snell's law; `None` for total internal reflection.
+#[must_use]
+pub(super) fn refracted_cosine(cosine: f64, eta: f64) -> Option<f64> {
+    let square = 1.0 - (1.0 - cosine * cosine) / (eta * eta);
+    (square > 0.0).then(|| square.sqrt())
+}
+
+/// The reflectance of unpolarised light by a boundary to a medium of an index of at least 1, from
+/// outside (Pharr, Jakob, Humphreys, "Physically Based Rendering" (4th ed.), §9.3.5), scaled to go
+/// from 0 at normal to 1 at grazing incidence.
 #[must_use]
 pub(super) fn dielectric_curve(cosine: f64, ior: f64) -> f64 {
     if ior == 1.0 {
         return 0.0;
     }
     let cosine = cosine.clamp(0.0, 1.0);
-    let inside = (1.0 - (1.0 - cosine * cosine) / (ior * ior))
-        .max(0.0)
-        .sqrt();
+    let inside = refracted_cosine(cosine, ior).unwrap_or(0.0);
     let crosswise = (cosine - ior * inside) / (cosine + ior * inside);
     let along = (ior * cosine - inside) / (ior * cosine + inside);
     let normal = normal_reflectance(ior);

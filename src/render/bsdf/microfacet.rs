@@ -1,9 +1,9 @@
 //! The rough boundary: the reflection of its microfacets, and the transmission of the dielectric
 //! ones.
 
-use super::albedo::glass;
+use super::albedo::dielectric;
 use super::compensation::{Compensation, grazing_share};
-use super::fresnel::Fresnel;
+use super::fresnel::{Fresnel, refracted_cosine};
 use super::ggx::Ggx;
 use super::standard::StandardParameters;
 use super::thin_film::ThinFilm;
@@ -31,9 +31,7 @@ pub(super) struct Microfacet<const F: u32> {
     eta: f64,
     /// The index inside, if the material transmits: its reflectance is that of a dielectric.
     ior: Option<f64>,
-    /// The fraction of the surface that is dielectric and transmits.
-    transmitting: f64,
-    /// The factors that make up for the light which further bounces send out, of reflection and of transmission.
+    /// The factors of reflection and of transmission that make up for the light of further bounces.
     gain: [f64; 2],
 }
 
@@ -94,7 +92,6 @@ impl<const F: u32> Microfacet<F> {
         crossing: Crossing::Wall,
         eta: 1.0,
         ior: None,
-        transmitting: 0.0,
         gain: [1.0; 2],
     };
 
@@ -142,11 +139,10 @@ impl<const F: u32> Microfacet<F> {
             metal: standard.base_color,
             metallic: standard.metallic,
             film,
-            tint: standard.base_color * ((1.0 - standard.metallic) * standard.transmission),
+            tint: standard.base_color * standard.transmitting(),
             crossing,
             eta: if inside { 1.0 / ior } else { ior },
             ior: transmits.then_some(ior),
-            transmitting: (1.0 - standard.metallic) * standard.transmission,
             gain: [1.0; 2],
         }
     }
@@ -177,7 +173,7 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// The share of the base, where that light is left out.
+    /// The factor of the base, where that light is left out.
     pub(super) fn grazing_share(&self, wo: Vec3) -> f64 {
         grazing_share(self.ggx, &self.dielectric(), wo)
     }
@@ -220,22 +216,23 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// Makes up for the light that leaves rough glass after further bounces: outside by what goes through, which is what
-    /// reflection leaves, `reflected` more by further bounces; from within by both. Turquin, "Practical multiple scattering
-    /// compensation for microfacet models" (2019), for transmission.
-    pub(super) fn compensate(&mut self, cosine: f64, bounces: f64) {
+    /// Makes up for the light that a rough dielectric sends out after further bounces, seen at a
+    /// cosine: from outside in what is transmitted, which is all that single and further
+    /// (`bounces`) reflections leave; from inside in both. After Turquin, "Practical multiple
+    /// scattering compensation for microfacet models" (2019).
+    pub(super) fn compensate(&mut self, standard: &StandardParameters, cosine: f64, bounces: f64) {
         let Some(ior) = self.ior.filter(|_| can::<F>(TRANSMISSION) && !self.smooth) else {
             return;
         };
         let roughness = self.ggx.mean_roughness();
         let [f0, f90] = [self.f0.max_element(), self.f90];
         if self.eta < 1.0 {
-            let whole = glass::inside(ior, roughness, cosine).at(f0, f90);
+            let whole = dielectric::inside(ior, roughness, cosine).at(f0, f90);
             // Metal and a diffuse base have their own share of the light.
-            self.gain = [1.0 + (1.0 / whole - 1.0) * self.transmitting; 2];
+            self.gain = [1.0 + (1.0 / whole - 1.0) * standard.transmitting(); 2];
             return;
         }
-        let [reflected, refracted] = glass::outside(ior, roughness, cosine);
+        let [reflected, refracted] = dielectric::outside(ior, roughness, cosine);
         let through = match self.crossing {
             Crossing::Wall => reflected,
             Crossing::Refracted => refracted,
@@ -369,9 +366,3 @@ impl<const F: u32> Microfacet<F> {
 
 /// Indices that differ by less refract by no more than a rounding error.
 const NEARLY_STRAIGHT: f64 = 1e-6;
-
-/// The cosine of refraction by Snell's law; `None` for total internal reflection.
-fn refracted_cosine(cosine: f64, eta: f64) -> Option<f64> {
-    let square = 1.0 - (1.0 - cosine * cosine) / (eta * eta);
-    (square > 0.0).then(|| square.sqrt())
-}

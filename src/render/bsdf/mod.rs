@@ -150,8 +150,8 @@ impl<const F: u32> Lobes<F> {
             None => (bare(), Vec3::ZERO),
             Some(compensation) => (compensation.base_albedo(), compensation.albedo()),
         };
-        if multiple && transmits {
-            microfacet.compensate(wo.z, bounces.max_element());
+        if multiple {
+            microfacet.compensate(standard, wo.z, bounces.max_element());
         }
         let sheen = sheen.and_then(|sheen| Fibres::new(&sheen, wo));
         let lobe_pdf = LobePdf::new(

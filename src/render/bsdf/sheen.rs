@@ -13,6 +13,8 @@ use std::f64::consts::TAU;
 pub(super) struct Fibres {
     charlie: Charlie,
     color: Vec3,
+    /// The albedo of the formula for the viewer.
+    towards_viewer: f64,
     /// The albedo of the sheen, in the strongest channel.
     pub(super) albedo: f64,
     /// The fraction of light that reaches the layers below.
@@ -23,30 +25,40 @@ impl Fibres {
     /// The sheen for one viewer; `None` if it is black.
     pub(super) fn new(sheen: &Sheen, wo: Vec3) -> Option<Self> {
         let charlie = Charlie::new(sheen.roughness);
-        let albedo = sheen.color.max_element() * charlie.albedo(wo.z);
+        let towards_viewer = charlie.albedo(wo.z);
+        let albedo = sheen.color.max_element() * towards_viewer.min(1.0);
         (sheen.color != Vec3::ZERO).then_some(Self {
             charlie,
             color: sheen.color,
+            towards_viewer,
             albedo,
             left: 1.0 - albedo,
         })
     }
 
     /// Adds the sheen to the BSDF of the layers below, which is scaled by the smaller of the
-    /// fractions that pass on the way in and out.
+    /// fractions that pass on the way in and out. The formula sends out more than it gets at some
+    /// angles, so it is divided there by its albedo, the larger one of both directions.
     pub(super) fn over(&self, below: Vec3, wo: Vec3, wi: Vec3) -> Vec3 {
+        let towards_light = self.charlie.albedo(wi.z.abs());
         let own = if wi.z > 0.0 {
-            self.color * self.charlie.f(wo, wi)
+            let albedo = self.towards_viewer.max(towards_light);
+            self.color * (self.charlie.f(wo, wi) / albedo.max(1.0))
         } else {
             Vec3::ZERO
         };
-        below * self.left_for(wi) + own
+        below * self.left_by(towards_light) + own
     }
 
     /// The fraction of light that passes the sheen towards `wi`.
     pub(super) fn left_for(&self, wi: Vec3) -> f64 {
+        self.left_by(self.charlie.albedo(wi.z.abs()))
+    }
+
+    /// The same, by the albedo of the formula towards the light.
+    fn left_by(&self, albedo: f64) -> f64 {
         self.left
-            .min(1.0 - self.color.max_element() * self.charlie.albedo(wi.z.abs()))
+            .min(1.0 - self.color.max_element() * albedo.min(1.0))
     }
 }
 
@@ -68,16 +80,9 @@ impl Charlie {
         }
     }
 
-    /// The BRDF of white sheen. The formula sends out more than it gets at some angles, so it is divided there by its albedo,
-    /// the larger one of both directions.
+    /// The BRDF of white sheen, as the paper has it.
     #[must_use]
     pub(super) fn f(&self, wo: Vec3, wi: Vec3) -> f64 {
-        let albedo = |w: Vec3| tables().sheen(self.roughness, w.z);
-        self.raw(wo, wi) / albedo(wo).max(albedo(wi)).max(1.0)
-    }
-
-    /// The BRDF as the paper has it.
-    fn raw(&self, wo: Vec3, wi: Vec3) -> f64 {
         let h = (wo + wi).normalize();
         let sine = ((1.0 - h.z) * (1.0 + h.z)).max(0.0).sqrt();
         let density = (2.0 + 1.0 / self.alpha) * pow(sine, 1.0 / self.alpha) / TAU;
@@ -85,10 +90,10 @@ impl Charlie {
         density * (shadowing / (4.0 * wo.z * wi.z)).min(1.0)
     }
 
-    /// The directional albedo of white sheen, at most 1.
+    /// The directional albedo of that; at some angles above 1.
     #[must_use]
     pub(super) fn albedo(&self, cosine: f64) -> f64 {
-        tables().sheen(self.roughness, cosine).min(1.0)
+        tables().sheen(self.roughness, cosine)
     }
 
     fn lambda(&self, cosine: f64) -> f64 {
@@ -124,7 +129,7 @@ pub(super) fn integrated_albedo(roughness: f64, cosine: f64) -> f64 {
         for j in 0..STEPS {
             // Half a turn is enough, by symmetry.
             let wi = super::warp::direction_turned(step(i), step(j) * 0.5);
-            sum += charlie.raw(wo, wi) * wi.z;
+            sum += charlie.f(wo, wi) * wi.z;
         }
     }
     sum * TAU / f64::from(STEPS * STEPS)

@@ -113,6 +113,13 @@ impl Default for StandardParameters {
 }
 
 impl StandardParameters {
+    /// The fraction of the surface that is dielectric and transmits.
+    #[must_use]
+    #[inline]
+    pub(super) fn transmitting(&self) -> f64 {
+        (1.0 - self.metallic) * self.transmission
+    }
+
     /// The reflectance of the dielectric part at normal incidence.
     #[must_use]
     pub(super) fn dielectric_f0(&self) -> Vec3 {

@@ -31,6 +31,8 @@ pub struct Cone {
     axis: Vec3,
     height: f64,
     radius: f64,
+    /// Radius over height.
+    slope: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,8 +61,8 @@ impl Profile {
         if step.is_finite() { t - step } else { t }
     }
 
-    /// ρ − g at t = 0, and its slope.
-    fn border(&self) -> (f64, f64) {
+    /// ρ − g at t = 0, and its derivative.
+    fn distance(&self) -> (f64, f64) {
         let rho = self.w.length();
         let slope = match rho > 0.0 {
             true => self.w.dot(self.x) / rho,
@@ -127,6 +129,7 @@ impl Cone {
             axis: up / height,
             height,
             radius,
+            slope: radius / height,
         }
     }
 
@@ -135,28 +138,26 @@ impl Cone {
         let d = ray.direction;
         let start = ray.origin - self.base;
         let nearest = (self.axis * (0.5 * self.height) - start).dot(d) / d.dot(d);
-        let slope = self.radius / self.height;
         let rise = dot(self.axis, d);
-        if slope > FLAT && rise != 0.0 {
-            return self.crossing_flat(start, d, nearest, slope * rise);
+        if self.slope > FLAT && rise != 0.0 {
+            return self.crossing_flat(start, d, nearest, self.slope * rise);
         }
         let f = start + d * nearest;
         let inside = self.profile(f, d).inside()?;
         let inside = inside.map(|t| t + nearest);
-        let (outside, growth) = self.profile(start, d).border();
-        let inside = inside.seen_from(outside, growth);
+        let (distance, growth) = self.profile(start, d).distance();
+        let inside = inside.seen_from(distance, growth);
         let ends = between_planes(self.axis, self.height, start, d, [Part::Base, Part::Apex])?;
         inside.and(ends)?.first_in_front()
     }
 
     /// The ray from a point, given from the base, along `d`.
     fn profile(&self, from: Vec3, d: Vec3) -> Profile {
-        let slope = self.radius / self.height;
         Profile {
             w: cross(from, self.axis),
             x: cross(d, self.axis),
-            sigma: slope * (self.height - dot(self.axis, from)),
-            tau: slope * dot(self.axis, d),
+            sigma: self.slope * (self.height - dot(self.axis, from)),
+            tau: self.slope * dot(self.axis, d),
         }
     }
 
@@ -267,12 +268,13 @@ impl<R: Real> PlainCone<R> {
             axis,
             height,
             radius,
+            slope,
         } = *cone;
         Self {
             base: Vector::of(base),
             axis: Vector::of(axis),
             height: R::of(height),
-            slope: R::of(radius / height),
+            slope: R::of(slope),
             cap: PlainDisc::new(base, -axis, radius),
         }
     }

@@ -34,9 +34,9 @@ impl<Part: Copy> Interval<Part> {
         }
     }
 
-    /// The interval of a convex region whose border crosses the ray where a convex function is 0, which is below 0 inside;
-    /// with that function and its slope at t = 0, which have the last word where rounding moved a root of 0: an origin on
-    /// the border does not see what it stands on.
+    /// The same of a convex region, inside of which a convex function is below 0, by its value and
+    /// its derivative at t = 0: where rounding moved a root of 0 to the other side they decide, so
+    /// an origin on the surface does not see what it stands on.
     pub(crate) fn seen_from(mut self, value: f64, slope: f64) -> Self {
         if value <= 0.0 {
             self.enter.0 = self.enter.0.min(0.0);

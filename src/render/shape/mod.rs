@@ -154,7 +154,7 @@ pub(crate) mod plane;
 pub(crate) mod quad;
 pub(crate) mod sphere;
 #[cfg(test)]
-mod standing;
+mod surface_eyes;
 pub(crate) mod tie;
 pub(crate) mod torus;
 pub(crate) mod triangle;

@@ -52,13 +52,15 @@ enum Part {
     Base,
 }
 
-/// F along a ray, `a·t² − 2·b·t + c`, with the discriminant b² − a·c and a bound on its error.
-struct Quadratic {
+/// F along a ray, `a·t² − 2·b·t + c`, and what it is made of: the cross products of its start and
+/// its direction with the axis.
+#[derive(Clone, Copy)]
+struct Coefficients {
+    w: Vec3,
+    x: Vec3,
     a: f64,
     b: f64,
     c: f64,
-    discriminant: f64,
-    error_bound: f64,
 }
 
 impl Paraboloid {
@@ -86,7 +88,7 @@ impl Paraboloid {
         let parts = [Part::Base, Part::Side];
         let ends = between_planes(self.axis, self.height, start, ray.direction, parts)?;
         let inside = self.inside(ray, start, &ends)?;
-        let Quadratic { b, c, .. } = self.quadratic(start, ray.direction, 0.0);
+        let Coefficients { b, c, .. } = self.coefficients(start, ray.direction);
         inside.seen_from(c, -b).and(ends)?.first_in_front()
     }
 
@@ -98,13 +100,12 @@ impl Paraboloid {
         let nearest = (-from_axis.dot(across) / across.dot(across))
             .max(ends.enter.0)
             .min(ends.leave.0);
-        let Quadratic {
-            a,
-            b,
-            c,
-            discriminant,
-            error_bound,
-        } = self.quadratic(start, d, nearest);
+        let f = start + d * nearest;
+        let coefficients = self.coefficients(f, d);
+        let Coefficients { a, b, c, .. } = coefficients;
+        let discriminant = difference_of_products(b, b, a, c);
+        let size = (start.abs() + f.abs()).element_sum();
+        let error_bound = self.error_bound(&coefficients, d, size, nearest);
         if discriminant < -error_bound {
             return None;
         }
@@ -115,33 +116,36 @@ impl Paraboloid {
         self.inside_precisely(ray, nearest)
     }
 
-    /// F along the ray moved by `nearest`.
-    fn quadratic(&self, start: Vec3, d: Vec3, nearest: f64) -> Quadratic {
+    /// F along the ray from a point, given from the base, along `d`.
+    fn coefficients(&self, from: Vec3, d: Vec3) -> Coefficients {
         let k = self.bend;
-        let f = start + d * nearest;
-        let (w, x) = (cross(f, self.axis), cross(d, self.axis));
-        let depth = self.height - dot(self.axis, f);
+        let (w, x) = (cross(from, self.axis), cross(d, self.axis));
+        let depth = self.height - dot(self.axis, from);
         let half_rise = 0.5 * k * dot(self.axis, d);
-        let a = x.dot(x);
-        let b = -(w.dot(x) + half_rise);
-        let c = w.dot(w) - k * depth;
+        Coefficients {
+            w,
+            x,
+            a: x.dot(x),
+            b: -(w.dot(x) + half_rise),
+            c: w.dot(w) - k * depth,
+        }
+    }
 
+    /// A bound on the error of the discriminant b² − a·c of a ray that was moved by `nearest`
+    /// between two points of this size together.
+    fn error_bound(&self, coefficients: &Coefficients, d: Vec3, size: f64, nearest: f64) -> f64 {
+        let Coefficients { w, x, a, b, c } = *coefficients;
+        let k = self.bend;
         // Bound the error of each coefficient by the sizes of what it is made of, then that of the
         // discriminant.
         let pace = d.abs().element_sum();
-        let size = (start.abs() + f.abs()).element_sum() + pace * nearest.abs();
+        let size = size + pace * nearest.abs();
         let across = w.length();
         let a_error = 20.0 * pace * x.length();
         let b_error = pace * (32.0 * size + 16.0 * k);
         let c_error = 40.0 * across * size + k * (20.0 * size + 12.0 * self.height);
         let error = 2.0 * b.abs() * b_error + a * c_error + c.abs() * a_error;
-        Quadratic {
-            a,
-            b,
-            c,
-            discriminant: difference_of_products(b, b, a, c),
-            error_bound: U * (error + U * b_error * b_error),
-        }
+        U * (error + U * b_error * b_error)
     }
 
     /// As [`Self::inside`] in double-double. With u the way to the vertex as given, and p that of a

@@ -28,7 +28,7 @@ pub(super) const MAX_STEPS: usize = 100;
 pub(super) const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
 /// Where a ray starts so near the surface, in units of the torus, it starts on it.
-pub(super) const TOUCHING: f64 = 16.0 * ROUNDING;
+pub(super) const ON_SURFACE: f64 = 16.0 * ROUNDING;
 
 /// The margin of what touches the torus, in its units, where lengths are of about 1: far above
 /// rounding.
@@ -76,11 +76,11 @@ impl TorusRay {
         square / ((off * off + z * z).sqrt() + self.minor)
     }
 
-    /// As [`Self::distance`]; of a point on the surface 1 or −1, by the side that the ray leads to: a ray does not meet what
-    /// it starts on.
-    fn distance_before(&self, s: f64) -> f64 {
+    /// As [`Self::distance`] of the start of the ray; on the surface 1 or −1, by the side that the
+    /// ray leads to: it does not meet what it starts on.
+    fn start_distance(&self, s: f64) -> f64 {
         let distance = self.distance(s);
-        if distance.abs() > TOUCHING {
+        if distance.abs() > ON_SURFACE {
             return distance;
         }
         let off = self.off + self.turn * s;
@@ -122,7 +122,7 @@ impl TorusRay {
     fn first_root(&self, low: f64, high: f64) -> Option<f64> {
         let (linear, constant) = self.derivative();
         let borders = cubic_roots(linear, constant, low, high).chain(std::iter::once(high));
-        let mut before = (low, self.distance_before(low));
+        let mut before = (low, self.start_distance(low));
         for border in borders {
             let there = (border, self.distance(border));
             if there.1 == 0.0 && border > low {

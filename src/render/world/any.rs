@@ -83,8 +83,8 @@ impl AnyWorld {
     }
 
     /// The greatest radiance that a path may meet at its end, on a surface or where it leaves the
-    /// scene, in the strongest channel; 0 where no paths are traced, infinite where there is no useful bound on what a path
-    /// carries.
+    /// scene, in the strongest channel; 0 where no paths are traced, infinite where there is no
+    /// useful bound on what a path carries.
     #[must_use]
     pub fn brightest(&self) -> f64 {
         each!(self, world => world.brightest())

@@ -135,8 +135,8 @@ impl<'items> Part<'items> {
         !self.is_sifted && self.items.len() > TRIANGLES && (0..3).all(is_point)
     }
 
-    /// The same without those that have the corners of one with a lower number, which is what a ray hits
-    /// that meets both. Their rows stay unused.
+    /// The same without those that have the corners of one with a lower number, which is what a ray
+    /// hits that meets both. Their rows stay unused.
     pub(super) fn without_copies(self, corners: impl Fn(u32) -> [Vec3; 3]) -> Self {
         self.items.sort_unstable_by_key(BoxedItem::number);
         let mut known = BTreeSet::new();

@@ -1,6 +1,6 @@
 //! The tables, integrated.
 
-use super::super::fresnel::{dielectric_curve, schlick};
+use super::super::fresnel::{dielectric_curve, refracted_cosine, schlick};
 use super::super::ggx::Ggx;
 use super::super::sheen::integrated_albedo;
 use super::*;
@@ -11,17 +11,16 @@ const NORMALS: u32 = 256;
 
 /// The entries of a table, in their order.
 fn table<T>(entry: impl Fn(f64, f64) -> T) -> Vec<T> {
-    let fraction = |k: usize, count: usize| k as f64 / (count - 1) as f64;
-    let cosine = |k: usize| (fraction(k, COSINES) * fraction(k, COSINES)).max(1e-6);
-    let row = |r: usize| (0..COSINES).map(move |k| (fraction(r, ROUGHNESSES), cosine(k)));
+    let row =
+        |r: usize| (0..COSINES).map(move |k| (fraction(r, ROUGHNESSES), cosine_of(k, COSINES)));
     (0..ROUGHNESSES)
         .flat_map(row)
         .map(|(roughness, cosine)| entry(roughness, cosine))
         .collect()
 }
 
-/// The mean of what `at` says of visible normals, of a rank-1 lattice: it is given each normal, and the function f·cos θ/pdf
-/// of a direction for a lobe that takes everything there, G₂/G₁.
+/// The mean of `at` over visible normals, of a rank-1 lattice. It is given each normal, and the
+/// function f·cos θ/pdf of a direction for a lobe that takes everything there, G₂/G₁.
 fn mean_over_normals<const N: usize>(
     ggx: Ggx,
     wo: Vec3,
@@ -69,14 +68,8 @@ fn view(cosine: f64) -> Vec3 {
     Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine)
 }
 
-/// The cosine of refraction, unless all is reflected.
-fn refracted(cosine: f64, eta: f64) -> Option<f64> {
-    let square = 1.0 - (1.0 - cosine * cosine) / (eta * eta);
-    (square > 0.0).then(|| square.sqrt())
-}
-
 /// What a visible normal of glass adds to its seven numbers.
-fn integrated_glass(ior: f64, ggx: Ggx, wo: Vec3) -> [f64; 7] {
+fn integrated_dielectric(ior: f64, ggx: Ggx, wo: Vec3) -> [f64; 7] {
     let transmitted = |h: Vec3, eta: f64, beyond: f64, weight: &dyn Fn(Vec3) -> f64, curve: f64| {
         let wi = h * (wo.dot(h) / eta - beyond) - wo / eta;
         let weight = if wi.z < 0.0 { weight(wi) } else { 0.0 };
@@ -86,12 +79,12 @@ fn integrated_glass(ior: f64, ggx: Ggx, wo: Vec3) -> [f64; 7] {
         let cosine = wo.dot(h);
         let curve = dielectric_curve(cosine, ior);
         let [r0, r90] = reflected(wo, h, weight, curve);
-        let beyond = refracted(cosine, ior).unwrap_or(0.0);
+        let beyond = refracted_cosine(cosine, ior).unwrap_or(0.0);
         let [t0, t90] = transmitted(h, ior, beyond, weight, curve);
         [r0, r90, t0, t90]
     });
     let [total, e0, e90] = mean_over_normals(ggx, wo, |h, weight| {
-        let Some(outside) = refracted(wo.dot(h), 1.0 / ior) else {
+        let Some(outside) = refracted_cosine(wo.dot(h), 1.0 / ior) else {
             let [r0, r90] = reflected(wo, h, weight, 1.0);
             return [r0 + r90, 0.0, 0.0];
         };
@@ -103,34 +96,28 @@ fn integrated_glass(ior: f64, ggx: Ggx, wo: Vec3) -> [f64; 7] {
     [r0, r90, t0, t90, total, e0, e90]
 }
 
-/// The fraction of an axis at an entry.
-fn fraction(k: usize, count: usize) -> f64 {
-    k as f64 / (count - 1) as f64
-}
-
 /// The cosine at an entry.
 fn cosine_of(k: usize, count: usize) -> f64 {
-    (fraction(k, count) * fraction(k, count)).max(1e-6)
+    squared_fraction(k, count).max(1e-6)
 }
 
-fn glass_table() -> Vec<f64> {
-    use glass::{COSINES, INDICES, ROUGHNESSES};
+fn dielectric_table() -> Vec<f64> {
+    use dielectric::{COSINES, INDICES, ROUGHNESSES};
     let mut numbers = Vec::new();
     for index in 0..INDICES {
-        let root = fraction(index, INDICES);
-        let ior = 1.0 + 2.0 * root * root;
+        let ior = 1.0 + 2.0 * squared_fraction(index, INDICES);
         for roughness in 0..ROUGHNESSES {
             let ggx = Ggx::isotropic(fraction(roughness, ROUGHNESSES));
             let views = (0..COSINES).map(|k| view(cosine_of(k, COSINES)));
-            numbers.extend(views.flat_map(|wo| integrated_glass(ior, ggx, wo)));
+            numbers.extend(views.flat_map(|wo| integrated_dielectric(ior, ggx, wo)));
         }
     }
     numbers
 }
 
-fn brushed_table() -> Vec<f64> {
-    use brushed::{COSINES, TURNS, WIDTHS};
-    let width = |k: usize| fraction(k, WIDTHS) * fraction(k, WIDTHS);
+fn anisotropic_table() -> Vec<f64> {
+    use anisotropic::{COSINES, TURNS, WIDTHS};
+    let width = |k: usize| squared_fraction(k, WIDTHS);
     let mut numbers = Vec::new();
     for x in 0..WIDTHS {
         for y in 0..WIDTHS {
@@ -177,17 +164,21 @@ fn the_stored_tables_are_the_integrals() {
     clippy::cast_possible_truncation,
     reason = "the tables are of whole numbers"
 )]
-fn the_tables_of_glass_and_of_brushed_metal_are_the_integrals() {
+fn the_tables_of_dielectrics_and_of_anisotropy_are_the_integrals() {
     let bytes = |numbers: Vec<f64>| {
         let numbers = numbers
             .into_iter()
             .map(|number| (number * f64::from(i16::MAX)).round() as i16);
         numbers.flat_map(i16::to_le_bytes).collect::<Vec<_>>()
     };
-    is_stored("albedo/glass.bin", &bytes(glass_table()), &glass::STORED);
     is_stored(
-        "albedo/brushed.bin",
-        &bytes(brushed_table()),
-        &brushed::STORED,
+        "albedo/dielectric.bin",
+        &bytes(dielectric_table()),
+        &dielectric::STORED,
+    );
+    is_stored(
+        "albedo/anisotropic.bin",
+        &bytes(anisotropic_table()),
+        &anisotropic::STORED,
     );
 }

@@ -3,7 +3,7 @@
 
 use super::Interactions;
 use crate::lanes::{FourRays, Vectors, lanes_of};
-use crate::shape::torus::{MAX_STEPS, NEARLY_ONE, ROUNDING, TOUCH, TOUCHING, Torus};
+use crate::shape::torus::{MAX_STEPS, NEARLY_ONE, ON_SURFACE, ROUNDING, TOUCH, Torus};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 use rtc_math::Vec3;
@@ -143,12 +143,12 @@ impl<S: Simd> TorusRays<S> {
         }
     }
 
-    /// The points at `s`, with the distances that `TorusRay::distance_before` has.
+    /// The points at `s`, with the distances that `TorusRay::start_distance` has.
     #[inline(always)]
-    fn before(&self, simd: S, s: f64x4<S>) -> Probe<S> {
+    fn start(&self, simd: S, s: f64x4<S>) -> Probe<S> {
         let number = |x: f64| f64x4::splat(simd, x);
         let mut probe = self.at(simd, s);
-        let is_on = probe.distance.abs().simd_le(number(TOUCHING));
+        let is_on = probe.distance.abs().simd_le(number(ON_SURFACE));
         if is_on.any_true() {
             let off = self.off.plus(self.turn.times(s));
             let length = off.length();
@@ -192,7 +192,7 @@ impl<S: Simd> TorusRays<S> {
     ) -> (mask64x4<S>, f64x4<S>) {
         let cubic = self.derivative(simd);
         let borders = cubic.borders(simd, low, high);
-        let first = self.before(simd, low);
+        let first = self.start(simd, low);
         let (mut before, mut after) = (first, first);
         let (mut searched, mut exact, mut bracketed) = (asked, !asked & asked, !asked & asked);
         for k in 0..=3 {

@@ -1,5 +1,5 @@
-//! How much light rough glass lets go on at the first meeting with its microfacets: tables over the index, the roughness and
-//! the cosine.
+//! The albedo of a rough dielectric after single scattering, reflected and transmitted: tables over the
+//! index of refraction, the roughness and the cosine.
 
 use super::{Split, interpolate, stored};
 use std::sync::LazyLock;
@@ -13,18 +13,19 @@ pub(super) const ROUGHNESSES: usize = 12;
 /// Entries along the cosine, denser towards grazing as in the other tables.
 pub(super) const COSINES: usize = 24;
 
-/// Both factors of reflection and both of transmission from outside, then the three terms of both together from within.
+/// Both factors of reflection and both of transmission from outside, then the three terms of both
+/// together from inside.
 pub(super) static STORED: [u8; 7 * 2 * INDICES * ROUGHNESSES * COSINES] =
-    *include_bytes!("glass.bin");
+    *include_bytes!("dielectric.bin");
 
-/// What is reflected and transmitted from within: `total + f0·e0 + f90·e90`.
+/// What is reflected and transmitted from inside: `total + f0·e0 + f90·e90`.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::bsdf) struct FromWithin {
+pub(in crate::bsdf) struct InsideAlbedo {
     total: f64,
     split: Split,
 }
 
-impl FromWithin {
+impl InsideAlbedo {
     /// By the reflectances at normal and at grazing incidence.
     #[must_use]
     pub(in crate::bsdf) fn at(self, f0: f64, f90: f64) -> f64 {
@@ -32,18 +33,19 @@ impl FromWithin {
     }
 }
 
-/// What is reflected, and what would be refracted if nothing were reflected, by the terms of f0 and f90.
+/// What is reflected, and what would be refracted if nothing were reflected, by the terms of f0 and
+/// f90.
 pub(in crate::bsdf) fn outside(ior: f64, roughness: f64, cosine: f64) -> [Split; 2] {
     let [r0, r90, t0, t90, ..] = look_up(ior, roughness, cosine);
     let split = |e0, e90| Split { e0, e90 };
     [split(r0, r90), split(t0, t90)]
 }
 
-/// What is reflected and transmitted from within.
-pub(in crate::bsdf) fn inside(ior: f64, roughness: f64, cosine: f64) -> FromWithin {
+/// What is reflected and transmitted from inside.
+pub(in crate::bsdf) fn inside(ior: f64, roughness: f64, cosine: f64) -> InsideAlbedo {
     let [.., total, e0, e90] = look_up(ior, roughness, cosine);
     let split = Split { e0, e90 };
-    FromWithin { total, split }
+    InsideAlbedo { total, split }
 }
 
 fn look_up(ior: f64, roughness: f64, cosine: f64) -> [f64; 7] {

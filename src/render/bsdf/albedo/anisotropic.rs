@@ -1,8 +1,7 @@
-//! The albedo of microfacets that are stretched along one axis: a table over both widths, the cosine, and the turn from the
-//! axis.
+//! The albedo of anisotropic microfacets: a table over both widths α, the cosine, and the azimuth.
 
 use super::super::ggx::Ggx;
-use super::{Split, interpolate, stored};
+use super::{Split, interpolate, squared_fraction, stored};
 use rtc_math::Vec3;
 use std::sync::LazyLock;
 
@@ -17,7 +16,7 @@ pub(super) const TURNS: usize = 5;
 
 /// The terms in f0 and in f90.
 pub(super) static STORED: [u8; 2 * 2 * WIDTHS * WIDTHS * COSINES * TURNS] =
-    *include_bytes!("brushed.bin");
+    *include_bytes!("anisotropic.bin");
 
 /// The albedo seen from a direction.
 pub(in crate::bsdf) fn albedo(surface: Ggx, w: Vec3) -> Split {
@@ -33,17 +32,13 @@ pub(in crate::bsdf) fn mean(surface: Ggx) -> Split {
     Split { e0, e90 }
 }
 
-/// Of each pair of widths, by the midpoint rule over what look-ups will give: ∫ 2μ·E(μ) dμ with μ = x².
+/// Of each pair of widths, by the midpoint rule over what look-ups will give: ∫ 2μ·E(μ) dμ, μ = x².
 #[expect(clippy::cast_possible_truncation, reason = "the tables are of f32")]
 fn means() -> Vec<[f32; 2]> {
     const STEPS: u32 = 64;
-    /// Over an eighth of a turn and its mirror images cos²φ has the mean that it has over the whole.
+    /// A quarter of a turn is enough, by symmetry.
     const PARTS: u32 = 8;
     let step = |k: u32, count: u32| (f64::from(k) + 0.5) / f64::from(count);
-    let width = |k: usize| {
-        let root = k as f64 / (WIDTHS - 1) as f64;
-        root * root
-    };
     let of = |surface: Ggx| {
         let mut sum = [0.0; 2];
         for k in 0..STEPS {
@@ -59,7 +54,7 @@ fn means() -> Vec<[f32; 2]> {
     };
     let pairs = (0..WIDTHS).flat_map(|x| (0..WIDTHS).map(move |y| [x, y]));
     pairs
-        .map(|pair| of(Ggx::of_widths(pair.map(width))))
+        .map(|pair| of(Ggx::of_widths(pair.map(|k| squared_fraction(k, WIDTHS)))))
         .collect()
 }
 

@@ -17,7 +17,7 @@ use rtc_math::Vec3;
 const SCALES: [f64; 3] = [1.0 / 1_048_576.0, 1.0, 1_073_741_824.0];
 
 /// The first root of a ray.
-type First = Box<dyn Fn(&Ray) -> Option<f64>>;
+type FirstRoot = Box<dyn Fn(&Ray) -> Option<f64>>;
 
 /// A point and the normal there.
 type Eye = ([f64; 3], [f64; 3]);
@@ -33,9 +33,9 @@ fn directions() -> impl Iterator<Item = Vec3> {
     })
 }
 
-/// Asks a shape that `make` builds about a centre and in a scale, from eyes given in its own frame. Outwards a convex shape is
-/// not seen, any other not at once; inwards its far side is.
-fn look(name: &str, make: impl Fn(Vec3, f64) -> First, is_convex: bool, eyes: &[Eye]) {
+/// Asks a shape, which `make` builds about a centre and in a scale, from eyes given in its own frame.
+/// Outwards a convex shape is not seen, any other not at once; inwards its far side is.
+fn check_eyes(name: &str, make: impl Fn(Vec3, f64) -> FirstRoot, is_convex: bool, eyes: &[Eye]) {
     for scale in SCALES {
         let center = Vec3::new(3.0, -7.0, 9.0) * scale;
         let first = make(center, scale);
@@ -54,7 +54,7 @@ fn look(name: &str, make: impl Fn(Vec3, f64) -> First, is_convex: bool, eyes: &[
     }
 }
 
-fn asked<S: Geometry + 'static>(shape: S) -> First {
+fn boxed<S: Geometry + 'static>(shape: S) -> FirstRoot {
     Box::new(move |ray| {
         shape
             .intersect(ray, &Shear::new(ray), f64::INFINITY)
@@ -67,7 +67,7 @@ fn spheres_and_solids_are_seen_from_within_alone() {
     let ball: Vec<Eye> = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]
         .map(|p| (p, p))
         .into();
-    look(
+    check_eyes(
         "sphere",
         |center, radius| {
             let sphere = Sphere { center, radius };
@@ -76,9 +76,9 @@ fn spheres_and_solids_are_seen_from_within_alone() {
         true,
         &ball,
     );
-    look(
+    check_eyes(
         "cylinder",
-        |base, s| asked(Cylinder::new(base, Vec3::X, 10.0 * s, s)),
+        |base, s| boxed(Cylinder::new(base, Vec3::X, 10.0 * s, s)),
         true,
         &[
             ([5.0, 0.0, -1.0], [0.0, 0.0, -1.0]),
@@ -88,9 +88,9 @@ fn spheres_and_solids_are_seen_from_within_alone() {
         ],
     );
     let slant = [0.8, 0.6, 0.0];
-    look(
+    check_eyes(
         "cone",
-        |base, s| asked(Cone::new(base, Vec3::Y * (4.0 * s), 3.0 * s)),
+        |base, s| boxed(Cone::new(base, Vec3::Y * (4.0 * s), 3.0 * s)),
         true,
         &[
             ([1.5, 2.0, 0.0], slant),
@@ -98,9 +98,9 @@ fn spheres_and_solids_are_seen_from_within_alone() {
             ([0.5, 0.0, 0.5], [0.0, -1.0, 0.0]),
         ],
     );
-    look(
+    check_eyes(
         "paraboloid",
-        |base, s| asked(Paraboloid::new(base, Vec3::Y * s, s)),
+        |base, s| boxed(Paraboloid::new(base, Vec3::Y * s, s)),
         true,
         &[
             ([0.5, 0.75, 0.0], [0.5, 0.5, 0.0]),
@@ -112,9 +112,9 @@ fn spheres_and_solids_are_seen_from_within_alone() {
 
 #[test]
 fn a_torus_is_seen_from_its_tube_across_the_tube_or_the_hole() {
-    look(
+    check_eyes(
         "torus",
-        |center, s| asked(Torus::new(center, Vec3::Z, 2.0 * s, 0.5 * s)),
+        |center, s| boxed(Torus::new(center, Vec3::Z, 2.0 * s, 0.5 * s)),
         false,
         &[
             ([2.5, 0.0, 0.0], [1.0, 0.0, 0.0]),
@@ -135,13 +135,13 @@ fn what_is_flat_is_not_seen_from_its_own_plane() {
             c + Vec3::Y * s,
         ]
     };
-    let mut all: Vec<(&str, First)> = Vec::new();
+    let mut all: Vec<(&str, FirstRoot)> = Vec::new();
     for scale in SCALES {
         let center = Vec3::new(3.0, -7.0, 9.0) * scale;
-        all.push(("plane", asked(Plane::new(center, Vec3::Z))));
-        all.push(("disc", asked(Disc::new(center, Vec3::Z, scale))));
+        all.push(("plane", boxed(Plane::new(center, Vec3::Z))));
+        all.push(("disc", boxed(Disc::new(center, Vec3::Z, scale))));
         let [a, b, c, d] = corners(center - (Vec3::X + Vec3::Y) * (0.5 * scale), scale);
-        all.push(("quad", asked(Quad::new([a, b, c, d]))));
+        all.push(("quad", boxed(Quad::new([a, b, c, d]))));
         let triangle = Triangle::new([a, b, c]).expect("it has an area");
         let first = move |ray: &Ray| triangle.intersect(ray, &Shear::new(ray));
         all.push(("triangle", Box::new(first)));
