@@ -8,8 +8,8 @@ use rtc_math::{Vec3, unit};
 /// The limit on lights times surfaces: beyond it the quadratic search is left out.
 const MAX_PAIRS: usize = 1_000_000;
 
-/// Warns of each light inside a solid: with shadows the solid hides it from everything outside. What
-/// holds the eye too is a room.
+/// Warns of each light inside a solid: with shadows the solid hides it from everything outside.
+/// What holds the eye too is a room.
 pub(super) fn lights(scene: &ir::Scene, check: &mut Check<'_>) {
     let ir::Scene {
         camera,
@@ -136,8 +136,8 @@ fn holds(shape: &ir::Shape, point: Vec3) -> bool {
     }
 }
 
-/// Where a point is beside the way from the base of a solid to its top: after which share of it, and
-/// how far off; none if it is below or above.
+/// Where a point is beside the way from the base of a solid to its top: after which share of it,
+/// and how far off; none if it is below or above.
 fn along(from_base: Vec3, way: Option<Vec3>) -> Option<(f64, f64)> {
     let way = way?;
     let (axis, height) = (unit(way)?, way.length());

@@ -1,5 +1,5 @@
-//! What mesh files hold beside plain faces: notches, strips, points, lines, colours, smoothing groups, and
-//! what is left of a file with a fault.
+//! What mesh files hold beside plain faces: notches, strips, points, lines, colours, smoothing
+//! groups, and what is left of a file with a fault.
 
 use rtc::internals::front::mesh::{Parsed, parse};
 use rtc::internals::ir::{Column, Mesh};

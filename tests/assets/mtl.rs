@@ -193,7 +193,7 @@ fn options_of_maps_are_read_or_told_if_they_count() {
     );
 }
 
-/// What an OBJ by itself, whose paths are traced, and one in a scene of Phong's model say of a material.
+/// A material of an OBJ alone, whose paths are traced, and in a scene of Phong's model.
 fn in_both(statements: &str) -> [(Material, String); 2] {
     let folder = folder();
     let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";

@@ -1,4 +1,5 @@
-//! Our reader of OBJ says what `tobj` does, of the files of the repo and of meshes that are made up.
+//! Our reader of OBJ says what `tobj` does, of the files of the repo and of meshes that are made
+//! up.
 
 use crate::obj_oracle::{Agreement, compared};
 use crate::repo::{files, root};
@@ -18,8 +19,8 @@ fn files_of_the_repo_are_read_alike() {
     assert!(same >= 10, "only {same} are read by both");
 }
 
-/// A mesh: vertices, texture coordinates, normals, and faces of three corners up to `most`, all in one of
-/// the forms of a corner, counted from the start or from the end.
+/// A mesh: vertices, texture coordinates, normals, and faces of three corners up to `most`, all in
+/// one of the forms of a corner, counted from the start or from the end.
 fn meshes(most: usize) -> impl Strategy<Value = String> {
     let row = |size| prop::collection::vec(-1000.0..1000.0, size);
     let list = move |size| prop::collection::vec(row(size), 3..12);

@@ -1,44 +1,24 @@
 //! How often the ambient term is added: the file may say so, else its form does.
 
-use super::decode::{Context, Spanned, Value};
+use super::decode::{Context, Spanned};
 use super::lower::Lowering;
 use super::record::FieldOutcome;
-use super::schema::Definitions;
 use super::settings::Scene;
-use super::value::{word, word_schema};
+use super::word::Words;
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, Ambient};
-use rtc_source::tree::NodeId;
-use serde_json::{Value as Json, json};
 
-/// The key's value.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct AmbientWord(Ambient);
-
-/// The words for it.
-const WORDS: &[(&str, Ambient)] = &[("perLight", Ambient::PerLight), ("once", Ambient::Once)];
-
-impl Value for AmbientWord {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        word(node, WORDS, context).map(Self)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        word_schema(WORDS)
-    }
-
-    fn json(&self) -> Json {
-        let word = WORDS.iter().find(|(_, ambient)| *ambient == self.0);
-        word.map_or(Json::Null, |(word, _)| json!(word))
-    }
+impl Words for Ambient {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("perLight", Ambient::PerLight), ("once", Ambient::Once)];
 }
 
 impl Lowering {
-    /// Sets how often the ambient term is added. The programs of the years whose scenes are JSON add it once, those of the
-    /// YAML years for each light. After the lights and the objects.
+    /// Sets how often the ambient term is added. The programs of the years whose scenes are JSON
+    /// add it once, those of the YAML years for each light. After the lights and the objects.
     pub(super) fn ambient(&mut self, scene: &Scene, context: &mut Context<'_>) {
         self.scene.settings.ambient = match &scene.ambient {
-            FieldOutcome::Read(Spanned { value, .. }) => value.0,
+            FieldOutcome::Read(Spanned { value, .. }) => *value,
             FieldOutcome::Absent | FieldOutcome::Broken
                 if is_json(context) && self.scene.settings.mode == ir::Mode::Phong =>
             {

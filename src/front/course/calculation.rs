@@ -1,4 +1,5 @@
-//! What a small calculation comes to that was written in place of a number: `1/3`, `2*0.6`, `-pi/4`.
+//! What a small calculation comes to that was written in place of a number: `1/3`, `2*0.6`,
+//! `-pi/4`.
 
 use std::f64::consts::PI;
 
@@ -101,7 +102,8 @@ struct Yard {
 }
 
 impl Yard {
-    /// Adds an operator between two values, after those that bind as much; powers bind to the right.
+    /// Adds an operator between two values, after those that bind as much; powers bind to the
+    /// right.
     fn push(&mut self, operator: Operator) -> Option<()> {
         let goes_first = |waiting: Operator| {
             waiting.strength() > operator.strength()

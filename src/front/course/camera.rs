@@ -1,19 +1,17 @@
 //! The camera, as new files (`Camera`) and old ones (`Eye`) say it.
 
-use super::decode::{Context, Spanned, Value};
+use super::decode::{Context, Spanned};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative, Opening, Positive, Side};
 use super::picture::PictureSize;
 use super::record::{FieldOutcome, keys, record};
-use super::schema::Definitions;
 use super::synonym::{EYE, PICTURE, TARGET};
-use super::value::{Point, Vector, word, word_schema};
+use super::value::{Point, Vector};
+use super::word::Words;
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, Field};
 use rtc_math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, unit};
 use rtc_source::Span;
-use rtc_source::tree::NodeId;
-use serde_json::Value as Json;
 
 record! {
     /// The camera: where it stands, what it looks at, and the image it makes.
@@ -40,7 +38,7 @@ record! {
         fov: Spanned<Opening>, optional, keys!["fov" "fovy" "vfov" "yfov"];
         /// How the rays run: `perspective`, from the eye; or `orthographic`, side by side in the direction from the eye to
         /// `center`, so that the picture is as large everywhere; then `fov` has no effect.
-        projection: Spanned<Projection>, default(Projection::PERSPECTIVE), keys!["projection"];
+        projection: Spanned<ir::Projection>, default(ir::Projection::Perspective), keys!["projection"];
         /// The radius of the lens in scene units; 0 keeps everything in focus.
         aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["apertureRadius"];
         /// How many points of the lens each sub-sample looks through.
@@ -49,33 +47,11 @@ record! {
     forms { [view_size] [sides] }
 }
 
-/// How the rays run.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Projection(ir::Projection);
-
-impl Projection {
-    const PERSPECTIVE: Self = Self(ir::Projection::Perspective);
-}
-
-/// The words for it.
-const PROJECTIONS: &[(&str, ir::Projection)] = &[
-    ("perspective", ir::Projection::Perspective),
-    ("orthographic", ir::Projection::Orthographic),
-];
-
-impl Value for Projection {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        word(node, PROJECTIONS, context).map(Self)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        word_schema(PROJECTIONS)
-    }
-
-    fn json(&self) -> Json {
-        let word = PROJECTIONS.iter().find(|(_, own)| *own == self.0);
-        word.map_or(Json::Null, |(word, _)| (*word).into())
-    }
+impl Words for ir::Projection {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("perspective", ir::Projection::Perspective),
+        ("orthographic", ir::Projection::Orthographic),
+    ];
 }
 
 impl Camera {
@@ -86,7 +62,7 @@ impl Camera {
 
     /// Whether an angle says how much the image shows.
     fn has_opening(&self) -> bool {
-        !self.fov.is_absent() && self.projection.value.0 == ir::Projection::Perspective
+        !self.fov.is_absent() && self.projection.value == ir::Projection::Perspective
     }
 }
 
@@ -167,7 +143,7 @@ impl Lowering {
                 radius: aperture_radius.value.0,
                 samples: aperture_samples.value.0,
             },
-            projection: projection.value.0,
+            projection: projection.value,
         };
         if let Some(opening) = opening {
             self.scene.camera.open(opening);
@@ -191,7 +167,7 @@ impl Lowering {
             focal_distance: FieldOutcome::Absent,
             pixel_size: FieldOutcome::Absent,
             fov: FieldOutcome::Absent,
-            projection: Spanned::unwritten(Projection::PERSPECTIVE),
+            projection: Spanned::unwritten(ir::Projection::Perspective),
             aperture_radius: Spanned::unwritten(NonNegative(0.0)),
             aperture_samples: Spanned::unwritten(Count(1)),
         };

@@ -18,8 +18,8 @@ pub(super) struct Glass {
 }
 
 impl Lowering {
-    /// Takes its own colour from clear glass; where no ray is followed through it, glass keeps that, and it is told. After
-    /// the settings are known.
+    /// Takes its own colour from clear glass; where no ray is followed through it, glass keeps
+    /// that, and it is told. After the settings are known.
     pub(super) fn glass(&mut self, context: &mut Context<'_>) {
         let ir::Settings {
             mode, max_depth, ..

@@ -1,18 +1,16 @@
 //! The lights: points and spheres, suns, and lamps as measured.
 
 use super::assets::Asset;
-use super::decode::{Context, Spanned, Value};
+use super::decode::{Context, Spanned};
 use super::lower::Lowering;
 use super::number::{HalfAngle, NonNegative, Positive};
 use super::record::{FieldOutcome, keys, record};
-use super::schema::Definitions;
 use super::synonym::{PLACE, led_by};
-use super::value::{Channels, Color, FileName, Point, Vector, word, word_schema};
+use super::value::{Channels, Color, FileName, Point, Vector};
+use super::word::Words;
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, Field, Noun, Photometry};
 use rtc_source::Span;
-use rtc_source::tree::NodeId;
-use serde_json::{Value as Json, json};
 
 record! {
     /// A point or sphere that shines equally in all directions, without falloff; a sun, infinitely far away; or what falls
@@ -62,29 +60,13 @@ pub(super) enum LightKind {
     Ies,
 }
 
-/// The words for the kinds.
-const KINDS: &[(&str, LightKind)] = &[
-    ("point", LightKind::Point),
-    ("sun", LightKind::Sun),
-    ("spot", LightKind::Spot),
-    ("ies", LightKind::Ies),
-];
-
-impl Value for LightKind {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        word(node, KINDS, context)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        word_schema(KINDS)
-    }
-
-    fn json(&self) -> Json {
-        KINDS
-            .iter()
-            .find(|(_, kind)| kind == self)
-            .map_or(Json::Null, |(word, _)| json!(word))
-    }
+impl Words for LightKind {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("point", LightKind::Point),
+        ("sun", LightKind::Sun),
+        ("spot", LightKind::Spot),
+        ("ies", LightKind::Ies),
+    ];
 }
 
 impl Lowering {

@@ -8,7 +8,9 @@ use super::reader::look_up;
 use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::standard::{self, StandardMaterial};
-use super::value::{Color, FileName, word, word_schema};
+use super::value::{Color, FileName};
+use super::word::Words;
+use super::word::word_schema;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, Field, MaterialId, Noun};
 use rtc_source::Span;
@@ -97,21 +99,12 @@ pub(super) enum Finish {
     Refraction,
 }
 
-/// The words for it.
-const FINISHES: &[(&str, Finish)] = &[
-    ("default", Finish::Default),
-    ("reflection", Finish::Reflection),
-    ("refraction", Finish::Refraction),
-];
-
-impl Value for Finish {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        word(node, FINISHES, context)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        word_schema(FINISHES)
-    }
+impl Words for Finish {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("default", Finish::Default),
+        ("reflection", Finish::Reflection),
+        ("refraction", Finish::Refraction),
+    ];
 }
 
 /// The material of a mesh for which none was written.

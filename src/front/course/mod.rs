@@ -35,6 +35,7 @@ mod syntax;
 mod texture;
 mod turn;
 mod value;
+mod word;
 
 pub use layout::lay_out;
 pub use lower::{UnfinishedScene, lower};

@@ -35,7 +35,8 @@ record! {
     }
 }
 
-/// Width and height of the picture in pixels: a list of two, a map, or a list of maps; or one number, the side of a square.
+/// Width and height of the picture in pixels: a list of two, a map, or a list of maps; or one
+/// number, the side of a square.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PictureSize(pub(super) [u32; 2]);
 

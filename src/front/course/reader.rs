@@ -257,7 +257,8 @@ impl Reader {
     }
 }
 
-/// The keys of a field that are worth proposing: other names of one or two letters are like too much.
+/// The keys of a field that are worth proposing: other names of one or two letters are like too
+/// much.
 fn proposable(field: &Field) -> impl Iterator<Item = &'static str> {
     let rows = field.rows.iter().enumerate();
     rows.flat_map(|(at, row)| {

@@ -4,7 +4,7 @@ use super::decode::{Context, Spanned, Value};
 use super::number::{Count, is_number, plain_number};
 use super::record::{keys, record};
 use super::schema::Definitions;
-use super::value::{word, word_schema};
+use super::word::Words;
 use rtc_diag::codes;
 use rtc_ir as ir;
 use rtc_source::Span;
@@ -18,36 +18,16 @@ record! {
         factor: Spanned<Count>, required, keys!["factor"];
         /// Where in its cell of the pixel each ray lies: `grid` in the middle, `jitter` anywhere, `random` anywhere in the
         /// pixel.
-        pattern: Spanned<Pattern>, default(Pattern(ir::Pattern::Grid)), keys!["pattern"];
+        pattern: Spanned<ir::Pattern>, default(ir::Pattern::Grid), keys!["pattern"];
     }
 }
 
-/// Where in its cell each ray lies.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pattern(ir::Pattern);
-
-/// The words for the patterns.
-const PATTERNS: &[(&str, ir::Pattern)] = &[
-    ("grid", ir::Pattern::Grid),
-    ("jitter", ir::Pattern::Jitter),
-    ("random", ir::Pattern::Random),
-];
-
-impl Value for Pattern {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        word(node, PATTERNS, context).map(Self)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        word_schema(PATTERNS)
-    }
-
-    fn json(&self) -> Json {
-        PATTERNS
-            .iter()
-            .find(|(_, pattern)| *pattern == self.0)
-            .map_or(Json::Null, |(word, _)| json!(word))
-    }
+impl Words for ir::Pattern {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("grid", ir::Pattern::Grid),
+        ("jitter", ir::Pattern::Jitter),
+        ("random", ir::Pattern::Random),
+    ];
 }
 
 /// The rays along the side of a pixel of `AntiAlias: true`.
@@ -79,7 +59,7 @@ impl Value for SuperSampling {
                 Some(Self {
                     factor: factor.value,
                     place: factor.span,
-                    pattern: pattern.value.0,
+                    pattern: pattern.value,
                 })
             }
             NodeContent::Word(word) if is_truth(word) && plain_number(node, context).is_none() => {

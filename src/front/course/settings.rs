@@ -1,9 +1,7 @@
 //! The whole file, and of it the settings: what a pixel shows and how much work goes into it.
 
-use super::ambient::AmbientWord;
 use super::camera::Camera;
 use super::decode::{Context, Each, Spanned, Value};
-use super::display::ToneWord;
 use super::environment::Environment;
 use super::light::Light;
 use super::lower::Lowering;
@@ -14,7 +12,9 @@ use super::picture::PictureSize;
 use super::record::{FieldOutcome, keys, record};
 use super::sampling::SuperSampling;
 use super::schema::Definitions;
-use super::value::{Point, Switch, Text, word, word_schema};
+use super::value::{Point, Switch, Text};
+use super::word::{word, word_schema};
+use rtc_color::Tone;
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, Field, Noun};
 use rtc_source::tree::NodeId;
@@ -60,9 +60,10 @@ record! {
         /// Whether `phong` shows a cartoon: N·L in the steps 0, 0.25, 0.3 and 1, highlights whole where R·V is at least 0.9,
         /// dark outlines; on what is seen directly.
         toon: Spanned<bool>, default(false), keys!["Toon"], json "Toon";
-        /// How often the ambient term of `phong` is added: `perLight` for each light, times its colour, `once` whatever
-        /// lights there are. Without it `once` in a scene that is JSON, `perLight` in YAML.
-        ambient: Spanned<AmbientWord>, optional, keys!["Ambient"], json "Ambient";
+        /// How often the ambient term of `phong` is added: `perLight` for each light, times its
+        /// colour, `once` whatever lights there are. Without it `once` in a scene that is JSON,
+        /// `perLight` in YAML.
+        ambient: Spanned<ir::Ambient>, optional, keys!["Ambient"], json "Ambient";
         /// The colours of `RenderMode: gooch`.
         gooch: Spanned<Gooch>, optional, keys!["GoochParameters"];
         /// How the light along all paths is followed.
@@ -70,7 +71,7 @@ record! {
         /// How a PNG shows linear values: `none` as they are, `srgb` cut off at 1 and coded by sRGB, `agx` AgX,
         /// `pbr-neutral` the PBR Neutral of Khronos; without it `srgb` where paths are traced, else `none`. An EXR holds
         /// them as they are.
-        tone: Spanned<ToneWord>, optional, keys!["ToneMap"];
+        tone: Spanned<Tone>, optional, keys!["ToneMap"];
         /// The exposure of a PNG in stops: each doubles the values before the tone map.
         exposure: Spanned<Stops>, default(Stops(0.0)), keys!["Exposure"];
         /// What surrounds the scene.

@@ -1,5 +1,5 @@
-//! The one table of the keys that several records have, with all the names that people give them; and
-//! the keys of other programs that mean something like one of ours, but not surely the same.
+//! The one table of the keys that several records have, with all the names that people give them;
+//! and the keys of other programs that mean something like one of ours, but not surely the same.
 
 /// The keys under which one value stands, or a group of values.
 type Row = &'static [&'static str];
@@ -245,7 +245,8 @@ const ELSEWHERE: &[Elsewhere] = &[
     },
 ];
 
-/// How a key that a record does not know is written here, if it means something like one of its own.
+/// How a key that a record does not know is written here, if it means something like one of its
+/// own.
 pub(super) fn elsewhere(record: &str, key: &str) -> Option<&'static str> {
     let is_it = |own: &&Elsewhere| {
         own.record == record && own.keys.iter().any(|other| other.eq_ignore_ascii_case(key))

@@ -1,5 +1,5 @@
-//! How things are turned: by angles about the axes, about an axis, by quaternions; and rotations that
-//! `--lenient` may leave out.
+//! How things are turned: by angles about the axes, about an axis, by quaternions; and rotations
+//! that `--lenient` may leave out.
 
 use super::decode::{Context, Spanned, Value};
 use super::number::{Degrees, number, plain_number};
@@ -176,7 +176,8 @@ fn turns_nothing(span: Option<Span>, message: &str, context: &mut Context<'_>) {
     }
 }
 
-/// The transform that scales along the axes, takes them to where they come to, and moves the origin.
+/// The transform that scales along the axes, takes them to where they come to, and moves the
+/// origin.
 pub(super) fn placed(axes: [Vec3; 3], scale: [f64; 3], position: [f64; 3]) -> [[f64; 3]; 4] {
     let [x, y, z] = axes;
     let [x, y, z] = [x * scale[0], y * scale[1], z * scale[2]].map(|axis| axis.to_array());

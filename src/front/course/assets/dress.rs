@@ -3,7 +3,7 @@
 
 use super::Porter;
 use super::mesh::{MeshFile, MeshFiles};
-use super::mtl::Shelf;
+use super::mtl::MtlCache;
 use crate::mesh::Named;
 use crate::{gltf, over_limit};
 use rtc_diag::{Diagnostic, codes};
@@ -42,13 +42,14 @@ struct Wardrobe {
     parts: Vec<MeshId>,
 }
 
-/// Dresses meshes whose files were brought; returns the materials, with the images that they wait for.
+/// Dresses meshes whose files were brought; returns the materials, with the images that they wait
+/// for.
 pub(super) fn dress(
     dressings: &[Dressing],
     meshes: &MeshFiles,
     lowered: &mut Lowered,
     porter: &mut Porter<'_>,
-) -> Shelf {
+) -> MtlCache {
     let scene = &lowered.scene;
     let kept = dressings
         .iter()
@@ -58,7 +59,7 @@ pub(super) fn dress(
     let mut dresser = Dresser {
         meshes,
         kept,
-        shelf: Shelf::default(),
+        cache: MtlCache::default(),
         wardrobes: BTreeMap::new(),
         has_library: BTreeMap::new(),
         lowered,
@@ -71,7 +72,7 @@ pub(super) fn dress(
             break;
         }
     }
-    dresser.shelf
+    dresser.cache
 }
 
 /// The mesh in its place that a surface is.
@@ -88,7 +89,7 @@ struct Dresser<'a, 'run> {
     meshes: &'a MeshFiles,
     /// The meshes that are shown in one piece too.
     kept: BTreeSet<u32>,
-    shelf: Shelf,
+    cache: MtlCache,
     wardrobes: BTreeMap<usize, Option<Wardrobe>>,
     /// Whether a file has materials that can be found, of those of which that was asked.
     has_library: BTreeMap<usize, bool>,
@@ -117,14 +118,14 @@ impl Dresser<'_, '_> {
             return Ok(());
         }
         let Self {
-            shelf,
+            cache,
             wardrobes,
             lowered,
             porter,
             ..
         } = self;
         let wardrobe = wardrobes.entry(at).or_insert_with(|| {
-            let materials = file.materials(shelf, lowered, porter)?;
+            let materials = file.materials(cache, lowered, porter)?;
             Some(Wardrobe {
                 materials,
                 parts: Vec::new(),

@@ -4,7 +4,8 @@ use super::{Missing, Wanted};
 use rtc_diag::{Diagnostic, clip_path, codes};
 use std::path::PathBuf;
 
-/// The finding about a file that is not where it was looked for; `similar` is the name of one that is.
+/// The finding about a file that is not where it was looked for; `similar` is the name of one that
+/// is.
 pub(super) fn missing(wish: &Wanted, fault: &Missing, similar: Option<&str>) -> Diagnostic {
     let name = clip_path(&wish.path);
     match fault {

@@ -152,10 +152,10 @@ impl<'run> Port<'run> {
 
     /// Dresses the meshes, and has textures look at the images that came.
     fn finish(mut self, dressings: &[Dressing], lowered: &mut Lowered) {
-        let shelf = dress::dress(dressings, &self.meshes, lowered, &mut self.porter);
-        self.unload(shelf.wanted, lowered);
+        let cache = dress::dress(dressings, &self.meshes, lowered, &mut self.porter);
+        self.unload(cache.wanted, lowered);
         image::settle(&self.image_of, &mut lowered.scene);
-        mtl::bake(shelf.bakes, &self.image_of, lowered, &mut self.porter);
+        mtl::bake(cache.bakes, &self.image_of, lowered, &mut self.porter);
         image::find_normal_maps(lowered, self.porter.sink);
         lowered.origins.finish();
     }
@@ -221,7 +221,8 @@ struct Porter<'run> {
     compared: usize,
 }
 
-/// The most names that are compared so: of many files that are not there the first are told of best.
+/// The most names that are compared so: of many files that are not there the first are told of
+/// best.
 const MOST_COMPARED: usize = 1 << 16;
 
 /// What a lenient run does without a file.

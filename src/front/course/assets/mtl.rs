@@ -1,24 +1,24 @@
-//! The MTL files that an OBJ names, and their materials: as Phong's model says them, and where paths are
-//! traced as the material of glTF does.
+//! The MTL files that an OBJ names, and their materials: as Phong's model says them, and where
+//! paths are traced as the material of glTF does.
 
 mod bake;
+mod cache;
 mod phong;
-mod shelf;
 mod standard;
 
 pub(super) use bake::bake;
-pub(super) use shelf::Shelf;
+pub(super) use cache::MtlCache;
 
 use super::mesh::MeshFile;
 use super::text::TextKind;
 use super::{Asset, Porter, Wanted, Without};
 use crate::mesh::Named;
 use crate::mesh::mtl::{Library, is_mtl, parse};
+use cache::beside;
 use phong::weight;
 use rtc_diag::{Diagnostic, Severity, codes};
 use rtc_ir::{Lowered, MaterialId, Mode};
 use rtc_source::{FileId, FileKind, Span};
-use shelf::beside;
 
 /// Such files.
 pub(super) const TEXT: TextKind = TextKind {
@@ -34,7 +34,7 @@ pub(super) const TEXT: TextKind = TextKind {
 };
 
 /// A library with its file.
-struct Shelved {
+struct LoadedLibrary {
     library: Library,
     file: FileId,
     /// Its path from a folder that is searched.
@@ -71,12 +71,12 @@ impl MeshFile {
     /// at all.
     pub(super) fn materials(
         &self,
-        shelf: &mut Shelf,
+        cache: &mut MtlCache,
         lowered: &mut Lowered,
         porter: &mut Porter<'_>,
     ) -> Option<Vec<Option<MaterialId>>> {
         if let Some(texture) = &self.texture {
-            return Some(vec![Some(shelf.plain(self, texture, lowered))]);
+            return Some(vec![Some(cache.plain(self, texture, lowered))]);
         }
         if !self.material_use.names_any() {
             return None;
@@ -90,11 +90,11 @@ impl MeshFile {
         for named in &self.material_use.materials {
             let place = libraries
                 .iter()
-                .find_map(|shelved| Some((shelved, shelved.library.materials.get(&named.text)?)));
+                .find_map(|loaded| Some((loaded, loaded.library.materials.get(&named.text)?)));
             if place.is_none() && !named.text.is_empty() {
                 unknown.get_or_insert((named, 0)).1 += 1;
             }
-            materials.push(place.map(|(shelved, material)| shelf.add(shelved, material, lowered)));
+            materials.push(place.map(|(loaded, material)| cache.add(loaded, material, lowered)));
         }
         if let Some((first, count)) = unknown {
             let more = match count {
@@ -107,12 +107,12 @@ impl MeshFile {
                 .sink
                 .push(finding.at(first.at.span(self.file), "faces go without it"));
         }
-        shelf.tell(porter.sink);
+        cache.tell(porter.sink);
         self.note_mirrors(&libraries, lowered, porter);
         materials.iter().any(Option::is_some).then_some(materials)
     }
 
-    fn read(&self, porter: &mut Porter<'_>) -> Vec<Shelved> {
+    fn read(&self, porter: &mut Porter<'_>) -> Vec<LoadedLibrary> {
         let wishes: Vec<_> = self.libraries(porter).map(|(wish, _)| wish).collect();
         if let (true, Some(named)) = (wishes.is_empty(), self.material_use.libraries.first()) {
             let message = format!(
@@ -133,7 +133,7 @@ impl MeshFile {
             let path = porter.search.path_to(&found).unwrap_or_default();
             if let Some((file, library)) = porter.read_text(&found, &wish, &TEXT, parse) {
                 tell(&library, file, porter);
-                libraries.push(Shelved {
+                libraries.push(LoadedLibrary {
                     library,
                     file,
                     path,
@@ -144,19 +144,24 @@ impl MeshFile {
     }
 
     /// Says once that a highlight mirrors here, where its file says that it does not.
-    fn note_mirrors(&self, libraries: &[Shelved], lowered: &Lowered, porter: &mut Porter<'_>) {
+    fn note_mirrors(
+        &self,
+        libraries: &[LoadedLibrary],
+        lowered: &Lowered,
+        porter: &mut Porter<'_>,
+    ) {
         let settings = &lowered.scene.settings;
         if settings.max_depth == 0 || settings.mode != Mode::Phong {
             return;
         }
-        let place = |shelved: &Shelved| -> Option<Span> {
-            let is_asked = |named: &&Named| shelved.library.materials.contains_key(&named.text);
+        let place = |loaded: &LoadedLibrary| -> Option<Span> {
+            let is_asked = |named: &&Named| loaded.library.materials.contains_key(&named.text);
             let asked = self.material_use.materials.iter().filter(is_asked);
             let mut mirrors = asked.filter_map(|named| {
-                let material = shelved.library.materials.get(&named.text)?;
+                let material = loaded.library.materials.get(&named.text)?;
                 let is_mirror = material.model.as_ref().is_some_and(|model| model.value > 2);
                 let specular = material.specular.as_ref()?;
-                (!is_mirror && weight(material) > 0.0).then(|| specular.at.span(shelved.file))
+                (!is_mirror && weight(material) > 0.0).then(|| specular.at.span(loaded.file))
             });
             mirrors.next()
         };

@@ -24,8 +24,8 @@ record! {
         position: Spanned<Point>, required, &led_by(PLACE, "position");
         /// The length of a side; nothing shows at 0.
         length: Spanned<NonNegative>, required, keys!["length" "side" "size" "edge"];
-        /// The angles in radians by which it is turned about its centre: first about x, then y, then z; beside `angle` the
-        /// axis.
+        /// The angles in radians by which it is turned about its centre: first about x, then y,
+        /// then z; beside `angle` the axis.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
         /// The axis through its centre that it is turned about by `angle`.
         axis: Spanned<Vector>, optional, &TURN_AXIS;

@@ -14,8 +14,9 @@ use rtc_ir as ir;
 use rtc_math::{Vec3, length};
 
 record! {
-    /// A cylinder with two caps: the centre of its base, a direction and a height; or the centres of both caps; or
-    /// the centre of its base and the way to the top; or, as some files say it, its middle, a height, and how the x axis is turned to its own.
+    /// A cylinder with two caps: the centre of its base, a direction and a height; or the centres
+    /// of both caps; or the centre of its base and the way to the top; or, as some files say it,
+    /// its middle, a height, and how the x axis is turned to its own.
     struct Cylinder, "cylinder" {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"], json "type";

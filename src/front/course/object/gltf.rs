@@ -20,7 +20,8 @@ record! {
         position: Spanned<Point>, default(Point([0.0; 3])), &led_by(PLACE, "position");
         /// How many times larger it is than in its file, in all directions or along its x, y and z.
         scale: Spanned<Scale>, default(Scale([1.0; 3])), &SCALE;
-        /// The angles in radians by which it is turned about its origin: first about x, then y, then z; beside `angle` the axis.
+        /// The angles in radians by which it is turned about its origin: first about x, then y,
+        /// then z; beside `angle` the axis.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
         /// The axis that it is turned about by `angle`.
         axis: Spanned<Vector>, optional, &TURN_AXIS;

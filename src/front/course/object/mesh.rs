@@ -12,9 +12,8 @@ use crate::course::record::{FieldOutcome, keys, record};
 use crate::course::schema::Definitions;
 use crate::course::synonym::{FILE, PLACE, ROTATION, SCALE, TURN_ANGLE, TURN_AXIS, led_by};
 use crate::course::turn::{AffineColumns, Rotation, Turn, placed};
-use crate::course::value::{
-    Angles, Caption, FileName, Point, Scale, Text, Vector, word, word_schema,
-};
+use crate::course::value::{Angles, Caption, FileName, Point, Scale, Text, Vector};
+use crate::course::word::Words;
 use rtc_diag::{Severity, codes};
 use rtc_ir as ir;
 use rtc_source::Span;
@@ -33,7 +32,8 @@ record! {
         position: Spanned<Point>, default(Point([0.0; 3])), &led_by(PLACE, "position"), json "position";
         /// How many times larger it is than in its file, in all directions or along x, y and z.
         scale: Spanned<Scale>, optional, &SCALE, json "scale";
-        /// The angles in radians by which it is turned about its origin: first about x, then y, then z; beside `angle` the axis.
+        /// The angles in radians by which it is turned about its origin: first about x, then y,
+        /// then z; beside `angle` the axis.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION, json "rotation";
         /// The axis that it is turned about by `angle`.
         axis: Spanned<Vector>, optional, &TURN_AXIS;
@@ -53,8 +53,9 @@ record! {
         /// 1, `map_Kd` the `texture`, with the largest channel of `Kd` as `kd` if it is above 0; `ka` is the mean of `Ka`, at
         /// most 0.2; `ks` is the mean of `Ks`, 0 under `illum` 0 and 1, `map_Ks` the `specularMap`, `Ns` the `n`, `map_Bump` the
         /// `bump`, `norm` the `normalMap`. What `d` or `Tr` lets through is `kt`, and less of `ka` and `kd`; `Ni` is the `eta`
-        /// under `illum` 4, 6, 7 and 9, which are clear without `d` and `Tr`. Where paths are traced they become the `standard`
-        /// material, which shows `Ke`, `Tf`, `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `map_d`, `map_Ke`, `map_Pr`, `map_Pm` and how maps lie, too.
+        /// under `illum` 4, 6, 7 and 9, which are clear without `d` and `Tr`. Where paths are
+        /// traced they become the `standard` material, which shows `Ke`, `Tf`, `Pr`, `Pm`, `Ps`,
+        /// `Pc`, `Pcr`, `aniso`, `map_d`, `map_Ke`, `map_Pr`, `map_Pm` and how maps lie, too.
         materials: Spanned<MaterialSource>, optional, keys!["materials"];
         /// Of an OBJ: the faces alone that ask for the material of this name by `usemtl`; empty for those that ask for none.
         part: Spanned<PartName>, optional, keys!["part"];
@@ -67,23 +68,14 @@ record! {
 }
 
 /// Where materials come from.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::course) enum MaterialSource {
     /// The file of materials that a mesh file names.
     Mtl,
 }
 
-/// The words for it.
-const SOURCES: &[(&str, MaterialSource)] = &[("mtl", MaterialSource::Mtl)];
-
-impl Value for MaterialSource {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        word(node, SOURCES, context)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        word_schema(SOURCES)
-    }
+impl Words for MaterialSource {
+    const WORDS: &'static [(&'static str, Self)] = &[("mtl", MaterialSource::Mtl)];
 }
 
 /// The name of a material in a mesh file, which may be empty.

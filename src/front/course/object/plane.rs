@@ -3,19 +3,17 @@
 use super::quad::EDGES;
 use super::triangle::CORNERS;
 use super::{Lower, negative};
-use crate::course::decode::{Context, Numbers, SharedValue, Spanned, Value};
+use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Real};
 use crate::course::record::{FieldOutcome, keys, record};
-use crate::course::schema::Definitions;
 use crate::course::synonym::{AXIS, PLACE, RADIUS, and, led_by};
-use crate::course::value::{Point, Text, Vector, word, word_schema};
+use crate::course::value::{Point, Text, Vector};
+use crate::course::word::Words;
 use rtc_diag::codes;
 use rtc_ir as ir;
 use rtc_math::{Vec3, length, shortest, unit, unit_scale};
-use rtc_source::tree::NodeId;
-use serde_json::Value as Json;
 
 record! {
     /// An infinite plane: a point and a normal, a normal and a distance from the origin, three points, a point and two
@@ -65,22 +63,15 @@ record! {
 }
 
 /// What bounds a bounded plane.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::course) enum Outline {
     Square,
     Circle,
 }
 
-const OUTLINES: &[(&str, Outline)] = &[("quad", Outline::Square), ("circle", Outline::Circle)];
-
-impl Value for Outline {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        word(node, OUTLINES, context)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        word_schema(OUTLINES)
-    }
+impl Words for Outline {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("quad", Outline::Square), ("circle", Outline::Circle)];
 }
 
 impl Lower for Plane {

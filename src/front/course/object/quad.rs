@@ -43,8 +43,8 @@ record! {
         position: Spanned<Point>, optional, &CORNER;
         /// An edge from that corner: `up` is the left one of a texture, `side` the lower one.
         edges: [Spanned<Vector>; 2], optional, EDGES;
-        /// Of four corners out of a plane: whether they span a curved patch, or two triangles that meet from the first to the
-        /// third. Programs do either.
+        /// Of four corners out of a plane: whether they span a curved patch, or two triangles that
+        /// meet from the first to the third. Programs do either.
         curved: Spanned<bool>, optional, keys!["curved"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";

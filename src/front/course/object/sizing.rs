@@ -11,7 +11,8 @@ use rtc_source::Span;
 pub(in crate::course) enum Sizing {
     /// The mesh gets the size that the transform of the surface says.
     Fit(usize),
-    /// The surface stays as it is, unless it hides the view; the factor by which it is larger than in its file.
+    /// The surface stays as it is, unless it hides the view; the factor by which it is larger than
+    /// in its file.
     Check(usize, f64),
 }
 

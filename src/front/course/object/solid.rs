@@ -34,8 +34,8 @@ record! {
         position: Spanned<Point>, optional, &led_by(PLACE, "position");
         /// The lengths along x, y and z, before it is turned, or one for all.
         dimension: Spanned<Scale>, optional, keys!["dimension" "dimensions" "size" "extent" "extents"];
-        /// The angles in radians by which it is turned about its centre: first about x, then y, then z; beside `angle`
-        /// the axis.
+        /// The angles in radians by which it is turned about its centre: first about x, then y,
+        /// then z; beside `angle` the axis.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
         /// The axis through its centre that it is turned about by `angle`.
         axis: Spanned<Vector>, optional, &TURN_AXIS;

@@ -24,7 +24,8 @@ record! {
         kind: Spanned<Text>, required, keys!["type"], json "type";
         /// The centre.
         position: Spanned<Point>, required, &led_by(PLACE, "position"), json "position";
-        /// The radius, at 0 of which nothing shows; or a list of the radius and the axis that its texture is turned about.
+        /// The radius, at 0 of which nothing shows; or a list of the radius and the axis that its
+        /// texture is turned about.
         radius: Spanned<Radius>, required, &led_by(RADIUS, "radius"), json "radius";
         /// By how many degrees the texture is turned about its axis.
         angle: Spanned<Degrees>, default(Degrees(0.0)), keys!["angle"], json "angle";

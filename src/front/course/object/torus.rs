@@ -19,14 +19,16 @@ record! {
         kind: Spanned<Text>, required, keys!["type"], json "type";
         /// The centre.
         position: Spanned<Point>, required, &led_by(PLACE, "position"), json "position";
-        /// From the centre to the middle of the tube, and the radius of the tube: `radius` and `alpha`.
+        /// From the centre to the middle of the tube, and the radius of the tube: `radius` and
+        /// `alpha`.
         radii: [Spanned<NonNegative>; 2], optional, &[&["R", "r"], &["radius", "r"]];
         /// From the centre to the middle of the tube, above 0.
         radius: Spanned<Positive>, optional, keys!["radius" "r" "R" "rad" "majorRadius" "major" "ringRadius"];
         /// The radius of the tube; nothing shows at 0.
         alpha: Spanned<NonNegative>, optional, keys!["alpha" "minorRadius" "minor" "tubeRadius" "tube"];
-        /// The radii of the hole and of the whole torus; or, where that would hold more of the eye, the lights and the other
-        /// objects, those of the tube and of the ring that it goes along, which are `alpha` and `radius`.
+        /// The radii of the hole and of the whole torus; or, where that would hold more of the eye,
+        /// the lights and the other objects, those of the tube and of the ring that it goes along,
+        /// which are `alpha` and `radius`.
         rims: [Spanned<Positive>; 2], optional, &[&["innerRadius", "outerRadius"]], json "innerRadius";
         /// The direction of the axis, of any length but 0.
         direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])), &led_by(AXIS, "direction");
@@ -107,8 +109,8 @@ fn as_rims(hole: f64, whole: f64) -> [f64; 2] {
 const MOST_OTHERS: usize = 64;
 
 impl Lowering {
-    /// Chooses between the two readings of each torus that has them, now that all else is there: that
-    /// by which it holds less of what is to be seen.
+    /// Chooses between the two readings of each torus that has them, now that all else is there:
+    /// that by which it holds less of what is to be seen.
     pub(in crate::course) fn settle_rims(&mut self, context: &mut Context<'_>) {
         for Rims {
             surface,

@@ -5,8 +5,10 @@ use super::super::lower::Lowering;
 use super::super::record::{FieldOutcome, keys, record};
 use super::super::schema::Definitions;
 use super::super::turn::PlaneRows;
-use super::super::value::{FileName, tuple, word, word_schema};
+use super::super::value::{FileName, tuple};
+use super::super::word::{word, word_schema};
 use super::value::SetIndex;
+use crate::course::word::Words;
 use rtc_ir::{self as ir, Filter, Wrap};
 use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
@@ -22,7 +24,7 @@ record! {
         /// again, mirrored, `clamp` the texel at its edge.
         wrap: Spanned<WrapWords>, default(WrapWords([Wrap::Repeat; 2])), keys!["wrap"];
         /// How texels blend: `linear` the four nearest, `nearest` the nearest alone.
-        filter: Spanned<FilterWord>, default(FilterWord(Filter::Linear)), keys!["filter"];
+        filter: Spanned<Filter>, default(Filter::Linear), keys!["filter"];
         /// Six numbers: the rows (a, b, c) of the map from the coordinates of the surface to those of the picture, each
         /// a·u + b·v + c.
         transform: Spanned<PlaneRows>, optional, keys!["transform"];
@@ -43,7 +45,7 @@ impl Value for MapOrFile {
             file: Spanned { value, span },
             set: Spanned::unwritten(SetIndex(0)),
             wrap: Spanned::unwritten(WrapWords([Wrap::Repeat; 2])),
-            filter: Spanned::unwritten(FilterWord(Filter::Linear)),
+            filter: Spanned::unwritten(Filter::Linear),
             transform: FieldOutcome::Absent,
         }))
     }
@@ -86,26 +88,9 @@ impl Value for WrapWords {
     }
 }
 
-/// How texels blend.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::course) struct FilterWord(Filter);
-
-/// The words for it.
-const FILTERS: &[(&str, Filter)] = &[("linear", Filter::Linear), ("nearest", Filter::Nearest)];
-
-impl Value for FilterWord {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        word(node, FILTERS, context).map(Self)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        word_schema(FILTERS)
-    }
-
-    fn json(&self) -> Json {
-        let word = FILTERS.iter().find(|(_, filter)| *filter == self.0);
-        word.map_or(Json::Null, |(word, _)| json!(word))
-    }
+impl Words for Filter {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("linear", Filter::Linear), ("nearest", Filter::Nearest)];
 }
 
 impl Lowering {
@@ -118,7 +103,7 @@ impl Lowering {
             filter,
             transform,
         } = map;
-        let sampling = (wrap.value.0, filter.value.0);
+        let sampling = (wrap.value.0, filter.value);
         ir::Map {
             texture: self.files.sampled(&mut self.scene, file, sampling),
             set: set.value.0,

@@ -1,9 +1,9 @@
-//! Maps of glTF's material that are made of several pictures of an MTL, or of another kind of picture: a
-//! colour with its opacity, roughness beside metal, normals of heights.
+//! Maps of glTF's material that are made of several pictures of an MTL, or of another kind of
+//! picture: a colour with its opacity, roughness beside metal, normals of heights.
 
 use super::super::Porter;
 use super::super::image::holds_normals;
-use super::shelf::Laid;
+use super::cache::Laid;
 use crate::over_limit;
 use rtc_diag::{Diagnostic, clip_path, codes};
 use rtc_ir::{
@@ -68,8 +68,8 @@ impl Source<'_> {
     }
 }
 
-/// Makes the maps. `image_of` says which image came of each that was wanted; where none did, there is no
-/// map.
+/// Makes the maps. `image_of` says which image came of each that was wanted; where none did, there
+/// is no map.
 pub(in super::super) fn bake(
     bakes: Vec<Bake>,
     image_of: &BTreeMap<u32, Option<ImageId>>,

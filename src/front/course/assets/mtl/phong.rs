@@ -3,8 +3,8 @@
 use crate::mesh::mtl::MtlMaterial;
 use rtc_ir::Phong;
 
-/// The part of the light that a surface scatters as ambient light, at most: programs write a `Ka` of
-/// 1 and mean an ambient light that scenes of the course don't have.
+/// The part of the light that a surface scatters as ambient light, at most: programs write a `Ka`
+/// of 1 and mean an ambient light that scenes of the course don't have.
 const MOST_AMBIENT: f64 = 0.2;
 
 /// The diffuse reflectance of a material that says none.
@@ -35,8 +35,8 @@ pub(super) fn is_glass(material: &MtlMaterial) -> bool {
     model.is_some_and(|model| matches!(model.value, 4 | 6 | 7 | 9))
 }
 
-/// How much a material hides what is behind it, 0 to 1. `Tr 1` is read as all: programs that write it
-/// for what can't be seen at all are the fewer.
+/// How much a material hides what is behind it, 0 to 1. `Tr 1` is read as all: programs that write
+/// it for what can't be seen at all are the fewer.
 pub(super) fn opacity(material: &MtlMaterial) -> f64 {
     let clear = if is_glass(material) { 0.0 } else { 1.0 };
     let said = material.opacity.as_ref();

@@ -1,9 +1,9 @@
 //! A material of an MTL as glTF's says it, for traced paths.
 
 use super::bake::{Bake, Baked};
+use super::cache::{Laid, MtlCache};
 use super::phong::{is_glass, opacity, weight};
-use super::shelf::{Laid, Shelf};
-use super::{Shelved, phong};
+use super::{LoadedLibrary, phong};
 use crate::mesh::WordSpan;
 use crate::mesh::mtl::{MtlMap, MtlMaterial, Said};
 use rtc_ir::{Alpha, ImageId, Lowered, MaterialId, Standard};
@@ -34,9 +34,9 @@ pub(super) fn lost(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
 
 /// The material without its maps.
 ///
-/// The diffuse colour is the base, without one a mirror a metal; the exponent of the highlight is the
-/// roughness as it is of Phong's model elsewhere, and `Ks` its strength, of which programs write a half
-/// where they mean that of an index of 1.5. What refracts has the colour of `Tf`.
+/// The diffuse colour is the base, without one a mirror a metal; the exponent of the highlight is
+/// the roughness as it is of Phong's model elsewhere, and `Ks` its strength, of which programs
+/// write a half where they mean that of an index of 1.5. What refracts has the colour of `Tf`.
 pub(super) fn standard(material: &MtlMaterial) -> Standard {
     let m = material;
     let own = phong::phong(m);
@@ -136,18 +136,18 @@ fn base(m: &MtlMaterial, is_mirror: bool) -> [f64; 3] {
     own.map(|channel| channel.clamp(0.0, 1.0))
 }
 
-impl Shelf {
+impl MtlCache {
     /// The material with its maps, those that are made of several pictures to be baked.
     pub(super) fn with_maps(
         &mut self,
         mut made: Standard,
-        shelved: &Shelved,
+        loaded: &LoadedLibrary,
         m: &MtlMaterial,
         material: MaterialId,
         lowered: &mut Lowered,
     ) -> Standard {
         let mut image = |map: &Option<Said<MtlMap>>, has_opacity: bool| -> Option<ImageId> {
-            Some(self.image(&shelved.map(map.as_ref()?), has_opacity, lowered))
+            Some(self.image(&loaded.map(map.as_ref()?), has_opacity, lowered))
         };
         let color = image(&m.color_map, false);
         let mask = image(&m.opacity_map, true);
@@ -155,7 +155,7 @@ impl Shelf {
         let heights = image(&m.bump, false).filter(|_| m.normal_map.is_none());
         let plain = [&m.specular_map, &m.normal_map, &m.emissive_map].map(|map| image(map, false));
         let mut laid = |map: &Option<Said<MtlMap>>, image: Option<ImageId>| {
-            Some(self.laid(&shelved.map(map.as_ref()?), image?, lowered))
+            Some(self.laid(&loaded.map(map.as_ref()?), image?, lowered))
         };
         made.base_color_map = laid(&m.color_map, color);
         made.specular_color_map = laid(&m.specular_map, plain[0]);
@@ -167,7 +167,7 @@ impl Shelf {
                 material,
                 baked,
                 laid: Laid::of(&map.value),
-                span: map.at.span(shelved.file),
+                span: map.at.span(loaded.file),
             });
         };
         if let Some(mask) = mask {

@@ -3,7 +3,7 @@
 use super::super::mesh::MeshFile;
 use super::super::{Asset, Wanted};
 use super::bake::Bake;
-use super::{Shelved, phong, standard};
+use super::{LoadedLibrary, phong, standard};
 use crate::mesh::mtl::{MtlMap, MtlMaterial, Said};
 use crate::mesh::{Named, WordSpan};
 use rtc_diag::{Diagnostic, Severity, Sink, codes};
@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 /// The materials brought so far, and the images that they wait for.
 #[derive(Default)]
-pub(in super::super) struct Shelf {
+pub(in super::super) struct MtlCache {
     pub(in super::super) wanted: Vec<Wanted>,
     /// What is made of images once they are there.
     pub(in super::super) bakes: Vec<Bake>,
@@ -35,7 +35,7 @@ pub(super) struct Pictured<'a> {
     pub(super) span: Span,
 }
 
-impl Shelved {
+impl LoadedLibrary {
     /// A map of one of its materials.
     pub(super) fn map<'a>(&self, map: &'a Said<MtlMap>) -> Pictured<'a> {
         Pictured {
@@ -46,30 +46,30 @@ impl Shelved {
     }
 }
 
-impl Shelf {
+impl MtlCache {
     /// Adds a material to the scene.
     pub(super) fn add(
         &mut self,
-        shelved: &Shelved,
+        loaded: &LoadedLibrary,
         material: &MtlMaterial,
         lowered: &mut Lowered,
     ) -> MaterialId {
         if material.is_transparency_1 && !phong::is_glass(material) {
             let at = material.opacity.as_ref().map(|opacity| opacity.at);
-            self.transparency = self.transparency.or(at.map(|at| at.span(shelved.file)));
+            self.transparency = self.transparency.or(at.map(|at| at.span(loaded.file)));
         }
         let index = lowered.scene.materials.len();
         let made = match lowered.scene.settings.mode {
-            Mode::Path(_) => self.standard(shelved, material, id(index), lowered),
+            Mode::Path(_) => self.standard(loaded, material, id(index), lowered),
             Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
-                Material::Phong(self.phong(shelved, material, lowered))
+                Material::Phong(self.phong(loaded, material, lowered))
             }
         };
         let Lowered { scene, origins } = lowered;
         scene.materials.push(made);
         let bump = material.bump.as_ref().map(|bump| bump.at);
         for (field, at) in [(Field::Whole, Some(material.at)), (Field::Bump, bump)] {
-            let span = at.map(|at| at.span(shelved.file));
+            let span = at.map(|at| at.span(loaded.file));
             origins.record(Place::new(Noun::Material, index, field), span);
         }
         MaterialId(id(index))
@@ -77,29 +77,34 @@ impl Shelf {
 
     fn standard(
         &mut self,
-        shelved: &Shelved,
+        loaded: &LoadedLibrary,
         material: &MtlMaterial,
         index: u32,
         lowered: &mut Lowered,
     ) -> Material {
         for (at, what) in standard::lost(material) {
-            self.lose(at.span(shelved.file), what);
+            self.lose(at.span(loaded.file), what);
         }
         let made = standard::standard(material);
-        let made = self.with_maps(made, shelved, material, MaterialId(index), lowered);
+        let made = self.with_maps(made, loaded, material, MaterialId(index), lowered);
         Material::Standard(Box::new(made))
     }
 
-    fn phong(&mut self, shelved: &Shelved, material: &MtlMaterial, lowered: &mut Lowered) -> Phong {
+    fn phong(
+        &mut self,
+        loaded: &LoadedLibrary,
+        material: &MtlMaterial,
+        lowered: &mut Lowered,
+    ) -> Phong {
         for (at, what) in beyond_phong(material) {
             self.lose(
-                at.span(shelved.file),
+                at.span(loaded.file),
                 format!("{what} in traced paths alone"),
             );
         }
         let mut phong = phong::phong(material);
         let mut texture = |map: &Option<Said<MtlMap>>| {
-            let image = self.image(&shelved.map(map.as_ref()?), false, lowered);
+            let image = self.image(&loaded.map(map.as_ref()?), false, lowered);
             Some(self.texture(image, None, lowered))
         };
         phong.color_map = texture(&material.color_map);
@@ -120,7 +125,7 @@ impl Shelf {
         texture: &Named,
         lowered: &mut Lowered,
     ) -> MaterialId {
-        let shelved = Shelved {
+        let loaded = LoadedLibrary {
             library: crate::mesh::mtl::Library::default(),
             file: mesh.file,
             path: mesh.path.clone(),
@@ -139,7 +144,7 @@ impl Shelf {
             color_map: Some(map),
             ..MtlMaterial::default()
         };
-        self.add(&shelved, &material, lowered)
+        self.add(&loaded, &material, lowered)
     }
 
     /// Something of a material does not show.
@@ -195,7 +200,8 @@ impl Shelf {
         image
     }
 
-    /// The texture of an image: as the course lays it, or as glTF does with what lies beyond its edge.
+    /// The texture of an image: as the course lays it, or as glTF does with what lies beyond its
+    /// edge.
     pub(super) fn texture(
         &mut self,
         image: ImageId,
