@@ -222,7 +222,8 @@ fn balls(roughness: f64, radius: f64, light: f64) -> Scene {
     codec::decode(Form::Text, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
-/// Paths: a room with a ball of rough glass under a lamp without size, which paths from the walls find through it by chance.
+/// Paths: a room with a ball of rough glass under a lamp without size, which paths from the walls
+/// find through it by chance.
 fn lamps() -> Vec<Case> {
     let spot = "type: spot, direction: [0, -1, 0], outerAngle: 0.3, innerAngle: 0.1";
     let lamps = [

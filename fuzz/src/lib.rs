@@ -1,6 +1,6 @@
-//! Scenes with the files that they name, from one input: what the targets `folder`, `mesh`, `image` and others
-//! do with it, and their replay in `tests/cases/corpora.rs`. The files lie in a temporary folder,
-//! and nothing is read or written outside.
+//! Scenes with the files that they name, from one input: what the targets `folder`, `mesh`, `image`
+//! and others do with it, and their replay in `tests/cases/corpora.rs`. The files lie in a
+//! temporary folder, and nothing is read or written outside.
 
 use rtc::internals::pipeline::trial;
 use std::fs;

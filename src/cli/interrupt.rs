@@ -70,8 +70,8 @@ impl Interrupt {
     }
 }
 
-/// From now on a write beyond the limit on the size of files is an error like others, and does not end
-/// the process with something half-written left behind.
+/// From now on a write beyond the limit on the size of files is an error like others, and does not
+/// end the process with something half-written left behind.
 pub(super) fn outlive_full_files() {
     #[cfg(unix)]
     {

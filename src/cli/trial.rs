@@ -1,4 +1,5 @@
-//! Arguments and messages nobody vouches for: what the fuzz targets call, and the suite with what they found.
+//! Arguments and messages nobody vouches for: what the fuzz targets call, and the suite with what
+//! they found.
 
 use super::args::{Cli, Command};
 use super::lsp;

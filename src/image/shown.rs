@@ -68,8 +68,8 @@ impl<'a> ShownFile<'a> {
         }
     }
 
-    /// Decodes it; of an EXR the first layer with red, green and blue, without its opacity, and 0 for
-    /// negative values.
+    /// Decodes it; of an EXR the first layer with red, green and blue, without its opacity, and 0
+    /// for negative values.
     ///
     /// # Errors
     /// If the file is damaged, or there is no memory for it.
@@ -149,8 +149,8 @@ impl ShownPicture {
         }
     }
 
-    /// The display values of a part: its first column and row, and its width and height, all within the
-    /// picture.
+    /// The display values of a part: its first column and row, and its width and height, all within
+    /// the picture.
     #[must_use]
     pub fn part(&self, [left, top]: [u32; 2], [width, height]: [u32; 2]) -> Image {
         let rows = (top..top + height).map(|y| y as usize * self.size[0] as usize + left as usize);

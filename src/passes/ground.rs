@@ -21,8 +21,8 @@ const GAP: f64 = 1e-3;
 const RINGS: u32 = 12;
 const CORNERS: u32 = 48;
 
-/// Lays the ground under a box, if that has an extent; the index of its surface. It is seen from above
-/// alone.
+/// Lays the ground under a box, if that has an extent; the index of its surface. It is seen from
+/// above alone.
 pub(super) fn lay(scene: &mut Scene, [low, high]: [Vec3; 2]) -> Option<usize> {
     let middle = low + (high - low) / 2.0;
     let half = Vec3::new(high.x - low.x, 0.0, high.z - low.z).length() / 2.0;

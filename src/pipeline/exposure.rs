@@ -30,8 +30,8 @@ const SEEN: f64 = 0.01;
 pub struct OwnLight {
     /// The exposure that shows it, in whole thirds of a stop; 0 if its surfaces are dark.
     pub stops: f64,
-    /// The part of its surfaces that is seen then, of those in the picture that don't glow themselves,
-    /// in [0, 1].
+    /// The part of its surfaces that is seen then, of those in the picture that don't glow
+    /// themselves, in [0, 1].
     pub seen: f64,
 }
 
@@ -113,8 +113,8 @@ fn stops(film: &Film) -> f64 {
     (3.0 * stops).round() / 3.0
 }
 
-/// The part of the surfaces of a film that is seen at an exposure, of the pixels that don't glow; all
-/// if there are no others.
+/// The part of the surfaces of a film that is seen at an exposure, of the pixels that don't glow;
+/// all if there are no others.
 fn seen(film: &Film, glows: &[bool], stops: f64) -> f64 {
     let least = SEEN * pow(2.0, -stops);
     let lit = surfaces(film).filter(|(index, _)| glows.get(*index) != Some(&true));
@@ -128,8 +128,8 @@ fn seen(film: &Film, glows: &[bool], stops: f64) -> f64 {
     }
 }
 
-/// The pixels of a film that show a surface, by their indices. What covers a pixel in part is as bright
-/// as if it covered it whole.
+/// The pixels of a film that show a surface, by their indices. What covers a pixel in part is as
+/// bright as if it covered it whole.
 fn surfaces(film: &Film) -> impl Iterator<Item = (usize, [f64; 3])> {
     let pixels = film.image.pixels.iter().zip(&film.coverage).enumerate();
     let covered = pixels.filter(|(_, (_, covered))| **covered > 0.0);

@@ -1,8 +1,8 @@
 //! The one writer of files: a file appears whole or not at all, and so does a folder of them.
 //!
 //! It is written beside its target under another name, synced and renamed. What is unfinished is
-//! removed. A link that is the last part of its path is replaced, not followed; what is edited may be
-//! one that stays in its folder.
+//! removed. A link that is the last part of its path is replaced, not followed; what is edited may
+//! be one that stays in its folder.
 
 use std::fs::{self, File, Permissions};
 use std::io::{self, ErrorKind, Write};

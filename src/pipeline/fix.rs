@@ -2,10 +2,10 @@
 //!
 //! A changed text is checked in the place of the file before it is taken. It is better if each finding
 //! that is obeyed is gone, there is no error that was not there before, and no warning either unless
-//! an error is gone: behind errors, warnings are not seen. A change that puts in a key without a meaning
-//! is never better, for the setting below it would be lost. What one change brings to light may be
-//! mended by the next, so that a few are tried on. Where all changes together are not better, each half of
-//! them is tried, and so on: few that are refused cost few checks.
+//! an error is gone: behind errors, warnings are not seen. A change that puts in a key without a
+//! meaning is never better, for the setting below it would be lost. What one change brings to light
+//! may be mended by the next, so that a few are tried on. Where all changes together are not
+//! better, each half of them is tried, and so on: few that are refused cost few checks.
 
 use super::{Input, Options};
 use rtc_diag::{Diagnostic, Severity, codes};
@@ -289,7 +289,8 @@ mod tests {
     const HEAD: &str = "Camera: {eye: [0, 1, 6], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8]}\n\
                         Lights: []\nObjects:\n";
 
-    /// A text of some objects, each of them misspelt, and each `every`th so that no fix makes it better.
+    /// A text of some objects, each of them misspelt, and each `every`th so that no fix makes it
+    /// better.
     fn slips(count: usize, every: usize) -> String {
         let mut text = HEAD.to_owned();
         for at in 0..count {

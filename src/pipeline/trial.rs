@@ -197,7 +197,8 @@ pub fn validate(bytes: &[u8]) {
     );
 }
 
-/// Writes a scene in any form, and the one that the bytes stand for, in the forms that are read again.
+/// Writes a scene in any form, and the one that the bytes stand for, in the forms that are read
+/// again.
 ///
 /// # Panics
 /// As [`is_written`].
@@ -212,7 +213,8 @@ pub fn written(bytes: &[u8]) {
     scenes.for_each(is_written);
 }
 
-/// Writes a scene, if it is proven, as glTF and, if it needs no other file, as a text of the course's format.
+/// Writes a scene, if it is proven, as glTF and, if it needs no other file, as a text of the
+/// course's format.
 ///
 /// # Panics
 /// If what is written is refused when it is read, or it is not written and no error says why, or the text is

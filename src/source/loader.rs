@@ -137,8 +137,8 @@ pub struct OwnedFile {
     pub path: PathBuf,
     /// What is in it.
     pub bytes: Vec<u8>,
-    /// Whether it belongs to the user or to the system's administrator, and nobody else may write it; true
-    /// where the system does not tell.
+    /// Whether it belongs to the user or to the system's administrator, and nobody else may write
+    /// it; true where the system does not tell.
     pub is_own: bool,
 }
 

@@ -2,10 +2,10 @@
 //! that the user allows.
 //!
 //! A name that leads elsewhere (`C:\…\earth.png`, `/home/…`, `../..`) is never followed: the
-//! longest tail of it that exists below those folders is taken, last a name that differs in case only.
-//! Only regular files are found, and judged once they are open. What the parent lends is by its name and
-//! its first bytes what the scene asks for; a home, a folder of the system or a hidden file lends nothing.
-//! Of what is not lent, and of what a link leads out to, it is not told whether it is there.
+//! longest tail of it that exists below those folders is taken, last a name that differs in case
+//! only. Only regular files are found, and judged once they are open. The parent lends what is by name
+//! and first bytes what the scene asks for; a home, a system folder or a hidden file lends nothing.
+//! Whether anything else is there is not told.
 
 mod folder;
 mod listing;
@@ -256,8 +256,8 @@ impl Search {
         })
     }
 
-    /// The same of a path that climbs by `..`: below the folder the user allows; or, one step up, what
-    /// the folder above lends of a kind.
+    /// The same of a path that climbs by `..`: below the folder the user allows; or, one step up,
+    /// what the folder above lends of a kind.
     ///
     /// # Errors
     /// As [`Search::below`].

@@ -109,8 +109,8 @@ fn apart(test: [f64; 3], reference: [f64; 3]) -> impl Iterator<Item = (f64, f64)
     test.into_iter().zip(reference)
 }
 
-/// FLIP of each pixel of the tiles that are not the same in both pictures. A tile is looked at with as
-/// much around it as the eye blurs together, so that it is as in the whole picture.
+/// FLIP of each pixel of the tiles that are not the same in both pictures. A tile is looked at with
+/// as much around it as the eye blurs together, so that it is as in the whole picture.
 fn by_tiles(test: &ShownPicture, reference: &ShownPicture, on_flip: &mut dyn FnMut(usize, f64)) {
     /// Pixels along each side.
     const TILE: u32 = 256;

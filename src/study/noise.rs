@@ -93,8 +93,8 @@ const LONGEST: u32 = 1 << 24;
 /// replicates still come to.
 const EVERYWHERE: f64 = 0.125;
 
-/// The samples of a pilot are at most this fraction of those of the replicates of its pixel, or of all in the mean, after the
-/// next round.
+/// The samples of a pilot are at most this fraction of those of the replicates of its pixel, or of
+/// all in the mean, after the next round.
 const GUIDE: f64 = 0.125;
 
 /// The allocation of samples to pixels.
@@ -137,7 +137,8 @@ impl Allotment {
             .map(|index| self.shown(film, index, square))
             .collect();
         let mean = 2.0 * shown.iter().copied().map(f64::from).sum::<f64>() / shown.len() as f64;
-        // A pixel of many samples has a long pilot, too: one that met something by luck would ask for ever more.
+        // A pixel of many samples has a long pilot, too: a short one that met something by luck
+        // would ask for ever more.
         let pilot = |shown: u32, count: u32| {
             let samples = mean.max(2.0 * f64::from(shown));
             let is_short = self.mean == 0.0 || 2.0 * f64::from(count) <= GUIDE * samples;

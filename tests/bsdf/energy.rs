@@ -151,7 +151,8 @@ fn without_further_bounces_nothing_sends_out_more_than_it_gets_either() {
 
 #[test]
 fn reflection_is_reciprocal() {
-    // A coat is left out, and a base without further bounces: their shares depend on the viewer alone by definition.
+    // A coat is left out, and a base without further bounces: their shares depend on the viewer
+    // alone by definition.
     for (name, standard) in variety()
         .into_iter()
         .filter(|(_, standard)| standard.clearcoat.is_none() && standard.multiple_scattering)

@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// A name that would run in a page, one that would be a link in a summary, and one with letters that
-/// git writes as numbers.
+/// A name that would run in a page, one that would be a link in a summary, and one with letters
+/// that git writes as numbers.
 const NAMES: [&str; 4] = [
     "<img src=x onerror=alert(1)>.json",
     "[a](b) `c` *d*.json",

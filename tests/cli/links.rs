@@ -3,8 +3,8 @@
 use super::*;
 use std::os::unix::fs::symlink;
 
-/// A link that is the last part of a path is replaced, wherever it leads, and whether the command line
-/// named it or not; one before it is followed.
+/// A link that is the last part of a path is replaced, wherever it leads, and whether the command
+/// line named it or not; one before it is followed.
 #[test]
 fn a_link_is_replaced_and_what_it_leads_to_stays() {
     let (folder, elsewhere) = (folder(), tempfile::tempdir().unwrap());

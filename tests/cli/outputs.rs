@@ -297,8 +297,8 @@ fn sh(folder: &TempDir, line: &str) -> Output {
         .unwrap()
 }
 
-/// As whoever starts a program opens what ignores its output: `stdio: "ignore"` of Node all streams,
-/// `stdout=DEVNULL` of Python one, to be read and written.
+/// As whoever starts a program opens what ignores its output: `stdio: "ignore"` of Node all
+/// streams, `stdout=DEVNULL` of Python one, to be read and written.
 #[test]
 fn an_output_that_is_ignored_is_written() {
     let folder = folder();
@@ -354,7 +354,8 @@ fn messages_name_the_output_and_not_the_draft() {
         "error: can't write `/dev/full`: No space left on device (os error 28)\n"
     );
     let before = names(folder.path());
-    // Whether who started it ignores the signal of the limit or not, nothing half-written stays behind.
+    // Whether who started it ignores the signal of the limit or not, nothing half-written stays
+    // behind.
     for ignores in ["trap '' XFSZ;", ""] {
         for command in ["render -q ball.json", "compile ball.json --emit ir"] {
             let line = format!("{ignores} ulimit -f 0; exec RTC {command} -o x.png");

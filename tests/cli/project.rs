@@ -171,8 +171,8 @@ fn mistakes_are_told_all_and_with_their_place() {
     assert_eq!(checked(&shelf, &[]).0, 2, "it is too large");
 }
 
-/// A scene whose picture has more pixels than it may have by default, and an `rtc.toml` that lifts all
-/// limits.
+/// A scene whose picture has more pixels than it may have by default, and an `rtc.toml` that lifts
+/// all limits.
 fn greedy() -> TempDir {
     let shelf = shelf(
         "[limits]\nmemory = \"4000GiB\"\npixels = \"4000GiB\"\nnodes = \"4000GiB\"\nrays = \"4000GiB\"\n",

@@ -9,7 +9,8 @@ use rtc::internals::ir::{
     Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
 };
 
-/// Boxed, as the parts of a scene are: what is made of it is too large for the stack of a test otherwise.
+/// Boxed, as the parts of a scene are: what is made of it is too large for the stack of a test
+/// otherwise.
 fn number() -> BoxedStrategy<f64> {
     let odd = prop::sample::select(vec![
         0.0,

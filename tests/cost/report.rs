@@ -269,8 +269,8 @@ fn advice_keeps_still_on_a_noisy_clock() {
     assert!(other.len() <= 1, "{right}, but {other:?}");
 }
 
-/// A setting that is recommended is told to be on the front, though the row of the front has another
-/// arithmetic: the difference between them may be noise.
+/// A setting that is recommended is told to be on the front, though the row of the front has
+/// another arithmetic: the difference between them may be noise.
 #[test]
 fn what_is_recommended_is_never_told_to_be_off_the_front() {
     let mut study = WHOLE.clone();

@@ -1,4 +1,5 @@
-//! What files of the course's years mean where their programs differ: ambient light in JSON and YAML, and glass.
+//! What files of the course's years mean where their programs differ: ambient light in JSON and
+//! YAML, and glass.
 
 use crate::small::{WHOLE, film};
 use rtc::internals::diag::Sink;

@@ -8,8 +8,8 @@ use rtc::internals::pipeline::trial::is_written;
 
 const SCENES: u64 = 240;
 
-/// Powers of two that lengths are multiplied by: beyond the range of 32-bit floats and of their squares,
-/// and within.
+/// Powers of two that lengths are multiplied by: beyond the range of 32-bit floats and of their
+/// squares, and within.
 const POWERS: [i32; 7] = [0, -160, -130, -60, 60, 100, 110];
 
 /// A made-up scene, by turns orthographic, and with tangents of any length.

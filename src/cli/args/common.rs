@@ -50,7 +50,8 @@ pub(crate) struct Reading {
     /// Lift all limits on what the run may take
     #[arg(long)]
     pub(crate) allow_huge: bool,
-    /// Let the `rtc.toml` of the scene raise limits and lend files outside of its folder, whoever wrote it
+    /// Let the `rtc.toml` of the scene raise limits and lend files outside of its folder, whoever
+    /// wrote it
     #[arg(long)]
     pub(crate) trust_project: bool,
 }

@@ -58,7 +58,8 @@ pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileFind
     others
 }
 
-/// The files of a checked text, each with its lines: they are looked for once, for findings are many.
+/// The files of a checked text, each with its lines: they are looked for once, for findings are
+/// many.
 struct Atlas<'d> {
     document: &'d OpenText,
     checked: &'d CheckedScene,

@@ -18,8 +18,8 @@ const NEAR: f64 = 1e-9;
 /// The same of the steps between its pixels, whose digits are fewer.
 const NEAR_STEP: f64 = 2e-4;
 
-/// So many digits behind the first of the distance to the middle of the picture have the places of a
-/// view: less than a hundredth of a pixel is lost.
+/// So many digits behind the first of the distance to the middle of the picture have the places of
+/// a view: less than a hundredth of a pixel is lost.
 const PLACE_DIGITS: usize = 5;
 
 /// The same of the upward direction.

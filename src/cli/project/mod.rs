@@ -175,8 +175,8 @@ fn content(
     }
 }
 
-/// The file that holds for a scene, and the folder of the scene, both free of links; the file itself may
-/// be one.
+/// The file that holds for a scene, and the folder of the scene, both free of links; the file
+/// itself may be one.
 fn nearest_file(scene: &Path) -> Option<(PathBuf, PathBuf)> {
     let own = scene.parent().filter(|own| !own.as_os_str().is_empty());
     let own = own.unwrap_or(Path::new(".")).canonicalize().ok()?;

@@ -18,8 +18,8 @@ pub(super) enum Trust {
     Within(PathBuf),
 }
 
-/// Whether the user's own settings list a folder that is free of links, or one above it. A list that
-/// others may have written lists nothing.
+/// Whether the user's own settings list a folder that is free of links, or one above it. A list
+/// that others may have written lists nothing.
 pub(super) fn is_listed(folder: &Path) -> Result<bool, Failure> {
     let Some(path) = own_settings() else {
         return Ok(false);

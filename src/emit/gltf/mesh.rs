@@ -179,8 +179,8 @@ impl GltfWriter<'_> {
         Some(vectors)
     }
 
-    /// Tangents of length 1 with a side of ±1, as glTF wants them; those that are so keep their bits. One
-    /// without a direction takes one across its normal.
+    /// Tangents of length 1 with a side of ±1, as glTF wants them; those that are so keep their
+    /// bits. One without a direction takes one across its normal.
     fn tangents(
         &mut self,
         tangents: &Column<4>,

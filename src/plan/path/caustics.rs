@@ -32,8 +32,9 @@ impl PathPlan {
         })
     }
 
-    /// Whether a path may come upon a light without size by way of metal or glass that is smooth, but not perfectly so: what
-    /// it carries then grows as the lobe narrows, and has no useful bound.
+    /// Whether a path may come upon a light without size by way of metal or glass that is smooth,
+    /// but not perfectly so: what it carries then grows as the lobe narrows, and has no useful
+    /// bound.
     #[must_use]
     pub fn has_unbounded_caustics(&self) -> bool {
         let is_mapped = |m: &Standard| m.metallic_roughness_map.is_some();

@@ -82,8 +82,8 @@ impl Folder {
         }
     }
 
-    /// Whether a link on the way to a place in it leads out, whatever is there: only what lies in the
-    /// folder is looked at.
+    /// Whether a link on the way to a place in it leads out, whatever is there: only what lies in
+    /// the folder is looked at.
     pub(super) fn leads_out(&self, place: &Path) -> bool {
         if self.files.is_some() {
             return false;

@@ -4,8 +4,8 @@ use super::super::Tree;
 use super::Mistake;
 use super::slip::{slip, span};
 
-/// The comma that is missing before the place where the parser gave up, if one is: something that may
-/// end a value stands before what may begin the next.
+/// The comma that is missing before the place where the parser gave up, if one is: something that
+/// may end a value stands before what may begin the next.
 pub(super) fn missing(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
     let source = tree.source;
     let (before, rest) = source.split_at_checked(at)?;

@@ -283,8 +283,8 @@ impl<'s> Build<'s, '_> {
         }
     }
 
-    /// What is missing before the second of two keys, if that begins the next item: an item of a list
-    /// begins with the first key of a map, and has more than that.
+    /// What is missing before the second of two keys, if that begins the next item: an item of a
+    /// list begins with the first key of a map, and has more than that.
     fn separator(
         &self,
         map: NodeId,

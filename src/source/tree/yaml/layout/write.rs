@@ -33,7 +33,8 @@ pub(super) fn write(source: &str, items: &[LayoutItem]) -> String {
     writer.text
 }
 
-/// Of each item the list or map that is opened by the next one that is no comment, and where that starts.
+/// Of each item the list or map that is opened by the next one that is no comment, and where that
+/// starts.
 fn opened_after(items: &[LayoutItem]) -> Vec<Option<(usize, BlockKind)>> {
     let mut next = None;
     let mut opened: Vec<_> = items
