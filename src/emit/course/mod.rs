@@ -150,7 +150,9 @@ impl<'s> Text<'s> {
                 .get_mut(surface.material.0 as usize)
                 .ok_or("a surface refers to a material that does not exist")? += 1;
         }
-        let mut written = vec![false; uses.len()];
+        // The number of each material in the order of first use: unused materials take none.
+        let mut numbers: Vec<Option<usize>> = vec![None; uses.len()];
+        let mut next = 0;
         for (index, surface) in scene.surfaces.iter().enumerate() {
             let Surface {
                 shape,
@@ -173,10 +175,16 @@ impl<'s> Text<'s> {
             }
             let at = *id as usize;
             let material = &scene.materials[at];
-            match (uses[at] > 1, std::mem::replace(&mut written[at], true)) {
-                (true, true) => self.line(4, &format!("material: *m{id}")),
-                (true, false) => self.material(&format!("material: &m{id}"), material, scene)?,
-                (false, _) => self.material("material:", material, scene)?,
+            match numbers[at] {
+                Some(number) => self.line(4, &format!("material: *m{number}")),
+                None if uses[at] > 1 => {
+                    self.material(&format!("material: &m{next}"), material, scene)?
+                }
+                None => self.material("material:", material, scene)?,
+            }
+            if numbers[at].is_none() {
+                numbers[at] = Some(next);
+                next += 1;
             }
             if *casts_no_shadow {
                 self.line(4, "shadow: false");
