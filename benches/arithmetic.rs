@@ -18,7 +18,7 @@ use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Arithmetic, Plan, Rules};
 use rtc::internals::render::{self, Film, Job};
 use rtc::internals::source::{Loader, SourceMap};
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 use std::path::Path;
 
 const ALL: [(&str, Arithmetic); 3] = [
@@ -60,7 +60,7 @@ fn main() {
 }
 
 /// The scene, no more than 160 pixels wide and high and with few samples.
-fn scene(file: &str) -> Proof {
+fn scene(file: &str) -> ValidScene {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let read = Loader.file(Path::new(file), &mut map).unwrap();
     let mut lowered = pipeline::load(read, &mut map, &options, &mut sink).unwrap();
@@ -73,10 +73,10 @@ fn scene(file: &str) -> Proof {
         ..Overrides::default()
     };
     overrides.apply(&mut lowered.scene);
-    pipeline::prove(&lowered, &options, &mut sink).unwrap()
+    pipeline::validate(&lowered, &options, &mut sink).unwrap()
 }
 
-fn render(scene: &Proof, arithmetic: Arithmetic) -> Film {
+fn render(scene: &ValidScene, arithmetic: Arithmetic) -> Film {
     render::render(
         scene,
         &Plan::by(arithmetic, scene, Rules::ALL),
@@ -88,7 +88,7 @@ fn render(scene: &Proof, arithmetic: Arithmetic) -> Film {
 
 /// The share of pixels whose bytes differ from the robust ones, and of those that differ by more
 /// than 8.
-fn differences(name: &str, scene: &Proof) {
+fn differences(name: &str, scene: &ValidScene) {
     let robust = render(scene, Arithmetic::Robust);
     for (arithmetic, choice) in &ALL[1..] {
         let film = render(scene, *choice);
@@ -108,7 +108,7 @@ fn differences(name: &str, scene: &Proof) {
 }
 
 /// The median of the time by each arithmetic over that by plain f64, by turns.
-fn costs(name: &str, scene: &Proof, repeats: usize) {
+fn costs(name: &str, scene: &ValidScene, repeats: usize) {
     // Short renders are repeated: the clock may tick only every 4 ms.
     let mut rounds = 0;
     let start = cpu_seconds();

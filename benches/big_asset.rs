@@ -149,7 +149,7 @@ fn start(path: &str) {
     let read = begin.elapsed();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
     let loaded = begin.elapsed();
-    let proven = pipeline::prove(&lowered, &options, &mut sink).unwrap();
+    let proven = pipeline::validate(&lowered, &options, &mut sink).unwrap();
     let checked = begin.elapsed();
     let plan = Plan::new(&proven, Rules::ALL);
     let planned = begin.elapsed();

@@ -34,7 +34,7 @@ fn world() -> World {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = map.add("spheres", text.into_bytes());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
-    let valid = pipeline::prove(&lowered, &options, &mut sink).unwrap();
+    let valid = pipeline::validate(&lowered, &options, &mut sink).unwrap();
     World::prepare(&valid, &Plan::new(&valid, Rules::NONE))
 }
 

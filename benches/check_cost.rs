@@ -12,7 +12,7 @@ use rtc::internals::diag::Sink;
 use rtc::internals::pipeline;
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::source::SourceMap;
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::fmt::Write as _;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -73,17 +73,17 @@ fn text(spheres: u32) -> String {
 }
 
 #[inline(never)]
-fn text_to_proof(bytes: Vec<u8>) -> Option<Proof> {
+fn text_to_proof(bytes: Vec<u8>) -> Option<ValidScene> {
     let mut map = SourceMap::default();
     let file = map.add("spheres", bytes);
     let mut sink = Sink::default();
     let options = pipeline::Options::default();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
-    lowered.and_then(|lowered| pipeline::prove(&lowered, &options, &mut sink))
+    lowered.and_then(|lowered| pipeline::validate(&lowered, &options, &mut sink))
 }
 
 #[inline(never)]
-fn proof_to_plan(scene: &Proof) -> Plan {
+fn proof_to_plan(scene: &ValidScene) -> Plan {
     Plan::new(scene, Rules::ALL)
 }
 

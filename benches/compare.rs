@@ -36,7 +36,7 @@ fn main() {
         .map_or(256, |samples| samples.parse().unwrap());
     let path = Path::new(&path);
     let lowered = setup::load_set_up(path, samples);
-    let proof = setup::prove(&lowered);
+    let proof = setup::validate(&lowered);
     let plan = Plan::new(&proof, Rules::ALL);
     let job = Job {
         values: Values::Linear,

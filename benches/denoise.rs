@@ -17,8 +17,8 @@
 mod limits;
 
 use rtc::internals::image::{BackgroundFill, FileFormat, Image};
-use rtc::internals::passes::Stage;
-use rtc::internals::pipeline::{Input, Observer, Options, OutputLook, PictureSetup};
+use rtc::internals::passes::ViewAndLight;
+use rtc::internals::pipeline::{Input, Observer, Options, OutputTransform, PictureSetup};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{AnyWorld, Job, Seeds};
 use rtc::internals::study::{Errors, LEVELS, Order, probe};
@@ -49,14 +49,14 @@ impl Case {
     /// As `rtc render` shows it, with so many paths a pixel at most.
     fn new(path: &Path, side: u32, paths: u32) -> Self {
         let kind = FileFormat::Png8;
-        let look = OutputLook::new(kind, None, None, BackgroundFill::Film, &[]).unwrap();
+        let look = OutputTransform::new(kind, None, None, BackgroundFill::Film, &[]).unwrap();
         let mut setup = PictureSetup::new(look);
         setup.overrides.size = Some([side; 2]);
         setup.overrides.spp = Some(paths);
         let mut input = Input::file(path, Options::default());
-        input.stage(Stage::default());
+        input.stage(ViewAndLight::default());
         let loaded = input.load().unwrap();
-        let mut subject = setup.prove(loaded, &mut input).unwrap().unwrap();
+        let mut subject = setup.validate(loaded, &mut input).unwrap().unwrap();
         let observer = Observer {
             on_step: &|_| (),
             is_stopped: &|| false,

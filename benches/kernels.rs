@@ -17,7 +17,7 @@ use rtc::internals::plan::{Features, PathFeatures, Plan, Rules, Shapes};
 use rtc::internals::render::{
     AnyWorld, Film, Job, KERNELS, PATH_KERNELS, choose, choose_for_paths,
 };
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 use std::path::Path;
 
 /// Paths a pixel.
@@ -98,12 +98,12 @@ fn print_names(planned: &Plan) {
     println!("{own} | {:?} | {next}", planned.shapes);
 }
 
-fn count(scene: &Proof, plan: &Plan) {
+fn count(scene: &ValidScene, plan: &Plan) {
     assert!(picture(&AnyWorld::prepare(scene, plan)).counts.rays() > 0);
 }
 
 /// Prints the medians of both kernels, in seconds.
-fn time(scene: &Proof, planned: &Plan) {
+fn time(scene: &ValidScene, planned: &Plan) {
     let worlds = [planned, &everything(planned)].map(|plan| AnyWorld::prepare(scene, plan));
     let mut taken = [const { Vec::new() }; 2];
     for _ in 0..ROUNDS {
@@ -128,7 +128,7 @@ fn picture(world: &AnyWorld) -> Film {
     world.render(&Job::default(), &|_| true).unwrap()
 }
 
-fn scene(file: &str, size: u32) -> Proof {
+fn scene(file: &str, size: u32) -> ValidScene {
     let path = Path::new(file);
     let mut lowered = if path.extension().is_some_and(|it| it == "json") {
         setup::load_set_up(path, SAMPLES)
@@ -141,5 +141,5 @@ fn scene(file: &str, size: u32) -> Proof {
         ..Overrides::default()
     }
     .apply(&mut lowered.scene);
-    setup::prove(&lowered)
+    setup::validate(&lowered)
 }

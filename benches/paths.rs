@@ -19,7 +19,7 @@ use rtc::internals::ir::{Lowered, Mode};
 use rtc::internals::pipeline::Renderer;
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Film, Job, Seeds, Values};
-use rtc::internals::valid::{Proof, Shape, Surface};
+use rtc::internals::valid::{Shape, Surface, ValidScene};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
@@ -30,7 +30,7 @@ fn main() {
         panic!("usage: paths FILE SAMPLES SEED OUT");
     };
     let lowered = load(Path::new(path), samples.parse().unwrap());
-    let proof = setup::prove(&lowered);
+    let proof = setup::validate(&lowered);
     let seed = seed.parse().unwrap();
     let job = Job {
         values: Values::Linear,
@@ -80,7 +80,7 @@ fn bytes(film: &Film) -> Vec<u8> {
         .collect()
 }
 
-fn triangles(proof: &Proof) -> usize {
+fn triangles(proof: &ValidScene) -> usize {
     let of = |surface: &Surface| {
         if let Shape::Instance(instance) = &surface.shape {
             proof.meshes()[instance.mesh].triangles.len()

@@ -54,7 +54,7 @@ fn world(asset: &str) -> World {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(Path::new(asset), &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
-    let proof = pipeline::prove(&lowered, &options, &mut sink).unwrap();
+    let proof = pipeline::validate(&lowered, &options, &mut sink).unwrap();
     let plan = Plan::new(&proof, Rules::NONE);
     let start = ProcessTime::now();
     let world = World::prepare(&proof, &plan);

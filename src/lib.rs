@@ -56,7 +56,7 @@
 //! 10. `api`: the door for callers: what this page shows.
 //! 11. `cli`: arguments, streams, exit codes (cargo feature `cli`).
 //!
-//! The promise between the rooms: whoever holds a `valid::Proof` need not doubt a number.
+//! The promise between the rooms: whoever holds a `valid::ValidScene` need not doubt a number.
 
 #![forbid(unsafe_code)]
 

@@ -13,7 +13,7 @@ use crate::scene_laws::{
 };
 use rtc::internals::codec::{self, Form};
 use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::ir::{Lowered, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Input, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Crop, Job, Seeds, Tiles};
@@ -233,9 +233,9 @@ fn a_render_that_is_stopped_leaves_nothing() {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered {
         scene: small(&paths()[0]),
-        origins: Origins::default(),
+        source_spans: SourceSpans::default(),
     };
-    let valid = pipeline::prove(&lowered, &options, &mut sink).unwrap();
+    let valid = pipeline::validate(&lowered, &options, &mut sink).unwrap();
     assert!(
         pipeline::render(&valid, &Plan::new(&valid, Rules::ALL), &WHOLE, 2, &|_| {
             false

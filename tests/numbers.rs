@@ -10,7 +10,7 @@ use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Film, Job, Values};
 use rtc::internals::source::SourceMap;
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 
 /// Three numbers as a list, times 2^k.
 fn list(v: [f64; 3], k: i32) -> String {
@@ -19,11 +19,11 @@ fn list(v: [f64; 3], k: i32) -> String {
 }
 
 /// The scene of a text, and what is found in it.
-fn read(text: &str) -> (Option<Proof>, Sink) {
+fn read(text: &str) -> (Option<ValidScene>, Sink) {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = map.add("text.yaml", text.as_bytes().to_vec());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
-    (pipeline::prove(&lowered, &options, &mut sink), sink)
+    (pipeline::validate(&lowered, &options, &mut sink), sink)
 }
 
 fn job() -> Job {
@@ -33,12 +33,12 @@ fn job() -> Job {
     }
 }
 
-fn proven(text: &str) -> Proof {
+fn proven(text: &str) -> ValidScene {
     let (scene, sink) = read(text);
     scene.unwrap_or_else(|| panic!("{:?}\n{text}", sink.kept()))
 }
 
-fn film(scene: &Proof, rules: Rules) -> Film {
+fn film(scene: &ValidScene, rules: Rules) -> Film {
     pipeline::render(scene, &Plan::new(scene, rules), &job(), 2, &|_| true)
         .unwrap()
         .unwrap()

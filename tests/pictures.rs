@@ -9,18 +9,18 @@ use rtc::internals::math::{DoubleDouble, Vec3, view_basis};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Film, Geometry, Job, Shape, World, camera_ray, image_point};
-use rtc::internals::valid::{self, Proof};
+use rtc::internals::valid::{self, ValidScene};
 
-fn proven(scene: Scene) -> Proof {
+fn proven(scene: Scene) -> ValidScene {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered {
         scene,
-        origins: ir::Origins::default(),
+        source_spans: ir::SourceSpans::default(),
     };
-    pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+    pipeline::validate(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
-fn film(scene: &Proof) -> Film {
+fn film(scene: &ValidScene) -> Film {
     pipeline::render(
         scene,
         &Plan::new(scene, Rules::ALL),

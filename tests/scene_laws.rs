@@ -5,7 +5,7 @@ use crate::scale::scaled;
 use crate::small::{WHOLE, bits, film, small};
 use rtc::internals::codec::{self, Form};
 use rtc::internals::diag::Sink;
-use rtc::internals::ir::{self, Lowered, Origins, Scene};
+use rtc::internals::ir::{self, Lowered, Scene, SourceSpans};
 use rtc::internals::math::ldexp;
 use rtc::internals::pipeline::{self, Input, LaidOutFault, Options};
 use rtc::internals::plan::{Plan, Rules};
@@ -78,9 +78,9 @@ fn has_tie(world: &World, factor: u32, index: usize) -> bool {
 fn world(scene: &Scene) -> World {
     let lowered = Lowered {
         scene: scene.clone(),
-        origins: Origins::default(),
+        source_spans: SourceSpans::default(),
     };
-    let valid = pipeline::prove(&lowered, &Options::default(), &mut Sink::default()).unwrap();
+    let valid = pipeline::validate(&lowered, &Options::default(), &mut Sink::default()).unwrap();
     World::prepare(&valid, &Plan::new(&valid, Rules::NONE))
 }
 

@@ -102,7 +102,7 @@ fn errors(document: &Value) -> Vec<&'static str> {
         ..pipeline::Options::default()
     };
     if let Some(lowered) = pipeline::load(file, &mut map, &options, &mut sink) {
-        let _ = pipeline::prove(&lowered, &options, &mut sink);
+        let _ = pipeline::validate(&lowered, &options, &mut sink);
     }
     sink.kept()
         .iter()

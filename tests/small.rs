@@ -3,13 +3,13 @@
 #![allow(dead_code, reason = "no suite needs all of it")]
 
 use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::ir::{Lowered, Scene, SourceSpans};
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Background, Film, Job, Seeds, Stride, Values};
 use rtc::internals::source::{FileId, Loader, SourceMap};
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 use std::path::{Path, PathBuf};
 
 /// The scenes of the repo.
@@ -71,13 +71,13 @@ pub(crate) const WHOLE: Job = Job {
     clamp: None,
 };
 
-pub(crate) fn proven(scene: &Scene) -> Proof {
+pub(crate) fn proven(scene: &Scene) -> ValidScene {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered {
         scene: scene.clone(),
-        origins: Origins::default(),
+        source_spans: SourceSpans::default(),
     };
-    pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+    pipeline::validate(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
 pub(crate) fn film(scene: &Scene, job: &Job, threads: usize) -> Film {

@@ -5,7 +5,7 @@ use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline;
 use rtc::internals::plan::{Effect, Plan, Rules, State};
 use rtc::internals::render::{Counts, Film, Job, Values};
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 
 /// The scene as the path integrator renders it, in few pixels, paths and bounces.
 pub(crate) fn traced(mut scene: Scene) -> Scene {
@@ -25,7 +25,7 @@ pub(crate) fn traced(mut scene: Scene) -> Scene {
     scene
 }
 
-pub(crate) fn film(scene: &Proof, rules: Rules) -> Film {
+pub(crate) fn film(scene: &ValidScene, rules: Rules) -> Film {
     let job = Job {
         values: Values::Linear,
         ..Job::default()
@@ -36,7 +36,7 @@ pub(crate) fn film(scene: &Proof, rules: Rules) -> Film {
 }
 
 /// How the picture by some rules differs from that without rules, if it does.
-pub(crate) fn difference(scene: &Proof, unpruned: &Film, rules: Rules) -> Option<String> {
+pub(crate) fn difference(scene: &ValidScene, unpruned: &Film, rules: Rules) -> Option<String> {
     let pruned = film(scene, rules);
     let bits = |pixel: &[f64; 3]| pixel.map(f64::to_bits);
     let mut pairs = pruned.image.pixels.iter().zip(&unpruned.image.pixels);
@@ -49,7 +49,7 @@ pub(crate) fn difference(scene: &Proof, unpruned: &Film, rules: Rules) -> Option
 }
 
 /// What verdicts say that the counts of the picture deny.
-pub(crate) fn lies(scene: &Proof, counts: &Counts) -> Vec<(Effect, State, u64)> {
+pub(crate) fn lies(scene: &ValidScene, counts: &Counts) -> Vec<(Effect, State, u64)> {
     let plan = Plan::new(scene, Rules::ALL);
     let is_lie = |state: State, count: u64| (state == State::Needed) != (count > 0);
     let verdicts = plan.verdicts.iter().filter(|verdict| verdict.of.is_none());
@@ -61,7 +61,7 @@ pub(crate) fn lies(scene: &Proof, counts: &Counts) -> Vec<(Effect, State, u64)> 
 
 /// Effects that a scene is told to need and does not show; panics where it shows one that it is
 /// told to do without.
-pub(crate) fn unmet(name: &str, scene: &Proof) -> Vec<String> {
+pub(crate) fn unmet(name: &str, scene: &ValidScene) -> Vec<String> {
     let counts = film(scene, Rules::ALL).counts;
     let told = |(effect, state, count): (Effect, State, u64)| {
         assert_eq!(

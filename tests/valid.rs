@@ -38,7 +38,7 @@ fn errors(document: &Value) -> Vec<(&'static str, String)> {
     let file = map.add("scene.json", document.to_string().into_bytes());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()));
-    let proof = pipeline::prove(&lowered, &options, &mut sink);
+    let proof = pipeline::validate(&lowered, &options, &mut sink);
     assert_eq!(proof.is_none(), sink.has_errors());
     sink.kept()
         .iter()

@@ -15,7 +15,7 @@ use rtc::internals::ir::{
 use rtc::internals::math::{Vec3, camera_basis};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::SourceMap;
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 use serde_json::Value;
 use std::path::Path;
 
@@ -42,9 +42,10 @@ pub(crate) fn load_set_up(path: &Path, samples: u32) -> Lowered {
 }
 
 /// The scene, proven.
-pub(crate) fn prove(lowered: &Lowered) -> Proof {
+pub(crate) fn validate(lowered: &Lowered) -> ValidScene {
     let mut sink = Sink::default();
-    pipeline::prove(lowered, &Options::default(), &mut sink).unwrap_or_else(|| panic!("{sink:?}"))
+    pipeline::validate(lowered, &Options::default(), &mut sink)
+        .unwrap_or_else(|| panic!("{sink:?}"))
 }
 
 /// Camera, lights and surroundings of the set-up in place of those of the asset.

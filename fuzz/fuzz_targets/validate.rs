@@ -1,4 +1,4 @@
 //! An arbitrary scene is proven or refused.
 
 #![no_main]
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc::internals::pipeline::trial::validate(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc::internals::pipeline::trial::validate_any(bytes));

@@ -1,6 +1,6 @@
 //! What a picture needs, and what is left out of it with the reason.
 
-use rtc_plan::{State, Verdict};
+use rtc_plan::{EffectStatus, State};
 
 /// An effect of light or of the film, and whether pictures of a scene simulate it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub struct Effect {
 }
 
 impl Effect {
-    pub(super) fn new(verdict: &Verdict) -> Self {
+    pub(super) fn new(verdict: &EffectStatus) -> Self {
         Self {
             name: verdict.effect.name(),
             of: verdict.of.map(|place| place.to_string()),

@@ -3,8 +3,8 @@
 use super::{Aov, Error, Scene, Tone};
 use rtc_image::BackgroundFill;
 use rtc_image::FileFormat;
-use rtc_passes::{EnvironmentOverride, IntegratorChoice, Orbit, Overrides, Stage, View};
-use rtc_pipeline::{self as pipeline, Exposure, Input, OutputLook, PictureSetup};
+use rtc_passes::{EnvironmentOverride, IntegratorChoice, Orbit, Overrides, View, ViewAndLight};
+use rtc_pipeline::{self as pipeline, Exposure, Input, OutputTransform, PictureSetup};
 use rtc_render::Crop;
 use rtc_source::MemoryFiles;
 use std::path::{Path, PathBuf};
@@ -299,13 +299,13 @@ impl Options {
     }
 
     /// View and light.
-    pub(super) fn stage(&self) -> Stage {
-        Stage {
+    pub(super) fn stage(&self) -> ViewAndLight {
+        ViewAndLight {
             view: self.view,
             integrator: self.integrator,
             environment: self.environment.map(EnvironmentOverride::Color),
             ground: (self.background == BackgroundFill::Transparent).then_some(false),
-            ..Stage::default()
+            ..ViewAndLight::default()
         }
     }
 
@@ -318,7 +318,8 @@ impl Options {
             return Err(refused("a denoised picture has no target error"));
         }
         let kind = self.format.kind();
-        let look = OutputLook::new(kind, self.tone, self.exposure, self.background, &self.aovs);
+        let look =
+            OutputTransform::new(kind, self.tone, self.exposure, self.background, &self.aovs);
         let mut setup = PictureSetup::new(look.map_err(refused)?);
         setup.overrides = self.overrides;
         setup.crop = self.crop;

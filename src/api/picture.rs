@@ -3,14 +3,14 @@
 use super::{Aov, Error, Finding, Format, Tone};
 use rtc_color::quantize8;
 use rtc_image::{self as image, Origin};
-use rtc_pipeline::SettledLook;
+use rtc_pipeline::ResolvedOutputTransform;
 use rtc_render::Counts;
 
 /// A picture: rows from the top, each from the left.
 #[derive(Clone, Debug)]
 pub struct Picture {
     held: image::Picture,
-    look: SettledLook,
+    look: ResolvedOutputTransform,
     origin: Origin,
     format: Format,
     statistics: Statistics,
@@ -34,7 +34,7 @@ pub struct Statistics {
 
 impl Picture {
     pub(super) fn new(
-        (held, look, origin): (image::Picture, SettledLook, Origin),
+        (held, look, origin): (image::Picture, ResolvedOutputTransform, Origin),
         format: Format,
         (counts, error): (&Counts, Option<f64>),
         findings: Vec<Finding>,

@@ -72,7 +72,7 @@ impl Scene {
         self.restart();
         if let Some(loaded) = self.loaded.clone() {
             self.input.unstage();
-            self.input.prove(loaded, |_, _| ());
+            self.input.validate(loaded, |_, _| ());
         }
         self.findings()
     }
@@ -83,7 +83,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::render`].
     pub fn effects(&mut self, options: &Options) -> Result<Vec<Effect>, Error> {
-        let subject = self.prove(options, &mut options.setup()?)?;
+        let subject = self.validate(options, &mut options.setup()?)?;
         let plan = Plan::new(&subject.proven.scene, Rules::ALL);
         Ok(plan.verdicts.iter().map(Effect::new).collect())
     }
@@ -129,7 +129,7 @@ impl Scene {
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Picture, Error> {
         let mut setup = options.setup()?;
-        let mut subject = self.prove(options, &mut setup)?;
+        let mut subject = self.validate(options, &mut setup)?;
         let observer = Observer {
             on_step: &|_| (),
             is_stopped,
@@ -170,7 +170,7 @@ impl Scene {
     }
 
     /// The scene as the options ask for it, proven.
-    fn prove(
+    fn validate(
         &mut self,
         options: &Options,
         setup: &mut PictureSetup,
@@ -178,7 +178,7 @@ impl Scene {
         self.restart();
         self.input.stage(options.stage());
         let proven = match self.loaded.clone() {
-            Some(loaded) => setup.prove(loaded, &mut self.input),
+            Some(loaded) => setup.validate(loaded, &mut self.input),
             None => Ok(None),
         };
         let proven = proven.map_err(|error| self.error(error))?;

@@ -26,7 +26,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
             Err(failure) => return Err(failure),
         };
         if let Some(loaded) = input.load() {
-            input.prove(loaded, |_, _| ());
+            input.validate(loaded, |_, _| ());
         }
         match input::tell(&mut input, &mut talk) {
             Err(gone @ Failure::ClosedPipe) => return Err(gone),

@@ -13,7 +13,7 @@ use rtc_codec::{self as codec, Form};
 use rtc_emit as emit;
 use rtc_emit::course::WrittenScene;
 use rtc_image::{BackgroundFill, FileFormat};
-use rtc_pipeline::{Input, Observer, OutputLook, PictureSetup, Proven};
+use rtc_pipeline::{Input, Observer, OutputTransform, PictureSetup, Proven};
 use std::path::Path;
 
 /// Compiles the scene and writes it.
@@ -126,7 +126,7 @@ fn put_beside<'f>(
 
 /// The same for the canonical spelling, which says how a picture is shown too.
 fn carry_out_text(args: &Compile, mut input: Input, talk: &mut Talk) -> Result<(), Failure> {
-    let look = OutputLook::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
+    let look = OutputTransform::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
     let mut setup = PictureSetup {
         simd: simd::level()?,
         ..PictureSetup::new(look.map_err(|words| Failure::Trouble(words.to_owned()))?)

@@ -4,7 +4,7 @@ use super::args::CheckArgs;
 use super::project::Project;
 use super::talk::{self, Talk};
 use super::{Failure, edit, input, output};
-use rtc_pipeline::{self as pipeline, FixWish, FixedText, Input};
+use rtc_pipeline::{self as pipeline, FixFilter, FixedText, Input};
 use std::path::Path;
 
 /// Fixes the scene that was read from `path`, or shows how that would be: the scene as it is then.
@@ -25,7 +25,7 @@ pub(super) fn run(
     }
     let project = Project::of(path, &args.reading)?;
     let options = input::options(&args.reading, project.as_ref())?;
-    let wish = FixWish {
+    let wish = FixFilter {
         guesses: args.guesses,
         only: None,
     };

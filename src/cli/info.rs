@@ -33,7 +33,7 @@ fn carry_out(args: &Info, input: &mut Input, talk: &mut Talk) -> Result<(), Fail
     let asset = input.asset();
     let loaded = input.load();
     let content = loaded.as_ref().map(|own| content(&own.lowered.scene));
-    let proven = loaded.and_then(|own| input.prove(own, input::fill));
+    let proven = loaded.and_then(|own| input.validate(own, input::fill));
     let proven = input::unless_refused(proven, input, talk)?;
     let mut facts = json!({ "schema": SCHEMA, "file": input.name() });
     for part in [content.unwrap_or_default(), picture(&proven)] {

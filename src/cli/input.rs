@@ -6,7 +6,9 @@ use super::project::Project;
 use super::talk::Talk;
 use rtc_front as front;
 use rtc_ir::Lowered;
-use rtc_passes::{self as passes, EnvironmentOverride, FillLight, Stage, StudioChoice, View};
+use rtc_passes::{
+    self as passes, EnvironmentOverride, FillLight, StudioChoice, View, ViewAndLight,
+};
 use rtc_pipeline::{Input, Options, PictureSetup, Proven, Provenance, RenderSubject};
 use rtc_source::EditedFiles;
 use rtc_valid as valid;
@@ -106,7 +108,7 @@ pub(super) fn set_stage(mut input: Input, stage: &args::StageArgs) -> Result<Inp
         Some(path) => input.environment(path).map_err(Failure::Trouble)?,
         None => env_color.map(EnvironmentOverride::Color),
     };
-    input.stage(Stage {
+    input.stage(ViewAndLight {
         view: View {
             eye: *eye,
             center: *center,
@@ -143,7 +145,9 @@ pub(super) fn require(
     talk: &mut Talk,
     change: impl FnOnce(&mut Lowered, &Provenance),
 ) -> Result<Proven, Failure> {
-    let proven = input.load().and_then(|loaded| input.prove(loaded, change));
+    let proven = input
+        .load()
+        .and_then(|loaded| input.validate(loaded, change));
     unless_refused(proven, input, talk)
 }
 
@@ -163,7 +167,7 @@ pub(super) fn subject(
     talk: &mut Talk,
 ) -> Result<RenderSubject, Failure> {
     let subject = match input.load() {
-        Some(loaded) => setup.prove(loaded, input),
+        Some(loaded) => setup.validate(loaded, input),
         None => Ok(None),
     };
     match subject {

@@ -124,7 +124,7 @@ fn scene(kept: &[OsString]) -> Option<Option<Scene>> {
     let input = input::staged(file, reading, stage).ok();
     let proven = input.and_then(|mut input| {
         let loaded = input.load()?;
-        input.prove(loaded, |_, _| ())
+        input.validate(loaded, |_, _| ())
     });
     Some(proven.map(|proven| proven.lowered.scene))
 }

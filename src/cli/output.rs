@@ -23,10 +23,10 @@ pub(super) fn is_stdout(path: &Path) -> bool {
 pub(super) struct Output {
     /// As the user calls it.
     name: String,
-    place: Place,
+    place: OutputTarget,
 }
 
-enum Place {
+enum OutputTarget {
     Stdout,
     /// A device or a pipe, which cannot be replaced.
     Stream(PathBuf),
@@ -48,7 +48,7 @@ impl Output {
         if is_stdout(path) {
             return Ok(Self {
                 name: "standard output".to_owned(),
-                place: Place::Stdout,
+                place: OutputTarget::Stdout,
             });
         }
         let name = format!("`{}`", path.display());
@@ -58,13 +58,13 @@ impl Output {
             )));
         }
         let file = NewFile::at(path).map_err(|error| failure(&name, &error))?;
-        let place = file.map_or_else(|| Place::Stream(path.to_owned()), Place::File);
+        let place = file.map_or_else(|| OutputTarget::Stream(path.to_owned()), OutputTarget::File);
         Ok(Self { name, place })
     }
 
     /// The name of a folder beside the result for files that it needs; none beside what is no file.
     pub(super) fn folder_beside(&self, path: &Path) -> Option<String> {
-        let is_file = matches!(self.place, Place::File(_));
+        let is_file = matches!(self.place, OutputTarget::File(_));
         let stem = path.file_stem().filter(|_| is_file)?.to_string_lossy();
         let allowed = |letter: char| letter.is_alphanumeric() || "-_. ".contains(letter);
         let stem: String = stem
@@ -86,10 +86,10 @@ impl Output {
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let written = match &self.place {
-            Place::Stdout | Place::Stream(_) => Err(io::Error::other(
+            OutputTarget::Stdout | OutputTarget::Stream(_) => Err(io::Error::other(
                 "strips need a file to be put together in; give `-o FILE`",
             )),
-            Place::File(file) => file.write_slowly(write, interrupt),
+            OutputTarget::File(file) => file.write_slowly(write, interrupt),
         };
         self.told(written, interrupt)
     }
@@ -97,11 +97,11 @@ impl Output {
     /// The same with a result that is written part by part.
     pub(super) fn commit_by(self, write: Writer<'_>, interrupt: &Interrupt) -> Result<(), Failure> {
         let written = match &self.place {
-            Place::Stdout => through_stdout(write),
-            Place::Stream(target) => {
+            OutputTarget::Stdout => through_stdout(write),
+            OutputTarget::Stream(target) => {
                 stream(target, interrupt).and_then(|mut stream| write(&mut stream))
             }
-            Place::File(file) => file.write(write, interrupt),
+            OutputTarget::File(file) => file.write(write, interrupt),
         };
         self.told(written, interrupt)
     }

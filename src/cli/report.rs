@@ -8,9 +8,9 @@ use super::Failure;
 use super::args::Explanation;
 use indicatif::HumanCount;
 use rtc_pipeline::{self as pipeline, Input, Proven};
-use rtc_plan::{Caustics, PathPlan, Plan, Rule, Rules, State, Verdict};
+use rtc_plan::{Caustics, EffectStatus, PathPlan, Plan, Rule, Rules, State};
 use rtc_render::{Counts, Job, KERNELS, PATH_KERNELS, Stride, choose, choose_for_paths};
-use rtc_valid::{Mode, Proof};
+use rtc_valid::{Mode, ValidScene};
 use serde_json::{Value, json};
 use std::num::NonZeroU32;
 
@@ -68,7 +68,7 @@ fn kernel(plan: &Plan) -> (&'static str, usize) {
 /// The rays or evaluations that a rule saves: of traced paths those of its effect, else all rays of
 /// the picture without the rule, less those as planned.
 fn saved(
-    verdict: &Verdict,
+    verdict: &EffectStatus,
     counter: &Counter<'_>,
     planned: &Counts,
     unpruned: &Counts,
@@ -88,7 +88,7 @@ fn saved(
 
 /// One verdict, with what the effect costs.
 struct Row {
-    verdict: Verdict,
+    verdict: EffectStatus,
     /// `file:line` of the values that decided.
     places: Vec<String>,
     /// The address of the one light or material it is about.
@@ -101,11 +101,16 @@ struct Row {
 
 impl Row {
     /// That of a verdict, with the rays that it takes and saves.
-    fn new(verdict: &Verdict, [costs, saves]: [u64; 2], proven: &Proven, input: &Input) -> Self {
+    fn new(
+        verdict: &EffectStatus,
+        [costs, saves]: [u64; 2],
+        proven: &Proven,
+        input: &Input,
+    ) -> Self {
         let spans = verdict
             .facts
             .iter()
-            .filter_map(|place| proven.lowered.origins.span(*place));
+            .filter_map(|place| proven.lowered.source_spans.span(*place));
         let lines = spans.map(|span| input.line(span));
         let mut places: Vec<_> = lines.map(|(file, line)| at(file, line)).collect();
         places.dedup();
@@ -157,7 +162,7 @@ impl PlanReport {
         let counter = Counter::new(&proven.scene);
         let planned = counter.count(Rules::ALL)?;
         let unpruned = counter.count(Rules::NONE)?;
-        let row = |verdict: &Verdict| {
+        let row = |verdict: &EffectStatus| {
             let is_whole = verdict.of.is_none();
             let saves = if is_whole {
                 saved(verdict, &counter, &planned, &unpruned)?
@@ -188,7 +193,7 @@ impl PlanReport {
     /// The verdicts of a plan as a table, without counts.
     pub(super) fn verdicts(proven: &Proven, input: &Input) -> String {
         let plan = Plan::new(&proven.scene, Rules::ALL);
-        let row = |verdict: &Verdict| Row::new(verdict, [0; 2], proven, input);
+        let row = |verdict: &EffectStatus| Row::new(verdict, [0; 2], proven, input);
         let lines = plan.verdicts.iter().map(|verdict| row(verdict).lines(""));
         lines.collect()
     }
@@ -266,12 +271,12 @@ impl PlanReport {
 
 /// Counts the rays of a picture, on a part of its samples that is quick.
 struct Counter<'scene> {
-    scene: &'scene Proof,
+    scene: &'scene ValidScene,
     sampled: Sampled,
 }
 
 impl<'scene> Counter<'scene> {
-    fn new(scene: &'scene Proof) -> Self {
+    fn new(scene: &'scene ValidScene) -> Self {
         let pixel = samples_of_pixel(scene);
         let [width, height] = [scene.camera().width.get(), scene.camera().height.get()];
         let pixels = u64::from(width) * u64::from(height);
@@ -324,7 +329,7 @@ impl<'scene> Counter<'scene> {
 }
 
 /// The samples that a pixel takes.
-fn samples_of_pixel(scene: &Proof) -> u64 {
+fn samples_of_pixel(scene: &ValidScene) -> u64 {
     let (lens, settings) = (scene.camera().lens, scene.settings());
     match settings.mode {
         Mode::Path(path) => path.samples.get().into(),

@@ -1,32 +1,32 @@
 //! What has corners or no end: squares in place of planes, triangles in place of quadrilaterals.
 
-use rtc_ir::{Ball, Plane, Scene};
+use rtc_ir::{BoundingSphere, Plane, Scene};
 use rtc_math::{Basis, Vec3, cross, unit};
 
 /// How far a plane goes on, in radii of the scene.
 const PLANE: f64 = 4.0;
 
 /// Half the side of the square that a plane is cut to.
-pub(super) fn side(around: Ball) -> f64 {
+pub(super) fn side(around: BoundingSphere) -> f64 {
     PLANE * around.radius
 }
 
 /// A ball around all that has an end, and the eye: what planes are cut by.
-pub(super) fn around(scene: &Scene) -> Ball {
+pub(super) fn around(scene: &Scene) -> BoundingSphere {
     let eye = Vec3::from_array(scene.camera.eye);
     let gaze = Vec3::from_array(scene.camera.center) - eye;
-    let ball = scene.ball().unwrap_or(Ball {
+    let ball = scene.ball().unwrap_or(BoundingSphere {
         center: eye,
         radius: gaze.length(),
     });
-    Ball {
+    BoundingSphere {
         radius: ball.radius.max(ball.center.distance(eye)),
         ..ball
     }
 }
 
 /// A square around the point of a plane that is nearest to the middle of the scene.
-pub(super) fn square(plane: &Plane, around: Ball) -> [Vec3; 4] {
+pub(super) fn square(plane: &Plane, around: BoundingSphere) -> [Vec3; 4] {
     let Plane { center, normal } = plane;
     let basis = Basis::around(unit(Vec3::from_array(*normal)).unwrap_or(Vec3::Z));
     let above = (around.center - Vec3::from_array(*center)).dot(basis.normal);

@@ -11,4 +11,4 @@ pub mod pov;
 mod told;
 mod twin;
 
-pub use twin::TwinScene;
+pub use twin::ExportedScene;

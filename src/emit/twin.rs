@@ -2,14 +2,14 @@
 
 use super::told::Told;
 use rtc_diag::codes;
-use rtc_ir::{Field, Material, Noun, Place, Scene, Shape, ShapeKind};
+use rtc_ir::{EntityKind, Field, Material, Scene, Shape, ShapeKind, ValuePath};
 use rtc_math::shortest;
 use rtc_source::{Budget, Resource};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A scene for another renderer.
 #[derive(Debug)]
-pub struct TwinScene {
+pub struct ExportedScene {
     /// The scene file.
     pub text: String,
     /// The files that it names, by their paths from its folder, with `/`.
@@ -18,12 +18,12 @@ pub struct TwinScene {
 
 impl Told<'_> {
     /// Tells of a part of the scene that the other renderer has no exact twin for.
-    pub(super) fn no_twin(&mut self, message: &str, place: Place) {
+    pub(super) fn no_twin(&mut self, message: &str, place: ValuePath) {
         self.tell(&codes::NO_TWIN, message, place);
     }
 
     /// Charges the bytes of a mesh in a file; `None` if that is too much, which is told.
-    pub(super) fn charge(&mut self, bytes: u64, budget: &Budget, place: Place) -> Option<()> {
+    pub(super) fn charge(&mut self, bytes: u64, budget: &Budget, place: ValuePath) -> Option<()> {
         let charged = budget.charge(Resource::Memory, bytes);
         charged
             .map_err(|fault| {
@@ -35,10 +35,10 @@ impl Told<'_> {
 }
 
 /// The materials that surfaces have, with their indices and places.
-pub(super) fn worn(scene: &Scene) -> impl Iterator<Item = (usize, &Material, Place)> {
+pub(super) fn worn(scene: &Scene) -> impl Iterator<Item = (usize, &Material, ValuePath)> {
     let worn = scene.surfaces.iter().map(|own| own.material.0 as usize);
     let worn: BTreeSet<_> = worn.collect();
-    let place = |index| Place::new(Noun::Material, index, Field::Whole);
+    let place = |index| ValuePath::new(EntityKind::Material, index, Field::Whole);
     let material = move |index| Some((index, scene.materials.get(index)?, place(index)));
     worn.into_iter().filter_map(material)
 }

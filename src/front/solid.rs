@@ -3,7 +3,7 @@
 
 use crate::gltf;
 use glam::{DAffine3, DMat3};
-use rtc_ir::{Ball, Column, Mesh};
+use rtc_ir::{BoundingSphere, Column, Mesh};
 use rtc_math::{Vec3, unit};
 
 /// From so many on, points and lines have the simplest solid.
@@ -127,7 +127,7 @@ static SCALE: Solid = Solid {
 const RADIUS: f64 = 1.0;
 
 /// The radius of the points and lines of what a ball holds.
-pub(crate) fn radius(ball: Ball) -> f64 {
+pub(crate) fn radius(ball: BoundingSphere) -> f64 {
     RADIUS * gltf::pixel(ball)
 }
 

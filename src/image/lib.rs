@@ -32,7 +32,7 @@ pub use layer::LayerPicture;
 pub use look::{Association, BackgroundFill, Look, exposure};
 pub use png::png_bytes;
 pub use radiance::{Radiance, RadianceFile, is_radiance};
-pub use range::Lost;
+pub use range::RangeClipping;
 #[cfg(feature = "cli")]
 pub use sheet::{contact_sheet, for_sheet, shrunk};
 pub use shown::{ShownFile, ShownPicture};

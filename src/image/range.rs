@@ -4,7 +4,7 @@ use super::{FileFormat, Image, Layers, Picture};
 
 /// What of a picture its files don't show as it is.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Lost {
+pub struct RangeClipping {
     /// How many pixels have a value that is no number: 0 in every file.
     pub unnumbered: u64,
     /// The channels with values beyond the largest float that an EXR has for them, 3.4e38 in 32 bits
@@ -26,7 +26,7 @@ impl Image {
 impl Picture {
     /// What a file of this picture can't hold.
     #[must_use]
-    pub fn lost(&self, form: FileFormat) -> Lost {
+    pub fn lost(&self, form: FileFormat) -> RangeClipping {
         let Self {
             image: Image { pixels, .. },
             alpha: _,
@@ -50,7 +50,7 @@ impl Picture {
             let mut own = values.iter().skip(*k).step_by(width);
             own.any(|value| f64::from(*value).abs() > most)
         });
-        Lost {
+        RangeClipping {
             unnumbered: pixels.iter().enumerate().filter(is_unnumbered).count() as u64,
             beyond: colors.chain(layers).map(|(_, name)| name).collect(),
         }
@@ -106,7 +106,7 @@ mod tests {
         });
         assert_eq!(
             picture.lost(FileFormat::Exr),
-            Lost {
+            RangeClipping {
                 unnumbered: 1,
                 beyond: vec!["G", "B"]
             }
@@ -127,7 +127,7 @@ mod tests {
         };
         assert_eq!(
             picture.lost(FileFormat::Exr),
-            Lost {
+            RangeClipping {
                 unnumbered: 2,
                 beyond: vec!["G", "B", "uv.U"]
             }

@@ -6,7 +6,7 @@ use rtc_math::Vec3;
 
 /// A ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ball {
+pub struct BoundingSphere {
     /// The middle.
     pub center: Vec3,
     /// The radius, above 0.
@@ -17,7 +17,7 @@ impl Scene {
     /// A ball around all shapes but planes: its middle is that of the box around them. `None` if
     /// there is nothing that has an end, and an extent.
     #[must_use]
-    pub fn ball(&self) -> Option<Ball> {
+    pub fn ball(&self) -> Option<BoundingSphere> {
         let boxes = self.mesh_boxes();
         let each = |visit: &mut dyn FnMut(Vec3)| {
             for surface in &self.surfaces {
@@ -29,7 +29,7 @@ impl Scene {
         let center = low + (high - low) / 2.0;
         let mut square = 0.0_f64;
         each(&mut |corner| square = square.max(corner.distance_squared(center)));
-        let ball = Ball {
+        let ball = BoundingSphere {
             center,
             radius: square.sqrt(),
         };

@@ -3,7 +3,7 @@
 //! It holds numbers as stored, in or out of range: the room `valid` proves them. It knows neither
 //! YAML nor glTF, nor the renderer. Lengths are in scene units, colours are linear display values
 //! per channel (red, green, blue), where 1 is the full byte. Surfaces refer to materials by index;
-//! where each value was written is kept beside the scene, in [`Origins`], and is not part of it.
+//! where each value was written is kept beside the scene, in [`SourceSpans`], and is not part of it.
 
 mod bounds;
 mod camera;
@@ -19,7 +19,7 @@ mod shape;
 mod standard;
 mod texture;
 
-pub use bounds::Ball;
+pub use bounds::BoundingSphere;
 pub use camera::{Camera, Lens, Projection};
 pub use display::Display;
 pub use environment::Environment;
@@ -27,7 +27,7 @@ pub use image::{Image, ImageId, Pixels};
 pub use light::{Emitter, Light, Photometry, PointLight, Punctual, Spelling};
 pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
-pub use origin::{Field, Noun, Origins, Place};
+pub use origin::{EntityKind, Field, SourceSpans, ValuePath};
 pub use rtc_math::{Column, Shared};
 pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;
@@ -112,5 +112,5 @@ pub struct Lowered {
     /// The scene; entities that failed are left out, and the sink has an error for each.
     pub scene: Scene,
     /// Where its values were written.
-    pub origins: Origins,
+    pub source_spans: SourceSpans,
 }

@@ -2,7 +2,7 @@
 
 use arbitrary::Arbitrary;
 use rtc_math::{Vec3, unit};
-use rtc_profile::{MeasuredAngles, Profile};
+use rtc_profile::{IesAngles, Profile};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -193,7 +193,7 @@ impl Emitter {
                 horizontal,
                 photometry,
             } => {
-                let angles = MeasuredAngles {
+                let angles = IesAngles {
                     vertical: photometry.vertical.clone(),
                     horizontal: photometry.horizontal.clone(),
                 };

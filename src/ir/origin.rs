@@ -6,7 +6,7 @@ use std::fmt;
 
 /// A kind of entity of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Noun {
+pub enum EntityKind {
     /// The camera.
     Camera,
     /// The settings.
@@ -27,7 +27,7 @@ pub enum Noun {
     Environment,
 }
 
-impl Noun {
+impl EntityKind {
     /// All kinds, in their order.
     const ALL: [Self; Self::Environment as usize + 1] = [
         Self::Camera,
@@ -83,9 +83,9 @@ pub enum Field {
 
 /// The address of a value in a scene; prints as a JSON pointer into the text form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
+pub struct ValuePath {
     /// The kind of entity.
-    pub noun: Noun,
+    pub entity: EntityKind,
     /// Its index; 0 for the camera and the settings.
     pub index: u32,
     /// The value.
@@ -105,41 +105,41 @@ impl Field {
     }
 }
 
-impl Place {
-    /// The address of `field` in entity `index` of kind `noun`.
+impl ValuePath {
+    /// The address of `field` in entity `index` of kind `entity`.
     #[must_use]
-    pub fn new(noun: Noun, index: usize, field: Field) -> Self {
+    pub fn new(entity: EntityKind, index: usize, field: Field) -> Self {
         Self {
-            noun,
+            entity,
             index: u32::try_from(index).unwrap_or(u32::MAX),
             field,
         }
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for ValuePath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let index = self.index;
-        match self.noun {
-            Noun::Camera => f.write_str("/camera"),
-            Noun::Settings => f.write_str("/settings"),
-            Noun::Light => write!(f, "/lights/{index}"),
-            Noun::Image => write!(f, "/images/{index}"),
-            Noun::Texture => write!(f, "/textures/{index}"),
-            Noun::Mesh => write!(f, "/meshes/{index}"),
-            Noun::Material => write!(f, "/materials/{index}"),
-            Noun::Surface => write!(f, "/surfaces/{index}"),
-            Noun::Environment => f.write_str("/environment"),
+        match self.entity {
+            EntityKind::Camera => f.write_str("/camera"),
+            EntityKind::Settings => f.write_str("/settings"),
+            EntityKind::Light => write!(f, "/lights/{index}"),
+            EntityKind::Image => write!(f, "/images/{index}"),
+            EntityKind::Texture => write!(f, "/textures/{index}"),
+            EntityKind::Mesh => write!(f, "/meshes/{index}"),
+            EntityKind::Material => write!(f, "/materials/{index}"),
+            EntityKind::Surface => write!(f, "/surfaces/{index}"),
+            EntityKind::Environment => f.write_str("/environment"),
         }?;
         if let Field::Shape(kind, value) = self.field {
             let way = kind.values()[usize::from(value)];
             return write!(f, "/shape/{}/{way}", kind.word());
         }
-        f.write_str(pointer_tail(self.noun, self.field))
+        f.write_str(pointer_tail(self.entity, self.field))
     }
 }
 
-fn pointer_tail(noun: Noun, field: Field) -> &'static str {
+fn pointer_tail(entity: EntityKind, field: Field) -> &'static str {
     match field {
         Field::Whole | Field::Shape(..) => "",
         Field::Eye => "/eye",
@@ -159,7 +159,7 @@ fn pointer_tail(noun: Noun, field: Field) -> &'static str {
         Field::LightSamples => "/lightSamples",
         Field::Position => "/point/position",
         Field::LightRadius => "/point/radius",
-        Field::Color if noun == Noun::Light => "/point/color",
+        Field::Color if entity == EntityKind::Light => "/point/color",
         Field::Color => "/phong/color",
         Field::Ka => "/phong/ka",
         Field::Kd => "/phong/kd",
@@ -181,8 +181,8 @@ fn pointer_tail(noun: Noun, field: Field) -> &'static str {
 /// Each kind of entity has its own list: a front end meets the entities of a kind in order, but the
 /// kinds in turns, and so there is mostly nothing to sort.
 #[derive(Clone, Debug, Default)]
-pub struct Origins {
-    lists: [List; Noun::ALL.len()],
+pub struct SourceSpans {
+    lists: [List; EntityKind::ALL.len()],
 }
 
 #[derive(Clone, Debug, Default)]
@@ -200,12 +200,16 @@ impl List {
     }
 }
 
-impl Origins {
+impl SourceSpans {
     /// Remembers where the value at `place` was written; without a span nothing happens.
-    pub fn record(&mut self, place: Place, span: impl Into<Option<Span>>) {
-        let Place { noun, index, field } = place;
+    pub fn record(&mut self, place: ValuePath, span: impl Into<Option<Span>>) {
+        let ValuePath {
+            entity,
+            index,
+            field,
+        } = place;
         if let Some(span) = span.into() {
-            let list = &mut self.lists[noun as usize];
+            let list = &mut self.lists[entity as usize];
             list.unsorted |= list
                 .spans
                 .last()
@@ -215,8 +219,8 @@ impl Origins {
     }
 
     /// Forgets where the entities of a kind were written: they were replaced.
-    pub fn forget(&mut self, noun: Noun) {
-        self.lists[noun as usize] = List::default();
+    pub fn forget(&mut self, entity: EntityKind) {
+        self.lists[entity as usize] = List::default();
     }
 
     /// Brings the places into order; call it after the last `record`.
@@ -228,12 +232,12 @@ impl Origins {
     }
 
     /// The places whose values were written at this span.
-    pub fn places(&self, span: Span) -> impl Iterator<Item = Place> {
-        let nouns = Noun::ALL.into_iter().zip(&self.lists);
-        nouns.flat_map(move |(noun, list)| {
+    pub fn places(&self, span: Span) -> impl Iterator<Item = ValuePath> {
+        let nouns = EntityKind::ALL.into_iter().zip(&self.lists);
+        nouns.flat_map(move |(entity, list)| {
             let spans = list.spans.iter().filter(move |(_, _, own)| *own == span);
-            spans.map(move |(index, field, _)| Place {
-                noun,
+            spans.map(move |(index, field, _)| ValuePath {
+                entity,
                 index: *index,
                 field: *field,
             })
@@ -242,9 +246,13 @@ impl Origins {
 
     /// The span the value was written at; a value that was a default has that of its entity.
     #[must_use]
-    pub fn span(&self, place: Place) -> Option<Span> {
-        let Place { noun, index, field } = place;
-        let list = &self.lists[noun as usize];
+    pub fn span(&self, place: ValuePath) -> Option<Span> {
+        let ValuePath {
+            entity,
+            index,
+            field,
+        } = place;
+        let list = &self.lists[entity as usize];
         list.find(index, field)
             .or_else(|| list.find(index, Field::Whole))
     }
@@ -257,23 +265,26 @@ mod tests {
     #[test]
     fn a_default_falls_back_to_its_entity() {
         let file = rtc_source::SourceMap::default().add("x", Vec::new());
-        let mut origins = Origins::default();
+        let mut source_spans = SourceSpans::default();
         let [center, radius] =
             ["center", "radius"].map(|way| Field::of_shape(ShapeKind::Sphere, way));
-        origins.record(Place::new(Noun::Surface, 3, radius), Span::new(file, 5, 6));
-        origins.record(
-            Place::new(Noun::Surface, 3, Field::Whole),
+        source_spans.record(
+            ValuePath::new(EntityKind::Surface, 3, radius),
+            Span::new(file, 5, 6),
+        );
+        source_spans.record(
+            ValuePath::new(EntityKind::Surface, 3, Field::Whole),
             Span::new(file, 1, 9),
         );
-        origins.finish();
+        source_spans.finish();
         let span = |field| {
-            origins
-                .span(Place::new(Noun::Surface, 3, field))
+            source_spans
+                .span(ValuePath::new(EntityKind::Surface, 3, field))
                 .map(|span| span.start)
         };
         assert_eq!((span(radius), span(center)), (Some(5), Some(1)));
         assert_eq!(
-            Place::new(Noun::Surface, 3, radius).to_string(),
+            ValuePath::new(EntityKind::Surface, 3, radius).to_string(),
             "/surfaces/3/shape/sphere/radius"
         );
     }

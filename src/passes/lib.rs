@@ -14,7 +14,7 @@ pub use lit::glowing;
 pub use overrides::Overrides;
 pub use settings::set;
 pub use stage::{
-    EnvironmentOverride, FillLight, IntegratorChoice, SceneKind, Stage, Staged, StudioChoice, Sun,
-    View, add_light, remove_lights,
+    EnvironmentOverride, FillLight, IntegratorChoice, SceneKind, StagedScene, StudioChoice, Sun,
+    View, ViewAndLight, add_light, remove_lights,
 };
 pub use studio::fill;

@@ -4,15 +4,15 @@
 use super::framing::{Framing, Orbit};
 use super::{framing, ground, lit, studio};
 use rtc_ir::{
-    Ball, Camera, Emitter, Environment, Image, Light, Lowered, Mode, Noun, PathSettings,
-    PointLight, Projection, Punctual, Scene,
+    BoundingSphere, Camera, Emitter, EntityKind, Environment, Image, Light, Lowered, Mode,
+    PathSettings, PointLight, Projection, Punctual, Scene,
 };
 use rtc_math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
 use std::f64::consts::PI;
 
 /// The view and the light; what is not given stays as it is in the scene.
 #[derive(Clone, Debug, Default)]
-pub struct Stage {
+pub struct ViewAndLight {
     /// From where the scene is seen.
     pub view: View,
     /// By which integrator.
@@ -113,7 +113,7 @@ pub struct Sun {
 
 /// What became of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Staged {
+pub struct StagedScene {
     /// It had no light, and was put into the studio.
     pub is_dark: bool,
     /// Whether the studio is still to fill in.
@@ -125,32 +125,35 @@ pub struct Staged {
 /// Distance of a sun, in scene radii, for integrators that need a position.
 const FAR: f64 = 1e4;
 
-impl Stage {
+impl ViewAndLight {
     /// Puts view and light into a scene.
     ///
     /// # Errors
     /// If the view has no direction, or no upward one.
-    pub fn apply(&self, lowered: &mut Lowered, kind: SceneKind) -> Result<Staged, BasisFault> {
-        let Lowered { scene, origins } = lowered;
+    pub fn apply(&self, lowered: &mut Lowered, kind: SceneKind) -> Result<StagedScene, BasisFault> {
+        let Lowered {
+            scene,
+            source_spans,
+        } = lowered;
         let is_bare = kind == SceneKind::BareAsset;
         let mut framing = self
             .view
             .framing(&scene.camera, !is_bare || self.all_around);
         if let Some(framing) = &framing {
             framing.apply(scene);
-            origins.forget(Noun::Camera);
+            source_spans.forget(EntityKind::Camera);
         } else if self.view != View::default() {
             self.view.apply(scene)?;
-            origins.forget(Noun::Camera);
+            source_spans.forget(EntityKind::Camera);
         }
         if self.without_lights {
             scene.lights.clear();
-            origins.forget(Noun::Light);
+            source_spans.forget(EntityKind::Light);
         }
         scene.lights.extend(self.suns.iter().map(Sun::light));
         if let Some(environment) = &self.environment {
             scene.environment = Some(environment.environment(scene));
-            origins.forget(Noun::Environment);
+            source_spans.forget(EntityKind::Environment);
         }
         let adds_light = !self.suns.is_empty() || self.environment.is_some();
         match self.integrator {
@@ -173,7 +176,7 @@ impl Stage {
                 framing.ground = ground;
             }
         }
-        Ok(Staged {
+        Ok(StagedScene {
             is_dark,
             fill,
             framing,
@@ -326,7 +329,7 @@ pub fn add_light(scene: &mut Scene, light: Light) {
 /// Takes the lights away, and where they were written.
 pub fn remove_lights(lowered: &mut Lowered) {
     lowered.scene.lights.clear();
-    lowered.origins.forget(Noun::Light);
+    lowered.source_spans.forget(EntityKind::Light);
 }
 
 /// Puts lights of the course in place of physical ones, which Whitted's integrator does not see.
@@ -334,7 +337,7 @@ fn stand_lights(scene: &mut Scene) {
     if scene.lights.iter().all(|light| light.point().is_some()) {
         return;
     }
-    let ball = scene.ball().unwrap_or(Ball {
+    let ball = scene.ball().unwrap_or(BoundingSphere {
         center: Vec3::ZERO,
         radius: 1.0,
     });
@@ -346,7 +349,7 @@ fn stand_lights(scene: &mut Scene) {
 }
 
 /// The light without falloff that gives the middle of the scene as much as a physical one.
-fn as_point(light: &Punctual, ball: Ball) -> PointLight {
+fn as_point(light: &Punctual, ball: BoundingSphere) -> PointLight {
     let (position, irradiance) = if let Some(position) = light.emitter.position() {
         let square = Vec3::from_array(position).distance_squared(ball.center);
         (position, 1.0 / square.max(ball.radius * ball.radius))

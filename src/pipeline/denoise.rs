@@ -1,9 +1,9 @@
 //! Denoised pictures, with their errors: of traced paths alone, of two samples a pixel at least.
 
-use super::{Meter, PictureSetup, RenderError, RenderSubject, Renderer};
+use super::{PictureSetup, RayCounter, RenderError, RenderSubject, Renderer};
 use rtc_render::{DenoisedFilm, Film, Job, OnPixel};
 use rtc_study::{Order, ProbedError, probe};
-use rtc_valid::{Mode, Proof};
+use rtc_valid::{Mode, ValidScene};
 
 /// A picture in the setting of its scene.
 pub struct Traced {
@@ -25,7 +25,7 @@ impl PictureSetup {
         &self,
         subject: &mut RenderSubject,
         job: &Job,
-        (on_pixel, meter): (&OnPixel<'_>, &Meter),
+        (on_pixel, meter): (&OnPixel<'_>, &RayCounter),
     ) -> Result<Option<Traced>, RenderError> {
         let samples = paths(&subject.proven.scene, "--denoise")?;
         if samples < 2 {
@@ -57,7 +57,7 @@ impl Renderer {
         &self,
         samples: u32,
         (job, order): (&Job, &Order),
-        (on_pixel, meter): (&OnPixel<'_>, &Meter),
+        (on_pixel, meter): (&OnPixel<'_>, &RayCounter),
     ) -> Option<Traced> {
         self.threads.install(|| {
             let between = || meter.begin_round();
@@ -73,12 +73,12 @@ impl Renderer {
 }
 
 /// Refuses an option that needs traced paths for a scene without.
-pub(super) fn require_paths(scene: &Proof, option: &str) -> Result<(), RenderError> {
+pub(super) fn require_paths(scene: &ValidScene, option: &str) -> Result<(), RenderError> {
     paths(scene, option).map(drop)
 }
 
 /// The paths a pixel of a scene, for an option that needs paths.
-fn paths(scene: &Proof, option: &str) -> Result<u32, RenderError> {
+fn paths(scene: &ValidScene, option: &str) -> Result<u32, RenderError> {
     match scene.settings().mode {
         Mode::Path(path) => Ok(path.samples.get()),
         Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => Err(RenderError::Refused(

@@ -10,7 +10,7 @@ use rtc_ir::{Camera, Mode, Scene};
 use rtc_math::{exp, ln, pow};
 use rtc_passes::glowing;
 use rtc_render::{Aov, Background, Film, Job, OnPixel, Values};
-use rtc_valid::{Proof, revalidate};
+use rtc_valid::{ValidScene, revalidate};
 
 /// The small render: its sides in pixels, and the paths of each.
 const SIDE: u32 = 64;
@@ -72,7 +72,7 @@ impl Renderer {
 }
 
 /// The scene as the small render shows it.
-fn small(scene: &Scene, camera: &Camera) -> Proof {
+fn small(scene: &Scene, camera: &Camera) -> ValidScene {
     let mut scene = scene.clone();
     let [width, height] = camera.size.map(|side| f64::from(side) / f64::from(SIDE));
     scene.camera = Camera {

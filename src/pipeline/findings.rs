@@ -3,8 +3,8 @@
 
 use super::Proven;
 use rtc_diag::{Diagnostic, codes};
-use rtc_image::{FileFormat, Lost};
-use rtc_ir::{Field, Noun, Place};
+use rtc_image::{FileFormat, RangeClipping};
+use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_plan::{self as plan, Rule, Symptom};
 use rtc_render::Mismatch;
 use rtc_source::Span;
@@ -80,10 +80,11 @@ pub(super) fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option
         ),
     };
     let surface = proven.scene.surfaces()[loss.surface].index;
-    let span = proven
-        .lowered
-        .origins
-        .span(Place::new(Noun::Surface, surface, Field::Whole));
+    let span = proven.lowered.source_spans.span(ValuePath::new(
+        EntityKind::Surface,
+        surface,
+        Field::Whole,
+    ));
     let finding = Diagnostic::new(
         &codes::IMPRECISE,
         format!("in {option} this picture will be wrong: {fault}"),
@@ -101,7 +102,7 @@ pub(super) fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option
 
 /// Warns of what the file can't hold.
 pub(super) fn unholdable(
-    Lost { unnumbered, beyond }: &Lost,
+    RangeClipping { unnumbered, beyond }: &RangeClipping,
     form: FileFormat,
     arithmetic: plan::Arithmetic,
 ) -> Vec<Diagnostic> {

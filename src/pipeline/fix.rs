@@ -38,21 +38,21 @@ pub struct FixedText {
 
 /// Which of the changes that are proposed are wanted.
 #[derive(Clone, Debug, Default)]
-pub struct FixWish {
+pub struct FixFilter {
     /// Also those that only guess what was meant.
     pub guesses: bool,
     /// Those for findings like this one alone.
-    pub only: Option<Complaint>,
+    pub only: Option<DiagnosticRef>,
 }
 
 /// Obeys what is proposed for a text that stands at `path`, as far as it is wanted. Nothing is written.
 #[must_use]
-pub fn fix(path: &Path, text: &str, options: &Options, wish: &FixWish) -> FixedText {
+pub fn fix(path: &Path, text: &str, options: &Options, wish: &FixFilter) -> FixedText {
     Workshop::new(path, text, options, wish).fixed(text)
 }
 
 /// What says what is wrong, wherever it is: severity, code and message.
-pub type Complaint = (Severity, &'static str, String);
+pub type DiagnosticRef = (Severity, &'static str, String);
 
 /// A text and what was found in it.
 struct FixDraft {
@@ -60,7 +60,7 @@ struct FixDraft {
     /// How many changes led to it.
     changes: usize,
     /// How often there is each complaint.
-    complaints: BTreeMap<Complaint, usize>,
+    complaints: BTreeMap<DiagnosticRef, usize>,
     /// Not all findings were kept.
     is_flooded: bool,
     /// What is proposed for it, from its beginning on; no two at one place.
@@ -87,19 +87,19 @@ struct Edit {
     end: usize,
     text: String,
     /// What it is to mend.
-    complaint: Complaint,
+    complaint: DiagnosticRef,
 }
 
 struct Workshop<'w> {
     path: &'w Path,
     options: &'w Options,
-    wish: &'w FixWish,
+    wish: &'w FixFilter,
     /// So many more checks are made.
     checks: usize,
 }
 
 impl<'w> Workshop<'w> {
-    fn new(path: &'w Path, text: &str, options: &'w Options, wish: &'w FixWish) -> Self {
+    fn new(path: &'w Path, text: &str, options: &'w Options, wish: &'w FixFilter) -> Self {
         Self {
             path,
             options,
@@ -126,7 +126,7 @@ impl<'w> Workshop<'w> {
         let bytes = text.clone().into_bytes();
         let mut input = Input::edited(self.path, bytes, self.options.clone());
         if let Some(loaded) = input.load() {
-            input.prove(loaded, |_, _| ());
+            input.validate(loaded, |_, _| ());
         }
         let sink = input.take_findings();
         let mut draft = FixDraft {
@@ -245,7 +245,7 @@ impl FixDraft {
     }
 
     fn is_better(&self, before: &Self, edits: &[Edit]) -> bool {
-        let of = |draft: &Self, complaint: &Complaint| {
+        let of = |draft: &Self, complaint: &DiagnosticRef| {
             draft.complaints.get(complaint).copied().unwrap_or(0)
         };
         let is_gone = |edit: &Edit| {
@@ -277,7 +277,7 @@ impl FixDraft {
 
 /// What a finding says is wrong.
 #[must_use]
-pub fn complaint(finding: &Diagnostic) -> Complaint {
+pub fn complaint(finding: &Diagnostic) -> DiagnosticRef {
     (finding.severity, finding.code.id, finding.message.clone())
 }
 
@@ -306,7 +306,7 @@ mod tests {
     /// How much is checked, in bytes, and what comes of it.
     fn work(text: &str) -> (usize, FixedText) {
         let (options, path) = (Options::default(), Path::new("nowhere/a.yaml"));
-        let wish = FixWish {
+        let wish = FixFilter {
             guesses: true,
             only: None,
         };

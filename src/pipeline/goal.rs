@@ -1,8 +1,8 @@
 //! A picture that grows until it is as good as was asked.
 
-use super::{Meter, Observer, PictureSetup, RenderError, RenderSubject};
+use super::{Observer, PictureSetup, RayCounter, RenderError, RenderSubject};
 use rtc_render::Crop;
-use rtc_study::{Goal, Order, Reached, Watch};
+use rtc_study::{Goal, Order, TargetResult, Watch};
 use std::time::Duration;
 
 impl PictureSetup {
@@ -31,9 +31,9 @@ impl PictureSetup {
         subject: &mut RenderSubject,
         (window, rays): (Crop, u64),
         observer: &Observer<'_>,
-    ) -> Result<Reached, RenderError> {
+    ) -> Result<TargetResult, RenderError> {
         let order = self.order(subject, window, None);
-        let meter = Meter::new(rays, window);
+        let meter = RayCounter::new(rays, window);
         let watch = Watch {
             on_pixel: &|step| {
                 (observer.on_step)(step);

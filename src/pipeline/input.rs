@@ -1,14 +1,14 @@
 //! A scene from its files to its proof, with what was found about it on the way.
 
-use super::{Options, load, prove, stage};
+use super::{Options, load, stage, validate};
 use rtc_codec as codec;
 use rtc_diag::{Diagnostic, Sink, codes};
-use rtc_emit::{self as emit, TwinScene, gltf::GltfAsset};
+use rtc_emit::{self as emit, ExportedScene, gltf::GltfAsset};
 use rtc_front::{gltf, mesh, pixels};
-use rtc_ir::{Field, Light, Lowered, Noun, Place, Scene};
-use rtc_passes::{EnvironmentOverride, FillLight, Framing, SceneKind, Stage};
+use rtc_ir::{EntityKind, Field, Light, Lowered, Scene, ValuePath};
+use rtc_passes::{EnvironmentOverride, FillLight, Framing, SceneKind, ViewAndLight};
 use rtc_source::{FileId, LoadError, Loader, MemoryFiles, Resource, SourceMap, Span};
-use rtc_valid::Proof;
+use rtc_valid::ValidScene;
 use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ pub struct Input {
     file: Option<FileId>,
     options: Options,
     /// Its view and light; none for a scene that is not to be shown.
-    stage: Option<Stage>,
+    stage: Option<ViewAndLight>,
 }
 
 /// A scene that was lowered, before its view and light are set.
@@ -43,7 +43,7 @@ pub struct Proven {
     /// The scene and where its values were written.
     pub lowered: Lowered,
     /// The proof.
-    pub scene: Proof,
+    pub scene: ValidScene,
 }
 
 /// Where a scene comes from, and what was chosen for it.
@@ -129,7 +129,7 @@ impl Input {
     }
 
     /// Has it shown in the view and the light given.
-    pub fn stage(&mut self, stage: Stage) {
+    pub fn stage(&mut self, stage: ViewAndLight) {
         self.stage = Some(stage);
     }
 
@@ -139,7 +139,7 @@ impl Input {
     }
 
     /// Changes how it is shown.
-    pub fn restage(&mut self, change: impl FnOnce(&mut Stage)) {
+    pub fn restage(&mut self, change: impl FnOnce(&mut ViewAndLight)) {
         self.stage.as_mut().map(change);
     }
 
@@ -154,8 +154,8 @@ impl Input {
         let is_asset = self.is_asset();
         let lowered = load(self.file?, &mut self.map, &self.options, &mut self.sink)?;
         // What says how its picture is made is shown so, as a scene text is.
-        let settings = Place::new(Noun::Settings, 0, Field::Whole);
-        let is_asset = is_asset && lowered.origins.span(settings).is_none();
+        let settings = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+        let is_asset = is_asset && lowered.source_spans.span(settings).is_none();
         Some(Loaded { lowered, is_asset })
     }
 
@@ -177,9 +177,9 @@ impl Input {
         };
         let is_ir = codec::recognise(self.map.bytes(own)).is_some();
         let is_asset = |file| gltf::recognise(self.map.name(file), self.map.bytes(file));
-        let of_asset = |noun, count| {
-            let places = (0..count).map(move |index| Place::new(noun, index, Field::Whole));
-            let mut spans = places.filter_map(|place| lowered.origins.span(place));
+        let of_asset = |entity, count| {
+            let places = (0..count).map(move |index| ValuePath::new(entity, index, Field::Whole));
+            let mut spans = places.filter_map(|place| lowered.source_spans.span(place));
             spans.any(|span| is_asset(span.file))
         };
         let Scene {
@@ -189,13 +189,13 @@ impl Input {
             ..
         } = &lowered.scene;
         !is_ir
-            && !of_asset(Noun::Image, images.len())
-            && !of_asset(Noun::Mesh, meshes.len())
-            && !of_asset(Noun::Material, materials.len())
+            && !of_asset(EntityKind::Image, images.len())
+            && !of_asset(EntityKind::Mesh, meshes.len())
+            && !of_asset(EntityKind::Material, materials.len())
     }
 
     /// Sets the stage of a scene that was loaded, lets `change` change it, and proves it.
-    pub fn prove(
+    pub fn validate(
         &mut self,
         loaded: Loaded,
         change: impl FnOnce(&mut Lowered, &Provenance),
@@ -206,7 +206,7 @@ impl Input {
         } = loaded;
         let provenance = self.set_stage(&mut lowered, is_asset);
         change(&mut lowered, &provenance);
-        let scene = prove(&lowered, &self.options, &mut self.sink)?;
+        let scene = validate(&lowered, &self.options, &mut self.sink)?;
         Some(Proven { lowered, scene })
     }
 
@@ -223,8 +223,8 @@ impl Input {
         };
         // An asset without a camera is seen by one that we choose.
         let camera = lowered
-            .origins
-            .span(Place::new(Noun::Camera, 0, Field::Whole));
+            .source_spans
+            .span(ValuePath::new(EntityKind::Camera, 0, Field::Whole));
         let kind = match (is_asset, camera) {
             (false, _) => SceneKind::Text,
             (true, Some(_)) => SceneKind::Asset,
@@ -252,17 +252,38 @@ impl Input {
         tolerance: Option<f64>,
         folder: Option<&str>,
     ) -> Option<GltfAsset> {
-        let (Lowered { scene, origins }, budget) = (lowered, self.map.budget());
-        emit::gltf::emit(scene, origins, tolerance, folder, budget, &mut self.sink)
+        let (
+            Lowered {
+                scene,
+                source_spans,
+            },
+            budget,
+        ) = (lowered, self.map.budget());
+        emit::gltf::emit(
+            scene,
+            source_spans,
+            tolerance,
+            folder,
+            budget,
+            &mut self.sink,
+        )
     }
 
     /// The scene as one of Mitsuba, whose meshes are files in the folder, or without a folder as one of
     /// POV-Ray; `None` if that is not possible, with a finding that says why.
-    pub fn twin(&mut self, lowered: &Lowered, folder: Option<&str>) -> Option<TwinScene> {
-        let (Lowered { scene, origins }, budget) = (lowered, self.map.budget());
+    pub fn twin(&mut self, lowered: &Lowered, folder: Option<&str>) -> Option<ExportedScene> {
+        let (
+            Lowered {
+                scene,
+                source_spans,
+            },
+            budget,
+        ) = (lowered, self.map.budget());
         match folder {
-            Some(folder) => emit::mitsuba::emit(scene, origins, folder, budget, &mut self.sink),
-            None => emit::pov::emit(scene, origins, budget, &mut self.sink),
+            Some(folder) => {
+                emit::mitsuba::emit(scene, source_spans, folder, budget, &mut self.sink)
+            }
+            None => emit::pov::emit(scene, source_spans, budget, &mut self.sink),
         }
     }
 

@@ -24,14 +24,14 @@ pub use denoise::Traced;
 pub use exposure::OwnLight;
 #[cfg(not(target_family = "wasm"))]
 pub use file::{NewFile, NewFolder, WriteObserver};
-pub use fix::{Complaint, FixWish, FixedText, complaint, fix};
+pub use fix::{DiagnosticRef, FixFilter, FixedText, complaint, fix};
 pub use input::{Input, Loaded, Proven, Provenance};
 pub use layout::{LaidOutFault, SourceKind};
-pub use look::{Exposure, OutputLook, SettledLook};
-pub use meter::Meter;
+pub use look::{Exposure, OutputTransform, ResolvedOutputTransform};
+pub use meter::RayCounter;
 pub use part::{MOST as MOST_SHARES, PartError, PicturePart, hash_of_file};
 pub use setup::{Observer, PictureSetup, RenderError, RenderSubject};
-pub use share::{SharedBy, Shares};
+pub use share::{ShardPlan, SharedBy};
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use rtc_codec as codec;
@@ -40,16 +40,16 @@ use rtc_front as front;
 use rtc_front::course::assets::{self, Asset};
 use rtc_front::{course, gltf, mesh};
 use rtc_image::Layers;
-use rtc_ir::{Field, Lowered, Noun, Origins, Place, Scene};
+use rtc_ir::{EntityKind, Field, Lowered, Scene, SourceSpans, ValuePath};
 use rtc_math::BasisFault;
-use rtc_passes::{SceneKind, Stage, Staged};
+use rtc_passes::{SceneKind, StagedScene, ViewAndLight};
 use rtc_plan::{self as plan, Plan};
 use rtc_render::{
     self as render, AnyWorld, Aov, Film, FilmError, Job, Mismatch, OnPixel, PartialFilm, SimdLevel,
 };
 use rtc_source::{EditedFiles, FileId, SourceMap};
-use rtc_study::{self as study, Keep, Order, Reached, Stopped, Watch};
-use rtc_valid::{self as valid, Proof, Surface};
+use rtc_study::{self as study, CheckpointSink, Order, Stopped, TargetResult, Watch};
+use rtc_valid::{self as valid, Surface, ValidScene};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -92,7 +92,7 @@ pub fn load(
             map.release(file, 0);
             Some(Lowered {
                 scene,
-                origins: Origins::default(),
+                source_spans: SourceSpans::default(),
             })
         }
         None if gltf::recognise(map.name(file), map.bytes(file)) => {
@@ -135,13 +135,13 @@ fn refuse_choices(options: &front::FrontOptions, has_assets: bool, sink: &mut Si
     let parts = [("animation", animation), ("variant", variant)]
         .into_iter()
         .filter(|_| !has_assets);
-    for (noun, name) in parts.chain([("camera", camera)]) {
+    for (entity, name) in parts.chain([("camera", camera)]) {
         let Some(name) = name else { continue };
         let mismatch = Diagnostic::new(
             &codes::GLTF_CHOSEN,
-            format!("the scene has no {noun} called `{}`", clip(name)),
+            format!("the scene has no {entity} called `{}`", clip(name)),
         );
-        sink.push(mismatch.hint(format!("only a glTF asset has {noun}s to choose from")));
+        sink.push(mismatch.hint(format!("only a glTF asset has {entity}s to choose from")));
     }
 }
 
@@ -149,10 +149,10 @@ fn refuse_choices(options: &front::FrontOptions, has_assets: bool, sink: &mut Si
 /// that is not possible; the sink says why.
 pub fn stage(
     lowered: &mut Lowered,
-    stage: &Stage,
+    stage: &ViewAndLight,
     kind: SceneKind,
     sink: &mut Sink,
-) -> Option<Staged> {
+) -> Option<StagedScene> {
     let mismatch = match stage.apply(lowered, kind) {
         Ok(staged) => {
             if staged.is_dark {
@@ -185,21 +185,21 @@ pub fn stage(
 
 /// Proves a scene, and warns of what no ray meets. `None` if it or what was read before has errors;
 /// the sink says which.
-pub fn prove(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<Proof> {
-    let proof = valid::validate(&lowered.scene, &lowered.origins, &options.valid, sink);
+pub fn validate(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<ValidScene> {
+    let proof = valid::validate(&lowered.scene, &lowered.source_spans, &options.valid, sink);
     let proof = proof.filter(|_| !sink.has_errors())?;
     unseen(&proof, lowered, sink);
     Some(proof)
 }
 
 /// Warns of the objects that no ray meets. An object is all surfaces written at one place.
-fn unseen(scene: &Proof, lowered: &Lowered, sink: &mut Sink) {
+fn unseen(scene: &ValidScene, lowered: &Lowered, sink: &mut Sink) {
     let unseen = plan::unseen(scene);
     if unseen.is_empty() {
         return;
     }
-    let place = |index: usize| Place::new(Noun::Surface, index, Field::Whole);
-    let object = |index: usize| match lowered.origins.span(place(index)) {
+    let place = |index: usize| ValuePath::new(EntityKind::Surface, index, Field::Whole);
+    let object = |index: usize| match lowered.source_spans.span(place(index)) {
         Some(span) => Ok(span),
         None => Err(index),
     };
@@ -220,7 +220,10 @@ fn unseen(scene: &Proof, lowered: &Lowered, sink: &mut Sink) {
         if more > 0 && at + 1 == MAX_UNSEEN {
             finding = finding.hint(format!("and {more} more like it"));
         }
-        let finding = finding.at(lowered.origins.span(place(*index)), "not in the picture");
+        let finding = finding.at(
+            lowered.source_spans.span(place(*index)),
+            "not in the picture",
+        );
         sink.push(finding.pointer(place(*index).to_string()));
     }
 }
@@ -239,7 +242,11 @@ impl Renderer {
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn new(scene: &Proof, plan: &Plan, threads: usize) -> Result<Self, ThreadPoolBuildError> {
+    pub fn new(
+        scene: &ValidScene,
+        plan: &Plan,
+        threads: usize,
+    ) -> Result<Self, ThreadPoolBuildError> {
         Self::at_level(scene, plan, threads, SimdLevel::best())
     }
 
@@ -248,7 +255,7 @@ impl Renderer {
     /// # Errors
     /// If the system gives no threads.
     pub fn at_level(
-        scene: &Proof,
+        scene: &ValidScene,
         plan: &Plan,
         threads: usize,
         simd: SimdLevel,
@@ -259,7 +266,7 @@ impl Renderer {
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone.
-    pub fn change(&mut self, scene: Proof) {
+    pub fn change(&mut self, scene: ValidScene) {
         self.threads.install(|| self.world.change(scene));
     }
 
@@ -292,8 +299,8 @@ impl Renderer {
         scene: &Scene,
         order: &Order,
         watch: &Watch<'_>,
-        keep: Option<Keep<'_>>,
-    ) -> Result<Reached, Stopped> {
+        keep: Option<CheckpointSink<'_>>,
+    ) -> Result<TargetResult, Stopped> {
         let Self { world, threads } = self;
         threads.install(|| study::approach_keeping(world, scene, order, watch, keep))
     }
@@ -331,7 +338,7 @@ impl Renderer {
 /// # Errors
 /// If the system gives no threads.
 pub fn render(
-    scene: &Proof,
+    scene: &ValidScene,
     plan: &Plan,
     job: &Job,
     threads: usize,
@@ -346,7 +353,7 @@ pub fn render(
 /// # Errors
 /// If the system gives no threads; within, if something that was left out would show.
 pub fn verify(
-    scene: &Proof,
+    scene: &ValidScene,
     plan: &Plan,
     job: &Job,
     threads: usize,

@@ -4,8 +4,8 @@ use super::findings;
 use rtc_color::Tone;
 use rtc_diag::Diagnostic;
 use rtc_image::{
-    self as image, Association, BackgroundFill, EncodeError, FileFormat, Image, Layers, Lost,
-    Origin, Picture, PictureHead,
+    self as image, Association, BackgroundFill, EncodeError, FileFormat, Image, Layers, Origin,
+    Picture, PictureHead, RangeClipping,
 };
 use rtc_ir::Display;
 use rtc_plan::Arithmetic;
@@ -24,7 +24,7 @@ pub enum Exposure {
 
 /// The look of a picture, as asked for.
 #[derive(Clone, Debug)]
-pub struct OutputLook {
+pub struct OutputTransform {
     /// The kind of file that it is for.
     pub kind: FileFormat,
     /// The tone map asked for.
@@ -40,7 +40,7 @@ pub struct OutputLook {
     pub has_metadata: bool,
 }
 
-impl OutputLook {
+impl OutputTransform {
     /// A look for a kind of file: tone map, exposure, background, layers.
     ///
     /// # Errors
@@ -200,8 +200,8 @@ impl OutputLook {
 
     /// The look as it is for a scene of this mode, with all that was found.
     #[must_use]
-    pub fn settled(&self, mode: &Mode) -> SettledLook {
-        SettledLook {
+    pub fn settled(&self, mode: &Mode) -> ResolvedOutputTransform {
+        ResolvedOutputTransform {
             kind: self.kind,
             stops: self.stops,
             tone: self.tone(mode),
@@ -214,7 +214,7 @@ impl OutputLook {
 /// A look of which nothing is still to be found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub struct SettledLook {
+pub struct ResolvedOutputTransform {
     /// The kind of file that it is for.
     pub kind: FileFormat,
     stops: f64,
@@ -224,7 +224,7 @@ pub struct SettledLook {
     has_metadata: bool,
 }
 
-impl SettledLook {
+impl ResolvedOutputTransform {
     /// The picture of a film.
     fn develop(&self, film: Image, coverage: Vec<f32>) -> Picture {
         let association = if self.kind.is_linear() {
@@ -266,7 +266,7 @@ impl SettledLook {
         losses.film += image.unnumbered();
         let mut picture = self.develop(image, coverage);
         picture.layers = layers;
-        let Lost { unnumbered, beyond } = self.lost(&picture);
+        let RangeClipping { unnumbered, beyond } = self.lost(&picture);
         losses.shown.unnumbered += unnumbered;
         let known = std::mem::take(&mut losses.shown.beyond);
         let names = ["R", "G", "B"].into_iter();
@@ -277,12 +277,12 @@ impl SettledLook {
     }
 
     /// What the file can't hold; a PNG clamps all colours alike.
-    fn lost(&self, picture: &Picture) -> Lost {
+    fn lost(&self, picture: &Picture) -> RangeClipping {
         let lost = picture.lost(self.kind);
         if self.kind.is_linear() {
             lost
         } else {
-            Lost {
+            RangeClipping {
                 beyond: Vec::new(),
                 ..lost
             }
@@ -342,7 +342,7 @@ pub(super) struct Losses {
     /// Pixels of the film that are no number.
     film: u64,
     /// What is lost of the picture.
-    shown: Lost,
+    shown: RangeClipping,
 }
 
 impl Losses {
@@ -355,7 +355,7 @@ impl Losses {
     ) -> Vec<Diagnostic> {
         // Where samples are clamped, and where a tone map follows, no more is seen of what is no
         // number.
-        let lost = Lost {
+        let lost = RangeClipping {
             unnumbered: self.shown.unnumbered.max(self.film).max(unnumbered),
             ..self.shown
         };

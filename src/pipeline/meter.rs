@@ -5,7 +5,7 @@
 //! those behind have come there, so that in all no more is traced than the limit for each thread.
 
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{Field, Light, Lowered, Material, Mode, Noun, Place};
+use rtc_ir::{EntityKind, Field, Light, Lowered, Material, Mode, ValuePath};
 use rtc_render::{Crop, Step};
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering};
 
@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering}
 const MOST_OPEN: usize = 1 << 16;
 
 /// Counts the rays of one part of a picture.
-pub struct Meter {
+pub struct RayCounter {
     limit: u64,
     crop: Crop,
     /// The rays of the rounds before this one.
@@ -42,7 +42,7 @@ struct Row {
     done: AtomicU32,
 }
 
-impl Meter {
+impl RayCounter {
     /// A meter of a part of a picture; 8 bytes a pixel, unless there is no limit.
     #[must_use]
     pub fn new(limit: u64, crop: Crop) -> Self {
@@ -202,11 +202,11 @@ impl Meter {
             "the picture takes more than {} rays: they run out at pixel {x}, {y}",
             self.limit
         );
-        let camera = Place::new(Noun::Camera, 0, Field::Whole);
+        let camera = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
         let span = lowered
-            .origins
+            .source_spans
             .span(place)
-            .or_else(|| lowered.origins.span(camera));
+            .or_else(|| lowered.source_spans.span(camera));
         Diagnostic::new(&codes::RAYS_RAN_OUT, message)
             .at(span, format!("`{name}` is {value}"))
             .hint(format!(
@@ -217,7 +217,7 @@ impl Meter {
 
 /// A key of a scene that multiplies rays.
 struct RayKey {
-    place: Place,
+    place: ValuePath,
     name: &'static str,
     value: u32,
 }
@@ -226,7 +226,7 @@ struct RayKey {
 fn key(lowered: &Lowered) -> RayKey {
     let settings = &lowered.scene.settings;
     let setting = |field, name, value| RayKey {
-        place: Place::new(Noun::Settings, 0, field),
+        place: ValuePath::new(EntityKind::Settings, 0, field),
         name,
         value,
     };
@@ -249,7 +249,7 @@ fn key(lowered: &Lowered) -> RayKey {
     };
     let glossy = phongs().filter_map(|(index, phong)| {
         let phong = phong.filter(|phong| phong.ks > 0.0 && phong.glossy_samples > 1)?;
-        let place = Place::new(Noun::Material, index, Field::GlossySamples);
+        let place = ValuePath::new(EntityKind::Material, index, Field::GlossySamples);
         Some(RayKey {
             place,
             name: "glossySamples",
@@ -305,7 +305,7 @@ mod tests {
         let first = [step(5, 7, 2), step(6, 7, 2), step(7, 7, 2)];
         let second = [step(5, 8, 2), step(6, 8, 2), step(7, 8, 2)];
         let run = |steps: &[Step]| {
-            let meter = Meter::new(7, CROP);
+            let meter = RayCounter::new(7, CROP);
             let stopped = steps.iter().position(|step| !meter.step(*step));
             (stopped, meter.ran_out())
         };
@@ -325,7 +325,7 @@ mod tests {
 
     #[test]
     fn rounds_add_up() {
-        let meter = Meter::new(7, CROP);
+        let meter = RayCounter::new(7, CROP);
         assert!(meter.step(step(5, 7, 3)) && meter.step(step(6, 7, 1)));
         meter.begin_round();
         assert!(meter.step(step(5, 7, 3)) && meter.ran_out().is_none());
@@ -335,9 +335,9 @@ mod tests {
 
     #[test]
     fn strips_run_out_where_the_whole_does() {
-        let whole = Meter::new(7, CROP);
+        let whole = RayCounter::new(7, CROP);
         let rows = [[2, 2, 2], [0, 3, 1]];
-        let mut strips = Meter::new(7, Crop { height: 1, ..CROP });
+        let mut strips = RayCounter::new(7, Crop { height: 1, ..CROP });
         for (y, row) in (7..).zip(rows) {
             strips.go_on(Crop {
                 y,
@@ -358,10 +358,10 @@ mod tests {
         let all: Vec<_> = (7..9)
             .flat_map(|y| (5..8).map(move |x| step(x, y, 1)))
             .collect();
-        let meter = Meter::of_each(6, CROP, 2);
+        let meter = RayCounter::of_each(6, CROP, 2);
         assert!(all.iter().chain(&all).all(|step| meter.step(*step)));
         assert_eq!(meter.ran_out(), None);
-        let meter = Meter::of_each(6, CROP, 2);
+        let meter = RayCounter::of_each(6, CROP, 2);
         assert!(all.iter().all(|step| meter.step(*step)) && meter.step(step(5, 7, 2)));
         assert!(all[1..5].iter().all(|step| meter.step(*step)) && !meter.step(all[5]));
         assert_eq!(meter.ran_out(), Some([7, 8]));
@@ -369,7 +369,7 @@ mod tests {
 
     #[test]
     fn a_pixel_that_puts_off_too_much_has_no_end() {
-        let meter = Meter::new(1 << 32, CROP);
+        let meter = RayCounter::new(1 << 32, CROP);
         assert!(meter.step(step(5, 7, 1)));
         assert!(!meter.step(Step {
             open: MOST_OPEN + 1,
@@ -381,7 +381,7 @@ mod tests {
 
     #[test]
     fn without_a_limit_nothing_runs_out() {
-        let meter = Meter::new(u64::MAX, CROP);
+        let meter = RayCounter::new(u64::MAX, CROP);
         assert!(meter.step(step(5, 7, u64::MAX)) && meter.ran_out().is_none());
     }
 }

@@ -9,7 +9,7 @@ mod resume;
 pub(super) use file::mended;
 pub use file::{MOST, hash_of_file};
 
-use super::{SettledLook, SharedBy, Shares, findings};
+use super::{ResolvedOutputTransform, ShardPlan, SharedBy, findings};
 use rtc_diag::Diagnostic;
 use rtc_image::{Layers, Origin, Picture, WorldToCamera};
 use rtc_plan::Arithmetic;
@@ -33,7 +33,7 @@ struct PartHead {
     /// The view.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     world_to_camera: Option<WorldToCamera>,
-    look: SettledLook,
+    look: ResolvedOutputTransform,
     arithmetic: Arithmetic,
     /// The part of the picture wanted: x, y, width, height.
     window: [u32; 4],
@@ -56,7 +56,7 @@ struct PartHead {
 /// What a part was made by.
 pub(super) struct Made<'a> {
     pub(super) origin: Origin,
-    pub(super) look: SettledLook,
+    pub(super) look: ResolvedOutputTransform,
     pub(super) arithmetic: Arithmetic,
     pub(super) aovs: &'a [Aov],
 }
@@ -137,7 +137,7 @@ impl PicturePart {
     /// tiles count.
     pub(super) fn new(
         made: Made<'_>,
-        (shares, window): (Shares, Crop),
+        (shares, window): (ShardPlan, Crop),
         film: PartialFilm,
         layers: &Layers,
     ) -> Self {
@@ -214,7 +214,7 @@ impl PicturePart {
 
     /// The kind of picture that it is a part of.
     #[must_use]
-    pub fn look(&self) -> &SettledLook {
+    pub fn look(&self) -> &ResolvedOutputTransform {
         &self.head.look
     }
 
@@ -333,7 +333,7 @@ impl PartHead {
     /// shared out by tiles, even where samples are not.
     fn tiles(&self) -> impl Iterator<Item = (usize, Crop)> {
         let is_here = |area: &Crop| {
-            let share = Shares::of_tile(self.count, [area.x, area.y]);
+            let share = ShardPlan::of_tile(self.count, [area.x, area.y]);
             !self.layers.is_empty() && self.shares.binary_search(&share).is_ok()
         };
         let all = Tiles::of(self.crop()).enumerate();

@@ -3,22 +3,24 @@
 
 use super::denoise::{Traced, require_paths};
 use super::light::FirstView;
-use super::{Input, Loaded, Meter, OutputLook, Proven, Provenance, Renderer, findings, hash};
+use super::{
+    Input, Loaded, OutputTransform, Proven, Provenance, RayCounter, Renderer, findings, hash,
+};
 use rayon::ThreadPoolBuildError;
 use rtc_diag::Diagnostic;
 use rtc_image::{Image, Layers, Origin, Picture};
-use rtc_ir::{Field, Mode, Noun, Place, Scene};
+use rtc_ir::{EntityKind, Field, Mode, Scene, ValuePath};
 use rtc_passes::{self as passes, Framing, Overrides};
 use rtc_plan::{self as plan, Plan, Rules};
 use rtc_render::{Counts, Crop, Job, SimdLevel, Step};
 use rtc_study::Goal;
-use rtc_valid::Proof;
+use rtc_valid::ValidScene;
 
 /// How a picture is made, beside what its scene says.
 #[derive(Clone, Debug)]
 pub struct PictureSetup {
     /// How it looks.
-    pub look: OutputLook,
+    pub look: OutputTransform,
     /// The settings that replace those of the scene.
     pub overrides: Overrides,
     /// Settings of the IR by their names there, which replace those of the scene last of all.
@@ -84,7 +86,7 @@ impl From<ThreadPoolBuildError> for RenderError {
 impl PictureSetup {
     /// A picture of this look, all else as the scene says.
     #[must_use]
-    pub fn new(look: OutputLook) -> Self {
+    pub fn new(look: OutputTransform) -> Self {
         Self {
             look,
             overrides: Overrides::default(),
@@ -106,13 +108,13 @@ impl PictureSetup {
     ///
     /// # Errors
     /// If a setting has no such name or value.
-    pub fn prove(
+    pub fn validate(
         &mut self,
         loaded: Loaded,
         input: &mut Input,
     ) -> Result<Option<RenderSubject>, RenderError> {
         let (mut set, mut first, mut fitted) = (Ok(()), None, None);
-        let proven = input.prove(loaded, |lowered, provenance| {
+        let proven = input.validate(loaded, |lowered, provenance| {
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
             first = Some(FirstView {
                 camera: lowered.scene.camera.clone(),
@@ -209,7 +211,7 @@ impl PictureSetup {
         if self.clamp.is_some() {
             require_paths(&subject.proven.scene, "--clamp")?;
         }
-        let meter = Meter::of_each(rays, window, 1 + usize::from(self.verify));
+        let meter = RayCounter::of_each(rays, window, 1 + usize::from(self.verify));
         let on_pixel = |step| {
             (observer.on_step)(step);
             !(observer.is_stopped)() && meter.step(step)
@@ -263,8 +265,8 @@ impl PictureSetup {
         input: &mut Input,
     ) {
         if self.crop.is_none() && counts.hits == 0 {
-            let camera = Place::new(Noun::Camera, 0, Field::Whole);
-            let camera = subject.proven.lowered.origins.span(camera);
+            let camera = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+            let camera = subject.proven.lowered.source_spans.span(camera);
             input.push(findings::nothing_in_view(camera));
         }
     }
@@ -300,7 +302,7 @@ impl PictureSetup {
     }
 
     /// What a scene needs for its picture.
-    fn plan(&self, scene: &Proof) -> Plan {
+    fn plan(&self, scene: &ValidScene) -> Plan {
         Plan::by(self.arithmetic, scene, self.rules)
     }
 
@@ -367,7 +369,7 @@ impl RenderSubject {
 
     /// What to say if the rays ran out, unless the observer ended the render.
     #[must_use]
-    pub fn ran_out(&self, meter: &Meter, observer: &Observer<'_>) -> Option<Box<Diagnostic>> {
+    pub fn ran_out(&self, meter: &RayCounter, observer: &Observer<'_>) -> Option<Box<Diagnostic>> {
         let pixel = meter.ran_out().filter(|_| !(observer.is_stopped)())?;
         Some(Box::new(meter.finding(&self.proven.lowered, pixel)))
     }

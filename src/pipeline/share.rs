@@ -18,7 +18,7 @@ pub enum SharedBy {
 
 /// Some of the shares of a picture, one after another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shares {
+pub struct ShardPlan {
     /// How it is shared out.
     pub by: SharedBy,
     /// The first of them, from 1 on.
@@ -29,7 +29,7 @@ pub struct Shares {
     pub count: u32,
 }
 
-impl Shares {
+impl ShardPlan {
     /// The tiles of the shares: those whose rank, a hash of their place, lies in these of `count` equal
     /// stretches.
     #[must_use]
@@ -64,8 +64,8 @@ impl Shares {
 mod tests {
     use super::*;
 
-    fn one(by: SharedBy, index: u32, count: u32) -> Shares {
-        Shares {
+    fn one(by: SharedBy, index: u32, count: u32) -> ShardPlan {
+        ShardPlan {
             by,
             first: index,
             last: index,
@@ -73,7 +73,7 @@ mod tests {
         }
     }
 
-    fn shares(by: SharedBy, count: u32) -> impl Iterator<Item = Shares> {
+    fn shares(by: SharedBy, count: u32) -> impl Iterator<Item = ShardPlan> {
         (1..=count).map(move |index| one(by, index, count))
     }
 
@@ -98,7 +98,7 @@ mod tests {
     fn a_tile_knows_its_share() {
         for count in [1, 2, 7, 64, 1000] {
             for tile in (0..20).flat_map(|x| (0..20).map(move |y| [16 * x, 16 * y])) {
-                let index = Shares::of_tile(count, tile);
+                let index = ShardPlan::of_tile(count, tile);
                 let share = one(SharedBy::Tiles, index, count);
                 assert!((1..=count).contains(&index) && share.tiles().contain(tile));
             }

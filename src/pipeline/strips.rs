@@ -1,8 +1,8 @@
 //! A picture rendered strip by strip, each some rows from the top, written and let go before the next:
 //! it takes the memory of a strip, and its file is that of the whole, byte for byte.
 
-use super::look::{Losses, SettledLook};
-use super::{Input, Meter, Observer, PictureSetup, RenderError, RenderSubject};
+use super::look::{Losses, ResolvedOutputTransform};
+use super::{Input, Observer, PictureSetup, RayCounter, RenderError, RenderSubject};
 use rtc_image::{BLOCK_ROWS, FileFormat, Picture, StripSource};
 use rtc_render::{Counts, Crop, Film, Job};
 use rtc_study::Goal;
@@ -31,8 +31,8 @@ struct StripRender<'r> {
     setup: &'r PictureSetup,
     subject: &'r mut RenderSubject,
     observer: &'r Observer<'r>,
-    look: &'r SettledLook,
-    meter: Meter,
+    look: &'r ResolvedOutputTransform,
+    meter: RayCounter,
     /// The strip to be rendered next; of no height after the last.
     next: Crop,
     /// The row after the last.
@@ -94,7 +94,7 @@ impl PictureSetup {
             subject,
             observer,
             look: &look,
-            meter: Meter::new(rays, first),
+            meter: RayCounter::new(rays, first),
             next: first,
             end: window.y + window.height,
             counts: Counts::default(),

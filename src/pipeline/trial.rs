@@ -3,18 +3,18 @@
 //!
 //! None may panic, whatever the bytes are. What a stage promises beyond that is asserted here.
 
-use super::{FixWish, Input, Options, PicturePart, load, prove, render};
+use super::{FixFilter, Input, Options, PicturePart, load, render, validate};
 use arbitrary::{Arbitrary, Unstructured};
 use rtc_codec::{self as codec, Form};
 use rtc_color::Tone;
 use rtc_diag::{self as diag, Format, Printer, Severity, Sink};
 use rtc_emit as emit;
 use rtc_front::course;
-use rtc_ir::{Lowered, Material, Mode, Origins, Scene};
+use rtc_ir::{Lowered, Material, Mode, Scene, SourceSpans};
 use rtc_plan::{Plan, Rules};
 use rtc_render::{Background, Job, Values};
 use rtc_source::{Budget, FileId, Loader, SourceMap};
-use rtc_study::{Goal, Growth, Order};
+use rtc_study::{Goal, Order, ProgressiveRender};
 use rtc_valid as valid;
 use std::path::Path;
 
@@ -107,7 +107,7 @@ fn is_proven_or_refused(file: FileId, map: &mut SourceMap) -> (Sink, Option<Scen
     let lowered = load(file, map, &options, &mut sink);
     let proven = lowered
         .as_ref()
-        .and_then(|lowered| prove(lowered, &options, &mut sink));
+        .and_then(|lowered| validate(lowered, &options, &mut sink));
     assert_eq!(
         proven.is_none(),
         sink.has_errors(),
@@ -152,7 +152,7 @@ fn has_grown(mut part: PicturePart) {
         seed: 0,
     };
     let growth = part.take_growth();
-    if let Ok(grown) = Growth::load(&growth, &order) {
+    if let Ok(grown) = ProgressiveRender::load(&growth, &order) {
         assert!(grown.save() == growth, "it has grown as far as it had");
     }
 }
@@ -179,14 +179,14 @@ pub fn decode(bytes: &[u8]) {
 ///
 /// # Panics
 /// If there is neither a proof nor an error, or both.
-pub fn validate(bytes: &[u8]) {
+pub fn validate_any(bytes: &[u8]) {
     let Ok(scene) = Scene::arbitrary(&mut Unstructured::new(bytes)) else {
         return;
     };
     let mut sink = Sink::default();
     let proven = valid::validate(
         &scene,
-        &Origins::default(),
+        &SourceSpans::default(),
         &Options::default().valid,
         &mut sink,
     );
@@ -220,15 +220,21 @@ pub fn written(bytes: &[u8]) {
 /// If what is written is refused when it is read, or it is not written and no error says why, or the text is
 /// written otherwise the second time.
 pub fn is_written(scene: Scene) {
-    let origins = Origins::default();
-    let lowered = Lowered { scene, origins };
+    let source_spans = SourceSpans::default();
+    let lowered = Lowered {
+        scene,
+        source_spans,
+    };
     let (options, mut sink) = (Options::default(), Sink::default());
-    if prove(&lowered, &options, &mut sink).is_none() {
+    if validate(&lowered, &options, &mut sink).is_none() {
         return;
     }
-    let Lowered { scene, origins } = &lowered;
+    let Lowered {
+        scene,
+        source_spans,
+    } = &lowered;
     let budget = Budget::default();
-    match emit::gltf::emit(scene, origins, None, None, &budget, &mut sink) {
+    match emit::gltf::emit(scene, source_spans, None, None, &budget, &mut sink) {
         None => assert!(sink.has_errors(), "what is not written is told of"),
         Some(asset) => {
             let mut bytes = Vec::new();
@@ -249,7 +255,7 @@ fn is_accepted(name: &str, bytes: Vec<u8>) -> Scene {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = map.add(name, bytes);
     let lowered = load(file, &mut map, &options, &mut sink);
-    let proven = lowered.filter(|lowered| prove(lowered, &options, &mut sink).is_some());
+    let proven = lowered.filter(|lowered| validate(lowered, &options, &mut sink).is_some());
     let is_error = |finding: &&diag::Diagnostic| finding.severity == Severity::Error;
     let errors: Vec<_> = sink.kept().iter().filter(is_error).collect();
     proven
@@ -270,14 +276,14 @@ pub fn fix(bytes: &[u8]) {
     let errors = |text: &str| {
         let mut input = Input::edited(path, text.as_bytes().to_vec(), options.clone());
         if let Some(loaded) = input.load() {
-            input.prove(loaded, |_, _| ());
+            input.validate(loaded, |_, _| ());
         }
         let sink = input.take_findings();
         let is_error = |finding: &&diag::Diagnostic| finding.severity == Severity::Error;
         sink.kept().iter().filter(is_error).count()
     };
     for guesses in [false, true] {
-        let wish = FixWish {
+        let wish = FixFilter {
             guesses,
             only: None,
         };
@@ -303,9 +309,9 @@ fn is_picture(mut scene: Scene) {
     make_tiny(&mut scene);
     let lowered = Lowered {
         scene,
-        origins: Origins::default(),
+        source_spans: SourceSpans::default(),
     };
-    let Some(proven) = prove(&lowered, &Options::default(), &mut Sink::default()) else {
+    let Some(proven) = validate(&lowered, &Options::default(), &mut Sink::default()) else {
         return;
     };
     let film = render(

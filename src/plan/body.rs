@@ -3,7 +3,7 @@
 use super::shape::shape_facts;
 use super::space::{Flat, MARGIN, Margins, Sides};
 use rtc_math::{Bounds, Vec3, cross, unit};
-use rtc_valid::{Instance, Mesh, Proof};
+use rtc_valid::{Instance, Mesh, ValidScene};
 use std::sync::Arc;
 
 /// The bounds of a surface.
@@ -91,7 +91,7 @@ impl Body {
 
 /// The bodies of all surfaces, grown by the rounding of rays: a ray starts at the eye or on another
 /// surface, and rounds by its coordinates.
-pub(crate) fn bodies(scene: &Proof) -> Vec<Body> {
+pub(crate) fn bodies(scene: &ValidScene) -> Vec<Body> {
     let extent = |mesh: &Arc<Mesh>| Bounds::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
     let surfaces = || scene.surfaces().iter().map(|surface| &surface.shape);

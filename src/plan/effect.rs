@@ -2,7 +2,7 @@
 
 use super::layer::Layer;
 use super::rules::Rule;
-use rtc_ir::Place;
+use rtc_ir::ValuePath;
 
 /// The effects, each with its name, as in the books; layers have names of their own.
 macro_rules! effects {
@@ -149,11 +149,11 @@ pub enum State {
 
 /// The verdict on one effect, of the whole scene or of one light, material or surface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Verdict {
+pub struct EffectStatus {
     /// The effect.
     pub effect: Effect,
     /// The entity; `None` for the whole scene.
-    pub of: Option<Place>,
+    pub of: Option<ValuePath>,
     /// The state.
     pub state: State,
     /// The rule that left it out.
@@ -161,5 +161,5 @@ pub struct Verdict {
     /// The reason in plain words: one line, lower case, no full stop.
     pub because: String,
     /// The values that decided.
-    pub facts: Vec<Place>,
+    pub facts: Vec<ValuePath>,
 }

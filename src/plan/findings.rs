@@ -7,11 +7,11 @@ use super::summary::{MaterialSummary, constants};
 use super::visibility::Visibility;
 use super::{Features, facts, summary};
 use rtc_math::Vec3;
-use rtc_valid::{CourseLight, Mode, Pattern, Phong, Proof, Shape, Surface};
+use rtc_valid::{CourseLight, Mode, Pattern, Phong, Shape, Surface, ValidScene};
 
 /// The facts before any rule.
 pub(super) struct Facts<'scene> {
-    pub(super) scene: &'scene Proof,
+    pub(super) scene: &'scene ValidScene,
     pub(super) rules: Rules,
     /// The lights that the integrator sees.
     pub(super) sources: Vec<CourseLight>,
@@ -28,7 +28,7 @@ pub(super) struct Facts<'scene> {
 }
 
 impl<'scene> Facts<'scene> {
-    pub(super) fn new(scene: &'scene Proof, rules: Rules) -> Self {
+    pub(super) fn new(scene: &'scene ValidScene, rules: Rules) -> Self {
         let constants = if rules.contains(Rule::TextureConstant) {
             constants(scene)
         } else {
@@ -81,7 +81,7 @@ impl<'scene> Facts<'scene> {
 }
 
 /// Whether all camera rays of a scene start at the eye.
-pub(super) fn is_pinhole(scene: &Proof) -> bool {
+pub(super) fn is_pinhole(scene: &ValidScene) -> bool {
     let lens = &scene.camera().lens;
     lens.radius.get() == 0.0
         || lens.samples.get() == 1

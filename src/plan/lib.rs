@@ -26,10 +26,10 @@ mod verdicts;
 mod visibility;
 mod window;
 
-pub use effect::{Effect, State, Verdict};
+pub use effect::{Effect, EffectStatus, State};
 pub use features::{Features, PathFeatures, Shapes};
 pub use layer::Layer;
-pub use path::{Caustics, EnvironmentLeft, LightLeft, PathPlan};
+pub use path::{Caustics, EnvironmentUse, LightUse, PathPlan};
 pub use precision::{Loss, NEAREST, Symptom, loss};
 pub use region::{PixelClass, Region};
 pub use rules::{Rule, Rules};
@@ -39,7 +39,7 @@ use findings::{Facts, Findings};
 use light::LightFindings;
 use path::Planned;
 use rtc_math::Vec3;
-use rtc_valid::{Mode, PathSettings, Projection, Proof, Shape};
+use rtc_valid::{Mode, PathSettings, Projection, Shape, ValidScene};
 use serde::{Deserialize, Serialize};
 use summary::MaterialSummary;
 use visibility::Visibility;
@@ -123,13 +123,13 @@ pub struct Plan {
     /// The plan of paths, where paths are traced.
     pub paths: Option<PathPlan>,
     /// The verdict on each effect.
-    pub verdicts: Vec<Verdict>,
+    pub verdicts: Vec<EffectStatus>,
 }
 
 impl Plan {
     /// Plans the picture with the rules given.
     #[must_use]
-    pub fn new(scene: &Proof, rules: Rules) -> Self {
+    pub fn new(scene: &ValidScene, rules: Rules) -> Self {
         let settings = scene.settings();
         if let Mode::Path(path) = settings.mode {
             return Self::of_paths(scene, path, rules);
@@ -189,7 +189,7 @@ impl Plan {
     }
 
     /// Plans traced paths.
-    fn of_paths(scene: &Proof, path: PathSettings, rules: Rules) -> Self {
+    fn of_paths(scene: &ValidScene, path: PathSettings, rules: Rules) -> Self {
         let Planned {
             plan,
             surfaces,
@@ -214,7 +214,7 @@ impl Plan {
     /// Plans the picture by an arithmetic, with those of the given rules that hold for it: proofs
     /// about shapes hold for the robust one alone.
     #[must_use]
-    pub fn by(arithmetic: Arithmetic, scene: &Proof, rules: Rules) -> Self {
+    pub fn by(arithmetic: Arithmetic, scene: &ValidScene, rules: Rules) -> Self {
         let rules = match arithmetic {
             Arithmetic::Robust => rules,
             Arithmetic::Plain | Arithmetic::F32 => rules.of(Rules::AT_HITS),
@@ -245,14 +245,14 @@ impl Plan {
 }
 
 /// The rules whose proofs hold for a camera: most assume that all rays start at the eye.
-fn proven_for(scene: &Proof, rules: Rules) -> Rules {
+fn proven_for(scene: &ValidScene, rules: Rules) -> Rules {
     match scene.camera().projection {
         Projection::Orthographic => rules.of(Rules::AT_HITS),
         Projection::Perspective => rules,
     }
 }
 
-fn shapes(scene: &Proof, kept: &[bool]) -> Shapes {
+fn shapes(scene: &ValidScene, kept: &[bool]) -> Shapes {
     let is_basic = |shape: &Shape| {
         matches!(
             shape,

@@ -6,7 +6,7 @@
 
 use super::shape::shape_facts;
 use super::{Arithmetic, facts};
-use rtc_valid::{Mode, Phong, Proof, Surface};
+use rtc_valid::{Mode, Phong, Surface, ValidScene};
 
 /// The plain arithmetics ignore hits nearer than this, in units of the world: they take them for
 /// the start of the ray.
@@ -33,7 +33,7 @@ pub enum Symptom {
 /// The loss by an arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss {
-    /// The surface with the strongest symptom: an index into [`Proof::surfaces`].
+    /// The surface with the strongest symptom: an index into [`ValidScene::surfaces`].
     pub surface: usize,
     /// The symptom there.
     pub symptom: Symptom,
@@ -47,7 +47,7 @@ pub struct Loss {
 
 /// The loss of a scene by an arithmetic, if it is expected to be visible.
 #[must_use]
-pub fn loss(scene: &Proof, arithmetic: Arithmetic) -> Option<Loss> {
+pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
     let unit = match arithmetic {
         Arithmetic::Robust => return None,
         Arithmetic::Plain => f64::EPSILON / 2.0,
@@ -87,7 +87,7 @@ pub fn loss(scene: &Proof, arithmetic: Arithmetic) -> Option<Loss> {
 }
 
 /// Whether rays start on a surface; `is_lit` says whether lights cast shadows.
-fn sends_rays(scene: &Proof, surface: &Surface, is_lit: bool) -> bool {
+fn sends_rays(scene: &ValidScene, surface: &Surface, is_lit: bool) -> bool {
     let settings = scene.settings();
     match settings.mode {
         Mode::Phong => {}
@@ -118,7 +118,7 @@ pub(super) enum Formula {
 }
 
 impl Measure {
-    fn of(scene: &Proof, surface: &Surface) -> Self {
+    fn of(scene: &ValidScene, surface: &Surface) -> Self {
         let eye = scene.camera().eye;
         let (middle, form) = shape_facts(&surface.shape).formula(scene);
         let coordinates = eye.abs().max_element().max(middle.abs().max_element());

@@ -7,7 +7,8 @@ use super::precision::Formula;
 use super::space::Flat;
 use rtc_math::{Basis, Bounds, Vec3, cos_sin_turns, unit};
 use rtc_valid::{
-    Cone, Cylinder, Disc, Instance, Paraboloid, Plane, Proof, Quad, Shape, Sphere, Torus, Triangle,
+    Cone, Cylinder, Disc, Instance, Paraboloid, Plane, Quad, Shape, Sphere, Torus, Triangle,
+    ValidScene,
 };
 
 /// What the rules ask of a shape.
@@ -20,7 +21,7 @@ pub(super) trait ShapeFacts {
     fn thickness(&self) -> f64;
 
     /// The formula that meets it, and a point in its middle or nearest to the eye.
-    fn formula(&self, scene: &Proof) -> (Vec3, Formula);
+    fn formula(&self, scene: &ValidScene) -> (Vec3, Formula);
 
     /// Corners of a convex polygon within a flat shape, in order around it.
     fn polygon(&self, _normal: Vec3) -> Option<Vec<Vec3>> {
@@ -28,13 +29,13 @@ pub(super) trait ShapeFacts {
     }
 
     /// Whether its points have texture coordinates.
-    fn has_uv(&self, _scene: &Proof) -> bool {
+    fn has_uv(&self, _scene: &ValidScene) -> bool {
         false
     }
 
     /// The bounds of its texture coordinates, for both sets; the unit square for a shape that has
     /// them by its form.
-    fn uv_areas(&self, scene: &Proof) -> [Option<Area>; 2] {
+    fn uv_areas(&self, scene: &ValidScene) -> [Option<Area>; 2] {
         [self.has_uv(scene).then_some(Area::UNIT), None]
     }
 }
@@ -66,11 +67,11 @@ impl ShapeFacts for Sphere {
         self.radius.get()
     }
 
-    fn formula(&self, _: &Proof) -> (Vec3, Formula) {
+    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
         (self.center, Formula::Round(self.radius.get()))
     }
 
-    fn has_uv(&self, _: &Proof) -> bool {
+    fn has_uv(&self, _: &ValidScene) -> bool {
         true
     }
 }
@@ -91,7 +92,7 @@ impl ShapeFacts for Plane {
         f64::INFINITY
     }
 
-    fn formula(&self, scene: &Proof) -> (Vec3, Formula) {
+    fn formula(&self, scene: &ValidScene) -> (Vec3, Formula) {
         let (normal, eye) = (unit(self.normal).unwrap_or(Vec3::ZERO), scene.camera().eye);
         let nearest = eye + normal * normal.dot(self.center - eye);
         (nearest, Formula::Flat(f64::INFINITY))
@@ -107,7 +108,7 @@ impl ShapeFacts for Triangle {
         shortest_side(&self.vertices)
     }
 
-    fn formula(&self, _: &Proof) -> (Vec3, Formula) {
+    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
         flat(&self.vertices)
     }
 
@@ -115,11 +116,11 @@ impl ShapeFacts for Triangle {
         Some(self.vertices.to_vec())
     }
 
-    fn has_uv(&self, _: &Proof) -> bool {
+    fn has_uv(&self, _: &ValidScene) -> bool {
         self.uvs.is_some()
     }
 
-    fn uv_areas(&self, _: &Proof) -> [Option<Area>; 2] {
+    fn uv_areas(&self, _: &ValidScene) -> [Option<Area>; 2] {
         let corners = self.uvs.as_deref();
         [corners.map(|uvs| Area::of(uvs.iter().copied())), None]
     }
@@ -146,7 +147,7 @@ impl ShapeFacts for Quad {
         shortest_side(&self.vertices)
     }
 
-    fn formula(&self, _: &Proof) -> (Vec3, Formula) {
+    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
         flat(&self.vertices)
     }
 
@@ -154,7 +155,7 @@ impl ShapeFacts for Quad {
         Some(self.vertices.to_vec())
     }
 
-    fn has_uv(&self, _: &Proof) -> bool {
+    fn has_uv(&self, _: &ValidScene) -> bool {
         true
     }
 }
@@ -171,7 +172,7 @@ impl ShapeFacts for Disc {
         self.radius.get()
     }
 
-    fn formula(&self, _: &Proof) -> (Vec3, Formula) {
+    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
         (self.center, Formula::Flat(self.radius.get()))
     }
 
@@ -198,7 +199,7 @@ impl ShapeFacts for Cylinder {
         self.height.get().min(self.radius.get())
     }
 
-    fn formula(&self, _: &Proof) -> (Vec3, Formula) {
+    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
         (self.base, Formula::Round(self.radius.get()))
     }
 }
@@ -214,7 +215,7 @@ impl ShapeFacts for Cone {
         self.up.abs().max_element().min(self.radius.get())
     }
 
-    fn formula(&self, _: &Proof) -> (Vec3, Formula) {
+    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
         (self.base, Formula::Round(self.radius.get()))
     }
 }
@@ -232,11 +233,11 @@ impl ShapeFacts for Paraboloid {
         self.up.abs().max_element().min(self.radius.get())
     }
 
-    fn formula(&self, _: &Proof) -> (Vec3, Formula) {
+    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
         (self.base, Formula::Round(self.radius.get()))
     }
 
-    fn has_uv(&self, _: &Proof) -> bool {
+    fn has_uv(&self, _: &ValidScene) -> bool {
         true
     }
 }
@@ -251,7 +252,7 @@ impl ShapeFacts for Torus {
         f64::INFINITY
     }
 
-    fn formula(&self, _: &Proof) -> (Vec3, Formula) {
+    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
         let (major, minor) = (self.major.get(), self.minor.get());
         (self.center, Formula::Torus { major, minor })
     }
@@ -267,7 +268,7 @@ impl ShapeFacts for Instance {
     }
 
     /// The first corner of the mesh, and how far that extends.
-    fn formula(&self, scene: &Proof) -> (Vec3, Formula) {
+    fn formula(&self, scene: &ValidScene) -> (Vec3, Formula) {
         let [x, y, z, origin] = self.world_from_object;
         let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
         let mut corners = scene.meshes()[self.mesh]
@@ -280,11 +281,11 @@ impl ShapeFacts for Instance {
         (first, Formula::Flat(distances.fold(0.0, f64::max)))
     }
 
-    fn has_uv(&self, scene: &Proof) -> bool {
+    fn has_uv(&self, scene: &ValidScene) -> bool {
         !scene.meshes()[self.mesh].uvs.is_empty()
     }
 
-    fn uv_areas(&self, scene: &Proof) -> [Option<Area>; 2] {
+    fn uv_areas(&self, scene: &ValidScene) -> [Option<Area>; 2] {
         let mesh = &scene.meshes()[self.mesh];
         [&mesh.uvs, &mesh.second_uvs].map(|uvs| (!uvs.is_empty()).then(|| Area::of(uvs.iter())))
     }

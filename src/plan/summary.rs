@@ -2,7 +2,7 @@
 
 use super::shape::shape_facts;
 use rtc_math::Vec3;
-use rtc_valid::{Maps, Mesh, Phong, Proof, Shape, Surface, Texture};
+use rtc_valid::{Maps, Mesh, Phong, Shape, Surface, Texture, ValidScene};
 
 /// A summary of the material of a surface.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +35,7 @@ impl MaterialSummary {
     pub(super) fn of(
         surface: &Surface,
         material: &Phong,
-        scene: &Proof,
+        scene: &ValidScene,
         constants: &[Option<Vec3>],
     ) -> Self {
         let Phong {
@@ -97,19 +97,19 @@ impl MaterialSummary {
 }
 
 /// The maximum of each channel of a texture.
-fn largest(scene: &Proof, texture: Option<usize>) -> Vec3 {
+fn largest(scene: &ValidScene, texture: Option<usize>) -> Vec3 {
     match texture.map(|texture| &scene.textures()[texture]) {
         Some(Texture::Uv) => Vec3::INFINITY,
         Some(Texture::Image(_) | Texture::Sampled(_)) | None => Vec3::ONE,
     }
 }
 
-fn has_normals(shape: &Shape, scene: &Proof) -> bool {
+fn has_normals(shape: &Shape, scene: &ValidScene) -> bool {
     matches!(shape, Shape::Instance(instance) if !scene.meshes()[instance.mesh].normals.is_empty())
 }
 
 /// The value of each texture whose texels are all equal.
-pub(super) fn constants(scene: &Proof) -> Vec<Option<Vec3>> {
+pub(super) fn constants(scene: &ValidScene) -> Vec<Option<Vec3>> {
     let value = |texture: &Texture| match texture {
         Texture::Uv | Texture::Sampled(_) => None,
         Texture::Image(image) => {

@@ -5,7 +5,7 @@ use super::body::{Body, Extent, bodies};
 use super::findings::is_pinhole;
 use super::window::{Shown, Window};
 use super::{Plan, Rules};
-use rtc_valid::{Material, Mode, Projection, Proof};
+use rtc_valid::{Material, Mode, Projection, ValidScene};
 
 /// The maximum number of pairs of a surface outside the picture and any other, for which shadows
 /// and mirrors are looked at.
@@ -15,7 +15,7 @@ const MAX_PAIRS: usize = 20_000;
 ///
 /// Traced paths may meet anything, and for an orthographic camera nothing is proven.
 #[must_use]
-pub fn unseen(scene: &Proof) -> Vec<usize> {
+pub fn unseen(scene: &ValidScene) -> Vec<usize> {
     let is_perspective = matches!(scene.camera().projection, Projection::Perspective);
     if matches!(scene.settings().mode, Mode::Path(_)) || !is_perspective {
         return Vec::new();
@@ -41,7 +41,7 @@ pub fn unseen(scene: &Proof) -> Vec<usize> {
 }
 
 /// Whether rays start on surfaces: to lights, or into mirrors and glass.
-fn has_secondary_rays(scene: &Proof) -> bool {
+fn has_secondary_rays(scene: &ValidScene) -> bool {
     let settings = scene.settings();
     let bounces = |material: &Material| match material {
         Material::Phong(phong) => phong.ks.get() + phong.kt.get() > 0.0,

@@ -21,26 +21,26 @@ pub enum Profile {
         outer: f64,
     },
     /// Measured at a grid of angles.
-    Measured(Arc<Measured>),
+    Measured(Arc<IesProfile>),
 }
 
 /// A distribution measured in planes around an axis (type C of LM-63-2002), in between linear in both
 /// angles.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub struct IesProfile {
     /// The unit axis: vertical angle 0.
     axis: Vec3,
     /// The unit directions across the axis of the horizontal angles 0° and 90°.
     across: [Vec3; 2],
     /// In degrees.
-    angles: MeasuredAngles,
+    angles: IesAngles,
     /// Row by row: all vertical angles for each horizontal one.
     values: Vec<f64>,
 }
 
 /// The grid of a measured distribution, in degrees.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MeasuredAngles {
+pub struct IesAngles {
     /// From the axis, ascending within 0 to 180; beyond them it is dark.
     pub vertical: Vec<f64>,
     /// About the axis, ascending from 0 to 360; or 0 alone for a distribution that is the same all
@@ -75,7 +75,7 @@ impl Profile {
     pub fn measured(
         axis: Vec3,
         horizontal: Vec3,
-        angles: MeasuredAngles,
+        angles: IesAngles,
         values: Vec<f64>,
     ) -> Result<Self, String> {
         angles.check()?;
@@ -106,7 +106,7 @@ impl Profile {
         };
         // Seen from where the lamp hangs, horizontal angles run counterclockwise.
         let across = [zero, zero.cross(axis)];
-        Ok(Self::Measured(Arc::new(Measured {
+        Ok(Self::Measured(Arc::new(IesProfile {
             axis,
             across,
             angles,
@@ -166,7 +166,7 @@ const GREATEST: f64 = 1e60;
 /// The sine of the least angle between the axis and the horizontal angle 0.
 const PARALLEL: f64 = 1e-9;
 
-impl MeasuredAngles {
+impl IesAngles {
     fn check(&self) -> Result<(), String> {
         let (vertical, horizontal) = (&self.vertical[..], &self.horizontal[..]);
         let is_ascending = |angles: &[f64]| angles.windows(2).all(|pair| pair[0] < pair[1]);
@@ -189,10 +189,10 @@ impl MeasuredAngles {
     }
 }
 
-impl Measured {
+impl IesProfile {
     /// The value in a unit direction away from the light.
     fn value(&self, direction: Vec3) -> f64 {
-        let MeasuredAngles {
+        let IesAngles {
             vertical,
             horizontal,
         } = &self.angles;
@@ -286,7 +286,7 @@ mod tests {
     use rtc_math::sin;
 
     fn measured(vertical: &[f64], horizontal: &[f64], value: impl Fn(f64, f64) -> f64) -> Profile {
-        let angles = MeasuredAngles {
+        let angles = IesAngles {
             vertical: vertical.to_vec(),
             horizontal: horizontal.to_vec(),
         };
@@ -365,7 +365,7 @@ mod tests {
     #[test]
     fn what_is_no_profile_is_refused() {
         let fault = |vertical: &[f64], horizontal: &[f64], values: &[f64], zero| {
-            let angles = MeasuredAngles {
+            let angles = IesAngles {
                 vertical: vertical.to_vec(),
                 horizontal: horizontal.to_vec(),
             };

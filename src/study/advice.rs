@@ -1,6 +1,6 @@
 //! The advice that follows from a study, in plain words.
 
-use super::knob::Knob;
+use super::knob::Parameter;
 use super::metrics::Errors;
 use super::outcome::{MoreBounces, Row, Study};
 use super::setting::Setting;
@@ -69,7 +69,7 @@ pub(super) fn command(study: &Study) -> Option<String> {
 /// and the law by which it falls.
 fn about_paths(study: &Study) -> Option<String> {
     let knobs = &mut study.knobs.iter();
-    let paths = knobs.find(|report| report.knob == Knob::Paths && report.idle.is_none())?;
+    let paths = knobs.find(|report| report.knob == Parameter::Paths && report.idle.is_none())?;
     let (own, delta) = (study.own()?, study.own()?.errors.delta_e);
     let exponent = paths.law.map_or(0.5, |law| law.p.value.clamp(0.25, 1.0));
     let wanted = f64::from(own.setting.paths) * pow(delta, 1.0 / exponent);

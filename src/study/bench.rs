@@ -5,7 +5,7 @@ use super::journal::{Entry, Journal};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use rtc_plan::Plan;
 use rtc_render::{AnyWorld, Film, Job, OnPixel, SimdLevel, Step};
-use rtc_valid::Proof;
+use rtc_valid::ValidScene;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -164,7 +164,7 @@ impl<'a> Bench<'a> {
     /// Renders a scene as planned, denoised if that is asked for; `None` if the observer said stop.
     pub(super) fn render(
         &self,
-        (scene, plan): (&Proof, &Plan),
+        (scene, plan): (&ValidScene, &Plan),
         job: &Job,
         denoise: bool,
     ) -> Option<Film> {
@@ -175,7 +175,7 @@ impl<'a> Bench<'a> {
     /// The rays of each pixel of the whole picture, row by row, as [`Self::render`] takes them.
     pub(super) fn rays_of_pixels(
         &self,
-        (scene, plan): (&Proof, &Plan),
+        (scene, plan): (&ValidScene, &Plan),
         job: &Job,
         denoise: bool,
     ) -> Option<Vec<u64>> {

@@ -1,11 +1,13 @@
 //! Rendering until the time is out: a crude picture first, then a whole one, then samples where they
 //! reduce the error most. A pass that the time cuts short leaves whole tiles.
 
-use super::growth::Growth;
+use super::growth::ProgressiveRender;
 use super::noise::{Bound, Noise};
 use super::rounds::next_round;
 use super::subject::Stopped;
-use super::target::{Order, Progress, Reached, TAIL, Watch, begin, first_round, light_samples};
+use super::target::{
+    Order, Progress, TAIL, TargetResult, Watch, begin, first_round, light_samples,
+};
 use super::target::{spread, tail_of};
 use rtc_ir::Scene;
 use rtc_render::{AnyWorld, Step};
@@ -16,7 +18,7 @@ const BLOCKS: [usize; 4] = [8, 4, 2, 1];
 
 /// A picture of which the time allowed no sample for some pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CrudePicture {
+pub struct CoarsePicture {
     /// In some blocks of so many pixels a side only one was sampled; all show its value.
     pub block: u32,
     /// The time after which each pixel would have had a sample, about.
@@ -35,7 +37,7 @@ enum Pass {
 struct Race<'run, 'watch> {
     world: &'run mut AnyWorld,
     watch: &'run Watch<'watch>,
-    growth: Growth,
+    growth: ProgressiveRender,
     time: Duration,
 }
 
@@ -47,7 +49,7 @@ pub(super) fn within(
     order: &Order,
     watch: &Watch<'_>,
     time: Duration,
-) -> Result<Reached, Stopped> {
+) -> Result<TargetResult, Stopped> {
     let growth = begin(scene.settings.light_samples, order);
     spread(world, scene, growth.light_samples);
     let mut race = Race {
@@ -141,7 +143,7 @@ impl Race<'_, '_> {
 
     /// Twice the samples for all pixels until each has as many as in a first round, then where they
     /// help most, until the error or the end of the time is reached.
-    fn rounds(&mut self, scene: &Scene, order: &Order) -> Result<Reached, Stopped> {
+    fn rounds(&mut self, scene: &Scene, order: &Order) -> Result<TargetResult, Stopped> {
         let [first, pilot] = first_round(scene, order, self.world);
         let (begun, before) = (self.elapsed(), self.growth.film.samples());
         let unmet = order.unmet(self.world);
@@ -180,7 +182,7 @@ impl Race<'_, '_> {
 
     /// The picture of which not all pixels have a sample: they show the nearest that has one, above and
     /// to the left.
-    fn crude(&self, order: &Order, whole: Duration) -> Reached {
+    fn crude(&self, order: &Order, whole: Duration) -> TargetResult {
         let film = &self.growth.film;
         let width = film.crop().width as usize;
         let has = |index: usize| film.pixel(index).samples() > 0;
@@ -205,7 +207,7 @@ impl Race<'_, '_> {
             reached.coverage[index] = reached.coverage[corner(index, *block)];
         }
         let block = blocks.into_iter().max().unwrap_or(1);
-        reached.crude = Some(CrudePicture {
+        reached.crude = Some(CoarsePicture {
             block: u32::try_from(block).unwrap_or(u32::MAX),
             whole,
         });

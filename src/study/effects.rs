@@ -1,8 +1,8 @@
 //! What each effect, light, object and material of a scene costs: the scene is rendered with and without
 //! it, with the same random numbers.
 
-use super::knob::Knob;
-use super::left_out::{self, Omission};
+use super::knob::Parameter;
+use super::left_out::{self, Ablation};
 use super::metrics::{LEVELS, mean_product, rmse};
 use super::outcome::Rays;
 use super::race::{Runner, race};
@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "camelCase")]
 pub struct EffectCost {
     /// The kind of what is left out.
-    pub kind: Omission,
+    pub kind: Ablation,
     /// The effect, or whatever is left out.
     pub effect: String,
     /// The rays without it, of the part rendered.
@@ -49,7 +49,7 @@ pub(super) fn costs(
 ) -> Result<Vec<EffectCost>, Stopped> {
     /// More paths tell no more of ratios.
     const PATHS: u32 = 4;
-    let setting = setting.with(Knob::Paths, setting.paths.min(PATHS));
+    let setting = setting.with(Parameter::Paths, setting.paths.min(PATHS));
     let mut without = left_out::of(&subject.scene);
     let Some((subject, count)) = affordable(subject, setting, (budget, without.len()))? else {
         return Ok(Vec::new());

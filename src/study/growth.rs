@@ -3,12 +3,12 @@
 
 use super::noise::Bound;
 use super::stretch::WorkStretch;
-use super::target::{Order, Reached, Samples};
+use super::target::{Order, Samples, TargetResult};
 use rtc_render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
 use std::time::Duration;
 
 /// What is known of a picture that grows.
-pub struct Growth {
+pub struct ProgressiveRender {
     pub(super) film: ProgressiveFilm,
     /// How many samples each replicate, and the pilot, of the pixels is to have after the round under
     /// way.
@@ -22,9 +22,9 @@ pub struct Growth {
 }
 
 /// How a growing picture is kept on its way.
-pub struct Keep<'a> {
+pub struct CheckpointSink<'a> {
     /// What was kept before.
-    pub begun: Option<Growth>,
+    pub begun: Option<ProgressiveRender>,
     /// The time between two saves.
     pub every: Duration,
     /// How many threads are to have work.
@@ -36,14 +36,14 @@ pub struct Keep<'a> {
 }
 
 /// Keeps what grows now and then.
-pub(super) struct Keeper<'a> {
-    keep: Keep<'a>,
+pub(super) struct Checkpointer<'a> {
+    keep: CheckpointSink<'a>,
     stretch: WorkStretch,
     saved: Duration,
 }
 
-impl<'a> Keeper<'a> {
-    pub(super) fn new(keep: Keep<'a>) -> Self {
+impl<'a> Checkpointer<'a> {
+    pub(super) fn new(keep: CheckpointSink<'a>) -> Self {
         Self {
             stretch: WorkStretch::new(keep.every, keep.threads),
             saved: (keep.elapsed)(),
@@ -52,17 +52,17 @@ impl<'a> Keeper<'a> {
     }
 
     /// What was kept before.
-    pub(super) fn begun(&mut self) -> Option<Growth> {
+    pub(super) fn begun(&mut self) -> Option<ProgressiveRender> {
         self.keep.begun.take()
     }
 
     /// Keeps it now.
-    pub(super) fn save(&self, growth: &Growth) {
+    pub(super) fn save(&self, growth: &ProgressiveRender) {
         (self.keep.save)(growth.save());
     }
 
     /// So many tiles took since then.
-    fn took(&mut self, growth: &Growth, tiles: u32, begun: Duration) {
+    fn took(&mut self, growth: &ProgressiveRender, tiles: u32, begun: Duration) {
         let now = (self.keep.elapsed)();
         self.stretch.adapt(tiles, now.saturating_sub(begun));
         if now.saturating_sub(self.saved) >= self.keep.every {
@@ -72,7 +72,7 @@ impl<'a> Keeper<'a> {
     }
 }
 
-impl Growth {
+impl ProgressiveRender {
     /// The rays it took.
     #[must_use]
     pub fn rays(&self) -> u64 {
@@ -85,7 +85,7 @@ impl Growth {
         &mut self,
         world: &AnyWorld,
         on_pixel: &OnPixel<'_>,
-        keeper: Option<&mut Keeper<'_>>,
+        keeper: Option<&mut Checkpointer<'_>>,
     ) -> bool {
         let Some(keeper) = keeper else {
             let wanted = |index: usize| self.wanted[index];
@@ -112,8 +112,8 @@ impl Growth {
     }
 
     /// The picture as far as it is, of a bound on its error.
-    pub(super) fn reached(&self, bound: Bound, values: Values) -> Reached {
-        Reached {
+    pub(super) fn reached(&self, bound: Bound, values: Values) -> TargetResult {
+        TargetResult {
             image: self.film.image(values),
             coverage: self.film.coverage(),
             counts: self.film.counts,

@@ -2,14 +2,14 @@
 
 use super::setting::Setting;
 use rtc_ir::{Light, Material, Mode, Phong, Scene};
-use rtc_plan::{Arithmetic, Effect, Plan, Rules, State, Verdict, loss};
+use rtc_plan::{Arithmetic, Effect, EffectStatus, Plan, Rules, State, loss};
 use rtc_valid::revalidate;
 use serde::{Deserialize, Serialize};
 
 /// A number that trades work for accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub enum Knob {
+pub enum Parameter {
     /// Sub-samples along each side of a pixel.
     Supersampling,
     /// Points of the lens.
@@ -29,7 +29,7 @@ pub enum Knob {
     Precision,
 }
 
-impl Knob {
+impl Parameter {
     /// All of them.
     pub const ALL: [Self; 8] = [
         Self::Supersampling,
@@ -204,32 +204,34 @@ pub(super) fn bears(scene: &Scene, arithmetic: Arithmetic) -> bool {
 /// The reason to leave a knob alone in a scene, or `None`: the scene does not ask for its effect,
 /// or the plan prunes the effect at all values, or only one value is right.
 #[must_use]
-pub fn idle(knob: Knob, scene: &Scene) -> Option<String> {
+pub fn idle(knob: Parameter, scene: &Scene) -> Option<String> {
     not_asked_for(knob, scene)
         .map(str::to_owned)
         .or_else(|| left_out(knob, scene))
 }
 
 /// The same in a study, which looks at the whole picture or at tiles of it.
-pub(super) fn idle_in(knob: Knob, scene: &Scene, is_whole: bool) -> Option<String> {
-    let is_cut = knob == Knob::Denoise && !is_whole;
+pub(super) fn idle_in(knob: Parameter, scene: &Scene, is_whole: bool) -> Option<String> {
+    let is_cut = knob == Parameter::Denoise && !is_whole;
     let tiles = "a picture is denoised as a whole, and only tiles were looked at";
     idle(knob, scene).or_else(|| is_cut.then(|| tiles.to_owned()))
 }
 
 /// The reason of the plan for pruning the effect of a knob, if it does.
-fn left_out(knob: Knob, scene: &Scene) -> Option<String> {
+fn left_out(knob: Parameter, scene: &Scene) -> Option<String> {
     let effect = match knob {
-        Knob::Supersampling => Effect::Supersampling,
-        Knob::Aperture => Effect::Lens,
-        Knob::Lights => Effect::SoftLight,
-        Knob::Glossy => Effect::GlossyReflection,
-        Knob::Depth if scene.settings.mode == Mode::Phong => Effect::Depth,
-        Knob::Depth | Knob::Paths | Knob::Denoise | Knob::Precision => return None,
+        Parameter::Supersampling => Effect::Supersampling,
+        Parameter::Aperture => Effect::Lens,
+        Parameter::Lights => Effect::SoftLight,
+        Parameter::Glossy => Effect::GlossyReflection,
+        Parameter::Depth if scene.settings.mode == Mode::Phong => Effect::Depth,
+        Parameter::Depth | Parameter::Paths | Parameter::Denoise | Parameter::Precision => {
+            return None;
+        }
     };
     let own = Setting::of(scene);
     let mut turned = scene.clone();
-    Knob::ALL
+    Parameter::ALL
         .into_iter()
         .fold(own, |all, knob| all.with(knob, own.get(knob).max(2)))
         .apply(&mut turned);
@@ -238,7 +240,7 @@ fn left_out(knob: Knob, scene: &Scene) -> Option<String> {
         .verdicts
         .iter()
         .find(|verdict| verdict.effect == effect && verdict.of.is_none())?;
-    let Verdict { because, rule, .. } = verdict;
+    let EffectStatus { because, rule, .. } = verdict;
     let reason = rule.map_or_else(
         || because.clone(),
         |rule| format!("{because} ({})", rule.name()),
@@ -246,7 +248,7 @@ fn left_out(knob: Knob, scene: &Scene) -> Option<String> {
     (verdict.state != State::Needed).then_some(reason)
 }
 
-fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
+fn not_asked_for(knob: Parameter, scene: &Scene) -> Option<&'static str> {
     let mode = &scene.settings.mode;
     let (phong, paths) = (*mode == Mode::Phong, matches!(mode, Mode::Path(_)));
     let counted = (paths, "each path takes a sample of its own");
@@ -256,16 +258,16 @@ fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
         |arithmetic: &Arithmetic| *arithmetic == Arithmetic::Robust || !bears(scene, *arithmetic);
     let tries_none = Setting::of(scene).denoised().next().is_none();
     let cases: &[(bool, &'static str)] = match knob {
-        Knob::Supersampling => &[
+        Parameter::Supersampling => &[
             counted,
             (*mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel"),
         ],
-        Knob::Aperture => &[
+        Parameter::Aperture => &[
             counted,
             (*mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel"),
             (scene.camera.lens.radius == 0.0, "the lens has no radius"),
         ],
-        Knob::Lights => &[
+        Parameter::Lights => &[
             counted,
             (!phong, "the mode asks only the middle of a light"),
             (
@@ -277,7 +279,7 @@ fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
                 "no light has a radius",
             ),
         ],
-        Knob::Glossy => &[
+        Parameter::Glossy => &[
             counted,
             (!phong, "the mode follows no mirror"),
             (
@@ -285,9 +287,9 @@ fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
                 "no material is glossy",
             ),
         ],
-        Knob::Paths => &[(!paths, "the mode follows rays from the eye alone")],
-        Knob::Denoise => &[(tries_none, "no paths are traced, or too few to try fewer")],
-        Knob::Depth => &[
+        Parameter::Paths => &[(!paths, "the mode follows rays from the eye alone")],
+        Parameter::Denoise => &[(tries_none, "no paths are traced, or too few to try fewer")],
+        Parameter::Depth => &[
             (
                 !phong && !paths,
                 "the mode follows no mirror and no refraction",
@@ -297,7 +299,7 @@ fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
                 "no material mirrors or lets light through",
             ),
         ],
-        Knob::Precision => &[(
+        Parameter::Precision => &[(
             Arithmetic::ALL.iter().all(is_robust),
             "what any but the robust arithmetic loses would show",
         )],
@@ -314,7 +316,7 @@ mod tests {
 
     #[test]
     fn ladders_rise_from_the_least() {
-        for knob in Knob::ALL {
+        for knob in Parameter::ALL {
             let values: Vec<_> = knob.levels().collect();
             assert!(
                 values[0] == knob.lowest() && values.is_sorted_by(|a, b| a < b),

@@ -12,7 +12,7 @@ const MOST: usize = 8;
 /// What kind of thing is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub enum Omission {
+pub enum Ablation {
     /// An effect of the whole scene.
     Effect,
     /// A light, or the surroundings.
@@ -25,7 +25,7 @@ pub enum Omission {
 
 /// A scene without something.
 pub(super) struct LeftOut {
-    pub(super) kind: Omission,
+    pub(super) kind: Ablation,
     pub(super) name: String,
     pub(super) scene: Scene,
 }
@@ -76,7 +76,7 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
 
 /// A change to a scene that is made only when it is wanted.
 struct Candidate {
-    kind: Omission,
+    kind: Ablation,
     name: String,
     without: Box<dyn Fn(&mut Scene)>,
 }
@@ -99,7 +99,7 @@ fn effects(scene: &Scene) -> Vec<LeftOut> {
         return Vec::new();
     }
     let effect = |(name, without): Without| Candidate {
-        kind: Omission::Effect,
+        kind: Ablation::Effect,
         name: name.to_owned(),
         without: Box::new(without),
     };
@@ -129,7 +129,7 @@ fn without_maps(phong: &mut Phong) {
 /// The lights in the order of the scene, then what surrounds it.
 fn lights(scene: &Scene) -> Vec<Candidate> {
     let light = |index: usize| Candidate {
-        kind: Omission::Light,
+        kind: Ablation::Light,
         name: format!("light {}", index + 1),
         without: Box::new(move |scene| {
             scene.lights.remove(index);
@@ -141,7 +141,7 @@ fn lights(scene: &Scene) -> Vec<Candidate> {
         .take(MOST)
         .map(light);
     let surroundings = Candidate {
-        kind: Omission::Light,
+        kind: Ablation::Light,
         name: "surroundings".to_owned(),
         without: Box::new(|scene| scene.environment = None),
     };
@@ -207,7 +207,7 @@ fn without_object(scene: &Scene, object: &SceneObject) -> Candidate {
     let end = surfaces.end.min(scene.names.len());
     let names = surfaces.start.min(end)..end;
     Candidate {
-        kind: Omission::Object,
+        kind: Ablation::Object,
         name: object.name.clone(),
         without: Box::new(move |scene| {
             scene.surfaces.drain(surfaces.clone());
@@ -227,7 +227,7 @@ fn materials(scene: &Scene, objects: &[SceneObject]) -> Vec<Candidate> {
         }
     }
     let material = |index: usize| Candidate {
-        kind: Omission::Material,
+        kind: Ablation::Material,
         name: match &scene.materials[index] {
             Material::Standard(standard) if !standard.name.is_empty() => {
                 format!("`{}`, matt instead", standard.name)

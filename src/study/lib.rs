@@ -42,14 +42,14 @@ mod versus;
 
 pub use advice::{advice, recommended};
 pub use bench::{Bench, Clock};
-pub use budget::CrudePicture;
+pub use budget::CoarsePicture;
 pub use difference::{Difference, heat_map};
 pub use effects::EffectCost;
 pub use flip::{PIXELS_PER_DEGREE, flip};
-pub use growth::{Growth, Keep};
+pub use growth::{CheckpointSink, ProgressiveRender};
 pub use journal::Journal;
-pub use knob::{Knob, arithmetic, idle};
-pub use left_out::Omission;
+pub use knob::{Parameter, arithmetic, idle};
+pub use left_out::Ablation;
 pub use maps::{StudyMap, maps};
 pub use metrics::{Errors, LEVELS, rmse};
 pub use outcome::{
@@ -65,7 +65,7 @@ pub use spread::ErrorSpread;
 pub use statistics::{Estimate, PowerLaw, Rng, median};
 pub use stretch::WorkStretch;
 pub use subject::Stopped;
-pub use target::{Goal, Order, Progress, Reached, Samples, Watch, approach, approach_keeping};
+pub use target::{Goal, Order, Progress, Samples, TargetResult, Watch, approach, approach_keeping};
 pub use versus::{DifferentTile, Versus, versus};
 
 use knob::idle_in;
@@ -140,7 +140,7 @@ pub fn study(
         scope.hundredths(FOR_PRECISION),
         &mut rng,
     )?;
-    if scope.used.contains(&Knob::Precision) {
+    if scope.used.contains(&Parameter::Precision) {
         context.model.learn_precision(precision::levels(&precision));
     }
     let (rows, wall_over_cpu) = scope.rows(&subject, &context, &mut rng)?;
@@ -154,7 +154,7 @@ pub fn study(
         seed,
         part: subject.area(),
         reference: context.report(),
-        knobs: Knob::ALL.map(knob).to_vec(),
+        knobs: Parameter::ALL.map(knob).to_vec(),
         bounces: context.depths.map(|depths| depths.more),
         rows,
         effects,
@@ -175,9 +175,9 @@ pub fn study(
 /// The knobs of a scene, and the work that a study may take.
 struct Scope {
     own: Setting,
-    used: Vec<Knob>,
+    used: Vec<Parameter>,
     /// The knobs that are numbers of samples.
-    sampling: Vec<Knob>,
+    sampling: Vec<Parameter>,
     /// The rays that the study may take.
     rays: u64,
 }
@@ -191,7 +191,7 @@ struct Context {
 
 impl Scope {
     fn new(scene: &Scene, effort: Effort) -> Self {
-        let used: Vec<_> = Knob::ALL
+        let used: Vec<_> = Parameter::ALL
             .into_iter()
             .filter(|knob| idle(*knob, scene).is_none())
             .collect();
@@ -251,7 +251,7 @@ impl Scope {
 
     /// The sampling for comparing depths: doubled where bounces are sampled at random.
     fn seeds_of_depths(&self) -> Vec<Seeds> {
-        let count = if self.used.contains(&Knob::Paths) {
+        let count = if self.used.contains(&Parameter::Paths) {
             2
         } else {
             1
@@ -260,7 +260,7 @@ impl Scope {
     }
 
     fn context(&self, subject: &Subject<'_>) -> Result<Context, Stopped> {
-        let depths = match self.used.contains(&Knob::Depth) {
+        let depths = match self.used.contains(&Parameter::Depth) {
             true => Some(reference::depths(
                 subject,
                 self.at(2),
@@ -272,9 +272,9 @@ impl Scope {
         let start = self.at(4);
         let budget = self.hundredths(FOR_REFERENCE);
         let reference = reference::reference(subject, start, &self.sampling, budget)?;
-        let has_grid = self.used.contains(&Knob::Supersampling);
+        let has_grid = self.used.contains(&Parameter::Supersampling);
         let base = if has_grid {
-            start.with(Knob::Supersampling, 2)
+            start.with(Parameter::Supersampling, 2)
         } else {
             start
         };
@@ -289,8 +289,10 @@ impl Scope {
             .counts
             .rays();
         let mut model = Model::new(knobs, depths.as_ref(), base, base_rays);
-        if self.used.contains(&Knob::Aperture) {
-            let coarse = base.with(Knob::Supersampling, 1).with(Knob::Aperture, 1);
+        if self.used.contains(&Parameter::Aperture) {
+            let coarse = base
+                .with(Parameter::Supersampling, 1)
+                .with(Parameter::Aperture, 1);
             let shot = subject.shoot(coarse, Seeds::NONE)?;
             model.learn_interplay(coarse, rmse(&shot.tiles, &reference.tiles));
         }

@@ -2,7 +2,7 @@
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
-use super::unmet::{Unmet, UnmetError};
+use super::unmet::{Undersampled, UnmetError};
 use rtc_render::{ProgressiveFilm, Replicates};
 
 /// The noise of a whole film.
@@ -18,7 +18,7 @@ pub(super) struct Noise {
 
 impl Noise {
     /// The noise of a film with samples everywhere, each of at most a value.
-    pub(super) fn of(film: &ProgressiveFilm, unmet: &Unmet) -> Self {
+    pub(super) fn of(film: &ProgressiveFilm, unmet: &Undersampled) -> Self {
         let (mut sum, mut squares) = (0.0, 0.0);
         for variance in film.pixels().map(Replicates::variance) {
             sum += variance;

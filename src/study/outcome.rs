@@ -1,6 +1,6 @@
 //! The result of a study, to be printed, kept and read again.
 
-use super::knob::Knob;
+use super::knob::Parameter;
 use super::maps::PixelRays;
 use super::metrics::Errors;
 use super::reference::{DepthEnd, Level};
@@ -83,7 +83,7 @@ pub struct BounceCost {
 #[serde(rename_all = "camelCase")]
 pub struct KnobReport {
     /// The knob.
-    pub knob: Knob,
+    pub knob: Parameter,
     /// The reason to leave it alone in this scene, if there is one.
     pub idle: Option<String>,
     /// Its values, with all other knobs as in the reference.
@@ -213,7 +213,7 @@ pub struct Study {
 impl Study {
     /// The knobs that change something.
     #[must_use]
-    pub fn used(&self) -> Vec<Knob> {
+    pub fn used(&self) -> Vec<Parameter> {
         self.knobs
             .iter()
             .filter(|report| report.idle.is_none())

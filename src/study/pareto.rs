@@ -1,6 +1,6 @@
 //! The Pareto front: candidates by a greedy search on the model, and the front of those measured.
 
-use super::knob::Knob;
+use super::knob::Parameter;
 use super::setting::Setting;
 use super::sweep::Model;
 use rtc_math::ln;
@@ -19,7 +19,7 @@ const SAME_COST: f64 = 1.02;
 pub(super) fn candidates(
     model: &Model,
     min: Setting,
-    knobs: &[Knob],
+    knobs: &[Parameter],
     most_rays: f64,
     least_error: f64,
 ) -> Vec<Setting> {
@@ -50,8 +50,8 @@ pub(super) fn candidates(
 /// arithmetic already.
 pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
     let mut others = model
-        .tried(Knob::Precision)
-        .map(|value| setting.with(Knob::Precision, value));
+        .tried(Parameter::Precision)
+        .map(|value| setting.with(Parameter::Precision, value));
     let enough = others.find(|other| WORTH * model.error(*other) <= model.error(setting));
     enough.filter(|other| *other != setting)
 }

@@ -1,6 +1,6 @@
 //! The cost of each arithmetic: the same samples of the same scene, by all three.
 
-use super::knob::{Knob, bears, place};
+use super::knob::{Parameter, bears, place};
 use super::metrics::Errors;
 use super::outcome::Rays;
 use super::race::{Runner, TimedRun, race};
@@ -91,7 +91,7 @@ pub(super) fn levels(costs: &[PrecisionCost]) -> Levels {
         .map(level)
         .collect();
     Levels {
-        knob: Knob::Precision,
+        knob: Parameter::Precision,
         levels,
         law: None,
     }

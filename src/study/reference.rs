@@ -2,7 +2,7 @@
 //! the budget ends; then it is rendered twice with independent sampling. The mean of the two halves
 //! is the reference, and their difference estimates its error.
 
-use super::knob::{Knob, MAX_DEPTH};
+use super::knob::{MAX_DEPTH, Parameter};
 use super::metrics::{LEVELS, mean, mean_product, rmse};
 use super::outcome::{BounceCost, MoreBounces};
 use super::setting::Setting;
@@ -98,7 +98,7 @@ pub(super) fn depths(
     let shoot = |depth| {
         let shots = seeds
             .iter()
-            .map(|seeds| subject.shoot(start.with(Knob::Depth, depth), *seeds));
+            .map(|seeds| subject.shoot(start.with(Parameter::Depth, depth), *seeds));
         shots.collect::<Result<_, _>>().map(DepthProbe)
     };
     let (mut shots, end) = climb(shoot, budget)?;
@@ -172,7 +172,7 @@ fn climb(
 pub(super) fn reference(
     subject: &Subject<'_>,
     start: Setting,
-    knobs: &[Knob],
+    knobs: &[Parameter],
     budget: u64,
 ) -> Result<Reference, Stopped> {
     let mut setting = start;

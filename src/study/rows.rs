@@ -1,6 +1,6 @@
 //! The rows of a study: the settings worth it, rendered, timed and judged, and those on the front.
 
-use super::knob::Knob;
+use super::knob::Parameter;
 use super::metrics::Errors;
 use super::outcome::Row;
 use super::pareto;
@@ -30,7 +30,7 @@ impl Scope {
             .used
             .iter()
             .copied()
-            .filter(|knob| !matches!(knob, Knob::Denoise | Knob::Precision))
+            .filter(|knob| !matches!(knob, Parameter::Denoise | Parameter::Precision))
             .collect();
         let min = turned
             .iter()
@@ -38,7 +38,7 @@ impl Scope {
         let least_error = (3.0 * reference.floor).max(reference::SMALLEST);
         let best = pareto::candidates(model, min, &turned, budget as f64 / 10.0, least_error);
         // Of tiles alone the pixels around are not known.
-        let is_denoised = self.used.contains(&Knob::Denoise) && subject.is_whole();
+        let is_denoised = self.used.contains(&Parameter::Denoise) && subject.is_whole();
         let settings = std::iter::once(self.own)
             .chain(best.into_iter().filter(|setting| *setting != self.own));
         let settings = settings

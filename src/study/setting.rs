@@ -1,6 +1,6 @@
 //! A setting: a value for each knob, read from a scene and written into one.
 
-use super::knob::{Knob, arithmetic, place};
+use super::knob::{Parameter, arithmetic, place};
 use rtc_ir::{Material, Mode, Scene};
 use rtc_passes::Overrides;
 use rtc_plan::Arithmetic;
@@ -53,34 +53,34 @@ impl Setting {
 
     /// The value of a knob.
     #[must_use]
-    pub fn get(&self, knob: Knob) -> u32 {
+    pub fn get(&self, knob: Parameter) -> u32 {
         match knob {
-            Knob::Supersampling => self.supersampling,
-            Knob::Aperture => self.aperture,
-            Knob::Lights => self.lights,
-            Knob::Glossy => self.glossy,
-            Knob::Paths => self.paths,
-            Knob::Denoise => u32::from(self.denoise),
-            Knob::Depth => self.depth,
-            Knob::Precision => place(self.precision),
+            Parameter::Supersampling => self.supersampling,
+            Parameter::Aperture => self.aperture,
+            Parameter::Lights => self.lights,
+            Parameter::Glossy => self.glossy,
+            Parameter::Paths => self.paths,
+            Parameter::Denoise => u32::from(self.denoise),
+            Parameter::Depth => self.depth,
+            Parameter::Precision => place(self.precision),
         }
     }
 
     /// The same with another value for a knob.
     #[must_use]
-    pub fn with(mut self, knob: Knob, value: u32) -> Self {
+    pub fn with(mut self, knob: Parameter, value: u32) -> Self {
         let held = match knob {
-            Knob::Supersampling => &mut self.supersampling,
-            Knob::Aperture => &mut self.aperture,
-            Knob::Lights => &mut self.lights,
-            Knob::Glossy => &mut self.glossy,
-            Knob::Paths => &mut self.paths,
-            Knob::Depth => &mut self.depth,
-            Knob::Denoise => {
+            Parameter::Supersampling => &mut self.supersampling,
+            Parameter::Aperture => &mut self.aperture,
+            Parameter::Lights => &mut self.lights,
+            Parameter::Glossy => &mut self.glossy,
+            Parameter::Paths => &mut self.paths,
+            Parameter::Depth => &mut self.depth,
+            Parameter::Denoise => {
                 self.denoise = value > 0;
                 return self;
             }
-            Knob::Precision => {
+            Parameter::Precision => {
                 return Self {
                     precision: arithmetic(value),
                     ..self
@@ -104,7 +104,7 @@ impl Setting {
     /// Camera rays of a pixel.
     #[must_use]
     pub fn camera_rays(&self) -> f64 {
-        Knob::Supersampling.samples(self.supersampling)
+        Parameter::Supersampling.samples(self.supersampling)
             * f64::from(self.aperture)
             * f64::from(self.paths)
     }
@@ -137,10 +137,10 @@ impl Setting {
     /// In words, for the knobs given: "4×4 with 16 aperture samples, depth 3". The robust
     /// arithmetic is not mentioned, nor is a picture that is not denoised.
     #[must_use]
-    pub fn words(&self, knobs: &[Knob]) -> String {
-        let is_said = |knob: &&Knob| {
-            (**knob != Knob::Precision || self.precision != Arithmetic::Robust)
-                && (**knob != Knob::Denoise || self.denoise)
+    pub fn words(&self, knobs: &[Parameter]) -> String {
+        let is_said = |knob: &&Parameter| {
+            (**knob != Parameter::Precision || self.precision != Arithmetic::Robust)
+                && (**knob != Parameter::Denoise || self.denoise)
         };
         let words: Vec<_> = knobs
             .iter()
@@ -149,7 +149,9 @@ impl Setting {
             .collect();
         match words.split_first() {
             Some((first, [])) => first.clone(),
-            Some((first, rest)) if knobs[0] == Knob::Supersampling && knobs[1] != Knob::Depth => {
+            Some((first, rest))
+                if knobs[0] == Parameter::Supersampling && knobs[1] != Parameter::Depth =>
+            {
                 format!("{first} with {}", rest.join(", "))
             }
             Some(_) => words.join(", "),
@@ -178,25 +180,38 @@ mod tests {
             paths: 32,
             ..setting(4, 16, 3)
         };
-        let words = |knobs: &[Knob]| setting.words(knobs);
+        let words = |knobs: &[Parameter]| setting.words(knobs);
         assert_eq!(
-            words(&[Knob::Supersampling, Knob::Aperture, Knob::Depth]),
+            words(&[
+                Parameter::Supersampling,
+                Parameter::Aperture,
+                Parameter::Depth
+            ]),
             "4×4 with 16 aperture samples, depth 3"
         );
         assert_eq!(
-            words(&[Knob::Supersampling, Knob::Lights]),
+            words(&[Parameter::Supersampling, Parameter::Lights]),
             "4×4 with 1 light sample"
         );
-        assert_eq!(words(&[Knob::Supersampling, Knob::Depth]), "4×4, depth 3");
-        assert_eq!(words(&[Knob::Paths, Knob::Depth]), "32 paths, depth 3");
+        assert_eq!(
+            words(&[Parameter::Supersampling, Parameter::Depth]),
+            "4×4, depth 3"
+        );
+        assert_eq!(
+            words(&[Parameter::Paths, Parameter::Depth]),
+            "32 paths, depth 3"
+        );
         assert_eq!(words(&[]), "the scene as it is");
-        assert_eq!(words(&[Knob::Supersampling, Knob::Precision]), "4×4");
+        assert_eq!(
+            words(&[Parameter::Supersampling, Parameter::Precision]),
+            "4×4"
+        );
         let plain = Setting {
             precision: Arithmetic::Plain,
             ..setting
         };
         assert_eq!(
-            plain.words(&[Knob::Depth, Knob::Precision]),
+            plain.words(&[Parameter::Depth, Parameter::Precision]),
             "depth 3, plain arithmetic"
         );
     }
@@ -218,16 +233,16 @@ mod tests {
     #[test]
     fn what_is_denoised_is_said() {
         let setting = setting(1, 1, 3)
-            .with(Knob::Paths, 16)
-            .with(Knob::Denoise, 1);
-        let words = setting.words(&[Knob::Paths, Knob::Denoise, Knob::Depth]);
+            .with(Parameter::Paths, 16)
+            .with(Parameter::Denoise, 1);
+        let words = setting.words(&[Parameter::Paths, Parameter::Denoise, Parameter::Depth]);
         assert_eq!(words, "16 paths, denoised, depth 3");
-        assert_eq!(Knob::Denoise.argument(1), "--denoise");
+        assert_eq!(Parameter::Denoise.argument(1), "--denoise");
     }
 
     #[test]
     fn what_is_set_is_held() {
-        for knob in Knob::ALL {
+        for knob in Parameter::ALL {
             assert_eq!(setting(9, 9, 9).with(knob, 1).get(knob), 1, "{knob:?}");
         }
     }

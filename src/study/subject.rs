@@ -10,7 +10,7 @@ use rtc_image::Image;
 use rtc_ir::{Pattern, Scene};
 use rtc_plan::{Plan, Rules};
 use rtc_render::{Counts, Crop, Job, Seeds, Tiles};
-use rtc_valid::{Proof, revalidate};
+use rtc_valid::{ValidScene, revalidate};
 use std::sync::Arc;
 use xxhash_rust::xxh3::xxh3_64;
 
@@ -119,7 +119,7 @@ impl<'bench> Subject<'bench> {
         if let Some(entry) = self.bench.recall(key) {
             return Ok(entry.seconds.iter().map(|rays| *rays as u64).collect());
         }
-        let (scene, job) = (self.prove(setting, Seeds::NONE), self.job(Seeds::NONE));
+        let (scene, job) = (self.validate(setting, Seeds::NONE), self.job(Seeds::NONE));
         let plan = Plan::by(setting.precision, &scene, Rules::ALL);
         let count = || {
             self.bench
@@ -178,7 +178,7 @@ impl<'bench> Subject<'bench> {
         if let Some(entry) = self.bench.recall(key) {
             return Ok(entry.shot);
         }
-        let scene = self.prove(setting, seeds);
+        let scene = self.validate(setting, seeds);
         let shot = self.bench.work(|| self.render(&scene, setting, seeds))?;
         self.bench.note(|| Entry {
             key,
@@ -257,7 +257,7 @@ impl<'bench> Subject<'bench> {
             let (pairs, _) = entry.seconds.as_chunks();
             return pairs.to_vec();
         }
-        let scene = self.prove(setting, Seeds::NONE);
+        let scene = self.validate(setting, Seeds::NONE);
         let nowhere = Crop {
             x: 0,
             y: 0,
@@ -298,12 +298,12 @@ impl<'bench> Subject<'bench> {
     }
 
     /// The scene in a setting, with sub-samples in a pattern that seeds change.
-    fn prove(&self, setting: Setting, seeds: Seeds) -> Proof {
+    fn validate(&self, setting: Setting, seeds: Seeds) -> ValidScene {
         self.prove_with(setting, (seeds.pixel != 0).then_some(Pattern::Jitter))
     }
 
     /// The scene in a setting, in its own pattern or in another.
-    fn prove_with(&self, setting: Setting, pattern: Option<Pattern>) -> Proof {
+    fn prove_with(&self, setting: Setting, pattern: Option<Pattern>) -> ValidScene {
         let mut scene = Scene::clone(&self.scene);
         setting.apply(&mut scene);
         if let Some(pattern) = pattern {
@@ -314,7 +314,7 @@ impl<'bench> Subject<'bench> {
 
     fn render(
         &self,
-        scene: &Proof,
+        scene: &ValidScene,
         setting: Setting,
         seeds: Seeds,
     ) -> Result<RenderedTiles, Stopped> {

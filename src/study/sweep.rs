@@ -1,7 +1,7 @@
 //! Each knob alone: its error if all others have none, the power law of that error, and a model of
 //! all together: squares of errors add.
 
-use super::knob::Knob;
+use super::knob::Parameter;
 use super::metrics::{LEVELS, products};
 use super::outcome::KnobReport;
 use super::reference::{Depths, Level, Reference, independent};
@@ -14,7 +14,7 @@ use rtc_render::Seeds;
 
 /// A knob at each of its values, all others as in the reference.
 pub(super) struct Levels {
-    pub(super) knob: Knob,
+    pub(super) knob: Parameter,
     pub(super) levels: Vec<Level>,
     pub(super) law: Option<PowerLaw>,
 }
@@ -26,7 +26,7 @@ pub(super) struct Levels {
 pub(super) fn sweep(
     subject: &Subject<'_>,
     reference: &Reference,
-    (knob, base): (Knob, Setting),
+    (knob, base): (Parameter, Setting),
     budget: u64,
 ) -> Result<Levels, Stopped> {
     let mut levels: Vec<Level> = Vec::new();
@@ -58,14 +58,14 @@ pub(super) fn sweep(
 }
 
 /// Independent sampling, except for that of the knob.
-fn others(knob: Knob, number: u64) -> Seeds {
+fn others(knob: Parameter, number: u64) -> Seeds {
     let seeds = independent(number);
     match knob {
-        Knob::Supersampling => Seeds { pixel: 0, ..seeds },
-        Knob::Aperture => Seeds { lens: 0, ..seeds },
-        Knob::Lights | Knob::Glossy => Seeds { path: 0, ..seeds },
-        Knob::Paths => Seeds::NONE,
-        Knob::Denoise | Knob::Depth | Knob::Precision => seeds,
+        Parameter::Supersampling => Seeds { pixel: 0, ..seeds },
+        Parameter::Aperture => Seeds { lens: 0, ..seeds },
+        Parameter::Lights | Parameter::Glossy => Seeds { path: 0, ..seeds },
+        Parameter::Paths => Seeds::NONE,
+        Parameter::Denoise | Parameter::Depth | Parameter::Precision => seeds,
     }
 }
 
@@ -97,9 +97,10 @@ fn level(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) ->
 
 /// The law of the rungs that stand out; a single point of a light or lobe is another picture, not a
 /// sample of it.
-fn law(knob: Knob, levels: &[Level]) -> Option<PowerLaw> {
+fn law(knob: Parameter, levels: &[Level]) -> Option<PowerLaw> {
     let is_sample = |level: &&Level| {
-        level.resolved && !(level.value == 1 && matches!(knob, Knob::Lights | Knob::Glossy))
+        level.resolved
+            && !(level.value == 1 && matches!(knob, Parameter::Lights | Parameter::Glossy))
     };
     let points: Vec<_> = levels
         .iter()
@@ -128,7 +129,7 @@ impl Model {
         base_rays: u64,
     ) -> Self {
         knobs.extend(depths.map(|depths| Levels {
-            knob: Knob::Depth,
+            knob: Parameter::Depth,
             levels: depths.levels.clone(),
             law: None,
         }));
@@ -151,12 +152,12 @@ impl Model {
         self.knobs.push(levels);
     }
 
-    fn levels(&self, knob: Knob) -> Option<&Levels> {
+    fn levels(&self, knob: Parameter) -> Option<&Levels> {
         self.knobs.iter().find(|levels| levels.knob == knob)
     }
 
     /// The measured values of a knob, in ascending order of work.
-    pub(super) fn tried(&self, knob: Knob) -> impl Iterator<Item = u32> {
+    pub(super) fn tried(&self, knob: Parameter) -> impl Iterator<Item = u32> {
         self.levels(knob)
             .into_iter()
             .flat_map(|levels| &levels.levels)
@@ -164,7 +165,7 @@ impl Model {
     }
 
     /// The measurements of a knob; `idle` is the reason to leave it alone, if there is one.
-    pub(super) fn report(&self, knob: Knob, idle: Option<String>) -> KnobReport {
+    pub(super) fn report(&self, knob: Parameter, idle: Option<String>) -> KnobReport {
         let levels = self.levels(knob);
         KnobReport {
             knob,
@@ -184,12 +185,12 @@ impl Model {
             let error = levels.error(value);
             // Lights and lobes are sampled anew for each camera ray; one point of them is the same
             // every time.
-            let is_anew = matches!(levels.knob, Knob::Lights | Knob::Glossy) && value > 1;
+            let is_anew = matches!(levels.knob, Parameter::Lights | Parameter::Glossy) && value > 1;
             error * error * if is_anew { more } else { 1.0 }
         });
         // The edges of each point's picture are jagged in their own way: their mean is as smooth as
         // they are many.
-        let samples = Knob::Supersampling.samples(setting.supersampling);
+        let samples = Parameter::Supersampling.samples(setting.supersampling);
         let together = self.interplay / (samples * samples.sqrt() * f64::from(setting.aperture));
         (squares.sum::<f64>() + together).sqrt()
     }
@@ -208,7 +209,7 @@ impl Levels {
     fn error(&self, value: u32) -> f64 {
         // The first rung leaves the most error; it counts even where the noise hides it.
         let counts = |(index, level): &(usize, &Level)| {
-            *index == 0 || level.resolved || self.knob == Knob::Depth
+            *index == 0 || level.resolved || self.knob == Parameter::Depth
         };
         let clear: Vec<_> = self
             .levels
@@ -229,7 +230,7 @@ impl Levels {
             .filter(|above| *above > 0);
         match above {
             // Between the depths tried and the scene's own, which has no error.
-            Some(above) if self.knob == Knob::Depth => {
+            Some(above) if self.knob == Parameter::Depth => {
                 let (below, above) = (clear[above - 1], clear[above]);
                 let fraction =
                     f64::from(value - below.value) / f64::from(above.value - below.value);
@@ -237,7 +238,7 @@ impl Levels {
             }
             Some(above) => self.between([clear[above - 1], clear[above]], x, |level| level.error),
             // Beyond the last value: no more gain in depth, the power law otherwise.
-            None if self.knob == Knob::Depth => last.error,
+            None if self.knob == Parameter::Depth => last.error,
             None => {
                 let exponent = self.law.map_or(0.5, |law| law.p.value.clamp(0.25, 2.0));
                 last.error * exp(-exponent * ln(x / self.knob.samples(last.value)))
@@ -259,7 +260,7 @@ impl Levels {
             .filter(|above| *above > 0);
         match (above, self.levels.last()) {
             (Some(above), _) => self.between([&self.levels[above - 1], &self.levels[above]], x, at),
-            (None, Some(last)) if self.knob == Knob::Depth => at(last),
+            (None, Some(last)) if self.knob == Parameter::Depth => at(last),
             (None, Some(last)) => at(last) * x / self.knob.samples(last.value),
             (None, None) => 1.0,
         }

@@ -5,13 +5,13 @@
 //! stays so. Rounds are decided by the
 //! whole film: a target error alone gives the same picture on any number of threads.
 
-use super::budget::{self, CrudePicture};
-use super::growth::{Growth, Keep, Keeper};
-use super::knob::{Knob, idle};
+use super::budget::{self, CoarsePicture};
+use super::growth::{CheckpointSink, Checkpointer, ProgressiveRender};
+use super::knob::{Parameter, idle};
 use super::noise::Noise;
 use super::rounds::next_round;
 use super::subject::Stopped;
-use super::unmet::Unmet;
+use super::unmet::Undersampled;
 use rtc_color::Tone;
 use rtc_image::Image;
 use rtc_ir::{Pattern, Scene};
@@ -84,7 +84,7 @@ pub struct Samples {
 
 /// A picture and its error.
 #[derive(Clone, Debug)]
-pub struct Reached {
+pub struct TargetResult {
     /// The picture.
     pub image: Image,
     /// Of each pixel the fraction of the samples that met a surface.
@@ -97,7 +97,7 @@ pub struct Reached {
     /// If there is no bound: how bright, in multiples of white, light may be that no sample met.
     pub unmet: Option<f64>,
     /// If the time ended before each pixel had a sample; there is no bound on its error then.
-    pub crude: Option<CrudePicture>,
+    pub crude: Option<CoarsePicture>,
     /// Its samples.
     pub samples: Samples,
     /// Points of each soft light at a hit.
@@ -128,7 +128,7 @@ pub fn approach(
     scene: &Scene,
     order: &Order,
     watch: &Watch<'_>,
-) -> Result<Reached, Stopped> {
+) -> Result<TargetResult, Stopped> {
     approach_keeping(world, scene, order, watch, None)
 }
 
@@ -141,16 +141,18 @@ pub fn approach_keeping(
     scene: &Scene,
     order: &Order,
     watch: &Watch<'_>,
-    keep: Option<Keep<'_>>,
-) -> Result<Reached, Stopped> {
-    let mut samples = Knob::ALL.into_iter().filter(|knob| knob.samples_pixels());
+    keep: Option<CheckpointSink<'_>>,
+) -> Result<TargetResult, Stopped> {
+    let mut samples = Parameter::ALL
+        .into_iter()
+        .filter(|knob| knob.samples_pixels());
     if samples.all(|knob| idle(knob, scene).is_some()) {
         return exactly(world, order, watch);
     }
     let own = world.scene().clone();
     let reached = match order.goal.time {
         Some(time) => budget::within(world, scene, order, watch, time),
-        None => in_rounds(world, scene, order, watch, keep.map(Keeper::new)),
+        None => in_rounds(world, scene, order, watch, keep.map(Checkpointer::new)),
     };
     world.change(own);
     reached
@@ -162,9 +164,9 @@ fn in_rounds(
     scene: &Scene,
     order: &Order,
     watch: &Watch<'_>,
-    mut keeper: Option<Keeper<'_>>,
-) -> Result<Reached, Stopped> {
-    let mut growth = match keeper.as_mut().and_then(Keeper::begun) {
+    mut keeper: Option<Checkpointer<'_>>,
+) -> Result<TargetResult, Stopped> {
+    let mut growth = match keeper.as_mut().and_then(Checkpointer::begun) {
         Some(begun) => begun,
         None => {
             let (light_samples, tried) = light_samples(world, scene, order, watch)?;
@@ -204,8 +206,8 @@ pub(super) fn tail_of(rounds: u32) -> f64 {
 }
 
 /// A picture without samples, of so many points of each soft light.
-pub(super) fn begin(light_samples: u32, order: &Order) -> Growth {
-    Growth {
+pub(super) fn begin(light_samples: u32, order: &Order) -> ProgressiveRender {
+    ProgressiveRender {
         film: order.film(),
         wanted: Vec::new(),
         rounds: 0,
@@ -217,7 +219,7 @@ pub(super) fn begin(light_samples: u32, order: &Order) -> Growth {
 /// The samples of each replicate, and of the pilot, that all pixels are to have before it is decided
 /// which have more.
 pub(super) fn first_round(scene: &Scene, order: &Order, world: &AnyWorld) -> [u32; 2] {
-    let min = if idle(Knob::Paths, scene).is_none() {
+    let min = if idle(Parameter::Paths, scene).is_none() {
         FIRST_PATHS
     } else {
         1
@@ -239,9 +241,9 @@ impl Order {
     }
 
     /// What samples of a world may show.
-    pub(super) fn unmet(&self, world: &AnyWorld) -> Unmet {
+    pub(super) fn unmet(&self, world: &AnyWorld) -> Undersampled {
         let (_, exposure) = self.display;
-        Unmet {
+        Undersampled {
             brightest: (world.brightest() * exposure).max(1.0),
             pixels: self.crop.pixels(),
         }
@@ -249,7 +251,7 @@ impl Order {
 }
 
 /// The picture of a mode without sampling.
-fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
+fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<TargetResult, Stopped> {
     let job = Job {
         crop: Some(order.crop),
         values: order.values,
@@ -267,7 +269,7 @@ fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<Reached
         coverage,
         counts,
     } = film;
-    Ok(Reached {
+    Ok(TargetResult {
         image,
         coverage,
         counts,
@@ -301,7 +303,7 @@ pub(super) fn light_samples(
     const LENGTH: u32 = 4;
     let own = scene.settings.light_samples;
     let (mut best, mut tried) = ((own, f64::INFINITY), Counts::default());
-    if order.keep_lights || own == 1 || idle(Knob::Lights, scene).is_some() {
+    if order.keep_lights || own == 1 || idle(Parameter::Lights, scene).is_some() {
         return Ok((own, tried));
     }
     let Crop {

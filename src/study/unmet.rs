@@ -18,7 +18,7 @@ const MOST: u32 = 256;
 pub(super) struct UnmetError {
     /// Its mean square, for a white of 1.
     pub(super) square: f64,
-    /// As of [`Unmet`].
+    /// As of [`Undersampled`].
     pub(super) brightest: f64,
 }
 
@@ -49,14 +49,14 @@ fn share(target: f64) -> f64 {
 /// greatest where as many pixels as can be change by 1, each with p = 1/L: those are k = 3L/n. If
 /// that is less than one, one pixel changes by k.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unmet {
+pub(super) struct Undersampled {
     /// The greatest value of a sample, in multiples of the white of a display: at least 1.
     pub(super) brightest: f64,
     /// The number of pixels.
     pub(super) pixels: usize,
 }
 
-impl Unmet {
+impl Undersampled {
     /// The mean square error by what is not met, for a white of 1, if the replicates of each pixel
     /// have `count` samples or more.
     fn square(&self, count: u32) -> f64 {
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn the_bound_by_hand() {
-        let unmet = |brightest| Unmet {
+        let unmet = |brightest| Undersampled {
             brightest,
             pixels: 100,
         };
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn as_few_samples_as_leave_a_quarter_of_the_square() {
-        let unmet = Unmet {
+        let unmet = Undersampled {
             brightest: 1.0,
             pixels: 1600,
         };
@@ -126,7 +126,7 @@ mod tests {
     #[test]
     fn nothing_unmet_is_worse() {
         for (brightest, count) in [(1.0, 1), (1.0, 4), (8.0, 4), (3.0, 16)] {
-            let unmet = Unmet {
+            let unmet = Undersampled {
                 brightest,
                 pixels: 64,
             };

@@ -3,7 +3,7 @@
 use super::check::{Check, SMALLEST};
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, Field, Noun, Place};
+use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{NonNegative, Vec3};
 use std::num::NonZeroU32;
 
@@ -90,8 +90,8 @@ pub(super) fn camera(camera: &ir::Camera, check: &mut Check<'_>) -> Option<Camer
     })
 }
 
-fn at(field: Field) -> Place {
-    Place::new(Noun::Camera, 0, field)
+fn at(field: Field) -> ValuePath {
+    ValuePath::new(EntityKind::Camera, 0, field)
 }
 
 /// A step between pixels: a vector with a length.

@@ -3,7 +3,7 @@
 
 use rtc_diag::codes::{self, Code};
 use rtc_diag::{Diagnostic, Severity, Sink};
-use rtc_ir::{Field, Noun, Origins, Place};
+use rtc_ir::{EntityKind, Field, SourceSpans, ValuePath};
 use rtc_math::{NonNegative, Positive, Vec3, shortest, unit_scale};
 use std::num::NonZeroU32;
 
@@ -23,15 +23,15 @@ pub(super) struct EntityCounts {
 
 /// One run of the checks.
 pub(super) struct Check<'run> {
-    origins: &'run Origins,
+    source_spans: &'run SourceSpans,
     sink: &'run mut Sink,
     errors: bool,
 }
 
 impl<'run> Check<'run> {
-    pub(super) fn new(origins: &'run Origins, sink: &'run mut Sink) -> Self {
+    pub(super) fn new(source_spans: &'run SourceSpans, sink: &'run mut Sink) -> Self {
         Self {
-            origins,
+            source_spans,
             sink,
             errors: false,
         }
@@ -47,30 +47,30 @@ impl<'run> Check<'run> {
     }
 
     /// Reports a finding at a place.
-    pub(super) fn report(&mut self, place: Place, label: &str, finding: Diagnostic) {
+    pub(super) fn report(&mut self, place: ValuePath, label: &str, finding: Diagnostic) {
         self.errors |= finding.severity == Severity::Error;
         self.sink.push(
             finding
-                .at(self.origins.span(place), label)
+                .at(self.source_spans.span(place), label)
                 .pointer(place.to_string()),
         );
     }
 
     /// Where the value was written, for secondary labels and replacements.
-    pub(super) fn span(&self, place: Place) -> Option<rtc_source::Span> {
-        self.origins.span(place)
+    pub(super) fn span(&self, place: ValuePath) -> Option<rtc_source::Span> {
+        self.source_spans.span(place)
     }
 
     /// Reports a finding about all entities of a noun, of which there are none: its place is that
     /// which the first one would have.
     pub(super) fn report_all(
         &mut self,
-        noun: Noun,
+        entity: EntityKind,
         pointer: &str,
         label: &str,
         finding: Diagnostic,
     ) {
-        let span = self.origins.span(place(noun, 0, Field::Whole));
+        let span = self.source_spans.span(place(entity, 0, Field::Whole));
         self.sink.push(finding.at(span, label).pointer(pointer));
     }
 
@@ -108,12 +108,12 @@ impl<'run> Check<'run> {
         &mut self,
         id: u32,
         count: usize,
-        noun: &str,
-        place: Place,
+        entity: &str,
+        place: ValuePath,
     ) -> Option<usize> {
         let found = usize::try_from(id).ok().filter(|id| *id < count);
         if found.is_none() {
-            let message = format!("{noun} {id} does not exist: the scene has {count}");
+            let message = format!("{entity} {id} does not exist: the scene has {count}");
             self.report(place, "", Diagnostic::new(&codes::BAD_HANDLE, message));
         }
         found
@@ -122,7 +122,12 @@ impl<'run> Check<'run> {
     /// A direction: a finite vector other than zero. Its length has no meaning. The result is scaled
     /// by a power of two so that its largest component is in [1, 2): its squares neither overflow nor
     /// underflow.
-    pub(super) fn direction(&mut self, value: [f64; 3], name: &str, place: Place) -> Option<Vec3> {
+    pub(super) fn direction(
+        &mut self,
+        value: [f64; 3],
+        name: &str,
+        place: ValuePath,
+    ) -> Option<Vec3> {
         let direction = self.finite_vector(value, place)?;
         let scaled = unit_scale(direction).map(|(scaled, _)| scaled);
         if scaled.is_none() {
@@ -136,7 +141,7 @@ impl<'run> Check<'run> {
     }
 
     /// A finite number with an absolute value of at most 1e60.
-    pub(super) fn number(&mut self, value: f64, place: Place) -> Option<f64> {
+    pub(super) fn number(&mut self, value: f64, place: ValuePath) -> Option<f64> {
         if value.abs() <= LARGEST {
             return Some(value);
         }
@@ -155,7 +160,7 @@ impl<'run> Check<'run> {
     }
 
     /// A point or vector of such numbers. Its three numbers have one finding.
-    pub(super) fn vector(&mut self, value: [f64; 3], place: Place) -> Option<Vec3> {
+    pub(super) fn vector(&mut self, value: [f64; 3], place: ValuePath) -> Option<Vec3> {
         let too_large = |component: &f64| component.is_nan() || component.abs() > LARGEST;
         match value.into_iter().find(too_large) {
             Some(culprit) => self.number(culprit, place).map(|_| Vec3::ZERO),
@@ -164,7 +169,7 @@ impl<'run> Check<'run> {
     }
 
     /// A vector of finite numbers without a limit on its length: only its direction is used.
-    pub(super) fn finite_vector(&mut self, value: [f64; 3], place: Place) -> Option<Vec3> {
+    pub(super) fn finite_vector(&mut self, value: [f64; 3], place: ValuePath) -> Option<Vec3> {
         match value.into_iter().find(|component| !component.is_finite()) {
             Some(culprit) => self.number(culprit, place).map(|_| Vec3::ZERO),
             None => Some(Vec3::from_array(value)),
@@ -172,7 +177,7 @@ impl<'run> Check<'run> {
     }
 
     /// An exponent: finite and at least 0.
-    pub(super) fn exponent(&mut self, value: f64, place: Place) -> Option<NonNegative> {
+    pub(super) fn exponent(&mut self, value: f64, place: ValuePath) -> Option<NonNegative> {
         if !value.is_finite() {
             return self.number(value, place).and_then(NonNegative::new);
         }
@@ -196,7 +201,7 @@ impl<'run> Check<'run> {
         &mut self,
         value: f64,
         name: &str,
-        place: Place,
+        place: ValuePath,
     ) -> Option<NonNegative> {
         let number = self.number(value, place)?;
         let proven = NonNegative::new(number);
@@ -218,7 +223,7 @@ impl<'run> Check<'run> {
     pub(super) fn length(
         &mut self,
         value: f64,
-        place: Place,
+        place: ValuePath,
         code: &'static Code,
         name: &str,
     ) -> Option<Positive> {
@@ -240,7 +245,7 @@ impl<'run> Check<'run> {
     }
 
     /// A colour: each channel at least 0.
-    pub(super) fn color(&mut self, value: [f64; 3], place: Place) -> Option<Vec3> {
+    pub(super) fn color(&mut self, value: [f64; 3], place: ValuePath) -> Option<Vec3> {
         let color = self.vector(value, place)?;
         if color.min_element() < 0.0 {
             let message = format!(
@@ -258,7 +263,7 @@ impl<'run> Check<'run> {
     }
 
     /// A count of at least 1.
-    pub(super) fn count(&mut self, value: u32, name: &str, place: Place) -> Option<NonZeroU32> {
+    pub(super) fn count(&mut self, value: u32, name: &str, place: ValuePath) -> Option<NonZeroU32> {
         let proven = NonZeroU32::new(value);
         if proven.is_none() {
             let finding = Diagnostic::new(&codes::ZERO_COUNT, format!("`{name}` is 0"));
@@ -273,6 +278,6 @@ impl<'run> Check<'run> {
 }
 
 /// The place of a field of a light, material or surface.
-pub(super) fn place(noun: Noun, index: usize, field: Field) -> Place {
-    Place::new(noun, index, field)
+pub(super) fn place(entity: EntityKind, index: usize, field: Field) -> ValuePath {
+    ValuePath::new(entity, index, field)
 }

@@ -2,7 +2,7 @@
 
 use super::check::Check;
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, Field, Noun, Place};
+use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::Vec3;
 
 /// The radiance from directions without a surface.
@@ -10,7 +10,7 @@ use rtc_math::Vec3;
 pub struct Environment {
     /// The radiance, each channel at least 0, a factor of the image if there is one.
     pub radiance: Vec3,
-    /// An image of all directions: an index into [`super::Proof::images`].
+    /// An image of all directions: an index into [`super::ValidScene::images`].
     pub image: Option<usize>,
     /// The rows of the rotation from directions of the world to those of the image.
     pub image_from_world: [Vec3; 3],
@@ -41,7 +41,7 @@ pub(super) fn environment(
     else {
         return Some(Environment::DARK);
     };
-    let at = Place::new(Noun::Environment, 0, Field::Whole);
+    let at = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
     let radiance = check.color(*radiance, at);
     let image = check.optional(image.as_ref(), |check, image| {
         check.handle(image.0, images, "image", at)

@@ -4,7 +4,7 @@ use super::check::{Check, place};
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_image::Texels;
-use rtc_ir::{self as ir, Field, Noun};
+use rtc_ir::{self as ir, EntityKind, Field};
 use std::num::NonZeroU32;
 
 /// A picture of at least one pixel.
@@ -28,7 +28,7 @@ pub(super) fn image(image: &ir::Image, index: usize, check: &mut Check<'_>) -> O
     } = image;
     let mut refuse = |message: String| {
         check.report(
-            place(Noun::Image, index, Field::Whole),
+            place(EntityKind::Image, index, Field::Whole),
             "",
             Diagnostic::new(&codes::BAD_IMAGE, message),
         );

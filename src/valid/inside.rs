@@ -2,7 +2,7 @@
 
 use super::check::{Check, place};
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, Field, Noun};
+use rtc_ir::{self as ir, EntityKind, Field};
 use rtc_math::{Vec3, unit};
 
 /// The limit on lights times surfaces: beyond it the quadratic search is left out.
@@ -34,9 +34,9 @@ pub(super) fn lights(scene: &ir::Scene, check: &mut Check<'_>) {
         let word = surfaces[solid].shape.kind().word();
         let message = format!("a light stands inside a {word}");
         let finding = Diagnostic::new(&codes::LIGHT_INSIDE, message);
-        let span = check.span(place(Noun::Surface, solid, Field::Whole));
+        let span = check.span(place(EntityKind::Surface, solid, Field::Whole));
         check.report(
-            place(Noun::Light, index, Field::Position),
+            place(EntityKind::Light, index, Field::Position),
             &format!("with shadows on, nothing outside the {word} sees this light"),
             finding.also(span, format!("this {word}")),
         );
@@ -77,10 +77,10 @@ pub(super) fn eye(scene: &ir::Scene, check: &mut Check<'_>) {
     }
     let word = shape.kind().word();
     let message = format!("the eye stands inside a {word} that hides all other objects");
-    let span = check.span(place(Noun::Surface, solid, Field::Whole));
+    let span = check.span(place(EntityKind::Surface, solid, Field::Whole));
     let finding = Diagnostic::new(&codes::EYE_INSIDE, message).also(span, format!("this {word}"));
     check.report(
-        place(Noun::Camera, 0, Field::Eye),
+        place(EntityKind::Camera, 0, Field::Eye),
         "every ray starts in there",
         finding,
     );

@@ -1,4 +1,4 @@
-//! The proof: only [`validate`] makes a [`Proof`], and every number in a proof is in its range.
+//! The proof: only [`validate`] makes a [`ValidScene`], and every number in a proof is in its range.
 //!
 //! All checks on the IR are here, so a faulty IR file is refused like a faulty text. This room does
 //! not know the source of a scene: it looks up spans in the origins it is given, and every finding
@@ -34,7 +34,7 @@ pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 
 use check::{Check, EntityCounts};
 use rtc_diag::Sink;
-use rtc_ir::{self as ir, Origins};
+use rtc_ir::{self as ir, SourceSpans};
 use rtc_source::Limits;
 use std::sync::Arc;
 
@@ -48,7 +48,7 @@ pub struct ProofOptions {
 /// A proven scene: handles in range, numbers finite and in range, bases at right angles, triangles
 /// with an area.
 #[derive(Clone, Debug)]
-pub struct Proof {
+pub struct ValidScene {
     camera: Camera,
     settings: Settings,
     lights: Vec<Light>,
@@ -60,7 +60,7 @@ pub struct Proof {
     surfaces: Vec<Surface>,
 }
 
-impl Proof {
+impl ValidScene {
     /// The camera.
     #[must_use]
     pub fn camera(&self) -> &Camera {
@@ -116,13 +116,13 @@ impl Proof {
     }
 }
 
-impl Proof {
+impl ValidScene {
     /// The same scene with another camera, for a picture of the same size; `None` if that camera is
     /// not valid.
     #[must_use]
     pub fn seen_by(&self, camera: &ir::Camera) -> Option<Self> {
-        let (origins, mut sink) = (Origins::default(), Sink::default());
-        let mut check = Check::new(&origins, &mut sink);
+        let (source_spans, mut sink) = (SourceSpans::default(), Sink::default());
+        let mut check = Check::new(&source_spans, &mut sink);
         let camera = camera::camera(camera, &mut check)?;
         let is_as_large = (camera.width, camera.height) == (self.camera.width, self.camera.height);
         (check.is_clean() && is_as_large).then(|| Self {
@@ -137,11 +137,16 @@ impl Proof {
 /// # Panics
 /// If what was changed is out of range.
 #[must_use]
-pub fn revalidate(scene: &ir::Scene) -> Proof {
+pub fn revalidate(scene: &ir::Scene) -> ValidScene {
     let options = ProofOptions {
         limits: Limits::NONE,
     };
-    let proof = validate(scene, &Origins::default(), &options, &mut Sink::default());
+    let proof = validate(
+        scene,
+        &SourceSpans::default(),
+        &options,
+        &mut Sink::default(),
+    );
     proof.expect("the scene was proven before, and what was changed is in range")
 }
 
@@ -150,10 +155,10 @@ pub fn revalidate(scene: &ir::Scene) -> Proof {
 /// Returns `None` if and only if this call reported an error.
 pub fn validate(
     scene: &ir::Scene,
-    origins: &Origins,
+    source_spans: &SourceSpans,
     options: &ProofOptions,
     sink: &mut Sink,
-) -> Option<Proof> {
+) -> Option<ValidScene> {
     let ir::Scene {
         camera,
         settings,
@@ -167,7 +172,7 @@ pub fn validate(
         environment,
         display,
     } = scene;
-    let mut check = Check::new(origins, sink);
+    let mut check = Check::new(source_spans, sink);
     let valid_camera = camera::camera(camera, &mut check);
     let valid_settings = settings::settings(settings, &mut check);
     settings::display(display, &mut check);
@@ -191,7 +196,7 @@ pub fn validate(
         shape::surface(surface, index, &counts, check)
     });
     settings::budget(scene, options, &mut check);
-    let valid = Proof {
+    let valid = ValidScene {
         camera: valid_camera?,
         settings: valid_settings?,
         lights: valid_lights?,

@@ -3,7 +3,7 @@
 use super::check::{Check, place};
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, Field, Noun, Place};
+use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{NonNegative, Positive, Vec3, unit};
 use rtc_profile::Profile;
 
@@ -82,7 +82,7 @@ fn course(light: &ir::PointLight, index: usize, check: &mut Check<'_>) -> Option
         color,
         radius,
     } = light;
-    let at = |field| place(Noun::Light, index, field);
+    let at = |field| place(EntityKind::Light, index, field);
     let position = check.vector(*position, at(Field::Position));
     let color = check.color(*color, at(Field::Color));
     let radius = check.non_negative(*radius, "radius", at(Field::LightRadius));
@@ -94,7 +94,7 @@ fn course(light: &ir::PointLight, index: usize, check: &mut Check<'_>) -> Option
 }
 
 fn punctual(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> Option<Punctual> {
-    let at = place(Noun::Light, index, Field::Whole);
+    let at = place(EntityKind::Light, index, Field::Whole);
     let ir::Punctual { emitter, intensity } = light;
     let intensity = check.color(*intensity, at);
     let place = emitter.position().map(|position| {
@@ -127,7 +127,7 @@ fn punctual(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> Option
     }))
 }
 
-fn falloff(range: Option<f64>, at: Place, check: &mut Check<'_>) -> Option<Falloff> {
+fn falloff(range: Option<f64>, at: ValuePath, check: &mut Check<'_>) -> Option<Falloff> {
     match range {
         Some(range) => check
             .length(range, at, &codes::BAD_LIGHT, "range")

@@ -5,7 +5,7 @@ use super::check::{Check, LARGEST, place};
 use super::shape::has_area;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, Field, Noun};
+use rtc_ir::{self as ir, EntityKind, Field};
 use rtc_math::{Column, Shared, Vec3, unit};
 
 /// A mesh has at most so many triangles: a hierarchy over them takes 21 GB.
@@ -50,7 +50,7 @@ impl Mesh {
 }
 
 pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Option<Mesh> {
-    let whole = place(Noun::Mesh, index, Field::Whole);
+    let whole = place(EntityKind::Mesh, index, Field::Whole);
     if let Some(message) = fault(mesh) {
         check.report(whole, "", Diagnostic::new(&codes::BAD_MESH, message));
         return None;

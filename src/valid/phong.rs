@@ -2,7 +2,7 @@
 
 use super::check::{Check, EntityCounts, place};
 use rtc_diag::codes;
-use rtc_ir::{self as ir, Field, Noun, Place, TextureId};
+use rtc_ir::{self as ir, EntityKind, Field, TextureId, ValuePath};
 use rtc_math::{NonNegative, Positive, Vec3};
 use std::num::NonZeroU32;
 
@@ -29,7 +29,7 @@ pub struct Phong {
     pub maps: Option<Box<Maps>>,
 }
 
-/// Textures of a material, as indices into [`super::Proof::textures`].
+/// Textures of a material, as indices into [`super::ValidScene::textures`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Maps {
     /// The texture that gives the colour.
@@ -45,7 +45,7 @@ pub struct Maps {
 /// A height field over a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bump {
-    /// The texture: an index into [`super::Proof::textures`].
+    /// The texture: an index into [`super::ValidScene::textures`].
     pub texture: usize,
     /// The height of white above black, as a fraction of the width of a texel.
     pub height: f64,
@@ -71,7 +71,7 @@ pub(super) fn phong(
         normal_map,
         bump,
     } = phong;
-    let at = |field| place(Noun::Material, index, field);
+    let at = |field| place(EntityKind::Material, index, field);
     let color = check.color(*color, at(Field::Color));
     let ka = check.non_negative(*ka, "ka", at(Field::Ka));
     let kd = check.non_negative(*kd, "kd", at(Field::Kd));
@@ -113,7 +113,7 @@ pub(super) fn phong(
 fn height_field(
     bump: &ir::Bump,
     counts: &EntityCounts,
-    place: Place,
+    place: ValuePath,
     check: &mut Check<'_>,
 ) -> Option<Bump> {
     let ir::Bump { texture, height } = bump;

@@ -4,7 +4,7 @@ use super::check::Check;
 use rtc_color::Tone;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, Field, Noun, Place};
+use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_source::Resource;
 use std::num::NonZeroU32;
 
@@ -183,8 +183,8 @@ fn gooch(gooch: &ir::Gooch, check: &mut Check<'_>) -> Option<Mode> {
     }))
 }
 
-fn at(field: Field) -> Place {
-    Place::new(Noun::Settings, 0, field)
+fn at(field: Field) -> ValuePath {
+    ValuePath::new(EntityKind::Settings, 0, field)
 }
 
 /// Refuses pictures beyond the limits on pixels and rays.
@@ -198,7 +198,11 @@ pub(super) fn budget(scene: &ir::Scene, options: &super::ProofOptions, check: &m
         let finding = finding.hint(format!(
             "at most {limit} pixels; `--limit pixels=…` sets another limit"
         ));
-        check.report(Place::new(Noun::Camera, 0, Field::Size), "", finding);
+        check.report(
+            ValuePath::new(EntityKind::Camera, 0, Field::Size),
+            "",
+            finding,
+        );
         return;
     }
     too_many_rays(scene, pixels, options.limits.of(Resource::Rays, 0), check);
@@ -212,14 +216,14 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<
     let samples = SampleCounts::of(scene);
     let mut product = format!("{width} × {height} pixels × {supersampling}² sub-samples");
     let mut rays = pixels.saturating_mul(cells);
-    for (count, noun) in [
+    for (count, entity) in [
         (samples.paths, "paths"),
         (samples.lens, "aperture samples"),
         (samples.light, "light samples"),
     ] {
         rays = rays.saturating_mul(count.into());
         if count > 1 {
-            product += &format!(" × {count} {noun}");
+            product += &format!(" × {count} {entity}");
         }
     }
     if rays <= limit.into() {

@@ -3,7 +3,7 @@
 use super::check::{Check, EntityCounts, LARGEST, place};
 use super::texture::{self, Map};
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, Field, Noun, Place};
+use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{NonNegative, Positive, UnitInterval, Vec3, shortest};
 use rtc_tables::{camel_case, map_of, parameters};
 
@@ -99,7 +99,7 @@ macro_rules! material {
             check: &mut Check<'_>,
         ) -> Option<Standard> {
             let ir::Standard { name: _, $($field,)* } = material;
-            let at = place(Noun::Material, index, Field::Whole);
+            let at = place(EntityKind::Material, index, Field::Whole);
             let mut parameters = Parameters { at, counts, check };
             $(let $field = parameters.$kind($field, camel_case!($field));)*
             Some(Standard { $($field: $field?,)* })
@@ -140,7 +140,7 @@ const ANY: Range = [-LARGEST, LARGEST];
 
 /// The checks of the parameters of one material.
 struct Parameters<'a, 'run> {
-    at: Place,
+    at: ValuePath,
     counts: &'a EntityCounts,
     check: &'a mut Check<'run>,
 }

@@ -5,7 +5,7 @@
 use super::check::{Check, place};
 use super::inside;
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, Field, Noun};
+use rtc_ir::{self as ir, EntityKind, Field};
 use rtc_math::{Vec3, shortest};
 
 /// Warns of what is hardly meant, in a scene without errors: what could not be read is missing here.
@@ -23,14 +23,14 @@ pub(super) fn suspicions(scene: &ir::Scene, check: &mut Check<'_>) {
             continue;
         };
         if phong.color_map.is_none() && looks_like_bytes(phong.color, 2.0) {
-            bytes(phong.color, Noun::Material, index, check);
+            bytes(phong.color, EntityKind::Material, index, check);
         }
         weights(phong, index, check);
     }
     for (index, light) in scene.lights.iter().enumerate() {
         let Some(light) = light.point() else { continue };
         if looks_like_bytes(light.color, BRIGHT) {
-            bytes(light.color, Noun::Light, index, check);
+            bytes(light.color, EntityKind::Light, index, check);
         }
     }
 }
@@ -45,7 +45,7 @@ fn looks_like_bytes(color: [f64; 3], least: f64) -> bool {
     color.iter().all(is_byte) && color.iter().any(|channel| *channel >= least)
 }
 
-fn bytes(color: [f64; 3], noun: Noun, index: usize, check: &mut Check<'_>) {
+fn bytes(color: [f64; 3], entity: EntityKind, index: usize, check: &mut Check<'_>) {
     let [r, g, b] = color.map(|channel| (channel / 255.0 * 1000.0).round() / 1000.0);
     let finding = Diagnostic::new(
         &codes::COLOR_OF_BYTES,
@@ -53,7 +53,7 @@ fn bytes(color: [f64; 3], noun: Noun, index: usize, check: &mut Check<'_>) {
     );
     let finding = finding.hint(format!("1 is full strength: `[{r}, {g}, {b}]`"));
     check.report(
-        place(noun, index, Field::Color),
+        place(entity, index, Field::Color),
         "far brighter than white",
         finding,
     );
@@ -79,7 +79,7 @@ fn weights(phong: &ir::Phong, index: usize, check: &mut Check<'_>) {
             shortest(weight / 100.0)
         );
         check.report(
-            place(Noun::Material, index, field),
+            place(EntityKind::Material, index, field),
             "so many times as bright as what is lit",
             Diagnostic::new(&codes::LARGE_WEIGHT, message).hint(hint),
         );
@@ -97,9 +97,9 @@ const FILLED: f64 = 0.75;
 /// Warns of an `up`, as a text of the course has it, whose length makes pixels larger than what
 /// there is to see.
 fn tiny_picture(scene: &ir::Scene, check: &mut Check<'_>) {
-    let up = place(Noun::Camera, 0, Field::Up);
+    let up = place(EntityKind::Camera, 0, Field::Up);
     // An `Eye` has no `up` of its own.
-    let whole = check.span(place(Noun::Camera, 0, Field::Whole));
+    let whole = check.span(place(EntityKind::Camera, 0, Field::Whole));
     let span = check.span(up).filter(|span| Some(*span) != whole);
     let (Some(span), Some(ball)) = (span, scene.ball()) else {
         return;
@@ -153,7 +153,7 @@ fn no_light(scene: &ir::Scene, check: &mut Check<'_>) {
     if is_lit && !has_own_light && lights.is_empty() && !surfaces.is_empty() {
         let finding = Diagnostic::new(&codes::NO_LIGHT, "the scene has no light, so it is black")
             .hint("a light is written as `Lights: [{position: [0, 0, 0], color: [1, 1, 1]}]`");
-        check.report_all(Noun::Light, "/lights", "no light here", finding);
+        check.report_all(EntityKind::Light, "/lights", "no light here", finding);
     }
 }
 
@@ -170,7 +170,7 @@ fn shadows_of_paths(scene: &ir::Scene, check: &mut Check<'_>) {
         )
         .hint("`RenderMode: phong` takes `shadow: false` as it is written");
         check.report(
-            place(Noun::Surface, index, Field::Whole),
+            place(EntityKind::Surface, index, Field::Whole),
             "this one too, in spite of its `shadow: false`",
             finding,
         );
@@ -204,7 +204,11 @@ fn lost_parts(scene: &ir::Scene, check: &mut Check<'_>) {
         };
         let finding = Diagnostic::new(&codes::LOST_PARTS, message).hint(hint);
         let label = "it says more than is shown";
-        check.report(place(Noun::Material, index, Field::Whole), label, finding);
+        check.report(
+            place(EntityKind::Material, index, Field::Whole),
+            label,
+            finding,
+        );
     }
 }
 

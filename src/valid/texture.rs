@@ -2,7 +2,7 @@
 
 use super::check::{Check, EntityCounts, place};
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, Field, Noun, Place};
+use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 
 /// A texture of any kind.
 #[derive(Clone, Copy, Debug)]
@@ -10,7 +10,7 @@ pub enum Texture {
     /// The colour (u, 0, v).
     Uv,
     /// An image as the course looks it up, v = 1 at its top row: an index into
-    /// [`super::Proof::images`].
+    /// [`super::ValidScene::images`].
     Image(usize),
     /// An image as glTF samples it, v = 0 at its top row.
     Sampled(Sampled),
@@ -19,7 +19,7 @@ pub enum Texture {
 /// An image and its sampling.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampled {
-    /// An index into [`super::Proof::images`].
+    /// An index into [`super::ValidScene::images`].
     pub image: usize,
     /// The wrap modes along u and v.
     pub wrap: [Wrap; 2],
@@ -50,7 +50,7 @@ pub enum Filter {
 /// A texture, and the map from the coordinates of a surface to its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Map {
-    /// An index into [`super::Proof::textures`].
+    /// An index into [`super::ValidScene::textures`].
     pub texture: usize,
     /// Which coordinates of the surface.
     pub set: UvSet,
@@ -87,7 +87,7 @@ pub(super) fn texture(
     images: usize,
     check: &mut Check<'_>,
 ) -> Option<Texture> {
-    let at = place(Noun::Texture, index, Field::Whole);
+    let at = place(EntityKind::Texture, index, Field::Whole);
     let mut exists = |image: ir::ImageId| check.handle(image.0, images, "image", at);
     match texture {
         ir::Texture::Uv => Some(Texture::Uv),
@@ -115,7 +115,7 @@ pub(super) fn texture(
 pub(super) fn map(
     map: &ir::Map,
     counts: &EntityCounts,
-    at: Place,
+    at: ValuePath,
     check: &mut Check<'_>,
 ) -> Option<Map> {
     let ir::Map {

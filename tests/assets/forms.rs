@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use rtc::internals::diag::Sink;
 use rtc::internals::front::mesh::{Parsed, Unread, is_mesh, parse};
 use rtc::internals::ir::{Column, Lowered, Material, Mode};
-use rtc::internals::pipeline::{Options, load, prove};
+use rtc::internals::pipeline::{Options, load, validate};
 use rtc::internals::source::{Budget, Limits, Loader, Resource, SourceMap};
 
 /// The vertices of a tetrahedron.
@@ -277,7 +277,7 @@ fn alone(name: &str, bytes: &[u8], beside: &[(&str, &str)]) -> (Option<Lowered>,
     let lowered = load(file, &mut map, &options, &mut sink);
     let proof = lowered
         .as_ref()
-        .and_then(|lowered| prove(lowered, &options, &mut sink));
+        .and_then(|lowered| validate(lowered, &options, &mut sink));
     assert_eq!(proof.is_some(), lowered.is_some());
     let lines = sink.kept().iter();
     let lines = lines.map(|finding| format!("{} {}\n", finding.code, finding.message));

@@ -28,7 +28,7 @@ const TARGETS: &[Target] = &[
     ("scene_parser", run::lower),
     ("check", run::check),
     ("ir_decode", run::decode),
-    ("validate", run::validate),
+    ("validate", run::validate_any),
     ("render_tiny", run::picture),
     ("gltf", run::gltf),
     ("glb", run::glb),

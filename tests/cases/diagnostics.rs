@@ -81,7 +81,7 @@ fn findings(case: &Path) -> String {
         &fs::read(expectations(case)).unwrap(),
     ));
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
-    let proof = lowered.and_then(|lowered| pipeline::prove(&lowered, &options, &mut sink));
+    let proof = lowered.and_then(|lowered| pipeline::validate(&lowered, &options, &mut sink));
     let is_gltf = case
         .extension()
         .is_some_and(|extension| extension != "yaml");
@@ -131,7 +131,7 @@ fn found_in(case: &Path, text: &[u8]) -> (SourceMap, FileId, Sink) {
     let file = map.add_from(case, text.to_vec());
     let options = options(&String::from_utf8_lossy(text));
     if let Some(lowered) = pipeline::load(file, &mut map, &options, &mut sink) {
-        pipeline::prove(&lowered, &options, &mut sink);
+        pipeline::validate(&lowered, &options, &mut sink);
     }
     (map, file, sink)
 }
@@ -193,7 +193,7 @@ fn fixed(case: &Path) -> usize {
     };
     let before = count(text);
     let fix = |guesses| {
-        let wish = pipeline::FixWish {
+        let wish = pipeline::FixFilter {
             guesses,
             only: None,
         };

@@ -79,7 +79,7 @@ fn lower(path: &Path) -> (Option<Scene>, Sink) {
     let file = Loader.file(path, &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     if let Some(lowered) = &lowered {
-        pipeline::prove(lowered, &options, &mut sink);
+        pipeline::validate(lowered, &options, &mut sink);
     }
     (lowered.map(|lowered| lowered.scene), sink)
 }

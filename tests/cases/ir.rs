@@ -58,7 +58,7 @@ fn scene_in(file: FileId, mut map: SourceMap) -> Scene {
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
     let proven = lowered
         .as_ref()
-        .and_then(|lowered| pipeline::prove(lowered, &Options::default(), &mut sink));
+        .and_then(|lowered| pipeline::validate(lowered, &Options::default(), &mut sink));
     assert!(
         proven.is_some() && sink.kept().is_empty(),
         "{name}: {:#?}",

@@ -11,7 +11,7 @@ fn error_follows_the_laws_of_sampling() {
             .find(|report| report.knob == knob)
             .and_then(|report| report.law)
     };
-    let edges = law(&WHOLE, Knob::Supersampling).unwrap().p;
+    let edges = law(&WHOLE, Parameter::Supersampling).unwrap().p;
     assert!(
         0.6 < edges.value && edges.value < 0.95,
         "edges under a grid: {edges:?}"
@@ -20,8 +20,8 @@ fn error_follows_the_laws_of_sampling() {
         "{\"radius\": 0, \"samples\": 1}",
         "{\"radius\": 2, \"samples\": 1}",
     )]);
-    let coarse = Setting::of(&blurred).with(Knob::Supersampling, 1);
-    let at = |points| [picture(&blurred, coarse.with(Knob::Aperture, points))];
+    let coarse = Setting::of(&blurred).with(Parameter::Supersampling, 1);
+    let at = |points| [picture(&blurred, coarse.with(Parameter::Aperture, points))];
     let truth = at(1024);
     let lens = PowerLaw::fit(&[4, 16, 64].map(|n| (f64::from(n), study::rmse(&at(n), &truth))))
         .unwrap()
@@ -70,7 +70,7 @@ fn rows_that_the_reference_cannot_judge_say_so() {
 fn the_error_told_is_the_distance_to_a_finer_render() {
     let scene = scene(&[]);
     let own = Setting::of(&scene);
-    let fine = own.with(Knob::Supersampling, 32);
+    let fine = own.with(Parameter::Supersampling, 32);
     let (coarse, fine) = (picture(&scene, own), picture(&scene, fine));
     let told = WHOLE.own().unwrap().errors.rmse;
     let error = study::rmse(&[coarse], &[fine]);
@@ -86,10 +86,10 @@ pub(super) fn picture(scene: &Scene, setting: Setting) -> Image {
 pub(super) fn film(scene: &Scene) -> Image {
     let lowered = rtc::internals::ir::Lowered {
         scene: scene.clone(),
-        origins: rtc::internals::ir::Origins::default(),
+        source_spans: rtc::internals::ir::SourceSpans::default(),
     };
     let mut sink = Sink::default();
-    let valid = pipeline::prove(&lowered, &Options::default(), &mut sink)
+    let valid = pipeline::validate(&lowered, &Options::default(), &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()));
     render(
         &valid,
@@ -107,7 +107,7 @@ fn a_planted_defect_shows_as_a_floor() {
     let scene = scene(&[]);
     let truth = [picture(
         &scene,
-        Setting::of(&scene).with(Knob::Supersampling, 24),
+        Setting::of(&scene).with(Parameter::Supersampling, 24),
     )];
     let mut shifted = scene.clone();
     shifted.camera.center[0] += 0.1 * shifted.camera.right[0];
@@ -119,7 +119,7 @@ fn a_planted_defect_shows_as_a_floor() {
                 study::rmse(
                     &[picture(
                         scene,
-                        Setting::of(scene).with(Knob::Supersampling, factor),
+                        Setting::of(scene).with(Parameter::Supersampling, factor),
                     )],
                     &truth,
                 ),
@@ -139,7 +139,7 @@ fn what_is_left_out_of_the_depth_ends_at_the_scenes_own() {
     let depth = WHOLE
         .knobs
         .iter()
-        .find(|report| report.knob == Knob::Depth)
+        .find(|report| report.knob == Parameter::Depth)
         .unwrap();
     let errors: Vec<_> = depth.levels.iter().map(|level| level.error).collect();
     assert!(
@@ -156,7 +156,7 @@ fn the_scenes_own_depth_is_no_error() {
     let study = study_of(&flat, 2_000_000, 0);
     let table = study::table(&study);
     let own = Setting::of(&flat);
-    let fine = own.with(Knob::Supersampling, 16);
+    let fine = own.with(Parameter::Supersampling, 16);
     let error = study::rmse(&[picture(&flat, own)], &[picture(&flat, fine)]);
     let told = study.own().unwrap().errors.rmse;
     assert!((told / error - 1.0).abs() < 0.05, "{told} for {error}");
@@ -167,7 +167,7 @@ fn the_scenes_own_depth_is_no_error() {
     for study in [&study, &*WHOLE] {
         let bounces = study.bounces.as_ref().unwrap();
         let most = bounces.deeper.last().unwrap();
-        let at = |depth| [picture(&flat, fine.with(Knob::Depth, depth))];
+        let at = |depth| [picture(&flat, fine.with(Parameter::Depth, depth))];
         let difference = study::rmse(&at(bounces.own), &at(most.depth));
         assert!(
             bounces.end == DepthEnd::Exact && (most.difference / difference - 1.0).abs() < 0.2,
@@ -196,8 +196,8 @@ fn the_interval_of_a_part_holds_the_error_of_the_whole() {
         ("\"size\": [48, 32]", "\"size\": [240, 160]"),
         ("0.8", "0.32"),
     ]);
-    let own = Setting::of(&wide).with(Knob::Supersampling, 1);
-    let pictures = [1, 4].map(|factor| picture(&wide, own.with(Knob::Supersampling, factor)));
+    let own = Setting::of(&wide).with(Parameter::Supersampling, 1);
+    let pictures = [1, 4].map(|factor| picture(&wide, own.with(Parameter::Supersampling, factor)));
     let [columns, rows] = SIZE.map(|side| side / Tiles::SIDE);
     let places = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y]));
     let places: Vec<_> = places.collect();
@@ -269,13 +269,18 @@ fn paths_have_a_ladder_and_a_law_of_their_own() {
     let table = study::table(&study);
     assert_eq!(
         study.used(),
-        [Knob::Paths, Knob::Denoise, Knob::Depth, Knob::Precision],
+        [
+            Parameter::Paths,
+            Parameter::Denoise,
+            Parameter::Depth,
+            Parameter::Precision
+        ],
         "{table}"
     );
     let law = study
         .knobs
         .iter()
-        .find(|report| report.knob == Knob::Paths)
+        .find(|report| report.knob == Parameter::Paths)
         .and_then(|report| report.law)
         .unwrap();
     assert!(
@@ -306,7 +311,7 @@ fn paths_have_a_ladder_and_a_law_of_their_own() {
     let own = study.own().unwrap().setting;
     for row in &study.rows {
         let paths = f64::from(row.setting.paths);
-        if row.setting == own.with(Knob::Paths, row.setting.paths) && row.judged {
+        if row.setting == own.with(Parameter::Paths, row.setting.paths) && row.judged {
             let delta = row.errors.delta_e;
             assert!(
                 paths > 0.5 * wanted || delta > 1.0,

@@ -7,18 +7,24 @@ use super::*;
 fn knobs_that_change_nothing_say_why() {
     let reason = |changes: &[(&str, &str)], knob| study::idle(knob, &scene(changes));
     assert_eq!(
-        reason(&[], Knob::Aperture).unwrap(),
+        reason(&[], Parameter::Aperture).unwrap(),
         "the lens has no radius"
     );
-    assert_eq!(reason(&[], Knob::Lights).unwrap(), "no light has a radius");
-    assert_eq!(reason(&[], Knob::Glossy).unwrap(), "no material is glossy");
-    assert_eq!(reason(&[], Knob::Depth), None);
-    assert!(reason(&[("\"ks\": 0.5", "\"ks\": 0")], Knob::Depth).is_some());
-    assert!(reason(&[("\"phong\",", "\"zbuffer\",")], Knob::Supersampling).is_some());
-    assert!(reason(&[("\"phong\",", "\"normal\",")], Knob::Depth).is_some());
+    assert_eq!(
+        reason(&[], Parameter::Lights).unwrap(),
+        "no light has a radius"
+    );
+    assert_eq!(
+        reason(&[], Parameter::Glossy).unwrap(),
+        "no material is glossy"
+    );
+    assert_eq!(reason(&[], Parameter::Depth), None);
+    assert!(reason(&[("\"ks\": 0.5", "\"ks\": 0")], Parameter::Depth).is_some());
+    assert!(reason(&[("\"phong\",", "\"zbuffer\",")], Parameter::Supersampling).is_some());
+    assert!(reason(&[("\"phong\",", "\"normal\",")], Parameter::Depth).is_some());
     let soft_and_black = [("[1, 1, 1]}}]", "[0, 0, 0], \"radius\": 3}}]")];
     assert_eq!(
-        reason(&soft_and_black, Knob::Lights).unwrap(),
+        reason(&soft_and_black, Parameter::Lights).unwrap(),
         "soft light: its colour is 0 (E-LIGHT-BLACK)"
     );
     let table = study::table(&WHOLE);
@@ -34,7 +40,8 @@ fn idle_knobs_change_no_bit() {
     let mut one_ball = scene(&[]);
     one_ball.surfaces.truncate(1);
     assert!(
-        study::idle(Knob::Depth, &one_ball).is_some_and(|reason| reason.contains("E-REFL-CONVEX"))
+        study::idle(Parameter::Depth, &one_ball)
+            .is_some_and(|reason| reason.contains("E-REFL-CONVEX"))
     );
     let changed = [
         scene(&[("\"ks\": 0.5", "\"ks\": 0")]),
@@ -48,7 +55,7 @@ fn idle_knobs_change_no_bit() {
             film(&scene)
         };
         let plain = film(&scene);
-        for knob in Knob::ALL
+        for knob in Parameter::ALL
             .into_iter()
             .filter(|knob| study::idle(*knob, &scene).is_some())
         {
@@ -70,7 +77,7 @@ fn effects_are_what_the_scene_has() {
         let costs = study.effects.iter().filter(move |cost| cost.kind == kind);
         costs.collect::<Vec<_>>()
     };
-    let effects = of(&WHOLE, Omission::Effect);
+    let effects = of(&WHOLE, Ablation::Effect);
     let names: Vec<_> = effects.iter().map(|cost| cost.effect.as_str()).collect();
     assert_eq!(
         names,
@@ -89,7 +96,7 @@ fn effects_are_what_the_scene_has() {
         "{effects:?}"
     );
     let camera = |cost: &&EffectCost| cost.rays.camera;
-    let parts = of(&PART, Omission::Effect);
+    let parts = of(&PART, Ablation::Effect);
     let blurred = parts.iter().find(|cost| cost.effect == "shadows").unwrap();
     let sharp = parts
         .iter()
@@ -108,7 +115,7 @@ fn parts_of_the_scene_have_their_costs() {
             .collect::<Vec<_>>()
     };
     let names = |costs: &[(&'static str, _)]| costs.iter().map(|cost| cost.0).collect::<Vec<_>>();
-    let (lights, objects) = (named(Omission::Light), named(Omission::Object));
+    let (lights, objects) = (named(Ablation::Light), named(Ablation::Object));
     assert_eq!(names(&lights), ["light 1"]);
     assert_eq!(lights[0].1.rays.shadow, 0, "no light, no shadow rays");
     assert_eq!(names(&objects), ["plane 3", "sphere 2", "sphere 1"]);
@@ -117,7 +124,7 @@ fn parts_of_the_scene_have_their_costs() {
         "{objects:?}"
     );
     // The floor has no mirror; that of both balls is their material's.
-    let materials = named(Omission::Material);
+    let materials = named(Ablation::Material);
     assert_eq!(names(&materials), ["material 1, matt instead"]);
     assert!(materials[0].1.rays.mirror == 0 && materials[0].1.difference > 1.0);
 }
@@ -131,7 +138,7 @@ fn objects_go_by_their_names() {
     let objects = study
         .effects
         .iter()
-        .filter(|cost| cost.kind == Omission::Object);
+        .filter(|cost| cost.kind == Ablation::Object);
     let names: Vec<_> = objects.map(|cost| cost.effect.as_str()).collect();
     assert_eq!(names, ["plane 3", "`pair`"]);
 }

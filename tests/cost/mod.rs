@@ -19,8 +19,8 @@ use rtc::internals::plan::{Arithmetic, Plan, Rules};
 use rtc::internals::render::{Job, Step, Tiles, render};
 use rtc::internals::source::SourceMap;
 use rtc::internals::study::{
-    self, About, Bench, Clock, DepthEnd, EffectCost, Effort, ErrorSpread, Errors, Knob, Omission,
-    PowerLaw, Row, Setting, Stopped, Study,
+    self, Ablation, About, Bench, Clock, DepthEnd, EffectCost, Effort, ErrorSpread, Errors,
+    Parameter, PowerLaw, Row, Setting, Stopped, Study,
 };
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{LazyLock, Mutex};

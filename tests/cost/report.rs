@@ -223,7 +223,7 @@ fn the_recommended_setting_has_a_command() {
     let words = command.strip_prefix("rtc render SCENE ").unwrap();
     let mut setting = own;
     for flag in words.split_whitespace().collect::<Vec<_>>().chunks(2) {
-        let knob = Knob::ALL
+        let knob = Parameter::ALL
             .into_iter()
             .find(|knob| knob.flag() == flag[0])
             .unwrap();

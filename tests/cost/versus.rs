@@ -77,7 +77,7 @@ fn a_change_is_seen_where_it_is() {
         let fine = |scene| {
             [picture(
                 scene,
-                Setting::of(scene).with(Knob::Supersampling, 24),
+                Setting::of(scene).with(Parameter::Supersampling, 24),
             )]
         };
         study::rmse(&fine(&after), &fine(&before))

@@ -5,7 +5,9 @@ use super::make;
 use rtc::internals::codec::{self, Form};
 use rtc::internals::diag::{Diagnostic, Severity, Sink};
 use rtc::internals::front;
-use rtc::internals::ir::{Emitter, Environment, Light, Lowered, Material, Origins, Scene, Shape};
+use rtc::internals::ir::{
+    Emitter, Environment, Light, Lowered, Material, Scene, Shape, SourceSpans,
+};
 use rtc::internals::math::Vec3;
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
@@ -24,7 +26,7 @@ fn lower(bytes: Vec<u8>, front: front::FrontOptions) -> Scene {
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     let proven = lowered
         .as_ref()
-        .and_then(|lowered| pipeline::prove(lowered, &options, &mut sink));
+        .and_then(|lowered| pipeline::validate(lowered, &options, &mut sink));
     let is_small =
         |finding: &Diagnostic| finding.severity == Severity::Note || finding.code.id == "GL034";
     assert!(
@@ -146,7 +148,7 @@ fn mended_assets_show_the_triangle_that_was_meant() {
         let lowered = pipeline::load(file, &mut map, &options, &mut sink);
         let proof = lowered
             .as_ref()
-            .and_then(|lowered| pipeline::prove(lowered, &options, &mut sink));
+            .and_then(|lowered| pipeline::validate(lowered, &options, &mut sink));
         assert!(proof.is_some(), "{case}: {:?}", sink.kept());
         let scene = &lowered.unwrap().scene;
         let ([mesh], [surface]) = (&scene.meshes[..], &scene.surfaces[..]) else {
@@ -283,10 +285,10 @@ fn picture(mut scene: Scene) -> Vec<[u64; 3]> {
     .apply(&mut scene);
     let lowered = Lowered {
         scene,
-        origins: Origins::default(),
+        source_spans: SourceSpans::default(),
     };
     let (options, mut sink) = (Options::default(), Sink::default());
-    let proven = pipeline::prove(&lowered, &options, &mut sink).unwrap();
+    let proven = pipeline::validate(&lowered, &options, &mut sink).unwrap();
     let plan = Plan::new(&proven, Rules::ALL);
     let film = pipeline::render(&proven, &plan, &Job::default(), 1, &|_| true)
         .unwrap()

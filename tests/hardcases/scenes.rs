@@ -5,7 +5,7 @@ use rtc::internals::diag::Sink;
 use rtc::internals::ir;
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::World;
-use rtc::internals::valid::{self, Proof};
+use rtc::internals::valid::{self, ValidScene};
 use serde_json::Value;
 
 /// A white Phong material that is lit, shines and mirrors.
@@ -56,16 +56,16 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
 }
 
 /// The proof of a scene; what the proof says otherwise is the panic's message.
-pub(crate) fn proven(scene: &ir::Scene) -> Proof {
+pub(crate) fn proven(scene: &ir::Scene) -> ValidScene {
     check(scene).unwrap_or_else(|codes| panic!("refused: {codes:?}"))
 }
 
 /// The proof, or the codes of the errors.
-pub(crate) fn check(scene: &ir::Scene) -> Result<Proof, Vec<&'static str>> {
+pub(crate) fn check(scene: &ir::Scene) -> Result<ValidScene, Vec<&'static str>> {
     let mut sink = Sink::default();
     let proof = valid::validate(
         scene,
-        &ir::Origins::default(),
+        &ir::SourceSpans::default(),
         &valid::ProofOptions::default(),
         &mut sink,
     );

@@ -4,12 +4,12 @@ use super::patterns::grid;
 use super::scenes::{error, order, references, scene, world};
 use super::{SIZE, on};
 use rtc::internals::ir::Scene;
-use rtc::internals::study::{Goal, Reached, Watch, approach};
+use rtc::internals::study::{Goal, TargetResult, Watch, approach};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::Duration;
 
 /// With a clock that a ray advances by a microsecond, and that shows so many at the start.
-fn with_clock(scene: &Scene, goal: Goal, start: u64) -> Reached {
+fn with_clock(scene: &Scene, goal: Goal, start: u64) -> TargetResult {
     let rays = AtomicU64::new(start);
     let watch = Watch {
         on_pixel: &|step| {
@@ -25,7 +25,7 @@ fn with_clock(scene: &Scene, goal: Goal, start: u64) -> Reached {
     })
 }
 
-fn within(scene: &Scene, millis: u64) -> Reached {
+fn within(scene: &Scene, millis: u64) -> TargetResult {
     let goal = Goal {
         error: None,
         time: Some(Duration::from_millis(millis)),

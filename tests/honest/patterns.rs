@@ -4,7 +4,7 @@
 use super::scenes::lowered;
 use rtc::internals::image::Image;
 use rtc::internals::ir::Scene;
-use rtc::internals::study::{LEVELS, Reached, Rng};
+use rtc::internals::study::{LEVELS, Rng, TargetResult};
 use std::fmt::Write as _;
 
 /// A scene, and its picture without noise.
@@ -16,7 +16,7 @@ pub(crate) struct Pattern {
 
 impl Pattern {
     /// The error of a picture of it in grey levels.
-    pub(crate) fn error(&self, reached: &Reached) -> f64 {
+    pub(crate) fn error(&self, reached: &TargetResult) -> f64 {
         let Image { pixels, .. } = &reached.image;
         let squares = pixels.iter().zip(&self.truth);
         let sum =

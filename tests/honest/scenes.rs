@@ -4,12 +4,12 @@
 use rtc::internals::color::Tone;
 use rtc::internals::diag::Sink;
 use rtc::internals::image::Image;
-use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::ir::{Lowered, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{AnyWorld, Background, Crop, Values};
 use rtc::internals::source::SourceMap;
-use rtc::internals::study::{Goal, LEVELS, Order, Reached, Rng, Watch, approach};
+use rtc::internals::study::{Goal, LEVELS, Order, Rng, TargetResult, Watch, approach};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
@@ -30,7 +30,7 @@ pub(crate) fn lowered(name: &str, text: String) -> Scene {
     let file = map.add_from(&path, text.into_bytes());
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
     let lowered = lowered.unwrap_or_else(|| panic!("{name}: {:?}", sink.kept()));
-    pipeline::prove(&lowered, &Options::default(), &mut sink)
+    pipeline::validate(&lowered, &Options::default(), &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()));
     lowered.scene
 }
@@ -113,7 +113,7 @@ fn ball(number: u64, index: u64, within: &mut impl FnMut(f64, f64) -> f64) -> St
 }
 
 /// Renders to an error with a seed, without a clock.
-pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> Reached {
+pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> TargetResult {
     let goal = Goal {
         error: Some(error),
         time: None,
@@ -131,9 +131,9 @@ pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> Reached {
 pub(crate) fn world(scene: &Scene) -> AnyWorld {
     let lowered = Lowered {
         scene: scene.clone(),
-        origins: Origins::default(),
+        source_spans: SourceSpans::default(),
     };
-    let proven = pipeline::prove(&lowered, &Options::default(), &mut Sink::default())
+    let proven = pipeline::validate(&lowered, &Options::default(), &mut Sink::default())
         .expect("the scene is sound");
     AnyWorld::prepare(&proven, &Plan::new(&proven, Rules::ALL))
 }
@@ -165,7 +165,7 @@ pub(crate) fn references(scene: &Scene, error: f64) -> [Image; 2] {
 
 /// The error of a picture in grey levels: the noise of two independent references cancels in the
 /// product.
-pub(crate) fn error(reached: &Reached, references: &[Image; 2]) -> f64 {
+pub(crate) fn error(reached: &TargetResult, references: &[Image; 2]) -> f64 {
     distance(&reached.image, references)
 }
 

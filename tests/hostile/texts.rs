@@ -58,7 +58,7 @@ fn check(text: impl FnOnce() -> Vec<u8>) -> (Vec<&'static str>, usize) {
     let mut sink = Sink::default();
     let options = pipeline::Options::default();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
-    let proof = lowered.and_then(|lowered| pipeline::prove(&lowered, &options, &mut sink));
+    let proof = lowered.and_then(|lowered| pipeline::validate(&lowered, &options, &mut sink));
     assert_eq!(proof.is_some(), !sink.has_errors());
     let errors = sink.kept().iter().filter(|d| d.severity == Severity::Error);
     let codes = errors.map(|d| {

@@ -1,7 +1,7 @@
 //! All ways of looking for light find the same; the picture does not depend on threads.
 
 use super::{
-    add_light, add_quad, add_sphere, add_square, lambert, mean, prove, render, render_by, scene,
+    add_light, add_quad, add_sphere, add_square, lambert, mean, render, render_by, scene, validate,
 };
 use rtc::internals::ir::{Emitter, Environment, Image, ImageId, Pixels, Punctual, Scene, Standard};
 use rtc::internals::plan::{Plan, Rules};
@@ -130,7 +130,7 @@ fn one_thread_and_several_give_the_same_bytes() {
             intensity: [1.0; 3],
         },
     );
-    let proof = prove(&scene);
+    let proof = validate(&scene);
     let plan = Plan::new(&proof, Rules::ALL);
     let on = |threads| {
         rtc::internals::pipeline::render(&proof, &plan, &Job::default(), threads, &|_| true)

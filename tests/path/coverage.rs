@@ -3,7 +3,7 @@
 use super::*;
 
 fn film(scene: &Scene, background: Background) -> Film {
-    let proof = prove(scene);
+    let proof = validate(scene);
     let job = Job { background, ..JOB };
     rtc::internals::render::render(&proof, &Plan::new(&proof, Rules::ALL), &job, &|_| true).unwrap()
 }

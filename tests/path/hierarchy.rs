@@ -2,7 +2,7 @@
 //! what veils beside it do.
 
 use super::{
-    JOB, add_light, add_sphere, add_square, lambert, material, mean, prove, render, scene, sky,
+    JOB, add_light, add_sphere, add_square, lambert, material, mean, render, scene, sky, validate,
 };
 use rtc::internals::ir::{
     Alpha, Emitter, Instance, Mesh, MeshId, Punctual, Scene, Shape, Standard, Surface,
@@ -113,7 +113,7 @@ fn the_world_finds_what_its_surfaces_find() {
     place(&mut scene, 2, at(axes, [0.0, 0.0, -0.9]), lambert([0.5; 3]));
     place(&mut scene, 2, at(axes, [0.2, 0.1, -1.0]), lambert([0.5; 3]));
     super::add_sphere(&mut scene, [-0.5, -0.5, 0.2], 0.4, lambert([0.5; 3]));
-    let proof = prove(&scene);
+    let proof = validate(&scene);
     let world = World::<Prepared>::prepare(&proof, &Plan::new(&proof, Rules::NONE));
     let (mut number, mut hits, mut ties) = (numbers(7), 0, 0);
     for _ in 0..20_000 {
@@ -245,7 +245,7 @@ fn below_veils(count: u32) -> Scene {
 fn a_veil_that_is_opaque_changes_no_order() {
     let mut scene = below_veils(24);
     add_sphere(&mut scene, [5.0, 5.0, 0.0], 0.5, blended(1.0));
-    let proof = prove(&scene);
+    let proof = validate(&scene);
     let [pruned, unpruned] = [Rules::ALL, Rules::NONE].map(|rules| {
         let plan = Plan::new(&proof, rules);
         rtc::internals::render::render(&proof, &plan, &JOB, &|_| true).unwrap()
@@ -256,7 +256,7 @@ fn a_veil_that_is_opaque_changes_no_order() {
 /// The plain arithmetics flatten no mesh.
 #[test]
 fn veils_let_light_through_in_every_arithmetic() {
-    let proof = prove(&below_veils(2));
+    let proof = validate(&below_veils(2));
     let [robust, plain, _] = Arithmetic::ALL.map(|arithmetic| {
         let plan = Plan::by(arithmetic, &proof, Rules::ALL);
         mean(&rtc::internals::render::render(&proof, &plan, &JOB, &|_| true).unwrap())

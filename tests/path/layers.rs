@@ -28,7 +28,7 @@ fn of(crop: Crop) -> Job {
 }
 
 fn layers(scene: &Scene, wanted: &[Aov], crop: Crop, threads: usize) -> Layers {
-    let proof = prove(scene);
+    let proof = validate(scene);
     Renderer::new(&proof, &Plan::new(&proof, Rules::ALL), threads)
         .unwrap()
         .layers(wanted, &of(crop), &|| true)
@@ -184,7 +184,7 @@ fn a_world_that_shows_another_view_is_as_one_made_for_it() {
     let (scene, mut other) = (ball_and_square(4), ball_and_square(4));
     other.camera.eye = [3.0, 1.0, -2.0];
     other.camera.up = [0.0, 0.125, 0.0625];
-    let proofs = [prove(&scene), prove(&other)];
+    let proofs = [validate(&scene), validate(&other)];
     let seen = |world: &AnyWorld| {
         (
             world.render(&JOB, &|_| true).unwrap().image,

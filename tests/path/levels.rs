@@ -1,7 +1,7 @@
 //! Whatever vector instructions rays are traced with, alone or together: they find the same.
 
 use super::hierarchy::{numbers, place, waves};
-use super::{JOB, lambert, prove, scene, sky};
+use super::{JOB, lambert, scene, sky, validate};
 use rtc::internals::ir::Scene;
 use rtc::internals::math::{Column, Vec3};
 use rtc::internals::pipeline::Renderer;
@@ -65,7 +65,7 @@ fn alone(world: &World<Shape>, rays: &[Ray]) -> Found {
 #[test]
 fn rays_find_the_same_at_all_levels_alone_and_together() {
     for is_moved in [false, true] {
-        let proof = prove(&sea(is_moved));
+        let proof = validate(&sea(is_moved));
         let plan = Plan::new(&proof, Rules::NONE);
         let rays = rays();
         let expected = alone(&World::prepare_at(&proof, &plan, SimdLevel::best()), &rays);
@@ -88,7 +88,7 @@ fn rays_find_the_same_at_all_levels_alone_and_together() {
 
 #[test]
 fn pictures_are_the_same_bytes_at_all_levels() {
-    let proof = prove(&sea(true));
+    let proof = validate(&sea(true));
     let plan = Plan::new(&proof, Rules::ALL);
     let films = levels().map(|level| {
         let renderer = Renderer::at_level(&proof, &plan, 2, level).unwrap();

@@ -1,6 +1,6 @@
 //! Many lights, one of which is chosen by a tree, against few, which are chosen by their power.
 
-use super::{JOB, add_light, add_quad, add_sphere, add_square, lambert, mean, prove, scene};
+use super::{JOB, add_light, add_quad, add_sphere, add_square, lambert, mean, scene, validate};
 use rtc::internals::ir::{Emitter, Punctual, Scene};
 use rtc::internals::math::Vec3;
 use rtc::internals::plan::{Plan, Rules};
@@ -51,7 +51,7 @@ fn room(group: Option<usize>) -> Scene {
 }
 
 fn seen(scene: &Scene, seed: u64) -> Vec3 {
-    let proof = prove(scene);
+    let proof = validate(scene);
     let job = Job {
         seeds: Seeds {
             pixel: seed,

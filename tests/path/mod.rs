@@ -16,14 +16,14 @@ mod surfaces;
 
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{
-    Alpha, Ambient, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, Origins,
-    PathSettings, Pattern, Phong, Projection, Punctual, Scene, Settings, Shape, Sphere, Standard,
-    Surface, Triangle,
+    Alpha, Ambient, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode,
+    PathSettings, Pattern, Phong, Projection, Punctual, Scene, Settings, Shape, SourceSpans,
+    Sphere, Standard, Surface, Triangle,
 };
 use rtc::internals::math::Vec3;
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Background, Basic, Film, Job, Strategy, World};
-use rtc::internals::valid::{self, Proof};
+use rtc::internals::valid::{self, ValidScene};
 
 /// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at
 /// the origin.
@@ -129,11 +129,11 @@ fn sky(radiance: f64) -> Option<Environment> {
     })
 }
 
-fn prove(scene: &Scene) -> Proof {
+fn validate(scene: &Scene) -> ValidScene {
     let mut sink = Sink::default();
     let proof = valid::validate(
         scene,
-        &Origins::default(),
+        &SourceSpans::default(),
         &valid::ProofOptions::default(),
         &mut sink,
     );
@@ -143,14 +143,14 @@ fn prove(scene: &Scene) -> Proof {
 const JOB: Job = crate::small::WHOLE;
 
 fn render_by(scene: &Scene, strategy: Strategy) -> Film {
-    let proof = prove(scene);
+    let proof = validate(scene);
     World::<Basic>::prepare(&proof, &Plan::new(&proof, Rules::ALL))
         .render_paths(strategy, &JOB, &|_| true)
         .unwrap()
 }
 
 fn render(scene: &Scene) -> Film {
-    let proof = prove(scene);
+    let proof = validate(scene);
     rtc::internals::render::render(&proof, &Plan::new(&proof, Rules::ALL), &JOB, &|_| true).unwrap()
 }
 

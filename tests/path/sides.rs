@@ -63,7 +63,7 @@ fn a_one_sided_square_is_seen_from_the_front_alone() {
 fn coverage_and_layers_go_by_what_is_seen() {
     let mut scene = scene(4);
     add_back(&mut scene, 0.0, flat(RED));
-    let proof = prove(&scene);
+    let proof = validate(&scene);
     let job = Job {
         background: Background::Nothing,
         ..JOB
@@ -73,7 +73,7 @@ fn coverage_and_layers_go_by_what_is_seen() {
             .unwrap();
     assert!(film.coverage.iter().all(|share| *share == 0.0) && film.counts.hits == 0);
     // The wall's triangles come third and fourth.
-    let proof = prove(&before_a_wall(|scene| add_back(scene, 0.0, flat(RED))));
+    let proof = validate(&before_a_wall(|scene| add_back(scene, 0.0, flat(RED))));
     let wanted = [Aov::Instance, Aov::Depth];
     let world = AnyWorld::prepare(&proof, &Plan::new(&proof, Rules::ALL));
     let layers = world.layers(&wanted, &Job::default(), &|_| true).unwrap();

@@ -6,7 +6,7 @@ use super::dice::Dice;
 use super::{bits, film, proven};
 use rtc::internals::codec::{self, Form};
 use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Light, Lowered, Material, Origins, Phong, Scene};
+use rtc::internals::ir::{Light, Lowered, Material, Phong, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rule, Rules};
 use rtc::internals::render::{Job, Values};
@@ -17,9 +17,9 @@ use std::fmt::{Debug, Write as _};
 fn is_sound(scene: &Scene) -> bool {
     let lowered = Lowered {
         scene: scene.clone(),
-        origins: Origins::default(),
+        source_spans: SourceSpans::default(),
     };
-    pipeline::prove(&lowered, &Options::default(), &mut Sink::default()).is_some()
+    pipeline::validate(&lowered, &Options::default(), &mut Sink::default()).is_some()
 }
 
 fn decoded(form: Form, scene: &Scene) -> Scene {

@@ -34,10 +34,10 @@ use rtc::internals::diag::Sink;
 use rtc::internals::ir::Scene;
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Effect, Plan, Rule, Rules, State, Verdict};
+use rtc::internals::plan::{Effect, EffectStatus, Plan, Rule, Rules, State};
 use rtc::internals::render::{Film, Job, Values};
 use rtc::internals::source::{Loader, SourceMap};
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 use std::path::{Path, PathBuf};
 
 /// The scene files of a folder and the folders in it.
@@ -73,7 +73,7 @@ fn small(mut scene: Scene) -> Scene {
     scene
 }
 
-fn film(scene: &Proof, rules: Rules, values: Values) -> Film {
+fn film(scene: &ValidScene, rules: Rules, values: Values) -> Film {
     let job = Job {
         values,
         ..Job::default()
@@ -84,7 +84,7 @@ fn film(scene: &Proof, rules: Rules, values: Values) -> Film {
 }
 
 /// The verdict on an effect of the whole scene.
-fn verdict(plan: &Plan, effect: Effect) -> &Verdict {
+fn verdict(plan: &Plan, effect: Effect) -> &EffectStatus {
     let mut all = plan
         .verdicts
         .iter()
@@ -99,7 +99,7 @@ fn verdict(plan: &Plan, effect: Effect) -> &Verdict {
 /// What became of an effect, and by which rule.
 fn fate(scene: &Scene, effect: Effect) -> (State, Option<Rule>) {
     let plan = Plan::new(&proven(scene), Rules::ALL);
-    let Verdict { state, rule, .. } = verdict(&plan, effect);
+    let EffectStatus { state, rule, .. } = verdict(&plan, effect);
     (*state, *rule)
 }
 

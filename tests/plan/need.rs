@@ -4,7 +4,7 @@
 use super::fate;
 use super::stage::{ball, disc, first_light, material, matt, plane, shiny, stage, texture, with};
 use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Bump, Lowered, Mode, Origins, Scene};
+use rtc::internals::ir::{Bump, Lowered, Mode, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Effect, PixelClass, Plan, Rule, Rules, State};
 
@@ -327,10 +327,10 @@ fn a_light_that_is_not_finite_is_reported_whatever_it_is_multiplied_by() {
         let (mut sink, options) = (Sink::default(), Options::default());
         let lowered = Lowered {
             scene,
-            origins: Origins::default(),
+            source_spans: SourceSpans::default(),
         };
         assert!(
-            pipeline::prove(&lowered, &options, &mut sink).is_none() && sink.has_errors(),
+            pipeline::validate(&lowered, &options, &mut sink).is_none() && sink.has_errors(),
             "{color}"
         );
     }

@@ -7,14 +7,14 @@ use super::path_rules::white;
 use super::path_scenes::{cover, path, sky, standard};
 use super::proven;
 use rtc::internals::ir::{self, Alpha, Emitter, ImageId, Punctual, Scene, Standard, Texture};
-use rtc::internals::plan::{Plan, Rule, Rules, State, Verdict};
+use rtc::internals::plan::{EffectStatus, Plan, Rule, Rules, State};
 
 /// What is told of the effects in some state, a line each: the effect, the rule, the reason, the
 /// values.
 fn told(scene: &Scene, state: State) -> String {
-    let line = |verdict: &Verdict| {
+    let line = |verdict: &EffectStatus| {
         let places = verdict.facts.iter();
-        let places = places.map(|place| format!(" {:?} {}", place.noun, place.index));
+        let places = places.map(|place| format!(" {:?} {}", place.entity, place.index));
         let rule = verdict.rule.map_or("", Rule::name);
         let (effect, because) = (verdict.effect.name(), &verdict.because);
         format!("{effect}: {rule} {because};{}", places.collect::<String>())

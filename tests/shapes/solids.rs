@@ -10,11 +10,11 @@ use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Geometry, Interaction, Job, PlainShape, Prepare, Ray, Shear, World};
 use rtc::internals::source::SourceMap;
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 
 /// Where a solid is: over a disc around `base`, `height` high along a unit axis.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct ValuePath {
     base: Vec3,
     axis: Vec3,
     height: f64,
@@ -23,10 +23,10 @@ struct Place {
 
 struct Solid {
     /// Its type and its keys in the scene format.
-    words: fn(&Place) -> String,
+    words: fn(&ValuePath) -> String,
     /// The signed distance of a point near its surface, by the point's height above the base and
     /// its distance from the axis; of any size elsewhere, and below 0 inside.
-    distance: fn(&Place, f64, f64) -> f64,
+    distance: fn(&ValuePath, f64, f64) -> f64,
 }
 
 const SOLIDS: &[Solid] = &[
@@ -56,7 +56,7 @@ const SOLIDS: &[Solid] = &[
 ];
 
 /// The words of a solid whose `up` leads from its base to its top.
-fn upright(kind: &str, p: &Place) -> String {
+fn upright(kind: &str, p: &ValuePath) -> String {
     let (base, up) = (text(p.base), text(p.axis * p.height));
     format!(
         "type: {kind}, position: {base}, up: {up}, radius: {:?}",
@@ -92,14 +92,14 @@ fn lowered(text: &str) -> Lowered {
     lowered.unwrap_or_else(|| panic!("{text}\n{:?}", sink.kept()))
 }
 
-fn proven(lowered: &Lowered) -> Proof {
+fn proven(lowered: &Lowered) -> ValidScene {
     let mut sink = Sink::default();
-    let proof = pipeline::prove(lowered, &Options::default(), &mut sink);
+    let proof = pipeline::validate(lowered, &Options::default(), &mut sink);
     proof.unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
 /// A solid alone in a world.
-fn world<S: Prepare>(solid: &Solid, place: &Place) -> World<S> {
+fn world<S: Prepare>(solid: &Solid, place: &ValuePath) -> World<S> {
     let proof = proven(&lowered(&scene_of(&[(solid.words)(place)])));
     World::prepare(&proof, &Plan::new(&proof, Rules::NONE))
 }
@@ -112,7 +112,7 @@ fn hit<S: Geometry>(world: &World<S>, ray: &Ray) -> Option<(f64, Interaction)> {
 }
 
 /// The distance of a point from a solid.
-fn distance(solid: &Solid, place: &Place, point: Vec3) -> f64 {
+fn distance(solid: &Solid, place: &ValuePath, point: Vec3) -> f64 {
     let (z, rho) = along_and_from(point - place.base, place.axis);
     (solid.distance)(place, z, rho)
 }
@@ -120,8 +120,8 @@ fn distance(solid: &Solid, place: &Place, point: Vec3) -> f64 {
 prop_compose! {
     fn place()(
         base in vector(1.0), axis in axis(), height in 0.1..3.0_f64, radius in 0.05..2.0_f64
-    ) -> Place {
-        Place { base, axis: axis.normalize(), height, radius }
+    ) -> ValuePath {
+        ValuePath { base, axis: axis.normalize(), height, radius }
     }
 }
 
@@ -188,7 +188,7 @@ proptest! {
     #[test]
     fn a_power_of_two_changes_no_bit(ray in ray(), place in place(), exponent in -60..60_i32) {
         let factor = ldexp(1.0, exponent);
-        let scaled = Place {
+        let scaled = ValuePath {
             base: place.base * factor,
             height: place.height * factor,
             radius: place.radius * factor,
@@ -238,7 +238,7 @@ proptest! {
 
 /// Points of paraboloids with all bits known: on one of bend k, z is height − (x² + y²)/k. With
 /// each its place, and its normal of any length.
-fn known_points() -> impl Iterator<Item = (Place, Vec3, Vec3)> {
+fn known_points() -> impl Iterator<Item = (ValuePath, Vec3, Vec3)> {
     let sizes = [
         (4.0, 2.0),
         (1024.0, 0.5),
@@ -253,7 +253,7 @@ fn known_points() -> impl Iterator<Item = (Place, Vec3, Vec3)> {
         let base = Vec3::new(1.0, -3.0, 0.5) * f64::from(k % 5) * 64.0;
         let point = base + turn(Vec3::new(x, y, height - (x * x + y * y) / bend));
         let axis = turn(Vec3::Z);
-        let place = Place {
+        let place = ValuePath {
             base,
             axis,
             height,
@@ -264,7 +264,7 @@ fn known_points() -> impl Iterator<Item = (Place, Vec3, Vec3)> {
 }
 
 /// The paraboloid, alone in a world.
-fn paraboloid(place: &Place) -> World {
+fn paraboloid(place: &ValuePath) -> World {
     world(&SOLIDS[2], place)
 }
 

@@ -60,7 +60,7 @@ fn errors(model: &Path) -> BTreeSet<String> {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(model, &mut map).unwrap();
     if let Some(lowered) = pipeline::load(file, &mut map, &options, &mut sink) {
-        pipeline::prove(&lowered, &options, &mut sink);
+        pipeline::validate(&lowered, &options, &mut sink);
     }
     let errors = sink
         .kept()

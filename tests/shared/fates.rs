@@ -78,7 +78,7 @@ fn fate(path: &Path) -> (Fate, BTreeSet<&'static str>) {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(path, &mut map).unwrap();
     if let Some(lowered) = pipeline::load(file, &mut map, &options, &mut sink) {
-        pipeline::prove(&lowered, &options, &mut sink);
+        pipeline::validate(&lowered, &options, &mut sink);
     }
     let told = sink.kept().iter();
     let is_warned = told

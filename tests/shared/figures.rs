@@ -111,7 +111,7 @@ fn render(path: &Path, figure: &Figure) -> Pixels {
         ..Overrides::default()
     }
     .apply(&mut lowered.scene);
-    let scene = pipeline::prove(&lowered, &options, &mut sink)
+    let scene = pipeline::validate(&lowered, &options, &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()));
     let film = pipeline::render(
         &scene,

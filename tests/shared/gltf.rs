@@ -28,7 +28,7 @@ fn is_lowered_and_proven(path: &Path) {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(path, &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
-    let proof = pipeline::prove(&lowered, &options, &mut sink);
+    let proof = pipeline::validate(&lowered, &options, &mut sink);
     assert!(proof.is_some() && !sink.has_errors(), "{:?}", sink.kept());
 }
 

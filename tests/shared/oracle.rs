@@ -3,8 +3,8 @@
 
 use super::scenes::{course, proven};
 use libtest_mimic::Trial;
-use rtc::internals::plan::{Effect, Plan, Rules, State, Verdict};
-use rtc::internals::valid::Proof;
+use rtc::internals::plan::{Effect, EffectStatus, Plan, Rules, State};
+use rtc::internals::valid::ValidScene;
 
 use Effect::{
     DepthBuffer, DirectLight, GlossyReflection, Highlight, Lens, Mirror, NormalBuffer,
@@ -130,7 +130,7 @@ pub(crate) fn trials() -> Vec<Trial> {
     SCENES.iter().map(trial).collect()
 }
 
-fn it_calls_for(scene: &Proof, needed: &[Effect], pruned: &[(Effect, &str)]) {
+fn it_calls_for(scene: &ValidScene, needed: &[Effect], pruned: &[(Effect, &str)]) {
     let plan = Plan::new(scene, Rules::ALL);
     assert!(plan.needs(Surfaces));
     let mut faults = Vec::new();
@@ -150,7 +150,7 @@ fn it_calls_for(scene: &Proof, needed: &[Effect], pruned: &[(Effect, &str)]) {
 }
 
 /// The verdict on an effect of the whole scene.
-fn verdict(plan: &Plan, effect: Effect) -> &Verdict {
+fn verdict(plan: &Plan, effect: Effect) -> &EffectStatus {
     let mut all = plan
         .verdicts
         .iter()

@@ -7,7 +7,7 @@ use rtc::internals::color::quantize8;
 use rtc::internals::ir::Scene;
 use rtc::internals::plan::{Arithmetic, Plan, Rules, Symptom, loss};
 use rtc::internals::render::{Film, Job};
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 use std::path::Path;
 
 pub(crate) fn trials() -> Vec<Trial> {
@@ -26,13 +26,13 @@ pub(crate) fn trials() -> Vec<Trial> {
 }
 
 /// A scene at no more than `side` pixels wide or high, one sample each.
-fn small(scene: Scene, side: u32) -> Proof {
+fn small(scene: Scene, side: u32) -> ValidScene {
     let [width, height] = scene.camera.size;
     let size = [width, height].map(|pixels| (pixels * side).div_ceil(width.max(height)));
     proven(at(scene, size, 1))
 }
 
-fn by(scene: &Proof, arithmetic: Arithmetic) -> Film {
+fn by(scene: &ValidScene, arithmetic: Arithmetic) -> Film {
     let plan = Plan::by(arithmetic, scene, Rules::ALL);
     film(scene, &plan, &Job::default())
 }

@@ -9,7 +9,7 @@ use rtc::internals::ir::Scene;
 use rtc::internals::passes::Overrides;
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Job, Values, verify};
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 use std::path::Path;
 
 pub(crate) fn trials() -> Vec<Trial> {
@@ -38,7 +38,7 @@ pub(crate) fn trials() -> Vec<Trial> {
 }
 
 /// The scene of a file with few pixels, samples and bounces; none if it is refused.
-fn small(path: &Path) -> Option<Proof> {
+fn small(path: &Path) -> Option<ValidScene> {
     let mut scene = accepted(path)?;
     Overrides {
         size: Some([22, 18]),

@@ -3,13 +3,13 @@
 use crate::suite::{absent, files, shared, trial};
 use libtest_mimic::Trial;
 use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Lowered, Origins, Scene};
+use rtc::internals::ir::{Lowered, Scene, SourceSpans};
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Film, Job};
 use rtc::internals::source::{Loader, SourceMap};
-use rtc::internals::valid::Proof;
+use rtc::internals::valid::ValidScene;
 use std::path::Path;
 
 /// The scenes of the course, of which each shows something.
@@ -63,22 +63,22 @@ pub(crate) fn at(mut scene: Scene, size: [u32; 2], supersampling: u32) -> Scene 
     scene
 }
 
-pub(crate) fn proven(scene: Scene) -> Proof {
+pub(crate) fn proven(scene: Scene) -> ValidScene {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered {
         scene,
-        origins: Origins::default(),
+        source_spans: SourceSpans::default(),
     };
-    pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+    pipeline::validate(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
-pub(crate) fn film(scene: &Proof, plan: &Plan, job: &Job) -> Film {
+pub(crate) fn film(scene: &ValidScene, plan: &Plan, job: &Job) -> Film {
     pipeline::render(scene, plan, job, 0, &|_| true)
         .unwrap()
         .unwrap()
 }
 
 /// A film with all rules.
-pub(crate) fn whole(scene: &Proof) -> Film {
+pub(crate) fn whole(scene: &ValidScene) -> Film {
     film(scene, &Plan::new(scene, Rules::ALL), &Job::default())
 }

@@ -48,7 +48,7 @@ fn never_seen_is_not_shown(path: &Path) {
         ..Overrides::default()
     };
     small.apply(&mut lowered.scene);
-    let Some(scene) = pipeline::prove(&lowered, &options, &mut sink) else {
+    let Some(scene) = pipeline::validate(&lowered, &options, &mut sink) else {
         return;
     };
     let warned = sink

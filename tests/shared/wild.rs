@@ -70,7 +70,7 @@ fn outcome(path: &Path) -> Result<Vec<String>, Vec<(&'static str, String)>> {
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     let proof = lowered.and_then(|mut lowered| {
         small().apply(&mut lowered.scene);
-        pipeline::prove(&lowered, &options, &mut sink)
+        pipeline::validate(&lowered, &options, &mut sink)
     });
     let Some(scene) = proof else {
         let errors = sink

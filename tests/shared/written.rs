@@ -5,8 +5,8 @@ use super::scenes::each;
 use crate::texts::assert_comes_back;
 use libtest_mimic::Trial;
 use rtc::internals::diag::Sink;
-use rtc::internals::ir::{Field, Noun, Place};
-use rtc::internals::passes::{SceneKind, Stage};
+use rtc::internals::ir::{EntityKind, Field, ValuePath};
+use rtc::internals::passes::{SceneKind, ViewAndLight};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{Loader, SourceMap};
 use std::path::Path;
@@ -19,11 +19,11 @@ fn comes_back(path: &Path) {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = Loader.file(path, &mut map).unwrap();
     let mut lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink).unwrap();
-    let camera = Place::new(Noun::Camera, 0, Field::Whole);
-    let kind = match lowered.origins.span(camera) {
+    let camera = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+    let kind = match lowered.source_spans.span(camera) {
         Some(_) => SceneKind::Asset,
         None => SceneKind::BareAsset,
     };
-    pipeline::stage(&mut lowered, &Stage::default(), kind, &mut sink).unwrap();
+    pipeline::stage(&mut lowered, &ViewAndLight::default(), kind, &mut sink).unwrap();
     assert_comes_back(&lowered.scene);
 }

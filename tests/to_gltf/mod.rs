@@ -33,7 +33,7 @@ pub(crate) fn trials() -> Vec<Trial> {
 fn proven(mut map: SourceMap, file: FileId) -> Option<Lowered> {
     let (options, mut sink) = (Options::default(), Sink::default());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink)?;
-    pipeline::prove(&lowered, &options, &mut sink).map(|_| lowered)
+    pipeline::validate(&lowered, &options, &mut sink).map(|_| lowered)
 }
 
 /// The scene in a file.
@@ -63,8 +63,11 @@ fn emitted(
     folder: Option<&str>,
 ) -> (Option<GltfAsset>, Sink) {
     let (budget, mut sink) = (Budget::new(Limits::NONE), Sink::default());
-    let Lowered { scene, origins } = lowered;
-    let asset = emit::gltf::emit(scene, origins, tolerance, folder, &budget, &mut sink);
+    let Lowered {
+        scene,
+        source_spans,
+    } = lowered;
+    let asset = emit::gltf::emit(scene, source_spans, tolerance, folder, &budget, &mut sink);
     (asset, sink)
 }
 
@@ -102,7 +105,7 @@ fn sound(mut map: SourceMap, file: FileId) -> Lowered {
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     let proof = lowered
         .as_ref()
-        .and_then(|lowered| pipeline::prove(lowered, &options, &mut sink));
+        .and_then(|lowered| pipeline::validate(lowered, &options, &mut sink));
     let errors = sink.kept().iter();
     let errors: Vec<_> = errors
         .filter(|finding| finding.severity == Severity::Error)

@@ -11,7 +11,7 @@ use super::{Compared, DiffOutputs, report};
 use rtc_codec::changes;
 use rtc_image::{BackgroundFill, FileFormat, Picture, ShownPicture};
 use rtc_ir::{Camera, Scene};
-use rtc_pipeline::{Input, Observer, OutputLook, PictureSetup, RenderSubject};
+use rtc_pipeline::{Input, Observer, OutputTransform, PictureSetup, RenderSubject};
 use rtc_render::Film;
 use std::path::Path;
 
@@ -76,7 +76,7 @@ impl Side {
         talk: &mut Talk,
     ) -> Result<Self, Failure> {
         let mut input = input::read(file, &args.reading)?;
-        let look = OutputLook::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
+        let look = OutputTransform::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
         let look = look.map_err(|words| Failure::Trouble(words.to_owned()))?;
         let mut setup = PictureSetup {
             overrides: args.wanted.overrides(),

@@ -2,7 +2,7 @@
 //! renderer.
 
 use super::open_text::OpenText;
-use rtc_ir::{Field, Noun, Place, Scene};
+use rtc_ir::{EntityKind, Field, Scene, ValuePath};
 use rtc_math::shortest;
 use rtc_source::Span;
 use rtc_source::tree::{NodeId, Tree};
@@ -28,7 +28,7 @@ pub(super) fn value(
         .chain(key)
         .map(|node| tree.span(node));
     let spans = spans.map(|own| Span::new(file, own.start, own.end));
-    let places = spans.flat_map(|span| lowered.origins.places(span));
+    let places = spans.flat_map(|span| lowered.source_spans.places(span));
     let mut values = places.filter_map(|place| of(&lowered.scene, place));
     let found = plain(values.next()?);
     let written = tree.written(target);
@@ -45,19 +45,19 @@ pub(super) fn value(
 }
 
 /// The value at a place of the IR; none of what may be large.
-fn of(scene: &Scene, place: Place) -> Option<Value> {
+fn of(scene: &Scene, place: ValuePath) -> Option<Value> {
     let at = place.index as usize;
-    let whole = match place.noun {
-        Noun::Camera => json(&scene.camera),
-        Noun::Settings => json(&scene.settings),
-        Noun::Light => json(scene.lights.get(at)?),
-        Noun::Texture => json(scene.textures.get(at)?),
-        Noun::Material => json(scene.materials.get(at)?),
-        Noun::Surface => json(scene.surfaces.get(at)?),
-        Noun::Environment => json(scene.environment.as_ref()?),
-        Noun::Image | Noun::Mesh => None,
+    let whole = match place.entity {
+        EntityKind::Camera => json(&scene.camera),
+        EntityKind::Settings => json(&scene.settings),
+        EntityKind::Light => json(scene.lights.get(at)?),
+        EntityKind::Texture => json(scene.textures.get(at)?),
+        EntityKind::Material => json(scene.materials.get(at)?),
+        EntityKind::Surface => json(scene.surfaces.get(at)?),
+        EntityKind::Environment => json(scene.environment.as_ref()?),
+        EntityKind::Image | EntityKind::Mesh => None,
     }?;
-    let entity = Place {
+    let entity = ValuePath {
         field: Field::Whole,
         ..place
     };

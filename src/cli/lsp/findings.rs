@@ -11,7 +11,7 @@ use super::protocol::{
 use super::text::{Columns, TextLines};
 use super::uri::DocumentUri;
 use rtc_diag::{self as diag, Severity};
-use rtc_pipeline::{self as pipeline, FixWish};
+use rtc_pipeline::{self as pipeline, FixFilter};
 use rtc_source::{FileId, Span};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -203,7 +203,7 @@ fn quick_fix(
 /// What `rtc check --fix` does to the text, if that is anything.
 fn fix_all(document: &OpenText, reading: &Reading, lines: &TextLines<'_>) -> Option<CodeAction> {
     let (options, _) = document.options(reading).ok()?;
-    let wish = FixWish::default();
+    let wish = FixFilter::default();
     let fixed = pipeline::fix(&document.path, &document.text, &options, &wish);
     if fixed.changes == 0 {
         return None;

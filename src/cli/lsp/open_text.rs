@@ -162,7 +162,7 @@ impl OpenText {
             project.tell(&mut input);
         }
         let loaded = input.load();
-        let proven = loaded.and_then(|loaded| input.prove(loaded, |_, _| ()));
+        let proven = loaded.and_then(|loaded| input.validate(loaded, |_, _| ()));
         let lowered = proven.map(|proven| {
             let mut lowered = proven.lowered;
             // What may be large is not told of.

@@ -62,7 +62,7 @@ impl Against {
         let setup = shots::setup(args)?;
         let mut scene = ReadScene::read(input, args, setup.threads);
         let mut talk = Talk::beside_result(&args.talk);
-        let proven = scene.prove(&setup, &Manner::default());
+        let proven = scene.validate(&setup, &Manner::default());
         let proven = match proven {
             Ok(proven) => input::unless_refused(proven, &mut scene.input, &mut talk).map(drop),
             Err(error) => input::tell(&mut scene.input, &mut talk).and(Err(error.into())),
@@ -93,7 +93,7 @@ impl OtherScene {
             return Ok(None);
         }
         (self.shown, self.seen) = (None, None);
-        let Some((mut setup, mut subject)) = self.scene.prove(setup, manner)? else {
+        let Some((mut setup, mut subject)) = self.scene.validate(setup, manner)? else {
             let words = "what the scene is compared with can't be shown in these settings";
             return Err(RenderError::Refused(words.to_owned()));
         };

@@ -67,7 +67,7 @@ impl Session<'_> {
             return Some((setup.clone(), subject.proven.lowered.scene.clone()));
         }
         let found = scene.input.take_findings();
-        let proven = scene.prove(&self.setup, &manner).ok().flatten();
+        let proven = scene.validate(&self.setup, &manner).ok().flatten();
         let lit = proven.and_then(|(mut setup, mut subject)| {
             let observer = Observer {
                 on_step: &|_| (),

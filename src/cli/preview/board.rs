@@ -6,7 +6,7 @@ use super::interrupt;
 use super::news::{self, News};
 use super::pixels::PixelTable;
 use super::view::{Gaze, Sight};
-use rtc_pipeline::Complaint;
+use rtc_pipeline::DiagnosticRef;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -36,7 +36,7 @@ pub(super) struct ToldFinding {
     /// As `rtc check` prints it.
     pub(super) text: String,
     /// What its hint would mend in the scene's own file, and whether that is a guess.
-    pub(super) fix: Option<(Complaint, bool)>,
+    pub(super) fix: Option<(DiagnosticRef, bool)>,
 }
 
 /// What is known of the scene as it was last read.

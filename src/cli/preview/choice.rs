@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use rtc_ir::{Mode, Scene};
 use rtc_passes::{IntegratorChoice, Overrides};
 use rtc_pipeline::PictureSetup;
-use rtc_study::{Knob, Setting, arithmetic, idle};
+use rtc_study::{Parameter, Setting, arithmetic, idle};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Choice {
-    values: BTreeMap<Knob, u32>,
+    values: BTreeMap<Parameter, u32>,
     /// A value of `--integrator`.
     integrator: Option<String>,
 }
@@ -24,7 +24,7 @@ impl Choice {
     /// A choice as sent by the page; none of values that no flag takes.
     pub(super) fn read(bytes: &[u8]) -> Option<Self> {
         let choice: Self = serde_json::from_slice(bytes).ok()?;
-        let is_sound = |(knob, value): (&Knob, &u32)| {
+        let is_sound = |(knob, value): (&Parameter, &u32)| {
             let is_known = words(*knob).is_none_or(|words| (*value as usize) < words.len());
             *value >= knob.lowest() && is_known
         };
@@ -52,24 +52,25 @@ impl Choice {
         let of = |knob| self.values.get(&knob).copied();
         let chosen = Overrides {
             size: None,
-            supersampling: of(Knob::Supersampling),
-            aperture_samples: of(Knob::Aperture),
-            light_samples: of(Knob::Lights),
-            glossy_samples: of(Knob::Glossy),
-            depth: of(Knob::Depth),
-            spp: of(Knob::Paths),
+            supersampling: of(Parameter::Supersampling),
+            aperture_samples: of(Parameter::Aperture),
+            light_samples: of(Parameter::Lights),
+            glossy_samples: of(Parameter::Glossy),
+            depth: of(Parameter::Depth),
+            spp: of(Parameter::Paths),
         };
         PictureSetup {
             overrides: chosen.or(setup.overrides),
-            arithmetic: of(Knob::Precision).map_or(setup.arithmetic, arithmetic),
-            denoise: of(Knob::Denoise).map_or(setup.denoise, |value| value > 0),
+            arithmetic: of(Parameter::Precision).map_or(setup.arithmetic, arithmetic),
+            denoise: of(Parameter::Denoise).map_or(setup.denoise, |value| value > 0),
             ..setup.clone()
         }
     }
 
     /// The flags of `rtc render`, with their values if they take one.
     pub(super) fn flags(&self) -> Vec<(&'static str, Option<String>)> {
-        let is_given = |(knob, value): &(&Knob, &u32)| **knob != Knob::Denoise || **value > 0;
+        let is_given =
+            |(knob, value): &(&Parameter, &u32)| **knob != Parameter::Denoise || **value > 0;
         let values = self.values.iter().filter(is_given);
         let values = values.map(|(knob, value)| (knob.flag(), knob.flag_value(*value)));
         let integrator = self.integrator.clone();
@@ -79,8 +80,8 @@ impl Choice {
 }
 
 /// The words of the values of a knob, for one that does not count.
-fn words(knob: Knob) -> Option<Vec<String>> {
-    let is_named = matches!(knob, Knob::Precision | Knob::Denoise);
+fn words(knob: Parameter) -> Option<Vec<String>> {
+    let is_named = matches!(knob, Parameter::Precision | Parameter::Denoise);
     is_named.then(|| knob.levels().map(|value| knob.cell(value)).collect())
 }
 
@@ -96,7 +97,7 @@ pub(super) fn own_setting(scene: &Scene, setup: &PictureSetup) -> Setting {
 /// What the page is told of the settings of a scene, which is without the values of the choice: each
 /// knob with its own value, and why it is to be left alone, if it is.
 pub(super) fn told(scene: &Scene, own: &Setting) -> Value {
-    let knob = |knob: Knob| {
+    let knob = |knob: Parameter| {
         json!({
             "knob": knob,
             "name": knob.name(),
@@ -111,7 +112,7 @@ pub(super) fn told(scene: &Scene, own: &Setting) -> Value {
         Mode::Phong => Some("whitted"),
         Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => None,
     };
-    let knobs = Knob::ALL.map(knob);
+    let knobs = Parameter::ALL.map(knob);
     json!({ "knobs": knobs, "integrator": integrator })
 }
 

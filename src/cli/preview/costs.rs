@@ -4,7 +4,7 @@
 use super::Failure;
 use crate::cost::{about, on_bench};
 use rtc_ir::Scene;
-use rtc_study::{self as study, Effort, Knob, Row, Setting, Study};
+use rtc_study::{self as study, Effort, Parameter, Row, Setting, Study};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ fn told(study: &Study, own: &Setting) -> Value {
     let best = study::recommended(study).map(|row| row.setting);
     let row = |row: &Row| {
         let setting = &row.setting;
-        let other = |knob: &&Knob| setting.get(**knob) != own.get(**knob);
+        let other = |knob: &&Parameter| setting.get(**knob) != own.get(**knob);
         let values = used.iter().filter(other);
         let values: BTreeMap<_, _> = values.map(|knob| (knob, setting.get(*knob))).collect();
         json!({

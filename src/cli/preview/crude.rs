@@ -3,7 +3,7 @@
 use super::board::Shot;
 use super::shots::shot;
 use rtc_diag::Sink;
-use rtc_ir::{Mode, Origins, Scene};
+use rtc_ir::{Mode, Scene, SourceSpans};
 use rtc_pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject, Traced};
 use rtc_render::Crop;
 use rtc_source::Limits;
@@ -29,7 +29,12 @@ pub(super) fn render(
     let options = ProofOptions {
         limits: Limits::NONE,
     };
-    let proof = valid::validate(scene, &Origins::default(), &options, &mut Sink::default());
+    let proof = valid::validate(
+        scene,
+        &SourceSpans::default(),
+        &options,
+        &mut Sink::default(),
+    );
     let rendered = match proof {
         None => Ok(None),
         Some(proof) => {

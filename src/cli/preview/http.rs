@@ -32,7 +32,7 @@ pub(super) struct HttpRequest {
     query: Vec<(String, String)>,
     /// All lines of these names.
     pub(super) hosts: Vec<String>,
-    pub(super) origins: Vec<String>,
+    pub(super) source_spans: Vec<String>,
     pub(super) body: Vec<u8>,
 }
 
@@ -281,7 +281,7 @@ fn parse(bytes: &[u8]) -> Result<Option<(HttpRequest, usize, usize)>, BadRequest
         let value = || String::from_utf8_lossy(line.value).trim().to_owned();
         match line.name.to_ascii_lowercase().as_str() {
             "host" => request.hosts.push(value()),
-            "origin" => request.origins.push(value()),
+            "origin" => request.source_spans.push(value()),
             "content-length" => lengths.push(value()),
             "transfer-encoding" => return Err(refused(400)),
             _ => {}

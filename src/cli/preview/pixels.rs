@@ -2,7 +2,7 @@
 //! what it is called, and the line that says it.
 
 use rtc_image::{Image, Layers};
-use rtc_ir::{Field, Noun, Place};
+use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_pipeline::{Input, Proven};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -68,8 +68,8 @@ fn surface(index: usize, proven: &Proven, input: &Input) -> [String; 2] {
     let scene = &proven.lowered.scene;
     let name = scene.names.get(index).filter(|name| !name.is_empty());
     let shape = scene.surfaces.get(index).map(|own| own.shape.kind().word());
-    let place = Place::new(Noun::Surface, index, Field::Whole);
-    let span = proven.lowered.origins.span(place);
+    let place = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+    let span = proven.lowered.source_spans.span(place);
     let line = span.map(|span| input.line(span));
     [
         name.cloned()

@@ -7,7 +7,7 @@ use super::news::Follower;
 use super::view::{self, Gaze};
 use super::{Failure, serve};
 use crate::edit;
-use rtc_pipeline::{self as pipeline, FixWish, Options};
+use rtc_pipeline::{self as pipeline, FixFilter, Options};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -177,15 +177,15 @@ impl Routes {
 }
 
 /// What is wanted of the findings of a scene as it was read; `None` if they are of another one.
-fn wish(read: &ReadState, order: &FixOrder) -> Option<FixWish> {
+fn wish(read: &ReadState, order: &FixOrder) -> Option<FixFilter> {
     if read.load != order.load {
         return None;
     }
     let Some(index) = order.finding else {
-        return Some(FixWish::default());
+        return Some(FixFilter::default());
     };
     let (complaint, is_guess) = read.findings.get(index)?.fix.as_ref()?;
-    Some(FixWish {
+    Some(FixFilter {
         guesses: *is_guess,
         only: Some(complaint.clone()),
     })

@@ -49,7 +49,7 @@ impl ReadScene {
     }
 
     /// Proves the scene as it is looked at; the findings say why if it can't be.
-    pub(super) fn prove(
+    pub(super) fn validate(
         &mut self,
         setup: &PictureSetup,
         manner: &Manner,
@@ -65,7 +65,7 @@ impl ReadScene {
         let Some(loaded) = self.loaded.clone() else {
             return Ok(None);
         };
-        let proven = setup.prove(loaded, &mut self.input)?;
+        let proven = setup.validate(loaded, &mut self.input)?;
         Ok(proven.map(|subject| (setup, subject)))
     }
 

@@ -49,7 +49,7 @@ impl Door {
         let knows = request
             .value("token")
             .is_some_and(|token| is_equal(token, &self.token));
-        knows && is_own(host) && request.origins.iter().all(is_from_here)
+        knows && is_own(host) && request.source_spans.iter().all(is_from_here)
     }
 }
 

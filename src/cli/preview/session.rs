@@ -155,7 +155,7 @@ impl<'a> Session<'a> {
         let Some(scene) = &mut self.scene else {
             return Ok(false);
         };
-        let Some((mut setup, mut subject)) = scene.prove(&self.setup, &work.manner)? else {
+        let Some((mut setup, mut subject)) = scene.validate(&self.setup, &work.manner)? else {
             return Ok(false);
         };
         setup.window(&subject.proven.lowered.scene)?;

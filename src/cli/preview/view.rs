@@ -2,9 +2,9 @@
 //! found by their spans. Nothing but their values is changed.
 
 use crate::parse;
-use rtc_ir::{Camera, Field, Lowered, Noun, Place};
+use rtc_ir::{Camera, EntityKind, Field, Lowered, ValuePath};
 use rtc_math::{Vec3, shortest, unit};
-use rtc_passes::{SceneKind, Stage, StudioChoice, View};
+use rtc_passes::{SceneKind, StudioChoice, View, ViewAndLight};
 use rtc_pipeline::{Input, Options};
 use rtc_source::{SourceMap, Span};
 use serde::Deserialize;
@@ -94,11 +94,11 @@ impl Gaze {
 
     /// Shows a scene that was staged from here.
     pub(super) fn aim(&self, lowered: &mut Lowered) -> bool {
-        let stage = Stage {
+        let stage = ViewAndLight {
             view: self.view(None),
             studio: StudioChoice::Off,
             ground: Some(false),
-            ..Stage::default()
+            ..ViewAndLight::default()
         };
         stage.apply(lowered, SceneKind::Text).is_ok()
     }
@@ -158,7 +158,9 @@ impl Sight {
 /// Where a scene text has the values of `eye`, `center` and `up`, each by itself.
 pub(super) fn keys(lowered: &Lowered, map: &SourceMap, name: &str) -> Option<[Range<usize>; 3]> {
     let span = |field| {
-        let span: Span = lowered.origins.span(Place::new(Noun::Camera, 0, field))?;
+        let span: Span = lowered
+            .source_spans
+            .span(ValuePath::new(EntityKind::Camera, 0, field))?;
         let text = map.slice(span);
         let is_plain =
             text.starts_with('[') && text.ends_with(']') && !text.contains(['#', '&', '*']);
@@ -170,8 +172,8 @@ pub(super) fn keys(lowered: &Lowered, map: &SourceMap, name: &str) -> Option<[Ra
     sorted.sort_by_key(|range| range.start);
     let are_apart = sorted.windows(2).all(|pair| pair[0].end <= pair[1].start);
     let right = lowered
-        .origins
-        .span(Place::new(Noun::Camera, 0, Field::Right));
+        .source_spans
+        .span(ValuePath::new(EntityKind::Camera, 0, Field::Right));
     let is_square =
         right.is_none_or(|right| own.iter().any(|range| range.start == right.start as usize));
     (are_apart && is_square).then_some(own)

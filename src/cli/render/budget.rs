@@ -2,7 +2,7 @@
 
 use rtc_diag::{Diagnostic, codes};
 use rtc_render::Crop;
-use rtc_study::CrudePicture;
+use rtc_study::CoarsePicture;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
@@ -50,7 +50,7 @@ impl PictureClock {
     pub(super) fn stop(
         &self,
         time: Option<Duration>,
-        (crude, crop): (Option<CrudePicture>, Crop),
+        (crude, crop): (Option<CoarsePicture>, Crop),
     ) -> Option<Diagnostic> {
         // As the file is still to be written.
         let took = self.begun().elapsed() + writing(crop);
@@ -65,7 +65,7 @@ impl PictureClock {
         };
         let finding = Diagnostic::new(&codes::TOO_SHORT, words);
         Some(match crude {
-            Some(CrudePicture { whole, .. }) => finding.hint(format!(
+            Some(CoarsePicture { whole, .. }) => finding.hint(format!(
                 "a sample for each pixel takes about `--time-budget {:.2}`",
                 (whole + writing(crop)).as_secs_f64()
             )),
@@ -85,6 +85,6 @@ fn late(took: Duration, time: Duration) -> String {
     format!("the picture takes about {took:.2} s, and was to take {time:.2} s")
 }
 
-fn lacking(CrudePicture { block, .. }: CrudePicture) -> String {
+fn lacking(CoarsePicture { block, .. }: CoarsePicture) -> String {
     format!("the picture is crude: blocks of up to {block} × {block} pixels show one of them")
 }

@@ -9,8 +9,8 @@ use super::shot::{KeptGrowth, workers};
 use super::{MadePicture, RenderSetup, halted};
 use rtc_image::Picture;
 use rtc_pipeline::{
-    Input, MOST_SHARES, NewFile, Observer, PicturePart, RenderError, RenderSubject, SharedBy,
-    Shares, hash_of_file,
+    Input, MOST_SHARES, NewFile, Observer, PicturePart, RenderError, RenderSubject, ShardPlan,
+    SharedBy, hash_of_file,
 };
 use rtc_render::{Crop, Tiles};
 use rtc_source::{Resource, SourceMap};
@@ -273,9 +273,9 @@ fn has_goal(goal: Goal) -> bool {
 }
 
 /// Shares of a picture of about one tile each.
-fn shares(window: Crop, [first, last]: [u32; 2]) -> Shares {
+fn shares(window: Crop, [first, last]: [u32; 2]) -> ShardPlan {
     let count = u32::try_from(Tiles::of(window).count()).unwrap_or(MOST_SHARES);
-    Shares {
+    ShardPlan {
         by: SharedBy::Tiles,
         first,
         last,

@@ -4,7 +4,7 @@ use super::super::Failure;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
 use rtc_image::Picture;
-use rtc_pipeline::{Input, OutputLook, PictureSetup, RenderSubject};
+use rtc_pipeline::{Input, OutputTransform, PictureSetup, RenderSubject};
 use rtc_render::Aov;
 use std::path::Path;
 
@@ -16,7 +16,11 @@ pub(super) struct EncodedLayers(Vec<(Output, Vec<u8>)>);
 
 impl LayerFiles {
     /// Those beside a picture, fit to be written.
-    pub(super) fn open(look: &OutputLook, path: &Path, input: &Input) -> Result<Self, Failure> {
+    pub(super) fn open(
+        look: &OutputTransform,
+        path: &Path,
+        input: &Input,
+    ) -> Result<Self, Failure> {
         if look.kind.is_linear() {
             return Ok(Self(Vec::new()));
         }

@@ -5,17 +5,17 @@ use super::super::args::{BitDepth, LookArgs};
 use super::super::output::is_stdout;
 use rtc_color::Tone;
 use rtc_image::FileFormat;
-use rtc_pipeline::{OutputLook, PictureSetup};
+use rtc_pipeline::{OutputTransform, PictureSetup};
 use rtc_render::Aov;
 use std::path::Path;
 
 /// The look that is asked for.
-pub(super) fn look(args: &LookArgs, output: &Path) -> Result<OutputLook, Failure> {
+pub(super) fn look(args: &LookArgs, output: &Path) -> Result<OutputTransform, Failure> {
     let refused = |words: &str| Failure::Trouble(words.to_owned());
     let kind = kind(output, args.bits)?;
     let aovs: Vec<Aov> = args.aov.iter().map(|layer| Aov::from(*layer)).collect();
     let tone = args.tonemap.map(Tone::from);
-    let look = OutputLook::new(kind, tone, args.exposure, args.background.fill(kind), &aovs);
+    let look = OutputTransform::new(kind, tone, args.exposure, args.background.fill(kind), &aovs);
     let mut look = look.map_err(refused)?;
     if matches!(kind, FileFormat::Jpeg | FileFormat::Webp) && !aovs.is_empty() {
         return Err(refused("layers are PNGs beside a PNG, or within an EXR"));

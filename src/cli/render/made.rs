@@ -5,7 +5,7 @@ use indicatif::{HumanBytes, HumanCount};
 use rtc_pipeline::PictureSetup;
 use rtc_plan::Effect;
 use rtc_render::{ClampedLight, Counts};
-use rtc_study::{CrudePicture, ProbedError, Samples};
+use rtc_study::{CoarsePicture, ProbedError, Samples};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -41,7 +41,7 @@ pub(super) enum KnownBy {
     /// The picture grew until it was good enough.
     Growing {
         /// If the time was too short for it.
-        crude: Option<CrudePicture>,
+        crude: Option<CoarsePicture>,
         samples: Samples,
         /// Its rays ran out.
         has_run_out: bool,
@@ -158,7 +158,7 @@ impl Quality {
     }
 
     /// If the time was too short for the picture.
-    pub(super) fn crude(&self) -> Option<CrudePicture> {
+    pub(super) fn crude(&self) -> Option<CoarsePicture> {
         match self.known {
             KnownBy::Growing { crude, .. } => crude,
             KnownBy::Probing { .. } => None,
@@ -167,7 +167,7 @@ impl Quality {
 
     fn words(&self) -> String {
         let bound = match self.crude() {
-            Some(CrudePicture { block, .. }) => {
+            Some(CoarsePicture { block, .. }) => {
                 format!("no bound: of some blocks of {block} × {block} pixels one was sampled")
             }
             None => bound(self.error, self.unmet),

@@ -161,7 +161,7 @@ impl RenderSetup {
 
     fn carry_out(&mut self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
         let subject = match input.load() {
-            Some(loaded) => self.picture.prove(loaded, input),
+            Some(loaded) => self.picture.validate(loaded, input),
             None => Ok(None),
         };
         let mut subject = match subject {

@@ -3,13 +3,13 @@
 use super::super::progress::{self, RenderProgress};
 use super::super::{Failure, args, interrupt::Interrupt, talk, talk::Talk, typed};
 use super::{RenderSetup, beside_here, halted};
-use rtc_pipeline::{Input, Observer, RenderSubject, SharedBy, Shares};
+use rtc_pipeline::{Input, Observer, RenderSubject, ShardPlan, SharedBy};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// A share as it will be rendered.
 pub(super) struct PartSetup {
-    shares: Shares,
+    shares: ShardPlan,
     /// The picture that it is of.
     picture: PathBuf,
     /// The words of the command but for the share and the output.
@@ -40,7 +40,7 @@ impl PartSetup {
             );
         }
         Ok(Some(Self {
-            shares: Shares {
+            shares: ShardPlan {
                 by: args.parts_by.into(),
                 first: index,
                 last: index,
@@ -58,7 +58,7 @@ impl PartSetup {
 
     /// The name of the scene with the share and `.rtp`, in the current folder.
     pub(super) fn beside_here(&self, args: &args::Render) -> Result<PathBuf, Failure> {
-        let Shares { first, count, .. } = self.shares;
+        let ShardPlan { first, count, .. } = self.shares;
         let picture = beside_here(args)?;
         Ok(picture.with_extension(format!("{first}-of-{count}.rtp")))
     }
@@ -80,7 +80,7 @@ impl RenderSetup {
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let (window, output) = self.ready(subject, &self.output, input)?;
-        let Shares {
+        let ShardPlan {
             by, first, count, ..
         } = part.shares;
         let pixels = match by {

@@ -7,9 +7,11 @@ use super::RenderSetup;
 use super::budget::PictureClock;
 use super::made::{KnownBy, Quality, error};
 use rtc_image::Image;
-use rtc_pipeline::{Meter, Observer, RenderError, RenderSubject, Traced};
+use rtc_pipeline::{Observer, RayCounter, RenderError, RenderSubject, Traced};
 use rtc_render::{Counts, Crop, Film};
-use rtc_study::{CrudePicture, Goal, Growth, Keep, Order, Reached, Stopped, Watch};
+use rtc_study::{
+    CheckpointSink, CoarsePicture, Goal, Order, ProgressiveRender, Stopped, TargetResult, Watch,
+};
 use std::time::Duration;
 
 /// What was rendered, and what is said of it.
@@ -24,8 +26,8 @@ pub(super) struct Rendered {
 
 impl Rendered {
     /// A picture that grew towards a goal.
-    fn reached(reached: Reached, goal: Goal, elapsed: Duration, has_run_out: bool) -> Self {
-        let Reached {
+    fn reached(reached: TargetResult, goal: Goal, elapsed: Duration, has_run_out: bool) -> Self {
+        let TargetResult {
             image,
             coverage,
             counts,
@@ -58,7 +60,7 @@ impl Rendered {
     }
 
     /// If the time was too short for it.
-    pub(super) fn crude(&self) -> Option<CrudePicture> {
+    pub(super) fn crude(&self) -> Option<CoarsePicture> {
         self.quality.as_ref()?.crude()
     }
 }
@@ -77,12 +79,12 @@ impl<'a> KeptGrowth<'a> {
         order: &Order,
         threads: usize,
         elapsed: &'a (dyn Fn() -> Duration + Sync),
-    ) -> Result<Keep<'a>, RenderError> {
-        let begun = (!self.begun.is_empty()).then(|| Growth::load(self.begun, order));
+    ) -> Result<CheckpointSink<'a>, RenderError> {
+        let begun = (!self.begun.is_empty()).then(|| ProgressiveRender::load(self.begun, order));
         let begun = begun.transpose().map_err(|error| {
             RenderError::Refused(format!("what was saved can't be used: {error}"))
         })?;
-        Ok(Keep {
+        Ok(CheckpointSink {
             begun,
             every: self.every,
             threads: workers(threads),
@@ -154,8 +156,8 @@ impl RenderSetup {
         let keep = kept.map(|kept| kept.into_keep(&order, setup.threads, &elapsed));
         let keep = keep.transpose()?;
         let begun = keep.as_ref().and_then(|keep| keep.begun.as_ref());
-        let left = rays.saturating_sub(begun.map_or(0, Growth::rays));
-        let meter = Meter::new(left, window);
+        let left = rays.saturating_sub(begun.map_or(0, ProgressiveRender::rays));
+        let meter = RayCounter::new(left, window);
         let observer = Observer {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),

@@ -3,7 +3,7 @@
 
 use super::document::{self, Index, Node};
 use super::writer::{GltfWriter, extras, single};
-use rtc_ir::{Camera, Field, Lens, Noun, Place, Projection};
+use rtc_ir::{Camera, EntityKind, Field, Lens, Projection, ValuePath};
 use rtc_math::{Vec3, atan2, length, unit};
 use serde_json::{Map as Block, Value, json};
 
@@ -58,7 +58,7 @@ impl GltfWriter<'_> {
         shift: [f64; 2],
         lens: &Lens,
     ) -> Block<String, Value> {
-        let place = Place::new(Noun::Camera, 0, Field::Whole);
+        let place = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
         let [width, height] = self.scene.camera.size;
         let mut own = Block::new();
         let mut say = |key: &str, value| {

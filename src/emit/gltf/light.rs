@@ -4,7 +4,7 @@ use super::document::{self, Index, Spot};
 use super::material::strength;
 use super::writer::{GltfWriter, extras, lit};
 use rtc_diag::codes;
-use rtc_ir::{Emitter, Field, Light, Noun, Photometry, Place, PointLight, Punctual};
+use rtc_ir::{Emitter, EntityKind, Field, Light, Photometry, PointLight, Punctual, ValuePath};
 use rtc_math::{Basis, Vec3, unit};
 use serde_json::{Map as Block, Value, json};
 use std::f64::consts::PI;
@@ -30,7 +30,7 @@ impl GltfWriter<'_> {
         }
         let middle = scene.ball().map_or(Vec3::ZERO, |ball| ball.center);
         for (index, light) in scene.lights.iter().enumerate() {
-            let place = Place::new(Noun::Light, index, Field::Whole);
+            let place = ValuePath::new(EntityKind::Light, index, Field::Whole);
             let lamp = match light {
                 Light::Point(point) => self.course_light(point, middle, place),
                 Light::Punctual(punctual) => self.punctual(punctual, middle, place),
@@ -41,7 +41,7 @@ impl GltfWriter<'_> {
 
     /// A light of the course has no falloff. Written is the one that lights the middle of the scene
     /// as much: a facing white Lambert surface there has the colour of the light as radiance.
-    fn course_light(&mut self, light: &PointLight, middle: Vec3, place: Place) -> Lamp {
+    fn course_light(&mut self, light: &PointLight, middle: Vec3, place: ValuePath) -> Lamp {
         let PointLight {
             position,
             color,
@@ -64,7 +64,7 @@ impl GltfWriter<'_> {
         }
     }
 
-    fn punctual(&mut self, light: &Punctual, middle: Vec3, place: Place) -> Lamp {
+    fn punctual(&mut self, light: &Punctual, middle: Vec3, place: ValuePath) -> Lamp {
         let Punctual { emitter, intensity } = light;
         let lamp = |kind, columns| Lamp {
             kind,
@@ -106,7 +106,7 @@ impl GltfWriter<'_> {
     }
 
     /// A lamp as it was measured: glTF has the point with the mean of its candelas.
-    fn measured(&mut self, lamp: Lamp, photometry: &Photometry, place: Place) -> Lamp {
+    fn measured(&mut self, lamp: Lamp, photometry: &Photometry, place: ValuePath) -> Lamp {
         let Photometry {
             name,
             vertical,

@@ -3,7 +3,7 @@
 use super::document::{self, Index, PbrMetallicRoughness, TextureInfo};
 use super::writer::{GltfWriter, extras};
 use crate::nearest::nearest;
-use rtc_ir::{Alpha, Field, Map, Material, MaterialId, MeshId, Noun, Place, Standard};
+use rtc_ir::{Alpha, EntityKind, Field, Map, Material, MaterialId, MeshId, Standard, ValuePath};
 use rtc_tables::{self as standard, parameters};
 use serde_json::{Map as Block, Value, json};
 
@@ -19,7 +19,7 @@ impl GltfWriter<'_> {
         if let Some(known) = self.materials.get(&key) {
             return *known;
         }
-        let place = Place::new(Noun::Material, id.0 as usize, Field::Whole);
+        let place = ValuePath::new(EntityKind::Material, id.0 as usize, Field::Whole);
         let (mut standard, own) = match &self.scene.materials[id.0 as usize] {
             Material::Standard(standard) => ((**standard).clone(), Block::new()),
             Material::Phong(phong) => {
@@ -38,7 +38,7 @@ impl GltfWriter<'_> {
         index
     }
 
-    fn standard(&mut self, own: &Standard, place: Place) -> document::Material {
+    fn standard(&mut self, own: &Standard, place: ValuePath) -> document::Material {
         let pbr_metallic_roughness = self.metallic_roughness(own, place);
         let mut blocks = Block::new();
         self.blocks(own, &mut blocks, place);
@@ -68,7 +68,7 @@ impl GltfWriter<'_> {
 
     /// The core of the material. That of `KHR_materials_pbrSpecularGlossiness` has its colour
     /// elsewhere.
-    fn metallic_roughness(&mut self, own: &Standard, place: Place) -> PbrMetallicRoughness {
+    fn metallic_roughness(&mut self, own: &Standard, place: ValuePath) -> PbrMetallicRoughness {
         let is_core = own.specular_glossiness.is_none();
         let color_map = own.base_color_map.as_ref().filter(|_| is_core);
         PbrMetallicRoughness {
@@ -80,12 +80,17 @@ impl GltfWriter<'_> {
         }
     }
 
-    fn info(&mut self, map: Option<&Map>, place: Place) -> Option<TextureInfo> {
+    fn info(&mut self, map: Option<&Map>, place: ValuePath) -> Option<TextureInfo> {
         map.map(|map| self.texture_info(map, place))
     }
 
     /// The extensions whose properties are not parameters as they stand.
-    fn other_blocks(&mut self, own: &Standard, blocks: &mut Block<String, Value>, place: Place) {
+    fn other_blocks(
+        &mut self,
+        own: &Standard,
+        blocks: &mut Block<String, Value>,
+        place: ValuePath,
+    ) {
         let strength = strength(own.emissive);
         if strength != 1.0 {
             let block = json!({ "emissiveStrength": strength });
@@ -110,7 +115,7 @@ impl GltfWriter<'_> {
         self.iridescence(own, blocks, place);
     }
 
-    fn iridescence(&mut self, own: &Standard, blocks: &mut Block<String, Value>, place: Place) {
+    fn iridescence(&mut self, own: &Standard, blocks: &mut Block<String, Value>, place: ValuePath) {
         let default = Standard::default();
         let [least, greatest] = own.iridescence_thickness;
         let maps = [
@@ -137,7 +142,7 @@ impl GltfWriter<'_> {
         self.block("KHR_materials_iridescence", block, blocks);
     }
 
-    fn maps(&mut self, block: &mut Value, maps: &[(&str, &Option<Map>)], place: Place) {
+    fn maps(&mut self, block: &mut Value, maps: &[(&str, &Option<Map>)], place: ValuePath) {
         for (key, map) in maps {
             if let Some(map) = map {
                 block[*key] = json!(self.texture_info(map, place));
@@ -174,7 +179,7 @@ macro_rules! written {
 macro_rules! extensions {
     ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
         impl GltfWriter<'_> {
-            fn blocks(&mut self, own: &Standard, blocks: &mut Block<String, Value>, place: Place) {
+            fn blocks(&mut self, own: &Standard, blocks: &mut Block<String, Value>, place: ValuePath) {
                 $(
                     let mut block = Block::new();
                     $(if let Some(value) = written!($kind, own.$field, self, place) {

@@ -4,7 +4,7 @@
 use super::document::{self, Accessor, Attributes, Index, Node, Primitive};
 use super::writer::{GltfWriter, extras, single};
 use rtc_diag::codes;
-use rtc_ir::{Column, Field, Instance, Mesh, MeshId, Noun, Place, Shape};
+use rtc_ir::{Column, EntityKind, Field, Instance, Mesh, MeshId, Shape, ValuePath};
 use rtc_math::{Vec3, cross, unit};
 use rtc_source::Resource;
 use std::collections::BTreeMap;
@@ -31,7 +31,7 @@ impl GltfWriter<'_> {
         else {
             unreachable!("all shapes have become meshes");
         };
-        let place = Place::new(Noun::Surface, index, Field::Whole);
+        let place = ValuePath::new(EntityKind::Surface, index, Field::Whole);
         if scene.meshes[mesh.0 as usize].triangles.is_empty() {
             return Some(());
         }
@@ -58,7 +58,7 @@ impl GltfWriter<'_> {
         &mut self,
         id: MeshId,
         material: Index<document::Material>,
-        place: Place,
+        place: ValuePath,
     ) -> Option<Index<document::Mesh>> {
         let key = (id.0, material.value());
         if let Some(known) = self.meshes.get(&key) {
@@ -84,7 +84,7 @@ impl GltfWriter<'_> {
     }
 
     /// The accessors of a mesh of the scene.
-    fn attributes(&mut self, id: MeshId, place: Place) -> Option<MeshAccessors> {
+    fn attributes(&mut self, id: MeshId, place: ValuePath) -> Option<MeshAccessors> {
         if let Some(known) = self.attributes.get(&id.0) {
             return Some(*known);
         }
@@ -136,7 +136,7 @@ impl GltfWriter<'_> {
     }
 
     /// Charges the bytes of a mesh; `None` if that is too much, which is told.
-    fn charge(&mut self, mesh: &Mesh, place: Place) -> Option<()> {
+    fn charge(&mut self, mesh: &Mesh, place: ValuePath) -> Option<()> {
         let numbers = 3 * (mesh.positions.len() + mesh.normals.len() + mesh.triangles.len())
             + 2 * (mesh.uvs.len() + mesh.second_uvs.len())
             + 4 * (mesh.tangents.len() + mesh.colors.len());
@@ -152,7 +152,7 @@ impl GltfWriter<'_> {
     fn rounded<const N: usize>(
         &mut self,
         column: &Column<N>,
-        place: Place,
+        place: ValuePath,
     ) -> Option<Vec<[f32; N]>> {
         let vectors: Vec<[f32; N]> = match column {
             Column::Single(vectors) => vectors.to_vec(),
@@ -185,7 +185,7 @@ impl GltfWriter<'_> {
         &mut self,
         tangents: &Column<4>,
         normals: &Column<3>,
-        place: Place,
+        place: ValuePath,
     ) -> Option<Vec<[f32; 4]>> {
         let mut rounded = self.rounded(tangents, place)?;
         for (at, tangent) in rounded.iter_mut().enumerate() {
@@ -209,7 +209,7 @@ impl GltfWriter<'_> {
         normals: &Column<3>,
         corners: &[[f32; 3]],
         triangles: &[[u32; 3]],
-        place: Place,
+        place: ValuePath,
     ) -> Option<Vec<[f32; 3]>> {
         let mut rounded = self.rounded(normals, place)?;
         let corner = |at: u32| Vec3::from_array(corners[at as usize].map(f64::from));

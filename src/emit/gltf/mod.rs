@@ -19,7 +19,7 @@ mod writer;
 use super::told::Told;
 use document::{Asset, Buffer, Index};
 use rtc_diag::{Sink, codes};
-use rtc_ir::{Field, Noun, Origins, Place, Scene};
+use rtc_ir::{EntityKind, Field, Scene, SourceSpans, ValuePath};
 use rtc_source::{Budget, Resource};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -45,13 +45,13 @@ pub struct GltfAsset {
 /// is written nearly, or in words that only rtc reads, and a warning for each that is left out.
 pub fn emit(
     scene: &Scene,
-    origins: &Origins,
+    source_spans: &SourceSpans,
     tolerance: Option<f64>,
     folder: Option<&str>,
     budget: &Budget,
     sink: &mut Sink,
 ) -> Option<GltfAsset> {
-    let mut told = Told::new(origins, sink);
+    let mut told = Told::new(source_spans, sink);
     let scene = form::only_meshes(scene, tolerance, budget, &mut told)?;
     charge_pictures(&scene, budget, &mut told)?;
     let mut writer = GltfWriter::new(&scene, folder, budget, told);
@@ -70,7 +70,7 @@ fn charge_pictures(scene: &Scene, budget: &Budget, told: &mut Told<'_>) -> Optio
     for (index, image) in scene.images.iter().enumerate() {
         if let Err(fault) = budget.charge(Resource::Memory, image.pixels.len() as u64) {
             let message = format!("the picture takes too much as a PNG: {fault}");
-            let place = Place::new(Noun::Image, index, Field::Whole);
+            let place = ValuePath::new(EntityKind::Image, index, Field::Whole);
             told.refuse(&codes::OVER_LIMIT, &message, place);
             return None;
         }
@@ -101,7 +101,7 @@ impl GltfWriter<'_> {
         };
         if u32::try_from(json.len() + self.bin.len() + HEADS).is_err() {
             let message = "the scene takes more than the 4 GiB that a .glb holds";
-            let place = Place::new(Noun::Settings, 0, Field::Whole);
+            let place = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
             self.told.refuse(&codes::GLTF_UNSAID, message, place);
             return None;
         }

@@ -2,7 +2,7 @@
 
 use super::writer::GltfWriter;
 use rtc_diag::codes;
-use rtc_ir::{Bump, Phong, Place};
+use rtc_ir::{Bump, Phong, ValuePath};
 use serde_json::{Map as Block, Value, json};
 
 impl GltfWriter<'_> {
@@ -11,7 +11,7 @@ impl GltfWriter<'_> {
         &mut self,
         phong: &Phong,
         has_uvs: bool,
-        place: Place,
+        place: ValuePath,
     ) -> Block<String, Value> {
         let Phong {
             color,

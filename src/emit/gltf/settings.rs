@@ -3,8 +3,8 @@
 use super::writer::{GltfWriter, extras, number};
 use rtc_color::Tone;
 use rtc_ir::{
-    Ambient, Display, Environment, Field, Gooch, Mode, Noun, PathSettings, Pattern, Pixels, Place,
-    Settings,
+    Ambient, Display, EntityKind, Environment, Field, Gooch, Mode, PathSettings, Pattern, Pixels,
+    Settings, ValuePath,
 };
 use serde_json::{Map as Block, Value, json};
 
@@ -14,12 +14,12 @@ impl GltfWriter<'_> {
     pub(super) fn settings(&mut self) {
         let mut own = Block::new();
         if self.scene.settings != of_gltf() {
-            let place = Place::new(Noun::Settings, 0, Field::Whole);
+            let place = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
             self.told.own_words("how the picture is made", place);
             own = settings(&self.scene.settings);
         }
         if !self.scene.display.is_plain() {
-            let place = Place::new(Noun::Settings, 0, Field::Whole);
+            let place = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
             self.told.own_words("how the picture is shown", place);
             let Display { exposure, tone } = &self.scene.display;
             let tone = tone.map(Tone::name);
@@ -40,7 +40,7 @@ impl GltfWriter<'_> {
             image,
             image_from_world,
         } = environment;
-        let place = Place::new(Noun::Environment, 0, Field::Whole);
+        let place = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
         self.told.own_words("what surrounds the scene", place);
         let mut words = json!({ "radiance": radiance });
         if let Some(id) = image {

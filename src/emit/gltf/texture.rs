@@ -7,7 +7,9 @@ use super::document::{
 use super::writer::{GltfWriter, number};
 use rtc_diag::codes;
 use rtc_image::png_bytes;
-use rtc_ir::{self as ir, Field, Filter, Map, Noun, Pixels, Place, Sampled, TextureId, Wrap};
+use rtc_ir::{
+    self as ir, EntityKind, Field, Filter, Map, Pixels, Sampled, TextureId, ValuePath, Wrap,
+};
 use rtc_math::{atan2, cos, sin};
 use serde_json::{Value, json};
 
@@ -21,7 +23,7 @@ const SHEAR: f64 = 1e-9;
 impl GltfWriter<'_> {
     /// What a material says of a map: the index of its texture, the set of coordinates, and their
     /// transformation.
-    pub(super) fn texture_info(&mut self, map: &Map, place: Place) -> TextureInfo {
+    pub(super) fn texture_info(&mut self, map: &Map, place: ValuePath) -> TextureInfo {
         let Map {
             texture,
             set,
@@ -55,7 +57,7 @@ impl GltfWriter<'_> {
     }
 
     /// A texture of the scene.
-    pub(super) fn texture(&mut self, id: TextureId, place: Place) -> Index<Texture> {
+    pub(super) fn texture(&mut self, id: TextureId, place: ValuePath) -> Index<Texture> {
         if let Some(known) = self.textures.get(&id.0) {
             return *known;
         }
@@ -115,7 +117,7 @@ impl GltfWriter<'_> {
             kind,
             pixels,
         } = &self.scene.images[id as usize];
-        let place = Place::new(Noun::Image, id as usize, Field::Whole);
+        let place = ValuePath::new(EntityKind::Image, id as usize, Field::Whole);
         let bytes = match kind {
             Pixels::Rgb8 | Pixels::Rgba8 => pixels.to_vec(),
             Pixels::Rgb32f => {

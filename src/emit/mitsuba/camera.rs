@@ -3,7 +3,7 @@
 use super::MitsubaWriter;
 use crate::flat::{around, side};
 use crate::twin::joined;
-use rtc_ir::{Camera, Field, Noun, Place, Projection};
+use rtc_ir::{Camera, EntityKind, Field, Projection, ValuePath};
 use rtc_math::{Vec3, length, shortest, unit};
 
 /// How far the sides of a pixel may differ, as a share, for it to be square.
@@ -67,7 +67,7 @@ impl MitsubaWriter<'_> {
     fn square_pixels(&mut self, right: f64, up: f64) {
         if (right / up - 1.0).abs() > SQUARE {
             let message = "pixels are not square: Mitsuba's are, as high as these";
-            let place = Place::new(Noun::Camera, 0, Field::Whole);
+            let place = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
             self.told.no_twin(message, place);
         }
     }
@@ -88,7 +88,7 @@ impl MitsubaWriter<'_> {
             }
             (true, true) => {
                 let message = "a lens looks past the middle of the picture: Mitsuba's does not";
-                let place = Place::new(Noun::Camera, 0, Field::Whole);
+                let place = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
                 self.told.no_twin(message, place);
             }
         }
@@ -98,7 +98,7 @@ impl MitsubaWriter<'_> {
     fn orthographic(&mut self, [x, y, z]: [Vec3; 3], half: f64, (eye, center): (Vec3, Vec3)) {
         if unit(center - eye).is_some_and(|gaze| gaze.distance(z) > SQUARE) {
             let message = "rays come slantwise through the picture: Mitsuba's come straight";
-            let place = Place::new(Noun::Camera, 0, Field::Whole);
+            let place = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
             self.told.no_twin(message, place);
         }
         self.line(1, r#"<sensor type="orthographic">"#);

@@ -2,7 +2,7 @@
 
 use super::MitsubaWriter;
 use crate::twin::joined;
-use rtc_ir::{Emitter, Field, Light, Noun, Place, Punctual};
+use rtc_ir::{Emitter, EntityKind, Field, Light, Punctual, ValuePath};
 use rtc_math::{Vec3, unit};
 
 impl MitsubaWriter<'_> {
@@ -10,7 +10,7 @@ impl MitsubaWriter<'_> {
         let scene = self.scene;
         let shining = scene.lights.iter().enumerate();
         for (index, light) in shining.filter(|(_, light)| light.shines()) {
-            let place = Place::new(Noun::Light, index, Field::Whole);
+            let place = ValuePath::new(EntityKind::Light, index, Field::Whole);
             match light {
                 Light::Point(_) => {
                     let message = "a light without falloff is left out: Mitsuba has none";
@@ -21,7 +21,7 @@ impl MitsubaWriter<'_> {
         }
     }
 
-    fn punctual(&mut self, light: &Punctual, place: Place) {
+    fn punctual(&mut self, light: &Punctual, place: ValuePath) {
         let Punctual { emitter, intensity } = light;
         match emitter {
             Emitter::Sun { direction } => {

@@ -3,7 +3,7 @@
 use super::MitsubaWriter;
 use crate::nearest::nearest;
 use crate::twin::{listed, worn};
-use rtc_ir::{Alpha, Material, Place, Standard};
+use rtc_ir::{Alpha, Material, Standard, ValuePath};
 use rtc_math::shortest;
 use std::borrow::Cow;
 
@@ -19,7 +19,7 @@ impl MitsubaWriter<'_> {
         }
     }
 
-    fn material(&mut self, index: usize, material: &Standard, place: Place) {
+    fn material(&mut self, index: usize, material: &Standard, place: ValuePath) {
         let unlike = unlike(material);
         if !unlike.is_empty() {
             let message = format!("a material is written without {}", listed(&unlike));

@@ -6,11 +6,13 @@ mod light;
 mod material;
 mod shape;
 
-use super::TwinScene;
+use super::ExportedScene;
 use super::told::Told;
 use super::twin::joined;
 use rtc_diag::Sink;
-use rtc_ir::{Display, Environment, Field, Mode, Noun, Origins, PathSettings, Place, Scene};
+use rtc_ir::{
+    Display, EntityKind, Environment, Field, Mode, PathSettings, Scene, SourceSpans, ValuePath,
+};
 use rtc_source::Budget;
 use shape::Soup;
 use std::collections::BTreeMap;
@@ -22,16 +24,16 @@ use std::fmt::Write as _;
 /// has no exact twin.
 pub fn emit(
     scene: &Scene,
-    origins: &Origins,
+    source_spans: &SourceSpans,
     folder: &str,
     budget: &Budget,
     sink: &mut Sink,
-) -> Option<TwinScene> {
+) -> Option<ExportedScene> {
     let mut writer = MitsubaWriter {
         scene,
         folder,
         budget,
-        told: Told::new(origins, sink),
+        told: Told::new(source_spans, sink),
         text: String::new(),
         files: BTreeMap::new(),
         meshes: BTreeMap::new(),
@@ -45,7 +47,7 @@ pub fn emit(
     writer.materials();
     writer.surfaces()?;
     writer.line(0, "</scene>");
-    Some(TwinScene {
+    Some(ExportedScene {
         text: writer.text,
         files: writer.files,
     })
@@ -95,7 +97,7 @@ impl MitsubaWriter<'_> {
             Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
                 let message = "Mitsuba traces paths, and this scene is shown in another way: \
                                `--integrator path` shows what is written";
-                let place = Place::new(Noun::Settings, 0, Field::Mode);
+                let place = ValuePath::new(EntityKind::Settings, 0, Field::Mode);
                 self.told.no_twin(message, place);
                 settings.supersampling.saturating_pow(2)
             }
@@ -109,7 +111,7 @@ impl MitsubaWriter<'_> {
         let Display { exposure, tone } = &self.scene.display;
         if *exposure != 0.0 || tone.is_some() {
             let message = "exposure and tone map are left out: Mitsuba writes linear values";
-            let place = Place::new(Noun::Settings, 0, Field::Whole);
+            let place = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
             self.told.no_twin(message, place);
         }
     }
@@ -125,7 +127,7 @@ impl MitsubaWriter<'_> {
         };
         if image.is_some() {
             let message = "a picture of the surroundings is left out";
-            let place = Place::new(Noun::Environment, 0, Field::Whole);
+            let place = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
             self.told.no_twin(message, place);
             return;
         }

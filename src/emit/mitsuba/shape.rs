@@ -6,8 +6,8 @@ use crate::flat::{around, side, split, square};
 use crate::twin::{joined, word};
 use crate::{beside, ply};
 use rtc_ir::{
-    Ball, Column, Cylinder, Disc, Field, Instance, Mesh, MeshId, Noun, Place, Shape, Sphere,
-    Surface,
+    BoundingSphere, Column, Cylinder, Disc, EntityKind, Field, Instance, Mesh, MeshId, Shape,
+    Sphere, Surface, ValuePath,
 };
 use rtc_math::{Basis, Vec3, is_flat, shortest, unit};
 use xxhash_rust::xxh3::xxh3_64;
@@ -39,7 +39,7 @@ impl MitsubaWriter<'_> {
     pub(super) fn surfaces(&mut self) -> Option<()> {
         let (scene, around) = (self.scene, around(self.scene));
         for (index, surface) in scene.surfaces.iter().enumerate() {
-            let place = Place::new(Noun::Surface, index, Field::Whole);
+            let place = ValuePath::new(EntityKind::Surface, index, Field::Whole);
             self.surface(surface, around, place)?;
         }
         for (material, Soup { corners, triangles }) in std::mem::take(&mut self.soups) {
@@ -48,14 +48,19 @@ impl MitsubaWriter<'_> {
                 triangles: triangles.into(),
                 ..Mesh::default()
             };
-            let place = Place::new(Noun::Material, material as usize, Field::Whole);
+            let place = ValuePath::new(EntityKind::Material, material as usize, Field::Whole);
             let name = self.ply("triangles", &mesh, place)?;
             self.mesh(&name, true, None, material);
         }
         Some(())
     }
 
-    fn surface(&mut self, surface: &Surface, around: Ball, place: Place) -> Option<()> {
+    fn surface(
+        &mut self,
+        surface: &Surface,
+        around: BoundingSphere,
+        place: ValuePath,
+    ) -> Option<()> {
         let material = surface.material.0;
         match &surface.shape {
             Shape::Sphere(sphere) => self.sphere(sphere, material),
@@ -87,7 +92,7 @@ impl MitsubaWriter<'_> {
     }
 
     /// Tells of a surface that shines: on both sides here.
-    fn shines_outwards(&mut self, material: u32, place: Place) {
+    fn shines_outwards(&mut self, material: u32, place: ValuePath) {
         if self.emitted(material) != [0.0; 3] {
             let message = "Mitsuba's emitters shine to the front alone, or outwards: this one shines \
                            both ways";
@@ -164,7 +169,7 @@ impl MitsubaWriter<'_> {
         self.shape("disk", material, |text| text.placed(columns));
     }
 
-    fn instance(&mut self, instance: &Instance, material: u32, place: Place) -> Option<()> {
+    fn instance(&mut self, instance: &Instance, material: u32, place: ValuePath) -> Option<()> {
         let Instance {
             mesh: id,
             world_from_object,
@@ -208,13 +213,13 @@ impl MitsubaWriter<'_> {
             triangles: mesh.triangles.clone(),
             ..Mesh::default()
         };
-        let place = Place::new(Noun::Mesh, id.0 as usize, Field::Whole);
+        let place = ValuePath::new(EntityKind::Mesh, id.0 as usize, Field::Whole);
         let name = self.ply(&mesh.name, &bare, place)?;
         self.meshes.insert(id.0, name.clone());
         Some(name)
     }
 
-    fn ply(&mut self, of: &str, mesh: &Mesh, place: Place) -> Option<String> {
+    fn ply(&mut self, of: &str, mesh: &Mesh, place: ValuePath) -> Option<String> {
         let columns = mesh.positions.bytes() + mesh.normals.bytes();
         let bytes = columns as u64 + TRIANGLE * mesh.triangles.len() as u64 + HEAD;
         self.told.charge(bytes, self.budget, place)?;

@@ -3,7 +3,7 @@
 
 use super::{PovWriter, vector};
 use crate::twin::{listed, worn};
-use rtc_ir::{Ambient, Light, Material, Phong, Place, Standard};
+use rtc_ir::{Ambient, Light, Material, Phong, Standard, ValuePath};
 use rtc_math::shortest;
 
 impl PovWriter<'_> {
@@ -14,7 +14,7 @@ impl PovWriter<'_> {
         }
     }
 
-    fn material(&mut self, index: usize, material: &Material, place: Place) {
+    fn material(&mut self, index: usize, material: &Material, place: ValuePath) {
         let phong = match material {
             Material::Phong(phong) => phong.clone(),
             Material::Standard(standard) => {

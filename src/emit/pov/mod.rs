@@ -4,13 +4,13 @@
 mod material;
 mod shape;
 
-use super::TwinScene;
+use super::ExportedScene;
 use super::told::Told;
 use super::twin::joined;
 use rtc_diag::Sink;
 use rtc_ir::{
-    Camera, Display, Field, Light, Mode, Noun, Origins, Pattern, Place, PointLight, Projection,
-    Scene, Settings,
+    Camera, Display, EntityKind, Field, Light, Mode, Pattern, PointLight, Projection, Scene,
+    Settings, SourceSpans, ValuePath,
 };
 use rtc_math::Vec3;
 use rtc_source::Budget;
@@ -21,14 +21,14 @@ use std::fmt::Write as _;
 /// warning for each part that has no exact twin.
 pub fn emit(
     scene: &Scene,
-    origins: &Origins,
+    source_spans: &SourceSpans,
     budget: &Budget,
     sink: &mut Sink,
-) -> Option<TwinScene> {
+) -> Option<ExportedScene> {
     let mut writer = PovWriter {
         scene,
         budget,
-        told: Told::new(origins, sink),
+        told: Told::new(source_spans, sink),
         text: String::new(),
     };
     writer.settings();
@@ -36,7 +36,7 @@ pub fn emit(
     writer.lights();
     writer.materials();
     writer.surfaces()?;
-    Some(TwinScene {
+    Some(ExportedScene {
         text: writer.text,
         files: BTreeMap::new(),
     })
@@ -77,7 +77,7 @@ impl PovWriter<'_> {
             (factor, Pattern::Grid) => format!(" +A0.0 +AM1 +R{factor} -J"),
             (factor, _) => format!(" +A0.0 +AM1 +R{factor} +J"),
         };
-        let place = Place::new(Noun::Settings, 0, Field::Mode);
+        let place = ValuePath::new(EntityKind::Settings, 0, Field::Mode);
         if *mode != Mode::Phong || *toon {
             let message = "POV-Ray shows Phong's model, and this scene is shown in another way";
             self.told.no_twin(message, place);
@@ -122,7 +122,7 @@ impl PovWriter<'_> {
         };
         if lens.radius > 0.0 {
             let message = "the lens is left out: POV-Ray blurs by another pattern";
-            let place = Place::new(Noun::Camera, 0, Field::Whole);
+            let place = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
             self.told.no_twin(message, place);
         }
         let [right, up, gaze] = [right, up, gaze].map(|v| vector(v.to_array()));
@@ -136,12 +136,12 @@ impl PovWriter<'_> {
         let scene = self.scene;
         if scene.environment.is_some() {
             let message = "the surroundings are left out";
-            let place = Place::new(Noun::Environment, 0, Field::Whole);
+            let place = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
             self.told.no_twin(message, place);
         }
         let shining = scene.lights.iter().enumerate();
         for (index, light) in shining.filter(|(_, light)| light.shines()) {
-            let place = Place::new(Noun::Light, index, Field::Whole);
+            let place = ValuePath::new(EntityKind::Light, index, Field::Whole);
             let Light::Point(PointLight {
                 position,
                 color,

@@ -4,8 +4,8 @@ use super::{PovWriter, vector};
 use crate::flat::split;
 use crate::twin::word;
 use rtc_ir::{
-    Column, Cone, Cylinder, Disc, Field, Instance, Mesh, Noun, Place, Plane, Quad, Shape, Sphere,
-    Surface, Torus, Triangle,
+    Column, Cone, Cylinder, Disc, EntityKind, Field, Instance, Mesh, Plane, Quad, Shape, Sphere,
+    Surface, Torus, Triangle, ValuePath,
 };
 use rtc_math::{Basis, Vec3, is_flat, shortest, unit};
 use std::fmt::Write as _;
@@ -19,7 +19,7 @@ impl PovWriter<'_> {
         let scene = self.scene;
         let mut declared = vec![false; scene.meshes.len()];
         for (index, surface) in scene.surfaces.iter().enumerate() {
-            let place = Place::new(Noun::Surface, index, Field::Whole);
+            let place = ValuePath::new(EntityKind::Surface, index, Field::Whole);
             if let Shape::Instance(Instance { mesh, .. }) = &surface.shape {
                 let at = mesh.0 as usize;
                 if !std::mem::replace(&mut declared[at], true) {
@@ -31,7 +31,7 @@ impl PovWriter<'_> {
         Some(())
     }
 
-    fn surface(&mut self, surface: &Surface, place: Place) {
+    fn surface(&mut self, surface: &Surface, place: ValuePath) {
         let Surface {
             shape,
             material,
@@ -101,7 +101,7 @@ impl PovWriter<'_> {
 
     /// Writes a mesh, to be placed by its instances; `None` if it takes too much, which is told.
     fn declare(&mut self, index: usize, mesh: &Mesh) -> Option<()> {
-        let place = Place::new(Noun::Mesh, index, Field::Whole);
+        let place = ValuePath::new(EntityKind::Mesh, index, Field::Whole);
         if !mesh.colors.is_empty() {
             let message = "the colours of the corners of a mesh are left out";
             self.told.no_twin(message, place);

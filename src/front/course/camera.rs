@@ -130,7 +130,7 @@ impl Lowering {
             (Field::LensRadius, aperture_radius.span),
             (Field::LensSamples, aperture_samples.span),
         ] {
-            self.origin(ir::Noun::Camera, 0, field, span);
+            self.origin(ir::EntityKind::Camera, 0, field, span);
         }
         let Some((right, up)) = basis else { return };
         self.scene.camera = ir::Camera {
@@ -190,8 +190,8 @@ impl Lowering {
             size: size.0,
             ..placeholder()
         };
-        self.origin(ir::Noun::Camera, 0, Field::Whole, eye.span);
-        self.origin(ir::Noun::Camera, 0, Field::Eye, eye.span);
+        self.origin(ir::EntityKind::Camera, 0, Field::Whole, eye.span);
+        self.origin(ir::EntityKind::Camera, 0, Field::Eye, eye.span);
     }
 }
 

@@ -7,7 +7,7 @@ use super::record::{FieldOutcome, keys, record};
 use super::turn::RotationRows;
 use super::value::{Channels, FileName, Vector};
 use rtc_diag::{Severity, codes};
-use rtc_ir::{self as ir, Field, Noun};
+use rtc_ir::{self as ir, EntityKind, Field};
 use rtc_source::Span;
 
 record! {
@@ -62,7 +62,7 @@ impl Lowering {
             image,
             image_from_world: turn,
         });
-        self.origin(Noun::Environment, 0, Field::Whole, environment.span);
+        self.origin(EntityKind::Environment, 0, Field::Whole, environment.span);
     }
 }
 

@@ -9,7 +9,7 @@ use super::synonym::{PLACE, led_by};
 use super::value::{Channels, Color, FileName, Point, Vector};
 use super::word::Words;
 use rtc_diag::{Severity, codes};
-use rtc_ir::{self as ir, Field, Noun, Photometry};
+use rtc_ir::{self as ir, EntityKind, Field, Photometry};
 use rtc_source::Span;
 
 record! {
@@ -78,7 +78,7 @@ impl Lowering {
         note_unused(&light.value, is, made.point().is_none(), context);
         let index = self.scene.lights.len();
         self.scene.lights.push(made);
-        self.origin(Noun::Light, index, Field::Whole, light.span);
+        self.origin(EntityKind::Light, index, Field::Whole, light.span);
     }
 
     /// The light that the keys make.
@@ -109,9 +109,9 @@ impl Lowering {
             }
             (FieldOutcome::Read(position), FieldOutcome::Read(color), ..) => {
                 let (index, radius) = (self.scene.lights.len(), &light.radius);
-                self.origin(Noun::Light, index, Field::Position, position.span);
-                self.origin(Noun::Light, index, Field::Color, color.span);
-                self.origin(Noun::Light, index, Field::LightRadius, radius.span);
+                self.origin(EntityKind::Light, index, Field::Position, position.span);
+                self.origin(EntityKind::Light, index, Field::Color, color.span);
+                self.origin(EntityKind::Light, index, Field::LightRadius, radius.span);
                 let (position, color, radius) = (position.value.0, color.value.0, radius.value.0);
                 let point = ir::PointLight {
                     position,

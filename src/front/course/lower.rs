@@ -13,7 +13,7 @@ use super::syntax;
 use super::texture::Files;
 use crate::FrontOptions;
 use rtc_diag::{Diagnostic, Sink, clip, codes};
-use rtc_ir::{self as ir, Field, Lowered, MaterialId, Noun, Origins, Place};
+use rtc_ir::{self as ir, EntityKind, Field, Lowered, MaterialId, SourceSpans, ValuePath};
 use rtc_source::tree::yaml::{self, Mistake};
 use rtc_source::tree::{NodeContent, NodeId};
 use rtc_source::{FileId, SourceMap, Span};
@@ -106,7 +106,7 @@ pub(super) struct Lowering {
     pub(super) rims: Vec<Rims>,
     /// Where it is written that an object has no size.
     pub(super) invisible: Vec<Span>,
-    origins: Origins,
+    source_spans: SourceSpans,
 }
 
 impl Lowering {
@@ -133,13 +133,20 @@ impl Lowering {
             dressings: Vec::new(),
             rims: Vec::new(),
             invisible: Vec::new(),
-            origins: Origins::default(),
+            source_spans: SourceSpans::default(),
         }
     }
 
     /// Remembers where a value was written; a default was written nowhere.
-    pub(super) fn origin(&mut self, noun: Noun, index: usize, field: Field, span: Option<Span>) {
-        self.origins.record(Place::new(noun, index, field), span);
+    pub(super) fn origin(
+        &mut self,
+        entity: EntityKind,
+        index: usize,
+        field: Field,
+        span: Option<Span>,
+    ) {
+        self.source_spans
+            .record(ValuePath::new(entity, index, field), span);
     }
 
     fn scene(&mut self, context: &mut Context<'_>) {
@@ -165,7 +172,7 @@ impl Lowering {
             });
         if self.scene.lights.is_empty() {
             let place = scene.lights.span.unwrap_or_else(|| context.head(root));
-            self.origin(Noun::Light, 0, Field::Whole, Some(place));
+            self.origin(EntityKind::Light, 0, Field::Whole, Some(place));
         }
         self.soften(&scene, context);
         let count = scene.objects.value.len(context);
@@ -240,7 +247,7 @@ impl Lowering {
             dressings,
             rims: _,
             invisible: _,
-            mut origins,
+            mut source_spans,
         } = self;
         for Wanted {
             asset,
@@ -249,12 +256,15 @@ impl Lowering {
         } in &wanted
         {
             if let Some(place) = asset.place() {
-                origins.record(place, *span);
+                source_spans.record(place, *span);
             }
         }
-        origins.finish();
+        source_spans.finish();
         UnfinishedScene {
-            lowered: Lowered { scene, origins },
+            lowered: Lowered {
+                scene,
+                source_spans,
+            },
             wanted,
             sizings,
             dressings,

@@ -12,7 +12,7 @@ use super::value::{Color, FileName};
 use super::word::Words;
 use super::word::word_schema;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, Field, MaterialId, Noun};
+use rtc_ir::{self as ir, EntityKind, Field, MaterialId};
 use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
@@ -131,7 +131,12 @@ impl Lowering {
             Material::Standard(standard) => {
                 let own = self.standard(standard);
                 let id = self.add_material(own);
-                self.origin(Noun::Material, id.0 as usize, Field::Whole, material.span);
+                self.origin(
+                    EntityKind::Material,
+                    id.0 as usize,
+                    Field::Whole,
+                    material.span,
+                );
                 id
             }
         };
@@ -274,7 +279,7 @@ impl Lowering {
             (Field::Eta, eta.span),
             (Field::GlossySamples, glossy_samples.span),
         ] {
-            self.origin(Noun::Material, id.0 as usize, field, span);
+            self.origin(EntityKind::Material, id.0 as usize, field, span);
         }
         for (field, file) in [
             (Field::ColorMap, texture),
@@ -283,7 +288,7 @@ impl Lowering {
             (Field::Bump, bump),
         ] {
             if let FieldOutcome::Read(file) = file {
-                self.origin(Noun::Material, id.0 as usize, field, file.span);
+                self.origin(EntityKind::Material, id.0 as usize, field, file.span);
             }
         }
     }

@@ -16,7 +16,7 @@ use super::value::{Point, Switch, Text};
 use super::word::{word, word_schema};
 use rtc_color::Tone;
 use rtc_diag::{Severity, codes};
-use rtc_ir::{self as ir, Field, Noun};
+use rtc_ir::{self as ir, EntityKind, Field};
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
@@ -199,11 +199,16 @@ impl Lowering {
             toon: scene.toon.value,
             ambient: ir::Ambient::PerLight,
         };
-        self.origin(Noun::Settings, 0, Field::Mode, mode.span);
-        self.origin(Noun::Settings, 0, Field::MaxDepth, depth.span);
+        self.origin(EntityKind::Settings, 0, Field::Mode, mode.span);
+        self.origin(EntityKind::Settings, 0, Field::MaxDepth, depth.span);
         let factor = sampling.value.place.or(sampling.span);
-        self.origin(Noun::Settings, 0, Field::Supersampling, factor);
-        self.origin(Noun::Settings, 0, Field::LightSamples, light_samples.span);
+        self.origin(EntityKind::Settings, 0, Field::Supersampling, factor);
+        self.origin(
+            EntityKind::Settings,
+            0,
+            Field::LightSamples,
+            light_samples.span,
+        );
     }
 
     /// Makes points of soft lights if the file says so, and else asks enough points of each, unless
@@ -286,10 +291,10 @@ impl Lowering {
 
     fn gooch(&mut self, gooch: &Gooch) -> ir::Gooch {
         let Gooch { b, y, alpha, beta } = gooch;
-        self.origin(Noun::Settings, 0, Field::GoochB, b.span);
-        self.origin(Noun::Settings, 0, Field::GoochY, y.span);
-        self.origin(Noun::Settings, 0, Field::GoochAlpha, alpha.span);
-        self.origin(Noun::Settings, 0, Field::GoochBeta, beta.span);
+        self.origin(EntityKind::Settings, 0, Field::GoochB, b.span);
+        self.origin(EntityKind::Settings, 0, Field::GoochY, y.span);
+        self.origin(EntityKind::Settings, 0, Field::GoochAlpha, alpha.span);
+        self.origin(EntityKind::Settings, 0, Field::GoochBeta, beta.span);
         ir::Gooch {
             b: b.value.0,
             y: y.value.0,

@@ -44,9 +44,13 @@ impl<'a> Reader<'a> {
         if self.lines.next(&mut self.words) {
             return Ok(&self.words);
         }
-        let Count { word, value, noun } = count;
+        let Count {
+            word,
+            value,
+            entity,
+        } = count;
         Err(word.fault(
-            format!("the file ends before the last of {value} {noun}"),
+            format!("the file ends before the last of {value} {entity}"),
             "promised here",
         ))
     }
@@ -56,7 +60,7 @@ impl<'a> Reader<'a> {
 struct Count<'a> {
     word: Word<'a>,
     value: usize,
-    noun: &'static str,
+    entity: &'static str,
 }
 
 struct Head<'a> {
@@ -84,15 +88,22 @@ fn head<'a>(reader: &mut Reader<'a>) -> Result<Head<'a>, WordFault> {
     if counts.is_empty() {
         reader.lines.next(&mut counts);
     }
-    let count = |at: usize, noun| {
-        let word = *counts
-            .get(at)
-            .ok_or_else(|| head.fault(format!("the number of {noun} is missing"), "after this"))?;
+    let count = |at: usize, entity| {
+        let word = *counts.get(at).ok_or_else(|| {
+            head.fault(format!("the number of {entity} is missing"), "after this")
+        })?;
         let value = usize::try_from(word.integer()?);
         let value = value.map_err(|_| {
-            word.fault(format!("there can't be {} {noun}", word.text()), "negative")
+            word.fault(
+                format!("there can't be {} {entity}", word.text()),
+                "negative",
+            )
         })?;
-        Ok(Count { word, value, noun })
+        Ok(Count {
+            word,
+            value,
+            entity,
+        })
     };
     Ok(Head {
         has_normals,

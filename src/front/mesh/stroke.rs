@@ -3,7 +3,7 @@
 use super::{columns, to_u32};
 use crate::solid::{Solid, radius, thin};
 use glam::DAffine3;
-use rtc_ir::{Ball, Column, Mesh};
+use rtc_ir::{BoundingSphere, Column, Mesh};
 use rtc_math::Vec3;
 use rtc_source::{Budget, Exceeded, Resource};
 
@@ -89,7 +89,7 @@ impl<'run> Pen<'run> {
 }
 
 /// A ball around the vertices.
-fn ball(mesh: &Mesh) -> Option<Ball> {
+fn ball(mesh: &Mesh) -> Option<BoundingSphere> {
     let positions = || mesh.positions.iter().map(Vec3::from_array);
     let low = positions().fold(Vec3::INFINITY, Vec3::min);
     let high = positions().fold(Vec3::NEG_INFINITY, Vec3::max);
@@ -97,7 +97,7 @@ fn ball(mesh: &Mesh) -> Option<Ball> {
     let radius = (high - center).length();
     // One point alone is as large as in a ball of radius 1.
     let radius = if radius > 0.0 { radius } else { 1.0 };
-    (center.is_finite() && radius.is_finite()).then_some(Ball { center, radius })
+    (center.is_finite() && radius.is_finite()).then_some(BoundingSphere { center, radius })
 }
 
 /// Adds meshes to one. Of columns that some have the others have zeros, of colours white.

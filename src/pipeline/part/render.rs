@@ -1,7 +1,8 @@
 //! Shares of a picture rendered, and what says of which picture they are.
 
 use super::super::{
-    Meter, Observer, PicturePart, PictureSetup, RenderError, RenderSubject, SharedBy, Shares,
+    Observer, PicturePart, PictureSetup, RayCounter, RenderError, RenderSubject, ShardPlan,
+    SharedBy,
 };
 use super::Made;
 use rtc_ir::{self as ir, Scene};
@@ -31,7 +32,7 @@ impl PictureSetup {
     pub fn part(
         &self,
         subject: &mut RenderSubject,
-        (shares, window, rays): (Shares, Crop, u64),
+        (shares, window, rays): (ShardPlan, Crop, u64),
         observer: &Observer<'_>,
     ) -> Result<PicturePart, RenderError> {
         let settings = subject.proven.scene.settings();
@@ -52,7 +53,7 @@ impl PictureSetup {
             }
             (SharedBy::Samples, _) => return Err(RenderError::Refused(INSEPARABLE.to_owned())),
         };
-        let meter = Meter::new(rays, window);
+        let meter = RayCounter::new(rays, window);
         let on_pixel = |step| {
             (observer.on_step)(step);
             !(observer.is_stopped)() && meter.step(step)

@@ -1,7 +1,7 @@
 //! Caustics: light that smooth metal and glass throw onto other surfaces. Paths from the camera find it
 //! by chance, or not at all.
 
-use super::{EnvironmentLeft, LightLeft, PathPlan};
+use super::{EnvironmentUse, LightUse, PathPlan};
 use rtc_math::{UnitInterval, Vec3};
 use rtc_valid::Standard;
 
@@ -21,7 +21,7 @@ impl PathPlan {
     pub fn caustics(&self) -> Option<Caustics> {
         let has_punctual = self.has_punctual();
         let shines = |m: &Standard| !m.unlit && m.emissive != Vec3::ZERO;
-        let has_wide = self.environment != EnvironmentLeft::Nothing;
+        let has_wide = self.environment != EnvironmentUse::Nothing;
         let has_light = has_punctual || has_wide || self.materials.iter().any(shines);
         let is_thrown = has_light && self.materials.iter().any(throws);
         let is_exact = |m: &Standard| throws(m) && m.roughness == UnitInterval::ZERO;
@@ -44,7 +44,7 @@ impl PathPlan {
     }
 
     fn has_punctual(&self) -> bool {
-        self.lights.contains(&LightLeft::All)
+        self.lights.contains(&LightUse::All)
     }
 }
 

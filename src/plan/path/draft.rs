@@ -8,15 +8,15 @@ use crate::body::Body;
 use crate::effect::Effect;
 use crate::layer::Layer;
 use crate::window::Shown;
-use rtc_ir::{Field, Noun, Place};
+use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{UnitInterval, Vec3};
-use rtc_valid::{Alpha, Map, Mesh, PathSettings, Proof, Punctual, Shape, Standard, Surface};
+use rtc_valid::{Alpha, Map, Mesh, PathSettings, Punctual, Shape, Standard, Surface, ValidScene};
 use std::ops::Range;
 
 /// The part of a scene that is still in the plan.
 #[derive(Clone)]
 pub(super) struct Draft<'scene> {
-    pub(super) scene: &'scene Proof,
+    pub(super) scene: &'scene ValidScene,
     pub(super) path: PathSettings,
     /// The punctual lights.
     pub(super) punctual: &'scene [Punctual],
@@ -33,8 +33,8 @@ pub(super) struct Draft<'scene> {
     /// Per texture, whether maps of it are folded into the factors.
     pub(super) folded: Vec<bool>,
     /// Per punctual light.
-    pub(super) lights: Vec<LightLeft>,
-    pub(super) environment: EnvironmentLeft,
+    pub(super) lights: Vec<LightUse>,
+    pub(super) environment: EnvironmentUse,
     /// Per surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
     /// The maximum number of bounces.
@@ -49,18 +49,18 @@ pub(super) struct Draft<'scene> {
 
 /// The part of a light that is still in the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LightLeft {
+pub enum LightUse {
     /// Nothing: the light is removed.
     Nothing,
     /// Its index in the light distribution; it reaches no surface.
-    Place,
+    OnlyIndex,
     /// All of it.
     All,
 }
 
 /// The part of the environment that is still in the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EnvironmentLeft {
+pub enum EnvironmentUse {
     /// Nothing: it emits no light.
     Nothing,
     /// The value of its image, which is the same in all directions, and the choice of directions.
@@ -75,7 +75,7 @@ pub(super) struct Applied {
     /// The effects that are not needed after this rule.
     pub(super) spared: Vec<Effect>,
     /// The values that decided.
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<ValuePath>,
 }
 
 impl Draft<'_> {
@@ -104,13 +104,13 @@ impl Draft<'_> {
     pub(super) fn simplify(
         &mut self,
         simplified: impl Fn(&Self, usize, &Standard) -> Standard,
-    ) -> Vec<Place> {
+    ) -> Vec<ValuePath> {
         let new = |(index, material)| (index, simplified(self, index, material));
         let is_new = |(index, new): &(usize, Standard)| *new != self.materials[*index];
         let changed: Vec<_> = self.used().map(new).filter(is_new).collect();
         let put = |(index, new): (usize, Standard)| {
             self.materials[index] = new;
-            Place::new(Noun::Material, index, Field::Whole)
+            ValuePath::new(EntityKind::Material, index, Field::Whole)
         };
         changed.into_iter().map(put).collect()
     }
@@ -153,9 +153,9 @@ impl Draft<'_> {
             Effect::Surfaces => self.surfaces.contains(&true),
             Effect::Supersampling => self.path.samples.get() > 1,
             Effect::Lens => self.scene.camera().lens.radius.get() > 0.0,
-            Effect::Environment => self.environment != EnvironmentLeft::Nothing,
+            Effect::Environment => self.environment != EnvironmentUse::Nothing,
             Effect::EnvironmentMap => {
-                self.environment == EnvironmentLeft::All && self.has_environment_image()
+                self.environment == EnvironmentUse::All && self.has_environment_image()
             }
             Effect::Emission | Effect::Unlit | Effect::Alpha => self
                 .used()
@@ -263,13 +263,13 @@ impl Draft<'_> {
 
     /// Whether the light distribution has a light that may reach a surface.
     fn has_light_to_aim_at(&self) -> bool {
-        self.lights.contains(&LightLeft::All) || self.has_extended_light()
+        self.lights.contains(&LightUse::All) || self.has_extended_light()
     }
 
     /// Whether there is a light that both light sampling and BSDF sampling find: an environment
     /// image, or emissive triangles.
     pub(super) fn has_extended_light(&self) -> bool {
-        let shines = self.environment != EnvironmentLeft::Nothing;
+        let shines = self.environment != EnvironmentUse::Nothing;
         (shines && self.has_environment_image()) || self.shines_somewhere()
     }
 

@@ -5,7 +5,7 @@ use super::texture::{Area, TextureValues};
 use crate::Layer;
 use crate::shape::shape_facts;
 use rtc_math::UnitInterval;
-use rtc_valid::{Map, Proof, Shape, Standard};
+use rtc_valid::{Map, Shape, Standard, ValidScene};
 
 /// Facts of all surfaces of one material.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ impl Presence {
 
 impl Uses {
     /// The uses of each material of a scene.
-    pub(super) fn of(scene: &Proof) -> Vec<Self> {
+    pub(super) fn of(scene: &ValidScene) -> Vec<Self> {
         let unused = Self {
             surfaces: Vec::new(),
             sets: [Presence::Never; 2],

@@ -12,11 +12,11 @@ mod texture;
 mod verdicts;
 
 pub use caustics::Caustics;
-pub use draft::{EnvironmentLeft, LightLeft};
+pub use draft::{EnvironmentUse, LightUse};
 pub(super) use texture::Area;
 
 use super::body::bodies;
-use super::effect::{Effect, Verdict};
+use super::effect::{Effect, EffectStatus};
 use super::facts as facts_seen;
 use super::features::PathFeatures;
 use super::layer::Layer;
@@ -25,7 +25,7 @@ use super::window::{Shown, Window};
 use draft::{Applied, Draft};
 use facts::Uses;
 use rtc_math::Vec3;
-use rtc_valid::{Map, PathSettings, Projection, Proof, Standard, UvSet};
+use rtc_valid::{Map, PathSettings, Projection, Standard, UvSet, ValidScene};
 use texture::TextureValues;
 
 /// The work that traced paths need.
@@ -37,9 +37,9 @@ pub struct PathPlan {
     /// of coordinates.
     folded: Vec<Vec<(usize, UvSet)>>,
     /// Per punctual light.
-    pub lights: Vec<LightLeft>,
+    pub lights: Vec<LightUse>,
     /// What is left of the environment.
-    pub environment: EnvironmentLeft,
+    pub environment: EnvironmentUse,
     /// Whether the last ray of a path may still find light.
     pub last_ray: bool,
     /// The features that the integrator needs.
@@ -62,11 +62,11 @@ pub(super) struct Planned {
     pub(super) surfaces: Vec<bool>,
     /// The maximum number of bounces.
     pub(super) max_depth: u32,
-    pub(super) verdicts: Vec<Verdict>,
+    pub(super) verdicts: Vec<EffectStatus>,
 }
 
 /// Plans the paths of a scene.
-pub(super) fn plan(scene: &Proof, path: PathSettings, rules: Rules) -> Planned {
+pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Planned {
     let (uses, bodies, textures) = (Uses::of(scene), bodies(scene), TextureValues::new(scene));
     let punctual = facts_seen::light::punctual(scene.lights());
     let camera = scene.camera();
@@ -92,11 +92,11 @@ pub(super) fn plan(scene: &Proof, path: PathSettings, rules: Rules) -> Planned {
             .map(facts_seen::material::standard)
             .collect(),
         folded: vec![false; scene.textures().len()],
-        lights: vec![LightLeft::All; punctual.len()],
+        lights: vec![LightUse::All; punctual.len()],
         environment: if scene.environment().radiance == Vec3::ZERO {
-            EnvironmentLeft::Nothing
+            EnvironmentUse::Nothing
         } else {
-            EnvironmentLeft::All
+            EnvironmentUse::All
         },
         surfaces: vec![true; bodies.len()],
         max_depth: scene.settings().max_depth,

@@ -1,7 +1,7 @@
 //! The values that a texture shows within a rectangle of texture coordinates.
 
 use rtc_image::Texel;
-use rtc_valid::{Image, Map, Proof, Texture, Wrap};
+use rtc_valid::{Image, Map, Texture, ValidScene, Wrap};
 use std::cell::OnceCell;
 use std::ops::Range;
 
@@ -50,7 +50,7 @@ impl Area {
 /// What the textures of a scene show. A question on a whole image is answered once, and by as few
 /// texels as decide it.
 pub(super) struct TextureValues<'scene> {
-    scene: &'scene Proof,
+    scene: &'scene ValidScene,
     /// Per image, whether all texels are equal.
     even: Vec<OnceCell<bool>>,
     /// Per image and channel, the value of all texels, if they have only one.
@@ -58,7 +58,7 @@ pub(super) struct TextureValues<'scene> {
 }
 
 impl<'scene> TextureValues<'scene> {
-    pub(super) fn new(scene: &'scene Proof) -> Self {
+    pub(super) fn new(scene: &'scene ValidScene) -> Self {
         let count = scene.images().len();
         Self {
             scene,

@@ -1,22 +1,31 @@
 //! The verdict on each effect of traced paths, derived from the final draft.
 
 use super::draft::{Applied, Draft, is_asked_by};
-use crate::effect::{Effect, State, Verdict};
-use rtc_ir::{Field, Noun, Place};
+use crate::effect::{Effect, EffectStatus, State};
+use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_valid::Standard;
 
 /// The most places named for one verdict.
 const FEW: usize = 3;
 
 /// A verdict on each effect that paths may have.
-pub(super) fn verdicts(asked: &Draft<'_>, left: &Draft<'_>, applied: &[Applied]) -> Vec<Verdict> {
+pub(super) fn verdicts(
+    asked: &Draft<'_>,
+    left: &Draft<'_>,
+    applied: &[Applied],
+) -> Vec<EffectStatus> {
     Effect::OF_PATHS
         .into_iter()
         .map(|effect| verdict(effect, asked, left, applied))
         .collect()
 }
 
-fn verdict(effect: Effect, asked: &Draft<'_>, left: &Draft<'_>, applied: &[Applied]) -> Verdict {
+fn verdict(
+    effect: Effect,
+    asked: &Draft<'_>,
+    left: &Draft<'_>,
+    applied: &[Applied],
+) -> EffectStatus {
     let spared = || {
         applied
             .iter()
@@ -36,7 +45,7 @@ fn verdict(effect: Effect, asked: &Draft<'_>, left: &Draft<'_>, applied: &[Appli
         (State::Absent, None, absence(effect).to_owned(), Vec::new())
     };
     facts.truncate(FEW);
-    Verdict {
+    EffectStatus {
         effect,
         of: None,
         state,
@@ -82,7 +91,7 @@ fn absence(effect: Effect) -> &'static str {
 
 impl Draft<'_> {
     /// Why the picture needs an effect, and the values that make it necessary.
-    fn need(&self, effect: Effect) -> (String, Vec<Place>) {
+    fn need(&self, effect: Effect) -> (String, Vec<ValuePath>) {
         let materials: Vec<_> = self.materials_with(effect).map(material).collect();
         if materials.is_empty() {
             self.need_of_scene(effect)
@@ -92,45 +101,53 @@ impl Draft<'_> {
     }
 
     /// As [`Self::need`], of an effect that no material asks for by itself.
-    fn need_of_scene(&self, effect: Effect) -> (String, Vec<Place>) {
-        let at = |noun, field| vec![Place::new(noun, 0, field)];
-        let says = |because: &str, noun| (because.to_owned(), at(noun, Field::Whole));
+    fn need_of_scene(&self, effect: Effect) -> (String, Vec<ValuePath>) {
+        let at = |entity, field| vec![ValuePath::new(entity, 0, field)];
+        let says = |because: &str, entity| (because.to_owned(), at(entity, Field::Whole));
         match effect {
             Effect::Surfaces => {
                 let left = self.surfaces.iter().filter(|is_left| **is_left).count();
                 let because = format!("{left} of {} may be met by a ray", self.surfaces.len());
-                (because, at(Noun::Surface, Field::Whole))
+                (because, at(EntityKind::Surface, Field::Whole))
             }
             Effect::Supersampling => {
                 let because = counted(self.path.samples.get() as usize, "path") + " a pixel";
-                (because, at(Noun::Settings, Field::Mode))
+                (because, at(EntityKind::Settings, Field::Mode))
             }
             Effect::Lens => {
                 let because = format!("a lens of radius {}", self.scene.camera().lens.radius.get());
-                (because, at(Noun::Camera, Field::LensRadius))
+                (because, at(EntityKind::Camera, Field::LensRadius))
             }
             Effect::Depth => {
                 let bounces = self.max_depth - u32::from(!self.last_ray);
                 let because = format!("at most {}", counted(bounces as usize, "bounce"));
-                (because, at(Noun::Settings, Field::MaxDepth))
+                (because, at(EntityKind::Settings, Field::MaxDepth))
             }
             Effect::Compensation => {
                 let because = "light bounces between the facets of rough surfaces";
-                (because.to_owned(), at(Noun::Settings, Field::Mode))
+                (because.to_owned(), at(EntityKind::Settings, Field::Mode))
             }
-            Effect::Environment => says("paths that leave the scene find light", Noun::Environment),
-            Effect::EnvironmentMap => says("the environment has an image", Noun::Environment),
+            Effect::Environment => says(
+                "paths that leave the scene find light",
+                EntityKind::Environment,
+            ),
+            Effect::EnvironmentMap => says("the environment has an image", EntityKind::Environment),
             Effect::DirectLight => says(
                 "a surface is lit by a light that can be aimed at",
-                Noun::Light,
+                EntityKind::Light,
             ),
             Effect::Shadows => says(
                 "a surface may hide a light from another, or from itself",
-                Noun::Light,
+                EntityKind::Light,
             ),
-            Effect::Mis => says("aiming and scattering find the same light", Noun::Light),
-            Effect::NormalInterpolation => says("a mesh has normals at its corners", Noun::Surface),
-            Effect::VertexColors => says("a mesh has colours at its corners", Noun::Surface),
+            Effect::Mis => says(
+                "aiming and scattering find the same light",
+                EntityKind::Light,
+            ),
+            Effect::NormalInterpolation => {
+                says("a mesh has normals at its corners", EntityKind::Surface)
+            }
+            Effect::VertexColors => says("a mesh has colours at its corners", EntityKind::Surface),
             Effect::NormalMapping => ("a material has a normal map".to_owned(), self.with_maps()),
             Effect::Textures => ("a material has a texture".to_owned(), self.with_maps()),
             Effect::Emission
@@ -146,12 +163,12 @@ impl Draft<'_> {
             | Effect::SoftLight
             | Effect::Highlight
             | Effect::Mirror
-            | Effect::GlossyReflection => says("", Noun::Surface),
+            | Effect::GlossyReflection => says("", EntityKind::Surface),
         }
     }
 
     /// The materials with maps.
-    fn with_maps(&self) -> Vec<Place> {
+    fn with_maps(&self) -> Vec<ValuePath> {
         let has_map = |(_, m): &(usize, &Standard)| m.maps().next().is_some();
         let with_maps = self.used().filter(has_map);
         with_maps.map(|(index, _)| material(index)).collect()
@@ -164,10 +181,10 @@ impl Draft<'_> {
     }
 }
 
-fn material(index: usize) -> Place {
-    Place::new(Noun::Material, index, Field::Whole)
+fn material(index: usize) -> ValuePath {
+    ValuePath::new(EntityKind::Material, index, Field::Whole)
 }
 
-fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+fn counted(count: usize, entity: &str) -> String {
+    format!("{count} {entity}{}", if count == 1 { "" } else { "s" })
 }

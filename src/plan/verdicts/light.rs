@@ -1,14 +1,14 @@
 //! Verdicts on lights, shadows and highlights.
 
 use super::{MAX_DETAILS, few, light, settings};
-use crate::effect::{Effect, Verdict};
+use crate::effect::{Effect, EffectStatus};
 use crate::light::Shadow;
 use crate::rules::Rule;
 use crate::{Findings, MaterialSummary};
-use rtc_ir::{Field, Place};
+use rtc_ir::{Field, ValuePath};
 use rtc_valid::Mode;
 
-pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<Verdict> {
+pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<EffectStatus> {
     let mut all = vec![direct(findings)];
     all.extend(single_lights(findings).take(MAX_DETAILS));
     all.push(shadows(findings));
@@ -19,7 +19,7 @@ pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<Verdict> {
 }
 
 /// The statement of a rule on a light, and the value that decided.
-fn reason(findings: &Findings<'_>, index: usize, rule: Rule) -> (&'static str, Vec<Place>) {
+fn reason(findings: &Findings<'_>, index: usize, rule: Rule) -> (&'static str, Vec<ValuePath>) {
     if rule == Rule::LightBlack {
         return ("its colour is 0", vec![light(index, Field::Color)]);
     }
@@ -42,19 +42,19 @@ fn reason(findings: &Findings<'_>, index: usize, rule: Rule) -> (&'static str, V
     ("kd·C and ks are 0 on all that can be seen", facts)
 }
 
-fn direct(findings: &Findings<'_>) -> Verdict {
+fn direct(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::DirectLight;
     let lights = &findings.facts.sources;
     if lights.is_empty() {
-        return Verdict::absent(effect, "the scene has no light", vec![]);
+        return EffectStatus::absent(effect, "the scene has no light", vec![]);
     }
     if !findings.is_shaded() {
         return findings
             .by_mode(effect, true)
-            .unwrap_or_else(|| Verdict::absent(effect, "", vec![]));
+            .unwrap_or_else(|| EffectStatus::absent(effect, "", vec![]));
     }
     if let Mode::Gooch(_) = findings.mode() {
-        return Verdict::needed(
+        return EffectStatus::needed(
             effect,
             "Gooch's tones follow the lights",
             vec![light(0, Field::Position)],
@@ -73,7 +73,7 @@ fn direct(findings: &Findings<'_>) -> Verdict {
                 light(index, Field::Position),
                 findings.surface(surface, Field::Whole),
             ];
-            Verdict::needed(
+            EffectStatus::needed(
                 effect,
                 format!(
                     "{count} of {} lights shine on what can be seen",
@@ -92,24 +92,24 @@ fn direct(findings: &Findings<'_>) -> Verdict {
                 .copied()
                 .unwrap_or(Rule::LightUnreached);
             let (words, facts) = reason(findings, 0, rule);
-            Verdict::pruned(effect, rule, format!("each light: {words}"), facts)
+            EffectStatus::pruned(effect, rule, format!("each light: {words}"), facts)
         }
     }
 }
 
-fn single_lights(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
+fn single_lights(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
     let rules = findings.lights.rules.iter().enumerate();
     let shaded = findings.is_shaded();
     rules.filter(move |_| shaded).filter_map(|(index, rule)| {
         let (words, facts) = reason(findings, index, (*rule)?);
         Some(
-            Verdict::pruned(Effect::DirectLight, (*rule)?, words, facts)
+            EffectStatus::pruned(Effect::DirectLight, (*rule)?, words, facts)
                 .of(light(index, Field::Whole)),
         )
     })
 }
 
-fn shadows(findings: &Findings<'_>) -> Verdict {
+fn shadows(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Shadows;
     let asked = findings.facts.scene.settings().shadows;
     if let Some(verdict) = findings.by_mode(effect, asked) {
@@ -117,7 +117,7 @@ fn shadows(findings: &Findings<'_>) -> Verdict {
     }
     if !asked {
         let words = "the scene does not ask for shadows";
-        return Verdict::absent(effect, words, vec![]).by(Rule::ShadowOff);
+        return EffectStatus::absent(effect, words, vec![]).by(Rule::ShadowOff);
     }
     if let Some(Shadow {
         light: index,
@@ -135,14 +135,14 @@ fn shadows(findings: &Findings<'_>) -> Verdict {
             (true, false) => "a surface may hide a light from itself",
             (false, false) => "a surface may hide a light from another",
         };
-        return Verdict::needed(effect, words, facts);
+        return EffectStatus::needed(effect, words, facts);
     }
     if findings.facts.casters().next().is_none() {
-        return Verdict::absent(effect, "no surface casts shadows", vec![]);
+        return EffectStatus::absent(effect, "no surface casts shadows", vec![]);
     }
     let lit = findings.first(|summary| findings.is_lit(summary));
     let Some(surface) = lit else {
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             effect,
             Rule::ShadowUnlit,
             "no light adds more than its ambient term",
@@ -154,14 +154,14 @@ fn shadows(findings: &Findings<'_>) -> Verdict {
         light(0, Field::Position),
     ];
     if findings.lights.alone {
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             effect,
             Rule::ShadowConvex,
             "one convex surface, lights outside",
             facts,
         );
     }
-    Verdict::pruned(
+    EffectStatus::pruned(
         effect,
         Rule::ShadowPair,
         "nothing stands between a light and what it shines on",
@@ -169,7 +169,7 @@ fn shadows(findings: &Findings<'_>) -> Verdict {
     )
 }
 
-fn soft(findings: &Findings<'_>) -> Verdict {
+fn soft(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::SoftLight;
     let (scene, samples) = (findings.facts.scene, settings(Field::LightSamples));
     let Some(first) = findings
@@ -178,7 +178,7 @@ fn soft(findings: &Findings<'_>) -> Verdict {
         .iter()
         .position(|light| light.radius.get() > 0.0)
     else {
-        return Verdict::absent(effect, "no light has a radius", vec![]).by(Rule::SoftPoint);
+        return EffectStatus::absent(effect, "no light has a radius", vec![]).by(Rule::SoftPoint);
     };
     if let Some(verdict) = findings.by_mode(effect, true) {
         return verdict;
@@ -186,7 +186,7 @@ fn soft(findings: &Findings<'_>) -> Verdict {
     let facts = vec![samples, light(first, Field::LightRadius)];
     let count = scene.settings().light_samples.get();
     if count == 1 {
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             effect,
             Rule::SoftPoint,
             "one sample of a light asks its centre",
@@ -194,7 +194,7 @@ fn soft(findings: &Findings<'_>) -> Verdict {
         );
     }
     if findings.is_soft() {
-        return Verdict::needed(
+        return EffectStatus::needed(
             effect,
             format!("{count} points of a light with a radius"),
             facts,
@@ -202,10 +202,10 @@ fn soft(findings: &Findings<'_>) -> Verdict {
     }
     let rule = findings.lights.rules[first].unwrap_or(Rule::LightUnreached);
     let (words, facts) = reason(findings, first, rule);
-    Verdict::pruned(effect, rule, format!("soft light: {words}"), facts)
+    EffectStatus::pruned(effect, rule, format!("soft light: {words}"), facts)
 }
 
-fn highlight(findings: &Findings<'_>) -> Verdict {
+fn highlight(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Highlight;
     let any_ks = findings
         .facts
@@ -215,14 +215,14 @@ fn highlight(findings: &Findings<'_>) -> Verdict {
     if !findings.is_shaded() {
         return findings
             .by_mode(effect, any_ks)
-            .unwrap_or_else(|| Verdict::absent(effect, "", vec![]));
+            .unwrap_or_else(|| EffectStatus::absent(effect, "", vec![]));
     }
     if let Some(surface) = findings.first(|summary| summary.shines && findings.is_lit(summary)) {
         let facts = vec![
             findings.material(surface, Field::Ks),
             findings.surface(surface, Field::Whole),
         ];
-        return Verdict::needed(effect, "ks > 0 on a surface that can be seen", facts);
+        return EffectStatus::needed(effect, "ks > 0 on a surface that can be seen", facts);
     }
     if findings.any(|summary| summary.shines) {
         let rule = findings
@@ -233,7 +233,7 @@ fn highlight(findings: &Findings<'_>) -> Verdict {
             .next()
             .copied()
             .unwrap_or(Rule::LightUnreached);
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             effect,
             rule,
             "no light adds more than its ambient term",
@@ -243,12 +243,12 @@ fn highlight(findings: &Findings<'_>) -> Verdict {
     let unseen = findings.first_unseen(|summary| summary.shines);
     if let Some(surface) = unseen.filter(|_| findings.facts.rules.contains(Rule::Cull)) {
         let facts = vec![findings.surface(surface, Field::Whole)];
-        return Verdict::pruned(effect, Rule::Cull, "nothing with ks > 0 can be seen", facts);
+        return EffectStatus::pruned(effect, Rule::Cull, "nothing with ks > 0 can be seen", facts);
     }
     let facts = few(findings
         .reached()
         .map(|surface| findings.material(surface, Field::Ks)));
-    Verdict::pruned(
+    EffectStatus::pruned(
         effect,
         Rule::HighlightKs,
         "ks is 0 on all that can be seen",
@@ -257,14 +257,15 @@ fn highlight(findings: &Findings<'_>) -> Verdict {
 }
 
 /// Seen materials without highlights, beside others with them.
-fn materials_without_highlight(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
+fn materials_without_highlight(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
     let is_needed = findings.is_shaded() && findings.any(|summary| summary.shines);
     let surfaces = findings
         .materials_without(|summary| summary.shines)
         .filter(move |_| is_needed);
     surfaces.map(|surface| {
         let facts = vec![findings.material(surface, Field::Ks)];
-        let verdict = Verdict::pruned(Effect::Highlight, Rule::HighlightKs, "its ks is 0", facts);
+        let verdict =
+            EffectStatus::pruned(Effect::Highlight, Rule::HighlightKs, "its ks is 0", facts);
         verdict.of(findings.material(surface, Field::Whole))
     })
 }

@@ -1,13 +1,13 @@
 //! Verdicts on bounces: mirrors, lobes, refraction, depth.
 
 use super::{MAX_DETAILS, few, settings};
-use crate::effect::{Effect, Verdict};
+use crate::effect::{Effect, EffectStatus};
 use crate::rules::Rule;
 use crate::{Findings, MaterialSummary};
 use rtc_ir::Field;
 use rtc_valid::Phong;
 
-pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<Verdict> {
+pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<EffectStatus> {
     let mut all = vec![depth(findings), mirror(findings)];
     all.extend(materials_without_mirror(findings).take(MAX_DETAILS));
     all.push(glossy(findings));
@@ -20,7 +20,7 @@ fn no_bounce(
     findings: &Findings<'_>,
     effect: Effect,
     asks: impl Fn(&Phong) -> bool,
-) -> Option<Verdict> {
+) -> Option<EffectStatus> {
     let asked = findings.facts.materials.iter().any(&asks);
     if let Some(verdict) = findings.by_mode(effect, asked) {
         return Some(verdict);
@@ -32,13 +32,13 @@ fn no_bounce(
     if findings.facts.scene.settings().max_depth == 0 {
         let words = "the scene allows no bounce";
         return Some(if asked {
-            Verdict::pruned(effect, Rule::MirrorDepth, words, facts)
+            EffectStatus::pruned(effect, Rule::MirrorDepth, words, facts)
         } else {
-            Verdict::absent(effect, words, facts).by(Rule::MirrorDepth)
+            EffectStatus::absent(effect, words, facts).by(Rule::MirrorDepth)
         });
     }
     if findings.any(MaterialSummary::mirrors) && findings.visibility.depth > 0 {
-        return Some(Verdict::pruned(
+        return Some(EffectStatus::pruned(
             effect,
             Rule::Cut,
             "what bounces add is too small to see",
@@ -49,7 +49,7 @@ fn no_bounce(
 }
 
 /// The reason why mirrors show nothing, although bounces are allowed.
-fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> Verdict {
+fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> EffectStatus {
     if let Some(mirror) = findings.first(MaterialSummary::mirrors) {
         let facts = vec![
             findings.surface(mirror, Field::Whole),
@@ -67,16 +67,16 @@ fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> Verdict {
                 "the mirrors that can be seen show nothing",
             )
         };
-        return Verdict::pruned(effect, rule, words, facts);
+        return EffectStatus::pruned(effect, rule, words, facts);
     }
     if asked && let Some(mirror) = findings.first_unseen(MaterialSummary::mirrors) {
         let facts = vec![findings.surface(mirror, Field::Whole)];
-        return Verdict::pruned(effect, Rule::Cull, "no mirror can be seen", facts);
+        return EffectStatus::pruned(effect, Rule::Cull, "no mirror can be seen", facts);
     }
     let facts = few(findings
         .reached()
         .map(|surface| findings.material(surface, Field::Ks)));
-    Verdict::pruned(
+    EffectStatus::pruned(
         effect,
         Rule::MirrorKs,
         "ks is 0 on all that can be seen",
@@ -85,7 +85,7 @@ fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> Verdict {
 }
 
 /// The number of bounces after the first hit.
-fn depth(findings: &Findings<'_>) -> Verdict {
+fn depth(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Depth;
     if let Some(verdict) = no_bounce(findings, effect, |material| {
         material.ks.get() + material.kt.get() > 0.0
@@ -106,7 +106,7 @@ fn depth(findings: &Findings<'_>) -> Verdict {
         (0, false) => format!("{planned} {bounces}: mirrors show mirrors"),
         _ => format!("{planned} {bounces} of {asked}: no chain of mirrors is longer"),
     };
-    let verdict = Verdict::needed(effect, words, facts);
+    let verdict = EffectStatus::needed(effect, words, facts);
     match rest {
         0 => verdict,
         _ if findings.visibility.depth > planned => verdict.by(Rule::Cut),
@@ -114,7 +114,7 @@ fn depth(findings: &Findings<'_>) -> Verdict {
     }
 }
 
-fn mirror(findings: &Findings<'_>) -> Verdict {
+fn mirror(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Mirror;
     if let Some(verdict) = no_bounce(findings, effect, |material| material.ks.get() > 0.0) {
         return verdict;
@@ -131,9 +131,9 @@ fn mirror(findings: &Findings<'_>) -> Verdict {
             } else {
                 "light may be reflected totally"
             };
-            Verdict::needed(effect, words, facts)
+            EffectStatus::needed(effect, words, facts)
         }
-        None => Verdict::pruned(
+        None => EffectStatus::pruned(
             effect,
             Rule::MirrorKs,
             "ks is 0 on all that can be seen",
@@ -143,26 +143,26 @@ fn mirror(findings: &Findings<'_>) -> Verdict {
 }
 
 /// Seen materials without mirrors, beside others with them.
-fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
+fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
     let is_needed = findings.max_depth > 0 && findings.any(MaterialSummary::mirrors);
     let surfaces = findings
         .materials_without(MaterialSummary::mirrors)
         .filter(move |_| is_needed);
     surfaces.map(|surface| {
         let facts = vec![findings.material(surface, Field::Ks)];
-        let verdict = Verdict::pruned(Effect::Mirror, Rule::MirrorKs, "its ks is 0", facts);
+        let verdict = EffectStatus::pruned(Effect::Mirror, Rule::MirrorKs, "its ks is 0", facts);
         verdict.of(findings.material(surface, Field::Whole))
     })
 }
 
-fn glossy(findings: &Findings<'_>) -> Verdict {
+fn glossy(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::GlossyReflection;
     let materials = &findings.facts.materials;
     if materials
         .iter()
         .all(|material| material.glossy_samples.get() == 1)
     {
-        return Verdict::absent(effect, "each mirror is sharp: one sample", vec![])
+        return EffectStatus::absent(effect, "each mirror is sharp: one sample", vec![])
             .by(Rule::GlossyMirror);
     }
     if let Some(verdict) = no_bounce(findings, effect, |_| true) {
@@ -175,20 +175,21 @@ fn glossy(findings: &Findings<'_>) -> Verdict {
                 findings.material(surface, Field::GlossySamples),
                 findings.surface(surface, Field::Whole),
             ];
-            Verdict::needed(effect, format!("{count} rays of a lobe"), facts)
+            EffectStatus::needed(effect, format!("{count} rays of a lobe"), facts)
         }
         None => {
             let words = "no glossy surface that can be seen has ks > 0";
-            Verdict::pruned(effect, Rule::GlossyMirror, words, vec![])
+            EffectStatus::pruned(effect, Rule::GlossyMirror, words, vec![])
         }
     }
 }
 
-fn refraction(findings: &Findings<'_>) -> Verdict {
+fn refraction(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Refraction;
     let materials = &findings.facts.materials;
     if materials.iter().all(|material| material.kt.get() == 0.0) {
-        return Verdict::absent(effect, "no material lets light through", vec![]).by(Rule::Opaque);
+        return EffectStatus::absent(effect, "no material lets light through", vec![])
+            .by(Rule::Opaque);
     }
     if let Some(verdict) = no_bounce(findings, effect, |_| true) {
         return verdict;
@@ -199,14 +200,14 @@ fn refraction(findings: &Findings<'_>) -> Verdict {
                 findings.material(surface, Field::Kt),
                 findings.surface(surface, Field::Whole),
             ];
-            Verdict::needed(effect, "kt > 0 on a surface that can be seen", facts)
+            EffectStatus::needed(effect, "kt > 0 on a surface that can be seen", facts)
         }
         None => {
             let unseen = findings.first_unseen(|summary| summary.refracts);
             let facts = few(unseen
                 .iter()
                 .map(|surface| findings.surface(*surface, Field::Whole)));
-            Verdict::pruned(
+            EffectStatus::pruned(
                 effect,
                 Rule::Opaque,
                 "nothing with kt > 0 can be seen",

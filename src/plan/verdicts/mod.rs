@@ -5,18 +5,18 @@ mod light;
 mod mirror;
 mod picture;
 
-use super::effect::{Effect, State, Verdict};
+use super::effect::{Effect, EffectStatus, State};
 use super::region::Region;
 use super::rules::Rule;
 use super::{Findings, MaterialSummary};
-use rtc_ir::{Field, Noun, Place};
+use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_valid::Mode;
 
 /// The maximum number of verdicts on single lights or materials for one effect.
 const MAX_DETAILS: usize = 24;
 
 /// The verdicts on all effects, each followed by those on single entities.
-pub(super) fn verdicts(findings: &Findings<'_>, region: &Region) -> Vec<Verdict> {
+pub(super) fn verdicts(findings: &Findings<'_>, region: &Region) -> Vec<EffectStatus> {
     let mut all = picture::buffers(findings, region);
     all.extend(light::verdicts(findings));
     all.extend(mirror::verdicts(findings));
@@ -26,20 +26,20 @@ pub(super) fn verdicts(findings: &Findings<'_>, region: &Region) -> Vec<Verdict>
     all
 }
 
-fn settings(field: Field) -> Place {
-    Place::new(Noun::Settings, 0, field)
+fn settings(field: Field) -> ValuePath {
+    ValuePath::new(EntityKind::Settings, 0, field)
 }
 
-fn camera(field: Field) -> Place {
-    Place::new(Noun::Camera, 0, field)
+fn camera(field: Field) -> ValuePath {
+    ValuePath::new(EntityKind::Camera, 0, field)
 }
 
-fn light(index: usize, field: Field) -> Place {
-    Place::new(Noun::Light, index, field)
+fn light(index: usize, field: Field) -> ValuePath {
+    ValuePath::new(EntityKind::Light, index, field)
 }
 
-impl Verdict {
-    fn needed(effect: Effect, because: impl Into<String>, facts: Vec<Place>) -> Self {
+impl EffectStatus {
+    fn needed(effect: Effect, because: impl Into<String>, facts: Vec<ValuePath>) -> Self {
         Self {
             effect,
             of: None,
@@ -50,7 +50,7 @@ impl Verdict {
         }
     }
 
-    fn absent(effect: Effect, because: impl Into<String>, facts: Vec<Place>) -> Self {
+    fn absent(effect: Effect, because: impl Into<String>, facts: Vec<ValuePath>) -> Self {
         Self {
             effect,
             of: None,
@@ -61,7 +61,12 @@ impl Verdict {
         }
     }
 
-    fn pruned(effect: Effect, rule: Rule, because: impl Into<String>, facts: Vec<Place>) -> Self {
+    fn pruned(
+        effect: Effect,
+        rule: Rule,
+        because: impl Into<String>,
+        facts: Vec<ValuePath>,
+    ) -> Self {
         Self {
             effect,
             of: None,
@@ -72,7 +77,7 @@ impl Verdict {
         }
     }
 
-    fn of(self, place: Place) -> Self {
+    fn of(self, place: ValuePath) -> Self {
         Self {
             of: Some(place),
             ..self
@@ -90,18 +95,18 @@ impl Verdict {
 
 impl Findings<'_> {
     /// The place of a surface in the IR.
-    fn surface(&self, surface: usize, field: Field) -> Place {
-        Place::new(
-            Noun::Surface,
+    fn surface(&self, surface: usize, field: Field) -> ValuePath {
+        ValuePath::new(
+            EntityKind::Surface,
             self.facts.scene.surfaces()[surface].index,
             field,
         )
     }
 
     /// The place of a value of the material of a surface.
-    fn material(&self, surface: usize, field: Field) -> Place {
-        Place::new(
-            Noun::Material,
+    fn material(&self, surface: usize, field: Field) -> ValuePath {
+        ValuePath::new(
+            EntityKind::Material,
             self.facts.scene.surfaces()[surface].material,
             field,
         )
@@ -136,7 +141,7 @@ impl Findings<'_> {
     }
 
     /// The verdict on an effect of shading in a mode without it, or with another form of it.
-    fn by_mode(&self, effect: Effect, asked: bool) -> Option<Verdict> {
+    fn by_mode(&self, effect: Effect, asked: bool) -> Option<EffectStatus> {
         let words = match self.mode() {
             Mode::Phong | Mode::Path(_) => return None,
             Mode::Gooch(_) => "Gooch's shading has none",
@@ -145,15 +150,15 @@ impl Findings<'_> {
         };
         let facts = vec![settings(Field::Mode)];
         Some(if asked {
-            Verdict::pruned(effect, Rule::Mode, words, facts)
+            EffectStatus::pruned(effect, Rule::Mode, words, facts)
         } else {
-            Verdict::absent(effect, words, facts).by(Rule::Mode)
+            EffectStatus::absent(effect, words, facts).by(Rule::Mode)
         })
     }
 }
 
 /// The first few of many places.
-fn few(places: impl Iterator<Item = Place>) -> Vec<Place> {
+fn few(places: impl Iterator<Item = ValuePath>) -> Vec<ValuePath> {
     const FEW: usize = 3;
     let mut few = Vec::with_capacity(FEW);
     for place in places {

@@ -1,7 +1,7 @@
 //! Verdicts on buffers and surfaces, on maps and normals, on lens and samples.
 
 use super::{camera, few, settings};
-use crate::effect::{Effect, Verdict};
+use crate::effect::{Effect, EffectStatus};
 use crate::region::Region;
 use crate::rules::Rule;
 use crate::{Findings, MaterialSummary};
@@ -9,13 +9,13 @@ use rtc_ir::Field;
 use rtc_valid::{Mode, Pattern};
 
 /// Depth and normal buffers, and the surfaces in the world.
-pub(super) fn buffers(findings: &Findings<'_>, region: &Region) -> Vec<Verdict> {
+pub(super) fn buffers(findings: &Findings<'_>, region: &Region) -> Vec<EffectStatus> {
     let buffer = |effect, is_shown: bool, words: &str| {
         let facts = vec![settings(Field::Mode)];
         if is_shown {
-            Verdict::needed(effect, words, facts)
+            EffectStatus::needed(effect, words, facts)
         } else {
-            Verdict::absent(effect, "another mode", facts)
+            EffectStatus::absent(effect, "another mode", facts)
         }
     };
     let mode = findings.mode();
@@ -28,7 +28,7 @@ pub(super) fn buffers(findings: &Findings<'_>, region: &Region) -> Vec<Verdict> 
     ]
 }
 
-fn surfaces(findings: &Findings<'_>, region: &Region) -> Verdict {
+fn surfaces(findings: &Findings<'_>, region: &Region) -> EffectStatus {
     let count = findings.facts.bodies.len();
     let is_left_out =
         |surface: usize| !findings.visibility.reached[surface] && !findings.lights.casts[surface];
@@ -40,10 +40,10 @@ fn surfaces(findings: &Findings<'_>, region: &Region) -> Verdict {
         .map(|surface| findings.surface(*surface, Field::Whole)));
     let empty = region.empty_fraction();
     if count == 0 {
-        return Verdict::absent(Effect::Surfaces, "the scene has none", vec![]);
+        return EffectStatus::absent(Effect::Surfaces, "the scene has none", vec![]);
     }
     if out.len() == count && findings.facts.rules.contains(Rule::Cull) {
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             Effect::Surfaces,
             Rule::Cull,
             "no ray can meet any of them",
@@ -61,13 +61,13 @@ fn surfaces(findings: &Findings<'_>, region: &Region) -> Verdict {
         );
     }
     if !findings.facts.rules.contains(Rule::Cull) {
-        return Verdict::needed(Effect::Surfaces, "all are kept", seen);
+        return EffectStatus::needed(Effect::Surfaces, "all are kept", seen);
     }
-    let verdict = Verdict::needed(Effect::Surfaces, words, seen);
+    let verdict = EffectStatus::needed(Effect::Surfaces, words, seen);
     if out.is_empty() {
         verdict
     } else {
-        Verdict {
+        EffectStatus {
             facts: places,
             ..verdict
         }
@@ -76,7 +76,7 @@ fn surfaces(findings: &Findings<'_>, region: &Region) -> Verdict {
 }
 
 /// Textures, normals of meshes, normal maps.
-pub(super) fn maps(findings: &Findings<'_>) -> Vec<Verdict> {
+pub(super) fn maps(findings: &Findings<'_>) -> Vec<EffectStatus> {
     vec![
         textures(findings),
         interpolation(findings),
@@ -84,21 +84,21 @@ pub(super) fn maps(findings: &Findings<'_>) -> Vec<Verdict> {
     ]
 }
 
-fn textures(findings: &Findings<'_>) -> Verdict {
+fn textures(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Textures;
     if let Some(surface) = findings.first(|summary| findings.shows_color_map(summary)) {
         let facts = vec![
             findings.material(surface, Field::ColorMap),
             findings.surface(surface, Field::Whole),
         ];
-        return Verdict::needed(effect, "a texture gives the colour of a surface", facts);
+        return EffectStatus::needed(effect, "a texture gives the colour of a surface", facts);
     }
     if let Some(surface) = findings.first(|summary| findings.shows_specular_map(summary)) {
         let facts = vec![
             findings.material(surface, Field::SpecularMap),
             findings.surface(surface, Field::Whole),
         ];
-        return Verdict::needed(effect, "a texture scales the ks of a surface", facts);
+        return EffectStatus::needed(effect, "a texture scales the ks of a surface", facts);
     }
     let has_map = |material: &&rtc_valid::Phong| {
         material
@@ -108,7 +108,7 @@ fn textures(findings: &Findings<'_>) -> Verdict {
     };
     let materials = &findings.facts.materials;
     if !materials.iter().any(|material| has_map(&material)) {
-        return Verdict::absent(effect, "no material has a texture", vec![]);
+        return EffectStatus::absent(effect, "no material has a texture", vec![]);
     }
     if let Some(verdict) = findings
         .by_mode(effect, true)
@@ -123,7 +123,7 @@ fn textures(findings: &Findings<'_>) -> Verdict {
     };
     if let Some(surface) = findings.first(constant) {
         let facts = vec![findings.material(surface, Field::ColorMap)];
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             effect,
             Rule::TextureConstant,
             "all texels of each texture are equal",
@@ -136,10 +136,10 @@ fn textures(findings: &Findings<'_>) -> Verdict {
         .iter()
         .map(|surface| findings.surface(*surface, Field::Whole)));
     let words = "textures are on surfaces without uv, out of sight, or of weight 0";
-    Verdict::pruned(effect, Rule::TextureUnseen, words, facts)
+    EffectStatus::pruned(effect, Rule::TextureUnseen, words, facts)
 }
 
-fn interpolation(findings: &Findings<'_>) -> Verdict {
+fn interpolation(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::NormalInterpolation;
     let is_even = |surface: usize| findings.facts.is_even(surface);
     let shows = |surface: &usize| {
@@ -149,15 +149,15 @@ fn interpolation(findings: &Findings<'_>) -> Verdict {
     let mut smooth = findings.reached().filter(shows);
     if let Some(surface) = smooth.find(|surface| !is_even(*surface)) {
         let facts = vec![findings.surface(surface, Field::Whole)];
-        return Verdict::needed(effect, "a mesh has normals at its corners", facts);
+        return EffectStatus::needed(effect, "a mesh has normals at its corners", facts);
     }
     let has_normals = |surface: &usize| findings.facts.summaries[*surface].smooth;
     let Some(surface) = (0..findings.facts.summaries.len()).find(has_normals) else {
-        return Verdict::absent(effect, "no mesh has normals", vec![]);
+        return EffectStatus::absent(effect, "no mesh has normals", vec![]);
     };
     let facts = vec![findings.surface(surface, Field::Whole)];
     if matches!(findings.mode(), Mode::Zbuffer) {
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             effect,
             Rule::Mode,
             "a depth buffer has no normals",
@@ -169,10 +169,10 @@ fn interpolation(findings: &Findings<'_>) -> Verdict {
     } else {
         "meshes with normals are out of sight, or neither lit nor mirrors"
     };
-    Verdict::pruned(effect, Rule::NormalFlat, words, facts)
+    EffectStatus::pruned(effect, Rule::NormalFlat, words, facts)
 }
 
-fn mapping(findings: &Findings<'_>) -> Verdict {
+fn mapping(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::NormalMapping;
     if let Some(surface) =
         findings.first(|summary| summary.mapped && findings.shows_normal(summary))
@@ -181,7 +181,7 @@ fn mapping(findings: &Findings<'_>) -> Verdict {
             findings.material(surface, Field::NormalMap),
             findings.surface(surface, Field::Whole),
         ];
-        return Verdict::needed(effect, "a map bends the normals of a surface", facts);
+        return EffectStatus::needed(effect, "a map bends the normals of a surface", facts);
     }
     let maps = |material: &rtc_valid::Phong| {
         material
@@ -190,14 +190,14 @@ fn mapping(findings: &Findings<'_>) -> Verdict {
             .is_some_and(|maps| maps.normal.is_some() || maps.bump.is_some())
     };
     if !findings.facts.materials.iter().any(maps) {
-        return Verdict::absent(
+        return EffectStatus::absent(
             effect,
             "no material has a normal map or a height field",
             vec![],
         );
     }
     if matches!(findings.mode(), Mode::Zbuffer) {
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             effect,
             Rule::Mode,
             "a depth buffer has no normals",
@@ -205,17 +205,17 @@ fn mapping(findings: &Findings<'_>) -> Verdict {
         );
     }
     let words = "such maps are on surfaces without uv, out of sight, or neither lit nor mirrors";
-    Verdict::pruned(effect, Rule::TextureUnseen, words, vec![])
+    EffectStatus::pruned(effect, Rule::TextureUnseen, words, vec![])
 }
 
 /// Depth of field.
-pub(super) fn lens(findings: &Findings<'_>) -> Verdict {
+pub(super) fn lens(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Lens;
     let lens = &findings.facts.scene.camera().lens;
     let (radius, samples) = (lens.radius.get(), lens.samples.get());
     let facts = vec![camera(Field::LensRadius), camera(Field::LensSamples)];
     if radius == 0.0 && samples == 1 {
-        return Verdict::absent(
+        return EffectStatus::absent(
             effect,
             "a pinhole: no lens is given",
             vec![camera(Field::LensRadius)],
@@ -223,7 +223,7 @@ pub(super) fn lens(findings: &Findings<'_>) -> Verdict {
         .by(Rule::Pinhole);
     }
     if radius == 0.0 {
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             effect,
             Rule::Pinhole,
             "the radius of the lens is 0: a pinhole",
@@ -231,7 +231,7 @@ pub(super) fn lens(findings: &Findings<'_>) -> Verdict {
         );
     }
     if samples == 1 {
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             effect,
             Rule::Pinhole,
             "one sample of the lens is its centre",
@@ -240,7 +240,7 @@ pub(super) fn lens(findings: &Findings<'_>) -> Verdict {
     }
     if matches!(findings.mode(), Mode::Zbuffer) {
         let facts = vec![settings(Field::Mode)];
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             effect,
             Rule::Mode,
             "a depth buffer is seen from the eye alone",
@@ -248,9 +248,9 @@ pub(super) fn lens(findings: &Findings<'_>) -> Verdict {
         );
     }
     if findings.reached().next().is_none() {
-        return Verdict::pruned(effect, Rule::PixelMiss, "nothing is in view", facts);
+        return EffectStatus::pruned(effect, Rule::PixelMiss, "nothing is in view", facts);
     }
-    Verdict::needed(
+    EffectStatus::needed(
         effect,
         format!("{samples} points of a lens of radius {radius}"),
         facts,
@@ -258,7 +258,7 @@ pub(super) fn lens(findings: &Findings<'_>) -> Verdict {
 }
 
 /// Samples per pixel.
-pub(super) fn supersampling(findings: &Findings<'_>, region: &Region) -> Verdict {
+pub(super) fn supersampling(findings: &Findings<'_>, region: &Region) -> EffectStatus {
     let effect = Effect::Supersampling;
     let settings_of_scene = findings.facts.scene.settings();
     let factor = settings_of_scene.supersampling.get();
@@ -269,11 +269,11 @@ pub(super) fn supersampling(findings: &Findings<'_>, region: &Region) -> Verdict
         } else {
             "a factor of 1, at random"
         };
-        return Verdict::absent(effect, words, facts).by(Rule::OneSample);
+        return EffectStatus::absent(effect, words, facts).by(Rule::OneSample);
     }
     if matches!(findings.mode(), Mode::Zbuffer) {
         let facts = vec![settings(Field::Mode), settings(Field::Supersampling)];
-        return Verdict::pruned(
+        return EffectStatus::pruned(
             effect,
             Rule::Mode,
             "a depth buffer looks through the middle of each pixel",
@@ -281,7 +281,7 @@ pub(super) fn supersampling(findings: &Findings<'_>, region: &Region) -> Verdict
         );
     }
     if findings.reached().next().is_none() && findings.facts.rules.contains(Rule::PixelMiss) {
-        return Verdict::pruned(effect, Rule::PixelMiss, "nothing is in view", facts);
+        return EffectStatus::pruned(effect, Rule::PixelMiss, "nothing is in view", facts);
     }
     let mut words = format!(
         "a factor of {factor}: {} rays a pixel",
@@ -290,5 +290,5 @@ pub(super) fn supersampling(findings: &Findings<'_>, region: &Region) -> Verdict
     if region.has_flat_pixels() {
         words += ", but one where one flat surface fills it (E-SS-FLAT)";
     }
-    Verdict::needed(effect, words, facts)
+    EffectStatus::needed(effect, words, facts)
 }

@@ -5,7 +5,7 @@ use rtc_math::{Bounds, U, Vec3};
 
 /// A ball.
 #[derive(Clone, Copy, Debug)]
-pub struct Ball {
+pub struct BoundingSphere {
     /// Its centre.
     pub center: Vec3,
     /// Its radius.

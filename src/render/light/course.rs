@@ -1,6 +1,6 @@
 //! A light of the course: a point, or a sphere that is sampled as a disc.
 
-use crate::accel::bounds::Ball;
+use crate::accel::bounds::BoundingSphere;
 use rtc_math::{NonNegative, Vec3};
 
 /// A light of equal intensity in all directions, without falloff.
@@ -17,8 +17,8 @@ pub(crate) struct CourseLight {
 impl CourseLight {
     /// The ball it fills.
     #[inline]
-    pub(crate) fn ball(&self) -> Ball {
-        Ball {
+    pub(crate) fn ball(&self) -> BoundingSphere {
+        BoundingSphere {
             center: self.position,
             radius: self.radius.get(),
         }

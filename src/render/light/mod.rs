@@ -22,7 +22,7 @@ use crate::shape::geometry::Asked;
 use crate::shape::geometry::Geometry;
 use crate::world::World;
 use rtc_math::{Bounds, Vec3};
-use rtc_plan::LightLeft;
+use rtc_plan::LightUse;
 use std::f64::consts::PI;
 
 /// Fewer lights with a place are chosen by power alone: among 8 a tree loses (benches/sampling.md).
@@ -48,7 +48,7 @@ pub(crate) struct Lights<'world, S> {
 }
 
 enum Light {
-    Punctual(Punctual, LightLeft),
+    Punctual(Punctual, LightUse),
     Triangle(TriangleLight),
     Environment,
 }
@@ -76,11 +76,11 @@ impl<'world, S: Geometry> Lights<'world, S> {
     pub(crate) fn new(world: &'world World<S>, strategy: Strategy) -> Self {
         let left = |index: usize| {
             let plan = world.plan.paths.as_ref();
-            plan.map_or(LightLeft::All, |plan| plan.lights[index])
+            plan.map_or(LightUse::All, |plan| plan.lights[index])
         };
         let punctual = world.lights.punctual.iter().enumerate();
         let mut lights = punctual
-            .filter(|(index, _)| left(*index) != LightLeft::Nothing)
+            .filter(|(index, _)| left(*index) != LightUse::Nothing)
             .map(|(index, light)| Light::Punctual(light.clone(), left(index)))
             .collect::<Vec<_>>();
         let mut firsts = vec![None; world.surfaces.len()];
@@ -267,8 +267,8 @@ impl<'world, S: Geometry> Lights<'world, S> {
     pub(crate) fn sample(&self, from: Vec3, u: impl FnOnce() -> [f64; 2]) -> Option<Incident> {
         let (index, probability, u) = self.choose(from, u)?;
         match &self.lights[index] {
-            Light::Punctual(_, LightLeft::Place | LightLeft::Nothing) => None,
-            Light::Punctual(light, LightLeft::All) => light.sample(from, probability),
+            Light::Punctual(_, LightUse::OnlyIndex | LightUse::Nothing) => None,
+            Light::Punctual(light, LightUse::All) => light.sample(from, probability),
             Light::Triangle(triangle) => {
                 // Sample a point of the triangle, and convert from area to solid angle.
                 let point = triangle.point(u);

@@ -1,7 +1,7 @@
 //! The shapes of most course scenes alone: an integrator of these holds no code of the others.
 
 use super::kinds::{Plane, Sphere, Triangle};
-use crate::accel::bounds::Ball;
+use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
 use crate::shape::four::InLanes;
 use crate::shape::geometry::{Asked, Details, Geometry, LocalRay};

@@ -1,6 +1,6 @@
 //! What a world asks of the shapes in it.
 
-use crate::accel::bounds::Ball;
+use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
 use crate::shape::four::InLanes;
 use crate::shape::triangle::Shear;
@@ -129,9 +129,9 @@ pub trait Geometry: Sized + Send + Sync {
 
     /// A ball around it; `None` for unbounded shapes, and where hits are not known to lie within.
     #[must_use]
-    fn ball(&self) -> Option<Ball> {
+    fn ball(&self) -> Option<BoundingSphere> {
         let Bounds { min, max } = self.bounds()?;
-        Some(Ball {
+        Some(BoundingSphere {
             center: min * 0.5 + max * 0.5,
             radius: (max - min).length() * 0.5,
         })

@@ -125,7 +125,7 @@ macro_rules! dispatch {
                 }
             }
 
-            fn ball(&self) -> Option<Ball> {
+            fn ball(&self) -> Option<BoundingSphere> {
                 match self {
                     $(Self::$Name(shape) => <$Name as Geometry>::ball(shape),)*
                 }
@@ -173,7 +173,7 @@ pub(crate) mod kinds {
     pub(crate) use super::triangle::TexturedTriangle as Triangle;
 }
 
-use crate::accel::bounds::Ball;
+use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
 use crate::shape::four::InLanes;
 use crate::shape::geometry::{Asked, Details, Geometry, LocalRay};

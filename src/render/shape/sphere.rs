@@ -5,7 +5,7 @@
 //! perpendicular, the roots from the stable quadratic. Where its first-order error bound says that
 //! the sign or the root reported is in doubt, it is computed again.
 
-use crate::accel::bounds::Ball;
+use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
 use crate::shape::four::InLanes;
 use crate::shape::geometry::{Asked, Details, Geometry};
@@ -224,9 +224,9 @@ impl Geometry for TexturedSphere {
         Some(Bounds::around(self.sphere.center, self.sphere.radius))
     }
 
-    fn ball(&self) -> Option<Ball> {
+    fn ball(&self) -> Option<BoundingSphere> {
         let Sphere { center, radius } = self.sphere;
-        Some(Ball { center, radius })
+        Some(BoundingSphere { center, radius })
     }
 }
 

@@ -7,7 +7,7 @@
 //! distance √((ρ − R)² + z²) − r has the same sign and keeps its digits, so every decision is taken
 //! on it.
 
-use crate::accel::bounds::Ball;
+use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
 use crate::shape::four::InLanes;
 use crate::shape::geometry::Geometry;
@@ -317,8 +317,8 @@ impl Geometry for Torus {
         Some(self.bounds())
     }
 
-    fn ball(&self) -> Option<Ball> {
-        Some(Ball {
+    fn ball(&self) -> Option<BoundingSphere> {
+        Some(BoundingSphere {
             center: self.center,
             radius: self.major + self.minor,
         })

@@ -4,7 +4,7 @@
 use super::flattened::flattened_surfaces;
 use crate::shape::geometry::Geometry;
 use rtc_plan::facts::material;
-use rtc_valid::{Alpha, Material, Proof};
+use rtc_valid::{Alpha, Material, ValidScene};
 
 /// The alpha-tested surfaces of a world.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub(crate) enum AlphaTested {
 impl AlphaTested {
     /// The alpha-tested surfaces of a scene of paths. The plan may prove some of them opaque, or
     /// leave them out, but that must not change the order of products.
-    pub(super) fn of<S: Geometry>(scene: &Proof) -> Self {
+    pub(super) fn of<S: Geometry>(scene: &ValidScene) -> Self {
         let alpha = |of: &Material| material::standard(of).alpha;
         let tested = scene.materials().iter().map(|m| alpha(m) != Alpha::Opaque);
         let tested: Vec<bool> = tested.collect();

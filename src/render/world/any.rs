@@ -12,7 +12,7 @@ use crate::shape::plain::PlainShape;
 use crate::world::World;
 use rtc_image::{Guide, Layers};
 use rtc_plan::{Arithmetic, Plan, Rules, Shapes};
-use rtc_valid::Proof;
+use rtc_valid::ValidScene;
 use std::ops::Range;
 
 /// A scene prepared as planned. It renders on the threads of the current pool.
@@ -42,14 +42,14 @@ macro_rules! each {
 impl AnyWorld {
     /// Prepares a scene.
     #[must_use]
-    pub fn prepare(scene: &Proof, plan: &Plan) -> Self {
+    pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
         Self::prepare_at(scene, plan, SimdLevel::best())
     }
 
     /// As [`AnyWorld::prepare`], for rays traced with the vector instructions of a level: pictures
     /// are the same bytes.
     #[must_use]
-    pub fn prepare_at(scene: &Proof, plan: &Plan, simd: SimdLevel) -> Self {
+    pub fn prepare_at(scene: &ValidScene, plan: &Plan, simd: SimdLevel) -> Self {
         match (plan.arithmetic, plan.shapes) {
             (Arithmetic::Robust, Shapes::Basic) => {
                 Self::Basic(World::prepare_at(scene, plan, simd))
@@ -62,13 +62,13 @@ impl AnyWorld {
 
     /// The scene it shows.
     #[must_use]
-    pub fn scene(&self) -> &Proof {
+    pub fn scene(&self) -> &ValidScene {
         each!(self, world => world.scene())
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone, by
     /// the same rules. Shapes, materials and lights stay if the new plan needs the same ones.
-    pub fn change(&mut self, scene: Proof) {
+    pub fn change(&mut self, scene: ValidScene) {
         let old = each!(self, world => &world.plan);
         let plan = Plan::by(old.arithmetic, &scene, old.rules);
         // The plan of paths has the materials and lights.
@@ -179,6 +179,6 @@ impl AnyWorld {
 
 /// Renders a scene as planned; see [`AnyWorld::render`].
 #[must_use]
-pub fn render(scene: &Proof, plan: &Plan, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
+pub fn render(scene: &ValidScene, plan: &Plan, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
     AnyWorld::prepare(scene, plan).render(job, on_pixel)
 }

@@ -7,7 +7,7 @@ use crate::ray::Ray;
 use crate::shape::geometry::{Geometry, LocalRay};
 use crate::shape::mesh::FEW;
 use crate::shape::triangle::{self, Shear};
-use rtc_valid::{self as valid, MOST_TRIANGLES, Proof};
+use rtc_valid::{self as valid, MOST_TRIANGLES, ValidScene};
 
 /// The triangles of all flattened instances, numbered surface by surface.
 pub(super) struct Flattened {
@@ -162,7 +162,7 @@ fn key(starts: &[(u32, u32)], item: u32) -> (usize, u32) {
 }
 
 /// For each surface of a scene, whether it is an instance to be flattened.
-pub(super) fn flattened_surfaces(scene: &Proof) -> Vec<bool> {
+pub(super) fn flattened_surfaces(scene: &ValidScene) -> Vec<bool> {
     let mut uses = vec![0_usize; scene.meshes().len()];
     let mesh = |surface: &valid::Surface| {
         if let valid::Shape::Instance(instance) = &surface.shape {

@@ -5,8 +5,8 @@ use super::texture::Textures;
 use crate::light::course::CourseLight;
 use crate::light::environment::Environment;
 use crate::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual};
-use rtc_plan::{EnvironmentLeft, PathPlan, Plan, facts};
-use rtc_valid::{self as valid, Proof};
+use rtc_plan::{EnvironmentUse, PathPlan, Plan, facts};
+use rtc_valid::{self as valid, ValidScene};
 
 /// The lights of a world. There are two kinds of lists; the one that the integrator does not use is
 /// empty.
@@ -33,10 +33,10 @@ impl<S> World<S> {
     }
 }
 
-pub(super) fn lights_for(scene: &Proof, plan: &Plan, textures: &Textures) -> LightList {
+pub(super) fn lights_for(scene: &ValidScene, plan: &Plan, textures: &Textures) -> LightList {
     match &plan.paths {
         Some(paths) => {
-            let is_constant = paths.environment == EnvironmentLeft::Constant;
+            let is_constant = paths.environment == EnvironmentUse::Constant;
             let punctuals = facts::light::punctual(scene.lights()).into_iter();
             LightList {
                 course: Vec::new(),

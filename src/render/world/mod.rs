@@ -33,7 +33,7 @@ use flattened::{Flattened, FlattenedRay};
 use light::LightList;
 use rtc_math::Vec3;
 use rtc_plan::Plan;
-use rtc_valid::Proof;
+use rtc_valid::ValidScene;
 use search::{AnySearch, ClosestSearch};
 use settings::Settings;
 
@@ -62,7 +62,7 @@ pub struct Surface<S = Shape> {
 /// A scene prepared for tracing, of shapes `S`.
 pub struct World<S = Shape> {
     /// The scene as proven, for what a change of its camera and settings may need again.
-    scene: Proof,
+    scene: ValidScene,
     /// The camera.
     pub camera: Camera,
     /// The settings.

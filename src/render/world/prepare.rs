@@ -13,21 +13,21 @@ use crate::accel::simd::SimdLevel;
 use crate::shape::geometry::Geometry;
 use rtc_plan::facts::material;
 use rtc_plan::{Plan, Rules};
-use rtc_valid::{self as valid, Proof};
+use rtc_valid::{self as valid, ValidScene};
 use std::sync::Arc;
 
 impl<S: Prepare> World<S> {
     /// Prepares a scene as planned: materials and lights as its integrator sees them, shapes, and
     /// the hierarchies of those.
     #[must_use]
-    pub fn prepare(scene: &Proof, plan: &Plan) -> Self {
+    pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
         Self::prepare_at(scene, plan, SimdLevel::best())
     }
 
     /// As [`World::prepare`], for rays traced with the vector instructions of a level: the hits are
     /// the same.
     #[must_use]
-    pub fn prepare_at(scene: &Proof, plan: &Plan, simd: SimdLevel) -> Self {
+    pub fn prepare_at(scene: &ValidScene, plan: &Plan, simd: SimdLevel) -> Self {
         let textures = Textures::new(scene);
         let lights = light::lights_for(scene, plan, &textures);
         let (surfaces, phongs, standards) = match &plan.paths {
@@ -79,7 +79,7 @@ impl<S: Prepare> World<S> {
 /// The surfaces that are planned and that rays can hit; `material_of` says which of the world's
 /// materials stands for one of the scene on a surface with or without texture coordinates.
 fn surfaces<S: Prepare>(
-    scene: &Proof,
+    scene: &ValidScene,
     plan: &Plan,
     simd: SimdLevel,
     mut material_of: impl FnMut(usize, bool) -> usize,
@@ -115,7 +115,7 @@ struct Lookup {
 
 impl Lookup {
     fn of<S: Geometry>(
-        scene: &Proof,
+        scene: &ValidScene,
         plan: &Plan,
         surfaces: &[Surface<S>],
         simd: SimdLevel,

@@ -4,7 +4,7 @@ use super::World;
 use crate::camera::grid::{Grid, Pattern};
 use crate::camera::{Camera, Projection};
 use rtc_plan::Plan;
-use rtc_valid::{self as valid, Proof};
+use rtc_valid::{self as valid, ValidScene};
 
 /// By which rules the picture is made.
 #[derive(Clone, Copy, Debug)]
@@ -56,13 +56,13 @@ pub(crate) struct Gooch {
 
 impl<S> World<S> {
     /// The scene that is shown.
-    pub(super) fn scene(&self) -> &Proof {
+    pub(super) fn scene(&self) -> &ValidScene {
         &self.scene
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone, by
     /// a plan for it.
-    pub(super) fn show(&mut self, scene: Proof, plan: Plan) {
+    pub(super) fn show(&mut self, scene: ValidScene, plan: Plan) {
         self.camera = camera(scene.camera());
         self.settings = settings(&scene);
         if let Some(few) = &mut self.few {
@@ -103,7 +103,7 @@ pub(super) fn camera(camera: &valid::Camera) -> Camera {
     }
 }
 
-pub(super) fn settings(scene: &Proof) -> Settings {
+pub(super) fn settings(scene: &ValidScene) -> Settings {
     let valid::Settings {
         mode,
         shadows,

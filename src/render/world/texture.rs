@@ -2,7 +2,7 @@
 
 use crate::texture::sampled::{ColorSpace, Map};
 use crate::texture::{Filter, Image, Texture, Wrap};
-use rtc_valid::{self as valid, Proof};
+use rtc_valid::{self as valid, ValidScene};
 use std::sync::Arc;
 
 /// The images and the textures of a scene, in its order.
@@ -12,7 +12,7 @@ pub(super) struct Textures {
 }
 
 impl Textures {
-    pub(super) fn new(scene: &Proof) -> Self {
+    pub(super) fn new(scene: &ValidScene) -> Self {
         let images = scene.images().iter().map(image).collect::<Vec<_>>();
         let textures = scene
             .textures()

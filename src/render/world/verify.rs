@@ -9,7 +9,7 @@ use crate::frame::verify::{Mismatch, Verify, first_difference};
 use crate::shape::Shape;
 use crate::shape::plain::PlainShape;
 use rtc_plan::{Arithmetic, Effect, Plan, Rule, Rules};
-use rtc_valid::Proof;
+use rtc_valid::ValidScene;
 
 /// Renders as planned and without rules, and compares: `None` if `on_pixel` said stop, else the
 /// film as planned, or the first fault.
@@ -17,7 +17,7 @@ use rtc_valid::Proof;
 /// # Errors
 /// If something that was left out adds something.
 pub fn verify(
-    scene: &Proof,
+    scene: &ValidScene,
     plan: &Plan,
     job: &Job,
     on_pixel: &OnPixel<'_>,
@@ -38,7 +38,7 @@ pub fn verify(
 
 /// The film without rules, and what it shows of a plan.
 fn naively<S: Prepare>(
-    scene: &Proof,
+    scene: &ValidScene,
     plan: &Plan,
     job: &Job,
     on_pixel: &OnPixel<'_>,
@@ -52,7 +52,7 @@ fn naively<S: Prepare>(
 /// The rule without which a pixel has the value it has without all rules; `None` if `on_pixel` said
 /// stop.
 fn blame(
-    scene: &Proof,
+    scene: &ValidScene,
     plan: &Plan,
     job: &Job,
     pixel: [u32; 2],

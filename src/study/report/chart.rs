@@ -2,7 +2,7 @@
 //! turns that for the dark.
 
 use super::super::advice::{digits, seconds};
-use super::super::knob::Knob;
+use super::super::knob::Parameter;
 use super::super::outcome::{KnobReport, Row, Study};
 use super::super::reference::Level;
 use super::html::escaped;
@@ -113,7 +113,7 @@ fn draw_row(chart: &mut Chart<'_, '_>, row: &Row) -> Outcome {
 fn draw_label(
     chart: &mut Chart<'_, '_>,
     row: &Row,
-    used: &[Knob],
+    used: &[Parameter],
     labels: &mut Vec<(i32, i32)>,
 ) -> Outcome {
     /// About as wide and high as a label.
@@ -154,14 +154,14 @@ pub(super) fn knob(report: &KnobReport) -> String {
     let xs = span(points.iter().map(|point| point.0));
     let ys = span(points.iter().map(|point| point.1.error));
     let name = match report.knob {
-        Knob::Supersampling => "samples of a pixel",
-        Knob::Depth => "depth, 0 at ½",
-        knob @ (Knob::Aperture
-        | Knob::Lights
-        | Knob::Glossy
-        | Knob::Paths
-        | Knob::Denoise
-        | Knob::Precision) => knob.name(),
+        Parameter::Supersampling => "samples of a pixel",
+        Parameter::Depth => "depth, 0 at ½",
+        knob @ (Parameter::Aperture
+        | Parameter::Lights
+        | Parameter::Glossy
+        | Parameter::Paths
+        | Parameter::Denoise
+        | Parameter::Precision) => knob.name(),
     };
     plot((400, 300), |root| {
         let mut chart = axes(

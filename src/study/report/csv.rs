@@ -1,7 +1,7 @@
 //! The rows of a study as CSV (RFC 4180): a line of names, then one line a row; errors in grey
 //! levels, time in seconds.
 
-use super::super::knob::Knob;
+use super::super::knob::Parameter;
 use super::super::outcome::{Row, Study};
 
 const NAMES: &str = "supersampling,aperture,lights,glossy,paths,denoise,depth,precision,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
@@ -33,7 +33,7 @@ fn line(row: &Row) -> String {
         model,
         tiles: _,
     } = row;
-    let knobs = Knob::ALL.map(|knob| knob.cell(setting.get(knob)));
+    let knobs = Parameter::ALL.map(|knob| knob.cell(setting.get(knob)));
     let flags = [own, front, judged].map(ToString::to_string);
     let rays =
         [rays.camera, rays.shadow, rays.mirror, rays.refracted].map(|count| count.to_string());

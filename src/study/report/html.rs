@@ -2,7 +2,7 @@
 //! and dark.
 
 use super::super::advice::{digits, interval, seconds};
-use super::super::knob::Knob;
+use super::super::knob::Parameter;
 use super::super::outcome::{BounceCost, Row, Study};
 use super::words::{MEANINGS, bought, buys};
 use super::{chart, maps, picture, table};
@@ -88,7 +88,7 @@ fn front(study: &Study) -> String {
 }
 
 /// What the columns mean; it opens by mouse and keyboard.
-fn legend(used: &[Knob]) -> String {
+fn legend(used: &[Parameter]) -> String {
     let knobs = used.iter().map(|knob| (knob.short(), knob.name()));
     let meanings = MEANINGS.iter().map(|(_, name, meaning)| (*name, *meaning));
     let entry = |(name, meaning)| {
@@ -126,7 +126,7 @@ fn times(study: &Study) -> String {
     )
 }
 
-fn cells(row: &Row, used: &[Knob], fraction: f64) -> Vec<String> {
+fn cells(row: &Row, used: &[Parameter], fraction: f64) -> Vec<String> {
     let star = if row.front { "★" } else { "" };
     let own = if row.own { " own" } else { "" };
     let limit = if row.judged { "" } else { "≤ " };
@@ -170,7 +170,7 @@ fn knobs(study: &Study) -> String {
     for report in &study.knobs {
         let words = escaped(&table::knob_line(report, study.bounces.as_ref()));
         let has_points = report.levels.iter().any(|level| level.error > 0.0);
-        if report.idle.is_some() || report.knob == Knob::Precision || !has_points {
+        if report.idle.is_some() || report.knob == Parameter::Precision || !has_points {
             let _ = writeln!(idle, "<li>{words}</li>");
         } else {
             let plot = chart::knob(report);

@@ -1,7 +1,7 @@
 //! The table for a terminal of 80 columns.
 
 use super::super::advice::{digits, seconds};
-use super::super::knob::Knob;
+use super::super::knob::Parameter;
 use super::super::outcome::{BounceCost, KnobReport, MoreBounces, Row, Study};
 use super::super::reference::DepthEnd;
 use super::braille;
@@ -62,7 +62,7 @@ pub fn table(study: &Study) -> String {
 }
 
 /// What the columns mean that are shown.
-fn legend(used: &[Knob], columns: &[usize]) -> String {
+fn legend(used: &[Parameter], columns: &[usize]) -> String {
     let knobs = used
         .iter()
         .map(|knob| format!("{}: {}", knob.short(), knob.name()));
@@ -157,7 +157,7 @@ const FLIP: usize = 9;
 
 /// The places of the columns that are shown, as far as there is room: those of what the tiles leave open
 /// of the error only if tiles were looked at, those of other renders only if any differs.
-fn columns(study: &Study, used: &[Knob]) -> Vec<usize> {
+fn columns(study: &Study, used: &[Parameter]) -> Vec<usize> {
     let is_alike = study.rows.iter().all(|row| row.spread.deviation == 0.0);
     let mut shown: Vec<_> = (0..COLUMNS.len())
         .filter(|place| *place != COLUMNS.len() - 1 || study.part.tiles > 0)
@@ -174,11 +174,11 @@ fn columns(study: &Study, used: &[Knob]) -> Vec<usize> {
 }
 
 /// The width of the column of a knob.
-fn width(knob: Knob) -> usize {
-    if knob == Knob::Precision { 7 } else { 6 }
+fn width(knob: Parameter) -> usize {
+    if knob == Parameter::Precision { 7 } else { 6 }
 }
 
-fn line(row: &Row, used: &[Knob], (columns, fraction): (&[usize], f64)) -> String {
+fn line(row: &Row, used: &[Parameter], (columns, fraction): (&[usize], f64)) -> String {
     let mut line = String::from(if row.front { "*" } else { " " });
     used.iter()
         .for_each(|knob| write_cell(&mut line, &knob.cell(row.setting.get(*knob)), width(*knob)));
@@ -270,7 +270,7 @@ pub(super) fn knob_line(report: &KnobReport, bounces: Option<&MoreBounces>) -> S
     }
     match (&report.law, report.knob, bounces) {
         (Some(law), knob, _) => {
-            let samples = if knob == Knob::Supersampling {
+            let samples = if knob == Parameter::Supersampling {
                 "samples"
             } else {
                 "n"
@@ -278,11 +278,11 @@ pub(super) fn knob_line(report: &KnobReport, bounces: Option<&MoreBounces>) -> S
             let (p, half) = (law.p.value, 0.5 * (law.p.high - law.p.low));
             format!("{name}: error ∝ {samples}^−{p:.3} ± {half:.3}")
         }
-        (None, Knob::Depth, Some(bounces)) => depth_line(bounces, last),
-        (None, Knob::Denoise, _) => format!(
+        (None, Parameter::Depth, Some(bounces)) => depth_line(bounces, last),
+        (None, Parameter::Denoise, _) => format!(
             "{name}: rows of fewer paths are denoised too; their time has that of telling the error"
         ),
-        (None, Knob::Precision, _) => {
+        (None, Parameter::Precision, _) => {
             let robust = report.levels.len().saturating_sub(1);
             let words: Vec<_> = report.levels[..robust]
                 .iter()

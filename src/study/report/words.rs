@@ -1,7 +1,7 @@
 //! Words for those who read a report: what each column means, and what a time buys.
 
 use super::super::advice::{digits, interval, seconds};
-use super::super::knob::Knob;
+use super::super::knob::Parameter;
 use super::super::outcome::{Row, Study};
 
 /// What the columns of the table mean, by their names in the terminal and on the page; knobs explain themselves
@@ -83,7 +83,7 @@ pub(super) fn buys(study: &Study) -> Vec<(f64, &Row)> {
 }
 
 /// As "0.17 s ± 3.1 %, error 1.07 grey levels, 1.09 ± 0.02 over 12 renders (2×2, depth 2)".
-pub(super) fn measured(row: &Row, used: &[Knob]) -> String {
+pub(super) fn measured(row: &Row, used: &[Parameter]) -> String {
     let limit = if row.judged { "" } else { "≤ " };
     let (time, off) = (seconds(row.seconds.value), 100.0 * row.seconds.relative());
     let (error, interval) = (digits(row.errors.rmse), interval(&row.errors));

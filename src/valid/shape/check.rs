@@ -4,7 +4,7 @@ use super::area::has_area;
 use super::{Instance, Quad, Shape, Sphere, Surface, Triangle};
 use crate::check::{Check, EntityCounts, SMALLEST, place};
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, Field, Noun, Place, ShapeKind};
+use rtc_ir::{self as ir, EntityKind, Field, ShapeKind, ValuePath};
 use rtc_math::{Positive, Vec3, unit};
 
 /// `Some(None)` for a face without an area: no ray can hit it, so it is left out with a warning.
@@ -30,9 +30,9 @@ pub(crate) fn surface(
         material.0,
         counts.materials,
         "material",
-        place(Noun::Surface, index, Field::Material),
+        place(EntityKind::Surface, index, Field::Material),
     );
-    let shape = shape.prove(&mut proof);
+    let shape = shape.validate(&mut proof);
     let material = material?;
     Some(shape?.map(|shape| Surface {
         shape,
@@ -52,13 +52,13 @@ struct SurfaceCheck<'a, 'run> {
 
 impl SurfaceCheck<'_, '_> {
     /// The place of a value of the shape.
-    fn at(&self, way: &str) -> Place {
+    fn at(&self, way: &str) -> ValuePath {
         let field = Field::of_shape(self.kind, way);
-        place(Noun::Surface, self.index, field)
+        place(EntityKind::Surface, self.index, field)
     }
 
-    fn whole(&self) -> Place {
-        place(Noun::Surface, self.index, Field::Whole)
+    fn whole(&self) -> ValuePath {
+        place(EntityKind::Surface, self.index, Field::Whole)
     }
 
     /// A point: its components are finite and in range.
@@ -101,16 +101,16 @@ impl SurfaceCheck<'_, '_> {
 /// How a shape of the IR is proven.
 trait Prove {
     /// The proven shape; `Some(None)` for a face without an area.
-    fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>>;
+    fn validate(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>>;
 }
 
 /// Proves each shape in its own way, or by the rules of its row.
-macro_rules! prove {
+macro_rules! validate {
     ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
         impl Prove for ir::Shape {
-            fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+            fn validate(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
                 match self {
-                    $(Self::$Name(shape) => shape.prove(proof),)*
+                    $(Self::$Name(shape) => shape.validate(proof),)*
                 }
             }
         }
@@ -126,7 +126,7 @@ macro_rules! by_rule {
         $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
     }) => {
         impl Prove for ir::$Name {
-            fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+            fn validate(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
                 let Self { $($value),* } = *self;
                 $(let $value = proof.$rule($value, stringify!($value), concat!($($words)?));)*
                 Some(Some(Shape::$Name(super::$Name { $($value: $value?),* })))
@@ -135,10 +135,10 @@ macro_rules! by_rule {
     };
 }
 
-rtc_tables::shapes!(prove);
+rtc_tables::shapes!(validate);
 
 impl Prove for ir::Sphere {
-    fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+    fn validate(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
         let Self {
             center,
             radius,
@@ -164,7 +164,7 @@ impl Prove for ir::Sphere {
 }
 
 impl Prove for ir::Triangle {
-    fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+    fn validate(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
         const WAYS: [&str; 3] = ["vertices/0", "vertices/1", "vertices/2"];
         let Self { vertices, uvs } = self;
         let corners = [0, 1, 2].map(|k| proof.point(vertices[k], WAYS[k], ""));
@@ -181,7 +181,7 @@ impl Prove for ir::Triangle {
 }
 
 impl Prove for ir::Quad {
-    fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+    fn validate(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
         const WAYS: [&str; 4] = ["vertices/0", "vertices/1", "vertices/2", "vertices/3"];
         let Self { vertices } = self;
         let corners = [0, 1, 2, 3].map(|k| proof.point(vertices[k], WAYS[k], ""));
@@ -195,7 +195,7 @@ impl Prove for ir::Quad {
 }
 
 impl Prove for ir::Instance {
-    fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+    fn validate(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
         let Self {
             mesh,
             world_from_object,

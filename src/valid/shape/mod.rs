@@ -13,7 +13,7 @@ use rtc_math::{Positive, Vec3, is_flat};
 pub struct Surface {
     /// The shape.
     pub shape: Shape,
-    /// An index into [`super::Proof::materials`], in range.
+    /// An index into [`super::ValidScene::materials`], in range.
     pub material: usize,
     /// Whether it hides lights from other surfaces and from itself, where shadows are asked for.
     pub casts_shadow: bool,
@@ -109,7 +109,7 @@ impl Quad {
 /// A mesh, placed in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Instance {
-    /// An index into [`super::Proof::meshes`], in range.
+    /// An index into [`super::ValidScene::meshes`], in range.
     pub mesh: usize,
     /// The images of the three axes, linearly independent, and of the origin.
     pub world_from_object: [Vec3; 4],

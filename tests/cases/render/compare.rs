@@ -8,7 +8,7 @@ use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-pub(super) enum Verdict {
+pub(super) enum EffectStatus {
     Same,
     /// How they differ, in words.
     Differs(String),
@@ -23,11 +23,15 @@ fn distance(a: &Rgba<u8>, b: &Rgba<u8>) -> u8 {
 }
 
 /// Compares two pictures, channel by channel.
-pub(super) fn compare(expected: &[u8], actual: &[u8], tolerance: u8) -> Result<Verdict, Failed> {
+pub(super) fn compare(
+    expected: &[u8],
+    actual: &[u8],
+    tolerance: u8,
+) -> Result<EffectStatus, Failed> {
     let (expected, actual) = (decode(expected)?, decode(actual)?);
     let sizes = [&expected, &actual].map(RgbaImage::dimensions);
     if sizes[0] != sizes[1] {
-        return Ok(Verdict::Differs(format!(
+        return Ok(EffectStatus::Differs(format!(
             "{:?} pixels instead of {:?}",
             sizes[1], sizes[0]
         )));
@@ -38,10 +42,10 @@ pub(super) fn compare(expected: &[u8], actual: &[u8], tolerance: u8) -> Result<V
     // Of equals the first.
     let worst = pairs().min_by_key(|pair| Reverse(off(pair))).unwrap();
     if count == 0 {
-        return Ok(Verdict::Same);
+        return Ok(EffectStatus::Same);
     }
     let ((x, y, a), b) = worst;
-    Ok(Verdict::Differs(format!(
+    Ok(EffectStatus::Differs(format!(
         "{count} of {} pixels are off by more than {tolerance}; the worst is ({x}, {y}): {:?} instead of {:?}",
         expected.len() / 4,
         b.0,
@@ -110,17 +114,17 @@ pub(super) fn a_wrong_pixel_is_named_and_shown() {
     let verdict = |actual: &RgbaImage, tolerance| {
         compare(&encode(&expected), &encode(actual), tolerance).unwrap()
     };
-    assert!(matches!(verdict(&actual, 1), Verdict::Same));
-    assert!(matches!(verdict(&actual, 0), Verdict::Differs(_)));
+    assert!(matches!(verdict(&actual, 1), EffectStatus::Same));
+    assert!(matches!(verdict(&actual, 0), EffectStatus::Differs(_)));
     actual.put_pixel(3, 2, Rgba([10, 20, 80, 255]));
-    let Verdict::Differs(words) = verdict(&actual, 1) else {
+    let EffectStatus::Differs(words) = verdict(&actual, 1) else {
         panic!("a pixel is off by 50")
     };
     let wanted =
         "1 of 20 pixels are off by more than 1; the worst is (3, 2): [10, 20, 80, 255] instead of";
     assert!(words.starts_with(wanted), "{words}");
     let narrow = RgbaImage::new(4, 4);
-    assert!(matches!(verdict(&narrow, 255), Verdict::Differs(_)));
+    assert!(matches!(verdict(&narrow, 255), EffectStatus::Differs(_)));
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("render/a-wrong-pixel.png");
     panels(&encode(&expected), &encode(&actual), &path).unwrap();
     let whole = decode(&fs::read(path).unwrap()).unwrap();

@@ -1,4 +1,4 @@
-//! Every scene `tests/render/<noun>/<case>` is a test: its picture is that of `<case>.png` beside
+//! Every scene `tests/render/<entity>/<case>` is a test: its picture is that of `<case>.png` beside
 //! it, pixel by pixel. Its first comment says what it shows; see [`options`] for what else it says.
 //!
 //! Pictures of the course's modes are the same bytes. Those of traced paths may be off by one level
@@ -12,7 +12,7 @@ mod options;
 mod shoot;
 
 use crate::suite::{files, name, root, trial, updates};
-use compare::Verdict;
+use compare::EffectStatus;
 use libtest_mimic::{Failed, Trial};
 use std::collections::BTreeSet;
 use std::fs;
@@ -66,8 +66,8 @@ fn check(case: &Path, name: &str) -> Result<(), Failed> {
         )
     })?;
     match compare::compare(&expected, &shot.png, shot.tolerance)? {
-        Verdict::Same => Ok(()),
-        Verdict::Differs(worst) => {
+        EffectStatus::Same => Ok(()),
+        EffectStatus::Differs(worst) => {
             let panels =
                 PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("render/{name}.png"));
             compare::panels(&expected, &shot.png, &panels)?;

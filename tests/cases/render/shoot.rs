@@ -10,12 +10,12 @@ use rtc::internals::image::{
     Association, BackgroundFill, FileFormat, Image, Layers, Look, Picture,
 };
 use rtc::internals::ir::Lowered;
-use rtc::internals::passes::{EnvironmentOverride, SceneKind, Stage};
+use rtc::internals::passes::{EnvironmentOverride, SceneKind, ViewAndLight};
 use rtc::internals::pipeline::{self, Renderer};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{AnyWorld, Aov, Background, Job, Values};
 use rtc::internals::source::{Loader, SourceMap};
-use rtc::internals::valid::{Mode, Proof};
+use rtc::internals::valid::{Mode, ValidScene};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -28,7 +28,7 @@ pub(super) struct Shot {
 
 pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
     let options = Options::read(case)?;
-    let scene = prove(case, &options)?;
+    let scene = validate(case, &options)?;
     let plan = Plan::by(options.arithmetic, &scene, Rules::ALL);
     let renderer = Renderer::new(&scene, &plan, options.threads)?;
     let picture = match options.aov {
@@ -47,7 +47,7 @@ pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
 }
 
 /// The proven scene of a case, in which no more is found than it says.
-fn prove(case: &Path, options: &Options) -> Result<Proof, Failed> {
+fn validate(case: &Path, options: &Options) -> Result<ValidScene, Failed> {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = Loader.file(case, &mut map).map_err(|e| format!("{e:?}"))?;
     let reading = pipeline::Options {
@@ -58,7 +58,7 @@ fn prove(case: &Path, options: &Options) -> Result<Proof, Failed> {
     let proven = lowered.map(|mut lowered| -> Result<_, Failed> {
         stage(&mut lowered, case, options, &map, &mut sink)?;
         options.overrides.apply(&mut lowered.scene);
-        Ok(pipeline::prove(&lowered, &reading, &mut sink))
+        Ok(pipeline::validate(&lowered, &reading, &mut sink))
     });
     let proven = proven.transpose()?.flatten();
     let codes = sink.kept().iter().map(|finding| finding.code.id.to_owned());
@@ -90,13 +90,13 @@ fn stage(
             .map_err(|fault| pixels::no_environment(&fault, name).message)?;
         environment = Some(EnvironmentOverride::Picture(image));
     }
-    let stage = Stage {
+    let stage = ViewAndLight {
         view: options.view,
         integrator: options.integrator,
         environment,
         suns: options.suns.clone(),
         without_lights: false,
-        ..Stage::default()
+        ..ViewAndLight::default()
     };
     let is_asset = |own| own == "gltf" || own == "glb";
     let kind = match case.extension().is_some_and(is_asset) {
@@ -107,7 +107,7 @@ fn stage(
     Ok(())
 }
 
-fn colors(renderer: &Renderer, scene: &Proof, options: &Options) -> Picture {
+fn colors(renderer: &Renderer, scene: &ValidScene, options: &Options) -> Picture {
     let mode = &scene.settings().mode;
     let tone = options.tone.unwrap_or(mode.tone());
     let is_plain = options.stops == 0.0 && options.tone.unwrap_or(Tone::None) == Tone::None;
@@ -143,7 +143,7 @@ fn colors(renderer: &Renderer, scene: &Proof, options: &Options) -> Picture {
 }
 
 /// A layer as colours: its values from the first of a range, black, to the last, white.
-fn layer(renderer: &Renderer, scene: &Proof, aov: Aov, [low, high]: [f64; 2]) -> Picture {
+fn layer(renderer: &Renderer, scene: &ValidScene, aov: Aov, [low, high]: [f64; 2]) -> Picture {
     let camera = scene.camera();
     let (width, height) = (camera.width.get(), camera.height.get());
     let Layers { names, values } = renderer.layers(&[aov], &Job::default(), &|| true).unwrap();

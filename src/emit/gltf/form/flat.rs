@@ -6,10 +6,10 @@ use super::ShapeForm;
 use super::draft::{DraftVertex, MeshDraft, fraction};
 use super::fineness::Fineness;
 use crate::flat::{split, square};
-use rtc_ir::{Ball, Column, Mesh, Plane, Quad, Triangle};
+use rtc_ir::{BoundingSphere, Column, Mesh, Plane, Quad, Triangle};
 use rtc_math::{Vec3, is_flat};
 
-pub(super) fn plane(plane: &Plane, around: Ball) -> ShapeForm {
+pub(super) fn plane(plane: &Plane, around: BoundingSphere) -> ShapeForm {
     let corners = square(plane, around);
     flat(&corners, Vec::new(), vec![[0, 1, 2], [0, 2, 3]])
 }

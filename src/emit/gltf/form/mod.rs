@@ -14,7 +14,10 @@ use fineness::Fineness;
 use glam::DAffine3;
 use round::RoundForm;
 use rtc_diag::codes;
-use rtc_ir::{Ball, Field, Instance, Mesh, MeshId, Noun, Place, Scene, Shape, ShapeKind, Surface};
+use rtc_ir::{
+    BoundingSphere, EntityKind, Field, Instance, Mesh, MeshId, Scene, Shape, ShapeKind, Surface,
+    ValuePath,
+};
 use rtc_math::shortest;
 use rtc_source::{Budget, Resource};
 use std::collections::BTreeMap;
@@ -47,7 +50,7 @@ pub(super) fn only_meshes(
     };
     let mut surfaces = Vec::with_capacity(scene.surfaces.len());
     for (index, surface) in scene.surfaces.iter().enumerate() {
-        let place = Place::new(Noun::Surface, index, Field::Whole);
+        let place = ValuePath::new(EntityKind::Surface, index, Field::Whole);
         let instance = maker.instance(&surface.shape, place, told)?;
         surfaces.push(Surface {
             shape: Shape::Instance(instance),
@@ -64,7 +67,7 @@ pub(super) fn only_meshes(
 /// Makes meshes of shapes.
 struct Maker<'m> {
     fineness: Fineness,
-    around: Ball,
+    around: BoundingSphere,
     budget: &'m Budget,
     /// The mesh of each round form that was made.
     known: BTreeMap<RoundForm, MeshId>,
@@ -72,7 +75,12 @@ struct Maker<'m> {
 }
 
 impl Maker<'_> {
-    fn instance(&mut self, shape: &Shape, place: Place, told: &mut Told<'_>) -> Option<Instance> {
+    fn instance(
+        &mut self,
+        shape: &Shape,
+        place: ValuePath,
+        told: &mut Told<'_>,
+    ) -> Option<Instance> {
         let form = match shape {
             Shape::Instance(instance) => return Some(instance.clone()),
             Shape::Sphere(sphere) => round::sphere(sphere, &self.fineness),
@@ -100,7 +108,7 @@ impl Maker<'_> {
         })
     }
 
-    fn round(&mut self, form: RoundForm, place: Place, told: &mut Told<'_>) -> Option<MeshId> {
+    fn round(&mut self, form: RoundForm, place: ValuePath, told: &mut Told<'_>) -> Option<MeshId> {
         if let Some(known) = self.known.get(&form) {
             return Some(*known);
         }
@@ -116,7 +124,7 @@ impl Maker<'_> {
     }
 
     /// Charges so many vertices; `None` if that is too much, which is told.
-    fn charge(&self, vertices: u64, place: Place, told: &mut Told<'_>) -> Option<()> {
+    fn charge(&self, vertices: u64, place: ValuePath, told: &mut Told<'_>) -> Option<()> {
         let memory = vertices.saturating_mul(VERTEX);
         let charged = self.budget.charge(Resource::Vertices, vertices);
         let charged = charged.and_then(|()| self.budget.charge(Resource::Memory, memory));
@@ -134,7 +142,7 @@ impl Maker<'_> {
         None
     }
 
-    fn tell(&self, kind: ShapeKind, place: Place, told: &mut Told<'_>) {
+    fn tell(&self, kind: ShapeKind, place: ValuePath, told: &mut Told<'_>) {
         let message = match kind {
             ShapeKind::Triangle | ShapeKind::Instance => return,
             ShapeKind::Plane => format!(

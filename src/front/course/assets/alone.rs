@@ -9,8 +9,8 @@ use crate::words::Unread;
 use crate::{FrontOptions, gltf, over_limit};
 use rtc_diag::{Diagnostic, Sink, codes};
 use rtc_ir::{
-    Field, Instance, Lowered, Material, MaterialId, Mesh, MeshId, Noun, Origins, Place, Shape,
-    Standard, Surface,
+    EntityKind, Field, Instance, Lowered, Material, MaterialId, Mesh, MeshId, Shape, SourceSpans,
+    Standard, Surface, ValuePath,
 };
 use rtc_math::Vec3;
 use rtc_source::{FileId, Search, SourceMap, Span};
@@ -55,11 +55,17 @@ pub fn alone(
     if let Some(ball) = scene.ball() {
         scene.camera = gltf::looking_at(ball);
     }
-    let mut origins = Origins::default();
-    for noun in [Noun::Mesh, Noun::Surface] {
-        origins.record(Place::new(noun, 0, Field::Whole), Span::new(file, 0, 0));
+    let mut source_spans = SourceSpans::default();
+    for entity in [EntityKind::Mesh, EntityKind::Surface] {
+        source_spans.record(
+            ValuePath::new(entity, 0, Field::Whole),
+            Span::new(file, 0, 0),
+        );
     }
-    let mut lowered = Lowered { scene, origins };
+    let mut lowered = Lowered {
+        scene,
+        source_spans,
+    };
     let folder = map.folder(file);
     let search = Search::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());

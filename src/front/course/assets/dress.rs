@@ -7,7 +7,9 @@ use super::mtl::MtlCache;
 use crate::mesh::Named;
 use crate::{gltf, over_limit};
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{Field, Instance, Lowered, MaterialId, Mesh, MeshId, Noun, Place, Scene, Shape};
+use rtc_ir::{
+    EntityKind, Field, Instance, Lowered, MaterialId, Mesh, MeshId, Scene, Shape, ValuePath,
+};
 use rtc_source::{Exceeded, Resource, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -155,10 +157,13 @@ impl Dresser<'_, '_> {
         let Some(Some(wardrobe)) = self.wardrobes.get_mut(&at) else {
             return Ok(());
         };
-        let Lowered { scene, origins } = &mut *self.lowered;
+        let Lowered {
+            scene,
+            source_spans,
+        } = &mut *self.lowered;
         if wardrobe.parts.is_empty() {
-            let place = |mesh: usize| Place::new(Noun::Mesh, mesh, Field::Whole);
-            let (whole, span) = (mesh.0 as usize, origins.span(place(mesh.0 as usize)));
+            let place = |mesh: usize| ValuePath::new(EntityKind::Mesh, mesh, Field::Whole);
+            let (whole, span) = (mesh.0 as usize, source_spans.span(place(mesh.0 as usize)));
             let name = scene.meshes[whole].name.clone();
             for (first, part) in file.parts(budget)?.into_iter().enumerate() {
                 let part = Mesh {
@@ -169,7 +174,7 @@ impl Dresser<'_, '_> {
                     scene.meshes[whole] = part;
                     wardrobe.parts.push(mesh);
                 } else {
-                    origins.record(place(scene.meshes.len()), span);
+                    source_spans.record(place(scene.meshes.len()), span);
                     wardrobe.parts.push(MeshId(index(scene.meshes.len())));
                     scene.meshes.push(part);
                 }
@@ -179,8 +184,8 @@ impl Dresser<'_, '_> {
         budget.charge(Resource::Surfaces, more)?;
         budget.charge(Resource::Memory, more * gltf::SURFACE)?;
         let surface = scene.surfaces[dressing.surface].clone();
-        let place = |surface| Place::new(Noun::Surface, surface, Field::Whole);
-        let span = origins.span(place(dressing.surface));
+        let place = |surface| ValuePath::new(EntityKind::Surface, surface, Field::Whole);
+        let span = source_spans.span(place(dressing.surface));
         let parts = wardrobe.parts.iter().zip(&wardrobe.materials);
         for (first, (part, material)) in parts.enumerate() {
             let mut own = surface.clone();
@@ -191,7 +196,7 @@ impl Dresser<'_, '_> {
             if first == 0 {
                 scene.surfaces[dressing.surface] = own;
             } else {
-                origins.record(place(scene.surfaces.len()), span);
+                source_spans.record(place(scene.surfaces.len()), span);
                 scene.surfaces.push(own);
             }
         }

@@ -6,8 +6,8 @@ use crate::{FrontOptions, gltf, over_limit};
 use glam::DAffine3;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{
-    Field, ImageId, Light, Lowered, Material, MeshId, Noun, Origins, Place, Punctual, Scene, Shape,
-    Surface, Texture, TextureId,
+    EntityKind, Field, ImageId, Light, Lowered, Material, MeshId, Punctual, Scene, Shape,
+    SourceSpans, Surface, Texture, TextureId, ValuePath,
 };
 use rtc_math::Vec3;
 use rtc_source::{Budget, Exceeded, FileId, FileKind, Found, Resource};
@@ -117,7 +117,7 @@ impl Before {
     }
 
     /// Keeps the places of what an asset is made of.
-    fn record(&self, asset: &Lowered, origins: &mut Origins) {
+    fn record(&self, asset: &Lowered, source_spans: &mut SourceSpans) {
         let Scene {
             images,
             textures,
@@ -125,16 +125,16 @@ impl Before {
             materials,
             ..
         } = &asset.scene;
-        for (noun, before, count) in [
-            (Noun::Image, self.images, images.len()),
-            (Noun::Texture, self.textures, textures.len()),
-            (Noun::Mesh, self.meshes, meshes.len()),
-            (Noun::Material, self.materials, materials.len()),
+        for (entity, before, count) in [
+            (EntityKind::Image, self.images, images.len()),
+            (EntityKind::Texture, self.textures, textures.len()),
+            (EntityKind::Mesh, self.meshes, meshes.len()),
+            (EntityKind::Material, self.materials, materials.len()),
         ] {
             for index in 0..count {
-                let place = Place::new(noun, before as usize + index, Field::Whole);
-                let own = Place::new(noun, index, Field::Whole);
-                origins.record(place, asset.origins.span(own));
+                let place = ValuePath::new(entity, before as usize + index, Field::Whole);
+                let own = ValuePath::new(entity, index, Field::Whole);
+                source_spans.record(place, asset.source_spans.span(own));
             }
         }
     }
@@ -170,9 +170,12 @@ impl Before {
 
 /// Adds what an asset is made of to a scene.
 fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
-    let Lowered { scene, origins } = lowered;
+    let Lowered {
+        scene,
+        source_spans,
+    } = lowered;
     let before = Before::of(scene);
-    before.record(&asset, origins);
+    before.record(&asset, source_spans);
     let own = asset.scene;
     let textures = own.textures.into_iter();
     let materials = own.materials.into_iter();
@@ -204,7 +207,10 @@ impl Placeable {
 
     /// Puts the asset into its place.
     fn place(&self, world: DAffine3, wish: &Wanted, lowered: &mut Lowered) {
-        let Lowered { scene, origins } = lowered;
+        let Lowered {
+            scene,
+            source_spans,
+        } = lowered;
         if !self.names.is_empty() || !scene.names.is_empty() {
             scene.names.resize(scene.surfaces.len(), String::new());
             scene.names.extend(self.names.iter().cloned());
@@ -218,15 +224,15 @@ impl Placeable {
                 let own = DAffine3::from_cols_array_2d(&instance.world_from_object);
                 instance.world_from_object = (world * own).to_cols_array_2d();
             }
-            origins.record(
-                Place::new(Noun::Surface, scene.surfaces.len(), Field::Whole),
+            source_spans.record(
+                ValuePath::new(EntityKind::Surface, scene.surfaces.len(), Field::Whole),
                 wish.span,
             );
             scene.surfaces.push(surface);
         }
         for light in &self.lights {
-            origins.record(
-                Place::new(Noun::Light, scene.lights.len(), Field::Whole),
+            source_spans.record(
+                ValuePath::new(EntityKind::Light, scene.lights.len(), Field::Whole),
                 wish.span,
             );
             scene.lights.push(placed(light, world));

@@ -5,7 +5,8 @@ use crate::pixels::{self, Refused};
 use rtc_diag::{Diagnostic, Sink, clip_path, codes};
 use rtc_image::{Opacity, Pixels};
 use rtc_ir::{
-    self as ir, Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId,
+    self as ir, Bump, EntityKind, Field, ImageId, Lowered, Material, Scene, Texture, TextureId,
+    ValuePath,
 };
 use rtc_source::Found;
 use std::collections::BTreeMap;
@@ -142,9 +143,10 @@ pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
                 "`{}` holds normals, so it is used as a normal map",
                 clip_path(&images[image].name)
             );
-            let span = lowered
-                .origins
-                .span(Place::new(Noun::Material, index, Field::Bump));
+            let span =
+                lowered
+                    .source_spans
+                    .span(ValuePath::new(EntityKind::Material, index, Field::Bump));
             sink.push(
                 Diagnostic::new(&codes::NORMALS_AS_BUMP, message)
                     .at(span, "holds normals")

@@ -12,7 +12,7 @@ use std::ops::Range;
 
 /// Such files.
 pub(super) const TEXT: TextKind = TextKind {
-    noun: "mesh",
+    entity: "mesh",
     is_not: "no OBJ, OFF, STL, PLY or XYZ",
     code: &codes::BAD_MESH_FILE,
     without: Without::Object,

@@ -24,7 +24,7 @@ use crate::pixels::PICTURES;
 use missing::missing;
 use rtc_diag::{Diagnostic, Severity, Sink, clip_path, codes, nearest};
 use rtc_image::Opacity;
-use rtc_ir::{Field, ImageId, Lowered, MeshId, Noun, Photometry, Place};
+use rtc_ir::{EntityKind, Field, ImageId, Lowered, MeshId, Photometry, ValuePath};
 use rtc_source::{FileId, FileKind, Found, Identity, Loader, Missing, Search, SourceMap, Span};
 use std::collections::BTreeMap;
 
@@ -64,17 +64,17 @@ pub enum Asset {
 
 impl Asset {
     /// The noun of the IR that the file becomes, if it is one.
-    pub(super) fn place(&self) -> Option<Place> {
+    pub(super) fn place(&self) -> Option<ValuePath> {
         match self {
             Self::Image(id)
             | Self::Sampled(id)
             | Self::Environment(id)
             | Self::Map(id)
-            | Self::Mask(id) => Some((Noun::Image, id.0)),
-            Self::Mesh(id) => Some((Noun::Mesh, id.0)),
+            | Self::Mask(id) => Some((EntityKind::Image, id.0)),
+            Self::Mesh(id) => Some((EntityKind::Mesh, id.0)),
             Self::Gltf(_) | Self::Photometry(_) | Self::Materials => None,
         }
-        .map(|(noun, index)| Place::new(noun, index as usize, Field::Whole))
+        .map(|(entity, index)| ValuePath::new(entity, index as usize, Field::Whole))
     }
 }
 
@@ -103,7 +103,7 @@ pub fn bring(
         .with_parent(folder, options.home.as_deref());
     let mut port = Port::new(search, options, map, sink);
     port.unload(wanted, &mut lowered);
-    lowered.origins.finish();
+    lowered.source_spans.finish();
     port.meshes.settle(&mut lowered.scene);
     for sizing in sizings {
         object::sizing::settle(sizing, &mut lowered, port.porter.sink);
@@ -157,7 +157,7 @@ impl<'run> Port<'run> {
         image::settle(&self.image_of, &mut lowered.scene);
         mtl::bake(cache.bakes, &self.image_of, lowered, &mut self.porter);
         image::find_normal_maps(lowered, self.porter.sink);
-        lowered.origins.finish();
+        lowered.source_spans.finish();
     }
 
     /// Brings files.

@@ -22,7 +22,7 @@ use rtc_source::{FileId, FileKind, Span};
 
 /// Such files.
 pub(super) const TEXT: TextKind = TextKind {
-    noun: "material",
+    entity: "material",
     is_not: "no MTL",
     code: &codes::BAD_MTL,
     without: Without::Materials,

@@ -10,7 +10,7 @@ use rtc_source::{Budget, FileKind, Resource};
 
 /// Such files.
 pub(super) const TEXT: TextKind = TextKind {
-    noun: "profile",
+    entity: "profile",
     is_not: "no IES profile",
     code: &codes::BAD_PHOTOMETRY,
     without: Without::Light,
@@ -132,11 +132,11 @@ impl<'a> Numbers<'a> {
     }
 
     /// A count of at least `least`, and where it stands.
-    fn count(&mut self, least: usize, noun: &str) -> Result<usize, WordFault> {
+    fn count(&mut self, least: usize, entity: &str) -> Result<usize, WordFault> {
         let word = self.word()?;
         let count = usize::try_from(word.integer()?).ok();
         count.filter(|count| *count >= least).ok_or_else(|| {
-            let message = format!("there can't be {} {noun}", word.text());
+            let message = format!("there can't be {} {entity}", word.text());
             word.fault(message, format!("at least {least}"))
         })
     }

@@ -9,7 +9,7 @@ use rtc_source::{Budget, FileId, FileKind, Found};
 /// A kind of text file.
 pub(super) struct TextKind {
     /// What it holds.
-    pub(super) noun: &'static str,
+    pub(super) entity: &'static str,
     /// What is said of a file of another kind.
     pub(super) is_not: &'static str,
     /// The code of its faults.
@@ -35,7 +35,7 @@ impl Porter<'_> {
         match parse(self.map.bytes(file), self.map.budget()) {
             Ok(parsed) => return Some((file, parsed)),
             Err(Unread::Limit(fault)) => {
-                let what = format!("the {} `{}`", kind.noun, found.shown.display());
+                let what = format!("the {} `{}`", kind.entity, found.shown.display());
                 let finding = over_limit(&what, &fault).at(wish.span, "named here");
                 self.refuse(finding, kind.without);
             }
@@ -64,7 +64,7 @@ impl Porter<'_> {
             Ok(bytes) => {
                 let name = found.shown.display();
                 let message = match bytes.is_empty() {
-                    true => format!("the {} file `{name}` is empty", kind.noun),
+                    true => format!("the {} file `{name}` is empty", kind.entity),
                     false => format!("`{name}` is {}", kind.is_not),
                 };
                 let finding = Diagnostic::new(kind.code, message).at(wish.span, "named here");

@@ -27,7 +27,7 @@ use super::spelling::list;
 use super::value::Text;
 use rtc_diag::clip;
 use rtc_diag::{Severity, codes, nearest};
-use rtc_ir::{self as ir, Field, MaterialId, Noun};
+use rtc_ir::{self as ir, EntityKind, Field, MaterialId};
 use rtc_math::shortest;
 use rtc_source::Span;
 use rtc_source::tree::NodeId;
@@ -270,12 +270,12 @@ impl Lowering {
             material,
             casts_no_shadow: !casts_shadow,
         });
-        self.origin(Noun::Surface, index, Field::Whole, whole);
+        self.origin(EntityKind::Surface, index, Field::Whole, whole);
         for (way, span) in places {
             let field = Field::of_shape(kind, way);
-            self.origin(Noun::Surface, index, field, *span);
+            self.origin(EntityKind::Surface, index, field, *span);
         }
-        self.origin(Noun::Surface, index, Field::Material, span);
+        self.origin(EntityKind::Surface, index, Field::Material, span);
     }
 
     /// Remembers what has no size, where that is written: it is left out.

@@ -2,7 +2,7 @@
 
 use super::mesh::TRANSFORM;
 use rtc_diag::{Diagnostic, Severity, Sink, codes};
-use rtc_ir::{self as ir, Field, Lowered, Noun, Place};
+use rtc_ir::{self as ir, EntityKind, Field, Lowered, ValuePath};
 use rtc_math::{Vec3, shortest};
 use rtc_source::Span;
 
@@ -22,7 +22,10 @@ pub(in crate::course) fn settle(sizing: Sizing, lowered: &mut Lowered, sink: &mu
         Sizing::Fit(surface) => (surface, None),
         Sizing::Check(surface, size) => (surface, Some(size)),
     };
-    let Lowered { scene, origins } = lowered;
+    let Lowered {
+        scene,
+        source_spans,
+    } = lowered;
     let Some(ir::Surface {
         shape: ir::Shape::Instance(instance),
         ..
@@ -40,7 +43,7 @@ pub(in crate::course) fn settle(sizing: Sizing, lowered: &mut Lowered, sink: &mu
     };
     if let Some(size) = factor_of {
         let place = Field::of_shape(ir::ShapeKind::Instance, TRANSFORM);
-        let span = origins.span(Place::new(Noun::Surface, surface, place));
+        let span = source_spans.span(ValuePath::new(EntityKind::Surface, surface, place));
         if !hides_view(
             placed_box(instance.world_from_object, [low, high]),
             &scene.camera,

@@ -5,7 +5,7 @@ use super::super::camera::{Projection, projection};
 use super::super::field::Fields;
 use super::Lowering;
 use glam::DAffine3;
-use rtc_ir::{self as ir, Ball, Camera, Field, Lens, Noun, Place};
+use rtc_ir::{self as ir, BoundingSphere, Camera, EntityKind, Field, Lens, ValuePath};
 use rtc_math::{Vec3, cos, sin, unit};
 use rtc_source::tree::NodeId;
 
@@ -35,8 +35,8 @@ impl Lowering<'_, '_, '_> {
         };
         match own {
             Some((at, camera)) => {
-                self.origins.record(
-                    Place::new(Noun::Camera, 0, Field::Whole),
+                self.source_spans.record(
+                    ValuePath::new(EntityKind::Camera, 0, Field::Whole),
                     self.report.json.span(at),
                 );
                 self.scene.camera = camera;
@@ -55,7 +55,7 @@ impl Lowering<'_, '_, '_> {
                         self.report,
                     );
                 }
-                let ball = self.scene.ball().unwrap_or(Ball {
+                let ball = self.scene.ball().unwrap_or(BoundingSphere {
                     center: Vec3::ZERO,
                     radius: 1.0,
                 });
@@ -189,14 +189,14 @@ fn camera(eye: Vec3, [x, y, z]: [Vec3; 3], half: [f64; 2], projection: ir::Proje
 }
 
 /// The size that a pixel in the picture of the camera that we choose has at the middle of the ball.
-pub(crate) fn pixel(ball: Ball) -> f64 {
+pub(crate) fn pixel(ball: BoundingSphere) -> f64 {
     let camera = looking_at(ball);
     let eye = Vec3::from_array(camera.eye);
     Vec3::from_array(camera.up).length() / reach(eye) * eye.distance(ball.center)
 }
 
 /// A camera that sees the whole ball.
-pub(crate) fn looking_at(Ball { center, radius }: Ball) -> Camera {
+pub(crate) fn looking_at(BoundingSphere { center, radius }: BoundingSphere) -> Camera {
     let half = OPENING.to_radians() / 2.0;
     let z = Vec3::from_array(FROM).normalize();
     let x = Vec3::Y.cross(z).normalize();

@@ -4,7 +4,7 @@
 use super::super::field::Fields;
 use super::Lowering;
 use glam::DAffine3;
-use rtc_ir::{Emitter, Field, Light, Noun, Photometry, Place, PointLight, Punctual};
+use rtc_ir::{Emitter, EntityKind, Field, Light, Photometry, PointLight, Punctual, ValuePath};
 use rtc_math::{Vec3, unit};
 use rtc_source::tree::NodeId;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -55,8 +55,8 @@ impl Lowering<'_, '_, '_> {
     }
 
     fn add_light(&mut self, at: NodeId, light: Light) {
-        let place = Place::new(Noun::Light, self.scene.lights.len(), Field::Whole);
-        self.origins.record(place, self.report.json.span(at));
+        let place = ValuePath::new(EntityKind::Light, self.scene.lights.len(), Field::Whole);
+        self.source_spans.record(place, self.report.json.span(at));
         self.scene.lights.push(light);
     }
 }

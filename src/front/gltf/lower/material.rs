@@ -10,7 +10,8 @@ use super::texture::LoweredTextures;
 use super::uv::TexCoordSets;
 use rtc_diag::codes;
 use rtc_ir::{
-    self as ir, Alpha, Bump, Field, Map, MaterialId, Noun, Origins, Phong, Place, Scene, Standard,
+    self as ir, Alpha, Bump, EntityKind, Field, Map, MaterialId, Phong, Scene, SourceSpans,
+    Standard, ValuePath,
 };
 use rtc_source::tree::Tree;
 use std::collections::BTreeMap;
@@ -96,10 +97,10 @@ impl Materials {
         doc: &Document<'_>,
         index: usize,
         scene: &mut Scene,
-        origins: &mut Origins,
+        source_spans: &mut SourceSpans,
         report: &AssetReport<'_, '_>,
     ) -> Option<ir::ImageId> {
-        self.textures.image(doc, index, scene, origins, report)
+        self.textures.image(doc, index, scene, source_spans, report)
     }
 
     /// True if the material looks at tangents.
@@ -121,7 +122,7 @@ impl Materials {
         doc: &Document<'_>,
         material: Option<usize>,
         scene: &mut Scene,
-        origins: &mut Origins,
+        source_spans: &mut SourceSpans,
         report: &mut AssetReport<'_, '_>,
     ) -> MaterialId {
         let known = material.map_or(self.default, |material| self.made[material]);
@@ -137,12 +138,13 @@ impl Materials {
                     doc,
                     textures: &mut self.textures,
                     scene,
-                    origins,
+                    source_spans,
                     report,
                 };
                 if let Some(phong) = reader.phong(fields) {
-                    let place = Place::new(Noun::Material, scene.materials.len(), Field::Whole);
-                    origins.record(place, report.json.span(fields.at));
+                    let place =
+                        ValuePath::new(EntityKind::Material, scene.materials.len(), Field::Whole);
+                    source_spans.record(place, report.json.span(fields.at));
                     scene.materials.push(ir::Material::Phong(phong));
                     self.made[material] = Some(id);
                     return id;
@@ -164,8 +166,8 @@ impl Materials {
             report.say(&codes::GLTF_MATERIAL_ODD, "", at, message);
         }
         if let Some(material) = material {
-            let place = Place::new(Noun::Material, scene.materials.len(), Field::Whole);
-            origins.record(place, report.json.span(doc.materials[material]));
+            let place = ValuePath::new(EntityKind::Material, scene.materials.len(), Field::Whole);
+            source_spans.record(place, report.json.span(doc.materials[material]));
         }
         scene
             .materials
@@ -183,7 +185,7 @@ struct Reader<'m, 'd, 'r, 's> {
     doc: &'m Document<'d>,
     textures: &'m mut LoweredTextures,
     scene: &'m mut Scene,
-    origins: &'m mut Origins,
+    source_spans: &'m mut SourceSpans,
     report: &'m mut AssetReport<'r, 's>,
 }
 
@@ -191,7 +193,7 @@ impl Reader<'_, '_, '_, '_> {
     fn map(&mut self, fields: Option<Fields<'_, '_>>, key: &str) -> Option<Map> {
         let info = fields?.object(key)?;
         self.textures
-            .map(self.doc, info, self.scene, self.origins, self.report)
+            .map(self.doc, info, self.scene, self.source_spans, self.report)
     }
 
     fn material(&mut self, fields: Fields<'_, '_>) -> Standard {
@@ -238,7 +240,7 @@ impl Reader<'_, '_, '_, '_> {
         let mut texture = |key| {
             let index = own.index(key)?;
             self.textures
-                .of_phong(self.doc, index, self.scene, self.origins, self.report)
+                .of_phong(self.doc, index, self.scene, self.source_spans, self.report)
         };
         let matt = Phong::MATT;
         Some(Phong {

@@ -9,7 +9,9 @@ use super::shape::{Deformation, ShapeId};
 use super::uv::TexCoordSets;
 use super::{deform, tangent, topology};
 use crate::solid::pick;
-use rtc_ir::{self as ir, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
+use rtc_ir::{
+    self as ir, Column, EntityKind, Field, Mesh, MeshId, Scene, Shared, SourceSpans, ValuePath,
+};
 use rtc_source::Resource;
 use rtc_source::tree::NodeId;
 use std::cmp::Ordering;
@@ -72,7 +74,7 @@ impl<'d> Meshes<'d> {
         doc: &'d Document<'_>,
         wanted: &WantedMesh<'d, '_>,
         scene: &mut Scene,
-        origins: &mut Origins,
+        source_spans: &mut SourceSpans,
         report: &mut AssetReport<'_, '_>,
     ) -> Option<MeshId> {
         let primitive = wanted.primitive;
@@ -84,8 +86,8 @@ impl<'d> Meshes<'d> {
                 .then(|| read(doc, wanted, report.is_lenient()))
                 .flatten()?;
             let id = MeshId(to_u32(scene.meshes.len()));
-            origins.record(
-                Place::new(Noun::Mesh, scene.meshes.len(), Field::Whole),
+            source_spans.record(
+                ValuePath::new(EntityKind::Mesh, scene.meshes.len(), Field::Whole),
                 report.json.span(primitive.at),
             );
             scene.meshes.push(mesh);

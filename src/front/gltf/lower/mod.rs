@@ -28,7 +28,9 @@ use material::Materials;
 use mesh::Meshes;
 use place::Places;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, Field, Lowered, MaterialId, Mode, Noun, Origins, Place, Scene};
+use rtc_ir::{
+    self as ir, EntityKind, Field, Lowered, MaterialId, Mode, Scene, SourceSpans, ValuePath,
+};
 use rtc_math::Vec3;
 use rtc_source::Resource;
 use rtc_source::tree::NodeId;
@@ -49,7 +51,7 @@ struct Lowering<'l, 'r, 's> {
     doc: &'l Document<'s>,
     report: &'l mut AssetReport<'r, 's>,
     scene: Scene,
-    origins: Origins,
+    source_spans: SourceSpans,
     materials: Materials,
     meshes: Meshes<'l>,
     strokes: Strokes,
@@ -77,7 +79,7 @@ pub(super) fn lower<'s>(
         doc,
         report,
         scene: empty(),
-        origins: Origins::default(),
+        source_spans: SourceSpans::default(),
         materials: Materials::new(doc, std::mem::take(&mut pose.moved)),
         meshes: Meshes::new(),
         strokes: Strokes::default(),
@@ -98,7 +100,7 @@ pub(super) fn lower<'s>(
 
 /// A scene without anything, that is rendered as glTF means it.
 pub(crate) fn empty() -> Scene {
-    let camera = camera::looking_at(ir::Ball {
+    let camera = camera::looking_at(ir::BoundingSphere {
         center: Vec3::ZERO,
         radius: 1.0,
     });
@@ -135,7 +137,7 @@ fn find_variant(name: &str, report: &mut AssetReport<'_, '_>) -> Option<usize> {
 }
 
 /// Reports that the command line names what there isn't.
-fn missing(noun: &str, name: &str, names: &[String], report: &mut AssetReport<'_, '_>) {
+fn missing(entity: &str, name: &str, names: &[String], report: &mut AssetReport<'_, '_>) {
     let names: Vec<String> = names
         .iter()
         .map(|name| format!("`{}`", super::report::shown(name)))
@@ -146,7 +148,7 @@ fn missing(noun: &str, name: &str, names: &[String], report: &mut AssetReport<'_
         format!("it has {}", names.join(", "))
     };
     let root = report.json.root();
-    let message = format!("the asset has no {noun} `{}`", super::report::shown(name));
+    let message = format!("the asset has no {entity} `{}`", super::report::shown(name));
     report.advise(&codes::GLTF_CHOSEN, "", root, message, hint);
 }
 
@@ -220,7 +222,7 @@ impl Lowering<'_, '_, '_> {
                 uv_sets,
             };
             if is_stroked {
-                let target = (&mut self.scene, &mut self.origins);
+                let target = (&mut self.scene, &mut self.source_spans);
                 let made = (&made, self.meshes.key(&made));
                 let made = self.strokes.make(doc, made, &places, target, self.report);
                 let material = self.material_of_strokes(primitive, material);
@@ -229,10 +231,13 @@ impl Lowering<'_, '_, '_> {
                 }
                 continue;
             }
-            let Some(id) =
-                self.meshes
-                    .make(doc, &made, &mut self.scene, &mut self.origins, self.report)
-            else {
+            let Some(id) = self.meshes.make(
+                doc,
+                &made,
+                &mut self.scene,
+                &mut self.source_spans,
+                self.report,
+            ) else {
                 continue;
             };
             for at in 0..places.count() {
@@ -259,8 +264,8 @@ impl Lowering<'_, '_, '_> {
             mesh,
             world_from_object,
         });
-        let place = Place::new(Noun::Surface, self.scene.surfaces.len(), Field::Whole);
-        self.origins.record(place, self.report.json.span(at));
+        let place = ValuePath::new(EntityKind::Surface, self.scene.surfaces.len(), Field::Whole);
+        self.source_spans.record(place, self.report.json.span(at));
         let own = Fields::new(self.report.json, at).own();
         self.scene.surfaces.push(ir::Surface {
             shape,
@@ -281,7 +286,7 @@ impl Lowering<'_, '_, '_> {
             self.doc,
             material,
             &mut self.scene,
-            &mut self.origins,
+            &mut self.source_spans,
             self.report,
         );
         self.chosen.insert(primitive.at, made);
@@ -308,10 +313,10 @@ impl Lowering<'_, '_, '_> {
         if self.scene.names.iter().all(String::is_empty) {
             self.scene.names.clear();
         }
-        self.origins.finish();
+        self.source_spans.finish();
         Lowered {
             scene: self.scene,
-            origins: self.origins,
+            source_spans: self.source_spans,
         }
     }
 }

@@ -7,8 +7,8 @@ use super::Lowering;
 use rtc_color::Tone;
 use rtc_diag::codes;
 use rtc_ir::{
-    Ambient, Display, Environment, Field, Gooch, Image, ImageId, Mode, Noun, PathSettings, Pattern,
-    Pixels, Place, Settings,
+    Ambient, Display, EntityKind, Environment, Field, Gooch, Image, ImageId, Mode, PathSettings,
+    Pattern, Pixels, Settings, ValuePath,
 };
 use rtc_source::Resource;
 
@@ -18,8 +18,9 @@ impl Lowering<'_, '_, '_> {
         let root = Fields::new(self.report.json, self.report.json.root());
         let Some(own) = root.own() else { return };
         if own.has("mode") {
-            let place = Place::new(Noun::Settings, 0, Field::Whole);
-            self.origins.record(place, self.report.json.span(own.at));
+            let place = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            self.source_spans
+                .record(place, self.report.json.span(own.at));
         }
         read(own, &mut self.scene.settings);
         if let Some(display) = own.object("display") {
@@ -37,18 +38,20 @@ impl Lowering<'_, '_, '_> {
     }
 
     fn environment(&mut self, own: Fields<'_, '_>) {
-        let place = Place::new(Noun::Environment, 0, Field::Whole);
-        self.origins.record(place, self.report.json.span(own.at));
+        let place = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
+        self.source_spans
+            .record(place, self.report.json.span(own.at));
         let image = match (own.index("image"), own.index("pixels")) {
             (Some(image), _) => {
                 let Self {
                     doc,
                     scene,
-                    origins,
+                    source_spans,
                     report,
                     ..
                 } = self;
-                self.materials.image(doc, image, scene, origins, report)
+                self.materials
+                    .image(doc, image, scene, source_spans, report)
             }
             (None, Some(pixels)) => self.pixels(own, pixels),
             (None, None) => None,
@@ -90,8 +93,9 @@ impl Lowering<'_, '_, '_> {
         {
             return None;
         }
-        let place = Place::new(Noun::Image, self.scene.images.len(), Field::Whole);
-        self.origins.record(place, self.report.json.span(own.at));
+        let place = ValuePath::new(EntityKind::Image, self.scene.images.len(), Field::Whole);
+        self.source_spans
+            .record(place, self.report.json.span(own.at));
         let mut pixels = Vec::with_capacity(elements.count * kind.bytes());
         #[expect(
             clippy::cast_possible_truncation,

@@ -12,7 +12,9 @@ use super::place::Places;
 use super::topology;
 use crate::solid::{Solid, radius, thin};
 use glam::DAffine3;
-use rtc_ir::{Ball, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene};
+use rtc_ir::{
+    BoundingSphere, Column, EntityKind, Field, Mesh, MeshId, Scene, SourceSpans, ValuePath,
+};
 use rtc_math::Vec3;
 use rtc_source::Resource;
 use std::collections::BTreeMap;
@@ -48,7 +50,7 @@ impl Strokes {
         doc: &Document<'_>,
         (wanted, key): (&WantedMesh<'_, '_>, MeshKey),
         places: &Places<'_>,
-        (scene, origins): (&mut Scene, &mut Origins),
+        (scene, source_spans): (&mut Scene, &mut SourceSpans),
         report: &mut AssetReport<'_, '_>,
     ) -> Vec<(MeshId, DAffine3)> {
         let (mut shown, mut source) = (Vec::new(), None);
@@ -65,8 +67,9 @@ impl Strokes {
                     let source = source.get_or_insert_with(|| Source::read(doc, wanted));
                     let made = source.as_ref().and_then(|source| {
                         let (mesh, offsets, _) = thin(&source.mesh, &source.ends, world, solid)?;
-                        let place = Place::new(Noun::Mesh, scene.meshes.len(), Field::Whole);
-                        origins.record(place, report.json.span(wanted.primitive.at));
+                        let place =
+                            ValuePath::new(EntityKind::Mesh, scene.meshes.len(), Field::Whole);
+                        source_spans.record(place, report.json.span(wanted.primitive.at));
                         let id = MeshId(to_u32(scene.meshes.len()));
                         scene.meshes.push(mesh);
                         self.made.push((id, offsets));
@@ -89,7 +92,7 @@ impl Strokes {
         if self.made.is_empty() {
             return;
         }
-        let one = Ball {
+        let one = BoundingSphere {
             center: Vec3::ZERO,
             radius: 1.0,
         };

@@ -5,7 +5,8 @@ use super::super::field::Fields;
 use super::super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_ir::{
-    self as ir, Field, Filter, ImageId, Map, Noun, Origins, Place, Sampled, Scene, TextureId, Wrap,
+    self as ir, EntityKind, Field, Filter, ImageId, Map, Sampled, Scene, SourceSpans, TextureId,
+    ValuePath, Wrap,
 };
 use rtc_math::{cos, sin};
 use std::collections::BTreeMap;
@@ -40,10 +41,10 @@ impl LoweredTextures {
         doc: &Document<'_>,
         info: Fields<'_, '_>,
         scene: &mut Scene,
-        origins: &mut Origins,
+        source_spans: &mut SourceSpans,
         report: &mut AssetReport<'_, '_>,
     ) -> Option<Map> {
-        let texture = self.texture(doc, info.index("index")?, scene, origins, report)?;
+        let texture = self.texture(doc, info.index("index")?, scene, source_spans, report)?;
         let transform = info.extension("KHR_texture_transform");
         let set = transform
             .and_then(|fields| fields.whole("texCoord"))
@@ -62,17 +63,17 @@ impl LoweredTextures {
         doc: &Document<'_>,
         index: usize,
         scene: &mut Scene,
-        origins: &mut Origins,
+        source_spans: &mut SourceSpans,
         report: &AssetReport<'_, '_>,
     ) -> Option<TextureId> {
         if let Some(known) = self.of_phong.get(&index) {
             return Some(*known);
         }
         let texture = doc.textures.get(index)?;
-        let image = self.image(doc, texture.source?, scene, origins, report)?;
+        let image = self.image(doc, texture.source?, scene, source_spans, report)?;
         let id = TextureId(super::mesh::to_u32(scene.textures.len()));
-        let place = Place::new(Noun::Texture, scene.textures.len(), Field::Whole);
-        origins.record(place, report.json.span(texture.at));
+        let place = ValuePath::new(EntityKind::Texture, scene.textures.len(), Field::Whole);
+        source_spans.record(place, report.json.span(texture.at));
         scene.textures.push(ir::Texture::Image(image));
         self.of_phong.insert(index, id);
         Some(id)
@@ -83,7 +84,7 @@ impl LoweredTextures {
         doc: &Document<'_>,
         index: usize,
         scene: &mut Scene,
-        origins: &mut Origins,
+        source_spans: &mut SourceSpans,
         report: &mut AssetReport<'_, '_>,
     ) -> Option<TextureId> {
         if let Some(known) = self.textures.get(index)? {
@@ -96,7 +97,7 @@ impl LoweredTextures {
                 .get(*image)
                 .is_some_and(|image| image.picture.is_some())
         });
-        let image = image.and_then(|image| self.image(doc, image, scene, origins, report));
+        let image = image.and_then(|image| self.image(doc, image, scene, source_spans, report));
         if image.is_none() {
             let own = Fields::new(report.json, texture.at).extension("KHR_texture_basisu");
             let message = match own {
@@ -120,8 +121,8 @@ impl LoweredTextures {
         };
         let id = image.map(|image| {
             let at = scene.textures.len();
-            origins.record(
-                Place::new(Noun::Texture, at, Field::Whole),
+            source_spans.record(
+                ValuePath::new(EntityKind::Texture, at, Field::Whole),
                 report.json.span(texture.at),
             );
             scene.textures.push(ir::Texture::Sampled(Sampled {
@@ -141,15 +142,15 @@ impl LoweredTextures {
         doc: &Document<'_>,
         index: usize,
         scene: &mut Scene,
-        origins: &mut Origins,
+        source_spans: &mut SourceSpans,
         report: &AssetReport<'_, '_>,
     ) -> Option<ImageId> {
         let image = doc.images.get(index)?;
         let picture = image.picture?;
         Some(*self.images.entry(picture).or_insert_with(|| {
             let at = scene.images.len();
-            origins.record(
-                Place::new(Noun::Image, at, Field::Whole),
+            source_spans.record(
+                ValuePath::new(EntityKind::Image, at, Field::Whole),
                 report.json.span(image.at),
             );
             scene.images.push(ir::Image {

@@ -4,7 +4,7 @@ use super::Value::{
     Attributes, Choice, Elements, Index, Indices, Many, Number, Numbers, One, Targets, Text, Texts,
     Truth, Version, Whole, Word,
 };
-use super::{FACTOR, FREE, Key, Object, POSITIVE, Pool, SIGNED, UNIT, optional, required};
+use super::{FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, SIGNED, UNIT, optional, required};
 
 /// The greatest number a property takes that has no other bound: up to it floats hold every whole
 /// number.
@@ -27,7 +27,7 @@ pub(super) static ROOT: Object = Object {
         optional("meshes", Many(&MESH)),
         optional("nodes", Many(&NODE)),
         optional("samplers", Many(&SAMPLER)),
-        optional("scene", Index(Pool::Scenes)),
+        optional("scene", Index(IndexTarget::Scenes)),
         optional("scenes", Many(&SCENE)),
         optional("skins", Many(&SKIN)),
         optional("textures", Many(&TEXTURE)),
@@ -48,7 +48,7 @@ static ACCESSOR: Object = Object {
     name: "accessor",
     keys: &[
         NAME,
-        optional("bufferView", Index(Pool::BufferViews)),
+        optional("bufferView", Index(IndexTarget::BufferViews)),
         optional("byteOffset", Whole(0, MANY)),
         required(
             "componentType",
@@ -78,7 +78,7 @@ static SPARSE: Object = Object {
 static SPARSE_INDICES: Object = Object {
     name: "sparse indices",
     keys: &[
-        required("bufferView", Index(Pool::BufferViews)),
+        required("bufferView", Index(IndexTarget::BufferViews)),
         optional("byteOffset", Whole(0, MANY)),
         required("componentType", Choice(&[5121, 5123, 5125])),
     ],
@@ -87,7 +87,7 @@ static SPARSE_INDICES: Object = Object {
 static SPARSE_VALUES: Object = Object {
     name: "sparse values",
     keys: &[
-        required("bufferView", Index(Pool::BufferViews)),
+        required("bufferView", Index(IndexTarget::BufferViews)),
         optional("byteOffset", Whole(0, MANY)),
     ],
 };
@@ -105,7 +105,7 @@ static BUFFER_VIEW: Object = Object {
     name: "buffer view",
     keys: &[
         NAME,
-        required("buffer", Index(Pool::Buffers)),
+        required("buffer", Index(IndexTarget::Buffers)),
         optional("byteOffset", Whole(0, MANY)),
         required("byteLength", Whole(1, MANY)),
         optional("byteStride", Whole(4, 252)),
@@ -149,7 +149,7 @@ static IMAGE: Object = Object {
         NAME,
         optional("uri", Text),
         optional("mimeType", Word(&["image/jpeg", "image/png", "image/webp"])),
-        optional("bufferView", Index(Pool::BufferViews)),
+        optional("bufferView", Index(IndexTarget::BufferViews)),
     ],
 };
 
@@ -157,8 +157,8 @@ static TEXTURE: Object = Object {
     name: "texture",
     keys: &[
         NAME,
-        optional("sampler", Index(Pool::Samplers)),
-        optional("source", Index(Pool::Images)),
+        optional("sampler", Index(IndexTarget::Samplers)),
+        optional("source", Index(IndexTarget::Images)),
     ],
 };
 
@@ -178,7 +178,7 @@ static SAMPLER: Object = Object {
 pub(super) static TEXTURE_INFO: Object = Object {
     name: "texture info",
     keys: &[
-        required("index", Index(Pool::Textures)),
+        required("index", Index(IndexTarget::Textures)),
         optional("texCoord", Whole(0, MANY)),
     ],
 };
@@ -186,7 +186,7 @@ pub(super) static TEXTURE_INFO: Object = Object {
 pub(super) static NORMAL_TEXTURE: Object = Object {
     name: "texture info",
     keys: &[
-        required("index", Index(Pool::Textures)),
+        required("index", Index(IndexTarget::Textures)),
         optional("texCoord", Whole(0, MANY)),
         optional("scale", Number(FREE)),
     ],
@@ -195,7 +195,7 @@ pub(super) static NORMAL_TEXTURE: Object = Object {
 static OCCLUSION_TEXTURE: Object = Object {
     name: "texture info",
     keys: &[
-        required("index", Index(Pool::Textures)),
+        required("index", Index(IndexTarget::Textures)),
         optional("texCoord", Whole(0, MANY)),
         optional("strength", Number(UNIT)),
     ],
@@ -240,8 +240,8 @@ static PRIMITIVE: Object = Object {
     name: "primitive",
     keys: &[
         required("attributes", Attributes),
-        optional("indices", Index(Pool::Accessors)),
-        optional("material", Index(Pool::Materials)),
+        optional("indices", Index(IndexTarget::Accessors)),
+        optional("material", Index(IndexTarget::Materials)),
         optional("mode", Whole(0, 6)),
         optional("targets", Targets),
     ],
@@ -251,11 +251,11 @@ static NODE: Object = Object {
     name: "node",
     keys: &[
         NAME,
-        optional("camera", Index(Pool::Cameras)),
-        optional("children", Indices(Pool::Nodes)),
-        optional("skin", Index(Pool::Skins)),
+        optional("camera", Index(IndexTarget::Cameras)),
+        optional("children", Indices(IndexTarget::Nodes)),
+        optional("skin", Index(IndexTarget::Skins)),
         optional("matrix", Numbers(&[16], FREE)),
-        optional("mesh", Index(Pool::Meshes)),
+        optional("mesh", Index(IndexTarget::Meshes)),
         optional("rotation", Numbers(&[4], SIGNED)),
         optional("scale", Numbers(&[3], FREE)),
         optional("translation", Numbers(&[3], FREE)),
@@ -265,16 +265,16 @@ static NODE: Object = Object {
 
 static SCENE: Object = Object {
     name: "scene",
-    keys: &[NAME, optional("nodes", Indices(Pool::Nodes))],
+    keys: &[NAME, optional("nodes", Indices(IndexTarget::Nodes))],
 };
 
 static SKIN: Object = Object {
     name: "skin",
     keys: &[
         NAME,
-        optional("inverseBindMatrices", Index(Pool::Accessors)),
-        optional("skeleton", Index(Pool::Nodes)),
-        required("joints", Indices(Pool::Nodes)),
+        optional("inverseBindMatrices", Index(IndexTarget::Accessors)),
+        optional("skeleton", Index(IndexTarget::Nodes)),
+        required("joints", Indices(IndexTarget::Nodes)),
     ],
 };
 
@@ -290,7 +290,7 @@ static ANIMATION: Object = Object {
 static CHANNEL: Object = Object {
     name: "channel",
     keys: &[
-        required("sampler", Index(Pool::Own)),
+        required("sampler", Index(IndexTarget::Own)),
         required("target", One(&TARGET)),
     ],
 };
@@ -298,7 +298,7 @@ static CHANNEL: Object = Object {
 static TARGET: Object = Object {
     name: "channel target",
     keys: &[
-        optional("node", Index(Pool::Nodes)),
+        optional("node", Index(IndexTarget::Nodes)),
         required(
             "path",
             Word(&["translation", "rotation", "scale", "weights", "pointer"]),
@@ -309,8 +309,8 @@ static TARGET: Object = Object {
 static ANIMATION_SAMPLER: Object = Object {
     name: "animation sampler",
     keys: &[
-        required("input", Index(Pool::Accessors)),
+        required("input", Index(IndexTarget::Accessors)),
         optional("interpolation", Word(&["LINEAR", "STEP", "CUBICSPLINE"])),
-        required("output", Index(Pool::Accessors)),
+        required("output", Index(IndexTarget::Accessors)),
     ],
 };

@@ -5,7 +5,7 @@ use super::Value::{
     Attributes, Index, Indices, Many, Number, Numbers, One, Pointer, Text, Truth, Whole, Word,
 };
 use super::core::{NORMAL_TEXTURE, TEXTURE_INFO};
-use super::{Bounds, FACTOR, FREE, Key, Object, POSITIVE, Pool, UNIT, optional, required};
+use super::{Bounds, FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, UNIT, optional, required};
 
 /// An extension.
 #[derive(Debug)]
@@ -167,7 +167,7 @@ const fn object(keys: &'static [Key]) -> Object {
 
 static INSTANCING: Object = object(&[required("attributes", Attributes)]);
 static MESHOPT: Object = object(&[
-    required("buffer", Index(Pool::Buffers)),
+    required("buffer", Index(IndexTarget::Buffers)),
     optional("byteOffset", Whole(0, MANY)),
     required("byteLength", Whole(1, MANY)),
     required("byteStride", Whole(2, 256)),
@@ -179,14 +179,14 @@ static MESHOPT: Object = object(&[
     ),
 ]);
 static FALLBACK: Object = object(&[optional("fallback", Truth)]);
-static SOURCE: Object = object(&[optional("source", Index(Pool::Images))]);
+static SOURCE: Object = object(&[optional("source", Index(IndexTarget::Images))]);
 static ANIMATION_POINTER: Object = object(&[required("pointer", Pointer)]);
 static DRACO: Object = object(&[
-    required("bufferView", Index(Pool::BufferViews)),
+    required("bufferView", Index(IndexTarget::BufferViews)),
     required("attributes", Attributes),
 ]);
 static LIGHTS: Object = object(&[required("lights", Many(&LIGHT))]);
-static LIGHT_REFERENCE: Object = object(&[required("light", Index(Pool::Lights))]);
+static LIGHT_REFERENCE: Object = object(&[required("light", Index(IndexTarget::Lights))]);
 static LIGHT: Object = Object {
     name: "light",
     keys: &[
@@ -231,13 +231,13 @@ static VARIANT_MAPPINGS: Object = object(&[required("mappings", Many(&MAPPING))]
 static MAPPING: Object = Object {
     name: "mapping",
     keys: &[
-        required("variants", Indices(Pool::Variants)),
-        required("material", Index(Pool::Materials)),
+        required("variants", Indices(IndexTarget::Variants)),
+        required("material", Index(IndexTarget::Materials)),
         optional("name", Text),
     ],
 };
-static NODE_LEVELS: Object = object(&[required("ids", Indices(Pool::Nodes))]);
-static MATERIAL_LEVELS: Object = object(&[required("ids", Indices(Pool::Materials))]);
+static NODE_LEVELS: Object = object(&[required("ids", Indices(IndexTarget::Nodes))]);
+static MATERIAL_LEVELS: Object = object(&[required("ids", Indices(IndexTarget::Materials))]);
 static VISIBILITY: Object = object(&[optional("visible", Truth)]);
 static TEXTURE_TRANSFORM: Object = object(&[
     optional("offset", Numbers(&[2], FREE)),

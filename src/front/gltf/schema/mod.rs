@@ -68,9 +68,9 @@ enum Value {
     /// A list of different texts.
     Texts,
     /// A reference.
-    Index(Pool),
+    Index(IndexTarget),
     /// A list of different references.
-    Indices(Pool),
+    Indices(IndexTarget),
     /// Names of attributes and the accessors that hold them.
     Attributes,
     /// A list of such.
@@ -116,7 +116,7 @@ const POSITIVE: Bounds = Bounds {
 
 /// The lists that references count in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Pool {
+pub(super) enum IndexTarget {
     Accessors,
     Buffers,
     BufferViews,
@@ -136,25 +136,25 @@ pub(super) enum Pool {
 }
 
 /// Each pool that lies at one place, and the way to it.
-const POOLS: [(Pool, &[&str]); 14] = [
-    (Pool::Accessors, &["accessors"]),
-    (Pool::Buffers, &["buffers"]),
-    (Pool::BufferViews, &["bufferViews"]),
-    (Pool::Cameras, &["cameras"]),
-    (Pool::Images, &["images"]),
-    (Pool::Materials, &["materials"]),
-    (Pool::Meshes, &["meshes"]),
-    (Pool::Nodes, &["nodes"]),
-    (Pool::Samplers, &["samplers"]),
-    (Pool::Scenes, &["scenes"]),
-    (Pool::Skins, &["skins"]),
-    (Pool::Textures, &["textures"]),
+const POOLS: [(IndexTarget, &[&str]); 14] = [
+    (IndexTarget::Accessors, &["accessors"]),
+    (IndexTarget::Buffers, &["buffers"]),
+    (IndexTarget::BufferViews, &["bufferViews"]),
+    (IndexTarget::Cameras, &["cameras"]),
+    (IndexTarget::Images, &["images"]),
+    (IndexTarget::Materials, &["materials"]),
+    (IndexTarget::Meshes, &["meshes"]),
+    (IndexTarget::Nodes, &["nodes"]),
+    (IndexTarget::Samplers, &["samplers"]),
+    (IndexTarget::Scenes, &["scenes"]),
+    (IndexTarget::Skins, &["skins"]),
+    (IndexTarget::Textures, &["textures"]),
     (
-        Pool::Lights,
+        IndexTarget::Lights,
         &["extensions", "KHR_lights_punctual", "lights"],
     ),
     (
-        Pool::Variants,
+        IndexTarget::Variants,
         &["extensions", "KHR_materials_variants", "variants"],
     ),
 ];

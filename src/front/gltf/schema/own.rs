@@ -1,7 +1,7 @@
 //! What `extras.rtc` holds: values for which glTF has no words, as `emit/gltf` writes them.
 
 use super::Value::{Index, Number, Numbers, One, Text, Truth, Whole, Word};
-use super::{FACTOR, FREE, Key, Object, POSITIVE, Pool, optional, required};
+use super::{FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, optional, required};
 
 /// The object that `extras.rtc` of a kind of object is, if it is read there.
 pub(super) fn find(owner: &str) -> Option<&'static Object> {
@@ -68,8 +68,8 @@ static DISPLAY: Object = own(&[
 /// rows of the rotation from the world to the picture.
 static ENVIRONMENT: Object = own(&[
     required("radiance", Numbers(&[3], FACTOR)),
-    optional("image", Index(Pool::Images)),
-    optional("pixels", Index(Pool::Accessors)),
+    optional("image", Index(IndexTarget::Images)),
+    optional("pixels", Index(IndexTarget::Accessors)),
     optional("width", Whole(1, MANY)),
     optional("rotation", Numbers(&[9], FREE)),
 ]);
@@ -112,10 +112,10 @@ static PHONG: Object = own(&[
     optional("kt", Number(FACTOR)),
     optional("eta", Number(POSITIVE)),
     optional("glossySamples", Whole(1, MANY)),
-    optional("colorMap", Index(Pool::Textures)),
-    optional("specularMap", Index(Pool::Textures)),
-    optional("normalMap", Index(Pool::Textures)),
-    optional("bumpMap", Index(Pool::Textures)),
+    optional("colorMap", Index(IndexTarget::Textures)),
+    optional("specularMap", Index(IndexTarget::Textures)),
+    optional("normalMap", Index(IndexTarget::Textures)),
+    optional("bumpMap", Index(IndexTarget::Textures)),
     optional("bumpHeight", Number(FREE)),
 ]);
 

@@ -1,7 +1,7 @@
 //! The value of one property against what its table says.
 
 use super::walk::Walk;
-use super::{Bounds, Pool, Value};
+use super::{Bounds, IndexTarget, Value};
 use rtc_diag::codes;
 use rtc_source::tree::{NodeId, NodeKind};
 use std::collections::BTreeSet;
@@ -57,7 +57,7 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    fn indices(&mut self, node: NodeId, pool: Pool, name: &str) {
+    fn indices(&mut self, node: NodeId, pool: IndexTarget, name: &str) {
         let mut seen = BTreeSet::new();
         for item in self.items(node, name) {
             let Some(index) = self.item_index(item, name) else {
@@ -297,7 +297,7 @@ impl Walk<'_, '_, '_> {
             if let Some(index) = self.item_index(value, attribute)
                 && !is_draco
             {
-                self.follow(value, super::Pool::Accessors, index);
+                self.follow(value, super::IndexTarget::Accessors, index);
             }
         }
         self.not_empty(node, count, name);

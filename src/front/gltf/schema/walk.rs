@@ -2,7 +2,7 @@
 //! stand.
 
 use super::core::ROOT;
-use super::{Key, Object, POOLS, Pool, extension, own};
+use super::{IndexTarget, Key, Object, POOLS, extension, own};
 use crate::gltf::report::{AssetReport, shown};
 use rtc_diag::codes;
 use rtc_source::tree::{NodeId, NodeKind};
@@ -227,7 +227,7 @@ impl Walk<'_, '_, '_> {
     }
 
     /// Follows the reference at `node` to the `index` in `pool`.
-    pub(super) fn follow(&mut self, node: NodeId, pool: Pool, index: u64) {
+    pub(super) fn follow(&mut self, node: NodeId, pool: IndexTarget, index: u64) {
         let Some(at) = POOLS.iter().position(|(own, _)| *own == pool) else {
             return;
         };
@@ -271,7 +271,10 @@ impl Walk<'_, '_, '_> {
         for ((pool, way), slots) in POOLS.iter().zip(&self.slots) {
             if matches!(
                 pool,
-                Pool::Nodes | Pool::Scenes | Pool::Lights | Pool::Variants
+                IndexTarget::Nodes
+                    | IndexTarget::Scenes
+                    | IndexTarget::Lights
+                    | IndexTarget::Variants
             ) {
                 continue;
             }

@@ -39,7 +39,7 @@ pub(super) fn indices(
     Ok(found)
 }
 
-fn resolve(index: &Word<'_>, noun: &str, so_far: usize, total: usize) -> Result<u32, WordFault> {
+fn resolve(index: &Word<'_>, entity: &str, so_far: usize, total: usize) -> Result<u32, WordFault> {
     let number = index.integer()?;
     let distance = usize::try_from(number.unsigned_abs()).unwrap_or(usize::MAX);
     let resolved = if number < 0 {
@@ -57,8 +57,8 @@ fn resolve(index: &Word<'_>, noun: &str, so_far: usize, total: usize) -> Result<
                 format!("the file has {total}")
             };
             index.fault(
-                format!("a face refers to {noun} {number}, and {there}"),
-                format!("there is no such {noun}"),
+                format!("a face refers to {entity} {number}, and {there}"),
+                format!("there is no such {entity}"),
             )
         })
 }

@@ -2,17 +2,17 @@
 
 use super::PathRule;
 use crate::body::{Body, Hull};
-use crate::path::draft::{Draft, EnvironmentLeft, LightLeft, lets_light_through};
+use crate::path::draft::{Draft, EnvironmentUse, LightUse, lets_light_through};
 use crate::path::facts::is_delta;
 use crate::rules::Rule;
 use crate::space::{Flat, MARGIN, Sides};
 use rtc_image::Texels;
-use rtc_ir::{Field, Noun, Place};
+use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{Bounds, Vec3};
 use rtc_valid::{Alpha, Falloff, Punctual};
 
-fn place(light: usize) -> Place {
-    Place::new(Noun::Light, light, Field::Whole)
+fn place(light: usize) -> ValuePath {
+    ValuePath::new(EntityKind::Light, light, Field::Whole)
 }
 
 pub(super) const BLACK: PathRule = PathRule {
@@ -23,7 +23,7 @@ pub(super) const BLACK: PathRule = PathRule {
     apply: |draft| {
         let lights = draft.punctual;
         let is_black = |light: &usize| is_dark(&lights[*light]);
-        leave(draft, LightLeft::Nothing, is_black)
+        leave(draft, LightUse::Nothing, is_black)
     },
 };
 
@@ -33,7 +33,7 @@ pub(super) const DARK_SKY: PathRule = PathRule {
     text: "An environment whose radiance is 0 in all directions adds 0 to a path that leaves the scene.",
     because: "the environment is black",
     apply: |draft| {
-        reduce_environment(draft, EnvironmentLeft::Nothing, |draft, image| {
+        reduce_environment(draft, EnvironmentUse::Nothing, |draft, image| {
             is_black(&draft.scene.images()[image].texels)
         })
     },
@@ -48,7 +48,7 @@ pub(super) const EVEN_SKY: PathRule = PathRule {
            changes its meaning.",
     because: "all texels of the environment's image are equal",
     apply: |draft| {
-        reduce_environment(draft, EnvironmentLeft::Constant, |draft, image| {
+        reduce_environment(draft, EnvironmentUse::Constant, |draft, image| {
             draft.textures.is_even_image(image)
         })
     },
@@ -58,16 +58,16 @@ pub(super) const EVEN_SKY: PathRule = PathRule {
 /// changed it.
 fn reduce_environment(
     draft: &mut Draft<'_>,
-    rest: EnvironmentLeft,
+    rest: EnvironmentUse,
     has: impl Fn(&Draft<'_>, usize) -> bool,
-) -> Vec<Place> {
+) -> Vec<ValuePath> {
     let image = draft.scene.environment().image;
-    let is_all = draft.environment == EnvironmentLeft::All;
+    let is_all = draft.environment == EnvironmentUse::All;
     if !(is_all && image.is_some_and(|image| has(draft, image))) {
         return Vec::new();
     }
     draft.environment = rest;
-    vec![Place::new(Noun::Environment, 0, Field::Whole)]
+    vec![ValuePath::new(EntityKind::Environment, 0, Field::Whole)]
 }
 
 pub(super) const OUT_OF_REACH: PathRule = PathRule {
@@ -84,7 +84,7 @@ pub(super) const OUT_OF_REACH: PathRule = PathRule {
             let mut bodies = bodies.iter().zip(&left).filter(|(_, is_left)| **is_left);
             bodies.all(|(body, _)| is_out_of_reach(&lights[*light], body))
         };
-        leave(draft, LightLeft::Place, is_out)
+        leave(draft, LightUse::OnlyIndex, is_out)
     },
 };
 
@@ -104,7 +104,7 @@ pub(super) const MIRRORS_ONLY: PathRule = PathRule {
         draft.aims = false;
         draft
             .used()
-            .map(|(material, _)| Place::new(Noun::Material, material, Field::Whole))
+            .map(|(material, _)| ValuePath::new(EntityKind::Material, material, Field::Whole))
             .collect()
     },
 };
@@ -127,13 +127,13 @@ pub(super) const ALONE: PathRule = PathRule {
         }
         draft.shadows = false;
         let index = draft.scene.surfaces()[surface].index;
-        vec![Place::new(Noun::Surface, index, Field::Whole)]
+        vec![ValuePath::new(EntityKind::Surface, index, Field::Whole)]
     },
 };
 
 /// Reduces lights to `rest`; returns the places of the changed ones.
-fn leave(draft: &mut Draft<'_>, rest: LightLeft, which: impl Fn(&usize) -> bool) -> Vec<Place> {
-    let left = |light: &usize| draft.lights[*light] == LightLeft::All;
+fn leave(draft: &mut Draft<'_>, rest: LightUse, which: impl Fn(&usize) -> bool) -> Vec<ValuePath> {
+    let left = |light: &usize| draft.lights[*light] == LightUse::All;
     let out: Vec<_> = (0..draft.lights.len()).filter(left).filter(which).collect();
     out.iter().for_each(|light| draft.lights[*light] = rest);
     out.into_iter().map(place).collect()

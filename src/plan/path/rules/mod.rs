@@ -8,7 +8,7 @@ mod texture;
 
 use super::draft::Draft;
 use crate::rules::Rule;
-use rtc_ir::Place;
+use rtc_ir::ValuePath;
 
 /// A rule: its name, its text and its proof.
 pub(crate) struct PathRule {
@@ -22,7 +22,7 @@ pub(crate) struct PathRule {
     pub(crate) because: &'static str,
     /// Removes the parts that add nothing; returns the values that decided, none if nothing
     /// changed.
-    pub(super) apply: fn(&mut Draft<'_>) -> Vec<Place>,
+    pub(super) apply: fn(&mut Draft<'_>) -> Vec<ValuePath>,
 }
 
 /// All rules for paths.

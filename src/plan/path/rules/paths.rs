@@ -3,16 +3,16 @@
 use super::PathRule;
 use crate::MAX_PAIRS;
 use crate::effect::Effect;
-use crate::path::draft::{Draft, LightLeft};
+use crate::path::draft::{Draft, LightUse};
 use crate::rules::Rule;
 use crate::space::Margins;
 use crate::window::Shown;
-use rtc_ir::{Field, Noun, Place};
+use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{Bounds, Vec3};
 use rtc_valid::{Falloff, Punctual, Standard};
 
-fn depth() -> Place {
-    Place::new(Noun::Settings, 0, Field::MaxDepth)
+fn depth() -> ValuePath {
+    ValuePath::new(EntityKind::Settings, 0, Field::MaxDepth)
 }
 
 /// Whether a scattered ray may find light at a surface or in the environment.
@@ -28,7 +28,7 @@ pub(super) const NO_LIGHT: PathRule = PathRule {
            black after its first hit: none is followed.",
     because: "nothing shines",
     apply: |draft| {
-        let is_lit = draft.lights.contains(&LightLeft::All) || finds_light(draft);
+        let is_lit = draft.lights.contains(&LightUse::All) || finds_light(draft);
         end_paths(draft, !is_lit)
     },
 };
@@ -94,9 +94,9 @@ pub(super) const CULL_SHADOW: PathRule = PathRule {
 
 /// Whether the choice between lights without extent depends on the size of the scene.
 fn is_choice_by_size(draft: &Draft<'_>) -> bool {
-    let is_chosen = |(_, left): &(&Punctual, &LightLeft)| **left != LightLeft::Nothing;
+    let is_chosen = |(_, left): &(&Punctual, &LightUse)| **left != LightUse::Nothing;
     let chosen = || draft.punctual.iter().zip(&draft.lights).filter(is_chosen);
-    let is_by_size = |(light, _): (&Punctual, &LightLeft)| match light {
+    let is_by_size = |(light, _): (&Punctual, &LightUse)| match light {
         Punctual::Directional(_) => true,
         Punctual::Point(light) => matches!(light.falloff, Falloff::None),
     };
@@ -107,7 +107,7 @@ fn is_choice_by_size(draft: &Draft<'_>) -> bool {
 /// that is not known.
 fn unmet_by_shadow_rays(draft: &Draft<'_>) -> Option<Vec<usize>> {
     let (seen, unseen) = split(draft);
-    let is_left = |(_, left): &(&Punctual, &LightLeft)| **left == LightLeft::All;
+    let is_left = |(_, left): &(&Punctual, &LightUse)| **left == LightUse::All;
     let lights = || draft.punctual.iter().zip(&draft.lights).filter(is_left);
     if lights()
         .count()
@@ -151,17 +151,17 @@ fn split(draft: &Draft<'_>) -> (Vec<usize>, Vec<usize>) {
 }
 
 /// Leaves surfaces out of the world; returns their places.
-fn leave_out(draft: &mut Draft<'_>, surfaces: Vec<usize>) -> Vec<Place> {
+fn leave_out(draft: &mut Draft<'_>, surfaces: Vec<usize>) -> Vec<ValuePath> {
     surfaces
         .iter()
         .for_each(|surface| draft.surfaces[*surface] = false);
     let index = |surface: usize| draft.scene.surfaces()[surface].index;
-    let place = |surface| Place::new(Noun::Surface, index(surface), Field::Whole);
+    let place = |surface| ValuePath::new(EntityKind::Surface, index(surface), Field::Whole);
     surfaces.into_iter().map(place).collect()
 }
 
 /// Ends all paths at their first hit, if that is proven to be sufficient.
-fn end_paths(draft: &mut Draft<'_>, is_enough: bool) -> Vec<Place> {
+fn end_paths(draft: &mut Draft<'_>, is_enough: bool) -> Vec<ValuePath> {
     if !is_enough || draft.max_depth == 0 {
         return Vec::new();
     }

@@ -5,7 +5,7 @@ use crate::Layer;
 use crate::path::draft::Draft;
 use crate::path::facts::Presence;
 use crate::rules::Rule;
-use rtc_ir::{Field, Noun, Place};
+use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{UnitInterval, Vec3};
 use rtc_valid::{Map, Standard};
 
@@ -76,7 +76,7 @@ pub(super) const CONSTANT: PathRule = PathRule {
             let is_new = |map: &&Map| !draft.is_folded(index, map) && draft.is_even(index, map);
             for map in material.maps().filter(is_new) {
                 folded[map.texture] = true;
-                changed.push(Place::new(Noun::Material, index, Field::Whole));
+                changed.push(ValuePath::new(EntityKind::Material, index, Field::Whole));
             }
         }
         changed.dedup();

@@ -2,7 +2,7 @@
 //! less than a bundle of few rays, so after such a one some rays go without.
 
 use super::{Balls, Bundles, LEVELS, ONE, RayCone, Shaft};
-use crate::accel::bounds::Ball;
+use crate::accel::bounds::BoundingSphere;
 use crate::lanes::{FourRays, LANES, Vectors, lanes_of};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4};
@@ -76,7 +76,7 @@ impl Bundles {
         [bounce, light, lights]: [usize; 3],
         from: Vectors<S>,
         asked: u64,
-        target: impl Fn() -> Ball,
+        target: impl Fn() -> BoundingSphere,
     ) -> [u64; LANES] {
         let shaft = self.shaft([bounce, light, lights]);
         let mut items = [0; LANES];

@@ -7,7 +7,7 @@
 
 mod four;
 
-use crate::accel::bounds::Ball;
+use crate::accel::bounds::BoundingSphere;
 use crate::ray::Ray;
 use arrayvec::ArrayVec;
 use rtc_math::Vec3;
@@ -31,7 +31,7 @@ const WIDEST: f64 = 0.5;
 /// The balls of a few items, each known by a bit.
 #[derive(Debug)]
 pub(crate) struct Balls {
-    balls: Vec<(u64, Ball)>,
+    balls: Vec<(u64, BoundingSphere)>,
     /// The items without a ball: every ray may meet them.
     unbounded: u64,
     /// All items.
@@ -42,7 +42,7 @@ pub(crate) struct Balls {
 
 impl Balls {
     /// The balls of some items by their bits, at most [`MAX_ITEMS`].
-    pub(crate) fn new(items: impl Iterator<Item = (usize, Option<Ball>)>) -> Self {
+    pub(crate) fn new(items: impl Iterator<Item = (usize, Option<BoundingSphere>)>) -> Self {
         let (mut balls, mut smallest) = (Vec::new(), f64::INFINITY);
         let (mut unbounded, mut all) = (0, 0);
         for (bit, ball) in items {
@@ -176,7 +176,7 @@ impl RayCone {
             pace.width * balls.smallest
         };
         let mut widest = WIDEST;
-        let clearance = |(_, ball): &(u64, Ball)| {
+        let clearance = |(_, ball): &(u64, BoundingSphere)| {
             let (clearance, size) = cone_clearance(ray, reach, ball);
             widest = widest.min(size);
             clearance
@@ -199,7 +199,7 @@ impl RayCone {
 ///
 /// At t those rays are within `reach + t·sine` of the one: they miss the ball if the cone misses the
 /// ball grown by `reach`. As both are round, that depends on three angles alone.
-fn cone_clearance(ray: &Ray, reach: f64, ball: &Ball) -> (f64, f64) {
+fn cone_clearance(ray: &Ray, reach: f64, ball: &BoundingSphere) -> (f64, f64) {
     let f = ball.center - ray.origin;
     let size = (ray.origin.abs() + ball.center.abs()).element_sum() + ball.radius;
     let radius = ball.radius + reach + MARGIN * size;
@@ -255,9 +255,10 @@ impl Shaft {
 
     /// A shaft around the segment from a point to the centre of a light.
     #[inline(never)]
-    fn around(&self, balls: &Balls, light: usize, from: Vec3, target: &Ball) -> Self {
+    fn around(&self, balls: &Balls, light: usize, from: Vec3, target: &BoundingSphere) -> Self {
         let pace = self.pace.next();
-        let clearance = |(_, ball): &(u64, Ball)| segment_clearance(from, target.center, ball);
+        let clearance =
+            |(_, ball): &(u64, BoundingSphere)| segment_clearance(from, target.center, ball);
         let clearances = balls.balls.iter().map(clearance).collect();
         let wanted = pace.width * balls.smallest;
         let (room, items) = balls.choose(wanted, target.radius, &clearances);
@@ -273,7 +274,7 @@ impl Shaft {
 
 /// How far a ball stays off a segment: as far as both ends of it may be moved without meeting the
 /// ball. Below 0 if it may be met.
-fn segment_clearance(from: Vec3, to: Vec3, ball: &Ball) -> f64 {
+fn segment_clearance(from: Vec3, to: Vec3, ball: &BoundingSphere) -> f64 {
     let (f, d) = (ball.center - from, to - from);
     let size = (from.abs() + to.abs() + ball.center.abs()).element_sum() + ball.radius;
     let nearest = (f.dot(d) / d.dot(d)).clamp(0.0, 1.0);
@@ -319,7 +320,7 @@ impl Bundles {
         balls: &Balls,
         [bounce, light, lights]: [usize; 3],
         from: Vec3,
-        target: impl FnOnce() -> Ball,
+        target: impl FnOnce() -> BoundingSphere,
     ) -> u64 {
         let shaft = self.shaft([bounce, light, lights]);
         if !shaft.holds(light, from) {

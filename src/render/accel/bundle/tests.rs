@@ -130,7 +130,7 @@ fn no_shaft_passes_over_what_one_of_its_segments_hits() {
         let balls = case.balls();
         let length = (case.ray.origin - case.sphere.center).length();
         let size = case.sphere.radius;
-        let target = Ball {
+        let target = BoundingSphere {
             center: case.ray.origin + case.ray.direction * length * (0.5 + case.key.uniform(21)),
             radius: size * 0.2 * (case.key.uniform(22) - 0.5).max(0.0),
         };
@@ -167,7 +167,7 @@ fn four_lanes_are_told_of_all_that_each_may_hit() {
         let case = Case::new((index % 2) as usize, index);
         let (balls, mut bundles) = (case.balls(), Bundles::EMPTY);
         let spread = [1e-3, 0.1, 1.0][(index % 3) as usize];
-        let target = Ball {
+        let target = BoundingSphere {
             center: case.sphere.center * 2.0 - case.ray.origin,
             radius: 0.0,
         };
@@ -233,7 +233,7 @@ fn rays_that_are_not_of_length_one_or_not_finite_have_no_cone() {
 
 #[test]
 fn a_bundle_keeps_only_what_its_rays_can_meet() {
-    let ball = |x: f64| Ball {
+    let ball = |x: f64| BoundingSphere {
         center: Vec3::new(x, 0.0, 0.0),
         radius: 1.0,
     };
@@ -245,7 +245,7 @@ fn a_bundle_keeps_only_what_its_rays_can_meet() {
         direction: Vec3::X,
     };
     assert_eq!(bundles.along(&balls, 0, &ray), Some(0b101));
-    let target = Ball {
+    let target = BoundingSphere {
         center: Vec3::new(0.0, 9.0, 0.0),
         radius: 0.5,
     };

@@ -34,7 +34,7 @@ fn mean_over_normals<const N: usize>(
     let mut sum = [0.0; N];
     for k in 0..NORMALS {
         let k = f64::from(k) + 0.5;
-        // Place more samples in the long tail of the slopes, with smaller weights.
+        // ValuePath more samples in the long tail of the slopes, with smaller weights.
         let rest = 1.0 - k / f64::from(NORMALS);
         let h = ggx.visible_normal(wo, [1.0 - rest * rest, (k * GOLDEN).fract()]);
         let weight = |wi: Vec3| {

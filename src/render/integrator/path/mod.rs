@@ -23,7 +23,7 @@ use crate::world::World;
 use crate::world::settings::Mode;
 pub(crate) use aov::FirstHitsOfPaths;
 use rtc_math::Vec3;
-use rtc_plan::{Effect, EnvironmentLeft, PathFeatures};
+use rtc_plan::{Effect, EnvironmentUse, PathFeatures};
 use state::PathState;
 
 /// The sampling strategy. All strategies have the same expected value; only the noise differs.
@@ -79,7 +79,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             knows_all: false,
             background: Background::default(),
             clamp: None,
-            has_environment: plan.is_none_or(|plan| plan.environment != EnvironmentLeft::Nothing),
+            has_environment: plan.is_none_or(|plan| plan.environment != EnvironmentUse::Nothing),
             max_bounces: world.plan.max_depth.saturating_sub(useless),
             planned: plan.map_or(PathFeatures::EVERYTHING, |plan| plan.features),
             heartbeat: Heartbeat::new(on_pixel),

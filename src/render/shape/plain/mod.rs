@@ -9,7 +9,7 @@ pub(crate) mod ray;
 pub(crate) mod real;
 pub(crate) mod roots;
 
-use crate::accel::bounds::Ball;
+use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
 use crate::shape::Shape;
 use crate::shape::geometry::{Asked, Details, Geometry};
@@ -156,7 +156,7 @@ impl<R: Real> Geometry for PlainShape<R> {
     }
 
     /// Plain formulas may hit beside the shape.
-    fn ball(&self) -> Option<Ball> {
+    fn ball(&self) -> Option<BoundingSphere> {
         None
     }
 }

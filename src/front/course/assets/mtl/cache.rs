@@ -8,8 +8,8 @@ use crate::mesh::mtl::{MtlMap, MtlMaterial, Said};
 use crate::mesh::{Named, WordSpan};
 use rtc_diag::{Diagnostic, Severity, Sink, codes};
 use rtc_ir::{
-    Bump, Field, Image, ImageId, Lowered, Map, Material, MaterialId, Mode, Noun, Phong, Pixels,
-    Place, Sampled, Texture, TextureId, Wrap,
+    Bump, EntityKind, Field, Image, ImageId, Lowered, Map, Material, MaterialId, Mode, Phong,
+    Pixels, Sampled, Texture, TextureId, ValuePath, Wrap,
 };
 use rtc_source::Span;
 use std::collections::BTreeMap;
@@ -65,12 +65,15 @@ impl MtlCache {
                 Material::Phong(self.phong(loaded, material, lowered))
             }
         };
-        let Lowered { scene, origins } = lowered;
+        let Lowered {
+            scene,
+            source_spans,
+        } = lowered;
         scene.materials.push(made);
         let bump = material.bump.as_ref().map(|bump| bump.at);
         for (field, at) in [(Field::Whole, Some(material.at)), (Field::Bump, bump)] {
             let span = at.map(|at| at.span(loaded.file));
-            origins.record(Place::new(Noun::Material, index, field), span);
+            source_spans.record(ValuePath::new(EntityKind::Material, index, field), span);
         }
         MaterialId(id(index))
     }
