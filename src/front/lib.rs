@@ -4,9 +4,9 @@
 pub mod course;
 mod foreign;
 pub mod gltf;
+mod glyph;
 pub mod mesh;
 pub mod pixels;
-mod solid;
 mod words;
 
 pub use foreign::foreign;

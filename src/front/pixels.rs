@@ -19,14 +19,14 @@ pub const PICTURES: FileKind = FileKind {
 
 /// Why there is no picture.
 #[derive(Debug)]
-pub enum Refused {
+pub enum PixelFault {
     /// The file can't be read as one.
     File(DecodeError),
     /// It would take more than the budget has.
     Limit(Exceeded),
 }
 
-impl From<DecodeError> for Refused {
+impl From<DecodeError> for PixelFault {
     fn from(error: DecodeError) -> Self {
         Self::File(error)
     }
@@ -36,14 +36,14 @@ impl From<DecodeError> for Refused {
 ///
 /// # Errors
 /// If the bytes are no such file, damaged, or ask for too much.
-pub fn decode(bytes: &[u8], opacity: Opacity, budget: &Budget) -> Result<Pixels, Refused> {
+pub fn decode(bytes: &[u8], opacity: Opacity, budget: &Budget) -> Result<Pixels, PixelFault> {
     let file = PixelFile::open(bytes, opacity, budget.limit(Resource::Pixels))?;
     charge(file.cost(), Resource::Textures, budget)?;
     Ok(file.decode()?)
 }
 
 /// A pixel file that is charged, and still to be decoded.
-pub struct Admitted<'a> {
+pub struct ChargedFile<'a> {
     bytes: &'a [u8],
     opacity: Opacity,
     most_pixels: u64,
@@ -55,15 +55,15 @@ pub struct Admitted<'a> {
 ///
 /// # Errors
 /// As [`decode`], but for faults beyond its header.
-pub fn admit<'a>(
+pub fn charge_file<'a>(
     bytes: &'a [u8],
     opacity: Opacity,
     budget: &Budget,
-) -> Result<Admitted<'a>, Refused> {
+) -> Result<ChargedFile<'a>, PixelFault> {
     let most_pixels = budget.limit(Resource::Pixels);
     let cost = PixelFile::open(bytes, opacity, most_pixels)?.cost();
     charge(cost, Resource::Textures, budget)?;
-    Ok(Admitted {
+    Ok(ChargedFile {
         bytes,
         opacity,
         most_pixels,
@@ -71,7 +71,7 @@ pub fn admit<'a>(
     })
 }
 
-impl Admitted<'_> {
+impl ChargedFile<'_> {
     fn decode(&self) -> Result<Pixels, DecodeError> {
         PixelFile::open(self.bytes, self.opacity, self.most_pixels)?.decode()
     }
@@ -80,7 +80,7 @@ impl Admitted<'_> {
 /// Decodes files on so many threads, 0 for one per core; one after another where the budget, or the
 /// system, has no room for more. What comes of each does not depend on that.
 pub fn decode_all(
-    files: &[Admitted<'_>],
+    files: &[ChargedFile<'_>],
     threads: usize,
     budget: &Budget,
 ) -> Vec<Result<Pixels, DecodeError>> {
@@ -93,8 +93,8 @@ pub fn decode_all(
     let pool = || ThreadPoolBuilder::new().num_threads(threads).build().ok();
     let several = files.len() > 1 && threads != 1;
     match several.then(pool).flatten().filter(has_room) {
-        Some(pool) => pool.install(|| files.par_iter().map(Admitted::decode).collect()),
-        None => files.iter().map(Admitted::decode).collect(),
+        Some(pool) => pool.install(|| files.par_iter().map(ChargedFile::decode).collect()),
+        None => files.iter().map(ChargedFile::decode).collect(),
     }
 }
 
@@ -102,7 +102,7 @@ pub fn decode_all(
 ///
 /// # Errors
 /// As [`decode`].
-pub fn decode_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, Refused> {
+pub fn decode_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, PixelFault> {
     let file = RadianceFile::open(bytes, budget.limit(Resource::Pixels))?;
     charge(file.cost(), Resource::Memory, budget)?;
     Ok(file.decode()?)
@@ -112,7 +112,7 @@ pub fn decode_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, Refuse
 ///
 /// # Errors
 /// As [`decode`].
-pub fn environment(name: &str, bytes: &[u8], budget: &Budget) -> Result<ir::Image, Refused> {
+pub fn environment(name: &str, bytes: &[u8], budget: &Budget) -> Result<ir::Image, PixelFault> {
     budget.read(bytes.len());
     let Radiance {
         width,
@@ -130,16 +130,16 @@ pub fn environment(name: &str, bytes: &[u8], budget: &Budget) -> Result<ir::Imag
 
 /// What to say of the file of an environment that can't be read.
 #[must_use]
-pub fn no_environment(fault: &Refused, name: &str) -> Diagnostic {
+pub fn environment_rejection(fault: &PixelFault, name: &str) -> Diagnostic {
     let formats = "environments are Radiance HDR or OpenEXR";
-    refusal(fault, &format!("the environment `{name}`"), formats)
+    rejection(fault, &format!("the environment `{name}`"), formats)
 }
 
 /// What to say of a file that can't be read: `what` names it, `formats` says what it may be.
-pub(super) fn refusal(fault: &Refused, what: &str, formats: &'static str) -> Diagnostic {
+pub(super) fn rejection(fault: &PixelFault, what: &str, formats: &'static str) -> Diagnostic {
     let fault = match fault {
-        Refused::Limit(fault) => return over_limit(what, fault),
-        Refused::File(fault) => fault,
+        PixelFault::Limit(fault) => return over_limit(what, fault),
+        PixelFault::File(fault) => fault,
     };
     let (code, hint) = match fault {
         DecodeError::Format(_) => (&codes::BAD_PICTURE, formats),
@@ -155,7 +155,7 @@ pub(super) fn refusal(fault: &Refused, what: &str, formats: &'static str) -> Dia
     Diagnostic::new(code, format!("{what} {fault}")).hint(hint)
 }
 
-fn charge(cost: DecodeCost, resource: Resource, budget: &Budget) -> Result<(), Refused> {
+fn charge(cost: DecodeCost, resource: Resource, budget: &Budget) -> Result<(), PixelFault> {
     let DecodeCost {
         pixels,
         memory,
@@ -163,15 +163,15 @@ fn charge(cost: DecodeCost, resource: Resource, budget: &Budget) -> Result<(), R
     } = cost;
     budget
         .charge(Resource::Pixels, pixels)
-        .map_err(Refused::Limit)?;
+        .map_err(PixelFault::Limit)?;
     // What is given back at once only has to be there, and is no texture.
     budget
         .has(Resource::Memory, scratch)
-        .map_err(Refused::Limit)?;
+        .map_err(PixelFault::Limit)?;
     if resource == Resource::Memory {
         budget
             .has(resource, memory.saturating_add(scratch))
-            .map_err(Refused::Limit)?;
+            .map_err(PixelFault::Limit)?;
     }
-    budget.charge(resource, memory).map_err(Refused::Limit)
+    budget.charge(resource, memory).map_err(PixelFault::Limit)
 }

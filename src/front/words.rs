@@ -31,14 +31,14 @@ pub struct WordFault {
 
 /// Why such a file can't be read.
 #[derive(Debug)]
-pub enum Unread {
+pub enum ParseFault {
     /// Its faults in the order of the file, at least one.
     Faults(Vec<WordFault>),
     /// It would take more than the budget has.
     Limit(Exceeded),
 }
 
-impl From<Exceeded> for Unread {
+impl From<Exceeded> for ParseFault {
     fn from(fault: Exceeded) -> Self {
         Self::Limit(fault)
     }

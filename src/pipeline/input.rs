@@ -123,7 +123,7 @@ impl Input {
         let file = path.file_name().unwrap_or_default().to_string_lossy();
         let picture = pixels::environment(&file, &bytes, self.map.budget());
         Ok(picture
-            .map_err(|fault| self.push(pixels::no_environment(&fault, &name)))
+            .map_err(|fault| self.push(pixels::environment_rejection(&fault, &name)))
             .map(EnvironmentOverride::Picture)
             .ok())
     }

@@ -37,7 +37,7 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use rtc_codec as codec;
 use rtc_diag::{Diagnostic, FindingLevels, Sink, clip, codes};
 use rtc_front as front;
-use rtc_front::course::assets::{self, Asset};
+use rtc_front::course::assets::{self, AssetTarget};
 use rtc_front::{course, gltf, mesh};
 use rtc_image::Layers;
 use rtc_ir::{EntityKind, Field, Lowered, Scene, SourceSpans, ValuePath};
@@ -102,18 +102,18 @@ pub fn load(
         }
         None if mesh::recognise(map.name(file), map.bytes(file)) => {
             refuse_choices(&options.front, false, sink);
-            let lowered = assets::alone(file, &options.front, map, sink)?;
+            let lowered = assets::lower_standalone_mesh(file, &options.front, map, sink)?;
             map.release(file, 0);
             Some(lowered)
         }
         None => {
             let draft = course::lower(file, map, &options.front, sink)?;
             let has_assets = draft
-                .wanted
+                .pending_assets
                 .iter()
-                .any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
+                .any(|pending| matches!(pending.target, AssetTarget::Gltf(_)));
             refuse_choices(&options.front, has_assets, sink);
-            Some(assets::bring(draft, file, &options.front, map, sink))
+            Some(assets::load(draft, file, &options.front, map, sink))
         }
     }
 }

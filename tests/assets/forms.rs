@@ -3,7 +3,7 @@
 use super::{folder, write};
 use proptest::prelude::*;
 use rtc::internals::diag::Sink;
-use rtc::internals::front::mesh::{Parsed, Unread, is_mesh, parse};
+use rtc::internals::front::mesh::{ParseFault, Parsed, is_mesh, parse};
 use rtc::internals::ir::{Column, Lowered, Material, Mode};
 use rtc::internals::pipeline::{Options, load, validate};
 use rtc::internals::source::{Budget, Limits, Loader, Resource, SourceMap};
@@ -92,7 +92,7 @@ fn read(bytes: &[u8]) -> Parsed {
 
 /// The first fault: its message, and the bytes at its place.
 fn fault(bytes: &[u8]) -> (String, String) {
-    let Err(Unread::Faults(faults)) = parse(bytes, &Budget::default()) else {
+    let Err(ParseFault::Faults(faults)) = parse(bytes, &Budget::default()) else {
         panic!("no fault in {}", String::from_utf8_lossy(bytes));
     };
     let mut map = SourceMap::default();
@@ -258,7 +258,7 @@ fn a_mesh_is_charged_before_it_is_made() {
             let mut limits = Limits::default();
             limits.set(resource, 3);
             let outcome = parse(&bytes, &Budget::new(limits));
-            assert!(matches!(outcome, Err(Unread::Limit(_))), "{resource:?}");
+            assert!(matches!(outcome, Err(ParseFault::Limit(_))), "{resource:?}");
         }
     }
 }

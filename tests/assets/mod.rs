@@ -22,7 +22,7 @@ use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use rtc::internals::diag::{Severity, Sink};
 use rtc::internals::front::FrontOptions;
 use rtc::internals::front::course::UnfinishedScene;
-use rtc::internals::front::course::assets::{self, Asset, Wanted};
+use rtc::internals::front::course::assets::{self, AssetTarget, PendingAsset};
 use rtc::internals::ir::{Bump, Image, ImageId, Lowered, Mesh, MeshId, Pixels, Texture, TextureId};
 use rtc::internals::source::{Loader, SourceMap, Span};
 use std::fs;
@@ -75,18 +75,18 @@ struct Outcome {
     errors: bool,
 }
 
-fn bring(scene: &Path, asset: Asset, path: &str, options: &FrontOptions) -> Outcome {
+fn bring(scene: &Path, asset: AssetTarget, path: &str, options: &FrontOptions) -> Outcome {
     let mut map = SourceMap::default();
     let lowered = lowered(&mut map);
     let file = Loader.file(scene, &mut map).unwrap();
     let mut sink = Sink::default();
-    let wanted = vec![Wanted {
-        asset,
+    let pending = vec![PendingAsset {
+        target: asset,
         path: path.to_owned(),
         span: Some(Span::new(file, 2, 5)),
     }];
-    let draft = UnfinishedScene::new(lowered, wanted);
-    let lowered = assets::bring(draft, file, options, &mut map, &mut sink);
+    let draft = UnfinishedScene::new(lowered, pending);
+    let lowered = assets::load(draft, file, options, &mut map, &mut sink);
     let mut findings = String::new();
     for finding in sink.kept() {
         let severity = match finding.severity {
@@ -120,8 +120,8 @@ fn bring(scene: &Path, asset: Asset, path: &str, options: &FrontOptions) -> Outc
     }
 }
 
-const IMAGE: Asset = Asset::Image(ImageId(0));
-const MESH: Asset = Asset::Mesh(MeshId(0));
+const IMAGE: AssetTarget = AssetTarget::Image(ImageId(0));
+const MESH: AssetTarget = AssetTarget::Mesh(MeshId(0));
 
 /// A folder with `inner/scene.yaml`; what a test needs beside it, it writes.
 fn folder() -> TempDir {

@@ -3,7 +3,7 @@
 use super::search::found;
 use super::{IMAGE, MESH, bring, folder, pixels, png, write};
 use rtc::internals::front::FrontOptions;
-use rtc::internals::front::course::assets::Asset;
+use rtc::internals::front::course::assets::AssetTarget;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -228,7 +228,7 @@ fn an_asset_is_read_where_it_was_judged() {
     write(&folder, "a.gltf", "TOKEN=secret\n");
     std::os::unix::fs::symlink("real/inner", folder.path().join("link")).unwrap();
     let scene = folder.path().join("link/scene.yaml");
-    let gltf = Asset::Gltf([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]]);
+    let gltf = AssetTarget::Gltf([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]]);
     let findings = bring(&scene, gltf, "a.gltf", &FrontOptions::default()).findings;
     assert_eq!(findings, "GL046 note a.gltf:1:43 nothing refers to this\n");
     // Beside the scene a link leads out, to what is no asset and to what is no file.

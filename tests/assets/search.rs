@@ -4,7 +4,7 @@ use super::{IMAGE, MESH, bring, folder, lowered, pixels, png, write};
 use rtc::internals::diag::Sink;
 use rtc::internals::front::FrontOptions;
 use rtc::internals::front::course::UnfinishedScene;
-use rtc::internals::front::course::assets::{self, Wanted};
+use rtc::internals::front::course::assets::{self, PendingAsset};
 use rtc::internals::ir::TextureId;
 use rtc::internals::source::{SourceMap, Span};
 
@@ -130,8 +130,8 @@ fn a_scene_from_a_stream_has_only_the_folder_that_is_allowed() {
         let (mut map, mut sink) = (SourceMap::default(), Sink::default());
         let lowered = lowered(&mut map);
         let file = map.add("<stdin>", b"x".to_vec());
-        let wanted = vec![Wanted {
-            asset: IMAGE,
+        let pending = vec![PendingAsset {
+            target: IMAGE,
             path: "a.png".to_owned(),
             span: Some(Span::new(file, 0, 1)),
         }];
@@ -139,8 +139,8 @@ fn a_scene_from_a_stream_has_only_the_folder_that_is_allowed() {
             asset_root: root,
             ..FrontOptions::default()
         };
-        let draft = UnfinishedScene::new(lowered, wanted);
-        let lowered = assets::bring(draft, file, &options, &mut map, &mut sink);
+        let draft = UnfinishedScene::new(lowered, pending);
+        let lowered = assets::load(draft, file, &options, &mut map, &mut sink);
         let codes: Vec<_> = sink.kept().iter().map(|finding| finding.code.id).collect();
         assert_eq!(
             codes,

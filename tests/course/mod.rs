@@ -15,7 +15,7 @@ use crate::repo::{files, root};
 use proptest::prelude::*;
 use rtc::internals::diag::Sink;
 use rtc::internals::emit;
-use rtc::internals::front::course::assets::Asset;
+use rtc::internals::front::course::assets::AssetTarget;
 use rtc::internals::front::{FrontOptions, course};
 use rtc::internals::ir::{self, Scene};
 use rtc::internals::math::{Vec3, camera_basis};
@@ -253,17 +253,17 @@ fn files_are_wanted_once_and_their_places_wait() {
     let file = map.add("text", text.as_bytes().to_vec());
     let mut sink = Sink::default();
     let draft = course::lower(file, &map, &FrontOptions::default(), &mut sink).unwrap();
-    let wanted: Vec<_> = draft
-        .wanted
+    let pending: Vec<_> = draft
+        .pending_assets
         .iter()
-        .map(|wanted| (wanted.asset, wanted.path.as_str()))
+        .map(|pending| (pending.target, pending.path.as_str()))
         .collect();
     let (image, mesh) = (
-        |id| Asset::Image(ir::ImageId(id)),
-        |id| Asset::Mesh(ir::MeshId(id)),
+        |id| AssetTarget::Image(ir::ImageId(id)),
+        |id| AssetTarget::Mesh(ir::MeshId(id)),
     );
     assert_eq!(
-        wanted,
+        pending,
         [
             (image(0), "a.png"),
             (image(1), "b\\b.png"),

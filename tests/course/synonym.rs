@@ -77,7 +77,7 @@ fn objects() -> Vec<Value> {
 }
 
 /// The scene of one object, and the files it wants.
-fn lowered(object: &Value) -> Option<(Scene, Vec<(Asset, String)>)> {
+fn lowered(object: &Value) -> Option<(Scene, Vec<(AssetTarget, String)>)> {
     let mut object = object.clone();
     if object["type"] != "gltf" {
         object["material"] = json!({ "color": [1, 1, 1], "ka": 1, "kd": 1, "ks": 0, "n": 1 });
@@ -88,9 +88,11 @@ fn lowered(object: &Value) -> Option<(Scene, Vec<(Asset, String)>)> {
     let (mut sink, options) = (Sink::default(), FrontOptions::default());
     let draft = course::lower(file, &map, &options, &mut sink)?;
     let is_read = sink.kept().iter().all(|found| found.code.id == "SC010");
-    let wanted = draft.wanted.into_iter();
-    let wanted = wanted.map(|wanted| (wanted.asset, wanted.path)).collect();
-    is_read.then_some((draft.lowered.scene, wanted))
+    let pending = draft.pending_assets.into_iter();
+    let pending = pending
+        .map(|pending| (pending.target, pending.path))
+        .collect();
+    is_read.then_some((draft.lowered.scene, pending))
 }
 
 /// The object with other names for one thing, if it has that.

@@ -1,15 +1,15 @@
 //! How often the ambient term is added: the file may say so, else its form does.
 
 use super::decode::{Context, Spanned};
+use super::keyword::Keyword;
 use super::lower::Lowering;
 use super::record::FieldOutcome;
 use super::settings::Scene;
-use super::word::Words;
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, Ambient};
 
-impl Words for Ambient {
-    const WORDS: &'static [(&'static str, Self)] =
+impl Keyword for Ambient {
+    const KEYWORDS: &'static [(&'static str, Self)] =
         &[("perLight", Ambient::PerLight), ("once", Ambient::Once)];
 }
 

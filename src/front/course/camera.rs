@@ -1,13 +1,13 @@
 //! The camera, as new files (`Camera`) and old ones (`Eye`) say it.
 
 use super::decode::{Context, Spanned};
+use super::keyword::Keyword;
 use super::lower::Lowering;
-use super::number::{Count, NonNegative, Opening, Positive, Side};
-use super::picture::PictureSize;
+use super::number::{Count, FieldOfView, NonNegative, PixelCount, Positive};
 use super::record::{FieldOutcome, keys, record};
-use super::synonym::{EYE, PICTURE, TARGET};
+use super::synonym::{EYE, IMAGE_SIZE, TARGET};
 use super::value::{Point, Vector};
-use super::word::Words;
+use super::view_size::ViewSize;
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, Field};
 use rtc_math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, unit};
@@ -26,16 +26,16 @@ record! {
         /// it stands, and the image need not face the eye. Without it pixels are square.
         right: Spanned<Vector>, optional, keys!["right"];
         /// Width and height of the image in pixels.
-        view_size: Spanned<PictureSize>, unless("sides"), &PICTURE;
+        view_size: Spanned<ViewSize>, unless("sides"), &IMAGE_SIZE;
         /// Width and height of the image as two keys.
-        sides: [Spanned<Side>; 2], optional, &[&["width", "height"]];
+        sides: [Spanned<PixelCount>; 2], optional, &[&["width", "height"]];
         /// The distance from the eye to an image whose pixels have the size 1; then `center` and `up` are directions alone.
         focal_distance: Spanned<Positive>, optional, keys!["focalDistance" "planeDistance" "imagePlaneDistance"];
         /// The size of a pixel in the plane of the image; then the length of `up` does not count.
         pixel_size: Spanned<Positive>, optional, keys!["pixelSize" "pixSize"];
         /// The angle in degrees that the image spans from bottom to top, above 0 and below 180; then the length of `up` does
         /// not count.
-        fov: Spanned<Opening>, optional, keys!["fov" "fovy" "vfov" "yfov"];
+        fov: Spanned<FieldOfView>, optional, keys!["fov" "fovy" "vfov" "yfov"];
         /// How the rays run: `perspective`, from the eye; or `orthographic`, side by side in the direction from the eye to
         /// `center`, so that the picture is as large everywhere; then `fov` has no effect.
         projection: Spanned<ir::Projection>, default(ir::Projection::Perspective), keys!["projection"];
@@ -44,11 +44,11 @@ record! {
         /// How many points of the lens each sub-sample looks through.
         aperture_samples: Spanned<Count>, default(Count(1)), keys!["apertureSamples"];
     }
-    forms { [view_size] [sides] }
+    variants { [view_size] [sides] }
 }
 
-impl Words for ir::Projection {
-    const WORDS: &'static [(&'static str, Self)] = &[
+impl Keyword for ir::Projection {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[
         ("perspective", ir::Projection::Perspective),
         ("orthographic", ir::Projection::Orthographic),
     ];
@@ -57,17 +57,17 @@ impl Words for ir::Projection {
 impl Camera {
     /// Whether the length of `up`, or what stands in its place, is the size of a pixel.
     fn has_own_pixels(&self) -> bool {
-        !self.has_opening() && self.right.is_absent()
+        !self.has_fov() && self.right.is_absent()
     }
 
     /// Whether an angle says how much the image shows.
-    fn has_opening(&self) -> bool {
+    fn has_fov(&self) -> bool {
         !self.fov.is_absent() && self.projection.value == ir::Projection::Perspective
     }
 }
 
-/// The size of the picture where neither a `Camera` nor an `ImageSize` says it.
-pub(super) const OLD_SIZE: PictureSize = PictureSize([400, 400]);
+/// The size of the picture where neither a `Camera` nor an `ViewSize` says it.
+pub(super) const DEFAULT_SIZE: ViewSize = ViewSize([400, 400]);
 
 /// A sound camera for a scene whose own can't be read.
 pub(super) fn placeholder() -> ir::Camera {
@@ -88,7 +88,7 @@ pub(super) fn placeholder() -> ir::Camera {
 impl Lowering {
     /// Lowers a `Camera`.
     pub(super) fn camera(&mut self, camera: &Spanned<Camera>, context: &mut Context<'_>) {
-        let (center, up) = focused(&camera.value);
+        let (center, up) = image_plane(&camera.value);
         let Camera {
             eye,
             center: _,
@@ -106,12 +106,12 @@ impl Lowering {
         let view_size = match (view_size, sides) {
             (FieldOutcome::Read(size), _) => *size,
             (_, FieldOutcome::Read([width, height])) => {
-                height.map(|_| PictureSize([width.value.0, height.value.0]))
+                height.map(|_| ViewSize([width.value.0, height.value.0]))
             }
             _ => return,
         };
-        useless_pixels(&camera.value, context);
-        let opening = opening(&camera.value, &up, context);
+        report_pixel_size_without_effect(&camera.value, context);
+        let fov = fov(&camera.value, &up, context);
         let basis = basis(&camera.value, &center, &up, context);
         for (field, span) in [
             (Field::Whole, camera.span),
@@ -145,16 +145,16 @@ impl Lowering {
             },
             projection: projection.value,
         };
-        if let Some(opening) = opening {
-            self.scene.camera.open(opening);
+        if let Some(fov) = fov {
+            self.scene.camera.open(fov);
         }
     }
 
     /// Lowers a camera of three top-level keys: eye, the point looked at, and the upward direction.
-    pub(super) fn look(
+    pub(super) fn camera_from_keys(
         &mut self,
         [eye, center, up]: &[Spanned<Point>; 3],
-        size: PictureSize,
+        size: ViewSize,
         context: &mut Context<'_>,
     ) {
         let camera = Camera {
@@ -182,7 +182,7 @@ impl Lowering {
 
     /// Lowers an `Eye`: it looks at a rectangle in the plane z = 0 that begins at the origin, one
     /// unit a pixel.
-    pub(super) fn eye(&mut self, eye: Spanned<Point>, size: PictureSize) {
+    pub(super) fn old_eye_camera(&mut self, eye: Spanned<Point>, size: ViewSize) {
         let [x, y] = size.0.map(|side| f64::from(side) / 2.0);
         self.scene.camera = ir::Camera {
             eye: eye.value.0,
@@ -197,15 +197,15 @@ impl Lowering {
 
 /// The middle of the image and the upward step: with a focal distance the image lies at that
 /// distance, with pixels of the size 1 or that which is given.
-fn focused(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
+fn image_plane(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
     let (mut center, mut up) = (camera.center, camera.up);
     let [eye, at, upward] = [camera.eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
     let distance = camera.focal_distance.ok();
     let size = camera.pixel_size.ok().filter(|_| camera.has_own_pixels());
     let size = size.map(|size| size.value.0);
     let size = size.or(distance.map(|_| 1.0));
-    if let (Some(gaze), Some(distance)) = (unit(at - eye), distance) {
-        center.value = Point((eye + gaze * distance.value.0).to_array());
+    if let (Some(view_dir), Some(distance)) = (unit(at - eye), distance) {
+        center.value = Point((eye + view_dir * distance.value.0).to_array());
     }
     if let (Some(upward), Some(size)) = (unit(upward), size) {
         up.value = Vector((upward * size).to_array());
@@ -214,7 +214,7 @@ fn focused(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
 }
 
 /// Says that another key gives the size of a pixel.
-fn useless_pixels(camera: &Camera, context: &mut Context<'_>) {
+fn report_pixel_size_without_effect(camera: &Camera, context: &mut Context<'_>) {
     let span = camera.pixel_size.read().and_then(|size| size.span);
     if let (Some(span), false) = (span, camera.has_own_pixels()) {
         let message = || "`pixelSize` has no effect beside `fov` or `right`".to_owned();
@@ -225,15 +225,15 @@ fn useless_pixels(camera: &Camera, context: &mut Context<'_>) {
 }
 
 /// The angle that the image spans, in radians, if that is given.
-fn opening(camera: &Camera, up: &Spanned<Vector>, context: &mut Context<'_>) -> Option<f64> {
+fn fov(camera: &Camera, up: &Spanned<Vector>, context: &mut Context<'_>) -> Option<f64> {
     let FieldOutcome::Read(Spanned {
-        value: Opening(degrees),
+        value: FieldOfView(degrees),
         span: Some(span),
     }) = camera.fov
     else {
         return None;
     };
-    if !camera.has_opening() {
+    if !camera.has_fov() {
         let message = || "`fov` has no effect on rays that run side by side".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {
             d.at(span, "ignored: the length of `up` is the size of a pixel")
@@ -243,10 +243,10 @@ fn opening(camera: &Camera, up: &Spanned<Vector>, context: &mut Context<'_>) -> 
         return None;
     }
     let length = length(Vec3::from_array(up.value.0));
-    if let (Some(place), true) = (up.span, (length - 1.0).abs() > 1e-6) {
+    if let (Some(up_span), true) = (up.span, (length - 1.0).abs() > 1e-6) {
         let message = || "the length of `up` has no effect beside `fov`".to_owned();
-        context.report(&codes::NO_EFFECT, place, message, |d| {
-            d.at(place, "only the direction counts")
+        context.report(&codes::NO_EFFECT, up_span, message, |d| {
+            d.at(up_span, "only the direction counts")
                 .also(span, "this gives the size of a pixel")
                 .severity(Severity::Warning)
         });
@@ -273,7 +273,7 @@ fn basis(
         FieldOutcome::Absent => {}
     }
     let [from, to, mut upward] = [eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
-    if camera.has_opening() {
+    if camera.has_fov() {
         upward = unit(upward).unwrap_or(Vec3::ZERO);
     }
     match camera_basis(from, to, upward) {
@@ -306,14 +306,19 @@ fn basis(
             }
             None
         }
-        Err(BasisFault::Parallel) => parallel(to - from, upward, up.span?, context)
+        Err(BasisFault::Parallel) => report_parallel_up(to - from, upward, up.span?, context)
             .and_then(|up| camera_basis(from, to, up).ok()),
     }
 }
 
 /// Reports an `up` along the view, with a better one; that one if repairs are wanted.
-fn parallel(gaze: Vec3, up: Vec3, span: Span, context: &mut Context<'_>) -> Option<Vec3> {
-    let better = fallback_up(gaze, up);
+fn report_parallel_up(
+    view_dir: Vec3,
+    up: Vec3,
+    span: Span,
+    context: &mut Context<'_>,
+) -> Option<Vec3> {
+    let better = fallback_up(view_dir, up);
     let [x, y, z] = better.to_array().map(shortest);
     let text = format!("[{x}, {y}, {z}]");
     let lenient = context.options.lenient;

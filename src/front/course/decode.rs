@@ -1,8 +1,8 @@
 //! What decoding stands on: values with their spans, and the context that collects every finding.
 
-use super::meant;
 use super::schema::Definitions;
-use super::spelling::is_same_but_for_signs;
+use super::spelling::same_letters;
+use super::suggestion;
 use crate::FrontOptions;
 use rtc_diag::clip;
 use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
@@ -86,12 +86,12 @@ impl<T: Value> Value for SharedValue<T> {
 }
 
 /// A list whose items are decoded one by one, as they are lowered.
-pub(super) struct Each<T> {
+pub(super) struct LazyList<T> {
     list: Option<NodeId>,
     items: PhantomData<T>,
 }
 
-impl<T> Each<T> {
+impl<T> LazyList<T> {
     /// No items.
     pub(super) fn none() -> Self {
         Self {
@@ -101,7 +101,7 @@ impl<T> Each<T> {
     }
 }
 
-impl<T: Value> Each<T> {
+impl<T: Value> LazyList<T> {
     /// How many items there are, sound or not.
     pub(super) fn len(&self, context: &Context<'_>) -> usize {
         self.list.map_or(0, |list| context.tree.items(list).count())
@@ -128,7 +128,7 @@ impl<T: Value> Each<T> {
     }
 }
 
-impl<T: Value> Value for Each<T> {
+impl<T: Value> Value for LazyList<T> {
     const IS_LIST: bool = true;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -170,7 +170,7 @@ pub(super) struct MapEntry<'a> {
 }
 
 /// More findings than this are no longer looked through for repetition.
-const REMEMBERED: usize = 10_000;
+const MAX_REMEMBERED: usize = 10_000;
 
 /// One pass over a tree: the findings, and what the pass remembers.
 pub(super) struct Context<'a> {
@@ -184,16 +184,16 @@ pub(super) struct Context<'a> {
     /// The first key in another case of letters.
     pub(super) other_case: Option<(&'a str, &'static str, Span)>,
     /// Unknown keys, and the keys that were probably meant.
-    pub(super) slips: Vec<(&'static str, Span)>,
+    pub(super) typos: Vec<(&'static str, Span)>,
     sink: &'a mut Sink,
     /// The shared values decoded so far.
     decoded: BTreeSet<NodeId>,
     /// What has been said about which bytes: an alias brings a reader to the same place again.
-    said: BTreeSet<(Span, &'static str)>,
+    reported: BTreeSet<(Span, &'static str)>,
     steps: u64,
     /// How many entries may be looked at: those of the text, and those that aliases and merge keys
     /// repeat.
-    most_steps: u64,
+    max_steps: u64,
 }
 
 impl<'a> Context<'a> {
@@ -213,12 +213,12 @@ impl<'a> Context<'a> {
             entries: Vec::new(),
             spellings: Vec::new(),
             other_case: None,
-            slips: Vec::new(),
+            typos: Vec::new(),
             sink,
             decoded: BTreeSet::new(),
-            said: BTreeSet::new(),
+            reported: BTreeSet::new(),
             steps: 0,
-            most_steps: budget.limit(Resource::Nodes),
+            max_steps: budget.limit(Resource::Nodes),
         }
     }
 
@@ -230,12 +230,12 @@ impl<'a> Context<'a> {
         message: impl FnOnce() -> String,
         make: impl FnOnce(Diagnostic) -> Diagnostic,
     ) {
-        let known = self.said.contains(&(span, code.id));
-        if known || self.exhausted() {
+        let known = self.reported.contains(&(span, code.id));
+        if known || self.is_exhausted() {
             return;
         }
-        if self.said.len() < REMEMBERED {
-            self.said.insert((span, code.id));
+        if self.reported.len() < MAX_REMEMBERED {
+            self.reported.insert((span, code.id));
         }
         self.sink
             .push(make(Diagnostic::new(code, message()).at(span, "")));
@@ -243,7 +243,7 @@ impl<'a> Context<'a> {
 
     /// How many different findings there were so far.
     pub(super) fn findings(&self) -> usize {
-        self.said.len()
+        self.reported.len()
     }
 
     /// Reports a value of the wrong type. Always `None`.
@@ -260,20 +260,20 @@ impl<'a> Context<'a> {
             None => format!("each of `{}`", clip(key.text)),
         };
         let span = tree.span(node);
-        let place = if span.start == span.end {
+        let span_shown = if span.start == span.end {
             key.span.unwrap_or(span)
         } else {
             self.first_line(node)
         };
         let message = || format!("{name} must be {what}, not {found}");
-        let meant = meant::of(tree, key, node, part);
-        let text = meant.as_ref().and_then(|(_, text)| text.as_deref());
-        let same = text.is_some_and(|text| is_same_but_for_signs(tree.written(node), text));
-        self.report(&codes::WRONG_TYPE, place, message, |d| {
-            let finding = d.at(place, found.clone());
-            match meant {
-                Some((hint, Some(text))) if same => finding.replace(hint, place, text),
-                Some((hint, Some(text))) => finding.guess(hint, place, text),
+        let suggestion = suggestion::suggest(tree, key, node, part);
+        let text = suggestion.as_ref().and_then(|(_, text)| text.as_deref());
+        let same = text.is_some_and(|text| same_letters(tree.written(node), text));
+        self.report(&codes::WRONG_TYPE, span_shown, message, |d| {
+            let finding = d.at(span_shown, found.clone());
+            match suggestion {
+                Some((hint, Some(text))) if same => finding.replace(hint, span_shown, text),
+                Some((hint, Some(text))) => finding.guess(hint, span_shown, text),
                 Some((hint, None)) => finding.hint(hint),
                 None => finding,
             }
@@ -282,15 +282,20 @@ impl<'a> Context<'a> {
     }
 
     /// Remembers that something was written otherwise than it should be, unless that is known.
-    pub(super) fn note_spelling(&mut self, written: &'a str, meant: &'static str, span: Span) {
-        let known = |(w, m, _): &(&str, &str, Span)| (*w, *m) == (written, meant);
-        if written != meant && !self.spellings.iter().any(known) {
-            self.spellings.push((written, meant, span));
+    pub(super) fn record_spelling(
+        &mut self,
+        written: &'a str,
+        suggestion: &'static str,
+        span: Span,
+    ) {
+        let known = |(w, m, _): &(&str, &str, Span)| (*w, *m) == (written, suggestion);
+        if written != suggestion && !self.spellings.iter().any(known) {
+            self.spellings.push((written, suggestion, span));
         }
     }
 
     /// A word in place of one that was written, in the same quotes: JSON needs them.
-    pub(super) fn in_its_quotes(&self, node: NodeId, word: &str) -> String {
+    pub(super) fn with_quotes_of(&self, node: NodeId, word: &str) -> String {
         match self.tree.written(node).chars().next() {
             Some(quote @ ('"' | '\'')) => format!("{quote}{word}{quote}"),
             _ => word.to_owned(),
@@ -298,21 +303,21 @@ impl<'a> Context<'a> {
     }
 
     /// Remembers that a key was written in another case of letters, the first time.
-    pub(super) fn note_case(&mut self, written: &'a str, meant: &'static str, key: NodeId) {
+    pub(super) fn record_case(&mut self, written: &'a str, suggestion: &'static str, key: NodeId) {
         if self.other_case.is_none() {
-            self.other_case = Some((written, meant, self.tree.span(key)));
+            self.other_case = Some((written, suggestion, self.tree.span(key)));
         }
     }
 
     /// The last unknown key from the slip of this index on for which one of these was meant.
-    pub(super) fn slip_for(&self, keys: &[&str], from: usize) -> Option<Span> {
-        let slips = self.slips[from..].iter().rev();
-        let mut meant = slips.filter(|(meant, _)| keys.contains(meant));
-        meant.next().map(|(_, span)| *span)
+    pub(super) fn typo_for(&self, keys: &[&str], from: usize) -> Option<Span> {
+        let typos = self.typos[from..].iter().rev();
+        let mut suggestion = typos.filter(|(suggestion, _)| keys.contains(suggestion));
+        suggestion.next().map(|(_, span)| *span)
     }
 
     /// The severity of what is left unread: an error if the user asked for strictness.
-    pub(super) fn unread(&self) -> Severity {
+    pub(super) fn unknown_key_severity(&self) -> Severity {
         if self.options.strict {
             Severity::Error
         } else {
@@ -346,11 +351,11 @@ impl<'a> Context<'a> {
     /// Counts work that aliases can repeat. False once there was too much of it, which is reported
     /// once.
     pub(super) fn step(&mut self, node: NodeId) -> bool {
-        if self.exhausted() {
+        if self.is_exhausted() {
             return false;
         }
         self.steps += 1;
-        if self.exhausted() {
+        if self.is_exhausted() {
             let finding = Diagnostic::new(
                 &codes::REPETITION,
                 "aliases and merge keys make this scene too large",
@@ -364,11 +369,11 @@ impl<'a> Context<'a> {
                     .hint("write it out, or allow more by `--limit nodes=…`"),
             );
         }
-        !self.exhausted()
+        !self.is_exhausted()
     }
 
-    fn exhausted(&self) -> bool {
-        self.steps > self.most_steps
+    fn is_exhausted(&self) -> bool {
+        self.steps > self.max_steps
     }
 }
 

@@ -1,14 +1,14 @@
 //! How a picture shows its values: the tone map and the exposure.
 
+use super::keyword::Keyword;
 use super::lower::Lowering;
 use super::record::FieldOutcome;
 use super::settings::Scene;
-use super::word::Words;
 use rtc_color::Tone;
 use rtc_ir as ir;
 
-impl Words for Tone {
-    const WORDS: &'static [(&'static str, Self)] = &[
+impl Keyword for Tone {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[
         ("none", Tone::None),
         ("srgb", Tone::Srgb),
         ("agx", Tone::Agx),

@@ -2,9 +2,9 @@
 
 use super::decode::{Context, Spanned};
 use super::lower::Lowering;
-use super::object::solid::turned;
+use super::object::solid::euler_axes;
 use super::record::{FieldOutcome, keys, record};
-use super::turn::RotationRows;
+use super::rotation::RotationRows;
 use super::value::{Channels, FileName, Vector};
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, EntityKind, Field};
@@ -43,16 +43,16 @@ impl Lowering {
             FieldOutcome::Absent => None,
             FieldOutcome::Broken => return,
         };
-        let turn = match (matrix, rotation) {
+        let rotation_keys = match (matrix, rotation) {
             (FieldOutcome::Read(matrix), rotation) => {
                 if let FieldOutcome::Read(rotation) = rotation {
-                    note_two_turns(rotation.span, context);
+                    report_two_rotations(rotation.span, context);
                 }
                 Some(matrix.value.0)
             }
             // Its rows are where the axes come to: the way back from the world.
             (FieldOutcome::Absent, FieldOutcome::Read(rotation)) => {
-                Some(turned(rotation.value.0).map(|axis| axis.to_array()))
+                Some(euler_axes(rotation.value.0).map(|axis| axis.to_array()))
             }
             (FieldOutcome::Absent, FieldOutcome::Absent) => None,
             (FieldOutcome::Broken, _) | (_, FieldOutcome::Broken) => return,
@@ -60,14 +60,14 @@ impl Lowering {
         self.scene.environment = Some(ir::Environment {
             radiance: color.value.0,
             image,
-            image_from_world: turn,
+            image_from_world: rotation_keys,
         });
         self.origin(EntityKind::Environment, 0, Field::Whole, environment.span);
     }
 }
 
 /// Says that a matrix counts alone.
-fn note_two_turns(rotation: Option<Span>, context: &mut Context<'_>) {
+fn report_two_rotations(rotation: Option<Span>, context: &mut Context<'_>) {
     let Some(span) = rotation else { return };
     let message = || "the environment is turned once: the `matrix` counts".to_owned();
     context.report(&codes::NO_EFFECT, span, message, |d| {

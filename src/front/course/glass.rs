@@ -24,12 +24,12 @@ impl Lowering {
         let ir::Settings {
             mode, max_depth, ..
         } = &self.scene.settings;
-        let (is_followed, is_phong) = (*max_depth > 0, *mode == ir::Mode::Phong);
+        let (has_recursion, is_phong) = (*max_depth > 0, *mode == ir::Mode::Phong);
         for Glass { id, span, is_clear } in std::mem::take(&mut self.glass) {
             let material = self.scene.materials.get_mut(id.0 as usize);
             match material.and_then(ir::Material::phong_mut) {
-                Some(phong) if is_followed && is_clear => clear(phong, span, context),
-                Some(_) if !is_followed && is_phong => not_followed(span, context),
+                Some(phong) if has_recursion && is_clear => remove_own_color(phong, span, context),
+                Some(_) if !has_recursion && is_phong => report_opaque_glass(span, context),
                 Some(_) | None => {}
             }
         }
@@ -37,7 +37,7 @@ impl Lowering {
 }
 
 /// Whether a material is said to be glass or not, and where; by words, not by a weight.
-pub(super) fn glass_word(material: &PhongMaterial) -> Option<(bool, Span)> {
+pub(super) fn glass_setting(material: &PhongMaterial) -> Option<(bool, Span)> {
     let PhongMaterial {
         kind,
         is_transparent,
@@ -53,7 +53,7 @@ pub(super) fn glass_word(material: &PhongMaterial) -> Option<(bool, Span)> {
 }
 
 /// Takes its own colour from glass, which shows what is behind it alone.
-fn clear(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
+fn remove_own_color(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
     let is_colored = phong.color_map.is_some() || phong.color != [1.0; 3];
     // A negative weight is left to the proof to refuse.
     (phong.ka, phong.kd) = (phong.ka.min(0.0), phong.kd.min(0.0));
@@ -68,7 +68,7 @@ fn clear(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
 }
 
 /// Says that no light comes through glass where no ray is followed.
-fn not_followed(span: Span, context: &mut Context<'_>) {
+fn report_opaque_glass(span: Span, context: &mut Context<'_>) {
     let message = || "without a `MaxRecursionDepth` nothing is seen through glass".to_owned();
     context.report(&codes::NO_EFFECT, span, message, |d| {
         d.at(span, "the surface shows its own colour alone")
@@ -78,7 +78,7 @@ fn not_followed(span: Span, context: &mut Context<'_>) {
 }
 
 /// Leaves a surface opaque.
-pub(super) fn no_glass(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
+pub(super) fn make_opaque(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
     phong.kt = 0.0;
     // A negative index is left to the proof to refuse.
     if phong.eta > 0.0 {
@@ -92,10 +92,10 @@ pub(super) fn no_glass(phong: &mut ir::Phong, span: Span, context: &mut Context<
 }
 
 /// Says that an index of refraction refracts nothing without a weight.
-pub(super) fn only_an_index(material: &PhongMaterial, context: &mut Context<'_>) {
+pub(super) fn report_index_without_weight(material: &PhongMaterial, context: &mut Context<'_>) {
     let PhongMaterial { kt, eta, .. } = material;
-    let bends = eta.value.0 > 0.0 && (eta.value.0 - 1.0).abs() > 1e-9;
-    if let (true, None, Some(span)) = (bends, kt.span, eta.span) {
+    let refracts = eta.value.0 > 0.0 && (eta.value.0 - 1.0).abs() > 1e-9;
+    if let (true, None, Some(span)) = (refracts, kt.span, eta.span) {
         let message = || "an index of refraction alone refracts nothing".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {
             d.at(span, "without a weight")

@@ -11,8 +11,8 @@ use rtc_source::{FileId, SourceMap};
 /// If there is no tree, or no layout that says the same.
 pub fn lay_out(file: FileId, map: &SourceMap, sink: &mut Sink) -> Result<String, LayoutFault> {
     let mut found = Vec::new();
-    let tell = &mut |mistake: Mistake<'_>| found.push(syntax::finding(mistake));
-    let laid_out = yaml::layout(file, map.bytes(file), tell);
+    let report = &mut |mistake: Mistake<'_>| found.push(syntax::finding(mistake));
+    let laid_out = yaml::layout(file, map.bytes(file), report);
     if laid_out == Err(LayoutFault::Mistakes) {
         found.into_iter().for_each(|finding| sink.push(finding));
     }

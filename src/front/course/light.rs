@@ -1,13 +1,13 @@
 //! The lights: points and spheres, suns, and lamps as measured.
 
-use super::assets::Asset;
+use super::assets::AssetTarget;
 use super::decode::{Context, Spanned};
+use super::keyword::Keyword;
 use super::lower::Lowering;
 use super::number::{HalfAngle, NonNegative, Positive};
 use super::record::{FieldOutcome, keys, record};
-use super::synonym::{PLACE, led_by};
+use super::synonym::{POSITION, with_canonical};
 use super::value::{Channels, Color, FileName, Point, Vector};
-use super::word::Words;
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, EntityKind, Field, Photometry};
 use rtc_source::Span;
@@ -20,7 +20,7 @@ record! {
         /// What kind of light this is.
         kind: Spanned<LightKind>, optional, keys!["type"];
         /// Where the light stands.
-        position: Spanned<Point>, optional, &led_by(PLACE, "position"), json "position";
+        position: Spanned<Point>, optional, &with_canonical(POSITION, "position"), json "position";
         /// Its colour: red, green, blue; more than 1 is allowed. With a `file`, a factor of its candelas.
         color: Spanned<Color>, optional, keys!["color" "colour"], json "color";
         /// The radius of the sphere that shines; 0 is a point. A larger one makes the edges of shadows soft.
@@ -45,7 +45,7 @@ record! {
         /// The direction of the horizontal angle 0 of the profile; only its part across `direction` counts.
         horizontal: Spanned<Vector>, default(Vector([1.0, 0.0, 0.0])), keys!["horizontal"];
     }
-    forms {
+    variants {
         [position color] [direction irradiance] [position direction file] [position direction file color]
         [position intensity] [position direction intensity outer_angle]
     }
@@ -60,8 +60,8 @@ pub(super) enum LightKind {
     Ies,
 }
 
-impl Words for LightKind {
-    const WORDS: &'static [(&'static str, Self)] = &[
+impl Keyword for LightKind {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[
         ("point", LightKind::Point),
         ("sun", LightKind::Sun),
         ("spot", LightKind::Spot),
@@ -72,17 +72,17 @@ impl Words for LightKind {
 impl Lowering {
     /// Lowers a light.
     pub(super) fn light(&mut self, light: &Spanned<Light>, context: &mut Context<'_>) {
-        let Some((made, is)) = self.light_of_its_kind(&light.value) else {
+        let Some((made, actual)) = self.light_from_keys(&light.value) else {
             return;
         };
-        note_unused(&light.value, is, made.point().is_none(), context);
+        report_unused(&light.value, actual, made.point().is_none(), context);
         let index = self.scene.lights.len();
         self.scene.lights.push(made);
         self.origin(EntityKind::Light, index, Field::Whole, light.span);
     }
 
     /// The light that the keys make.
-    fn light_of_its_kind(&mut self, light: &Light) -> Option<(ir::Light, LightKind)> {
+    fn light_from_keys(&mut self, light: &Light) -> Option<(ir::Light, LightKind)> {
         let Light {
             position,
             color,
@@ -100,9 +100,9 @@ impl Lowering {
                 _,
                 FieldOutcome::Read(file),
                 _,
-            ) => self.lamp(light, [position.value.0, direction.value.0], color, file),
+            ) => self.photometric_light(light, [position.value.0, direction.value.0], color, file),
             (FieldOutcome::Read(position), _, direction, .., FieldOutcome::Read(intensity)) => {
-                let (emitter, kind) = focused(light, position.value.0, direction)?;
+                let (emitter, kind) = point_or_spot(light, position.value.0, direction)?;
                 let intensity = intensity.value.0;
                 let light = ir::Punctual { emitter, intensity };
                 Some((ir::Light::Punctual(light), kind))
@@ -135,7 +135,7 @@ impl Lowering {
     }
 
     /// A lamp, dark until its file is there.
-    fn lamp(
+    fn photometric_light(
         &mut self,
         light: &Light,
         [position, direction]: [[f64; 3]; 2],
@@ -148,20 +148,20 @@ impl Lowering {
             FieldOutcome::Broken => return None,
         };
         self.files
-            .want(Asset::Photometry(self.scene.lights.len()), file);
+            .add_pending(AssetTarget::Photometry(self.scene.lights.len()), file);
         let emitter = ir::Emitter::Lamp {
             position,
             direction,
             horizontal: light.horizontal.value.0,
             photometry: Box::new(Photometry::dark(file.value.0.replace('\\', "/"))),
         };
-        let lamp = ir::Punctual { emitter, intensity };
-        Some((ir::Light::Punctual(lamp), LightKind::Ies))
+        let photometric_light = ir::Punctual { emitter, intensity };
+        Some((ir::Light::Punctual(photometric_light), LightKind::Ies))
     }
 }
 
 /// A point or a spot with an intensity.
-fn focused(
+fn point_or_spot(
     light: &Light,
     position: [f64; 3],
     direction: &FieldOutcome<Spanned<Vector>>,
@@ -190,9 +190,9 @@ fn focused(
 }
 
 /// Warns of the keys that a light of this kind has no use for.
-fn note_unused(light: &Light, is: LightKind, is_physical: bool, context: &mut Context<'_>) {
+fn report_unused(light: &Light, actual: LightKind, is_physical: bool, context: &mut Context<'_>) {
     if let FieldOutcome::Read(kind) = light.kind
-        && kind.value != is
+        && kind.value != actual
     {
         let message = "the `type` of the light has no effect: its other keys say otherwise";
         let hint = "a sun has `direction` and `irradiance`, a point `position` and `color` or \
@@ -200,21 +200,21 @@ fn note_unused(light: &Light, is: LightKind, is_physical: bool, context: &mut Co
                     `direction` and `file`";
         no_effect(kind.span, message, hint, context);
     }
-    if is != LightKind::Point || is_physical {
+    if actual != LightKind::Point || is_physical {
         let message =
             "the `radius` of the light has no effect: only a point with a `color` has one";
         no_effect(light.radius.span, message, "remove it", context);
     }
-    if is != LightKind::Ies {
+    if actual != LightKind::Ies {
         let message =
             "`horizontal` has no effect on this light: only a profile has horizontal angles";
         no_effect(light.horizontal.span, message, "remove it", context);
     }
-    if is != LightKind::Spot {
+    if actual != LightKind::Spot {
         let message = "`innerAngle` has no effect on this light: only a spot has angles";
         no_effect(light.inner_angle.span, message, "remove it", context);
     }
-    let has_range = is_physical && matches!(is, LightKind::Point | LightKind::Spot);
+    let has_range = is_physical && matches!(actual, LightKind::Point | LightKind::Spot);
     if let (false, FieldOutcome::Read(range)) = (has_range, light.range) {
         let message = "`range` has no effect on this light: only a point or a spot with an \
                        `intensity` has one";

@@ -1,16 +1,16 @@
 //! Lowering: the declaration, piece by piece as it is decoded, to the IR, with the place of every
 //! value.
 
-use super::assets::{Dressing, Wanted};
+use super::assets::{PendingAsset, PendingMaterial};
 use super::camera;
 use super::decode::{Context, Value, ValueKey};
 use super::glass::Glass;
 use super::object::sizing::Sizing;
-use super::object::torus::Rims;
+use super::object::torus::AmbiguousTorus;
 use super::record::FieldOutcome;
 use super::settings::Scene;
 use super::syntax;
-use super::texture::Files;
+use super::texture::NamedFiles;
 use crate::FrontOptions;
 use rtc_diag::{Diagnostic, Sink, clip, codes};
 use rtc_ir::{self as ir, EntityKind, Field, Lowered, MaterialId, SourceSpans, ValuePath};
@@ -30,8 +30,8 @@ pub fn lower(
     options: &FrontOptions,
     sink: &mut Sink,
 ) -> Option<UnfinishedScene> {
-    let tell = &mut |mistake: Mistake<'_>| sink.push(syntax::finding(mistake));
-    let tree = yaml::parse(file, map.bytes(file), tell)?;
+    let report = &mut |mistake: Mistake<'_>| sink.push(syntax::finding(mistake));
+    let tree = yaml::parse(file, map.bytes(file), report)?;
     match tree.shape(tree.root()) {
         NodeContent::Map => {}
         NodeContent::Word("" | "~" | "null" | "Null" | "NULL") => {
@@ -54,8 +54,8 @@ pub fn lower(
     let mut context = Context::new(&tree, options, map.budget(), sink);
     let mut lowering = Lowering::new();
     lowering.scene(&mut context);
-    note_spellings(&mut context);
-    note_case(&mut context);
+    report_spellings(&mut context);
+    record_case(&mut context);
     // The places are sorted after the tree is gone: together they would be the peak of memory.
     drop(tree);
     Some(lowering.finish())
@@ -67,22 +67,22 @@ pub struct UnfinishedScene {
     /// The scene, with an image of one pixel or an empty mesh for each file.
     pub lowered: Lowered,
     /// The files, each once.
-    pub wanted: Vec<Wanted>,
+    pub pending_assets: Vec<PendingAsset>,
     /// What is to be done about the sizes of meshes.
     pub(super) sizings: Vec<Sizing>,
     /// Where the material of each mesh comes from.
-    pub(super) dressings: Vec<Dressing>,
+    pub(super) pending_materials: Vec<PendingMaterial>,
 }
 
 impl UnfinishedScene {
     /// A scene that waits for these files alone.
     #[must_use]
-    pub fn new(lowered: Lowered, wanted: Vec<Wanted>) -> Self {
+    pub fn new(lowered: Lowered, pending_assets: Vec<PendingAsset>) -> Self {
         Self {
             lowered,
-            wanted,
+            pending_assets,
             sizings: Vec::new(),
-            dressings: Vec::new(),
+            pending_materials: Vec::new(),
         }
     }
 }
@@ -95,15 +95,15 @@ pub(super) struct Lowering {
     /// The material of what has none, once there is such a thing.
     pub(super) grey: Option<MaterialId>,
     /// The textures and meshes named so far.
-    pub(super) files: Files,
+    pub(super) files: NamedFiles,
     /// The materials that let light through.
     pub(super) glass: Vec<Glass>,
     /// What is to be done about the sizes of meshes.
     pub(super) sizings: Vec<Sizing>,
     /// Where the material of each mesh comes from.
-    pub(super) dressings: Vec<Dressing>,
+    pub(super) pending_materials: Vec<PendingMaterial>,
     /// The tori whose radii are read by what is around them.
-    pub(super) rims: Vec<Rims>,
+    pub(super) rims: Vec<AmbiguousTorus>,
     /// Where it is written that an object has no size.
     pub(super) invisible: Vec<Span>,
     source_spans: SourceSpans,
@@ -122,7 +122,7 @@ impl Lowering {
             ambient: ir::Ambient::PerLight,
         };
         let scene = ir::Scene::new(camera::placeholder(), settings);
-        let (shared, files, sizings) = (BTreeMap::new(), Files::default(), Vec::new());
+        let (shared, files, sizings) = (BTreeMap::new(), NamedFiles::default(), Vec::new());
         Self {
             scene,
             shared,
@@ -130,7 +130,7 @@ impl Lowering {
             files,
             glass: Vec::new(),
             sizings,
-            dressings: Vec::new(),
+            pending_materials: Vec::new(),
             rims: Vec::new(),
             invisible: Vec::new(),
             source_spans: SourceSpans::default(),
@@ -158,8 +158,8 @@ impl Lowering {
         let Some(scene) = Scene::decode(root, context) else {
             return;
         };
-        self.view(&scene, context);
-        self.compare_sizes(&scene, context);
+        self.choose_camera(&scene, context);
+        self.report_unused_sizes(&scene, context);
         self.settings(&scene, context);
         if let FieldOutcome::Read(environment) = &scene.environment {
             self.environment(environment, context);
@@ -171,10 +171,10 @@ impl Lowering {
                 self.light(&light, context)
             });
         if self.scene.lights.is_empty() {
-            let place = scene.lights.span.unwrap_or_else(|| context.head(root));
-            self.origin(EntityKind::Light, 0, Field::Whole, Some(place));
+            let path = scene.lights.span.unwrap_or_else(|| context.head(root));
+            self.origin(EntityKind::Light, 0, Field::Whole, Some(path));
         }
-        self.soften(&scene, context);
+        self.resolve_soft_lights(&scene, context);
         let count = scene.objects.value.len(context);
         scene
             .objects
@@ -186,21 +186,21 @@ impl Lowering {
                 }
                 self.object(&object.value, context);
             });
-        self.settle_rims(context);
-        self.note_invisible(context);
+        self.resolve_tori(context);
+        self.report_invisible(context);
         if !self.scene.names.is_empty() {
             // What has no name stands between those that have.
             let count = self.scene.surfaces.len();
             self.scene.names.resize(count, String::new());
         }
-        self.follow_paths(&scene);
+        self.resolve_mode(&scene);
         self.ambient(&scene, context);
         self.glass(context);
         self.show_uv(&scene);
     }
 
     /// Chooses between the two cameras.
-    fn view(&mut self, scene: &Scene, context: &mut Context<'_>) {
+    fn choose_camera(&mut self, scene: &Scene, context: &mut Context<'_>) {
         let Scene {
             camera,
             eye,
@@ -208,29 +208,33 @@ impl Lowering {
             image_size,
             ..
         } = scene;
-        let size = image_size.ok().map_or(camera::OLD_SIZE, |size| size.value);
+        let size = image_size
+            .ok()
+            .map_or(camera::DEFAULT_SIZE, |size| size.value);
         match (camera, look, eye) {
             (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Absent) => {
-                no_camera(context)
+                report_no_camera(context)
             }
             (FieldOutcome::Read(camera), ..) => self.camera(camera, context),
-            (FieldOutcome::Absent, FieldOutcome::Read(look), _) => self.look(look, size, context),
+            (FieldOutcome::Absent, FieldOutcome::Read(look), _) => {
+                self.camera_from_keys(look, size, context)
+            }
             (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Read(eye)) => {
-                self.eye(*eye, size)
+                self.old_eye_camera(*eye, size)
             }
             (FieldOutcome::Broken, ..)
             | (_, FieldOutcome::Broken, _)
             | (.., FieldOutcome::Broken) => {}
         }
         if let (false, FieldOutcome::Read(look)) = (camera.is_absent(), look) {
-            ignored_camera("CameraEye", "Camera", look[0].span, context);
+            report_ignored_camera("CameraEye", "Camera", look[0].span, context);
         }
         match (camera.is_absent(), look.is_absent(), eye) {
             (false, _, FieldOutcome::Read(eye)) => {
-                ignored_camera("Eye", "Camera", eye.span, context)
+                report_ignored_camera("Eye", "Camera", eye.span, context)
             }
             (true, false, FieldOutcome::Read(eye)) => {
-                ignored_camera("Eye", "CameraEye", eye.span, context)
+                report_ignored_camera("Eye", "CameraEye", eye.span, context)
             }
             _ => {}
         }
@@ -242,21 +246,21 @@ impl Lowering {
             shared: _,
             grey: _,
             glass: _,
-            files: Files { wanted, .. },
+            files: NamedFiles { pending_assets, .. },
             sizings,
-            dressings,
+            pending_materials,
             rims: _,
             invisible: _,
             mut source_spans,
         } = self;
-        for Wanted {
-            asset,
+        for PendingAsset {
+            target,
             path: _,
             span,
-        } in &wanted
+        } in &pending_assets
         {
-            if let Some(place) = asset.place() {
-                source_spans.record(place, *span);
+            if let Some(path) = target.value_path() {
+                source_spans.record(path, *span);
             }
         }
         source_spans.finish();
@@ -265,17 +269,17 @@ impl Lowering {
                 scene,
                 source_spans,
             },
-            wanted,
+            pending_assets,
             sizings,
-            dressings,
+            pending_materials,
         }
     }
 }
 
-fn no_camera(context: &mut Context<'_>) {
+fn report_no_camera(context: &mut Context<'_>) {
     let span = context.head(context.tree.root());
     let message = || "the scene has no `Camera`".to_owned();
-    let cause = context.slip_for(&["Camera", "Eye"], 0);
+    let cause = context.typo_for(&["Camera", "Eye"], 0);
     let cause = cause.filter(|cause| *cause != span);
     context.report(&codes::NO_CAMERA, span, message, |d| {
         d.at(span, "this scene")
@@ -284,8 +288,8 @@ fn no_camera(context: &mut Context<'_>) {
     });
 }
 
-fn ignored_camera(word: &str, used: &str, span: Option<Span>, context: &mut Context<'_>) {
-    let severity = context.unread();
+fn report_ignored_camera(word: &str, used: &str, span: Option<Span>, context: &mut Context<'_>) {
+    let severity = context.unknown_key_severity();
     if let Some(span) = span {
         let message = || format!("the scene has both `{used}` and `{word}`");
         context.report(&codes::TWO_CAMERAS, span, message, |d| {
@@ -297,14 +301,14 @@ fn ignored_camera(word: &str, used: &str, span: Option<Span>, context: &mut Cont
 }
 
 /// Says once which spellings of the file are not the canonical ones.
-fn note_spellings(context: &mut Context<'_>) {
+fn report_spellings(context: &mut Context<'_>) {
     let spellings = std::mem::take(&mut context.spellings);
     let Some((_, _, first)) = spellings.first().copied() else {
         return;
     };
     let pairs: Vec<_> = spellings
         .iter()
-        .map(|(written, meant, _)| format!("`{written}` for `{meant}`"))
+        .map(|(written, canonical, _)| format!("`{written}` for `{canonical}`"))
         .collect();
     context.report(
         &codes::SPELLING,
@@ -318,13 +322,13 @@ fn note_spellings(context: &mut Context<'_>) {
 }
 
 /// Says once that keys of the file are written in another case of letters.
-fn note_case(context: &mut Context<'_>) {
-    let Some((written, meant, span)) = context.other_case else {
+fn record_case(context: &mut Context<'_>) {
+    let Some((written, canonical, span)) = context.other_case else {
         return;
     };
     let message = || {
         format!(
-            "the case of letters in keys: `{}` for `{meant}`",
+            "the case of letters in keys: `{}` for `{canonical}`",
             clip(written)
         )
     };

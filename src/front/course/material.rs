@@ -1,7 +1,9 @@
 //! The materials.
 
 use super::decode::{Context, SharedValue, Spanned, Value};
-use super::glass::{Glass, glass_word, no_glass, only_an_index};
+use super::glass::{Glass, glass_setting, make_opaque, report_index_without_weight};
+use super::keyword::Keyword;
+use super::keyword::keyword_schema;
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
 use super::reader::look_up;
@@ -9,8 +11,6 @@ use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::standard::{self, StandardMaterial};
 use super::value::{Color, FileName};
-use super::word::Words;
-use super::word::word_schema;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityKind, Field, MaterialId};
 use rtc_source::Span;
@@ -50,7 +50,7 @@ record! {
         /// How many rays sample a blurred mirror image; 1 is a sharp one.
         glossy_samples: Spanned<Count>, default(Count(1)), keys!["glossySamples"];
     }
-    forms { [color] [texture] [color texture] }
+    variants { [color] [texture] [color texture] }
 }
 
 /// A material of either family.
@@ -61,8 +61,8 @@ pub(super) enum Material {
 
 /// Whether Phong's model has a key of this name, other than `type`, which others have too.
 pub(super) fn is_material_key(key: &str) -> bool {
-    let rows = PhongMaterial::RECORD.fields.iter();
-    let mut keys = rows.flat_map(|field| field.rows.iter().copied().flatten());
+    let spellings = PhongMaterial::RECORD.fields.iter();
+    let mut keys = spellings.flat_map(|field| field.spellings.iter().copied().flatten());
     key != KIND && keys.any(|known| *known == key)
 }
 
@@ -73,8 +73,8 @@ impl Value for Material {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let is_map = context.tree.is_map(node);
         let kind = is_map.then(|| look_up(KIND, node, context)).flatten();
-        let word = kind.and_then(|kind| context.tree.text(kind));
-        if word.is_some_and(|word| word.eq_ignore_ascii_case(standard::WORD)) {
+        let keyword = kind.and_then(|kind| context.tree.text(kind));
+        if keyword.is_some_and(|keyword| keyword.eq_ignore_ascii_case(standard::KEYWORD)) {
             return StandardMaterial::decode(node, context)
                 .map(|own| Self::Standard(Box::new(own)));
         }
@@ -82,7 +82,7 @@ impl Value for Material {
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        let standard = word_schema(&[(standard::WORD, ())]);
+        let standard = keyword_schema(&[(standard::KEYWORD, ())]);
         json!({
             "if": { "type": "object", "properties": { KIND: standard }, "required": [KIND] },
             "then": StandardMaterial::schema(definitions),
@@ -99,8 +99,8 @@ pub(super) enum Finish {
     Refraction,
 }
 
-impl Words for Finish {
-    const WORDS: &'static [(&'static str, Self)] = &[
+impl Keyword for Finish {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[
         ("default", Finish::Default),
         ("reflection", Finish::Reflection),
         ("refraction", Finish::Refraction),
@@ -158,17 +158,17 @@ impl Lowering {
         let mut phong = self.phong(value, color.value);
         let mut glass = value.kt.span;
         let mut is_clear = false;
-        match glass_word(value) {
+        match glass_setting(value) {
             Some((true, span)) if value.kt.span.is_none() => {
                 (phong.kt, phong.eta) = refraction(1.0, value.eta.value.0);
                 glass = Some(span);
                 is_clear = value.is_transparent.is_absent();
             }
-            Some((false, span)) if value.kt.value.0 > 0.0 => no_glass(&mut phong, span, context),
+            Some((false, span)) if value.kt.value.0 > 0.0 => make_opaque(&mut phong, span, context),
             Some(_) => {}
-            None => only_an_index(value, context),
+            None => report_index_without_weight(value, context),
         }
-        self.note_mirror(value, context);
+        self.report_mirror(value, context);
         let lets_through = phong.kt > 0.0;
         let id = self.add_material(ir::Material::Phong(phong));
         if let (true, Some(span)) = (lets_through, glass) {
@@ -205,10 +205,10 @@ impl Lowering {
             kt,
             eta,
             glossy_samples: glossy_samples.value.0,
-            color_map: self.map(texture),
-            specular_map: self.map(specular_map),
-            normal_map: self.map(normal_map),
-            bump: self.map(bump).map(|texture| ir::Bump {
+            color_map: self.texture(texture),
+            specular_map: self.texture(specular_map),
+            normal_map: self.texture(normal_map),
+            bump: self.texture(bump).map(|texture| ir::Bump {
                 texture,
                 height: 1.0,
             }),
@@ -216,7 +216,7 @@ impl Lowering {
     }
 
     /// Says that `type: default` mirrors here, where the picture shows that.
-    fn note_mirror(&self, material: &PhongMaterial, context: &mut Context<'_>) {
+    fn report_mirror(&self, material: &PhongMaterial, context: &mut Context<'_>) {
         let FieldOutcome::Read(Spanned {
             value: Finish::Default,
             span: Some(span),
@@ -237,7 +237,7 @@ impl Lowering {
         }
     }
 
-    fn map(&mut self, file: &FieldOutcome<Spanned<FileName>>) -> Option<ir::TextureId> {
+    fn texture(&mut self, file: &FieldOutcome<Spanned<FileName>>) -> Option<ir::TextureId> {
         if let FieldOutcome::Read(file) = file {
             Some(self.files.texture(&mut self.scene, file))
         } else {

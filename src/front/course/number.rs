@@ -3,8 +3,8 @@
 //! Their types name ranges for the schema. What the IR can hold is lowered, in range or not: the
 //! proof refuses it there, as it must for scenes that were never text.
 
+use super::core_schema::{ScalarNumber, is_not_finite_elsewhere, parse_number};
 use super::decode::{Context, Value, describe};
-use super::reading::{WordNumber, is_not_finite_elsewhere, read};
 use super::schema::Definitions;
 use rtc_diag::clip;
 use rtc_diag::codes;
@@ -17,34 +17,34 @@ use std::f64::consts::FRAC_PI_2;
 /// The number a word without quotes says, if it says one; nothing is reported.
 pub(super) fn plain_number(node: NodeId, context: &Context<'_>) -> Option<f64> {
     match context.tree.shape(node) {
-        NodeContent::Word(word) => match read(word) {
-            WordNumber::Number(value) => Some(value),
-            WordNumber::NotFinite | WordNumber::NoNumber => None,
+        NodeContent::Word(scalar) => match parse_number(scalar) {
+            ScalarNumber::Number(value) => Some(value),
+            ScalarNumber::NotFinite | ScalarNumber::NoNumber => None,
         },
         NodeContent::Text(_) | NodeContent::List | NodeContent::Map => None,
     }
 }
 
 /// Whether a word without quotes is a number, finite or not.
-pub(super) fn is_number(word: &str) -> bool {
-    !matches!(read(word), WordNumber::NoNumber)
+pub(super) fn is_number(scalar: &str) -> bool {
+    !matches!(parse_number(scalar), ScalarNumber::NoNumber)
 }
 
 /// A finite number; else the sink has an error.
 pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Option<f64> {
     let tree = context.tree;
-    let (word, quoted) = match tree.shape(node) {
-        NodeContent::Word(word) => (word, false),
+    let (scalar, quoted) = match tree.shape(node) {
+        NodeContent::Word(scalar) => (scalar, false),
         NodeContent::Text(text) => (text, true),
         NodeContent::List | NodeContent::Map => return context.expected(node, what),
     };
     let (key, span) = (context.key, tree.span(node));
-    match read(word) {
-        WordNumber::NoNumber if !quoted && is_not_finite_elsewhere(word) => {
-            not_finite(word, span, context);
+    match parse_number(scalar) {
+        ScalarNumber::NoNumber if !quoted && is_not_finite_elsewhere(scalar) => {
+            not_finite(scalar, span, context);
             None
         }
-        WordNumber::Number(_) | WordNumber::NotFinite if quoted => {
+        ScalarNumber::Number(_) | ScalarNumber::NotFinite if quoted => {
             let message = || {
                 format!(
                     "`{}` must be {what}, not {}",
@@ -54,32 +54,32 @@ pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Opt
             };
             context.report(&codes::WRONG_TYPE, span, message, |d| {
                 d.at(span, "text, because of the quotes")
-                    .replace("remove the quotes", span, word)
+                    .replace("remove the quotes", span, scalar)
             });
             None
         }
-        WordNumber::Number(value) => Some(value),
-        WordNumber::NotFinite => {
-            not_finite(word, span, context);
+        ScalarNumber::Number(value) => Some(value),
+        ScalarNumber::NotFinite => {
+            not_finite(scalar, span, context);
             None
         }
-        WordNumber::NoNumber if what.starts_with("a number") => context.expected(node, what),
-        WordNumber::NoNumber => context.expected_as(node, what, "a number"),
+        ScalarNumber::NoNumber if what.starts_with("a number") => context.expected(node, what),
+        ScalarNumber::NoNumber => context.expected_as(node, what, "a number"),
     }
 }
 
-fn not_finite(word: &str, span: Span, context: &mut Context<'_>) {
+fn not_finite(scalar: &str, span: Span, context: &mut Context<'_>) {
     let key = context.key;
-    let message = || format!("`{}` is not finite: `{}`", clip(key.text), clip(word));
+    let message = || format!("`{}` is not finite: `{}`", clip(key.text), clip(scalar));
     context.report(&codes::NOT_FINITE, span, message, |d| {
         d.at(span, "no number to compute with")
     });
 }
 
-/// A whole number up to `most`; one that is larger or negative is reported and becomes `least`.
+/// A whole number up to `max`; one that is larger or negative is reported and becomes `min`.
 ///
-/// What lies between 0 and `least` is lowered as it is.
-pub(super) fn whole(least: u32, most: u32, node: NodeId, context: &mut Context<'_>) -> Option<u32> {
+/// What lies between 0 and `min` is lowered as it is.
+pub(super) fn integer(min: u32, max: u32, node: NodeId, context: &mut Context<'_>) -> Option<u32> {
     let value = number(node, "a whole number", context)?;
     #[expect(
         clippy::float_cmp,
@@ -89,11 +89,11 @@ pub(super) fn whole(least: u32, most: u32, node: NodeId, context: &mut Context<'
         return context.expected(node, "a whole number");
     }
     if value < 0.0 {
-        out_of_range(&format!("at least {least}"), node, context);
-        return Some(least);
-    } else if value > f64::from(most) {
-        out_of_range(&format!("at most {most}"), node, context);
-        return Some(least);
+        out_of_range(&format!("at least {min}"), node, context);
+        return Some(min);
+    } else if value > f64::from(max) {
+        out_of_range(&format!("at most {max}"), node, context);
+        return Some(min);
     }
     #[expect(
         clippy::cast_possible_truncation,
@@ -105,34 +105,40 @@ pub(super) fn whole(least: u32, most: u32, node: NodeId, context: &mut Context<'
 
 fn out_of_range(range: &str, node: NodeId, context: &mut Context<'_>) {
     let (tree, key) = (context.tree, context.key);
-    let (span, word) = (tree.span(node), tree.text(node).unwrap_or_default());
-    let message = || format!("`{}` must be {range}, not `{}`", clip(key.text), clip(word));
+    let (span, scalar) = (tree.span(node), tree.text(node).unwrap_or_default());
+    let message = || {
+        format!(
+            "`{}` must be {range}, not `{}`",
+            clip(key.text),
+            clip(scalar)
+        )
+    };
     context.report(&codes::OUT_OF_RANGE, span, message, |d| {
         d.at(span, "out of range")
     });
 }
 
 /// Warns of an angle in degrees that is more likely in radians.
-fn looks_like_radians(angle: f64, node: NodeId, context: &mut Context<'_>) {
+fn report_likely_radians(angle: f64, node: NodeId, context: &mut Context<'_>) {
     let degrees = (angle.to_degrees() * 100.0).round() / 100.0;
     let message = |key: &str| format!("`{}` is in degrees, and looks like radians", clip(key));
-    other_unit(message, format!("{degrees}"), node, context);
+    report_other_unit(message, format!("{degrees}"), node, context);
 }
 
 /// Warns of an angle in radians that is more likely in degrees: more than a turn, and a multiple of
 /// 5.
-pub(super) fn in_radians(angle: f64, node: NodeId, context: &mut Context<'_>) -> f64 {
+pub(super) fn radians(angle: f64, node: NodeId, context: &mut Context<'_>) -> f64 {
     if angle.abs() > std::f64::consts::TAU && angle % 5.0 == 0.0 {
         let radians = (angle.to_radians() * 10_000.0).round() / 10_000.0;
         let message = |key: &str| format!("`{}` is in radians, and looks like degrees", clip(key));
-        other_unit(message, format!("{radians}"), node, context);
+        report_other_unit(message, format!("{radians}"), node, context);
     }
     angle
 }
 
-fn other_unit(
+fn report_other_unit(
     message: impl FnOnce(&str) -> String,
-    better: String,
+    replacement: String,
     node: NodeId,
     context: &mut Context<'_>,
 ) {
@@ -143,7 +149,7 @@ fn other_unit(
         || message(key.text),
         |d| {
             d.at(span, "taken as it is")
-                .guess("in the other unit", span, better)
+                .guess("in the other unit", span, replacement)
         },
     );
 }
@@ -194,14 +200,14 @@ ranged! {
 
 ranged! {
     /// The angle of a view in degrees.
-    Opening(f64), |node, context| {
+    FieldOfView(f64), |node, context| {
         let degrees = number(node, "a number", context)?;
         if degrees <= 0.0 || degrees >= 180.0 {
             out_of_range("above 0 and below 180", node, context);
             return Some(90.0);
         }
         if degrees < std::f64::consts::PI {
-            looks_like_radians(degrees, node, context);
+            report_likely_radians(degrees, node, context);
         }
         Some(degrees)
     }, { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 180, "x-unit": "degrees" }
@@ -212,7 +218,7 @@ ranged! {
     Degrees(f64), |node, context| {
         let degrees = number(node, "a number", context)?;
         if degrees.fract() != 0.0 && degrees.abs() <= std::f64::consts::TAU {
-            looks_like_radians(degrees, node, context);
+            report_likely_radians(degrees, node, context);
         }
         Some(degrees)
     }, { "type": "number", "x-unit": "degrees" }
@@ -230,20 +236,20 @@ ranged! {
 
 ranged! {
     /// A whole number of at least 0.
-    Natural(u32), |node, context| whole(0, u32::MAX, node, context),
+    Natural(u32), |node, context| integer(0, u32::MAX, node, context),
     { "type": "integer", "minimum": 0, "maximum": 4_294_967_295_u32 }
 }
 
 ranged! {
     /// A whole number of at least 1.
-    Count(u32), |node, context| whole(1, u32::MAX, node, context),
+    Count(u32), |node, context| integer(1, u32::MAX, node, context),
     { "type": "integer", "minimum": 1, "maximum": 4_294_967_295_u32 }
 }
 
 ranged! {
     /// An angle in radians of at most a quarter turn.
     HalfAngle(f64), |node, context| {
-        number(node, "a number", context).map(|angle| in_radians(angle, node, context))
+        number(node, "a number", context).map(|angle| radians(angle, node, context))
     }, { "type": "number", "exclusiveMinimum": 0, "maximum": FRAC_PI_2, "x-unit": "radians" }
 }
 
@@ -265,5 +271,5 @@ const MAX_SIDE: u32 = 65_535;
 
 ranged! {
     /// A side of an image in pixels.
-    Side(u32), |node, context| whole(1, MAX_SIDE, node, context), { "type": "integer", "minimum": 1, "maximum": MAX_SIDE, "x-unit": "pixels" }
+    PixelCount(u32), |node, context| integer(1, MAX_SIDE, node, context), { "type": "integer", "minimum": 1, "maximum": MAX_SIDE, "x-unit": "pixels" }
 }

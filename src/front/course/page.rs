@@ -6,13 +6,13 @@ use super::environment::Environment;
 use super::light::Light;
 use super::material::PhongMaterial;
 use super::object::{KINDS, ObjectKind};
-use super::paths::Paths;
-use super::picture::Sides;
-use super::record::{Field, Need, Record};
-use super::sampling::Grid;
+use super::path_settings::Paths;
+use super::record::{FieldDeclaration, Need, Record};
+use super::sampling::SamplingMap;
 use super::schema::Definitions;
 use super::settings::{Gooch, Scene};
 use super::standard::{StandardMaterial, TextureMap};
+use super::view_size::SizeMap;
 use serde_json::Value as Json;
 use std::fmt::Write as _;
 
@@ -27,7 +27,7 @@ errors with `--strict`; only `comment` may stand in every map and means nothing.
 and keys in any case of letters unless `--strict` is on. A scene may be JSON, which is YAML too: the third column says which keys the course had in the years of JSON, and the programs written for them. Lengths are in scene units; points, directions and colours are lists of three numbers.
 ";
 
-const WRITES: &str = "a string takes all that is written to it";
+const INFALLIBLE: &str = "a string takes all that is written to it";
 
 /// The page, in Markdown.
 #[must_use]
@@ -36,8 +36,8 @@ pub fn page() -> String {
     for (title, record) in [
         ("The file", &Scene::RECORD),
         ("`Camera`", &Camera::RECORD),
-        ("`ImageSize` as a map", &Sides::RECORD),
-        ("`SuperSampling`", &Grid::RECORD),
+        ("`ImageSize` as a map", &SizeMap::RECORD),
+        ("`SuperSampling`", &SamplingMap::RECORD),
         ("`GoochParameters`", &Gooch::RECORD),
         ("`PathParameters`", &Paths::RECORD),
         ("`Environment`", &Environment::RECORD),
@@ -48,47 +48,47 @@ pub fn page() -> String {
     ] {
         section(title, record, &mut page);
     }
-    for ObjectKind { words, record, .. } in KINDS {
-        section(&format!("`type: {}`", words[0]), record, &mut page);
-        if let [_, others @ ..] = words
+    for ObjectKind { names, record, .. } in KINDS {
+        section(&format!("`type: {}`", names[0]), record, &mut page);
+        if let [_, others @ ..] = names
             && !others.is_empty()
         {
-            writeln!(page, "\nOther words for this type: {}.", code(others)).expect(WRITES);
+            writeln!(page, "\nOther words for this type: {}.", code(others)).expect(INFALLIBLE);
         }
     }
     page
 }
 
 fn section(title: &str, record: &Record, page: &mut String) {
-    writeln!(page, "\n## {title}\n\n{}\n", record.doc.trim()).expect(WRITES);
+    writeln!(page, "\n## {title}\n\n{}\n", record.doc.trim()).expect(INFALLIBLE);
     page.push_str(
         "| key | other spellings | in JSON files | type | default | meaning |\n| --- | --- | --- | --- | --- | --- |\n",
     );
-    for Field {
+    for FieldDeclaration {
         name,
         doc,
-        rows,
+        spellings,
         json,
         need,
         schema,
     } in record.fields
     {
-        let (canonical, others) = rows.split_first().expect("a field has a row of keys");
+        let (canonical, others) = spellings.split_first().expect("a field has a row of keys");
         let others: Vec<_> = others.iter().map(|row| code(row)).collect();
         let in_json = json.iter().map(|first| {
-            let row = rows.iter().find(|row| row[0] == *first);
+            let row = spellings.iter().find(|row| row[0] == *first);
             code(row.expect("what JSON files have is a row of the field"))
         });
         let in_json = in_json.collect::<Vec<_>>().join("; ");
-        let in_form = record.forms.iter().any(|form| form.contains(name));
+        let in_variant = record.variants.iter().any(|variant| variant.contains(name));
         let default = match need {
             Need::Required => "required".to_owned(),
             Need::Unless(other) => {
                 let other = record.fields.iter().find(|field| field.name == *other);
-                let other = other.map_or_else(String::new, |field| code(field.rows[0]));
+                let other = other.map_or_else(String::new, |field| code(field.spellings[0]));
                 format!("required without {other}")
             }
-            Need::Optional if in_form => "see below".to_owned(),
+            Need::Optional if in_variant => "see below".to_owned(),
             Need::Optional => "none".to_owned(),
             Need::Default(default) => format!("`{}`", default()),
         };
@@ -98,31 +98,34 @@ fn section(title: &str, record: &Record, page: &mut String) {
             page,
             "| {key} | {others} | {in_json} | {kind} | {default} | {meaning} |"
         )
-        .expect(WRITES);
+        .expect(INFALLIBLE);
     }
-    if record.forms.len() > 1 {
+    if record.variants.len() > 1 {
         let keys = |name: &&str| {
             record
                 .fields
                 .iter()
                 .find(|field| field.name == *name)
-                .map(|field| code(field.rows[0]))
+                .map(|field| code(field.spellings[0]))
         };
-        let forms = record
-            .forms
-            .iter()
-            .map(|form| form.iter().filter_map(keys).collect::<Vec<_>>().join(" "));
+        let variants = record.variants.iter().map(|variant| {
+            variant
+                .iter()
+                .filter_map(keys)
+                .collect::<Vec<_>>()
+                .join(" ")
+        });
         writeln!(
             page,
             "\nOne of these sets of keys: {}.",
-            forms.collect::<Vec<_>>().join("; ")
+            variants.collect::<Vec<_>>().join("; ")
         )
-        .expect(WRITES);
+        .expect(INFALLIBLE);
     }
 }
 
-fn code(words: &[&str]) -> String {
-    words
+fn code(names: &[&str]) -> String {
+    names
         .iter()
         .map(|word| format!("`{word}`"))
         .collect::<Vec<_>>()
@@ -131,14 +134,14 @@ fn code(words: &[&str]) -> String {
 
 /// What a schema takes, in words.
 fn kind(schema: &Json) -> String {
-    if let Some(forms) = schema["anyOf"].as_array() {
-        let current = forms
+    if let Some(variants) = schema["anyOf"].as_array() {
+        let current = variants
             .iter()
-            .filter(|form| form["deprecated"] != true && form["pattern"].is_null());
+            .filter(|variant| variant["deprecated"] != true && variant["pattern"].is_null());
         return current.map(kind).collect::<Vec<_>>().join(", or ");
     }
-    if let Some(words) = schema["enum"].as_array() {
-        return words
+    if let Some(names) = schema["enum"].as_array() {
+        return names
             .iter()
             .filter_map(Json::as_str)
             .map(|word| format!("`{word}`"))

@@ -2,18 +2,18 @@
 //! is missing is reported.
 
 use super::decode::{Context, MapEntry, ValueKey, describe};
-use super::form;
 use super::material::is_material_key;
-use super::record::{Field, FieldOutcome, Need, Record, Slot};
-use super::spelling::{is_same_but_for_signs, list};
-use super::synonym::elsewhere;
+use super::record::{FieldDeclaration, FieldOutcome, Need, Record, Slot};
+use super::spelling::{quoted_list, same_letters};
+use super::synonym::foreign_key_advice;
+use super::variant;
 use rtc_diag::{Diagnostic, clip, codes, nearest};
 use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use std::collections::BTreeSet;
 
 /// So many findings get a suggestion.
-const ADVISED: usize = 100;
+const MAX_SUGGESTIONS: usize = 100;
 
 /// The longest row of any field.
 const MAX_ROW: usize = 6;
@@ -25,17 +25,17 @@ pub(super) const COMMENT: &str = "comment";
 const MATERIAL: &str = "material";
 
 /// Reads one map, field by field in the order of the declaration.
-pub(super) struct Reader {
+pub(super) struct MapReader {
     record: &'static Record,
     /// The row of keys under which each field so far was there, if it was.
     rows: Vec<Option<&'static [&'static str]>>,
     /// Where the map's entries start among those of the context.
-    from: usize,
+    first_entry: usize,
     /// Stands for the map in findings.
     head: Span,
 }
 
-impl Reader {
+impl MapReader {
     /// Opens a map; anything else is reported.
     pub(super) fn open(
         record: &'static Record,
@@ -46,15 +46,15 @@ impl Reader {
             return context.expected(node, "a map");
         }
         let head = context.key.span.unwrap_or_else(|| context.head(node));
-        let from = context.entries.len();
-        gather(node, context);
+        let first_entry = context.entries.len();
+        collect_entries(node, context);
         if !context.options.strict {
-            fold_case(record, from, context);
+            fold_case(record, first_entry, context);
         }
         Some(Self {
             record,
             rows: Vec::with_capacity(record.fields.len()),
-            from,
+            first_entry,
             head,
         })
     }
@@ -62,59 +62,59 @@ impl Reader {
     /// The next field of the declaration.
     pub(super) fn next<S: Slot>(&mut self, context: &mut Context<'_>) -> FieldOutcome<S> {
         let field = &self.record.fields[self.rows.len()];
-        let found = self.row(field, context);
-        self.rows.push(found.map(|(row, _)| row));
-        let Some((row, found)) = found else {
+        let found = self.spelling(field, context);
+        self.rows.push(found.map(|(spelling, _)| spelling));
+        let Some((spelling, found)) = found else {
             return FieldOutcome::Absent;
         };
-        for ((key, canonical), at) in row.iter().zip(field.rows[0]).zip(found) {
+        for ((key, canonical), at) in spelling.iter().zip(field.spellings[0]).zip(found) {
             context.entries[at].claimed = true;
             if key != canonical {
-                context.note_spelling(
+                context.record_spelling(
                     key,
                     canonical,
                     context.tree.span(context.entries[at].key_node),
                 );
             }
         }
-        S::take(&found[..row.len()], context).map_or(FieldOutcome::Broken, FieldOutcome::Read)
+        S::take(&found[..spelling.len()], context).map_or(FieldOutcome::Broken, FieldOutcome::Read)
     }
 
     /// The first row of the field whose keys are all there and not yet used, and where.
-    fn row(
+    fn spelling(
         &self,
-        field: &Field,
+        field: &FieldDeclaration,
         context: &Context<'_>,
     ) -> Option<(&'static [&'static str], [usize; MAX_ROW])> {
-        let entries = &context.entries[self.from..];
+        let entries = &context.entries[self.first_entry..];
         let find = |key: &str| {
             Some(
-                self.from
+                self.first_entry
                     + entries
                         .iter()
                         .position(|entry| entry.key == key && !entry.claimed)?,
             )
         };
-        field.rows.iter().find_map(|row| {
-            let mut found = [find(row[0])?; MAX_ROW];
-            for (slot, key) in found.iter_mut().zip(*row).skip(1) {
+        field.spellings.iter().find_map(|spelling| {
+            let mut found = [find(spelling[0])?; MAX_ROW];
+            for (slot, key) in found.iter_mut().zip(*spelling).skip(1) {
                 *slot = find(key)?;
             }
-            Some((*row, found))
+            Some((*spelling, found))
         })
     }
 
     /// Reports what was left unread and what is missing. False if the map has none of the forms it
     /// may have.
     pub(super) fn close(self, context: &mut Context<'_>) -> bool {
-        let (mut partial, slips) = (0_u64, context.slips.len());
-        for at in self.from..context.entries.len() {
+        let (mut partial, typos) = (0_u64, context.typos.len());
+        for at in self.first_entry..context.entries.len() {
             let entry = context.entries[at];
             if !entry.claimed && entry.key != COMMENT {
-                partial |= self.unread(entry, context);
+                partial |= self.report_unread(entry, context);
             }
         }
-        context.entries.truncate(self.from);
+        context.entries.truncate(self.first_entry);
         let has = |name: &str| {
             let at = self
                 .record
@@ -123,7 +123,7 @@ impl Reader {
                 .position(|field| field.name == name);
             at.is_some_and(|at| self.rows[at].is_some())
         };
-        let required = |field: &Field| match field.need {
+        let required = |field: &FieldDeclaration| match field.need {
             Need::Required => true,
             Need::Unless(other) => !has(other),
             Need::Optional | Need::Default(_) => false,
@@ -132,36 +132,45 @@ impl Reader {
         let fields = self.record.fields.iter().enumerate();
         let missing = fields.filter(|(at, field)| absent(at) && required(field));
         let missing: Vec<_> = missing
-            .flat_map(|(_, field)| field.rows[0].iter().copied())
+            .flat_map(|(_, field)| field.spellings[0].iter().copied())
             .collect();
         if !missing.is_empty() {
-            let cause = context.slip_for(&missing, slips);
-            missing_keys(self.record.word, self.head, &missing, cause, context);
+            let cause = context.typo_for(&missing, typos);
+            missing_keys(self.record.name, self.head, &missing, cause, context);
         }
         // Which form was meant is unclear while a group is incomplete, which was reported.
         partial != 0
-            || form::check(
+            || variant::check(
                 self.record,
                 self.head,
                 |at| self.rows[at].is_some(),
-                slips,
+                typos,
                 context,
             )
     }
 
     /// Reports a key nobody used. The bit of the field it is a part of, if that field is
     /// incomplete.
-    fn unread(&self, entry: MapEntry<'_>, context: &mut Context<'_>) -> u64 {
-        let Record { word, fields, .. } = self.record;
+    fn report_unread(&self, entry: MapEntry<'_>, context: &mut Context<'_>) -> u64 {
+        let Record {
+            name: record_name,
+            fields,
+            ..
+        } = self.record;
         let span = context.tree.span(entry.key_node);
-        let part_of = |field: &Field| field.rows.iter().any(|row| row.contains(&entry.key));
+        let part_of = |field: &FieldDeclaration| {
+            field
+                .spellings
+                .iter()
+                .any(|spelling| spelling.contains(&entry.key))
+        };
         // Another of the same key was used: a duplicate, which is reported already, or hidden by
         // what merges it.
         if self
             .rows
             .iter()
             .flatten()
-            .any(|row| row.contains(&entry.key))
+            .any(|spelling| spelling.contains(&entry.key))
         {
             return 0;
         }
@@ -173,48 +182,67 @@ impl Reader {
         if let Some((_, field)) = used {
             let message = || {
                 format!(
-                    "`{}` says again what another key of the {word} says",
+                    "`{}` says again what another key of the {record_name} says",
                     entry.key
                 )
             };
             context.report(&codes::CONFLICTING_KEYS, span, message, |d| {
                 d.at(span, "one too many").hint(format!(
-                    "the {word} takes {} once",
-                    list(field.rows[0].iter().copied())
+                    "the {record_name} takes {} once",
+                    quoted_list(field.spellings[0].iter().copied())
                 ))
             });
             return 0;
         }
         if let Some((at, absent)) = self.nearest_group(entry.key, context) {
-            let message = || format!("the {word} has `{}` without {}", entry.key, list(absent));
+            let message = || {
+                format!(
+                    "the {record_name} has `{}` without {}",
+                    entry.key,
+                    quoted_list(absent)
+                )
+            };
             context.report(&codes::MISSING_KEY, span, message, |d| {
                 d.at(span, "one of a group").hint("give all of them")
             });
             return 1 << at;
         }
-        let Some((advice, meant)) = self.advice(entry.key) else {
-            self.propose(entry, context);
+        let Some((advice, suggestion)) = self.advice(entry.key) else {
+            self.report_unknown(entry, context);
             return 0;
         };
-        context.slips.extend(meant.map(|meant| (meant, span)));
-        unknown_key(word, entry, context, |d| d.hint(advice));
+        context
+            .typos
+            .extend(suggestion.map(|suggestion| (suggestion, span)));
+        unknown_key(record_name, entry, context, |d| d.hint(advice));
         0
     }
 
     /// Reports a key of which nothing is known, with the one that was probably meant.
-    fn propose(&self, entry: MapEntry<'_>, context: &mut Context<'_>) {
-        let Record { word, fields, .. } = self.record;
+    fn report_unknown(&self, entry: MapEntry<'_>, context: &mut Context<'_>) {
+        let Record {
+            name: record_name,
+            fields,
+            ..
+        } = self.record;
         let span = context.tree.span(entry.key_node);
         // Advice costs a comparison with every key: who made so many mistakes gets no more of it.
-        let advise = context.findings() < ADVISED;
+        let advise = context.findings() < MAX_SUGGESTIONS;
         let fields = fields.iter().enumerate();
-        let open = fields.filter(|(at, _)| advise && self.rows[*at].is_none());
-        let open = open.map(|(_, field)| field);
-        let meant = nearest(entry.key, open.flat_map(proposable));
-        context.slips.extend(meant.map(|meant| (meant, span)));
-        let better = meant.map(|meant| (meant, context.in_its_quotes(entry.key_node, meant)));
-        unknown_key(word, entry, context, |d| match better {
-            Some((meant, better)) => proposed(d, entry.key, meant, span, better),
+        let unused = fields.filter(|(at, _)| advise && self.rows[*at].is_none());
+        let unused = unused.map(|(_, field)| field);
+        let suggestion = nearest(entry.key, unused.flat_map(proposable));
+        context
+            .typos
+            .extend(suggestion.map(|suggestion| (suggestion, span)));
+        let better = suggestion.map(|suggestion| {
+            (
+                suggestion,
+                context.with_quotes_of(entry.key_node, suggestion),
+            )
+        });
+        unknown_key(record_name, entry, context, |d| match better {
+            Some((suggestion, better)) => proposed(d, entry.key, suggestion, span, better),
             None if entry.key.starts_with(|c: char| c.is_ascii_digit()) => d.hint(
                 "a comma begins the next key: decimals stand behind a point, lists in `[` and `]`",
             ),
@@ -224,13 +252,17 @@ impl Reader {
 
     /// What is known of a key that the record has not: how it is written here, and as which key.
     fn advice(&self, key: &str) -> Option<(String, Option<&'static str>)> {
-        let Record { word, fields, .. } = self.record;
+        let Record {
+            name: record_name,
+            fields,
+            ..
+        } = self.record;
         let has_material = fields.iter().any(|field| field.name == MATERIAL);
         if has_material && is_material_key(key) {
-            let advice = format!("`{key}` belongs in the `{MATERIAL}` of the {word}");
+            let advice = format!("`{key}` belongs in the `{MATERIAL}` of the {record_name}");
             return Some((advice, Some(MATERIAL)));
         }
-        elsewhere(word, key).map(|advice| (advice.to_owned(), None))
+        foreign_key_advice(record_name, key).map(|advice| (advice.to_owned(), None))
     }
 
     /// Of the groups with this key, by the index of the field, the one of which the fewest keys are
@@ -240,18 +272,21 @@ impl Reader {
         key: &str,
         context: &Context<'_>,
     ) -> Option<(usize, Vec<&'static str>)> {
-        let open = context.entries[self.from..]
+        let unused = context.entries[self.first_entry..]
             .iter()
             .filter(|entry| !entry.claimed);
-        let is_there = |key: &str| open.clone().any(|entry| entry.key == key);
-        let absent = |row: &&[&'static str]| {
-            let absent = row.iter().copied().filter(|key| !is_there(key));
+        let is_there = |key: &str| unused.clone().any(|entry| entry.key == key);
+        let absent = |spelling: &&[&'static str]| {
+            let absent = spelling.iter().copied().filter(|key| !is_there(key));
             absent.collect::<Vec<_>>()
         };
         let groups = self.record.fields.iter().enumerate();
         let groups = groups.flat_map(|(at, field)| {
-            let rows = field.rows.iter().filter(|row| row.contains(&key));
-            rows.map(move |row| (at, absent(row)))
+            let rows = field
+                .spellings
+                .iter()
+                .filter(|spelling| spelling.contains(&key));
+            rows.map(move |spelling| (at, absent(spelling)))
         });
         groups.min_by_key(|(_, absent)| absent.len())
     }
@@ -259,33 +294,38 @@ impl Reader {
 
 /// The keys of a field that are worth proposing: other names of one or two letters are like too
 /// much.
-fn proposable(field: &Field) -> impl Iterator<Item = &'static str> {
-    let rows = field.rows.iter().enumerate();
-    rows.flat_map(|(at, row)| {
-        let keys = row.iter().copied();
+fn proposable(field: &FieldDeclaration) -> impl Iterator<Item = &'static str> {
+    let rows = field.spellings.iter().enumerate();
+    rows.flat_map(|(at, spelling)| {
+        let keys = spelling.iter().copied();
         keys.filter(move |key| at == 0 || key.len() > 2)
     })
 }
 
 /// Reports keys that have to be there.
 pub(super) fn missing_keys(
-    word: &str,
+    record_name: &str,
     head: Span,
     missing: &[&str],
     cause: Option<Span>,
     context: &mut Context<'_>,
 ) {
-    let message = || format!("the {word} has no {}", list(missing.iter().copied()));
+    let message = || {
+        format!(
+            "the {record_name} has no {}",
+            quoted_list(missing.iter().copied())
+        )
+    };
     context.report(&codes::MISSING_KEY, head, message, |d| {
-        d.at(head, format!("this {word}"))
+        d.at(head, format!("this {record_name}"))
             .because(cause, "perhaps this is it")
     });
 }
 
 /// Proposes a key: with the letters and digits of the one that is written, it is the same key.
-fn proposed(d: Diagnostic, key: &str, meant: &str, span: Span, better: String) -> Diagnostic {
-    let hint = format!("did you mean `{meant}`?");
-    match is_same_but_for_signs(key, meant) {
+fn proposed(d: Diagnostic, key: &str, suggestion: &str, span: Span, better: String) -> Diagnostic {
+    let hint = format!("did you mean `{suggestion}`?");
+    match same_letters(key, suggestion) {
         true => d.replace(hint, span, better),
         false => d.guess(hint, span, better),
     }
@@ -293,55 +333,55 @@ fn proposed(d: Diagnostic, key: &str, meant: &str, span: Span, better: String) -
 
 /// Reports a key that a record has not, with what `advise` adds.
 fn unknown_key(
-    word: &str,
+    record_name: &str,
     entry: MapEntry<'_>,
     context: &mut Context<'_>,
     advise: impl FnOnce(Diagnostic) -> Diagnostic,
 ) {
     let span = context.tree.span(entry.key_node);
-    let severity = context.unread();
+    let severity = context.unknown_key_severity();
     context.report(
         &codes::UNKNOWN_KEY,
         span,
-        || format!("the {word} has no key `{}`", clip(entry.key)),
+        || format!("the {record_name} has no key `{}`", clip(entry.key)),
         |d| advise(d.at(span, "ignored").severity(severity)),
     );
 }
 
 /// Takes keys of no meaning for those that differ from them in the case of letters alone, unless
 /// the map has these as well.
-fn fold_case(record: &'static Record, from: usize, context: &mut Context<'_>) {
+fn fold_case(record: &'static Record, first_entry: usize, context: &mut Context<'_>) {
     let keys = || {
         record
             .fields
             .iter()
-            .flat_map(|field| field.rows.iter().copied().flatten().copied())
+            .flat_map(|field| field.spellings.iter().copied().flatten().copied())
     };
-    for at in from..context.entries.len() {
+    for at in first_entry..context.entries.len() {
         let MapEntry { key, key_node, .. } = context.entries[at];
         if keys().any(|known| known == key) {
             continue;
         }
         let is_other = |known: &&str| {
-            context.entries[from..]
+            context.entries[first_entry..]
                 .iter()
                 .all(|entry| entry.key != *known)
         };
-        let meant = keys().find(|known| known.eq_ignore_ascii_case(key) && is_other(known));
-        if let Some(meant) = meant {
-            context.entries[at].key = meant;
-            context.note_case(key, meant, key_node);
+        let suggestion = keys().find(|known| known.eq_ignore_ascii_case(key) && is_other(known));
+        if let Some(suggestion) = suggestion {
+            context.entries[at].key = suggestion;
+            context.record_case(key, suggestion, key_node);
         }
     }
 }
 
 /// Adds the entries of a map to those of the context, its own first, then those it merges.
-fn gather(map: NodeId, context: &mut Context<'_>) {
+fn collect_entries(map: NodeId, context: &mut Context<'_>) {
     let tree = context.tree;
-    let mut open = vec![map];
+    let mut open_maps = vec![map];
     // Merging a map again changes nothing; without this, merges of merges would grow without bound.
     let mut seen = BTreeSet::new();
-    while let Some(map) = open.pop() {
+    while let Some(map) = open_maps.pop() {
         if !context.step(map) {
             return;
         }
@@ -370,7 +410,7 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
         }
         for map in merged.into_iter().rev() {
             if tree.is_map(map) {
-                open.extend(seen.insert(tree.target(map)).then_some(map));
+                open_maps.extend(seen.insert(tree.target(map)).then_some(map));
             } else {
                 context.key = ValueKey {
                     text: "<<",
@@ -387,13 +427,13 @@ pub(super) fn look_up(key: &str, map: NodeId, context: &mut Context<'_>) -> Opti
     if let Some(value) = context.tree.get(map, key) {
         return Some(value);
     }
-    let from = context.entries.len();
-    gather(map, context);
+    let first_entry = context.entries.len();
+    collect_entries(map, context);
     let is_strict = context.options.strict;
-    let found = context.entries[from..]
+    let found = context.entries[first_entry..]
         .iter()
         .find(|entry| entry.key == key || (!is_strict && entry.key.eq_ignore_ascii_case(key)))
         .map(|entry| entry.value);
-    context.entries.truncate(from);
+    context.entries.truncate(first_entry);
     found
 }

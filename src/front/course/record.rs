@@ -11,7 +11,7 @@ use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 /// Rows of keys, the canonical one first; all rows of a field have the same length.
-pub(super) type Rows = &'static [&'static [&'static str]];
+pub(super) type Spellings = &'static [&'static [&'static str]];
 
 /// Whether a key must be there.
 pub(super) enum Need {
@@ -24,10 +24,10 @@ pub(super) enum Need {
 }
 
 /// What a declaration says about one field.
-pub(super) struct Field {
+pub(super) struct FieldDeclaration {
     pub(super) name: &'static str,
     pub(super) doc: &'static str,
-    pub(super) rows: Rows,
+    pub(super) spellings: Spellings,
     /// The rows that the JSON files of the course have, by their first keys.
     pub(super) json: &'static [&'static str],
     pub(super) need: Need,
@@ -37,13 +37,13 @@ pub(super) struct Field {
 
 /// What a declaration says about a record.
 pub(super) struct Record {
-    pub(super) word: &'static str,
+    pub(super) name: &'static str,
     pub(super) doc: &'static str,
-    pub(super) fields: &'static [Field],
+    pub(super) fields: &'static [FieldDeclaration],
     /// Sets of fields of which exactly one must be there; empty if any will do.
-    pub(super) forms: &'static [&'static [&'static str]],
+    pub(super) variants: &'static [&'static [&'static str]],
     /// Whether the lowering sees to the forms, because it knows a better message or a repair.
-    pub(super) forms_are_lowered: bool,
+    pub(super) variants_are_lowered: bool,
 }
 
 /// Rows of one key each: spellings of the same key, the canonical one first.
@@ -55,14 +55,14 @@ macro_rules! keys {
 macro_rules! record {
     (
         $(#[doc = $doc:literal])+
-        struct $name:ident, $word:literal {
+        struct $name:ident, $record_name:literal {
             $(
                 $(#[doc = $field_doc:literal])+
-                $field:ident: $type:ty, $need:ident $(($default:expr))?, $rows:expr $(, json $json:literal)*;
+                $field:ident: $type:ty, $need:ident $(($default:expr))?, $spellings:expr $(, json $json:literal)*;
             )+
         }
-        $(forms { $([$($member:ident)+])+ })?
-        $(lowered_forms { $([$($lowered:ident)+])+ })?
+        $(variants { $([$($member:ident)+])+ })?
+        $(lowered_variants { $([$($lowered:ident)+])+ })?
     ) => {
         $(#[doc = $doc])+
         pub(in crate::course) struct $name {
@@ -72,18 +72,18 @@ macro_rules! record {
         impl $name {
             /// The declaration.
             pub(in crate::course) const RECORD: $crate::course::record::Record = $crate::course::record::Record {
-                word: $word,
+                name: $record_name,
                 doc: concat!($($doc),+),
-                fields: &[$($crate::course::record::Field {
+                fields: &[$($crate::course::record::FieldDeclaration {
                     name: stringify!($field),
                     doc: concat!($($field_doc),+),
-                    rows: $rows,
+                    spellings: $spellings,
                     json: &[$($json),*],
                     need: record!(@need $need $type $(, $default)?),
                     schema: <$type as $crate::course::record::Slot>::schema,
                 }),+],
-                forms: &[$($(&[$(stringify!($member)),+]),+)? $($(&[$(stringify!($lowered)),+]),+)?],
-                forms_are_lowered: !<[&str]>::is_empty(&[$($($(stringify!($lowered)),+),+)?]),
+                variants: &[$($(&[$(stringify!($member)),+]),+)? $($(&[$(stringify!($lowered)),+]),+)?],
+                variants_are_lowered: !<[&str]>::is_empty(&[$($($(stringify!($lowered)),+),+)?]),
             };
         }
 
@@ -92,7 +92,7 @@ macro_rules! record {
                 node: rtc_source::tree::NodeId,
                 context: &mut $crate::course::decode::Context<'_>,
             ) -> Option<Self> {
-                let mut reader = $crate::course::reader::Reader::open(&Self::RECORD, node, context)?;
+                let mut reader = $crate::course::reader::MapReader::open(&Self::RECORD, node, context)?;
                 $(let $field = reader.next::<$type>(context);)+
                 reader.close(context).then_some(())?;
                 Some(Self { $($field: record!(@value $need $field $(, $default)?)),+ })
@@ -162,20 +162,20 @@ impl<T> FieldOutcome<T> {
 pub(super) trait Slot: Sized {
     /// Reads the values of the entries at the places given; `None` if one can't be read, and then
     /// the sink has an error.
-    fn take(places: &[usize], context: &mut Context<'_>) -> Option<Self>;
+    fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self>;
 
     /// The schema of each value.
     fn schema(definitions: &mut Definitions) -> Json;
 }
 
 impl<T: Value> Slot for Spanned<T> {
-    fn take(places: &[usize], context: &mut Context<'_>) -> Option<Self> {
+    fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self> {
         let MapEntry {
             key: text,
             key_node,
             value: node,
             claimed: _,
-        } = context.entries[*places.first()?];
+        } = context.entries[*entries.first()?];
         let tree = context.tree;
         let key = tree.span(key_node);
         context.key = ValueKey {
@@ -205,11 +205,11 @@ impl<T: Value> Slot for Spanned<T> {
 }
 
 impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
-    fn take(places: &[usize], context: &mut Context<'_>) -> Option<Self> {
+    fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self> {
         // Collected first, so that a mistake in one value does not hide those in the others.
-        let read: Vec<_> = places
+        let read: Vec<_> = entries
             .chunks(1)
-            .map(|place| Spanned::take(place, context))
+            .map(|entry| Spanned::take(entry, context))
             .collect();
         let read: Option<Vec<_>> = read.into_iter().collect();
         read?.try_into().ok()
@@ -229,7 +229,7 @@ fn only_item(node: NodeId, context: &mut Context<'_>) -> NodeId {
     let mut items = tree.items(node);
     match (items.next(), items.next()) {
         (Some(item), None) if !tree.is_list(item) => {
-            context.note_spelling("[x]", "x", tree.span(node));
+            context.record_spelling("[x]", "x", tree.span(node));
             item
         }
         _ => node,

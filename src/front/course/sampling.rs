@@ -1,10 +1,10 @@
 //! The rays of a pixel: how many there are along each of its sides, and where they lie.
 
 use super::decode::{Context, Spanned, Value};
+use super::keyword::Keyword;
 use super::number::{Count, is_number, plain_number};
 use super::record::{keys, record};
 use super::schema::Definitions;
-use super::word::Words;
 use rtc_diag::codes;
 use rtc_ir as ir;
 use rtc_source::Span;
@@ -13,7 +13,7 @@ use serde_json::{Value as Json, json};
 
 record! {
     /// How many rays a pixel takes, and where they lie.
-    struct Grid, "`SuperSampling` map" {
+    struct SamplingMap, "`SuperSampling` map" {
         /// How many rays a pixel takes along each of its sides.
         factor: Spanned<Count>, required, keys!["factor"];
         /// Where in its cell of the pixel each ray lies: `grid` in the middle, `jitter` anywhere, `random` anywhere in the
@@ -22,8 +22,8 @@ record! {
     }
 }
 
-impl Words for ir::Pattern {
-    const WORDS: &'static [(&'static str, Self)] = &[
+impl Keyword for ir::Pattern {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[
         ("grid", ir::Pattern::Grid),
         ("jitter", ir::Pattern::Jitter),
         ("random", ir::Pattern::Random),
@@ -31,14 +31,14 @@ impl Words for ir::Pattern {
 }
 
 /// The rays along the side of a pixel of `AntiAlias: true`.
-const SOME: u32 = 2;
+const DEFAULT_FACTOR: u32 = 2;
 
 /// The number of rays along the side of a pixel, as a map or bare; or a truth value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SuperSampling {
     pub(super) factor: Count,
     /// Where the factor stands, in a map or bare.
-    pub(super) place: Option<Span>,
+    pub(super) factor_span: Option<Span>,
     pub(super) pattern: ir::Pattern,
 }
 
@@ -46,7 +46,7 @@ impl SuperSampling {
     /// One ray in the middle.
     pub(super) const ONE: Self = Self {
         factor: Count(1),
-        place: None,
+        factor_span: None,
         pattern: ir::Pattern::Grid,
     };
 }
@@ -55,24 +55,26 @@ impl Value for SuperSampling {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Map => {
-                let Grid { factor, pattern } = Grid::decode(node, context)?;
+                let SamplingMap { factor, pattern } = SamplingMap::decode(node, context)?;
                 Some(Self {
                     factor: factor.value,
-                    place: factor.span,
+                    factor_span: factor.span,
                     pattern: pattern.value,
                 })
             }
-            NodeContent::Word(word) if is_truth(word) && plain_number(node, context).is_none() => {
-                bool::decode(node, context).map(|truth| some_or_one(truth, node, context))
+            NodeContent::Word(scalar)
+                if is_boolean_word(scalar) && plain_number(node, context).is_none() =>
+            {
+                bool::decode(node, context).map(|boolean| factor_of_switch(boolean, node, context))
             }
-            NodeContent::Word(word) if !is_number(word) => {
+            NodeContent::Word(scalar) if !is_number(scalar) => {
                 context.expected(node, "a whole number, or a map of `factor` and `pattern`")
             }
             NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::List => {
-                let place = Some(context.tree.span(node));
+                let factor_span = Some(context.tree.span(node));
                 Count::decode(node, context).map(|factor| Self {
                     factor,
-                    place,
+                    factor_span,
                     ..Self::ONE
                 })
             }
@@ -80,8 +82,8 @@ impl Value for SuperSampling {
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        let truth = json!({ "type": "boolean", "deprecated": true });
-        json!({ "anyOf": [Count::schema(definitions), Grid::schema(definitions), truth] })
+        let boolean = json!({ "type": "boolean", "deprecated": true });
+        json!({ "anyOf": [Count::schema(definitions), SamplingMap::schema(definitions), boolean] })
     }
 
     fn json(&self) -> Json {
@@ -90,28 +92,32 @@ impl Value for SuperSampling {
 }
 
 /// Whether a word says yes or no, in YAML 1.2 or before.
-fn is_truth(word: &str) -> bool {
+fn is_boolean_word(scalar: &str) -> bool {
     ["true", "false", "on", "off", "yes", "no"]
         .iter()
-        .any(|truth| truth.eq_ignore_ascii_case(word))
+        .any(|boolean| boolean.eq_ignore_ascii_case(scalar))
 }
 
 /// The rays of a file that only turns supersampling on or off.
-fn some_or_one(truth: bool, node: NodeId, context: &mut Context<'_>) -> SuperSampling {
-    if !truth {
+fn factor_of_switch(boolean: bool, node: NodeId, context: &mut Context<'_>) -> SuperSampling {
+    if !boolean {
         return SuperSampling::ONE;
     }
     let span = context.tree.span(node);
-    let message = || format!("`true` does not say how many rays: taken as {SOME}");
+    let message = || format!("`true` does not say how many rays: taken as {DEFAULT_FACTOR}");
     context.report(&codes::ASSUMED, span, message, |d| {
-        d.at(span, format!("{SOME} × {SOME} rays a pixel")).replace(
+        d.at(
+            span,
+            format!("{DEFAULT_FACTOR} × {DEFAULT_FACTOR} rays a pixel"),
+        )
+        .replace(
             "write how many along each side",
             span,
-            SOME.to_string(),
+            DEFAULT_FACTOR.to_string(),
         )
     });
     SuperSampling {
-        factor: Count(SOME),
+        factor: Count(DEFAULT_FACTOR),
         ..SuperSampling::ONE
     }
 }

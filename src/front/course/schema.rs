@@ -5,7 +5,7 @@
 
 use super::decode::Value;
 use super::reader::COMMENT;
-use super::record::{Field, Need, Record};
+use super::record::{FieldDeclaration, Need, Record};
 use super::settings::Scene;
 use serde_json::{Map, Value as Json, json};
 
@@ -30,7 +30,7 @@ pub fn schema() -> Json {
 
 /// A reference to the schema of a record, which is made when first met.
 pub(super) fn record(record: &Record, definitions: &mut Definitions) -> Json {
-    let name = record.word.replace('`', "").replace(' ', "-");
+    let name = record.name.replace('`', "").replace(' ', "-");
     if !definitions.made.contains_key(&name) {
         definitions.made.insert(name.clone(), Json::Null);
         let body = body(record, definitions);
@@ -41,11 +41,11 @@ pub(super) fn record(record: &Record, definitions: &mut Definitions) -> Json {
 
 /// The schema of a value whose key `tag` says which of `kinds` it is.
 pub(super) fn tagged(tag: &str, doc: &str, kinds: &[(&str, Json)]) -> Json {
-    let words: Vec<_> = kinds.iter().map(|(word, _)| *word).collect();
-    let choose = |(word, schema): &(&str, Json)| json!({ "if": { "properties": { tag: { "const": word } }, "required": [tag] }, "then": schema });
+    let names: Vec<_> = kinds.iter().map(|(name, _)| *name).collect();
+    let choose = |(name, schema): &(&str, Json)| json!({ "if": { "properties": { tag: { "const": name } }, "required": [tag] }, "then": schema });
     json!({
         "type": "object",
-        "properties": { tag: { "description": doc, "enum": words } },
+        "properties": { tag: { "description": doc, "enum": names } },
         "required": [tag],
         "allOf": kinds.iter().map(choose).collect::<Vec<_>>(),
     })
@@ -58,11 +58,16 @@ fn body(record: &Record, definitions: &mut Definitions) -> Json {
     }
     let comment = json!({ "description": "Anything, for people to read." });
     properties.insert(COMMENT.to_owned(), comment);
-    let in_form = |field: &Field| record.forms.iter().any(|form| form.contains(&field.name));
+    let in_variant = |field: &FieldDeclaration| {
+        record
+            .variants
+            .iter()
+            .any(|variant| variant.contains(&field.name))
+    };
     let mut required = Vec::new();
     let mut rules = Vec::new();
-    for field in record.fields.iter().filter(|field| !in_form(field)) {
-        match (&field.need, field.rows) {
+    for field in record.fields.iter().filter(|field| !in_variant(field)) {
+        match (&field.need, field.spellings) {
             (Need::Required, [[key]]) => required.push(*key),
             (Need::Required, _) => rules.push(one_row(field)),
             (Need::Unless(other), _) => {
@@ -76,13 +81,13 @@ fn body(record: &Record, definitions: &mut Definitions) -> Json {
             }
         }
     }
-    if !record.forms.is_empty() {
-        let forms: Vec<_> = record
-            .forms
+    if !record.variants.is_empty() {
+        let variants: Vec<_> = record
+            .variants
             .iter()
-            .map(|form| one_form(record, form))
+            .map(|variant| one_variant(record, variant))
             .collect();
-        rules.push(json!({ "oneOf": forms }));
+        rules.push(json!({ "oneOf": variants }));
     }
     let mut body = json!({
         "description": record.doc.trim(),
@@ -100,13 +105,13 @@ fn body(record: &Record, definitions: &mut Definitions) -> Json {
 
 /// One property for each key; the keys that are not canonical say which is.
 fn field_properties(
-    field: &Field,
+    field: &FieldDeclaration,
     definitions: &mut Definitions,
     properties: &mut Map<String, Json>,
 ) {
     let value = (field.schema)(definitions);
-    let canonical = field.rows.first().copied().unwrap_or_default();
-    for row in field.rows {
+    let canonical = field.spellings.first().copied().unwrap_or_default();
+    for row in field.spellings {
         for (key, meant) in row.iter().zip(canonical) {
             if properties.contains_key(*key) {
                 continue;
@@ -139,8 +144,8 @@ fn field_properties(
     }
 }
 
-fn keys(field: &Field) -> impl Iterator<Item = &'static str> {
-    field.rows.iter().copied().flatten().copied()
+fn keys(field: &FieldDeclaration) -> impl Iterator<Item = &'static str> {
+    field.spellings.iter().copied().flatten().copied()
 }
 
 fn forbid(keys: impl Iterator<Item = &'static str>) -> Json {
@@ -149,42 +154,44 @@ fn forbid(keys: impl Iterator<Item = &'static str>) -> Json {
         .into()
 }
 
-fn absent(field: &Field) -> Json {
+fn absent(field: &FieldDeclaration) -> Json {
     json!({ "properties": forbid(keys(field)) })
 }
 
 /// Exactly one row of the field, and no key of its other rows; of single keys no more than one is
 /// there if exactly one is.
-fn one_row(field: &Field) -> Json {
-    let is_group = field.rows.iter().any(|row| row.len() > 1);
-    let rows = field.rows.iter().map(|row| {
+fn one_row(field: &FieldDeclaration) -> Json {
+    let is_group = field.spellings.iter().any(|row| row.len() > 1);
+    let spellings = field.spellings.iter().map(|row| {
         if !is_group {
             return json!({ "required": row });
         }
         let others = keys(field).filter(|key| !row.contains(key));
         json!({ "required": row, "properties": forbid(others) })
     });
-    let mut rows: Vec<_> = rows.collect();
-    if rows.len() == 1 {
-        rows.remove(0)
+    let mut spellings: Vec<_> = spellings.collect();
+    if spellings.len() == 1 {
+        spellings.remove(0)
     } else {
-        json!({ "oneOf": rows })
+        json!({ "oneOf": spellings })
     }
 }
 
 /// The fields of the form, and no key of the fields of the other forms.
-fn one_form(record: &Record, form: &[&str]) -> Json {
+fn one_variant(record: &Record, variant: &[&str]) -> Json {
     let members = || {
         record
             .fields
             .iter()
-            .filter(|field| form.contains(&field.name))
+            .filter(|field| variant.contains(&field.name))
     };
     let own: Vec<_> = members().flat_map(keys).collect();
-    let others = record
-        .fields
-        .iter()
-        .filter(|field| record.forms.iter().any(|form| form.contains(&field.name)));
+    let others = record.fields.iter().filter(|field| {
+        record
+            .variants
+            .iter()
+            .any(|variant| variant.contains(&field.name))
+    });
     let others = others.flat_map(keys).filter(|key| !own.contains(key));
     let rules: Vec<_> = members().map(one_row).collect();
     json!({ "allOf": rules, "properties": forbid(others) })

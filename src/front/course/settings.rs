@@ -1,19 +1,19 @@
 //! The whole file, and of it the settings: what a pixel shows and how much work goes into it.
 
 use super::camera::Camera;
-use super::decode::{Context, Each, Spanned, Value};
+use super::decode::{Context, LazyList, Spanned, Value};
 use super::environment::Environment;
+use super::keyword::{keyword, keyword_schema};
 use super::light::Light;
 use super::lower::Lowering;
 use super::number::{Count, Natural, Real, Stops, plain_number};
 use super::object::Object;
-use super::paths::Paths;
-use super::picture::PictureSize;
+use super::path_settings::Paths;
 use super::record::{FieldOutcome, keys, record};
 use super::sampling::SuperSampling;
 use super::schema::Definitions;
-use super::value::{Point, Switch, Text};
-use super::word::{word, word_schema};
+use super::value::{AnyScalar, Point, Switch};
+use super::view_size::ViewSize;
 use rtc_color::Tone;
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, EntityKind, Field};
@@ -24,7 +24,7 @@ record! {
     /// A scene of the ray-tracing course.
     struct Scene, "scene" {
         /// Where an editor finds the schema of this file; has no other meaning.
-        _schema: Spanned<Text>, optional, keys!["$schema"];
+        _schema: Spanned<AnyScalar>, optional, keys!["$schema"];
         /// The camera of old files: it looks at the square from (0, 0, 0) to (400, 400, 0). Newer files have `Camera`.
         eye: Spanned<Point>, optional, keys!["Eye"], json "Eye";
         /// The camera: where it stands, what it looks at, and the image it makes.
@@ -52,7 +52,7 @@ record! {
             json "SuperSamplingFactor", json "AntiAliasing";
         /// Width and height of the picture in pixels, beside an `Eye` or the three keys of a camera: the image begins at the
         /// origin and has one unit a pixel. A `Camera` has its own size.
-        image_size: Spanned<PictureSize>, optional, keys!["ImageSize" "Resolution"], json "ImageSize";
+        image_size: Spanned<ViewSize>, optional, keys!["ImageSize" "Resolution"], json "ImageSize";
         /// Width over height of the picture; has no effect, because pixels are square and the size is given.
         aspect_ratio: Spanned<Real>, optional, keys!["AspectRatio"];
         /// How many points of each soft light are asked; without it 16 if there is one.
@@ -77,11 +77,11 @@ record! {
         /// What surrounds the scene.
         environment: Spanned<Environment>, optional, keys!["Environment"];
         /// The lights.
-        lights: Spanned<Each<Light>>, default(Each::<Light>::none()), keys!["Lights"], json "Lights";
+        lights: Spanned<LazyList<Light>>, default(LazyList::<Light>::none()), keys!["Lights"], json "Lights";
         /// What there is to see.
-        objects: Spanned<Each<Object>>, default(Each::<Object>::none()), keys!["Objects"], json "Objects";
+        objects: Spanned<LazyList<Object>>, default(LazyList::<Object>::none()), keys!["Objects"], json "Objects";
     }
-    lowered_forms { [camera] [eye] [look] }
+    lowered_variants { [camera] [eye] [look] }
 }
 
 record! {
@@ -144,7 +144,7 @@ impl Value for Mode {
             .find(|(number, _)| given == Some(f64::from(*number)));
         numbered
             .map(|(_, mode)| *mode)
-            .or_else(|| word(node, MODES, context))
+            .or_else(|| keyword(node, MODES, context))
     }
 
     fn schema(_: &mut Definitions) -> Json {
@@ -152,11 +152,11 @@ impl Value for Mode {
             .iter()
             .map(|(number, _)| json!({ "const": number, "deprecated": true }))
             .collect();
-        let mut schema = word_schema(MODES);
+        let mut schema = keyword_schema(MODES);
         schema["anyOf"]
             .as_array_mut()
             .into_iter()
-            .for_each(|forms| forms.extend(numbers.clone()));
+            .for_each(|variants| variants.extend(numbers.clone()));
         schema
     }
 
@@ -164,12 +164,12 @@ impl Value for Mode {
         MODES
             .iter()
             .find(|(_, mode)| mode == self)
-            .map_or(Json::Null, |(word, _)| json!(word))
+            .map_or(Json::Null, |(keyword, _)| json!(keyword))
     }
 }
 
 /// The bounces of `Reflections: true` where the file does not say how many.
-const SOME_REFLECTIONS: u32 = 2;
+const DEFAULT_REFLECTIONS: u32 = 2;
 
 /// The points asked of each soft light where the file does not say how many.
 const SOFT_LIGHT_SAMPLES: u32 = 16;
@@ -187,7 +187,7 @@ impl Lowering {
             ..
         } = scene;
         let light_samples = light_samples.ok().unwrap_or(Spanned::unwritten(Count(1)));
-        note_unused(scene, context);
+        report_unused(scene, context);
         self.display(scene);
         self.scene.settings = ir::Settings {
             mode: self.mode(mode.value, gooch, context),
@@ -201,7 +201,7 @@ impl Lowering {
         };
         self.origin(EntityKind::Settings, 0, Field::Mode, mode.span);
         self.origin(EntityKind::Settings, 0, Field::MaxDepth, depth.span);
-        let factor = sampling.value.place.or(sampling.span);
+        let factor = sampling.value.factor_span.or(sampling.span);
         self.origin(EntityKind::Settings, 0, Field::Supersampling, factor);
         self.origin(
             EntityKind::Settings,
@@ -213,13 +213,13 @@ impl Lowering {
 
     /// Makes points of soft lights if the file says so, and else asks enough points of each, unless
     /// the file says how many; after the lights.
-    pub(super) fn soften(&mut self, scene: &Scene, context: &mut Context<'_>) {
+    pub(super) fn resolve_soft_lights(&mut self, scene: &Scene, context: &mut Context<'_>) {
         let points = || self.scene.lights.iter().filter_map(ir::Light::point);
         let soft = points().any(|light| light.radius > 0.0);
         if let FieldOutcome::Read(switch) = &scene.soft_shadows {
-            need_shadows(switch, &scene.shadows, context);
+            report_missing_shadows(switch, &scene.shadows, context);
             if !switch.value.0 {
-                self.harden();
+                self.remove_light_radii();
                 return;
             }
         }
@@ -229,7 +229,7 @@ impl Lowering {
     }
 
     /// Makes points of soft lights; a negative radius is left for the proof to refuse.
-    fn harden(&mut self) {
+    fn remove_light_radii(&mut self) {
         for light in &mut self.scene.lights {
             if let ir::Light::Point(light) = light {
                 light.radius = light.radius.min(0.0);
@@ -305,7 +305,7 @@ impl Lowering {
 }
 
 /// Says which settings do nothing in modes that show the first surface alone.
-fn note_unused(scene: &Scene, context: &mut Context<'_>) {
+fn report_unused(scene: &Scene, context: &mut Context<'_>) {
     let Scene {
         mode,
         shadows,
@@ -328,7 +328,7 @@ fn note_unused(scene: &Scene, context: &mut Context<'_>) {
     }
     let reflections = reflections.ok();
     let rays = sampling.value.factor.0;
-    for (is_asked, span, what) in [
+    for (is_set, span, what) in [
         (
             shadows.value && mode.value != Mode::Gooch,
             shadows.span,
@@ -337,8 +337,8 @@ fn note_unused(scene: &Scene, context: &mut Context<'_>) {
         (scene.toon.value, scene.toon.span, "cartoon"),
         (depth.value.0 > 0, depth.span, "mirror images"),
         (
-            reflections.is_some_and(|asked| asked.value),
-            reflections.and_then(|asked| asked.span),
+            reflections.is_some_and(|value| value.value),
+            reflections.and_then(|value| value.span),
             "mirror images",
         ),
         (
@@ -347,7 +347,7 @@ fn note_unused(scene: &Scene, context: &mut Context<'_>) {
             "supersampling",
         ),
     ] {
-        if let (true, Some(span)) = (is_asked, span) {
+        if let (true, Some(span)) = (is_set, span) {
             let message = || format!("this `RenderMode` has no {what}");
             context.report(&codes::NO_EFFECT, span, message, |d| {
                 d.at(span, "no effect").also(mode.span, "the mode")
@@ -357,7 +357,11 @@ fn note_unused(scene: &Scene, context: &mut Context<'_>) {
 }
 
 /// Says that a switch for soft shadows casts none by itself.
-fn need_shadows(switch: &Spanned<Switch>, shadows: &Spanned<bool>, context: &mut Context<'_>) {
+fn report_missing_shadows(
+    switch: &Spanned<Switch>,
+    shadows: &Spanned<bool>,
+    context: &mut Context<'_>,
+) {
     if let (Some(span), None) = (switch.span, shadows.span) {
         let message = || "`SoftShadows` without `Shadows` casts no shadows".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {
@@ -380,10 +384,10 @@ fn max_depth(scene: &Scene, context: &mut Context<'_>) -> u32 {
     else {
         return depth.value.0;
     };
-    context.note_spelling("Reflections", "MaxRecursionDepth", *span);
+    context.record_spelling("Reflections", "MaxRecursionDepth", *span);
     match (reflect, depth.span) {
         (true, Some(_)) => depth.value.0,
-        (true, None) => SOME_REFLECTIONS,
+        (true, None) => DEFAULT_REFLECTIONS,
         (false, _) => 0,
     }
 }

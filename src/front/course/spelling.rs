@@ -1,7 +1,7 @@
 //! Words as people write them: lists of them in messages, and words that differ in their signs.
 
 /// Words in backticks, with commas and `and`.
-pub(super) fn list<'w>(words: impl IntoIterator<Item = &'w str>) -> String {
+pub(super) fn quoted_list<'w>(words: impl IntoIterator<Item = &'w str>) -> String {
     let quoted: Vec<_> = words.into_iter().map(|word| format!("`{word}`")).collect();
     match quoted.as_slice() {
         [] => String::new(),
@@ -12,10 +12,10 @@ pub(super) fn list<'w>(words: impl IntoIterator<Item = &'w str>) -> String {
 
 /// Whether two texts have the same letters and digits, in any case of letters: what stands between
 /// them differs, and what they say does not.
-pub(super) fn is_same_but_for_signs(written: &str, meant: &str) -> bool {
+pub(super) fn same_letters(written: &str, suggestion: &str) -> bool {
     let core = |text: &str| -> Vec<char> {
         let letters = text.chars().filter(|c| c.is_alphanumeric());
         letters.flat_map(char::to_lowercase).collect()
     };
-    core(written) == core(meant)
+    core(written) == core(suggestion)
 }

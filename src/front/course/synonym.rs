@@ -2,10 +2,10 @@
 //! and the keys of other programs that mean something like one of ours, but not surely the same.
 
 /// The keys under which one value stands, or a group of values.
-type Row = &'static [&'static str];
+type KeyGroup = &'static [&'static str];
 
 /// A point that says where something is.
-pub(super) const PLACE: [Row; 8] = [
+pub(super) const POSITION: [KeyGroup; 8] = [
     &["position"],
     &["center"],
     &["centre"],
@@ -17,13 +17,14 @@ pub(super) const PLACE: [Row; 8] = [
 ];
 
 /// A corner that says where something is.
-pub(super) const CORNER: [Row; 5] = [&["position"], &["corner"], &["pos"], &["origin"], &["O"]];
+pub(super) const CORNER: [KeyGroup; 5] =
+    [&["position"], &["corner"], &["pos"], &["origin"], &["O"]];
 
 /// A radius.
-pub(super) const RADIUS: [Row; 4] = [&["radius"], &["r"], &["R"], &["rad"]];
+pub(super) const RADIUS: [KeyGroup; 4] = [&["radius"], &["r"], &["R"], &["rad"]];
 
 /// The direction at right angles to something flat, or along the axis of something round.
-pub(super) const AXIS: [Row; 6] = [
+pub(super) const AXIS: [KeyGroup; 6] = [
     &["direction"],
     &["axis"],
     &["normal"],
@@ -33,10 +34,10 @@ pub(super) const AXIS: [Row; 6] = [
 ];
 
 /// From the base of something round to its top.
-pub(super) const HEIGHT: [Row; 3] = [&["height"], &["h"], &["length"]];
+pub(super) const HEIGHT: [KeyGroup; 3] = [&["height"], &["h"], &["length"]];
 
 /// The middles of both ends of something round, that of its base first.
-pub(super) const ENDS: [Row; 12] = [
+pub(super) const ENDS: [KeyGroup; 12] = [
     &["p1", "p2"],
     &["center1", "center2"],
     &["end1", "end2"],
@@ -52,7 +53,7 @@ pub(super) const ENDS: [Row; 12] = [
 ];
 
 /// The file of a mesh or an asset.
-pub(super) const FILE: [Row; 13] = [
+pub(super) const FILE: [KeyGroup; 13] = [
     &["file"],
     &["filename"],
     &["fileName"],
@@ -69,19 +70,20 @@ pub(super) const FILE: [Row; 13] = [
 ];
 
 /// How many times larger something is.
-pub(super) const SCALE: [Row; 4] = [&["scale"], &["scalefactor"], &["scaleFactor"], &["scaling"]];
+pub(super) const SCALE: [KeyGroup; 4] =
+    [&["scale"], &["scalefactor"], &["scaleFactor"], &["scaling"]];
 
 /// Angles by which something is turned about x, y and z.
-pub(super) const ROTATION: [Row; 2] = [&["rotation"], &["rotate"]];
+pub(super) const ROTATION: [KeyGroup; 2] = [&["rotation"], &["rotate"]];
 
 /// What something is turned about.
-pub(super) const TURN_AXIS: [Row; 3] = [&["axis"], &["rotationAxis"], &["rotationVector"]];
+pub(super) const ROTATION_AXIS: [KeyGroup; 3] = [&["axis"], &["rotationAxis"], &["rotationVector"]];
 
 /// By how much something is turned about that.
-pub(super) const TURN_ANGLE: [Row; 2] = [&["angle"], &["rotationAngle"]];
+pub(super) const ROTATION_ANGLE: [KeyGroup; 2] = [&["angle"], &["rotationAngle"]];
 
 /// Where a camera stands.
-pub(super) const EYE: [Row; 6] = [
+pub(super) const EYE: [KeyGroup; 6] = [
     &["eye"],
     &["position"],
     &["from"],
@@ -91,7 +93,7 @@ pub(super) const EYE: [Row; 6] = [
 ];
 
 /// What a camera looks at.
-pub(super) const TARGET: [Row; 6] = [
+pub(super) const TARGET: [KeyGroup; 6] = [
     &["center"],
     &["lookAt"],
     &["to"],
@@ -101,13 +103,17 @@ pub(super) const TARGET: [Row; 6] = [
 ];
 
 /// Width and height of the picture.
-pub(super) const PICTURE: [Row; 4] = [&["viewSize"], &["resolution"], &["size"], &["imageSize"]];
+pub(super) const IMAGE_SIZE: [KeyGroup; 4] =
+    [&["viewSize"], &["resolution"], &["size"], &["imageSize"]];
 
 /// The rows of a table with that of one key in front: the canonical one of a record.
 ///
 /// # Panics
 /// If the table has no such row, when it is compiled.
-pub(super) const fn led_by<const N: usize>(mut rows: [Row; N], key: &str) -> [Row; N] {
+pub(super) const fn with_canonical<const N: usize>(
+    mut rows: [KeyGroup; N],
+    key: &str,
+) -> [KeyGroup; N] {
     let mut at = 0;
     while !is_same(rows[at][0], key) {
         at += 1;
@@ -122,7 +128,10 @@ pub(super) const fn led_by<const N: usize>(mut rows: [Row; N], key: &str) -> [Ro
 }
 
 /// The rows of a table and one more.
-pub(super) const fn and<const N: usize, const M: usize>(rows: [Row; N], last: Row) -> [Row; M] {
+pub(super) const fn with_last<const N: usize, const M: usize>(
+    rows: [KeyGroup; N],
+    last: KeyGroup,
+) -> [KeyGroup; M] {
     let mut all = [last; M];
     let mut at = 0;
     while at < N {
@@ -142,20 +151,20 @@ const fn is_same(a: &str, b: &str) -> bool {
 }
 
 /// Keys of a record that mean something like one of its own, and how that is written here.
-struct Elsewhere {
+struct ForeignKeys {
     /// What the record is called.
     record: &'static str,
-    keys: Row,
+    keys: KeyGroup,
     advice: &'static str,
 }
 
-const ELSEWHERE: &[Elsewhere] = &[
-    Elsewhere {
+const FOREIGN_KEYS: &[ForeignKeys] = &[
+    ForeignKeys {
         record: "camera",
         keys: &["direction", "dir", "forward", "gaze", "look", "view"],
         advice: "a camera looks at a point: `center` is the `eye` and the direction added",
     },
-    Elsewhere {
+    ForeignKeys {
         record: "camera",
         keys: &[
             "distance",
@@ -166,7 +175,7 @@ const ELSEWHERE: &[Elsewhere] = &[
         ],
         advice: "the distance from the eye to an image is `focalDistance`, the size of its pixels `pixelSize`",
     },
-    Elsewhere {
+    ForeignKeys {
         record: "camera",
         keys: &[
             "fieldOfView",
@@ -179,27 +188,27 @@ const ELSEWHERE: &[Elsewhere] = &[
         ],
         advice: "`fov` is the angle in degrees from the bottom of the picture to its top",
     },
-    Elsewhere {
+    ForeignKeys {
         record: "camera",
         keys: &["aperture", "lens", "lensRadius", "fstop", "lensSize"],
         advice: "`apertureRadius` is the radius of the lens in scene units",
     },
-    Elsewhere {
+    ForeignKeys {
         record: "camera",
         keys: &["aspect", "aspectRatio", "ratio"],
         advice: "pixels are square, and `viewSize` says how many there are across and down",
     },
-    Elsewhere {
+    ForeignKeys {
         record: "camera",
         keys: &["focus", "focusDistance", "focalPlane", "focalPoint"],
         advice: "what lies in the plane through `center` is in focus",
     },
-    Elsewhere {
+    ForeignKeys {
         record: "scene",
         keys: &["Materials", "Material", "Textures", "Colors"],
         advice: "materials stand in their objects; one that several have is marked `&red` at the first and named `*red` at the others",
     },
-    Elsewhere {
+    ForeignKeys {
         record: "scene",
         keys: &[
             "Background",
@@ -210,12 +219,12 @@ const ELSEWHERE: &[Elsewhere] = &[
         ],
         advice: "what no object hides is black; light from all around is an `Environment`, which paths show",
     },
-    Elsewhere {
+    ForeignKeys {
         record: "light",
         keys: &["power", "brightness", "strength", "energy"],
         advice: "the strength of a light is that of its `color`, which may be more than 1",
     },
-    Elsewhere {
+    ForeignKeys {
         record: "material",
         keys: &[
             "reflect",
@@ -227,12 +236,12 @@ const ELSEWHERE: &[Elsewhere] = &[
         ],
         advice: "`ks` is the weight of the highlight and of the mirror image alike",
     },
-    Elsewhere {
+    ForeignKeys {
         record: "material",
         keys: &["emission", "emissive", "emit", "glow"],
         advice: "a surface that shines is a material of `type: standard`, with `emissive`",
     },
-    Elsewhere {
+    ForeignKeys {
         record: "material",
         keys: &[
             "transparency",
@@ -247,11 +256,15 @@ const ELSEWHERE: &[Elsewhere] = &[
 
 /// How a key that a record does not know is written here, if it means something like one of its
 /// own.
-pub(super) fn elsewhere(record: &str, key: &str) -> Option<&'static str> {
-    let is_it = |own: &&Elsewhere| {
-        own.record == record && own.keys.iter().any(|other| other.eq_ignore_ascii_case(key))
+pub(super) fn foreign_key_advice(record: &str, key: &str) -> Option<&'static str> {
+    let is_it = |entry: &&ForeignKeys| {
+        entry.record == record
+            && entry
+                .keys
+                .iter()
+                .any(|other| other.eq_ignore_ascii_case(key))
     };
-    ELSEWHERE.iter().find(is_it).map(|own| own.advice)
+    FOREIGN_KEYS.iter().find(is_it).map(|entry| entry.advice)
 }
 
 #[cfg(test)]
@@ -264,9 +277,9 @@ mod tests {
     fn no_key_names_two_fields() {
         for kind in KINDS {
             let mut known = BTreeSet::new();
-            let rows = kind.record.fields.iter().flat_map(|field| field.rows);
+            let rows = kind.record.fields.iter().flat_map(|field| field.spellings);
             for row in rows.filter(|row| row.len() == 1) {
-                assert!(known.insert(row[0]), "{} of {}", row[0], kind.words[0]);
+                assert!(known.insert(row[0]), "{} of {}", row[0], kind.names[0]);
             }
         }
     }

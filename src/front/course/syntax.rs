@@ -12,26 +12,27 @@ pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
         Mistake::Control { character, span } => control(character, span),
         Mistake::TooLong { span } => {
             let message = "a word of more than a MiB";
-            say(&codes::TOO_LONG, message, span, "it starts here").hint("is this a scene file?")
+            diagnostic(&codes::TOO_LONG, message, span, "it starts here")
+                .hint("is this a scene file?")
         }
         Mistake::Empty { span } => empty(span),
         Mistake::TwoDocuments { span } => {
             let message = "a second document starts in this file";
-            say(&codes::TWO_DOCUMENTS, message, span, "the second document")
+            diagnostic(&codes::TWO_DOCUMENTS, message, span, "the second document")
                 .hint("keep one scene a file, or remove the `---`")
         }
         Mistake::Tag { span } => {
             let message = "a tag has no meaning in a scene";
-            say(&codes::TAG, message, span, "read as if it had no tag")
+            diagnostic(&codes::TAG, message, span, "read as if it had no tag")
         }
         Mistake::SelfAlias { span, anchor } => {
             let message = "an alias refers to what it stands in";
-            say(&codes::SELF_ALIAS, message, span, "this would never end")
+            diagnostic(&codes::SELF_ALIAS, message, span, "this would never end")
                 .also(anchor, "the anchor stands before this")
         }
         Mistake::TooDeep { span } => {
             let message = format!("lists and maps lie more than {MAX_DEPTH} deep in each other");
-            say(&codes::NESTED_TOO_DEEP, message, span, "too deep here")
+            diagnostic(&codes::NESTED_TOO_DEEP, message, span, "too deep here")
                 .hint("a scene needs a depth of 6")
         }
         Mistake::Unclosed {
@@ -57,7 +58,7 @@ pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
             span,
             bracket,
         } => {
-            let finding = say(&codes::SYNTAX, message, span, &label)
+            let finding = diagnostic(&codes::SYNTAX, message, span, &label)
                 .also(bracket, "inside what this bracket opens");
             with_hint(finding, hint, replacement)
         }
@@ -77,7 +78,7 @@ fn with_hint(
 
 fn control(character: u32, span: Span) -> Diagnostic {
     let message = format!("control character U+{character:04X}");
-    say(
+    diagnostic(
         &codes::CONTROL_CHARACTER,
         message,
         span,
@@ -89,17 +90,22 @@ fn control(character: u32, span: Span) -> Diagnostic {
 /// A file with nothing in it.
 fn empty(span: Span) -> Diagnostic {
     let message = "this file holds no scene";
-    say(&codes::EMPTY_FILE, message, span, "the end of the file")
+    diagnostic(&codes::EMPTY_FILE, message, span, "the end of the file")
         .hint("a scene has at least a `Camera`, `Lights` and `Objects`")
 }
 
-fn say(code: &'static Code, message: impl Into<String>, span: Span, label: &str) -> Diagnostic {
+fn diagnostic(
+    code: &'static Code,
+    message: impl Into<String>,
+    span: Span,
+    label: &str,
+) -> Diagnostic {
     Diagnostic::new(code, message).at(span, label)
 }
 
 fn utf16(span: Span) -> Diagnostic {
     let message = "this file is UTF-16, not UTF-8";
-    say(
+    diagnostic(
         &codes::NOT_UTF8,
         message,
         span,
@@ -114,7 +120,7 @@ fn not_utf8(byte: u8, span: Span) -> Diagnostic {
         span.start
     );
     let hint = "save it as UTF-8; if it is Latin-1, convert it with `iconv -f LATIN1 -t UTF-8`";
-    say(&codes::NOT_UTF8, message, span, "not UTF-8").hint(hint)
+    diagnostic(&codes::NOT_UTF8, message, span, "not UTF-8").hint(hint)
 }
 
 /// The next item of a list that nothing separates from the one before.
@@ -127,7 +133,7 @@ fn new_item(key: &str, first: Span, second: Span, separator: Separator) -> Diagn
         "the key `{}` stands here twice: {what} is missing before the second",
         clip(key)
     );
-    let finding = say(
+    let finding = diagnostic(
         &codes::DUPLICATE_KEY,
         message,
         second,
@@ -148,7 +154,7 @@ fn duplicate_key(key: &str, first: Span, second: Span, is_same: bool) -> Diagnos
         true => format!("the key `{key}` stands here twice, with the same value"),
         false => format!("the key `{key}` stands here twice"),
     };
-    let finding = say(&codes::DUPLICATE_KEY, message, second, "again")
+    let finding = diagnostic(&codes::DUPLICATE_KEY, message, second, "again")
         .also(first, "first")
         .hint("remove one of them");
     match is_same {
@@ -158,7 +164,7 @@ fn duplicate_key(key: &str, first: Span, second: Span, is_same: bool) -> Diagnos
 }
 
 fn unclosed(bracket: Span, runs_into: Option<Span>, comment: Option<Span>) -> Diagnostic {
-    say(
+    diagnostic(
         &codes::UNCLOSED,
         "a bracket is never closed",
         bracket,

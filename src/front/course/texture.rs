@@ -1,6 +1,6 @@
 //! The textures, and the files that images and meshes are to come from: each is wanted once.
 
-use super::assets::{Asset, Wanted};
+use super::assets::{AssetTarget, PendingAsset};
 use super::decode::Spanned;
 use super::value::FileName;
 
@@ -13,23 +13,23 @@ use std::collections::BTreeMap;
 const UV: &str = "UV";
 
 /// One white pixel.
-const PLACEHOLDER: [u8; 3] = [255; 3];
+const WHITE_PIXEL: [u8; 3] = [255; 3];
 
 /// One black pixel: three floats of four bytes.
-const DARK: [u8; 12] = [0; 12];
+const BLACK_PIXEL: [u8; 12] = [0; 12];
 
 /// What a scene has named so far.
 #[derive(Default)]
-pub(super) struct Files {
+pub(super) struct NamedFiles {
     textures: BTreeMap<String, TextureId>,
     meshes: BTreeMap<(String, Option<String>), MeshId>,
     uv: Option<TextureId>,
     /// The images that `standard` materials look at, with their opacity.
     sampled: BTreeMap<String, ImageId>,
-    pub(super) wanted: Vec<Wanted>,
+    pub(super) pending_assets: Vec<PendingAsset>,
 }
 
-impl Files {
+impl NamedFiles {
     /// The texture of that name, whose image has one pixel until its file is there.
     pub(super) fn texture(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> TextureId {
         if file.value.0.eq_ignore_ascii_case(UV) {
@@ -39,8 +39,8 @@ impl Files {
         if let Some(id) = self.textures.get(&name) {
             return *id;
         }
-        let image = scene.add_image(white(name.clone()));
-        self.want(Asset::Image(image), file);
+        let image = scene.add_image(white_image(name.clone()));
+        self.add_pending(AssetTarget::Image(image), file);
         let id = add(&mut scene.textures, Texture::Image(image), TextureId);
         self.textures.insert(name, id);
         id
@@ -55,9 +55,9 @@ impl Files {
     ) -> TextureId {
         let name = file.value.0.replace('\\', "/");
         let image = self.sampled.get(&name).copied().unwrap_or_else(|| {
-            let image = scene.add_image(white(name.clone()));
+            let image = scene.add_image(white_image(name.clone()));
             self.sampled.insert(name, image);
-            self.want(Asset::Sampled(image), file);
+            self.add_pending(AssetTarget::Sampled(image), file);
             image
         });
         let texture = Texture::Sampled(Sampled {
@@ -65,9 +65,9 @@ impl Files {
             wrap,
             filter,
         });
-        let known = scene.textures.iter().position(|known| *known == texture);
-        match known.map(u32::try_from) {
-            Some(Ok(known)) => TextureId(known),
+        let key = scene.textures.iter().position(|key| *key == texture);
+        match key.map(u32::try_from) {
+            Some(Ok(key)) => TextureId(key),
             Some(Err(_)) | None => add(&mut scene.textures, texture, TextureId),
         }
     }
@@ -87,24 +87,24 @@ impl Files {
         part: Option<&str>,
     ) -> MeshId {
         let name = file.value.0.replace('\\', "/");
-        let known = (name.clone(), part.map(str::to_owned));
-        if let Some(id) = self.meshes.get(&known) {
+        let key = (name.clone(), part.map(str::to_owned));
+        if let Some(id) = self.meshes.get(&key) {
             return *id;
         }
         let empty = Mesh {
             name,
-            part: known.1.clone(),
+            part: key.1.clone(),
             ..Mesh::default()
         };
         let id = add(&mut scene.meshes, empty, MeshId);
-        self.want(Asset::Mesh(id), file);
-        self.meshes.insert(known, id);
+        self.add_pending(AssetTarget::Mesh(id), file);
+        self.meshes.insert(key, id);
         id
     }
 
     /// The image of an environment, of one dark pixel until its file is there.
     pub(super) fn environment(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> ImageId {
-        let (name, pixels) = (file.value.0.replace('\\', "/"), DARK.to_vec().into());
+        let (name, pixels) = (file.value.0.replace('\\', "/"), BLACK_PIXEL.to_vec().into());
         let image = Image {
             name,
             width: 1,
@@ -113,18 +113,18 @@ impl Files {
             pixels,
         };
         let image = add(&mut scene.images, image, ImageId);
-        self.want(Asset::Environment(image), file);
+        self.add_pending(AssetTarget::Environment(image), file);
         image
     }
 
     /// A glTF asset in its place.
     pub(super) fn gltf(&mut self, place: [[f64; 3]; 4], file: &Spanned<FileName>) {
-        self.want(Asset::Gltf(place), file);
+        self.add_pending(AssetTarget::Gltf(place), file);
     }
 
-    pub(super) fn want(&mut self, asset: Asset, file: &Spanned<FileName>) {
-        self.wanted.push(Wanted {
-            asset,
+    pub(super) fn add_pending(&mut self, target: AssetTarget, file: &Spanned<FileName>) {
+        self.pending_assets.push(PendingAsset {
+            target,
             path: file.value.0.clone(),
             span: file.span,
         });
@@ -132,13 +132,13 @@ impl Files {
 }
 
 /// An image of one white pixel.
-fn white(name: String) -> Image {
+fn white_image(name: String) -> Image {
     Image {
         name,
         width: 1,
         height: 1,
         kind: Pixels::Rgb8,
-        pixels: PLACEHOLDER.to_vec().into(),
+        pixels: WHITE_PIXEL.to_vec().into(),
     }
 }
 

@@ -1,10 +1,10 @@
 //! The other types of the format: vectors and colours, sizes, truth values, words.
 
 use super::decode::{Context, Value, describe};
-use super::meant::{decimal_commas, listed};
-use super::number::{in_radians, is_number, json_number, number, plain_number};
+use super::keyword::keyword_schema;
+use super::number::{is_number, json_number, number, plain_number, radians};
 use super::schema::Definitions;
-use super::word::word_schema;
+use super::suggestion::{as_list, decimal_commas};
 use rtc_diag::clip;
 use rtc_diag::codes;
 use rtc_source::tree::{NodeContent, NodeId};
@@ -38,28 +38,30 @@ pub(super) fn tuple<T, const N: usize>(
 }
 
 /// Reports a list that has `count` items and must have another number of them.
-fn wrong_length(node: NodeId, count: usize, wanted: usize, context: &mut Context<'_>) {
+fn wrong_length(node: NodeId, count: usize, expected: usize, context: &mut Context<'_>) {
     let (tree, key) = (context.tree, context.key);
     let span = tree.span(node);
-    let found = if count > wanted {
-        format!("more than {wanted}")
+    let found = if count > expected {
+        format!("more than {expected}")
     } else {
         format!("{count}")
     };
     let written = tree.written(node);
-    let meant = match count > wanted {
-        true => decimal_commas(written, wanted).map(|list| ("decimals stand behind a point", list)),
-        false => listed(written, wanted).map(|list| ("commas stand between them", list)),
+    let suggestion = match count > expected {
+        true => {
+            decimal_commas(written, expected).map(|list| ("decimals stand behind a point", list))
+        }
+        false => as_list(written, expected).map(|list| ("commas stand between them", list)),
     };
     let message = || {
         format!(
-            "`{}` must have {wanted} numbers, not {found}",
+            "`{}` must have {expected} numbers, not {found}",
             clip(key.text)
         )
     };
     context.report(&codes::WRONG_LENGTH, span, message, |d| {
         let finding = d.at(span, format!("{found} here"));
-        match meant {
+        match suggestion {
             Some((hint, list)) => finding.replace(hint, span, list),
             None => finding,
         }
@@ -106,7 +108,7 @@ triple! {
 triple! {
     /// Three angles in radians.
     Angles, |node, context| {
-        number(node, "a list of three numbers", context).map(|angle| in_radians(angle, node, context))
+        number(node, "a list of three numbers", context).map(|angle| radians(angle, node, context))
     },
     { "type": "number", "minimum": -1e60, "maximum": 1e60, "x-unit": "radians" }
 }
@@ -184,16 +186,16 @@ const NUMBERED: &[(u8, &str, bool)] = &[(0, "false", false), (1, "true", true)];
 impl Value for bool {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let given = plain_number(node, context);
-        if let Some((_, word, truth)) = NUMBERED
+        if let Some((_, scalar, boolean)) = NUMBERED
             .iter()
             .find(|(number, ..)| given == Some(f64::from(*number)))
         {
-            context.note_spelling(
-                if *truth { "1" } else { "0" },
-                word,
+            context.record_spelling(
+                if *boolean { "1" } else { "0" },
+                scalar,
                 context.tree.span(node),
             );
-            return Some(*truth);
+            return Some(*boolean);
         }
         let Some(text) = context.tree.text(node) else {
             return context.expected(node, "`true` or `false`");
@@ -203,7 +205,7 @@ impl Value for bool {
             (NodeContent::Word(_), "false" | "False" | "FALSE") => return Some(false),
             _ => {}
         }
-        let meant = match text.to_ascii_lowercase().as_str() {
+        let suggestion = match text.to_ascii_lowercase().as_str() {
             "true" | "yes" | "y" | "on" => "true",
             "false" | "no" | "n" | "off" => "false",
             _ => return context.expected(node, "`true` or `false`"),
@@ -224,7 +226,7 @@ impl Value for bool {
         };
         context.report(&codes::WRONG_TYPE, span, message, |d| {
             d.at(span, label)
-                .replace(format!("write `{meant}`"), span, meant)
+                .replace(format!("write `{suggestion}`"), span, suggestion)
         });
         None
     }
@@ -238,7 +240,7 @@ impl Value for bool {
         schema["anyOf"]
             .as_array_mut()
             .into_iter()
-            .for_each(|forms| forms.extend(numbers.clone()));
+            .for_each(|variants| variants.extend(numbers.clone()));
         schema
     }
 
@@ -252,14 +254,14 @@ impl Value for bool {
 pub(super) struct Switch(pub(super) bool);
 
 /// The words of a switch.
-const SWITCHES: &[(&str, bool)] = &[("on", true), ("off", false)];
+const SWITCH_KEYWORDS: &[(&str, bool)] = &[("on", true), ("off", false)];
 
 impl Value for Switch {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let written = context.tree.text(node).unwrap_or_default();
-        let known = SWITCHES
+        let known = SWITCH_KEYWORDS
             .iter()
-            .find(|(word, _)| word.eq_ignore_ascii_case(written));
+            .find(|(scalar, _)| scalar.eq_ignore_ascii_case(written));
         match known {
             Some((_, is_on)) => Some(Self(*is_on)),
             None => bool::decode(node, context).map(Self),
@@ -267,20 +269,20 @@ impl Value for Switch {
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        let mut schema = word_schema(SWITCHES);
-        let forms = schema["anyOf"].as_array_mut();
-        forms
+        let mut schema = keyword_schema(SWITCH_KEYWORDS);
+        let variants = schema["anyOf"].as_array_mut();
+        variants
             .into_iter()
-            .for_each(|forms| forms.push(bool::schema(definitions)));
+            .for_each(|variants| variants.push(bool::schema(definitions)));
         schema
     }
 }
 
 /// Text of any kind.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Text;
+pub(super) struct AnyScalar;
 
-impl Value for Text {
+impl Value for AnyScalar {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Word(_) | NodeContent::Text(_) => Some(Self),
@@ -295,9 +297,9 @@ impl Value for Text {
 
 /// What people call something: any text.
 #[derive(Clone, Debug)]
-pub(super) struct Caption(pub(super) String);
+pub(super) struct DisplayName(pub(super) String);
 
-impl Value for Caption {
+impl Value for DisplayName {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Word(text) | NodeContent::Text(text) => Some(Self(text.to_owned())),
@@ -306,7 +308,7 @@ impl Value for Caption {
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        Text::schema(definitions)
+        AnyScalar::schema(definitions)
     }
 }
 
@@ -317,7 +319,7 @@ pub(super) struct FileName(pub(super) String);
 impl Value for FileName {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
-            NodeContent::Word(word) if is_text(word) => Some(Self(word.to_owned())),
+            NodeContent::Word(scalar) if is_string(scalar) => Some(Self(scalar.to_owned())),
             NodeContent::Text(text) if !text.is_empty() => Some(Self(text.to_owned())),
             NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::List | NodeContent::Map => {
                 context.expected(node, "the name of a file")
@@ -334,10 +336,10 @@ impl Value for FileName {
 pub const FILE: &str = "file";
 
 /// Whether a plain word is text by the core schema: no number, no truth value, not nothing.
-fn is_text(word: &str) -> bool {
-    !is_number(word)
+fn is_string(scalar: &str) -> bool {
+    !is_number(scalar)
         && !matches!(
-            word,
+            scalar,
             "" | "~"
                 | "null"
                 | "Null"

@@ -5,7 +5,7 @@ use super::document::Document;
 use super::features;
 use super::field::Fields;
 use super::report::AssetReport;
-use crate::pixels::{self, Admitted, Refused};
+use crate::pixels::{self, ChargedFile, PixelFault};
 use rtc_diag::{Code, codes};
 use rtc_image::{DecodeError, Opacity, Pixels};
 use rtc_ir as ir;
@@ -298,7 +298,7 @@ fn admit<'a>(
     format: ImageCoding,
     bytes: &'a [u8],
     budget: &Budget,
-) -> Result<Admitted<'a>, Refusal> {
+) -> Result<ChargedFile<'a>, Refusal> {
     if format.ends_early(bytes) {
         let message = "the image ends before it tells its size".to_owned();
         return Err(Refusal::Fault((
@@ -307,9 +307,9 @@ fn admit<'a>(
             message,
         )));
     }
-    pixels::admit(bytes, Opacity::Kept, budget).map_err(|refused| match refused {
-        Refused::Limit(fault) => Refusal::Limit(fault),
-        Refused::File(fault) => Refusal::of(&fault),
+    pixels::charge_file(bytes, Opacity::Kept, budget).map_err(|refused| match refused {
+        PixelFault::Limit(fault) => Refusal::Limit(fault),
+        PixelFault::File(fault) => Refusal::of(&fault),
     })
 }
 

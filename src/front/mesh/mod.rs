@@ -16,7 +16,7 @@ mod stroke;
 mod tint;
 mod xyz;
 
-pub use crate::words::{Unread, WordFault, WordSpan};
+pub use crate::words::{ParseFault, WordFault, WordSpan};
 pub use material_use::{MaterialUse, Named};
 
 use crate::words::{Lines, Word};
@@ -146,7 +146,7 @@ pub fn is_mesh(head: &[u8]) -> bool {
 ///
 /// # Errors
 /// If it has faults, or would take more than the budget has.
-pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
+pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
     let mut words = Vec::new();
     first_lines(bytes).next(&mut words);
     let mut parsed = match words.first() {
@@ -170,7 +170,7 @@ pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
                 .fault("the mesh has no faces, lines or points", "nothing is drawn")
         };
         let fault = parsed.not_drawn.map_or_else(none, |(fault, _)| fault);
-        return Err(Unread::Faults(vec![fault]));
+        return Err(ParseFault::Faults(vec![fault]));
     }
     Ok(parsed)
 }

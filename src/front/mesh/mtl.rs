@@ -8,7 +8,7 @@ mod map;
 pub use map::MtlMap;
 
 use super::material_use::name;
-use super::{MAX_FAULTS, Unread, WordSpan, first_lines};
+use super::{MAX_FAULTS, ParseFault, WordSpan, first_lines};
 use crate::words::{Lines, Word, WordFault};
 use rtc_source::{Budget, Resource};
 use std::collections::BTreeMap;
@@ -101,7 +101,7 @@ pub fn is_mtl(head: &[u8]) -> bool {
 ///
 /// # Errors
 /// If they would take more than the budget has.
-pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Library, Unread> {
+pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Library, ParseFault> {
     // A word of two bytes takes 24 while its line is read, in a list that grows by doubling.
     budget.has(Resource::Memory, 24 * bytes.len() as u64)?;
     let mut reader = Reader {

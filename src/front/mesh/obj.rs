@@ -11,7 +11,7 @@ mod smooth;
 
 use super::stroke::Segments;
 use super::tint::Tints;
-use super::{MAX_FAULTS, MaterialUse, Named, Parsed, Unread};
+use super::{MAX_FAULTS, MaterialUse, Named, ParseFault, Parsed};
 use crate::words::{Lines, Word, WordFault, numbers};
 use corner::{CornerCounts, indices};
 use rtc_source::{Budget, Resource};
@@ -26,7 +26,7 @@ pub(super) fn is_keyword(word: &Word<'_>) -> bool {
 }
 
 /// Reads an OBJ.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
     let mut check = Check::default();
     check.vertices(bytes);
     let at_most = MaterialUse::at_most(check.switches) + STROKE * check.ends as u64;
@@ -35,7 +35,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
         check.faces(bytes);
     }
     if !check.faults.is_empty() {
-        return Err(Unread::Faults(check.faults));
+        return Err(ParseFault::Faults(check.faults));
     }
     budget.charge(Resource::Memory, MaterialUse::at_most(check.switches))?;
     let mesh = check.mesh(bytes, budget)?;

@@ -5,7 +5,7 @@
 use super::polygons::{CORNER, Polygons};
 use super::stroke::Segments;
 use super::tint::Tints;
-use super::{MAX_FAULTS, Parsed, Unread};
+use super::{MAX_FAULTS, ParseFault, Parsed};
 use crate::words::{Lines, Word, WordFault, numbers};
 use rtc_source::{Budget, Exceeded, Resource};
 
@@ -15,7 +15,7 @@ pub(super) fn is_head(word: &Word<'_>) -> bool {
 }
 
 /// Reads an OFF. Normals and colours of vertices are kept, of faces colours.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
     // A corner takes two bytes.
     budget.has(Resource::Memory, (CORNER / 2 * bytes.len()) as u64)?;
     let mut reader = Reader {
@@ -28,7 +28,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
         Err(fault) => faults.push(fault),
     }
     if !faults.is_empty() {
-        return Err(Unread::Faults(faults));
+        return Err(ParseFault::Faults(faults));
     }
     Ok(content.finish(budget)?)
 }

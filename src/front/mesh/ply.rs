@@ -9,7 +9,7 @@ mod vertex;
 use super::polygons::{CORNER, Polygons};
 use super::stroke::Segments;
 use super::tint::decoded;
-use super::{Parsed, Unread};
+use super::{ParseFault, Parsed};
 use crate::words::{Word, WordFault};
 use body::PlyBody;
 use head::{PlyElement, PlyProperty};
@@ -22,8 +22,8 @@ pub(super) fn is_head(head: &[u8]) -> bool {
 
 /// Reads a PLY. Of vertices it keeps positions, normals, texture coordinates, tangents and colours, of
 /// faces and strips their corners, of faces colours and texture coordinates, and edges.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
-    let one = |fault| Unread::Faults(vec![fault]);
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
+    let one = |fault| ParseFault::Faults(vec![fault]);
     let mut head = head::read(bytes).map_err(one)?;
     let mut reader = Reader {
         body: PlyBody::new(bytes, &head),
@@ -60,8 +60,8 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn element(&mut self, element: &PlyElement<'a>, budget: &Budget) -> Result<(), Unread> {
-        let one = |fault| Unread::Faults(vec![fault]);
+    fn element(&mut self, element: &PlyElement<'a>, budget: &Budget) -> Result<(), ParseFault> {
+        let one = |fault| ParseFault::Faults(vec![fault]);
         if !self.body.has_room(element) {
             return Err(one(element.is_cut_off()));
         }

@@ -121,6 +121,6 @@ fn take_apart(mesh: &mut Mesh, mut corners: Vec<u32>, count: usize) {
         };
     }
     if count > 0 {
-        crate::solid::pick(mesh, &corners);
+        crate::glyph::pick(mesh, &corners);
     }
 }

@@ -4,7 +4,7 @@
 //! The normals of the file are not read: the order of the corners says the same.
 
 use super::tint::decoded;
-use super::{MAX_FAULTS, Parsed, Unread, first_lines, to_u32};
+use super::{MAX_FAULTS, ParseFault, Parsed, first_lines, to_u32};
 use crate::words::{Lines, Word, WordFault, numbers};
 use rtc_ir::Mesh;
 use rtc_source::{Budget, Resource};
@@ -118,7 +118,7 @@ fn opaque([r, g, b]: [f32; 3]) -> [f32; 4] {
 }
 
 /// Reads an STL.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
     // A binary triangle becomes three positions, three colours and three numbers; a line of text
     // one position, in a list that grows by doubling.
     budget.has(Resource::Memory, 5 * bytes.len() as u64)?;
@@ -130,7 +130,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
         None => text(bytes, &mut parsed),
     };
     if !faults.is_empty() {
-        return Err(Unread::Faults(faults));
+        return Err(ParseFault::Faults(faults));
     }
     let count = to_u32(positions.len() / 3);
     let colors = binary_triangles.map_or_else(Vec::new, |triangles| colors(bytes, triangles));

@@ -1,7 +1,7 @@
 //! The points and lines of mesh files, drawn as those of glTF are.
 
 use super::{columns, to_u32};
-use crate::solid::{Solid, radius, thin};
+use crate::glyph::{Glyph, radius, thin_glyphs};
 use glam::DAffine3;
 use rtc_ir::{BoundingSphere, Column, Mesh};
 use rtc_math::Vec3;
@@ -66,15 +66,15 @@ impl<'run> Pen<'run> {
         let mut drawn = Vec::new();
         for (ends, are_points) in [(points, true), (lines, false)] {
             let count = ends.len() as u64;
-            let solid = Solid::of(are_points, has_normals, count);
+            let solid = Glyph::of(are_points, has_normals, count);
             let vertices = count * solid.corners.len() as u64;
             let triangles = count * solid.triangles.len() as u64;
             let vertex = OFFSET + columns(self.source);
             self.budget.has(Resource::Vertices, vertices)?;
             self.budget
                 .has(Resource::Memory, vertices * vertex + triangles * TRIANGLE)?;
-            let thin = thin(self.source, &ends, DAffine3::IDENTITY, solid);
-            drawn.extend(thin.map(|(own, offsets, world)| {
+            let glyphs = thin_glyphs(self.source, &ends, DAffine3::IDENTITY, solid);
+            drawn.extend(glyphs.map(|(own, offsets, world)| {
                 let corners = own.positions.iter().zip(offsets.iter());
                 let positions = corners.map(|(position, offset)| {
                     let offset = self.radius * Vec3::from_array(offset);

@@ -2,7 +2,7 @@
 //! and measure write them.
 
 use super::tint::Tints;
-use super::{MAX_FAULTS, Parsed, Unread, first_lines};
+use super::{MAX_FAULTS, ParseFault, Parsed, first_lines};
 use crate::words::{Lines, Word, WordFault, numbers};
 use rtc_source::{Budget, Resource};
 
@@ -71,7 +71,7 @@ fn columns(bytes: &[u8]) -> Vec<(usize, Meaning)> {
 }
 
 /// Reads an XYZ.
-pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
     // A line of six bytes becomes a place, a normal and a colour, in lists that grow by doubling.
     budget.has(Resource::Memory, 24 * bytes.len() as u64)?;
     let columns = columns(bytes);
@@ -86,7 +86,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
         }
     }
     if !faults.is_empty() {
-        return Err(Unread::Faults(faults));
+        return Err(ParseFault::Faults(faults));
     }
     let mut parsed = Parsed::default();
     parsed.mesh.positions = positions.into();

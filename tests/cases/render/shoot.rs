@@ -87,7 +87,7 @@ fn stage(
     if let Some(name) = &options.env {
         let bytes = fs::read(case.with_file_name(name))?;
         let image = pixels::environment(name, &bytes, map.budget())
-            .map_err(|fault| pixels::no_environment(&fault, name).message)?;
+            .map_err(|fault| pixels::environment_rejection(&fault, name).message)?;
         environment = Some(EnvironmentOverride::Picture(image));
     }
     let stage = ViewAndLight {

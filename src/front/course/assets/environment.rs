@@ -1,6 +1,6 @@
 //! The environments: pictures of light as the IR holds them.
 
-use super::{Porter, Wanted, Without};
+use super::{AssetLoader, MissingAssetPolicy, PendingAsset};
 use crate::pixels;
 use rtc_image::is_radiance;
 use rtc_ir::{ImageId, Lowered};
@@ -16,21 +16,32 @@ pub(super) const KIND: FileKind = FileKind {
 };
 
 /// Brings the image of the environment; without its file there is none.
-pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &mut Porter<'_>) {
-    let found = porter.find(wish, Without::Environment);
+pub(super) fn load(
+    id: ImageId,
+    pending: &PendingAsset,
+    lowered: &mut Lowered,
+    loader: &mut AssetLoader<'_>,
+) {
+    let found = loader.find(pending, MissingAssetPolicy::Environment);
     let image = found.and_then(
-        |found| match porter.loader.found(&found, MAX_BYTES, porter.map) {
+        |found| match loader.loader.found(&found, MAX_BYTES, loader.map) {
             Ok(bytes) => {
-                let image = pixels::environment(&wish.path, &bytes, porter.map.budget());
-                let refuse = |fault| {
+                let image = pixels::environment(&pending.path, &bytes, loader.map.budget());
+                let reject = |fault| {
                     let name = found.shown.display().to_string();
-                    let finding = pixels::no_environment(&fault, &name).at(wish.span, "named here");
-                    porter.refuse(finding, Without::Environment);
+                    let finding =
+                        pixels::environment_rejection(&fault, &name).at(pending.span, "named here");
+                    loader.reject(finding, MissingAssetPolicy::Environment);
                 };
-                image.map_err(refuse).ok()
+                image.map_err(reject).ok()
             }
             Err(error) => {
-                porter.unreadable(&found, &error.to_string(), wish.span, Without::Environment);
+                loader.unreadable(
+                    &found,
+                    &error.to_string(),
+                    pending.span,
+                    MissingAssetPolicy::Environment,
+                );
                 None
             }
         },

@@ -1,7 +1,7 @@
 //! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count,
 //! their lights do.
 
-use super::{Known, Porter, Wanted, Without};
+use super::{AssetLoader, FileCache, MissingAssetPolicy, PendingAsset};
 use crate::{FrontOptions, gltf, over_limit};
 use glam::DAffine3;
 use rtc_diag::{Diagnostic, codes};
@@ -23,56 +23,61 @@ const MAX_BYTES: u64 = 1 << 30;
 
 /// The assets brought so far: what is to be placed of them.
 #[derive(Default)]
-pub(super) struct Assets {
-    known: Known<Placeable>,
+pub(super) struct GltfAssets {
+    cache: FileCache<ImportedAsset>,
     /// The budget had no room for one of them: that is said once.
     is_over: bool,
 }
 
 /// What is placed of an asset; it refers to what was added to the scene.
-struct Placeable {
+struct ImportedAsset {
     surfaces: Vec<Surface>,
     names: Vec<String>,
     lights: Vec<Light>,
 }
 
-impl Assets {
+impl GltfAssets {
     /// Brings an asset and places it; without its file, nothing shows of it.
-    pub(super) fn bring(
+    pub(super) fn load(
         &mut self,
         place: [[f64; 3]; 4],
-        wish: &Wanted,
+        pending: &PendingAsset,
         lowered: &mut Lowered,
-        porter: &mut Porter<'_>,
+        loader: &mut AssetLoader<'_>,
     ) {
         if self.is_over {
             return;
         }
-        let Some(found) = porter.find(wish, Without::Object) else {
+        let Some(found) = loader.find(pending, MissingAssetPolicy::Object) else {
             return;
         };
-        let asset = self.known.of(&found, || {
-            let bytes = porter.loader.found(&found, MAX_BYTES, porter.map);
+        let asset = self.cache.get_or_load(&found, || {
+            let bytes = loader.loader.found(&found, MAX_BYTES, loader.map);
             let bytes = bytes.map_err(|error| {
-                porter.unreadable(&found, &error.to_string(), wish.span, Without::Object)
+                loader.unreadable(
+                    &found,
+                    &error.to_string(),
+                    pending.span,
+                    MissingAssetPolicy::Object,
+                )
             });
-            let file = add_asset(&found, bytes.ok()?, wish, porter)?;
+            let file = add_asset(&found, bytes.ok()?, pending, loader)?;
             let options = FrontOptions {
                 camera: None,
-                ..porter.options.clone()
+                ..loader.options.clone()
             };
-            let asset = gltf::lower(file, porter.map, &options, porter.sink)?;
-            gltf::release(file, porter.map);
+            let asset = gltf::lower(file, loader.map, &options, loader.sink)?;
+            gltf::release(file, loader.map);
             Some(add(asset, lowered))
         });
         let Some(asset) = asset else { return };
-        match asset.charge(porter.map.budget()) {
-            Ok(()) => asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered),
+        match asset.charge(loader.map.budget()) {
+            Ok(()) => asset.place(DAffine3::from_cols_array_2d(&place), pending, lowered),
             Err(fault) => {
                 self.is_over = true;
-                porter
+                loader
                     .sink
-                    .push(over_limit("the asset", &fault).at(wish.span, "placed here"));
+                    .push(over_limit("the asset", &fault).at(pending.span, "placed here"));
             }
         }
     }
@@ -83,29 +88,29 @@ impl Assets {
 fn add_asset(
     found: &Found,
     bytes: Vec<u8>,
-    wish: &Wanted,
-    porter: &mut Porter<'_>,
+    pending: &PendingAsset,
+    loader: &mut AssetLoader<'_>,
 ) -> Option<FileId> {
     if gltf::recognise("", &bytes) {
-        return Some(porter.map.add_found(found, bytes));
+        return Some(loader.map.add_found(found, bytes));
     }
     let message = format!("`{}` is no glTF asset", found.shown.display());
-    porter.refuse(
-        Diagnostic::new(&codes::GLTF_NOT_JSON, message).at(wish.span, "named here"),
-        Without::Object,
+    loader.reject(
+        Diagnostic::new(&codes::GLTF_NOT_JSON, message).at(pending.span, "named here"),
+        MissingAssetPolicy::Object,
     );
     None
 }
 
 /// How many images, textures, meshes and materials a scene had before an asset came.
-struct Before {
+struct IndexOffsets {
     images: u32,
     textures: u32,
     meshes: u32,
     materials: u32,
 }
 
-impl Before {
+impl IndexOffsets {
     fn of(scene: &Scene) -> Self {
         let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
         Self {
@@ -125,14 +130,14 @@ impl Before {
             materials,
             ..
         } = &asset.scene;
-        for (entity, before, count) in [
+        for (entity, offsets, count) in [
             (EntityKind::Image, self.images, images.len()),
             (EntityKind::Texture, self.textures, textures.len()),
             (EntityKind::Mesh, self.meshes, meshes.len()),
             (EntityKind::Material, self.materials, materials.len()),
         ] {
             for index in 0..count {
-                let place = ValuePath::new(entity, before as usize + index, Field::Whole);
+                let place = ValuePath::new(entity, offsets as usize + index, Field::Whole);
                 let own = ValuePath::new(entity, index, Field::Whole);
                 source_spans.record(place, asset.source_spans.span(own));
             }
@@ -169,13 +174,13 @@ impl Before {
 }
 
 /// Adds what an asset is made of to a scene.
-fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
+fn add(asset: Lowered, lowered: &mut Lowered) -> ImportedAsset {
     let Lowered {
         scene,
         source_spans,
     } = lowered;
-    let before = Before::of(scene);
-    before.record(&asset, source_spans);
+    let offsets = IndexOffsets::of(scene);
+    offsets.record(&asset, source_spans);
     let own = asset.scene;
     let textures = own.textures.into_iter();
     let materials = own.materials.into_iter();
@@ -183,19 +188,19 @@ fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
     scene.images.extend(own.images);
     scene
         .textures
-        .extend(textures.map(|own| before.texture(own)));
+        .extend(textures.map(|own| offsets.texture(own)));
     scene.meshes.extend(own.meshes);
     scene
         .materials
-        .extend(materials.map(|own| before.material(own)));
-    Placeable {
-        surfaces: surfaces.map(|own| before.surface(own)).collect(),
+        .extend(materials.map(|own| offsets.material(own)));
+    ImportedAsset {
+        surfaces: surfaces.map(|own| offsets.surface(own)).collect(),
         names: own.names,
         lights: own.lights,
     }
 }
 
-impl Placeable {
+impl ImportedAsset {
     /// Charges one more of it.
     fn charge(&self, budget: &Budget) -> Result<(), Exceeded> {
         let names = self.names.iter().map(|name| name.len() as u64).sum::<u64>();
@@ -206,7 +211,7 @@ impl Placeable {
     }
 
     /// Puts the asset into its place.
-    fn place(&self, world: DAffine3, wish: &Wanted, lowered: &mut Lowered) {
+    fn place(&self, world: DAffine3, pending: &PendingAsset, lowered: &mut Lowered) {
         let Lowered {
             scene,
             source_spans,
@@ -226,14 +231,14 @@ impl Placeable {
             }
             source_spans.record(
                 ValuePath::new(EntityKind::Surface, scene.surfaces.len(), Field::Whole),
-                wish.span,
+                pending.span,
             );
             scene.surfaces.push(surface);
         }
         for light in &self.lights {
             source_spans.record(
                 ValuePath::new(EntityKind::Light, scene.lights.len(), Field::Whole),
-                wish.span,
+                pending.span,
             );
             scene.lights.push(placed(light, world));
         }
@@ -247,12 +252,12 @@ fn placed(light: &Light, world: DAffine3) -> Light {
     };
     let mut emitter = emitter.clone();
     let place = |point| world.transform_point3(Vec3::from_array(point)).to_array();
-    let turn = |direction| {
+    let rotation_keys = |direction| {
         world
             .transform_vector3(Vec3::from_array(direction))
             .to_array()
     };
-    emitter.transform(place, turn, 1.0);
+    emitter.transform(place, rotation_keys, 1.0);
     Light::Punctual(Punctual {
         emitter,
         intensity: *intensity,

@@ -1,7 +1,7 @@
 //! The images: pixel files as the IR holds them, and bump maps that turn out to hold normals.
 
-use super::{Asset, Known, Porter, Wanted, Without};
-use crate::pixels::{self, Refused};
+use super::{AssetLoader, AssetTarget, FileCache, MissingAssetPolicy, PendingAsset};
+use crate::pixels::{self, PixelFault};
 use rtc_diag::{Diagnostic, Sink, clip_path, codes};
 use rtc_image::{Opacity, Pixels};
 use rtc_ir::{
@@ -17,21 +17,21 @@ const MAX_BYTES: u64 = 1 << 30;
 
 /// Brings one image, or the one that the same file became before, whatever it was called; `None`
 /// without a file.
-pub(super) fn bring(
+pub(super) fn load(
     id: ImageId,
-    wish: &Wanted,
+    pending: &PendingAsset,
     lowered: &mut Lowered,
-    (known, opacity): (&mut Known<ImageId>, Opacity),
-    porter: &mut Porter<'_>,
+    (cache, opacity): (&mut FileCache<ImageId>, Opacity),
+    loader: &mut AssetLoader<'_>,
 ) -> Option<ImageId> {
-    let found = porter.find(wish, without(wish))?;
-    let image = known.of(&found, || {
+    let found = loader.find(pending, policy(pending))?;
+    let image = cache.get_or_load(&found, || {
         let Pixels {
             width,
             height,
             has_alpha,
             bytes,
-        } = read(&found, wish, opacity, porter)?;
+        } = read(&found, pending, opacity, loader)?;
         let image = lowered.scene.images.get_mut(id.0 as usize)?;
         if has_alpha {
             image.kind = ir::Pixels::Rgba8;
@@ -45,7 +45,7 @@ pub(super) fn bring(
 
 /// Has textures look at the images that came of those they wanted, and no material at a texture of
 /// which none came.
-pub(super) fn settle(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scene) {
+pub(super) fn resolve_images(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scene) {
     let mut missing = vec![false; scene.textures.len()];
     for (texture, missing) in scene.textures.iter_mut().zip(&mut missing) {
         let id = match texture {
@@ -80,33 +80,38 @@ pub(super) fn settle(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scen
 }
 
 /// What is done without the file.
-fn without(wish: &Wanted) -> Without {
-    if let Asset::Map(_) | Asset::Mask(_) = wish.asset {
-        Without::Map
+fn policy(pending: &PendingAsset) -> MissingAssetPolicy {
+    if let AssetTarget::Map(_) | AssetTarget::Mask(_) = pending.target {
+        MissingAssetPolicy::Map
     } else {
-        Without::Color
+        MissingAssetPolicy::Color
     }
 }
 
-fn read(found: &Found, wish: &Wanted, opacity: Opacity, porter: &mut Porter<'_>) -> Option<Pixels> {
-    match porter.loader.found(found, MAX_BYTES, porter.map) {
+fn read(
+    found: &Found,
+    pending: &PendingAsset,
+    opacity: Opacity,
+    loader: &mut AssetLoader<'_>,
+) -> Option<Pixels> {
+    match loader.loader.found(found, MAX_BYTES, loader.map) {
         Ok(bytes) => {
-            porter.map.budget().read(bytes.len());
-            let pixels = pixels::decode(&bytes, opacity, porter.map.budget());
+            loader.map.budget().read(bytes.len());
+            let pixels = pixels::decode(&bytes, opacity, loader.map.budget());
             pixels
-                .map_err(|fault| porter.refuse(refusal(&fault, found, wish), without(wish)))
+                .map_err(|fault| loader.reject(rejection(&fault, found, pending), policy(pending)))
                 .ok()
         }
         Err(error) => {
-            porter.unreadable(found, &error.to_string(), wish.span, without(wish));
+            loader.unreadable(found, &error.to_string(), pending.span, policy(pending));
             None
         }
     }
 }
 
-fn refusal(fault: &Refused, found: &Found, wish: &Wanted) -> Diagnostic {
+fn rejection(fault: &PixelFault, found: &Found, pending: &PendingAsset) -> Diagnostic {
     let what = format!("the texture `{}`", found.shown.display());
-    pixels::refusal(fault, &what, "textures are PNG, JPEG or WebP").at(wish.span, "named here")
+    pixels::rejection(fault, &what, "textures are PNG, JPEG or WebP").at(pending.span, "named here")
 }
 
 /// Makes normal maps of the bump maps that hold normals.

@@ -1,7 +1,7 @@
 //! The meshes: their files found and read, each once, and the parts of them that are wanted.
 
-use super::text::TextKind;
-use super::{Known, Porter, Wanted, Without};
+use super::text_file::TextKind;
+use super::{AssetLoader, FileCache, MissingAssetPolicy, PendingAsset};
 use crate::mesh::{EXTENSIONS, MaterialUse, Named, Parsed, is_mesh, parse};
 use crate::over_limit;
 use rtc_diag::{Diagnostic, Sink, clip, codes};
@@ -15,7 +15,7 @@ pub(super) const TEXT: TextKind = TextKind {
     entity: "mesh",
     is_not: "no OBJ, OFF, STL, PLY or XYZ",
     code: &codes::BAD_MESH_FILE,
-    without: Without::Object,
+    policy: MissingAssetPolicy::Object,
     // Some two million triangles.
     max_bytes: 1 << 28,
     file: FileKind {
@@ -27,7 +27,7 @@ pub(super) const TEXT: TextKind = TextKind {
 /// The mesh files brought so far.
 #[derive(Default)]
 pub(super) struct MeshFiles {
-    known: Known<usize>,
+    cache: FileCache<usize>,
     pub(super) files: Vec<MeshFile>,
     /// The file that each mesh wanted is of.
     file_of: BTreeMap<u32, usize>,
@@ -36,9 +36,9 @@ pub(super) struct MeshFiles {
 /// What a mesh file holds.
 pub(super) struct MeshFile {
     /// All of it, without a name.
-    whole: Mesh,
+    full_mesh: Mesh,
     /// The mesh of the scene that is all of it, if there is one.
-    pub(super) home: Option<MeshId>,
+    pub(super) full_mesh_id: Option<MeshId>,
     pub(super) material_use: MaterialUse,
     /// The picture of all its faces, where it names one itself.
     pub(super) texture: Option<Named>,
@@ -50,44 +50,44 @@ pub(super) struct MeshFile {
 impl MeshFiles {
     /// Brings one mesh, or the one that the same file became before, whatever it was called;
     /// without a file it stays empty, and nothing shows of it.
-    pub(super) fn bring(
+    pub(super) fn load(
         &mut self,
         id: MeshId,
-        wish: &Wanted,
+        pending: &PendingAsset,
         lowered: &mut Lowered,
-        porter: &mut Porter<'_>,
+        loader: &mut AssetLoader<'_>,
     ) {
-        let Some(found) = porter.find(wish, Without::Object) else {
+        let Some(found) = loader.find(pending, MissingAssetPolicy::Object) else {
             return;
         };
         let files = &mut self.files;
-        let at = self.known.of(&found, || {
-            let own = load(&found, wish, porter)?;
+        let at = self.cache.get_or_load(&found, || {
+            let mesh_file = read_file(&found, pending, loader)?;
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
-            if !own.whole.colors.is_empty() && !is_traced {
+            if !mesh_file.full_mesh.colors.is_empty() && !is_traced {
                 let message = "the colours of its vertices show in traced paths alone";
                 let finding = Diagnostic::new(&codes::NOT_DRAWN, message);
-                porter
+                loader
                     .sink
-                    .push(finding.at(wish.span, "has the colour of its material"));
+                    .push(finding.at(pending.span, "has the colour of its material"));
             }
-            files.push(own);
+            files.push(mesh_file);
             Some(files.len() - 1)
         });
         let Some(at) = at.copied() else { return };
         self.file_of.insert(id.0, at);
-        let Some(place) = lowered.scene.meshes.get_mut(id.0 as usize) else {
+        let Some(target) = lowered.scene.meshes.get_mut(id.0 as usize) else {
             return;
         };
-        let own = &mut files[at];
-        match &place.part {
-            None if own.home.is_some() => {}
+        let mesh_file = &mut files[at];
+        match &target.part {
+            None if mesh_file.full_mesh_id.is_some() => {}
             None => {
-                own.home = Some(id);
-                fill(place, own.whole.clone());
+                mesh_file.full_mesh_id = Some(id);
+                fill(target, mesh_file.full_mesh.clone());
             }
-            Some(part) => match own.part(part, porter.map.budget()) {
-                Ok(Some(mesh)) => fill(place, mesh),
+            Some(part) => match mesh_file.part(part, loader.map.budget()) {
+                Ok(Some(mesh)) => fill(target, mesh),
                 Ok(None) => {
                     let message = format!(
                         "no face of `{}` has the material `{}`",
@@ -95,18 +95,21 @@ impl MeshFiles {
                         clip(part)
                     );
                     let finding = Diagnostic::new(&codes::BAD_MESH_FILE, message);
-                    porter.refuse(finding.at(wish.span, "named here"), Without::Object);
+                    loader.reject(
+                        finding.at(pending.span, "named here"),
+                        MissingAssetPolicy::Object,
+                    );
                 }
-                Err(fault) => porter
+                Err(fault) => loader
                     .sink
-                    .push(over_limit("the mesh", &fault).at(wish.span, "named here")),
+                    .push(over_limit("the mesh", &fault).at(pending.span, "named here")),
             },
         }
     }
 
     /// Adds a file that was read, of which a mesh of the scene is all.
-    pub(super) fn put(&mut self, id: MeshId, mut file: MeshFile) {
-        file.home = Some(id);
+    pub(super) fn add(&mut self, id: MeshId, mut file: MeshFile) {
+        file.full_mesh_id = Some(id);
         self.file_of.insert(id.0, self.files.len());
         self.files.push(file);
     }
@@ -117,37 +120,39 @@ impl MeshFiles {
     }
 
     /// Has instances show the meshes that came of those they wanted.
-    pub(super) fn settle(&self, scene: &mut Scene) {
+    pub(super) fn resolve_instances(&self, scene: &mut Scene) {
         for surface in &mut scene.surfaces {
             if let Shape::Instance(instance) = &mut surface.shape {
                 let is_whole = scene
                     .meshes
                     .get(instance.mesh.0 as usize)
                     .is_some_and(|mesh| mesh.part.is_none());
-                let home = self.of(instance.mesh).and_then(|at| self.files[at].home);
-                instance.mesh = home.filter(|_| is_whole).unwrap_or(instance.mesh);
+                let full_mesh_id = self
+                    .of(instance.mesh)
+                    .and_then(|at| self.files[at].full_mesh_id);
+                instance.mesh = full_mesh_id.filter(|_| is_whole).unwrap_or(instance.mesh);
             }
         }
     }
 }
 
 /// Puts what a mesh holds into one that keeps its name and part.
-fn fill(place: &mut Mesh, mesh: Mesh) {
-    let (name, part) = (std::mem::take(&mut place.name), place.part.take());
-    *place = Mesh { name, part, ..mesh };
+fn fill(target: &mut Mesh, mesh: Mesh) {
+    let (name, part) = (std::mem::take(&mut target.name), target.part.take());
+    *target = Mesh { name, part, ..mesh };
 }
 
 impl MeshFile {
     pub(super) fn new(parsed: Parsed, file: FileId, path: String) -> Self {
         let Parsed {
-            mesh: whole,
+            mesh: full_mesh,
             not_drawn: _,
             material_use,
             texture,
         } = parsed;
         Self {
-            whole,
-            home: None,
+            full_mesh,
+            full_mesh_id: None,
             material_use,
             texture,
             file,
@@ -156,8 +161,8 @@ impl MeshFile {
     }
 
     /// All of it, without a name.
-    pub(super) fn whole(&self) -> Mesh {
-        self.whole.clone()
+    pub(super) fn full_mesh(&self) -> Mesh {
+        self.full_mesh.clone()
     }
 
     /// The triangles whose faces ask for the material `name`, if there are any.
@@ -165,23 +170,23 @@ impl MeshFile {
         let Some(at) = self.material_use.index_of(name) else {
             return Ok(None);
         };
-        let mut unused = vec![UNUSED; self.whole.positions.len()];
-        let ranges = self.material_use.parts(self.whole.triangles.len());
-        extract(&self.whole, &ranges[at], &mut unused, budget).map(Some)
+        let mut unused = vec![UNASSIGNED; self.full_mesh.positions.len()];
+        let ranges = self.material_use.parts(self.full_mesh.triangles.len());
+        extract(&self.full_mesh, &ranges[at], &mut unused, budget).map(Some)
     }
 
     /// Each material's triangles, as meshes of their own.
     pub(super) fn parts(&self, budget: &Budget) -> Result<Vec<Mesh>, Exceeded> {
-        budget.has(Resource::Memory, 4 * self.whole.positions.len() as u64)?;
-        let mut unused = vec![UNUSED; self.whole.positions.len()];
-        let ranges = self.material_use.parts(self.whole.triangles.len());
+        budget.has(Resource::Memory, 4 * self.full_mesh.positions.len() as u64)?;
+        let mut unused = vec![UNASSIGNED; self.full_mesh.positions.len()];
+        let ranges = self.material_use.parts(self.full_mesh.triangles.len());
         ranges
             .iter()
             .zip(&self.material_use.materials)
             .map(|(ranges, named)| {
                 Ok(Mesh {
                     part: Some(named.text.clone()),
-                    ..extract(&self.whole, ranges, &mut unused, budget)?
+                    ..extract(&self.full_mesh, ranges, &mut unused, budget)?
                 })
             })
             .collect()
@@ -189,14 +194,14 @@ impl MeshFile {
 }
 
 /// The number of a vertex that a part does not have so far.
-const UNUSED: u32 = u32::MAX;
+const UNASSIGNED: u32 = u32::MAX;
 
 /// Some triangles of a mesh, with the vertices that they use in the order of their first use;
-/// `numbers` holds one [`UNUSED`] for each vertex, before and after.
+/// `new_indices` holds one [`UNASSIGNED`] for each vertex, before and after.
 fn extract(
     mesh: &Mesh,
     ranges: &[Range<usize>],
-    numbers: &mut [u32],
+    new_indices: &mut [u32],
     budget: &Budget,
 ) -> Result<Mesh, Exceeded> {
     let triangles = || {
@@ -206,12 +211,12 @@ fn extract(
     };
     let mut used = Vec::new();
     // A corner is new at most once.
-    let corners = 3 * triangles().count().min(numbers.len());
+    let corners = 3 * triangles().count().min(new_indices.len());
     budget.has(Resource::Memory, 8 * corners as u64)?;
     for corner in triangles().flatten() {
-        let number = &mut numbers[*corner as usize];
-        if *number == UNUSED {
-            *number = u32::try_from(used.len()).unwrap_or(UNUSED);
+        let new_index = &mut new_indices[*corner as usize];
+        if *new_index == UNASSIGNED {
+            *new_index = u32::try_from(used.len()).unwrap_or(UNASSIGNED);
             used.push(*corner);
         }
     }
@@ -229,25 +234,34 @@ fn extract(
         uvs: mesh.uvs.pick(&used),
         colors: mesh.colors.pick(&used),
         triangles: triangles()
-            .map(|corners| corners.map(|corner| numbers[corner as usize]))
+            .map(|corners| corners.map(|corner| new_indices[corner as usize]))
             .collect(),
         ..Mesh::default()
     };
     used.iter()
-        .for_each(|corner| numbers[*corner as usize] = UNUSED);
+        .for_each(|corner| new_indices[*corner as usize] = UNASSIGNED);
     Ok(part)
 }
 
 /// What is in a file, if it is a sound mesh.
-fn load(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<MeshFile> {
-    let (file, parsed) = porter.read_text(found, wish, &TEXT, parse)?;
-    tell_not_drawn(&parsed, file, wish.span, porter.sink);
-    let path = porter.search.path_to(found).unwrap_or_default();
+fn read_file(
+    found: &Found,
+    pending: &PendingAsset,
+    loader: &mut AssetLoader<'_>,
+) -> Option<MeshFile> {
+    let (file, parsed) = loader.read_text(found, pending, &TEXT, parse)?;
+    report_not_drawn(&parsed, file, pending.span, loader.sink);
+    let path = loader.search.path_to(found).unwrap_or_default();
     Some(MeshFile::new(parsed, file, path))
 }
 
 /// Says what of a file does not show; `named` is where a scene names it.
-pub(super) fn tell_not_drawn(parsed: &Parsed, file: FileId, named: Option<Span>, sink: &mut Sink) {
+pub(super) fn report_not_drawn(
+    parsed: &Parsed,
+    file: FileId,
+    named: Option<Span>,
+    sink: &mut Sink,
+) {
     if let Some((first, count)) = &parsed.not_drawn {
         let message = format!("{} show: {}", count_of(*count), first.message);
         let finding = Diagnostic::new(&codes::NOT_DRAWN, message);

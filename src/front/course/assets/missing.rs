@@ -1,52 +1,56 @@
 //! What is told of a file that is not found.
 
-use super::{Missing, Wanted};
+use super::{Missing, PendingAsset};
 use rtc_diag::{Diagnostic, clip_path, codes};
 use std::path::PathBuf;
 
 /// The finding about a file that is not where it was looked for; `similar` is the name of one that
 /// is.
-pub(super) fn missing(wish: &Wanted, fault: &Missing, similar: Option<&str>) -> Diagnostic {
-    let name = clip_path(&wish.path);
+pub(super) fn missing(
+    pending: &PendingAsset,
+    fault: &Missing,
+    similar: Option<&str>,
+) -> Diagnostic {
+    let name = clip_path(&pending.path);
     match fault {
         Missing::NoFolder => {
             let message =
                 format!("`{name}` can't be looked for: a scene from a stream has no folder");
             Diagnostic::new(&codes::FILE_OUTSIDE, message)
-                .at(wish.span, "no folder to look in")
+                .at(pending.span, "no folder to look in")
                 .hint("name the folder of its files by `--asset-root`")
         }
-        Missing::Absent(looked) => {
+        Missing::Absent(searched) => {
             Diagnostic::new(&codes::FILE_NOT_FOUND, format!("there is no file `{name}`"))
-                .at(wish.span, "not found")
+                .at(pending.span, "not found")
                 .hint(match similar {
                     Some(name) => format!("did you mean `{}`?", clip_path(name)),
-                    None => places(looked),
+                    None => searched_paths(searched),
                 })
-                .hint(ELSEWHERE)
+                .hint(HINT)
         }
-        Missing::Outside(looked) => {
+        Missing::Outside(searched) => {
             let message = format!("`{name}` leads out of the folder of the scene");
             Diagnostic::new(&codes::FILE_OUTSIDE, message)
-                .at(wish.span, "not followed")
-                .hint(places(looked))
-                .hint(ELSEWHERE)
+                .at(pending.span, "not followed")
+                .hint(searched_paths(searched))
+                .hint(HINT)
         }
     }
 }
 
 /// What to do about a file that lies elsewhere.
-const ELSEWHERE: &str = "put the file beside the scene, or allow its folder by `--asset-root`";
+const HINT: &str = "put the file beside the scene, or allow its folder by `--asset-root`";
 
 /// The places a file was looked for, the most telling ones if there are many.
-fn places(looked: &[PathBuf]) -> String {
-    const SHOWN: usize = 6;
-    let shown: Vec<String> = looked
+fn searched_paths(searched: &[PathBuf]) -> String {
+    const MAX_SHOWN: usize = 6;
+    let shown: Vec<String> = searched
         .iter()
-        .take(SHOWN)
+        .take(MAX_SHOWN)
         .map(|path| format!("`{}`", clip_path(&path.to_string_lossy())))
         .collect();
-    let more = looked.len().saturating_sub(SHOWN);
+    let more = searched.len().saturating_sub(MAX_SHOWN);
     let tail = if more > 0 {
         format!(" and {more} more places")
     } else {

@@ -3,19 +3,19 @@
 //! Every fault has its place: in the scene for a file that can't be had, in the mesh file for what
 //! is wrong there. A lenient run goes on without the file and says what is missing.
 
-mod alone;
-mod dress;
 mod environment;
 mod gltf;
 mod image;
+mod material_binder;
 mod mesh;
 mod missing;
 mod mtl;
 mod photometry;
-mod text;
+mod standalone;
+mod text_file;
 
-pub use alone::alone;
-pub use dress::{Dress, Dressing};
+pub use material_binder::{MaterialSource, PendingMaterial};
+pub use standalone::lower_standalone_mesh;
 
 use super::lower::UnfinishedScene;
 use super::object;
@@ -30,9 +30,9 @@ use std::collections::BTreeMap;
 
 /// A file that a scene names, for a place in the IR that waits for it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wanted {
+pub struct PendingAsset {
     /// What the file is for.
-    pub asset: Asset,
+    pub target: AssetTarget,
     /// Its path as the scene writes it.
     pub path: String,
     /// Where the scene writes it.
@@ -41,7 +41,7 @@ pub struct Wanted {
 
 /// The place in the IR that a file is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Asset {
+pub enum AssetTarget {
     /// An image, of one pixel until its file is there.
     Image(ImageId),
     /// An image with its opacity, of one pixel until its file is there.
@@ -62,9 +62,9 @@ pub enum Asset {
     Materials,
 }
 
-impl Asset {
+impl AssetTarget {
     /// The noun of the IR that the file becomes, if it is one.
-    pub(super) fn place(&self) -> Option<ValuePath> {
+    pub(super) fn value_path(&self) -> Option<ValuePath> {
         match self {
             Self::Image(id)
             | Self::Sampled(id)
@@ -82,7 +82,7 @@ impl Asset {
 /// sees to the sizes and the materials of its meshes.
 ///
 /// Mesh files come into the source map, so that findings can point into them.
-pub fn bring(
+pub fn load(
     draft: UnfinishedScene,
     scene: FileId,
     options: &FrontOptions,
@@ -91,41 +91,41 @@ pub fn bring(
 ) -> Lowered {
     let UnfinishedScene {
         mut lowered,
-        wanted,
+        pending_assets,
         sizings,
-        dressings,
+        pending_materials,
     } = draft;
-    if wanted.is_empty() {
+    if pending_assets.is_empty() {
         return lowered;
     }
     let folder = map.folder(scene);
     let search = Search::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
-    let mut port = Port::new(search, options, map, sink);
-    port.unload(wanted, &mut lowered);
+    let mut import = AssetImport::new(search, options, map, sink);
+    import.load_all(pending_assets, &mut lowered);
     lowered.source_spans.finish();
-    port.meshes.settle(&mut lowered.scene);
+    import.meshes.resolve_instances(&mut lowered.scene);
     for sizing in sizings {
-        object::sizing::settle(sizing, &mut lowered, port.porter.sink);
+        object::sizing::apply(sizing, &mut lowered, import.loader.sink);
     }
-    port.finish(&dressings, &mut lowered);
+    import.finish(&pending_materials, &mut lowered);
     lowered
 }
 
 /// What was brought so far.
-struct Port<'run> {
-    porter: Porter<'run>,
-    images: Known<ImageId>,
+struct AssetImport<'run> {
+    loader: AssetLoader<'run>,
+    images: FileCache<ImageId>,
     /// Those with their opacity.
-    sampled: Known<ImageId>,
+    sampled: FileCache<ImageId>,
     /// Which image came of each that was wanted.
     image_of: BTreeMap<u32, Option<ImageId>>,
     meshes: mesh::MeshFiles,
-    assets: gltf::Assets,
-    profiles: Known<Photometry>,
+    assets: gltf::GltfAssets,
+    profiles: FileCache<Photometry>,
 }
 
-impl<'run> Port<'run> {
+impl<'run> AssetImport<'run> {
     fn new(
         search: Search,
         options: &'run FrontOptions,
@@ -133,7 +133,7 @@ impl<'run> Port<'run> {
         sink: &'run mut Sink,
     ) -> Self {
         Self {
-            porter: Porter {
+            loader: AssetLoader {
                 search,
                 options,
                 loader: Loader,
@@ -141,48 +141,49 @@ impl<'run> Port<'run> {
                 sink,
                 compared: 0,
             },
-            images: Known::default(),
-            sampled: Known::default(),
+            images: FileCache::default(),
+            sampled: FileCache::default(),
             image_of: BTreeMap::new(),
             meshes: mesh::MeshFiles::default(),
-            assets: gltf::Assets::default(),
-            profiles: Known::default(),
+            assets: gltf::GltfAssets::default(),
+            profiles: FileCache::default(),
         }
     }
 
     /// Dresses the meshes, and has textures look at the images that came.
-    fn finish(mut self, dressings: &[Dressing], lowered: &mut Lowered) {
-        let cache = dress::dress(dressings, &self.meshes, lowered, &mut self.porter);
-        self.unload(cache.wanted, lowered);
-        image::settle(&self.image_of, &mut lowered.scene);
-        mtl::bake(cache.bakes, &self.image_of, lowered, &mut self.porter);
-        image::find_normal_maps(lowered, self.porter.sink);
+    fn finish(mut self, pending_materials: &[PendingMaterial], lowered: &mut Lowered) {
+        let cache =
+            material_binder::bind(pending_materials, &self.meshes, lowered, &mut self.loader);
+        self.load_all(cache.pending_assets, lowered);
+        image::resolve_images(&self.image_of, &mut lowered.scene);
+        mtl::bake(cache.bakes, &self.image_of, lowered, &mut self.loader);
+        image::find_normal_maps(lowered, self.loader.sink);
         lowered.source_spans.finish();
     }
 
     /// Brings files.
-    fn unload(&mut self, wanted: Vec<Wanted>, lowered: &mut Lowered) {
-        let porter = &mut self.porter;
-        for wish in wanted {
-            match wish.asset {
-                Asset::Image(id) | Asset::Map(id) => {
+    fn load_all(&mut self, pending_assets: Vec<PendingAsset>, lowered: &mut Lowered) {
+        let loader = &mut self.loader;
+        for pending in pending_assets {
+            match pending.target {
+                AssetTarget::Image(id) | AssetTarget::Map(id) => {
                     let kind = (&mut self.images, Opacity::Dropped);
-                    let image = image::bring(id, &wish, lowered, kind, porter);
+                    let image = image::load(id, &pending, lowered, kind, loader);
                     self.image_of.insert(id.0, image);
                 }
-                Asset::Sampled(id) | Asset::Mask(id) => {
+                AssetTarget::Sampled(id) | AssetTarget::Mask(id) => {
                     let kind = (&mut self.sampled, Opacity::Kept);
-                    let image = image::bring(id, &wish, lowered, kind, porter);
+                    let image = image::load(id, &pending, lowered, kind, loader);
                     self.image_of.insert(id.0, image);
                 }
-                Asset::Mesh(id) => self.meshes.bring(id, &wish, lowered, porter),
-                Asset::Environment(id) => environment::bring(id, &wish, lowered, porter),
-                Asset::Gltf(place) => self.assets.bring(place, &wish, lowered, porter),
-                Asset::Photometry(light) => {
-                    photometry::bring(light, &wish, lowered, &mut self.profiles, porter);
+                AssetTarget::Mesh(id) => self.meshes.load(id, &pending, lowered, loader),
+                AssetTarget::Environment(id) => environment::load(id, &pending, lowered, loader),
+                AssetTarget::Gltf(place) => self.assets.load(place, &pending, lowered, loader),
+                AssetTarget::Photometry(light) => {
+                    photometry::load(light, &pending, lowered, &mut self.profiles, loader);
                 }
                 // Who wants materials reads them.
-                Asset::Materials => {}
+                AssetTarget::Materials => {}
             }
         }
     }
@@ -190,17 +191,17 @@ impl<'run> Port<'run> {
 
 /// What became of the files read so far, each read once, however it is named; `None` if it can't be
 /// used.
-struct Known<T>(BTreeMap<Identity, Option<T>>);
+struct FileCache<T>(BTreeMap<Identity, Option<T>>);
 
-impl<T> Default for Known<T> {
+impl<T> Default for FileCache<T> {
     fn default() -> Self {
         Self(BTreeMap::new())
     }
 }
 
-impl<T> Known<T> {
+impl<T> FileCache<T> {
     /// What became of a file; `read` is called if that is not known.
-    fn of(&mut self, found: &Found, read: impl FnOnce() -> Option<T>) -> Option<&T> {
+    fn get_or_load(&mut self, found: &Found, read: impl FnOnce() -> Option<T>) -> Option<&T> {
         let Some(identity) = found.identity() else {
             // It has gone meanwhile: to read it reports that.
             read();
@@ -211,7 +212,7 @@ impl<T> Known<T> {
 }
 
 /// Finds files, reads them, and reports on them.
-struct Porter<'run> {
+struct AssetLoader<'run> {
     search: Search,
     options: &'run FrontOptions,
     loader: Loader,
@@ -223,11 +224,11 @@ struct Porter<'run> {
 
 /// The most names that are compared so: of many files that are not there the first are told of
 /// best.
-const MOST_COMPARED: usize = 1 << 16;
+const MAX_COMPARED: usize = 1 << 16;
 
 /// What a lenient run does without a file.
 #[derive(Clone, Copy)]
-enum Without {
+enum MissingAssetPolicy {
     Color,
     Environment,
     Light,
@@ -238,7 +239,7 @@ enum Without {
     Object,
 }
 
-impl Without {
+impl MissingAssetPolicy {
     fn consequence(self) -> &'static str {
         match self {
             Self::Color | Self::Map => "the texture is left out",
@@ -250,51 +251,51 @@ impl Without {
     }
 
     /// Whether a scene is worth showing without it, lenient or not: what it names does not ask for it.
-    fn is_spare(self) -> bool {
+    fn is_optional(self) -> bool {
         matches!(self, Self::Map | Self::Materials)
     }
 }
 
-impl Porter<'_> {
+impl AssetLoader<'_> {
     /// The file, unless there is none: that is reported.
-    fn find(&mut self, wish: &Wanted, without: Without) -> Option<Found> {
-        let extensions: &[&str] = match without {
-            Without::Object if !has_extension(&wish.path) => &["", ".obj", ".off"],
-            Without::Object
-            | Without::Color
-            | Without::Environment
-            | Without::Light
-            | Without::Map
-            | Without::Materials => &[""],
+    fn find(&mut self, pending: &PendingAsset, policy: MissingAssetPolicy) -> Option<Found> {
+        let extensions: &[&str] = match policy {
+            MissingAssetPolicy::Object if !has_extension(&pending.path) => &["", ".obj", ".off"],
+            MissingAssetPolicy::Object
+            | MissingAssetPolicy::Color
+            | MissingAssetPolicy::Environment
+            | MissingAssetPolicy::Light
+            | MissingAssetPolicy::Map
+            | MissingAssetPolicy::Materials => &[""],
         };
         let mut first_fault = None;
         for extension in extensions {
-            match self
-                .search
-                .find(&format!("{}{extension}", wish.path), kind_of(&wish.asset))
-            {
+            match self.search.find(
+                &format!("{}{extension}", pending.path),
+                kind_of(&pending.target),
+            ) {
                 Ok(found) => {
-                    self.tell_where(wish, &found, found.elsewhere || !extension.is_empty());
+                    self.report_location(pending, &found, found.elsewhere || !extension.is_empty());
                     return Some(found);
                 }
                 Err(fault) => drop(first_fault.get_or_insert(fault)),
             }
         }
         if let Some(fault) = first_fault {
-            let similar = self.similar(wish);
-            self.refuse(missing(wish, &fault, similar.as_deref()), without);
+            let similar = self.similar(pending);
+            self.reject(missing(pending, &fault, similar.as_deref()), policy);
         }
         None
     }
 
     /// A file in the place of the one that is wanted, with a similar name or another extension.
-    fn similar(&mut self, wish: &Wanted) -> Option<String> {
-        if self.compared >= MOST_COMPARED {
+    fn similar(&mut self, pending: &PendingAsset) -> Option<String> {
+        if self.compared >= MAX_COMPARED {
             return None;
         }
-        let path = wish.path.replace('\\', "/");
+        let path = pending.path.replace('\\', "/");
         let (folder, name) = path.rsplit_once('/').unwrap_or(("", &path));
-        let names = self.search.neighbours(&path, kind_of(&wish.asset));
+        let names = self.search.neighbours(&path, kind_of(&pending.target));
         self.compared += names.len();
         let stem = |name: &str| name.rsplit_once('.').map(|(stem, _)| stem.to_lowercase());
         let same = names.iter().find(|other| stem(other) == stem(name));
@@ -306,48 +307,57 @@ impl Porter<'_> {
         })
     }
 
-    fn tell_where(&mut self, wish: &Wanted, found: &Found, elsewhere: bool) {
+    fn report_location(&mut self, pending: &PendingAsset, found: &Found, elsewhere: bool) {
         if elsewhere {
             let message = format!(
                 "`{}` is taken from `{}`",
-                clip_path(&wish.path),
+                clip_path(&pending.path),
                 found.shown.display()
             );
             self.sink.push(
                 Diagnostic::new(&codes::FILE_ELSEWHERE, message)
-                    .at(wish.span, "found under another name"),
+                    .at(pending.span, "found under another name"),
             );
         }
     }
 
     /// Reports a file that can't be used; lenient, as a warning with what is done instead.
-    fn refuse(&mut self, mut finding: Diagnostic, without: Without) {
-        if self.options.lenient || without.is_spare() {
-            finding.message = format!("{}; {}", finding.message, without.consequence());
+    fn reject(&mut self, mut finding: Diagnostic, policy: MissingAssetPolicy) {
+        if self.options.lenient || policy.is_optional() {
+            finding.message = format!("{}; {}", finding.message, policy.consequence());
             finding.severity = Severity::Warning;
         }
         self.sink.push(finding);
     }
 
     /// Reports a file that was found and can't be read.
-    fn unreadable(&mut self, found: &Found, why: &str, span: Option<Span>, without: Without) {
+    fn unreadable(
+        &mut self,
+        found: &Found,
+        why: &str,
+        span: Option<Span>,
+        policy: MissingAssetPolicy,
+    ) {
         let message = format!("can't read `{}`: {why}", found.shown.display());
-        self.refuse(
+        self.reject(
             Diagnostic::new(&codes::CANNOT_READ, message).at(span, "named here"),
-            without,
+            policy,
         );
     }
 }
 
 /// The kind of file that an asset is in.
-fn kind_of(asset: &Asset) -> &'static FileKind {
-    match asset {
-        Asset::Image(_) | Asset::Sampled(_) | Asset::Map(_) | Asset::Mask(_) => &PICTURES,
-        Asset::Mesh(_) => &mesh::TEXT.file,
-        Asset::Environment(_) => &environment::KIND,
-        Asset::Gltf(_) => &gltf::KIND,
-        Asset::Photometry(_) => &photometry::TEXT.file,
-        Asset::Materials => &mtl::TEXT.file,
+fn kind_of(target: &AssetTarget) -> &'static FileKind {
+    match target {
+        AssetTarget::Image(_)
+        | AssetTarget::Sampled(_)
+        | AssetTarget::Map(_)
+        | AssetTarget::Mask(_) => &PICTURES,
+        AssetTarget::Mesh(_) => &mesh::TEXT.file,
+        AssetTarget::Environment(_) => &environment::KIND,
+        AssetTarget::Gltf(_) => &gltf::KIND,
+        AssetTarget::Photometry(_) => &photometry::TEXT.file,
+        AssetTarget::Materials => &mtl::TEXT.file,
     }
 }
 

@@ -10,11 +10,11 @@ pub(super) use bake::bake;
 pub(super) use cache::MtlCache;
 
 use super::mesh::MeshFile;
-use super::text::TextKind;
-use super::{Asset, Porter, Wanted, Without};
+use super::text_file::TextKind;
+use super::{AssetLoader, AssetTarget, MissingAssetPolicy, PendingAsset};
 use crate::mesh::Named;
 use crate::mesh::mtl::{Library, is_mtl, parse};
-use cache::beside;
+use cache::sibling_path;
 use phong::weight;
 use rtc_diag::{Diagnostic, Severity, codes};
 use rtc_ir::{Lowered, MaterialId, Mode};
@@ -25,7 +25,7 @@ pub(super) const TEXT: TextKind = TextKind {
     entity: "material",
     is_not: "no MTL",
     code: &codes::BAD_MTL,
-    without: Without::Materials,
+    policy: MissingAssetPolicy::Materials,
     max_bytes: 1 << 24,
     file: FileKind {
         extensions: &["mtl"],
@@ -46,25 +46,25 @@ impl MeshFile {
     /// `tells`.
     fn libraries<'a>(
         &'a self,
-        porter: &'a Porter<'_>,
-    ) -> impl Iterator<Item = (Wanted, &'a Named)> {
-        let wish = |named: &Named| Wanted {
-            asset: Asset::Materials,
-            path: beside(&self.path, &named.text),
+        loader: &'a AssetLoader<'_>,
+    ) -> impl Iterator<Item = (PendingAsset, &'a Named)> {
+        let pending = |named: &Named| PendingAsset {
+            target: AssetTarget::Materials,
+            path: sibling_path(&self.path, &named.text),
             span: Some(named.at.span(self.file)),
         };
         let named = self
             .material_use
             .libraries
             .iter()
-            .map(move |named| (wish(named), named));
-        named.filter(|(wish, _)| porter.search.find(&wish.path, &TEXT.file).is_ok())
+            .map(move |named| (pending(named), named));
+        named.filter(|(pending, _)| loader.search.find(&pending.path, &TEXT.file).is_ok())
     }
 
     /// Whether it asks for materials of a file that is there.
-    pub(super) fn has_library(&self, porter: &Porter<'_>) -> bool {
+    pub(super) fn has_library(&self, loader: &AssetLoader<'_>) -> bool {
         let names_any = || self.material_use.names_any();
-        self.texture.is_some() || (names_any() && self.libraries(porter).next().is_some())
+        self.texture.is_some() || (names_any() && self.libraries(loader).next().is_some())
     }
 
     /// The material of the scene for each material that the faces ask for; `None` if there is none
@@ -73,15 +73,15 @@ impl MeshFile {
         &self,
         cache: &mut MtlCache,
         lowered: &mut Lowered,
-        porter: &mut Porter<'_>,
+        loader: &mut AssetLoader<'_>,
     ) -> Option<Vec<Option<MaterialId>>> {
         if let Some(texture) = &self.texture {
-            return Some(vec![Some(cache.plain(self, texture, lowered))]);
+            return Some(vec![Some(cache.add_textured(self, texture, lowered))]);
         }
         if !self.material_use.names_any() {
             return None;
         }
-        let libraries = self.read(porter);
+        let libraries = self.read(loader);
         if libraries.is_empty() {
             return None;
         }
@@ -103,36 +103,39 @@ impl MeshFile {
             };
             let message = format!("the MTL has no material `{}`{more}", first.text);
             let finding = Diagnostic::new(&codes::BAD_MTL, message);
-            porter
+            loader
                 .sink
                 .push(finding.at(first.at.span(self.file), "faces go without it"));
         }
-        cache.tell(porter.sink);
-        self.note_mirrors(&libraries, lowered, porter);
+        cache.report(loader.sink);
+        self.report_mirrors(&libraries, lowered, loader);
         materials.iter().any(Option::is_some).then_some(materials)
     }
 
-    fn read(&self, porter: &mut Porter<'_>) -> Vec<LoadedLibrary> {
-        let wishes: Vec<_> = self.libraries(porter).map(|(wish, _)| wish).collect();
-        if let (true, Some(named)) = (wishes.is_empty(), self.material_use.libraries.first()) {
+    fn read(&self, loader: &mut AssetLoader<'_>) -> Vec<LoadedLibrary> {
+        let pending_assets: Vec<_> = self.libraries(loader).map(|(pending, _)| pending).collect();
+        if let (true, Some(named)) = (
+            pending_assets.is_empty(),
+            self.material_use.libraries.first(),
+        ) {
             let message = format!(
                 "there is no file `{}`; {}",
                 named.text,
-                Without::Materials.consequence()
+                MissingAssetPolicy::Materials.consequence()
             );
             let finding = Diagnostic::new(&codes::BAD_MTL, message);
-            porter
+            loader
                 .sink
                 .push(finding.at(named.at.span(self.file), "not found"));
         }
         let mut libraries = Vec::new();
-        for wish in wishes {
-            let Some(found) = porter.find(&wish, Without::Materials) else {
+        for pending in pending_assets {
+            let Some(found) = loader.find(&pending, MissingAssetPolicy::Materials) else {
                 continue;
             };
-            let path = porter.search.path_to(&found).unwrap_or_default();
-            if let Some((file, library)) = porter.read_text(&found, &wish, &TEXT, parse) {
-                tell(&library, file, porter);
+            let path = loader.search.path_to(&found).unwrap_or_default();
+            if let Some((file, library)) = loader.read_text(&found, &pending, &TEXT, parse) {
+                report(&library, file, loader);
                 libraries.push(LoadedLibrary {
                     library,
                     file,
@@ -144,20 +147,20 @@ impl MeshFile {
     }
 
     /// Says once that a highlight mirrors here, where its file says that it does not.
-    fn note_mirrors(
+    fn report_mirrors(
         &self,
         libraries: &[LoadedLibrary],
         lowered: &Lowered,
-        porter: &mut Porter<'_>,
+        loader: &mut AssetLoader<'_>,
     ) {
         let settings = &lowered.scene.settings;
         if settings.max_depth == 0 || settings.mode != Mode::Phong {
             return;
         }
         let place = |loaded: &LoadedLibrary| -> Option<Span> {
-            let is_asked = |named: &&Named| loaded.library.materials.contains_key(&named.text);
-            let asked = self.material_use.materials.iter().filter(is_asked);
-            let mut mirrors = asked.filter_map(|named| {
+            let is_used = |named: &&Named| loaded.library.materials.contains_key(&named.text);
+            let used = self.material_use.materials.iter().filter(is_used);
+            let mut mirrors = used.filter_map(|named| {
                 let material = loaded.library.materials.get(&named.text)?;
                 let is_mirror = material.model.as_ref().is_some_and(|model| model.value > 2);
                 let specular = material.specular.as_ref()?;
@@ -168,7 +171,7 @@ impl MeshFile {
         if let Some(span) = libraries.iter().find_map(place) {
             let note = Diagnostic::new(&codes::TWO_READINGS, "the `Ks` of an MTL mirrors here");
             let note = note.severity(Severity::Note);
-            porter.sink.push(
+            loader.sink.push(
                 note.at(span, "in some programs a highlight alone")
                     .hint("the scene follows mirrors; `MaxRecursionDepth: 0` does not"),
             );
@@ -177,7 +180,7 @@ impl MeshFile {
 }
 
 /// What is wrong with a file of materials.
-fn tell(library: &Library, file: FileId, porter: &mut Porter<'_>) {
+fn report(library: &Library, file: FileId, loader: &mut AssetLoader<'_>) {
     let Library {
         materials: _,
         faults,
@@ -185,7 +188,7 @@ fn tell(library: &Library, file: FileId, porter: &mut Porter<'_>) {
     } = library;
     for fault in faults {
         let finding = Diagnostic::new(&codes::BAD_MTL, fault.message.as_str());
-        porter
+        loader
             .sink
             .push(finding.at(fault.span(file), fault.label.as_str()));
     }
@@ -198,7 +201,7 @@ fn tell(library: &Library, file: FileId, porter: &mut Porter<'_>) {
             ),
         };
         let finding = Diagnostic::new(&codes::BAD_MTL, message);
-        porter
+        loader
             .sink
             .push(finding.at(first.span(file), first.label.as_str()));
     }

@@ -1,9 +1,9 @@
 //! The profiles of lamps: IES files (LM-63, 1986 to 2019) of type C.
 
-use super::text::TextKind;
-use super::{Known, Porter, Wanted, Without};
+use super::text_file::TextKind;
+use super::{AssetLoader, FileCache, MissingAssetPolicy, PendingAsset};
 use crate::over_limit;
-use crate::words::{Lines, Unread, Word, WordFault};
+use crate::words::{Lines, ParseFault, Word, WordFault};
 use rtc_diag::codes;
 use rtc_ir::{Emitter, Light, Lowered, Photometry, Punctual};
 use rtc_source::{Budget, FileKind, Resource};
@@ -13,7 +13,7 @@ pub(super) const TEXT: TextKind = TextKind {
     entity: "profile",
     is_not: "no IES profile",
     code: &codes::BAD_PHOTOMETRY,
-    without: Without::Light,
+    policy: MissingAssetPolicy::Light,
     max_bytes: 1 << 24,
     file: FileKind {
         extensions: &["ies"],
@@ -22,26 +22,26 @@ pub(super) const TEXT: TextKind = TextKind {
 };
 
 /// Brings the profile of a lamp, which is dark without its file.
-pub(super) fn bring(
+pub(super) fn load(
     light: usize,
-    wish: &Wanted,
+    pending: &PendingAsset,
     lowered: &mut Lowered,
-    known: &mut Known<Photometry>,
-    porter: &mut Porter<'_>,
+    cache: &mut FileCache<Photometry>,
+    loader: &mut AssetLoader<'_>,
 ) {
-    let Some(found) = porter.find(wish, TEXT.without) else {
+    let Some(found) = loader.find(pending, TEXT.policy) else {
         return;
     };
-    let read = || Some(porter.read_text(&found, wish, &TEXT, parse)?.1);
-    let Some(measured) = known.of(&found, read) else {
+    let read = || Some(loader.read_text(&found, pending, &TEXT, parse)?.1);
+    let Some(profile) = cache.get_or_load(&found, read) else {
         return;
     };
     // Each lamp has a profile of its own, in the scene and in its proof.
-    let memory = 16 * measured.candela.len() as u64;
-    if let Err(fault) = porter.map.budget().charge(Resource::Memory, memory) {
+    let memory = 16 * profile.candela.len() as u64;
+    if let Err(fault) = loader.map.budget().charge(Resource::Memory, memory) {
         let what = format!("the profile `{}`", found.shown.display());
-        let finding = over_limit(&what, &fault).at(wish.span, "named here");
-        porter.refuse(finding, TEXT.without);
+        let finding = over_limit(&what, &fault).at(pending.span, "named here");
+        loader.reject(finding, TEXT.policy);
         return;
     }
     if let Some(Light::Punctual(Punctual { emitter, .. })) = lowered.scene.lights.get_mut(light)
@@ -50,7 +50,7 @@ pub(super) fn bring(
         let name = std::mem::take(&mut photometry.name);
         **photometry = Photometry {
             name,
-            ..measured.clone()
+            ..profile.clone()
         };
     }
 }
@@ -64,21 +64,21 @@ fn is_profile(head: &[u8]) -> bool {
 const TILT: &[u8] = b"TILT=";
 
 /// Reads a profile; its name is empty.
-fn parse(bytes: &[u8], budget: &Budget) -> Result<Photometry, Unread> {
+fn parse(bytes: &[u8], budget: &Budget) -> Result<Photometry, ParseFault> {
     // A number of two bytes becomes one of eight, in a list that grows by doubling, of a quarter of
     // the way around.
     budget.charge(Resource::Memory, 32 * bytes.len() as u64)?;
-    let mut numbers = Numbers::open(bytes).map_err(fault)?;
+    let mut numbers = NumberReader::open(bytes).map_err(fault)?;
     let photometry = numbers.photometry().map_err(fault)?;
     Ok(photometry)
 }
 
-fn fault(fault: WordFault) -> Unread {
-    Unread::Faults(vec![fault])
+fn fault(fault: WordFault) -> ParseFault {
+    ParseFault::Faults(vec![fault])
 }
 
 /// The words after the line of the tilt.
-struct Numbers<'a> {
+struct NumberReader<'a> {
     lines: Lines<'a>,
     /// Those of this line, the next one last.
     words: Vec<Word<'a>>,
@@ -86,7 +86,7 @@ struct Numbers<'a> {
     last: Word<'a>,
 }
 
-impl<'a> Numbers<'a> {
+impl<'a> NumberReader<'a> {
     fn open(bytes: &'a [u8]) -> Result<Self, WordFault> {
         let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
         let mut last = Word::START;
@@ -185,12 +185,12 @@ impl<'a> Numbers<'a> {
         let _watts = self.number()?;
         let vertical = self.angles(rows)?;
         let horizontal = self.angles(columns)?;
-        let around = Around::of(&horizontal, &self.last)?;
-        let mut measured = Vec::new();
+        let symmetry = Symmetry::of(&horizontal, &self.last)?;
+        let mut profile = Vec::new();
         for _ in 0..columns {
-            measured.push(self.candela(rows, factor)?);
+            profile.push(self.candela(rows, factor)?);
         }
-        Ok(around.photometry(vertical, &horizontal, &measured))
+        Ok(symmetry.photometry(vertical, &horizontal, &profile))
     }
 
     /// The intensities at one horizontal angle.
@@ -210,7 +210,7 @@ impl<'a> Numbers<'a> {
 
 /// How far around the axis was measured; the rest is mirrored (LM-63-2002, section 5.14).
 #[derive(Clone, Copy)]
-enum Around {
+enum Symmetry {
     /// One plane stands for all.
     All,
     /// A quarter, from 0° to 90°.
@@ -223,7 +223,7 @@ enum Around {
     Whole,
 }
 
-impl Around {
+impl Symmetry {
     fn of(angles: &[f64], last: &Word<'_>) -> Result<Self, WordFault> {
         match angles {
             [_] => Ok(Self::All),
@@ -239,10 +239,10 @@ impl Around {
     }
 
     /// The profile, unfolded to all around.
-    fn photometry(self, vertical: Vec<f64>, angles: &[f64], measured: &[Vec<f64>]) -> Photometry {
-        let columns = angles.iter().copied().zip(measured);
+    fn photometry(self, vertical: Vec<f64>, angles: &[f64], profile: &[Vec<f64>]) -> Photometry {
+        let columns = angles.iter().copied().zip(profile);
         let mut all: Vec<(f64, &Vec<f64>)> = match self {
-            Self::All => vec![(0.0, &measured[0])],
+            Self::All => vec![(0.0, &profile[0])],
             Self::Quarter => {
                 let quarter = columns.clone();
                 let half: Vec<_> = columns
@@ -262,10 +262,10 @@ impl Around {
                 let mirrored = columns
                     .clone()
                     .map(|(angle, values)| (540.0 - angle, values));
-                let turned = mirrored
+                let wrapped = mirrored
                     .clone()
                     .map(|(angle, values)| (angle - 360.0, values));
-                let all = columns.chain(mirrored).chain(turned);
+                let all = columns.chain(mirrored).chain(wrapped);
                 all.filter(|(angle, _)| (0.0..=360.0).contains(angle))
                     .collect()
             }
@@ -290,12 +290,12 @@ mod tests {
     use super::*;
     use rtc_source::Limits;
 
-    fn read(text: &str) -> Result<Photometry, Unread> {
+    fn read(text: &str) -> Result<Photometry, ParseFault> {
         parse(text.as_bytes(), &Budget::new(Limits::default()))
     }
 
     /// A profile of two vertical angles, whose horizontal ones are measured so.
-    fn around(angles: &[f64]) -> Vec<(f64, f64)> {
+    fn symmetry(angles: &[f64]) -> Vec<(f64, f64)> {
         let list = |values: &[f64]| {
             values
                 .iter()
@@ -322,7 +322,7 @@ mod tests {
 
     #[test]
     fn what_was_not_measured_is_mirrored() {
-        assert_eq!(around(&[0.0]), [(0.0, 1.0)]);
+        assert_eq!(symmetry(&[0.0]), [(0.0, 1.0)]);
         let quarter = [
             (0.0, 1.0),
             (30.0, 31.0),
@@ -331,7 +331,7 @@ mod tests {
             (180.0, 1.0),
         ];
         let back = [(210.0, 31.0), (270.0, 91.0), (330.0, 31.0), (360.0, 1.0)];
-        assert_eq!(around(&[0.0, 30.0, 90.0]), [&quarter[..], &back].concat());
+        assert_eq!(symmetry(&[0.0, 30.0, 90.0]), [&quarter[..], &back].concat());
         let half = [
             (0.0, 1.0),
             (60.0, 61.0),
@@ -339,7 +339,7 @@ mod tests {
             (300.0, 61.0),
             (360.0, 1.0),
         ];
-        assert_eq!(around(&[0.0, 60.0, 180.0]), half);
+        assert_eq!(symmetry(&[0.0, 60.0, 180.0]), half);
         let other = [
             (0.0, 181.0),
             (90.0, 91.0),
@@ -347,9 +347,9 @@ mod tests {
             (270.0, 271.0),
             (360.0, 181.0),
         ];
-        assert_eq!(around(&[90.0, 180.0, 270.0]), other);
+        assert_eq!(symmetry(&[90.0, 180.0, 270.0]), other);
         assert_eq!(
-            around(&[0.0, 100.0, 360.0]),
+            symmetry(&[0.0, 100.0, 360.0]),
             [(0.0, 1.0), (100.0, 101.0), (360.0, 361.0)]
         );
     }
@@ -371,6 +371,6 @@ mod tests {
         limits.set(Resource::Memory, 1000);
         let text = format!("TILT=NONE {}", " 1".repeat(100));
         let found = parse(text.as_bytes(), &Budget::new(limits));
-        assert!(matches!(found, Err(Unread::Limit(_))));
+        assert!(matches!(found, Err(ParseFault::Limit(_))));
     }
 }

@@ -1,16 +1,16 @@
 //! The cube of some files, and what it shares with other solids that are turned or have a depth.
 
-use super::{Lower, negative};
+use super::{Lower, report_negative};
 use crate::course::decode::{Context, SharedValue, Spanned, Value};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, NonNegative, Real, json_number};
-use crate::course::object::solid::around;
+use crate::course::object::solid::box_around;
 use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::rotation::{Rotation, RotationKeys};
 use crate::course::schema::Definitions;
-use crate::course::synonym::{PLACE, ROTATION, TURN_ANGLE, TURN_AXIS, led_by};
-use crate::course::turn::{Rotation, Turn};
-use crate::course::value::{Angles, Point, Text, Vector};
+use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
+use crate::course::value::{Angles, AnyScalar, Point, Vector};
 use rtc_math::{Vec3, cos, sin, turned_about, unit, unit_scale};
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
@@ -19,29 +19,29 @@ record! {
     /// A cube, turned or not. Better written as a `box`.
     struct Cube, "cube" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, keys!["type"];
         /// The centre.
-        position: Spanned<Point>, required, &led_by(PLACE, "position");
+        position: Spanned<Point>, required, &with_canonical(POSITION, "position");
         /// The length of a side; nothing shows at 0.
         length: Spanned<NonNegative>, required, keys!["length" "side" "size" "edge"];
         /// The angles in radians by which it is turned about its centre: first about x, then y,
         /// then z; beside `angle` the axis.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
         /// The axis through its centre that it is turned about by `angle`.
-        axis: Spanned<Vector>, optional, &TURN_AXIS;
+        axis: Spanned<Vector>, optional, &ROTATION_AXIS;
         /// By how many degrees it is turned about its axis.
-        angle: Spanned<Degrees>, optional, &TURN_ANGLE;
+        angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
         /// What it is turned about.
-        turn_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
+        euler_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
         /// By how much, in radians.
-        turn_angle: Spanned<Real>, optional, keys!["eulerAngle"];
+        euler_angle: Spanned<Real>, optional, keys!["eulerAngle"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
-    forms {
-        [position] [position turn_axis turn_angle] [position rotation] [position rotation angle] [position axis angle]
+    variants {
+        [position] [position euler_axis euler_angle] [position rotation] [position rotation angle] [position axis angle]
     }
 }
 
@@ -54,36 +54,38 @@ impl Lower for Cube {
             rotation,
             axis,
             angle,
-            turn_axis,
-            turn_angle,
+            euler_axis,
+            euler_angle,
             material,
             shadow,
         } = self;
-        let Some(clothes) = lowering.clothe(kind, material, shadow, context) else {
+        let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
             return;
         };
-        let turn = match (turn_axis, turn_angle) {
-            (FieldOutcome::Read(axis), FieldOutcome::Read(angle)) => Some(axes_turned_about(
+        let rotation_keys = match (euler_axis, euler_angle) {
+            (FieldOutcome::Read(axis), FieldOutcome::Read(angle)) => Some(axes_rotated_about(
                 Vec3::from_array(axis.value.0),
                 angle.value.0,
             )),
             _ => {
-                let turn = Turn {
+                let rotation_keys = RotationKeys {
                     rotation,
                     axis,
                     angle,
                 };
-                turn.axes(context)
+                rotation_keys.axes(context)
             }
         };
-        let Some(turn) = turn else { return };
+        let Some(rotation_keys) = rotation_keys else {
+            return;
+        };
         if length.value.0 < 0.0 {
-            negative(length, "side", context);
+            report_negative(length, "side", context);
             return;
         }
         let center = Vec3::from_array(position.value.0);
-        let corners = around(center, [length.value.0; 3], turn);
-        lowering.cuboid(&clothes, &corners, length.span, context);
+        let corners = box_around(center, [length.value.0; 3], rotation_keys);
+        lowering.add_box(&props, &corners, length.span, context);
     }
 }
 
@@ -132,7 +134,7 @@ impl Value for ThirdEdge {
 
 /// Where the axes come to, turned by an angle in radians about an axis; as they are if it has no
 /// direction.
-pub(in crate::course) fn axes_turned_about(axis: Vec3, angle: f64) -> [Vec3; 3] {
+pub(in crate::course) fn axes_rotated_about(axis: Vec3, angle: f64) -> [Vec3; 3] {
     let turns = [sin(angle), cos(angle)];
     unit(axis).map_or(Vec3::AXES, |axis| {
         Vec3::AXES.map(|v| turned_about(v, axis, turns))
@@ -145,10 +147,10 @@ mod tests {
 
     #[test]
     fn a_quarter_turn_about_z_takes_x_to_y() {
-        let [x, y, z] = axes_turned_about(Vec3::Z * 3.0, std::f64::consts::FRAC_PI_2);
+        let [x, y, z] = axes_rotated_about(Vec3::Z * 3.0, std::f64::consts::FRAC_PI_2);
         let is_near = |a: Vec3, b: Vec3| (a - b).length() < 1e-15;
         assert!(is_near(x, Vec3::Y) && is_near(y, Vec3::NEG_X) && is_near(z, Vec3::Z));
-        assert_eq!(axes_turned_about(Vec3::ZERO, 1.0), Vec3::AXES);
+        assert_eq!(axes_rotated_about(Vec3::ZERO, 1.0), Vec3::AXES);
     }
 
     #[test]

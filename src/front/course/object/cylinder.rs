@@ -1,15 +1,15 @@
 //! The cylinder.
 
 use super::Lower;
-use super::cube::axes_turned_about;
-use super::round::Upright;
+use super::axis_keys::AxisKeys;
+use super::cube::axes_rotated_about;
 use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive, Real};
 use crate::course::record::{FieldOutcome, keys, record};
-use crate::course::synonym::{AXIS, ENDS, HEIGHT, PLACE, RADIUS, led_by};
-use crate::course::value::{Point, Text, Vector};
+use crate::course::synonym::{AXIS, ENDS, HEIGHT, POSITION, RADIUS, with_canonical};
+use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_ir as ir;
 use rtc_math::{Vec3, length};
 
@@ -19,29 +19,29 @@ record! {
     /// its middle, a height, and how the x axis is turned to its own.
     struct Cylinder, "cylinder" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
         /// The centre of the base; beside `eulerAxis` the middle of the cylinder.
-        position: Spanned<Point>, optional, &led_by(PLACE, "position"), json "origin";
+        position: Spanned<Point>, optional, &with_canonical(POSITION, "position"), json "origin";
         /// The direction from the base to the top, of any length but 0.
-        direction: Spanned<Vector>, optional, &led_by(AXIS, "direction"), json "axis";
+        direction: Spanned<Vector>, optional, &with_canonical(AXIS, "direction"), json "axis";
         /// From base to top, above 0.
         height: Spanned<Positive>, optional, &HEIGHT, json "height";
         /// From the base to the top; its length is the height.
         up: Spanned<Vector>, optional, keys!["up"];
         /// What the x axis is turned about to be the axis of the cylinder.
-        turn_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
+        euler_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
         /// By how much, in radians.
-        turn_angle: Spanned<Real>, optional, keys!["eulerAngle"];
+        euler_angle: Spanned<Real>, optional, keys!["eulerAngle"];
         /// The centre of a cap.
         ends: [Spanned<Point>; 2], optional, &ENDS, json "p1";
         /// The radius; nothing shows at 0.
-        radius: Spanned<NonNegative>, required, &led_by(RADIUS, "radius"), json "radius";
+        radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius"), json "radius";
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
-    forms { [position direction height] [ends] [position up] [position height turn_axis turn_angle] }
+    variants { [position direction height] [ends] [position up] [position height euler_axis euler_angle] }
 }
 
 impl Lower for Cylinder {
@@ -53,21 +53,21 @@ impl Lower for Cylinder {
             shadow,
             ..
         } = self;
-        let clothes = lowering.clothe(kind, material, shadow, context);
-        if let (Some(clothes), Some((base, axis, height))) = (clothes, axis(self)) {
+        let props = lowering.surface_props(kind, material, shadow, context);
+        if let (Some(props), Some((base, axis, height))) = (props, axis(self)) {
             let shape = ir::Cylinder {
                 base: base.value,
                 axis: axis.value,
                 height: height.value,
                 radius: radius.value.0,
             };
-            let places = [
+            let value_spans = [
                 ("base", base.span),
                 ("axis", axis.span),
                 ("height", height.span),
                 ("radius", radius.span),
             ];
-            lowering.put(&clothes, ir::Shape::Cylinder(shape), &places);
+            lowering.add_surface(&props, ir::Shape::Cylinder(shape), &value_spans);
         }
     }
 }
@@ -80,8 +80,8 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
         direction,
         height,
         up,
-        turn_axis,
-        turn_angle,
+        euler_axis,
+        euler_angle,
         ends,
         radius: _,
         material: _,
@@ -92,9 +92,9 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
         FieldOutcome::Read(height),
         FieldOutcome::Read(axis),
         FieldOutcome::Read(angle),
-    ) = (position, height, turn_axis, turn_angle)
+    ) = (position, height, euler_axis, euler_angle)
     {
-        let [along, ..] = axes_turned_about(Vec3::from_array(axis.value.0), angle.value.0);
+        let [along, ..] = axes_rotated_about(Vec3::from_array(axis.value.0), angle.value.0);
         let base = Vec3::from_array(middle.value.0) - along * (height.value.0 / 2.0);
         return Some((
             middle.map(|_| base.to_array()),
@@ -114,14 +114,14 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
             height.map(|height| height.0),
         ));
     }
-    let upright = Upright {
+    let axis_keys = AxisKeys {
         position,
         up,
         direction,
         height,
         ends,
     };
-    let (base, up) = upright.base_and_up()?;
+    let (base, up) = axis_keys.base_and_up()?;
     let height = up.map(|up| length(Vec3::from_array(*up)));
     Some((base, up, height))
 }

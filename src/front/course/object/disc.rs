@@ -6,21 +6,21 @@ use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::NonNegative;
 use crate::course::record::{keys, record};
-use crate::course::synonym::{AXIS, PLACE, RADIUS, led_by};
-use crate::course::value::{Point, Text, Vector};
+use crate::course::synonym::{AXIS, POSITION, RADIUS, with_canonical};
+use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_ir as ir;
 
 record! {
     /// A disc, seen from both sides.
     struct Disc, "circle" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, keys!["type"];
         /// The centre.
-        center: Spanned<Point>, required, &led_by(PLACE, "center");
+        center: Spanned<Point>, required, &with_canonical(POSITION, "center");
         /// The direction at right angles to it, of any length but 0.
-        normal: Spanned<Vector>, required, &led_by(AXIS, "normal");
+        normal: Spanned<Vector>, required, &with_canonical(AXIS, "normal");
         /// The radius; nothing shows at 0.
-        radius: Spanned<NonNegative>, required, &led_by(RADIUS, "radius");
+        radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
@@ -43,13 +43,13 @@ impl Lower for Disc {
             normal: normal.value.0,
             radius: radius.value.0,
         };
-        let places = [
+        let value_spans = [
             ("center", center.span),
             ("normal", normal.span),
             ("radius", radius.span),
         ];
-        if let Some(clothes) = lowering.clothe(kind, material, shadow, context) {
-            lowering.put(&clothes, ir::Shape::Disc(shape), &places);
+        if let Some(props) = lowering.surface_props(kind, material, shadow, context) {
+            lowering.add_surface(&props, ir::Shape::Disc(shape), &value_spans);
         }
     }
 }

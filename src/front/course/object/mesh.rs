@@ -1,19 +1,21 @@
-//! The meshes: triangles from a file, placed.
+//! The meshes: triangles from a file, world_from_object.
 
 use super::Lower;
 use super::sizing::Sizing;
 use super::sphere::Radius;
-use crate::course::assets::{Dress, Dressing};
+use crate::course::assets::{MaterialSource, PendingMaterial};
 use crate::course::decode::{Context, SharedValue, Spanned, Value};
+use crate::course::keyword::Keyword;
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Real};
 use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::rotation::{AffineColumns, Rotation, RotationKeys, world_from_object};
 use crate::course::schema::Definitions;
-use crate::course::synonym::{FILE, PLACE, ROTATION, SCALE, TURN_ANGLE, TURN_AXIS, led_by};
-use crate::course::turn::{AffineColumns, Rotation, Turn, placed};
-use crate::course::value::{Angles, Caption, FileName, Point, Scale, Text, Vector};
-use crate::course::word::Words;
+use crate::course::synonym::{
+    FILE, POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, SCALE, with_canonical,
+};
+use crate::course::value::{Angles, AnyScalar, DisplayName, FileName, Point, Scale, Vector};
 use rtc_diag::{Severity, codes};
 use rtc_ir as ir;
 use rtc_source::Span;
@@ -24,21 +26,21 @@ record! {
     /// A mesh from an OBJ, OFF, STL or PLY file, or points from an XYZ file.
     struct Mesh, "mesh" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
         /// The file, beside the scene file or in a folder below it.
         file: Spanned<FileName>, required, &FILE,
             json "filename", json "object";
         /// Where the origin of the file's coordinates comes to; beside `fit`, where the middle of the mesh does.
-        position: Spanned<Point>, default(Point([0.0; 3])), &led_by(PLACE, "position"), json "position";
+        position: Spanned<Point>, default(Point([0.0; 3])), &with_canonical(POSITION, "position"), json "position";
         /// How many times larger it is than in its file, in all directions or along x, y and z.
         scale: Spanned<Scale>, optional, &SCALE, json "scale";
         /// The angles in radians by which it is turned about its origin: first about x, then y,
         /// then z; beside `angle` the axis.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION, json "rotation";
         /// The axis that it is turned about by `angle`.
-        axis: Spanned<Vector>, optional, &TURN_AXIS;
+        axis: Spanned<Vector>, optional, &ROTATION_AXIS;
         /// By how many degrees it is turned about its axis.
-        angle: Spanned<Degrees>, optional, &TURN_ANGLE;
+        angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
         /// Twelve numbers in place of `position` and `scale`: where x, y and z of the file's coordinates point, each with the
         /// length that a unit has, and where their origin comes to.
         transform: Spanned<AffineColumns>, optional, keys!["transform"];
@@ -56,26 +58,26 @@ record! {
         /// under `illum` 4, 6, 7 and 9, which are clear without `d` and `Tr`. Where paths are
         /// traced they become the `standard` material, which shows `Ke`, `Tf`, `Pr`, `Pm`, `Ps`,
         /// `Pc`, `Pcr`, `aniso`, `map_d`, `map_Ke`, `map_Pr`, `map_Pm` and how maps lie, too.
-        materials: Spanned<MaterialSource>, optional, keys!["materials"];
+        materials: Spanned<LibraryKind>, optional, keys!["materials"];
         /// Of an OBJ: the faces alone that ask for the material of this name by `usemtl`; empty for those that ask for none.
         part: Spanned<PartName>, optional, keys!["part"];
         /// What people call it.
-        label: Spanned<Caption>, optional, keys!["label"];
+        label: Spanned<DisplayName>, optional, keys!["label"];
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
-    forms { [file] [file scale] [file size] [file fit] [file transform] }
+    variants { [file] [file scale] [file size] [file fit] [file transform] }
 }
 
 /// Where materials come from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::course) enum MaterialSource {
+pub(in crate::course) enum LibraryKind {
     /// The file of materials that a mesh file names.
     Mtl,
 }
 
-impl Words for MaterialSource {
-    const WORDS: &'static [(&'static str, Self)] = &[("mtl", MaterialSource::Mtl)];
+impl Keyword for LibraryKind {
+    const KEYWORDS: &'static [(&'static str, Self)] = &[("mtl", LibraryKind::Mtl)];
 }
 
 /// The name of a material in a mesh file, which may be empty.
@@ -109,13 +111,13 @@ impl Lower for Mesh {
             shadow,
             ..
         } = self;
-        let clothes = match material {
-            FieldOutcome::Read(material) => lowering.clothe(kind, material, shadow, context),
-            FieldOutcome::Absent => Some(lowering.clothe_in_grey(kind, shadow)),
+        let props = match material {
+            FieldOutcome::Read(material) => lowering.surface_props(kind, material, shadow, context),
+            FieldOutcome::Absent => Some(lowering.grey_surface_props(kind, shadow)),
             FieldOutcome::Broken => None,
         };
         let index = lowering.scene.surfaces.len();
-        let (Some((transform, sizing)), Some(clothes)) = (self.place(index, context), clothes)
+        let (Some((transform, sizing)), Some(props)) = (self.transform(index, context), props)
         else {
             return;
         };
@@ -131,24 +133,24 @@ impl Lower for Mesh {
         }
         let mesh = lowering.files.mesh(&mut lowering.scene, file, part);
         lowering
-            .dressings
-            .push(dressing(index, kind.span, material, materials));
+            .pending_materials
+            .push(pending_material(index, kind.span, material, materials));
         lowering.sizings.extend(sizing);
         let shape = ir::Instance {
             mesh,
             world_from_object: transform.value.0,
         };
-        let places = [("mesh", file.span), (TRANSFORM, transform.span)];
-        lowering.put(&clothes, ir::Shape::Instance(shape), &places);
+        let value_spans = [("mesh", file.span), (TRANSFORM, transform.span)];
+        lowering.add_surface(&props, ir::Shape::Instance(shape), &value_spans);
         if let FieldOutcome::Read(label) = label {
-            lowering.call(&label.value.0);
+            lowering.set_name(&label.value.0);
         }
     }
 }
 
 impl Mesh {
     /// The transform of the surface of this index, and what is still to be done about its size.
-    fn place(
+    fn transform(
         &self,
         index: usize,
         context: &mut Context<'_>,
@@ -164,15 +166,15 @@ impl Mesh {
             fit,
             ..
         } = self;
-        let turn = Turn {
+        let rotation_keys = RotationKeys {
             rotation,
             axis,
             angle,
         };
         let (scale, sizing) = match (transform, scale, size, fit) {
             (FieldOutcome::Read(transform), ..) => {
-                useless(position.span, "position", context);
-                useless(turn.span(), "rotation", context);
+                report_key_without_effect(position.span, "position", context);
+                report_key_without_effect(rotation_keys.span(), "rotation", context);
                 return Some((*transform, None));
             }
             (_, FieldOutcome::Read(scale), ..) => (scale.map(|scale| scale.0), None),
@@ -181,7 +183,7 @@ impl Mesh {
                 (size.map(|size| [size.0; 3]), Some(sizing))
             }
             (.., FieldOutcome::Read(fit)) => {
-                useless_axis(fit, context);
+                report_axis_without_effect(fit, context);
                 (fit.map(|fit| [fit.length; 3]), Some(Sizing::Fit(index)))
             }
             (
@@ -192,14 +194,15 @@ impl Mesh {
             ) => (position.map(|_| [1.0; 3]), None),
             _ => return None,
         };
-        let axes = turn.axes(context)?;
-        let place = |scale: &[f64; 3]| AffineColumns(placed(axes, *scale, position.value.0));
-        Some((scale.map(place), sizing))
+        let axes = rotation_keys.axes(context)?;
+        let transform =
+            |scale: &[f64; 3]| AffineColumns(world_from_object(axes, *scale, position.value.0));
+        Some((scale.map(transform), sizing))
     }
 }
 
 /// Says that a mesh that has a transform is at no other place.
-fn useless(span: Option<Span>, key: &str, context: &mut Context<'_>) {
+fn report_key_without_effect(span: Option<Span>, key: &str, context: &mut Context<'_>) {
     let Some(span) = span else { return };
     let message = || format!("`{key}` has no effect beside `transform`");
     context.report(&codes::NO_EFFECT, span, message, |d| {
@@ -213,25 +216,25 @@ fn useless(span: Option<Span>, key: &str, context: &mut Context<'_>) {
 pub(super) const TRANSFORM: &str = "worldFromObject";
 
 /// Where the material of a mesh comes from.
-fn dressing(
+fn pending_material(
     surface: usize,
     object: Option<Span>,
     material: &FieldOutcome<Spanned<SharedValue<Material>>>,
-    materials: &FieldOutcome<Spanned<MaterialSource>>,
-) -> Dressing {
-    let (dress, span) = match (materials, material) {
-        (FieldOutcome::Read(source), _) => (Dress::Mtl, source.span),
-        (_, FieldOutcome::Absent) => (Dress::MtlOrGrey, object),
-        _ => (Dress::Scene, object),
+    materials: &FieldOutcome<Spanned<LibraryKind>>,
+) -> PendingMaterial {
+    let (source, span) = match (materials, material) {
+        (FieldOutcome::Read(library), _) => (MaterialSource::Mtl, library.span),
+        (_, FieldOutcome::Absent) => (MaterialSource::MtlOrGrey, object),
+        _ => (MaterialSource::Scene, object),
     };
-    Dressing {
+    PendingMaterial {
         surface,
-        dress,
+        source,
         span,
     }
 }
 
-fn useless_axis(radius: &Spanned<Radius>, context: &mut Context<'_>) {
+fn report_axis_without_effect(radius: &Spanned<Radius>, context: &mut Context<'_>) {
     if let Some(span) = radius.value.axis.and_then(|axis| axis.span) {
         let message = || "a mesh is not turned about an axis".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {

@@ -1,5 +1,6 @@
 //! The objects, told apart by their `type`: the table of types, and what all of them share.
 
+mod axis_keys;
 mod cone;
 pub(super) mod cube;
 mod cylinder;
@@ -9,7 +10,6 @@ mod mesh;
 mod paraboloid;
 mod plane;
 mod quad;
-mod round;
 pub(super) mod sizing;
 pub(super) mod solid;
 mod sphere;
@@ -23,8 +23,8 @@ use super::number::NonNegative;
 use super::reader::{look_up, missing_keys};
 use super::record::Record;
 use super::schema::{self, Definitions};
-use super::spelling::list;
-use super::value::Text;
+use super::spelling::quoted_list;
+use super::value::AnyScalar;
 use rtc_diag::clip;
 use rtc_diag::{Severity, codes, nearest};
 use rtc_ir::{self as ir, EntityKind, Field, MaterialId};
@@ -35,7 +35,7 @@ use serde_json::Value as Json;
 
 /// A type of object: the words for it, the canonical one first, and its declaration.
 pub(super) struct ObjectKind {
-    pub(super) words: &'static [&'static str],
+    pub(super) names: &'static [&'static str],
     pub(super) record: &'static Record,
     decode: fn(NodeId, &mut Context<'_>) -> Option<Object>,
     schema: fn(&mut Definitions) -> Json,
@@ -50,7 +50,7 @@ trait Lower {
 
 /// Declares the types of objects: the file and the record, and the words for it.
 macro_rules! kinds {
-    ($($file:ident $record:ident $($word:literal)+;)+) => {
+    ($($file:ident $record:ident $($name:literal)+;)+) => {
         /// An object of any type.
         pub(super) enum Object {
             $($record($file::$record)),+
@@ -58,7 +58,7 @@ macro_rules! kinds {
 
         /// The types there are.
         pub(super) const KINDS: &[ObjectKind] = &[$(ObjectKind {
-            words: &[$($word),+],
+            names: &[$($name),+],
             record: &$file::$record::RECORD,
             decode: |node, context| $file::$record::decode(node, context).map(Object::$record),
             schema: $file::$record::schema,
@@ -102,16 +102,16 @@ impl Value for Object {
         }
         let Some(kind) = look_up("type", node, context) else {
             let tree = context.tree;
-            let is_slip = |key: &NodeId| {
-                let word = tree.text(*key);
-                word.is_some_and(|word| nearest(word, ["type"].into_iter()).is_some())
+            let is_typo = |key: &NodeId| {
+                let name = tree.text(*key);
+                name.is_some_and(|name| nearest(name, ["type"].into_iter()).is_some())
             };
             if is_named_by_key(node, context) {
                 return None;
             }
-            let slip = tree.pairs(node).map(|(key, _)| key).find(is_slip);
-            let slip = slip.map(|key| tree.span(key));
-            missing_keys("object", context.head(node), &["type"], slip, context);
+            let typo = tree.pairs(node).map(|(key, _)| key).find(is_typo);
+            let typo = typo.map(|key| tree.span(key));
+            missing_keys("object", context.head(node), &["type"], typo, context);
             return None;
         };
         let span = context.tree.span(kind);
@@ -119,28 +119,28 @@ impl Value for Object {
             text: "type",
             span: Some(span),
         };
-        let Some(word) = context.tree.text(kind) else {
+        let Some(name) = context.tree.text(kind) else {
             return context.expected(kind, "a word");
         };
         let known = KINDS.iter().find_map(|kind| {
-            kind.words
+            kind.names
                 .iter()
-                .find(|known| **known == word)
-                .map(|word| (kind, *word))
+                .find(|known| **known == name)
+                .map(|name| (kind, *name))
         });
-        let Some((kind, word)) = known else {
-            left_out(word, kind, context);
+        let Some((kind, name)) = known else {
+            report_unknown_type(name, kind, context);
             return None;
         };
-        context.note_spelling(word, kind.words[0], span);
+        context.record_spelling(name, kind.names[0], span);
         (kind.decode)(node, context)
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
         let mut kinds = Vec::new();
-        for ObjectKind { words, schema, .. } in KINDS {
+        for ObjectKind { names, schema, .. } in KINDS {
             let schema = schema(definitions);
-            kinds.extend(words.iter().map(|word| (*word, schema.clone())));
+            kinds.extend(names.iter().map(|name| (*name, schema.clone())));
         }
         schema::tagged("type", "What kind of object this is.", &kinds)
     }
@@ -149,15 +149,15 @@ impl Value for Object {
 /// Reports an object whose type stands as a key, `- sphere:`, if it is one.
 fn is_named_by_key(node: NodeId, context: &mut Context<'_>) -> bool {
     let tree = context.tree;
-    let is_kind = |word: &str| KINDS.iter().any(|kind| kind.words.contains(&word));
+    let is_kind = |name: &str| KINDS.iter().any(|kind| kind.names.contains(&name));
     let named = tree
         .pairs(node)
-        .find_map(|(key, value)| Some((key, value, tree.text(key).filter(|word| is_kind(word))?)));
-    let Some((key, value, word)) = named else {
+        .find_map(|(key, value)| Some((key, value, tree.text(key).filter(|name| is_kind(name))?)));
+    let Some((key, value, name)) = named else {
         return false;
     };
     let span = tree.span(key);
-    let message = || format!("an object says what it is by `type: {word}`");
+    let message = || format!("an object says what it is by `type: {name}`");
     let is_alone = tree.text(value) == Some("") && tree.rest_of_line(span).starts_with(':');
     let colon = Span {
         end: span.end + 1,
@@ -166,9 +166,9 @@ fn is_named_by_key(node: NodeId, context: &mut Context<'_>) -> bool {
     context.report(&codes::MISSING_KEY, span, message, |d| {
         let d = d.at(span, "a type, and not a key");
         match is_alone {
-            true => d.guess("write", colon, format!("type: {word}")),
+            true => d.guess("write", colon, format!("type: {name}")),
             false => d.hint(format!(
-                "write `type: {word}`, and its other keys beside that"
+                "write `type: {name}`, and its other keys beside that"
             )),
         }
     });
@@ -176,14 +176,14 @@ fn is_named_by_key(node: NodeId, context: &mut Context<'_>) -> bool {
 }
 
 /// Reports an object of unknown type.
-fn left_out(word: &str, node: NodeId, context: &mut Context<'_>) {
+fn report_unknown_type(name: &str, node: NodeId, context: &mut Context<'_>) {
     let (lenient, span) = (context.options.lenient, context.tree.span(node));
-    let known = KINDS.iter().flat_map(|kind| kind.words).copied();
-    let meant = nearest(word, known).map(|meant| (meant, context.in_its_quotes(node, meant)));
+    let known = KINDS.iter().flat_map(|kind| kind.names).copied();
+    let meant = nearest(name, known).map(|meant| (meant, context.with_quotes_of(node, meant)));
     context.report(
         &codes::UNKNOWN_TYPE,
         span,
-        || format!("there is no type `{}`", clip(word)),
+        || format!("there is no type `{}`", clip(name)),
         |d| {
             let d = match lenient {
                 true => d
@@ -195,7 +195,7 @@ fn left_out(word: &str, node: NodeId, context: &mut Context<'_>) {
                 Some((meant, better)) => d.guess(format!("did you mean `{meant}`?"), span, better),
                 None if lenient => d,
                 None => {
-                    let kinds = list(KINDS.iter().map(|kind| kind.words[0]));
+                    let kinds = quoted_list(KINDS.iter().map(|kind| kind.names[0]));
                     d.hint(format!(
                         "the types are {kinds}; `--lenient` leaves the object out"
                     ))
@@ -206,8 +206,8 @@ fn left_out(word: &str, node: NodeId, context: &mut Context<'_>) {
 }
 
 /// What the surfaces of an object have in common.
-pub(super) struct Clothes {
-    whole: Option<Span>,
+pub(super) struct SurfaceProps {
+    object_span: Option<Span>,
     material: MaterialId,
     span: Option<Span>,
     casts_shadow: bool,
@@ -215,16 +215,16 @@ pub(super) struct Clothes {
 
 impl Lowering {
     /// Lowers the material of an object. `None` if it has no sound one, which is reported.
-    pub(super) fn clothe(
+    pub(super) fn surface_props(
         &mut self,
-        kind: &Spanned<Text>,
+        kind: &Spanned<AnyScalar>,
         material: &Spanned<SharedValue<Material>>,
         shadow: &Spanned<bool>,
         context: &mut Context<'_>,
-    ) -> Option<Clothes> {
+    ) -> Option<SurfaceProps> {
         let id = self.material(material, context)?;
-        Some(Clothes {
-            whole: kind.span,
+        Some(SurfaceProps {
+            object_span: kind.span,
             material: id,
             span: material.span,
             casts_shadow: shadow.value,
@@ -232,47 +232,47 @@ impl Lowering {
     }
 
     /// Clothes an object for which no material was written.
-    pub(super) fn clothe_in_grey(
+    pub(super) fn grey_surface_props(
         &mut self,
-        kind: &Spanned<Text>,
+        kind: &Spanned<AnyScalar>,
         shadow: &Spanned<bool>,
-    ) -> Clothes {
-        Clothes {
-            whole: kind.span,
+    ) -> SurfaceProps {
+        SurfaceProps {
+            object_span: kind.span,
             material: self.grey(),
             span: kind.span,
             casts_shadow: shadow.value,
         }
     }
 
-    /// Adds a surface of an object; `places` are the ways to its values in the IR, and where those
+    /// Adds a surface of an object; `value_spans` are the ways to its values in the IR, and where those
     /// were written.
-    pub(super) fn put(
+    pub(super) fn add_surface(
         &mut self,
-        clothes: &Clothes,
+        props: &SurfaceProps,
         shape: ir::Shape,
-        places: &[(&str, Option<Span>)],
+        value_spans: &[(&str, Option<Span>)],
     ) {
-        if let Some(way) = without_size(&shape) {
-            let place = places.iter().find(|(own, _)| *own == way);
-            self.invisible(place.and_then(|(_, span)| *span).or(clothes.whole));
+        if let Some(path) = zero_size_field(&shape) {
+            let value_span = value_spans.iter().find(|(own, _)| *own == path);
+            self.invisible(value_span.and_then(|(_, span)| *span).or(props.object_span));
             return;
         }
-        let Clothes {
-            whole,
+        let SurfaceProps {
+            object_span,
             material,
             span,
             casts_shadow,
-        } = *clothes;
+        } = *props;
         let (index, kind) = (self.scene.surfaces.len(), shape.kind());
         self.scene.surfaces.push(ir::Surface {
             shape,
             material,
             casts_no_shadow: !casts_shadow,
         });
-        self.origin(EntityKind::Surface, index, Field::Whole, whole);
-        for (way, span) in places {
-            let field = Field::of_shape(kind, way);
+        self.origin(EntityKind::Surface, index, Field::Whole, object_span);
+        for (path, span) in value_spans {
+            let field = Field::of_shape(kind, path);
             self.origin(EntityKind::Surface, index, field, *span);
         }
         self.origin(EntityKind::Surface, index, Field::Material, span);
@@ -284,7 +284,7 @@ impl Lowering {
     }
 
     /// Tells of what has no size.
-    pub(super) fn note_invisible(&mut self, context: &mut Context<'_>) {
+    pub(super) fn report_invisible(&mut self, context: &mut Context<'_>) {
         for span in std::mem::take(&mut self.invisible) {
             let message = || "an object of size 0 is invisible".to_owned();
             context.report(&codes::INVISIBLE, span, message, |d| {
@@ -295,7 +295,7 @@ impl Lowering {
     }
 
     /// Calls the last surface by a name.
-    fn call(&mut self, name: &str) {
+    fn set_name(&mut self, name: &str) {
         let names = &mut self.scene.names;
         names.resize(self.scene.surfaces.len(), String::new());
         names
@@ -306,8 +306,8 @@ impl Lowering {
 }
 
 /// The way to the value of a shape that is 0 and leaves nothing to see of it.
-fn without_size(shape: &ir::Shape) -> Option<&'static str> {
-    let (way, size) = match shape {
+fn zero_size_field(shape: &ir::Shape) -> Option<&'static str> {
+    let (path, size) = match shape {
         ir::Shape::Sphere(ir::Sphere { radius, .. })
         | ir::Shape::Disc(ir::Disc { radius, .. })
         | ir::Shape::Cylinder(ir::Cylinder { radius, .. })
@@ -319,14 +319,14 @@ fn without_size(shape: &ir::Shape) -> Option<&'static str> {
         | ir::Shape::Quad(_)
         | ir::Shape::Instance(_) => return None,
     };
-    (size == 0.0).then_some(way)
+    (size == 0.0).then_some(path)
 }
 
 /// Reports a negative length of what becomes flat faces; of others the proof says so.
-fn negative(length: &Spanned<NonNegative>, word: &str, context: &mut Context<'_>) {
+fn report_negative(length: &Spanned<NonNegative>, name: &str, context: &mut Context<'_>) {
     if let Some(span) = length.span {
         let shown = shortest(length.value.0);
-        let message = || format!("the {word} `{shown}` is not above 0");
+        let message = || format!("the {name} `{shown}` is not above 0");
         context.report(&codes::RADIUS, span, message, |d| {
             d.at(span, "must be above 0")
         });

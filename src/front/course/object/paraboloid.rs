@@ -1,39 +1,39 @@
 //! The paraboloid.
 
 use super::Lower;
-use super::round::Upright;
+use super::axis_keys::AxisKeys;
 use crate::course::decode::{Context, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive};
 use crate::course::record::{keys, record};
-use crate::course::synonym::{AXIS, ENDS, HEIGHT, PLACE, RADIUS, led_by};
-use crate::course::value::{Point, Text, Vector};
+use crate::course::synonym::{AXIS, ENDS, HEIGHT, POSITION, RADIUS, with_canonical};
+use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_ir as ir;
 
 record! {
     /// A paraboloid with a cap at its base.
     struct Paraboloid, "paraboloid" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, keys!["type"];
         /// The centre of the base.
-        position: Spanned<Point>, optional, &led_by(PLACE, "position");
+        position: Spanned<Point>, optional, &with_canonical(POSITION, "position");
         /// From the centre of the base to the vertex; its length is the height.
         up: Spanned<Vector>, optional, keys!["up"];
         /// The direction from the base to the vertex, of any length but 0.
-        direction: Spanned<Vector>, optional, &led_by(AXIS, "direction");
+        direction: Spanned<Vector>, optional, &with_canonical(AXIS, "direction");
         /// From the base to the vertex, above 0.
         height: Spanned<Positive>, optional, &HEIGHT;
         /// The centre of the base, and the vertex.
         ends: [Spanned<Point>; 2], optional, &ENDS;
         /// The radius of the base; nothing shows at 0.
-        radius: Spanned<NonNegative>, required, &led_by(RADIUS, "radius");
+        radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
-    forms { [position up] [position direction height] [ends] }
+    variants { [position up] [position direction height] [ends] }
 }
 
 impl Lower for Paraboloid {
@@ -49,15 +49,15 @@ impl Lower for Paraboloid {
             material,
             shadow,
         } = self;
-        let upright = Upright {
+        let axis_keys = AxisKeys {
             position,
             up,
             direction,
             height,
             ends,
         };
-        let clothes = lowering.clothe(kind, material, shadow, context);
-        let (Some(clothes), Some((base, up))) = (clothes, upright.base_and_up()) else {
+        let props = lowering.surface_props(kind, material, shadow, context);
+        let (Some(props), Some((base, up))) = (props, axis_keys.base_and_up()) else {
             return;
         };
         let shape = ir::Paraboloid {
@@ -65,11 +65,11 @@ impl Lower for Paraboloid {
             up: up.value,
             radius: radius.value.0,
         };
-        let places = [
+        let value_spans = [
             ("base", base.span),
             ("up", up.span),
             ("radius", radius.span),
         ];
-        lowering.put(&clothes, ir::Shape::Paraboloid(shape), &places);
+        lowering.add_surface(&props, ir::Shape::Paraboloid(shape), &value_spans);
     }
 }

@@ -2,15 +2,15 @@
 
 use super::quad::EDGES;
 use super::triangle::CORNERS;
-use super::{Lower, negative};
+use super::{Lower, report_negative};
 use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
+use crate::course::keyword::Keyword;
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Real};
 use crate::course::record::{FieldOutcome, keys, record};
-use crate::course::synonym::{AXIS, PLACE, RADIUS, and, led_by};
-use crate::course::value::{Point, Text, Vector};
-use crate::course::word::Words;
+use crate::course::synonym::{AXIS, POSITION, RADIUS, with_canonical, with_last};
+use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::codes;
 use rtc_ir as ir;
 use rtc_math::{Vec3, length, shortest, unit, unit_scale};
@@ -20,15 +20,15 @@ record! {
     /// directions, or the four numbers of its equation.
     struct Plane, "plane" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
         /// The numbers of the equation a·x + b·y + c·z + d = 0 of its points. In some programs the sign of `d` is the other.
         equation: [Spanned<Real>; 4], optional, &[&["a", "b", "c", "d"]], json "a";
         /// One of three points of the plane.
         corners: [Spanned<Point>; 3], optional, CORNERS, json "A";
         /// A point of the plane.
-        position: Spanned<Point>, optional, &and::<_, 9>(PLACE, &["a"]), json "position";
+        position: Spanned<Point>, optional, &with_last::<_, 9>(POSITION, &["a"]), json "position";
         /// The direction at right angles to the plane, of any length but 0.
-        normal: Spanned<Vector>, optional, &led_by(AXIS, "normal"), json "normal";
+        normal: Spanned<Vector>, optional, &with_canonical(AXIS, "normal"), json "normal";
         /// The distance from the origin, along the normal.
         distance: Spanned<Real>, optional, keys!["distance" "d"];
         /// A direction in the plane.
@@ -38,7 +38,7 @@ record! {
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
-    forms { [position normal] [normal distance] [corners] [position edges] [equation] }
+    variants { [position normal] [normal distance] [corners] [position edges] [equation] }
 }
 
 record! {
@@ -46,15 +46,15 @@ record! {
     /// or `circle`.
     struct BoundedPlane, "bounded plane" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, keys!["type"];
         /// Whether it is a square, `quad`, or a disc, `circle`.
         outline: Spanned<Outline>, required, keys!["typ"];
         /// The centre.
-        center: Spanned<Point>, required, &led_by(PLACE, "center");
+        center: Spanned<Point>, required, &with_canonical(POSITION, "center");
         /// The direction at right angles to it; that of a square is along an axis.
-        normal: Spanned<Vector>, required, &led_by(AXIS, "normal");
+        normal: Spanned<Vector>, required, &with_canonical(AXIS, "normal");
         /// The radius, or half the side of the square; nothing shows at 0.
-        radius: Spanned<NonNegative>, required, &led_by(RADIUS, "radius");
+        radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
@@ -69,22 +69,22 @@ pub(in crate::course) enum Outline {
     Circle,
 }
 
-impl Words for Outline {
-    const WORDS: &'static [(&'static str, Self)] =
+impl Keyword for Outline {
+    const KEYWORDS: &'static [(&'static str, Self)] =
         &[("quad", Outline::Square), ("circle", Outline::Circle)];
 }
 
 impl Lower for Plane {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
-        let clothes = lowering.clothe(&self.kind, &self.material, &self.shadow, context);
-        note_sign(self, context);
-        if let (Some(clothes), Some((center, normal))) = (clothes, center_and_normal(self)) {
-            let places = [("center", center.span), ("normal", normal.span)];
+        let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
+        report_sign(self, context);
+        if let (Some(props), Some((center, normal))) = (props, center_and_normal(self)) {
+            let value_spans = [("center", center.span), ("normal", normal.span)];
             let shape = ir::Plane {
                 center: center.value,
                 normal: normal.value,
             };
-            lowering.put(&clothes, ir::Shape::Plane(shape), &places);
+            lowering.add_surface(&props, ir::Shape::Plane(shape), &value_spans);
         }
     }
 }
@@ -100,7 +100,7 @@ impl Lower for BoundedPlane {
             material,
             shadow,
         } = self;
-        let Some(clothes) = lowering.clothe(kind, material, shadow, context) else {
+        let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
             return;
         };
         match outline.value {
@@ -110,23 +110,25 @@ impl Lower for BoundedPlane {
                     normal: normal.value.0,
                     radius: radius.value.0,
                 };
-                let places = [
+                let value_spans = [
                     ("center", center.span),
                     ("normal", normal.span),
                     ("radius", radius.span),
                 ];
-                lowering.put(&clothes, ir::Shape::Disc(shape), &places);
+                lowering.add_surface(&props, ir::Shape::Disc(shape), &value_spans);
             }
             Outline::Square if radius.value.0 == 0.0 => lowering.invisible(radius.span),
-            Outline::Square if radius.value.0 < 0.0 => negative(radius, "radius", context),
+            Outline::Square if radius.value.0 < 0.0 => report_negative(radius, "radius", context),
             Outline::Square => {
                 let fields = ["vertices/0", "vertices/1", "vertices/2", "vertices/3"];
-                let places = fields.map(|field| (field, center.span));
-                match square(center.value.0, normal.value.0, radius.value.0) {
-                    Some(vertices) => {
-                        lowering.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places)
-                    }
-                    None => oblique(normal, context),
+                let value_spans = fields.map(|field| (field, center.span));
+                match square_corners(center.value.0, normal.value.0, radius.value.0) {
+                    Some(vertices) => lowering.add_surface(
+                        &props,
+                        ir::Shape::Quad(ir::Quad { vertices }),
+                        &value_spans,
+                    ),
+                    None => report_oblique(normal, context),
                 }
             }
         }
@@ -134,7 +136,7 @@ impl Lower for BoundedPlane {
 }
 
 /// A square with sides along the axes; `None` if its normal is not along one.
-fn square(center: [f64; 3], normal: [f64; 3], half: f64) -> Option<[[f64; 3]; 4]> {
+fn square_corners(center: [f64; 3], normal: [f64; 3], half: f64) -> Option<[[f64; 3]; 4]> {
     let center = Vec3::from_array(center);
     let (u, v) = match normal.map(|component| component != 0.0) {
         [true, false, false] => (Vec3::Y, Vec3::Z),
@@ -151,7 +153,7 @@ fn square(center: [f64; 3], normal: [f64; 3], half: f64) -> Option<[[f64; 3]; 4]
     ])
 }
 
-fn oblique(normal: &Spanned<Vector>, context: &mut Context<'_>) {
+fn report_oblique(normal: &Spanned<Vector>, context: &mut Context<'_>) {
     let Some(span) = normal.span else { return };
     let message = || "a square `bplane` has its normal along an axis".to_owned();
     context.report(&codes::UNSUPPORTED, span, message, |d| {
@@ -174,20 +176,20 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
         shadow: _,
     } = plane;
     if let FieldOutcome::Read(equation) = equation {
-        return Some(of_equation(equation));
+        return Some(plane_of_equation(equation));
     }
     match (corners, position, normal, distance, edges) {
-        (FieldOutcome::Read(corners), ..) => Some(through(corners)),
+        (FieldOutcome::Read(corners), ..) => Some(plane_of_points(corners)),
         (_, FieldOutcome::Read(position), FieldOutcome::Read(normal), ..) => {
             Some((position.map(|point| point.0), normal.map(|vector| vector.0)))
         }
         (_, _, FieldOutcome::Read(normal), FieldOutcome::Read(distance), _) => {
-            Some(at_distance(normal, distance))
+            Some(plane_at_distance(normal, distance))
         }
         (_, FieldOutcome::Read(position), .., FieldOutcome::Read([up, side])) => {
             let [up_vector, side_vector] = [up, side].map(|edge| Vec3::from_array(edge.value.0));
             let span = up.span.zip(side.span).map(|(first, last)| first.to(last));
-            let normal = across(side_vector, up_vector);
+            let normal = cross(side_vector, up_vector);
             Some((
                 position.map(|point| point.0),
                 Spanned {
@@ -201,7 +203,7 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
 }
 
 /// A point and the normal of the plane a·x + b·y + c·z + d = 0.
-fn of_equation([a, b, c, d]: &[Spanned<Real>; 4]) -> (Numbers, Numbers) {
+fn plane_of_equation([a, b, c, d]: &[Spanned<Real>; 4]) -> (Numbers, Numbers) {
     let normal = Vec3::new(a.value.0, b.value.0, c.value.0);
     // A normal of length 0 is left for the proof to refuse.
     let point = unit(normal).map_or(Vec3::ZERO, |n| n * (-d.value.0 / length(normal)));
@@ -219,7 +221,7 @@ fn of_equation([a, b, c, d]: &[Spanned<Real>; 4]) -> (Numbers, Numbers) {
 }
 
 /// Says which sign the last number of an equation has.
-fn note_sign(plane: &Plane, context: &mut Context<'_>) {
+fn report_sign(plane: &Plane, context: &mut Context<'_>) {
     let FieldOutcome::Read([.., d]) = &plane.equation else {
         return;
     };
@@ -233,13 +235,13 @@ fn note_sign(plane: &Plane, context: &mut Context<'_>) {
     }
 }
 
-fn through(corners: &[Spanned<Point>; 3]) -> (Numbers, Numbers) {
+fn plane_of_points(corners: &[Spanned<Point>; 3]) -> (Numbers, Numbers) {
     let [a, b, c] = corners.map(|corner| Vec3::from_array(corner.value.0));
     let span = corners[0]
         .span
         .zip(corners[2].span)
         .map(|(first, last)| first.to(last));
-    let normal = across(b - a, c - a);
+    let normal = cross(b - a, c - a);
     (
         corners[0].map(|point| point.0),
         Spanned {
@@ -251,13 +253,13 @@ fn through(corners: &[Spanned<Point>; 3]) -> (Numbers, Numbers) {
 
 /// The direction at right angles to two, in a right-handed way; zero if they are in line. Powers of
 /// two are taken out of both, so that no product leaves the range of f64.
-fn across(first: Vec3, second: Vec3) -> [f64; 3] {
+fn cross(first: Vec3, second: Vec3) -> [f64; 3] {
     let [first, second] =
         [first, second].map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
     first.cross(second).to_array()
 }
 
-fn at_distance(normal: &Spanned<Vector>, distance: &Spanned<Real>) -> (Numbers, Numbers) {
+fn plane_at_distance(normal: &Spanned<Vector>, distance: &Spanned<Real>) -> (Numbers, Numbers) {
     // A normal of length 0 is left for the proof to refuse.
     let direction = unit(Vec3::from_array(normal.value.0)).unwrap_or(Vec3::ZERO);
     (
@@ -277,7 +279,8 @@ mod tests {
             [1.0, -2.0, 3.0, -40.0],
             [1e200, 0.0, 0.0, 1e200],
         ] {
-            let (point, normal) = of_equation(&[a, b, c, d].map(|x| Spanned::unwritten(Real(x))));
+            let (point, normal) =
+                plane_of_equation(&[a, b, c, d].map(|x| Spanned::unwritten(Real(x))));
             assert_eq!(normal.value, [a, b, c]);
             let [x, y, z] = point.value;
             let rest = a * x + b * y + c * z + d;

@@ -2,19 +2,19 @@
 
 use super::solid::UNIT_SQUARE;
 use super::triangle::VERTICES;
-use super::{Clothes, Lower};
+use super::{Lower, SurfaceProps};
 use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::record::{FieldOutcome, Rows, keys, record};
+use crate::course::record::{FieldOutcome, Spellings, keys, record};
 use crate::course::synonym::CORNER;
-use crate::course::value::{Point, Text, Vector};
+use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::codes;
 use rtc_ir as ir;
 use rtc_math::{Vec3, unit};
 
 /// How people name four corners.
-pub(in crate::course) const FOUR_CORNERS: Rows = &[
+pub(in crate::course) const FOUR_CORNERS: Spellings = &[
     &["v0", "v1", "v2", "v3"],
     &["v1", "v2", "v3", "v4"],
     &["a", "b", "c", "d"],
@@ -29,14 +29,14 @@ pub(in crate::course) const FOUR_CORNERS: Rows = &[
 ];
 
 /// How people name the two edges from a corner: upward, and to the side.
-pub(in crate::course) const EDGES: Rows = &[&["up", "side"], &["edge1", "edge2"]];
+pub(in crate::course) const EDGES: Spellings = &[&["up", "side"], &["edge1", "edge2"]];
 
 record! {
     /// A quadrilateral, seen from both sides: four corners in order around it, or one corner and the two edges from it.
     /// Where edges cross there is a warning, and `--lenient` mends it.
     struct Quad, "quad" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
         /// One of four corners, in order around it; a texture has its lower left at the first and its lower right at the second.
         corners: [Spanned<Point>; 4], optional, FOUR_CORNERS, json "vertex0", json "A", json "p0";
         /// The corner at the lower left of a texture.
@@ -51,39 +51,41 @@ record! {
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
-    forms { [corners] [position edges] }
+    variants { [corners] [position edges] }
 }
 
 impl Lower for Quad {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
-        let clothes = lowering.clothe(&self.kind, &self.material, &self.shadow, context);
-        if let (Some(clothes), Some(mut corners)) = (clothes, corners(self)) {
-            if let Some(swap) = crossing(&corners.map(|corner| Vec3::from_array(corner.value))) {
-                crossed(&mut corners, swap, context);
+        let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
+        if let (Some(props), Some(mut corners)) = (props, corners(self)) {
+            if let Some(swap) =
+                corners_to_swap(&corners.map(|corner| Vec3::from_array(corner.value)))
+            {
+                report_crossed(&mut corners, swap, context);
             }
             let vertices = corners.map(|corner| corner.value);
             let quad = ir::Quad { vertices };
             if quad.is_bent() && !is_curved(self, &corners, context) {
-                lowering.two_triangles(&clothes, &corners);
+                lowering.add_two_triangles(&props, &corners);
                 return;
             }
             let fields = ["vertices/0", "vertices/1", "vertices/2", "vertices/3"];
-            let places = [0, 1, 2, 3].map(|k| (fields[k], corners[k].span));
-            lowering.put(&clothes, ir::Shape::Quad(quad), &places);
+            let value_spans = [0, 1, 2, 3].map(|k| (fields[k], corners[k].span));
+            lowering.add_surface(&props, ir::Shape::Quad(quad), &value_spans);
         }
     }
 }
 
 impl Lowering {
     /// Puts two triangles in the place of a quad, which meet from its first corner to its third.
-    fn two_triangles(&mut self, clothes: &Clothes, corners: &[Numbers; 4]) {
+    fn add_two_triangles(&mut self, props: &SurfaceProps, corners: &[Numbers; 4]) {
         for at in [[0, 1, 2], [0, 2, 3]] {
             let triangle = ir::Triangle {
                 vertices: at.map(|k| corners[k].value),
                 uvs: Some(at.map(|k| UNIT_SQUARE[k])),
             };
-            let places = [0, 1, 2].map(|k| (VERTICES[k], corners[at[k]].span));
-            self.put(clothes, ir::Shape::Triangle(triangle), &places);
+            let value_spans = [0, 1, 2].map(|k| (VERTICES[k], corners[at[k]].span));
+            self.add_surface(props, ir::Shape::Triangle(triangle), &value_spans);
         }
     }
 }
@@ -139,18 +141,18 @@ fn corners(quad: &Quad) -> Option<[Numbers; 4]> {
 ///
 /// Where two opposite edges cross, the quad turns left at the two ends of one of the others, and
 /// right at the two ends of the other one.
-fn crossing(corners: &[Vec3; 4]) -> Option<[usize; 2]> {
+fn corners_to_swap(corners: &[Vec3; 4]) -> Option<[usize; 2]> {
     /// The least sine between two edges that makes a turn, and the greatest one of a flat quad.
     const LEAST: f64 = 1e-6;
     let edge = |from: usize, to: usize| unit(corners[to % 4] - corners[from % 4]);
     let mut turns = [Vec3::ZERO; 4];
-    for (at, turn) in turns.iter_mut().enumerate() {
-        *turn = edge(at + 3, at)?.cross(edge(at, at + 1)?);
+    for (at, cross) in turns.iter_mut().enumerate() {
+        *cross = edge(at + 3, at)?.cross(edge(at, at + 1)?);
     }
     let normal = unit(turns[0])?;
     let is_flat = edge(2, 3)?.dot(normal).abs() < LEAST && edge(1, 2)?.dot(normal).abs() < LEAST;
-    let turns_left = turns.map(|turn| turn.dot(normal) > 0.0);
-    let is_bent = turns.iter().all(|turn| turn.length() > LEAST);
+    let turns_left = turns.map(|cross| cross.dot(normal) > 0.0);
+    let is_bent = turns.iter().all(|cross| cross.length() > LEAST);
     match turns_left {
         [true, true, false, false] if is_flat && is_bent => Some([2, 3]),
         [true, false, false, true] if is_flat && is_bent => Some([1, 2]),
@@ -159,7 +161,7 @@ fn crossing(corners: &[Vec3; 4]) -> Option<[usize; 2]> {
 }
 
 /// Reports edges that cross; lenient, the corners change places.
-fn crossed(corners: &mut [Numbers; 4], [a, b]: [usize; 2], context: &mut Context<'_>) {
+fn report_crossed(corners: &mut [Numbers; 4], [a, b]: [usize; 2], context: &mut Context<'_>) {
     const WHICH: [&str; 4] = ["first", "second", "third", "fourth"];
     let (first, second) = (corners[a].span, corners[b].span);
     let lenient = context.options.lenient;
@@ -188,7 +190,7 @@ mod tests {
     /// What is found in the unit square with its corners in this order, far off and turned.
     fn found(order: [usize; 4]) -> Option<[usize; 2]> {
         let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-        crossing(&order.map(|k| {
+        corners_to_swap(&order.map(|k| {
             let [x, y] = square[k];
             Vec3::new(1e4 + 3.0 * x, 4.0 * y - x, 7.0 + x + 3.0 * y)
         }))
@@ -198,14 +200,14 @@ mod tests {
     fn a_square_in_z_order_crosses_and_one_around_it_does_not() {
         assert_eq!(found([0, 1, 3, 2]), Some([2, 3]));
         assert_eq!(found([0, 2, 1, 3]), Some([1, 2]));
-        for around in [[0, 1, 2, 3], [2, 1, 0, 3]] {
-            assert_eq!(found(around), None, "{around:?}");
+        for order in [[0, 1, 2, 3], [2, 1, 0, 3]] {
+            assert_eq!(found(order), None, "{order:?}");
         }
     }
 
     #[test]
     fn darts_slits_and_curved_patches_do_not_cross() {
-        let quad = |corners: [[f64; 3]; 4]| crossing(&corners.map(Vec3::from_array));
+        let quad = |corners: [[f64; 3]; 4]| corners_to_swap(&corners.map(Vec3::from_array));
         let dart = [
             [0.0, 0.0, 0.0],
             [4.0, 0.0, 0.0],

@@ -17,7 +17,7 @@ pub(in crate::course) enum Sizing {
 }
 
 /// Sees to the size of a mesh, now that its file is there.
-pub(in crate::course) fn settle(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
+pub(in crate::course) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
     let (surface, factor_of) = match sizing {
         Sizing::Fit(surface) => (surface, None),
         Sizing::Check(surface, size) => (surface, Some(size)),
@@ -48,20 +48,20 @@ pub(in crate::course) fn settle(sizing: Sizing, lowered: &mut Lowered, sink: &mu
             placed_box(instance.world_from_object, [low, high]),
             &scene.camera,
         ) {
-            sink.push(factor(size, span));
+            sink.push(report_size_as_factor(size, span));
             return;
         }
-        let half = size / UNITS;
-        sink.push(unitised(size, half, span));
+        let half = size / SIZE_PER_FIT;
+        sink.push(report_size_as_fit(size, half, span));
         let [axes @ .., position] = instance.world_from_object;
-        let [x, y, z] = axes.map(|axis| (Vec3::from_array(axis) / UNITS).to_array());
+        let [x, y, z] = axes.map(|axis| (Vec3::from_array(axis) / SIZE_PER_FIT).to_array());
         instance.world_from_object = [x, y, z, position];
     }
     fit(instance, [low, high]);
 }
 
 /// A `size` of so many is a `fit` of 1, where it is no factor.
-const UNITS: f64 = 1.5;
+const SIZE_PER_FIT: f64 = 1.5;
 
 /// The box along the axes around a box that is placed.
 fn placed_box(place: [[f64; 3]; 4], ends: [Vec3; 2]) -> [Vec3; 2] {
@@ -99,7 +99,7 @@ fn hides_view([a, b]: [Vec3; 2], camera: &ir::Camera) -> bool {
         })
 }
 
-fn factor(size: f64, span: Option<Span>) -> Diagnostic {
+fn report_size_as_factor(size: f64, span: Option<Span>) -> Diagnostic {
     let message = format!(
         "the `size` of a mesh is a factor, as in `scale: {}`",
         shortest(size)
@@ -110,7 +110,7 @@ fn factor(size: f64, span: Option<Span>) -> Diagnostic {
         .hint("in some programs it is the size of the mesh; that is written `fit`")
 }
 
-fn unitised(size: f64, half: f64, span: Option<Span>) -> Diagnostic {
+fn report_size_as_fit(size: f64, half: f64, span: Option<Span>) -> Diagnostic {
     let (size, half) = (shortest(size), shortest(half));
     let message = format!("`size: {size}` is taken as the size of the mesh, not as a factor");
     Diagnostic::new(&codes::TWO_READINGS, message)

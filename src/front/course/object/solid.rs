@@ -9,11 +9,11 @@ use crate::course::decode::{Context, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::Degrees;
-use crate::course::object::Clothes;
+use crate::course::object::SurfaceProps;
 use crate::course::record::{FieldOutcome, keys, record};
-use crate::course::synonym::{PLACE, ROTATION, TURN_ANGLE, TURN_AXIS, led_by};
-use crate::course::turn::{Rotation, Turn};
-use crate::course::value::{Angles, Point, Scale, Text, Vector};
+use crate::course::rotation::{Rotation, RotationKeys};
+use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
+use crate::course::value::{Angles, AnyScalar, Point, Scale, Vector};
 use rtc_diag::codes;
 use rtc_ir as ir;
 use rtc_math::{Vec3, cos, shortest, sin, unit_scale};
@@ -24,23 +24,23 @@ record! {
     /// three edges from it.
     struct Cuboid, "box" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, keys!["type"];
         /// One of two opposite corners of a box with sides along the axes.
         extremes: [Spanned<Point>; 2], optional, &[
             &["min", "max"], &["minimum", "maximum"], &["corner1", "corner2"], &["p1", "p2"], &["p0", "p1"],
             &["point1", "point2"], &["v0", "v1"], &["lower", "upper"], &["from", "to"],
         ];
         /// The centre beside `dimension`; a corner beside `up`, `side` and `depth`.
-        position: Spanned<Point>, optional, &led_by(PLACE, "position");
+        position: Spanned<Point>, optional, &with_canonical(POSITION, "position");
         /// The lengths along x, y and z, before it is turned, or one for all.
         dimension: Spanned<Scale>, optional, keys!["dimension" "dimensions" "size" "extent" "extents"];
         /// The angles in radians by which it is turned about its centre: first about x, then y,
         /// then z; beside `angle` the axis.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
         /// The axis through its centre that it is turned about by `angle`.
-        axis: Spanned<Vector>, optional, &TURN_AXIS;
+        axis: Spanned<Vector>, optional, &ROTATION_AXIS;
         /// By how many degrees it is turned about its axis.
-        angle: Spanned<Degrees>, optional, &TURN_ANGLE;
+        angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
         /// An edge from the corner `position`.
         edges: [Spanned<Vector>; 2], optional, &[&["up", "side"]];
         /// The third edge; or its length alone, at right angles to the others, along `up` × `side`.
@@ -50,7 +50,7 @@ record! {
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
-    forms {
+    variants {
         [extremes] [position dimension] [position dimension rotation] [position dimension rotation angle]
         [position dimension axis angle] [position edges depth]
     }
@@ -60,7 +60,7 @@ record! {
     /// A tetrahedron.
     struct Tetrahedron, "tetrahedron" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, keys!["type"];
         /// A corner.
         corners: [Spanned<Point>; 4], required, FOUR_CORNERS;
         /// What it is made of.
@@ -74,7 +74,7 @@ record! {
     /// A prism over a triangle: its base and the way to its top, or the corners of both.
     struct Prism, "prism" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<AnyScalar>, required, keys!["type"];
         /// A corner of the base.
         corners: [Spanned<Point>; 3], optional, CORNERS;
         /// From the base to the top.
@@ -87,7 +87,7 @@ record! {
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
-    forms { [corners up] [ends] }
+    variants { [corners up] [ends] }
 }
 
 /// A face by the indices of its corners, with the outside on the left of its edges; one of four
@@ -114,10 +114,10 @@ const PRISM: &[Face] = &[
 
 impl Lower for Cuboid {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
-        let clothes = lowering.clothe(&self.kind, &self.material, &self.shadow, context);
-        if let (Some(clothes), Some((corners, span))) = (clothes, box_corners(self, context)) {
-            assumed_depth(&self.depth, corners[4] - corners[0], context);
-            lowering.cuboid(&clothes, &corners, span, context);
+        let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
+        if let (Some(props), Some((corners, span))) = (props, box_corners(self, context)) {
+            report_assumed_depth(&self.depth, corners[4] - corners[0], context);
+            lowering.add_box(&props, &corners, span, context);
         }
     }
 }
@@ -130,7 +130,7 @@ impl Lower for Tetrahedron {
             material,
             shadow,
         } = self;
-        let Some(clothes) = lowering.clothe(kind, material, shadow, context) else {
+        let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
             return;
         };
         let span = corners[0].span;
@@ -140,10 +140,10 @@ impl Lower for Tetrahedron {
             corners[2] - corners[0],
             corners[3] - corners[0],
         ];
-        lowering.solid(
-            &clothes,
-            &Solid {
-                word: "tetrahedron",
+        lowering.add_polyhedron(
+            &props,
+            &Polyhedron {
+                name: "tetrahedron",
                 corners: &corners,
                 faces: TETRAHEDRON,
                 edges,
@@ -164,7 +164,7 @@ impl Lower for Prism {
             material,
             shadow,
         } = self;
-        let Some(clothes) = lowering.clothe(kind, material, shadow, context) else {
+        let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
             return;
         };
         let (span, corners, up) = match (corners, up, ends) {
@@ -182,10 +182,10 @@ impl Lower for Prism {
             _ => return,
         };
         let [a, b, c, ..] = corners;
-        lowering.solid(
-            &clothes,
-            &Solid {
-                word: "prism",
+        lowering.add_polyhedron(
+            &props,
+            &Polyhedron {
+                name: "prism",
                 corners: &corners,
                 faces: PRISM,
                 edges: [b - a, c - a, up],
@@ -198,58 +198,58 @@ impl Lower for Prism {
 
 impl Lowering {
     /// Lowers a box by its corners.
-    pub(super) fn cuboid(
+    pub(super) fn add_box(
         &mut self,
-        clothes: &Clothes,
+        props: &SurfaceProps,
         corners: &[Vec3; 8],
         span: Option<Span>,
         context: &mut Context<'_>,
     ) {
-        let solid = Solid {
-            word: "box",
+        let add_polyhedron = Polyhedron {
+            name: "box",
             corners,
             faces: BOX,
             edges: [1, 2, 4].map(|far| corners[far] - corners[0]),
         };
-        self.solid(clothes, &solid, span, context);
+        self.add_polyhedron(props, &add_polyhedron, span, context);
     }
 
     /// Lowers the faces of a solid, each with the outside where its corners run counter-clockwise.
-    fn solid(
+    fn add_polyhedron(
         &mut self,
-        clothes: &Clothes,
-        solid: &Solid<'_>,
+        props: &SurfaceProps,
+        add_polyhedron: &Polyhedron<'_>,
         span: Option<Span>,
         context: &mut Context<'_>,
     ) {
         // Only the sign counts, and that of tiny edges must not vanish.
-        let [x, y, z] = solid
+        let [x, y, z] = add_polyhedron
             .edges
             .map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
         let volume = x.cross(y).dot(z);
-        if solid.edges == [Vec3::ZERO; 3] {
+        if add_polyhedron.edges == [Vec3::ZERO; 3] {
             self.invisible(span);
             return;
         }
         if volume == 0.0 {
             span.into_iter()
-                .for_each(|span| flat(solid.word, span, context));
+                .for_each(|span| report_flat(add_polyhedron.name, span, context));
             return;
         }
-        let places = VERTICES.map(|field| (field, span));
-        for face in solid.faces {
+        let value_spans = VERTICES.map(|field| (field, span));
+        for face in add_polyhedron.faces {
             for k in 1..face.len() - 1 {
                 let at = if volume > 0.0 {
                     [0, k, k + 1]
                 } else {
                     [0, k + 1, k]
                 };
-                let vertices = at.map(|k| solid.corners[face[k]].to_array());
+                let vertices = at.map(|k| add_polyhedron.corners[face[k]].to_array());
                 let uvs = (face.len() == 4).then(|| at.map(|k| UNIT_SQUARE[k]));
-                self.put(
-                    clothes,
+                self.add_surface(
+                    props,
                     ir::Shape::Triangle(ir::Triangle { vertices, uvs }),
-                    &places,
+                    &value_spans,
                 );
             }
         }
@@ -260,18 +260,18 @@ impl Lowering {
 pub(super) const UNIT_SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 
 /// Corners and faces, and three edges that span the volume.
-struct Solid<'c> {
-    word: &'static str,
+struct Polyhedron<'c> {
+    name: &'static str,
     corners: &'c [Vec3],
     faces: &'static [Face],
     edges: [Vec3; 3],
 }
 
-fn flat(word: &str, span: Span, context: &mut Context<'_>) {
+fn report_flat(name: &str, span: Span, context: &mut Context<'_>) {
     context.report(
         &codes::FLAT_SOLID,
         span,
-        || format!("this {word} has no volume"),
+        || format!("this {name} has no volume"),
         |d| {
             d.at(span, "flat")
                 .hint("a flat shape is written as a `quad` or `triangle`")
@@ -280,7 +280,11 @@ fn flat(word: &str, span: Span, context: &mut Context<'_>) {
 }
 
 /// Says which way a box goes whose depth is a length alone.
-fn assumed_depth(depth: &FieldOutcome<Spanned<ThirdEdge>>, edge: Vec3, context: &mut Context<'_>) {
+fn report_assumed_depth(
+    depth: &FieldOutcome<Spanned<ThirdEdge>>,
+    edge: Vec3,
+    context: &mut Context<'_>,
+) {
     if let FieldOutcome::Read(Spanned {
         value: ThirdEdge::Length(_),
         span: Some(span),
@@ -298,7 +302,7 @@ fn assumed_depth(depth: &FieldOutcome<Spanned<ThirdEdge>>, edge: Vec3, context: 
 }
 
 /// The corners of a box, and where its size was written.
-fn box_corners(cuboid: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8], Option<Span>)> {
+fn box_corners(add_box: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8], Option<Span>)> {
     let Cuboid {
         kind: _,
         extremes,
@@ -311,7 +315,7 @@ fn box_corners(cuboid: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8],
         depth,
         material: _,
         shadow: _,
-    } = cuboid;
+    } = add_box;
     let end = |index: usize, axis: usize| (index >> axis) & 1;
     if let (FieldOutcome::Read(corner), FieldOutcome::Read([up, side]), FieldOutcome::Read(depth)) =
         (position, edges, depth)
@@ -319,7 +323,7 @@ fn box_corners(cuboid: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8],
         let corner = Vec3::from_array(corner.value.0);
         let [side_edge, up_edge] = [side, up].map(|edge| Vec3::from_array(edge.value.0));
         let depth = depth.value.edge(up_edge, side_edge);
-        return Some((of_edges(corner, [side_edge, up_edge, depth]), up.span));
+        return Some((box_from_edges(corner, [side_edge, up_edge, depth]), up.span));
     }
     match (extremes, position, dimension) {
         (FieldOutcome::Read(ends), ..) => {
@@ -329,38 +333,38 @@ fn box_corners(cuboid: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8],
             Some((std::array::from_fn(corner), ends[0].span))
         }
         (_, FieldOutcome::Read(center), FieldOutcome::Read(dimension)) => {
-            let turn = Turn {
+            let axes = RotationKeys {
                 rotation,
                 axis,
                 angle,
             };
-            let axes = turn.axes(context)?;
+            let axes = axes.axes(context)?;
             let center = Vec3::from_array(center.value.0);
-            Some((around(center, dimension.value.0, axes), dimension.span))
+            Some((box_around(center, dimension.value.0, axes), dimension.span))
         }
         _ => None,
     }
 }
 
 /// The corners of a box around its centre, with these lengths along axes that are turned.
-pub(super) fn around(center: Vec3, size: [f64; 3], turn: [Vec3; 3]) -> [Vec3; 8] {
+pub(super) fn box_around(center: Vec3, size: [f64; 3], axes: [Vec3; 3]) -> [Vec3; 8] {
     let half = |index: usize, axis: usize| match (index >> axis) & 1 {
         1 => size[axis] / 2.0,
         _ => -size[axis] / 2.0,
     };
     std::array::from_fn(|index| {
-        center + turn[0] * half(index, 0) + turn[1] * half(index, 1) + turn[2] * half(index, 2)
+        center + axes[0] * half(index, 0) + axes[1] * half(index, 1) + axes[2] * half(index, 2)
     })
 }
 
 /// The corners of a box with three edges from one of them.
-fn of_edges(from: Vec3, edges: [Vec3; 3]) -> [Vec3; 8] {
+fn box_from_edges(from: Vec3, edges: [Vec3; 3]) -> [Vec3; 8] {
     let along = |index: usize| (0..3).filter(move |axis| (index >> axis) & 1 == 1);
     std::array::from_fn(|index| from + along(index).map(|axis| edges[axis]).sum::<Vec3>())
 }
 
 /// Where the axes come to, turned by angles in radians about x, then y, then z.
-pub(in crate::course) fn turned(angles: [f64; 3]) -> [Vec3; 3] {
+pub(in crate::course) fn euler_axes(angles: [f64; 3]) -> [Vec3; 3] {
     let [(cx, sx), (cy, sy), (cz, sz)] = angles.map(|angle| (cos(angle), sin(angle)));
     Vec3::AXES.map(|Vec3 { x, y, z }| {
         let (y, z) = (y * cx - z * sx, y * sx + z * cx);

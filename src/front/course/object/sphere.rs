@@ -6,10 +6,10 @@ use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, NonNegative, json_number};
 use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::rotation::{Quaternion, Rotation};
 use crate::course::schema::Definitions;
-use crate::course::synonym::{PLACE, RADIUS, led_by};
-use crate::course::turn::{Quaternion, Rotation};
-use crate::course::value::{Point, Text, Vector};
+use crate::course::synonym::{POSITION, RADIUS, with_canonical};
+use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::{Severity, codes};
 use rtc_ir as ir;
 use rtc_math::{Vec3, axis_and_angle, turned_about, turned_to_z, unit};
@@ -21,12 +21,12 @@ record! {
     /// A sphere.
     struct Sphere, "sphere" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
         /// The centre.
-        position: Spanned<Point>, required, &led_by(PLACE, "position"), json "position";
+        position: Spanned<Point>, required, &with_canonical(POSITION, "position"), json "position";
         /// The radius, at 0 of which nothing shows; or a list of the radius and the axis that its
         /// texture is turned about.
-        radius: Spanned<Radius>, required, &led_by(RADIUS, "radius"), json "radius";
+        radius: Spanned<Radius>, required, &with_canonical(RADIUS, "radius"), json "radius";
         /// By how many degrees the texture is turned about its axis.
         angle: Spanned<Degrees>, default(Degrees(0.0)), keys!["angle"], json "angle";
         /// The axis that the texture is turned about: its poles lie on it.
@@ -98,8 +98,8 @@ impl Lower for Sphere {
         let texture_from_world = match quaternion {
             FieldOutcome::Read(quaternion) => {
                 let axis = axis.ok().and_then(|axis| axis.span);
-                note_two_turns(axis.or(angle.span), quaternion, context);
-                turned_by(quaternion.value)
+                report_two_rotations(axis.or(angle.span), quaternion, context);
+                texture_rotation(quaternion.value)
             }
             FieldOutcome::Absent | FieldOutcome::Broken => {
                 turned_to_z(texture_axis(radius, axis, context), angle.value.0)
@@ -110,9 +110,9 @@ impl Lower for Sphere {
             radius: radius.value.length,
             texture_from_world,
         });
-        let places = [("center", position.span), ("radius", radius.span)];
-        if let Some(clothes) = lowering.clothe(kind, material, shadow, context) {
-            lowering.put(&clothes, shape, &places);
+        let value_spans = [("center", position.span), ("radius", radius.span)];
+        if let Some(props) = lowering.surface_props(kind, material, shadow, context) {
+            lowering.add_surface(&props, shape, &value_spans);
         }
     }
 }
@@ -170,7 +170,7 @@ fn texture_axis(
 /// The rows of the rotation to directions of a texture that a quaternion q turns, v ↦ q·v·q*; none
 /// for the identity. With q = (s·n, w) it turns about n by an angle of cosine w² − s² and sine
 /// 2·w·s.
-fn turned_by(Quaternion(parts): Quaternion) -> Option<[[f64; 3]; 3]> {
+fn texture_rotation(Quaternion(parts): Quaternion) -> Option<[[f64; 3]; 3]> {
     let largest = parts
         .iter()
         .fold(0.0_f64, |most, part| most.max(part.abs()));
@@ -185,7 +185,7 @@ fn turned_by(Quaternion(parts): Quaternion) -> Option<[[f64; 3]; 3]> {
 }
 
 /// Says that a quaternion counts alone, and that one of length 0 turns nothing.
-fn note_two_turns(
+fn report_two_rotations(
     other: Option<Span>,
     quaternion: &Spanned<Quaternion>,
     context: &mut Context<'_>,
@@ -216,12 +216,14 @@ mod tests {
         // A quarter turn about z takes x to y, at any length of the quaternion.
         for length in [1.0, -3.0, 1e200] {
             let parts = [0.0, 0.0, libm::sin(half) * length, libm::cos(half) * length];
-            let [x, y, z] = turned_by(Quaternion(parts)).unwrap().map(Vec3::from_array);
+            let [x, y, z] = texture_rotation(Quaternion(parts))
+                .unwrap()
+                .map(Vec3::from_array);
             let is_near = |a: Vec3, b: Vec3| (a - b).length() < 1e-14;
             assert!(is_near(x, Vec3::Y) && is_near(y, Vec3::NEG_X) && is_near(z, Vec3::Z));
         }
         for identity in [[0.0, 0.0, 0.0, 2.0], [0.0; 4]] {
-            assert_eq!(turned_by(Quaternion(identity)), None);
+            assert_eq!(texture_rotation(Quaternion(identity)), None);
         }
     }
 }

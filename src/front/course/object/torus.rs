@@ -6,8 +6,8 @@ use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive};
 use crate::course::record::{FieldOutcome, keys, record};
-use crate::course::synonym::{AXIS, PLACE, led_by};
-use crate::course::value::{Point, Text, Vector};
+use crate::course::synonym::{AXIS, POSITION, with_canonical};
+use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::codes;
 use rtc_ir as ir;
 use rtc_math::{Vec3, shortest, unit};
@@ -16,9 +16,9 @@ record! {
     /// A torus.
     struct Torus, "torus" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
         /// The centre.
-        position: Spanned<Point>, required, &led_by(PLACE, "position"), json "position";
+        position: Spanned<Point>, required, &with_canonical(POSITION, "position"), json "position";
         /// From the centre to the middle of the tube, and the radius of the tube: `radius` and
         /// `alpha`.
         radii: [Spanned<NonNegative>; 2], optional, &[&["R", "r"], &["radius", "r"]];
@@ -31,13 +31,13 @@ record! {
         /// which are `alpha` and `radius`.
         rims: [Spanned<Positive>; 2], optional, &[&["innerRadius", "outerRadius"]], json "innerRadius";
         /// The direction of the axis, of any length but 0.
-        direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])), &led_by(AXIS, "direction");
+        direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])), &with_canonical(AXIS, "direction");
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
-    forms { [radius alpha] [radii] [rims] }
+    variants { [radius alpha] [radii] [rims] }
 }
 
 impl Lower for Torus {
@@ -62,7 +62,7 @@ impl Lower for Torus {
                 (radius, alpha)
             }
             (.., FieldOutcome::Read([inner, outer])) => {
-                let [major, minor] = as_rims(inner.value.0, outer.value.0);
+                let [major, minor] = major_and_minor(inner.value.0, outer.value.0);
                 (outer.map(|_| major), inner.map(|_| minor))
             }
             _ => return,
@@ -74,19 +74,19 @@ impl Lower for Torus {
             major: radius.value,
             minor: alpha.value,
         };
-        let places = [
+        let value_spans = [
             ("center", position.span),
             ("axis", direction.span),
             ("major", radius.span),
             ("minor", alpha.span),
         ];
-        let Some(clothes) = lowering.clothe(kind, material, shadow, context) else {
+        let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
             return;
         };
         let surface = lowering.scene.surfaces.len();
-        lowering.put(&clothes, ir::Shape::Torus(shape), &places);
+        lowering.add_surface(&props, ir::Shape::Torus(shape), &value_spans);
         if let (FieldOutcome::Read(radii), true) = (rims, lowering.scene.surfaces.len() > surface) {
-            lowering.rims.push(Rims {
+            lowering.rims.push(AmbiguousTorus {
                 surface,
                 radii: *radii,
             });
@@ -95,24 +95,24 @@ impl Lower for Torus {
 }
 
 /// A torus with two radii that programs read in two ways.
-pub(in crate::course) struct Rims {
+pub(in crate::course) struct AmbiguousTorus {
     surface: usize,
     radii: [Spanned<Positive>; 2],
 }
 
 /// The radii of the ring and of the tube, from those of the hole and of the whole.
-fn as_rims(hole: f64, whole: f64) -> [f64; 2] {
-    [f64::midpoint(hole, whole), (whole - hole) / 2.0]
+fn major_and_minor(inner: f64, outer: f64) -> [f64; 2] {
+    [f64::midpoint(inner, outer), (outer - inner) / 2.0]
 }
 
 /// So many other surfaces are looked at for what a torus would hold.
-const MOST_OTHERS: usize = 64;
+const MAX_OTHERS: usize = 64;
 
 impl Lowering {
     /// Chooses between the two readings of each torus that has them, now that all else is there:
     /// that by which it holds less of what is to be seen.
-    pub(in crate::course) fn settle_rims(&mut self, context: &mut Context<'_>) {
-        for Rims {
+    pub(in crate::course) fn resolve_tori(&mut self, context: &mut Context<'_>) {
+        for AmbiguousTorus {
             surface,
             radii: [inner, outer],
         } in std::mem::take(&mut self.rims)
@@ -131,26 +131,27 @@ impl Lowering {
                 minor: inner.value.0,
                 ..*torus
             };
-            let held = |torus: &ir::Torus| others.iter().filter(|p| holds(torus, **p)).count();
-            let is_tube = held(&tube) < held(torus);
+            let contained =
+                |torus: &ir::Torus| others.iter().filter(|p| contains(torus, **p)).count();
+            let is_tube = contained(&tube) < contained(torus);
             if is_tube {
                 *torus = tube;
             }
-            two_radii(&inner, &outer, is_tube, context);
+            report_two_radii(&inner, &outer, is_tube, context);
         }
     }
 
     /// The eye, the lights, and the corners of boxes around some of the surfaces but one.
     fn points_outside(&self, surface: usize) -> Vec<Vec3> {
         let lights = self.scene.lights.iter().filter_map(ir::Light::point);
-        let lights = lights.map(|light| light.position).take(MOST_OTHERS);
+        let lights = lights.map(|light| light.position).take(MAX_OTHERS);
         let eye = [self.scene.camera.eye];
         let mut points: Vec<_> = lights.chain(eye).map(Vec3::from_array).collect();
         let others = self.scene.surfaces.iter().enumerate();
         // Of meshes the files are not there yet.
         let others = others
             .filter(|(at, other)| *at != surface && !matches!(other.shape, ir::Shape::Instance(_)));
-        for (_, other) in others.take(MOST_OTHERS) {
+        for (_, other) in others.take(MAX_OTHERS) {
             let visit = &mut |corner| points.push(corner);
             other.shape.corners_around(&[], visit);
         }
@@ -159,7 +160,7 @@ impl Lowering {
 }
 
 /// Whether a point lies inside a torus.
-fn holds(torus: &ir::Torus, point: Vec3) -> bool {
+fn contains(torus: &ir::Torus, point: Vec3) -> bool {
     let Some(axis) = unit(Vec3::from_array(torus.axis)) else {
         return false;
     };
@@ -170,7 +171,7 @@ fn holds(torus: &ir::Torus, point: Vec3) -> bool {
 }
 
 /// Says how two radii are read that programs read in two ways.
-fn two_radii(
+fn report_two_radii(
     inner: &Spanned<Positive>,
     outer: &Spanned<Positive>,
     is_tube: bool,
@@ -185,7 +186,7 @@ fn two_radii(
                 .to_owned(),
         ),
         true => {
-            let [major, minor] = as_rims(inner.value.0, outer.value.0).map(shortest);
+            let [major, minor] = major_and_minor(inner.value.0, outer.value.0).map(shortest);
             let hint = format!(
                 "as a hole and a whole, `radius: {major}` and `alpha: {minor}`, the torus would hold other objects"
             );

@@ -4,12 +4,12 @@ use super::Lower;
 use crate::course::decode::{Context, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::record::{FieldOutcome, Rows, keys, record};
-use crate::course::value::{Point, Text, Uv};
+use crate::course::record::{FieldOutcome, Spellings, keys, record};
+use crate::course::value::{AnyScalar, Point, Uv};
 use rtc_ir as ir;
 
 /// How people name three corners.
-pub(in crate::course) const CORNERS: Rows = &[
+pub(in crate::course) const CORNERS: Spellings = &[
     &["v0", "v1", "v2"],
     &["v1", "v2", "v3"],
     &["a", "b", "c"],
@@ -27,7 +27,7 @@ record! {
     /// A triangle, seen from both sides.
     struct Triangle, "triangle" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"], json "type";
+        kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
         /// A corner.
         corners: [Spanned<Point>; 3], required, CORNERS, json "vertex0", json "A", json "p0";
         /// The place of a corner in the texture: (0, 0) is its lower left, (1, 1) its upper right.
@@ -62,9 +62,9 @@ impl Lower for Triangle {
             uvs,
         });
         let spans = corners.map(|corner| corner.span);
-        let places = [0, 1, 2].map(|k| (VERTICES[k], spans[k]));
-        if let Some(clothes) = lowering.clothe(kind, material, shadow, context) {
-            lowering.put(&clothes, shape, &places);
+        let value_spans = [0, 1, 2].map(|k| (VERTICES[k], spans[k]));
+        if let Some(props) = lowering.surface_props(kind, material, shadow, context) {
+            lowering.add_surface(&props, shape, &value_spans);
         }
     }
 }

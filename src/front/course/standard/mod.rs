@@ -10,19 +10,19 @@ pub(super) use texture::TextureMap;
 use super::decode::{Context, Spanned, Value};
 use super::lower::Lowering;
 use super::number::{NonNegative, Positive, Real};
-use super::reader::Reader;
-use super::record::{Field, FieldOutcome, Need, Record, Slot};
+use super::reader::MapReader;
+use super::record::{FieldDeclaration, FieldOutcome, Need, Record, Slot};
 use super::schema::{self, Definitions};
-use super::value::{Caption, Color, Text};
+use super::value::{AnyScalar, Color, DisplayName};
 use rtc_ir::{self as ir, Alpha};
 use rtc_source::tree::NodeId;
 use rtc_tables::{camel_case, parameters};
 use serde_json::Value as Json;
 use texture::MapOrFile;
-use value::{AlphaMode, Fraction, Pair, Refraction, RefractionOrNone, Rgba, Tint};
+use value::{AlphaMode, Fraction, FractionColor, Range, Refraction, RefractionOrNone, Rgba};
 
 /// The word that says that a material is one.
-pub(super) const WORD: &str = "standard";
+pub(super) const KEYWORD: &str = "standard";
 
 /// How a parameter of a kind of the table is written.
 macro_rules! written {
@@ -45,13 +45,13 @@ macro_rules! written {
         Positive
     };
     (pair) => {
-        Pair
+        Range
     };
     (color) => {
         Color
     };
     (fraction_color) => {
-        Tint
+        FractionColor
     };
     (fractions) => {
         Rgba
@@ -116,45 +116,45 @@ macro_rules! material {
     )*) => {
         /// The material of glTF.
         pub(in crate::course) struct StandardMaterial {
-            name: FieldOutcome<Spanned<Caption>>,
+            name: FieldOutcome<Spanned<DisplayName>>,
             $($field: FieldOutcome<Spanned<written!($kind)>>,)*
         }
 
         impl StandardMaterial {
             /// The declaration.
             pub(in crate::course) const RECORD: Record = Record {
-                word: "standard material",
+                name: "standard material",
                 doc: " What a surface is made of: the material of glTF 2.0 and of its extensions \
                       `KHR_materials_*`. Colours are linear, of light rather than of a display; a texture multiplies \
                       the number or colour beside it, in the channels that glTF gives it.",
                 fields: &[
-                    Field {
+                    FieldDeclaration {
                         name: "kind",
                         doc: " `standard`: which material this is.",
-                        rows: &[&["type"]],
+                        spellings: &[&["type"]],
                         json: &[],
                         need: Need::Required,
-                        schema: <Spanned<Text> as Slot>::schema,
+                        schema: <Spanned<AnyScalar> as Slot>::schema,
                     },
-                    Field {
+                    FieldDeclaration {
                         name: "name",
                         doc: " What people call it.",
-                        rows: &[&["name"]],
+                        spellings: &[&["name"]],
                         json: &[],
                         need: Need::Optional,
-                        schema: <Spanned<Caption> as Slot>::schema,
+                        schema: <Spanned<DisplayName> as Slot>::schema,
                     },
-                    $(Field {
+                    $(FieldDeclaration {
                         name: stringify!($field),
                         doc: concat!($($about),*),
-                        rows: &[&[camel_case!($field)]],
+                        spellings: &[&[camel_case!($field)]],
                         json: &[],
                         need: need!($kind, $default),
                         schema: <Spanned<written!($kind)> as Slot>::schema,
                     },)*
                 ],
-                forms: &[],
-                forms_are_lowered: false,
+                variants: &[],
+                variants_are_lowered: false,
             };
 
             /// What it is in the IR; its textures are wanted.
@@ -172,8 +172,8 @@ macro_rules! material {
 
         impl Value for StandardMaterial {
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-                let mut reader = Reader::open(&Self::RECORD, node, context)?;
-                let _ = reader.next::<Spanned<Text>>(context);
+                let mut reader = MapReader::open(&Self::RECORD, node, context)?;
+                let _ = reader.next::<Spanned<AnyScalar>>(context);
                 let name = reader.next(context);
                 $(let $field = reader.next(context);)*
                 reader.close(context).then_some(Self { name, $($field,)* })

@@ -1,14 +1,14 @@
 //! The textures of a `standard` material: pictures, as glTF lays them on a surface and looks them up.
 
 use super::super::decode::{Context, Spanned, Value};
+use super::super::keyword::{keyword, keyword_schema};
 use super::super::lower::Lowering;
 use super::super::record::{FieldOutcome, keys, record};
+use super::super::rotation::PlaneRows;
 use super::super::schema::Definitions;
-use super::super::turn::PlaneRows;
 use super::super::value::{FileName, tuple};
-use super::super::word::{word, word_schema};
 use super::value::SetIndex;
-use crate::course::word::Words;
+use crate::course::keyword::Keyword;
 use rtc_ir::{self as ir, Filter, Wrap};
 use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
@@ -22,7 +22,7 @@ record! {
         set: Spanned<SetIndex>, default(SetIndex(0)), keys!["set"];
         /// What lies beyond the picture along u and v, one word for both or a list of two: `repeat` it again, `mirror` it
         /// again, mirrored, `clamp` the texel at its edge.
-        wrap: Spanned<WrapWords>, default(WrapWords([Wrap::Repeat; 2])), keys!["wrap"];
+        wrap: Spanned<WrapModes>, default(WrapModes([Wrap::Repeat; 2])), keys!["wrap"];
         /// How texels blend: `linear` the four nearest, `nearest` the nearest alone.
         filter: Spanned<Filter>, default(Filter::Linear), keys!["filter"];
         /// Six numbers: the rows (a, b, c) of the map from the coordinates of the surface to those of the picture, each
@@ -44,7 +44,7 @@ impl Value for MapOrFile {
         Some(Self(TextureMap {
             file: Spanned { value, span },
             set: Spanned::unwritten(SetIndex(0)),
-            wrap: Spanned::unwritten(WrapWords([Wrap::Repeat; 2])),
+            wrap: Spanned::unwritten(WrapModes([Wrap::Repeat; 2])),
             filter: Spanned::unwritten(Filter::Linear),
             transform: FieldOutcome::Absent,
         }))
@@ -57,7 +57,7 @@ impl Value for MapOrFile {
 
 /// What lies beyond a picture along u and v.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::course) struct WrapWords([Wrap; 2]);
+pub(in crate::course) struct WrapModes([Wrap; 2]);
 
 /// The words for it.
 const WRAPS: &[(&str, Wrap)] = &[
@@ -66,30 +66,30 @@ const WRAPS: &[(&str, Wrap)] = &[
     ("clamp", Wrap::Clamp),
 ];
 
-impl Value for WrapWords {
+impl Value for WrapModes {
     const IS_LIST: bool = true;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         if context.tree.shape(node) == NodeContent::List {
-            let each = |node, context: &mut Context<'_>| word(node, WRAPS, context);
+            let each = |node, context: &mut Context<'_>| keyword(node, WRAPS, context);
             return tuple(node, "a word or a list of two", context, each).map(Self);
         }
-        word(node, WRAPS, context).map(|wrap| Self([wrap; 2]))
+        keyword(node, WRAPS, context).map(|wrap| Self([wrap; 2]))
     }
 
     fn schema(_: &mut Definitions) -> Json {
-        let word = word_schema(WRAPS);
-        json!({ "anyOf": [word, { "type": "array", "items": word, "minItems": 2, "maxItems": 2 }] })
+        let keyword = keyword_schema(WRAPS);
+        json!({ "anyOf": [keyword, { "type": "array", "items": keyword, "minItems": 2, "maxItems": 2 }] })
     }
 
     fn json(&self) -> Json {
-        let word = WRAPS.iter().find(|(_, wrap)| *wrap == self.0[0]);
-        word.map_or(Json::Null, |(word, _)| json!(word))
+        let keyword = WRAPS.iter().find(|(_, wrap)| *wrap == self.0[0]);
+        keyword.map_or(Json::Null, |(keyword, _)| json!(keyword))
     }
 }
 
-impl Words for Filter {
-    const WORDS: &'static [(&'static str, Self)] =
+impl Keyword for Filter {
+    const KEYWORDS: &'static [(&'static str, Self)] =
         &[("linear", Filter::Linear), ("nearest", Filter::Nearest)];
 }
 

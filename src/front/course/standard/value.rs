@@ -1,22 +1,22 @@
-//! What parameters of a `standard` material are written as: parts of a whole, pairs, the alpha mode.
+//! What parameters of a `standard` material are written as: parts of a integer, pairs, the alpha mode.
 
 use super::super::decode::{Context, Spanned, Value};
-use super::super::number::{NonNegative, Real, json_number, number, ranged, whole};
+use super::super::keyword::{keyword, keyword_schema};
+use super::super::number::{NonNegative, Real, integer, json_number, number, ranged};
 use super::super::record::{keys, record};
 use super::super::schema::Definitions;
 use super::super::value::{Color, tuple};
-use super::super::word::{word, word_schema};
 use super::Alpha;
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 ranged! {
     /// The number of a set of texture coordinates.
-    SetIndex(u32), |node, context| whole(0, 1, node, context), { "type": "integer", "minimum": 0, "maximum": 1 }
+    SetIndex(u32), |node, context| integer(0, 1, node, context), { "type": "integer", "minimum": 0, "maximum": 1 }
 }
 
 ranged! {
-    /// A part of a whole.
+    /// A part of a integer.
     Fraction(f64), |node, context| number(node, "a number", context),
     { "type": "number", "minimum": 0, "maximum": 1 }
 }
@@ -65,7 +65,7 @@ macro_rules! numbers {
 
 numbers! {
     /// Red, green and blue, each from 0 to 1.
-    Tint, 3, "a list of three numbers", { "type": "number", "minimum": 0, "maximum": 1 }
+    FractionColor, 3, "a list of three numbers", { "type": "number", "minimum": 0, "maximum": 1 }
 }
 
 numbers! {
@@ -75,11 +75,11 @@ numbers! {
 
 numbers! {
     /// The least and the greatest, each at least 0.
-    Pair, 2, "a list of two numbers", { "type": "number", "minimum": 0 }
+    Range, 2, "a list of two numbers", { "type": "number", "minimum": 0 }
 }
 
 /// Lets defaults of the table be shown as they are written.
-macro_rules! shown {
+macro_rules! from_number {
     ($($name:ident)+) => {
         $(impl From<f64> for $name {
             fn from(number: f64) -> Self {
@@ -89,7 +89,7 @@ macro_rules! shown {
     };
 }
 
-shown!(Fraction NonNegative Real Refraction RefractionOrNone);
+from_number!(Fraction NonNegative Real Refraction RefractionOrNone);
 
 impl From<[f64; 3]> for Color {
     fn from(channels: [f64; 3]) -> Self {
@@ -108,7 +108,7 @@ impl From<Alpha> for AlphaMode {
 }
 
 /// The words for alpha modes; `mask` has the cutoff of glTF.
-const MODES: &[(&str, Alpha)] = &[
+const ALPHA_MODES: &[(&str, Alpha)] = &[
     ("opaque", Alpha::Opaque),
     ("mask", Alpha::Mask(0.5)),
     ("blend", Alpha::Blend),
@@ -128,19 +128,21 @@ impl Value for AlphaMode {
             let mask = Mask::decode(node, context)?;
             return Some(Self(Alpha::Mask(mask.mask.value.0)));
         }
-        word(node, MODES, context).map(Self)
+        keyword(node, ALPHA_MODES, context).map(Self)
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        let mut schema = word_schema(MODES);
-        let forms = schema["anyOf"].as_array_mut();
+        let mut schema = keyword_schema(ALPHA_MODES);
+        let variants = schema["anyOf"].as_array_mut();
         let mask = Mask::schema(definitions);
-        forms.into_iter().for_each(|forms| forms.push(mask.clone()));
+        variants
+            .into_iter()
+            .for_each(|variants| variants.push(mask.clone()));
         schema
     }
 
     fn json(&self) -> Json {
-        let word = MODES.iter().find(|(_, alpha)| *alpha == self.0);
-        word.map_or(Json::Null, |(word, _)| json!(word))
+        let keyword = ALPHA_MODES.iter().find(|(_, alpha)| *alpha == self.0);
+        keyword.map_or(Json::Null, |(keyword, _)| json!(keyword))
     }
 }

@@ -8,7 +8,7 @@ use super::super::report::AssetReport;
 use super::shape::{Deformation, ShapeId};
 use super::uv::TexCoordSets;
 use super::{deform, tangent, topology};
-use crate::solid::pick;
+use crate::glyph::pick;
 use rtc_ir::{
     self as ir, Column, EntityKind, Field, Mesh, MeshId, Scene, Shared, SourceSpans, ValuePath,
 };

@@ -10,7 +10,7 @@ use super::super::report::AssetReport;
 use super::mesh::{self, MeshKey, WantedMesh, to_u32};
 use super::place::Places;
 use super::topology;
-use crate::solid::{Solid, radius, thin};
+use crate::glyph::{Glyph, radius, thin_glyphs};
 use glam::DAffine3;
 use rtc_ir::{
     BoundingSphere, Column, EntityKind, Field, Mesh, MeshId, Scene, SourceSpans, ValuePath,
@@ -66,7 +66,8 @@ impl Strokes {
                     };
                     let source = source.get_or_insert_with(|| Source::read(doc, wanted));
                     let made = source.as_ref().and_then(|source| {
-                        let (mesh, offsets, _) = thin(&source.mesh, &source.ends, world, solid)?;
+                        let (mesh, offsets, _) =
+                            thin_glyphs(&source.mesh, &source.ends, world, solid)?;
                         let place =
                             ValuePath::new(EntityKind::Mesh, scene.meshes.len(), Field::Whole);
                         source_spans.record(place, report.json.span(wanted.primitive.at));
@@ -137,13 +138,13 @@ fn charge(
     wanted: &WantedMesh<'_, '_>,
     is_read: bool,
     report: &mut AssetReport<'_, '_>,
-) -> Option<&'static Solid> {
+) -> Option<&'static Glyph> {
     const POINTS: u64 = 0;
     const LINES: u64 = 1;
     let primitive = wanted.primitive;
     let corners = mesh::corners(doc, primitive);
     let has_normals = primitive.find("NORMAL").is_some();
-    let solid = Solid::of(primitive.mode == POINTS, has_normals, corners);
+    let solid = Glyph::of(primitive.mode == POINTS, has_normals, corners);
     let count = match primitive.mode {
         LINES => corners / 2,
         _ => corners,

@@ -6,7 +6,7 @@
 //! several side by side, each with its part of them.
 
 use super::mesh::to_u32;
-use crate::solid::pick;
+use crate::glyph::pick;
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use rtc_ir::{Column, Mesh};
 use rtc_math::Vec3;

@@ -5,7 +5,7 @@ use super::smooth::Smoothing;
 use super::{Check, Vertices, is_face, part_of};
 use crate::mesh::polygon::Cutter;
 use crate::mesh::stroke::{Pen, Segments, join};
-use crate::mesh::{Named, Unread, to_u32};
+use crate::mesh::{Named, ParseFault, to_u32};
 use crate::words::Lines;
 use rtc_ir::Mesh;
 use rtc_math::Column;
@@ -13,7 +13,7 @@ use rtc_source::{Budget, Exceeded, Resource};
 
 impl Check {
     /// The mesh of a file without faults.
-    pub(super) fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<Mesh, Unread> {
+    pub(super) fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<Mesh, ParseFault> {
         let smoothing = self.smoothing(bytes, budget)?;
         let is_plain = self.used == [false; 2];
         // A corner, and its number, while equal ones are looked for.

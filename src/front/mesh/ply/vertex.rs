@@ -1,6 +1,6 @@
 //! The vertices of a PLY, each column in the precision of its properties.
 
-use super::super::Unread;
+use super::super::ParseFault;
 use super::super::tint::decoded;
 use super::body::PlyBody;
 use super::head::{NumberKind, PlyElement, PlyProperty};
@@ -103,8 +103,8 @@ pub(super) fn read(
     body: &mut PlyBody<'_>,
     mesh: &mut Mesh,
     budget: &Budget,
-) -> Result<(), Unread> {
-    let one = |fault| Unread::Faults(vec![fault]);
+) -> Result<(), ParseFault> {
+    let one = |fault| ParseFault::Faults(vec![fault]);
     let slots: Vec<_> = element.properties.iter().map(slot).collect();
     let has = |values: &[usize]| {
         let mut values = values.iter();
@@ -168,8 +168,8 @@ fn row(
     element: &PlyElement<'_>,
     slots: &[Option<(usize, NumberKind)>],
     body: &mut PlyBody<'_>,
-) -> Result<VertexRow, Unread> {
-    let one = |fault| Unread::Faults(vec![fault]);
+) -> Result<VertexRow, ParseFault> {
+    let one = |fault| ParseFault::Faults(vec![fault]);
     let mut row = [0.0; VALUES.len()];
     row[ALPHA] = 1.0;
     for (property, slot) in element.properties.iter().zip(slots) {

@@ -1,9 +1,9 @@
 //! Maps of glTF's material that are made of several pictures of an MTL, or of another kind of
 //! picture: a colour with its opacity, roughness beside metal, normals of heights.
 
-use super::super::Porter;
+use super::super::AssetLoader;
 use super::super::image::holds_normals;
-use super::cache::Laid;
+use super::cache::MapPlacement;
 use crate::over_limit;
 use rtc_diag::{Diagnostic, clip_path, codes};
 use rtc_ir::{
@@ -16,13 +16,13 @@ use std::collections::BTreeMap;
 /// A map to be made once its pictures are there.
 pub(in super::super) struct Bake {
     pub(super) material: MaterialId,
-    pub(super) baked: Baked,
-    pub(super) laid: Laid,
+    pub(super) baked: BakedMap,
+    pub(super) placement: MapPlacement,
     pub(super) span: Span,
 }
 
 /// What it is made of.
-pub(super) enum Baked {
+pub(super) enum BakedMap {
     /// The colour, and how much it hides.
     Opacity {
         color: Option<ImageId>,
@@ -38,20 +38,20 @@ pub(super) enum Baked {
 }
 
 /// A picture, looked up by the pixels of another size.
-struct Source<'a>(&'a Image);
+struct ScaledImage<'a>(&'a Image);
 
-impl Source<'_> {
+impl ScaledImage<'_> {
     /// The pixel in which that of a picture of a size lies, with its opacity.
-    fn at(&self, [x, y]: [u32; 2], [width, height]: [u32; 2]) -> [u8; 4] {
+    fn pixel(&self, [x, y]: [u32; 2], [width, height]: [u32; 2]) -> [u8; 4] {
         let scaled =
-            |at: u32, own: u32, size: u32| u64::from(at) * u64::from(own) / u64::from(size);
+            |at: u32, length: u32, size: u32| u64::from(at) * u64::from(length) / u64::from(size);
         let column = scaled(x, self.0.width, width);
         let index = scaled(y, self.0.height, height) * u64::from(self.0.width) + column;
         let size = self.0.kind.bytes();
-        let at = usize::try_from(index)
+        let offset = usize::try_from(index)
             .unwrap_or(usize::MAX)
             .saturating_mul(size);
-        match self.0.pixels.get(at..at + size) {
+        match self.0.pixels.get(offset..offset + size) {
             Some([r, g, b]) => [*r, *g, *b, u8::MAX],
             Some([r, g, b, alpha]) => [*r, *g, *b, *alpha],
             _ => [u8::MAX; 4],
@@ -74,44 +74,44 @@ pub(in super::super) fn bake(
     bakes: Vec<Bake>,
     image_of: &BTreeMap<u32, Option<ImageId>>,
     lowered: &mut Lowered,
-    porter: &mut Porter<'_>,
+    loader: &mut AssetLoader<'_>,
 ) {
-    let came = |image: ImageId| image_of.get(&image.0).copied().flatten();
+    let loaded = |image: ImageId| image_of.get(&image.0).copied().flatten();
     // One map for all materials that name the same pictures.
     let mut known: BTreeMap<String, ImageId> = BTreeMap::new();
     for bake in bakes {
         let scene = &mut lowered.scene;
         let baked = match bake.baked {
-            Baked::Opacity { color, mask } => came(mask).map(|mask| Baked::Opacity {
-                color: color.and_then(came),
+            BakedMap::Opacity { color, mask } => loaded(mask).map(|mask| BakedMap::Opacity {
+                color: color.and_then(loaded),
                 mask,
             }),
-            Baked::MetalRough { rough, metal } => Some(Baked::MetalRough {
-                rough: rough.and_then(came),
-                metal: metal.and_then(came),
+            BakedMap::MetalRough { rough, metal } => Some(BakedMap::MetalRough {
+                rough: rough.and_then(loaded),
+                metal: metal.and_then(loaded),
             }),
-            Baked::Normals { heights, height } => {
-                came(heights).map(|heights| Baked::Normals { heights, height })
+            BakedMap::Normals { heights, height } => {
+                loaded(heights).map(|heights| BakedMap::Normals { heights, height })
             }
         };
         let Some(baked) = baked else { continue };
         let key = baked.key();
         let image = match (known.get(&key), &baked) {
             (Some(image), _) => *image,
-            (None, Baked::Normals { heights, .. })
+            (None, BakedMap::Normals { heights, .. })
                 if scene
                     .images
                     .get(heights.0 as usize)
                     .is_some_and(|own| holds_normals(&own.pixels)) =>
             {
-                tell_normals(scene, *heights, bake.span, porter);
+                report_normals(scene, *heights, bake.span, loader);
                 *heights
             }
             (None, _) => {
                 let bytes = baked.bytes(scene);
-                if let Err(fault) = porter.map.budget().charge(Resource::Textures, bytes) {
+                if let Err(fault) = loader.map.budget().charge(Resource::Textures, bytes) {
                     let finding = over_limit("the picture", &fault).at(bake.span, "named here");
-                    porter.sink.push(finding);
+                    loader.sink.push(finding);
                     return;
                 }
                 let Some(image) = baked.image(scene) else {
@@ -124,13 +124,13 @@ pub(in super::super) fn bake(
         let texture = TextureId(u32::try_from(scene.textures.len()).unwrap_or(u32::MAX));
         scene.textures.push(Texture::Sampled(Sampled {
             image,
-            wrap: [bake.laid.wrap; 2],
+            wrap: [bake.placement.wrap; 2],
             filter: rtc_ir::Filter::Linear,
         }));
         let map = Map {
             texture,
             set: 0,
-            texture_from_surface: Some(bake.laid.texture_from_surface),
+            texture_from_surface: Some(bake.placement.texture_from_surface),
         };
         let material = scene.materials.get_mut(bake.material.0 as usize);
         if let Some(Material::Standard(standard)) = material {
@@ -139,7 +139,7 @@ pub(in super::super) fn bake(
     }
 }
 
-fn tell_normals(scene: &Scene, image: ImageId, span: Span, porter: &mut Porter<'_>) {
+fn report_normals(scene: &Scene, image: ImageId, span: Span, loader: &mut AssetLoader<'_>) {
     let name = scene
         .images
         .get(image.0 as usize)
@@ -149,10 +149,10 @@ fn tell_normals(scene: &Scene, image: ImageId, span: Span, porter: &mut Porter<'
         clip_path(name)
     );
     let note = Diagnostic::new(&codes::NORMALS_AS_BUMP, message).at(span, "holds normals");
-    porter.sink.push(note.hint("name it by `norm`"));
+    loader.sink.push(note.hint("name it by `norm`"));
 }
 
-impl Baked {
+impl BakedMap {
     /// What two of the same pictures have in common.
     fn key(&self) -> String {
         match self {
@@ -171,8 +171,9 @@ impl Baked {
         }
     }
 
-    fn sources<'a>(&self, scene: &'a Scene) -> [Option<Source<'a>>; 2] {
-        let source = |image: Option<ImageId>| Some(Source(scene.images.get(image?.0 as usize)?));
+    fn sources<'a>(&self, scene: &'a Scene) -> [Option<ScaledImage<'a>>; 2] {
+        let source =
+            |image: Option<ImageId>| Some(ScaledImage(scene.images.get(image?.0 as usize)?));
         match self {
             Self::Opacity { color, mask } => [source(*color), source(Some(*mask))],
             Self::MetalRough { rough, metal } => [source(*rough), source(*metal)],
@@ -199,37 +200,44 @@ impl Baked {
         let sources = self.sources(scene);
         let name = sources.iter().flatten().next()?.0.name.clone();
         let [first, second] = &sources;
-        let at = |source: &Option<Source<'_>>, place: [u32; 2]| {
+        let pixel_at = |source: &Option<ScaledImage<'_>>, position: [u32; 2]| {
             source
                 .as_ref()
-                .map_or([u8::MAX; 4], |own| own.at(place, size))
+                .map_or([u8::MAX; 4], |image| image.pixel(position, size))
         };
-        let hides = second.as_ref().is_some_and(Source::has_opacity);
-        let places = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+        let mask_has_alpha = second.as_ref().is_some_and(ScaledImage::has_opacity);
+        let positions = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
         let (kind, pixels): (Pixels, Vec<u8>) = match self {
             Self::Opacity { .. } => {
-                let pixel = |place| {
-                    let ([r, g, b, _], [grey, _, _, alpha]) = (at(first, place), at(second, place));
-                    [r, g, b, if hides { alpha } else { grey }]
+                let pixel = |position| {
+                    let ([r, g, b, _], [grey, _, _, alpha]) =
+                        (pixel_at(first, position), pixel_at(second, position));
+                    [r, g, b, if mask_has_alpha { alpha } else { grey }]
                 };
-                (Pixels::Rgba8, places.flat_map(pixel).collect())
+                (Pixels::Rgba8, positions.flat_map(pixel).collect())
             }
             Self::MetalRough { .. } => {
-                let pixel = |place| [u8::MAX, at(first, place)[0], at(second, place)[0]];
-                (Pixels::Rgb8, places.flat_map(pixel).collect())
+                let pixel = |position| {
+                    [
+                        u8::MAX,
+                        pixel_at(first, position)[0],
+                        pixel_at(second, position)[0],
+                    ]
+                };
+                (Pixels::Rgb8, positions.flat_map(pixel).collect())
             }
             Self::Normals { height, .. } => {
                 let [width, rows] = size;
-                let at = |x: u32, y: u32| {
-                    let [r, g, b, _] = at(first, [x % width, y % rows]);
+                let height_at = |x: u32, y: u32| {
+                    let [r, g, b, _] = pixel_at(first, [x % width, y % rows]);
                     (f64::from(r) + f64::from(g) + f64::from(b)) / 765.0
                 };
                 let pixel = |[x, y]: [u32; 2]| {
-                    let right = at(x + 1, y) - at(x + width - 1, y);
-                    let up = at(x, y + rows - 1) - at(x, y + 1);
+                    let right = height_at(x + 1, y) - height_at(x + width - 1, y);
+                    let up = height_at(x, y + rows - 1) - height_at(x, y + 1);
                     coded([-height * right / 2.0, -height * up / 2.0, 1.0])
                 };
-                (Pixels::Rgb8, places.flat_map(pixel).collect())
+                (Pixels::Rgb8, positions.flat_map(pixel).collect())
             }
         };
         Some(Image {

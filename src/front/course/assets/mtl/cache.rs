@@ -1,7 +1,7 @@
 //! The materials of mesh files as they come into the scene, and the images that they wait for.
 
 use super::super::mesh::MeshFile;
-use super::super::{Asset, Wanted};
+use super::super::{AssetTarget, PendingAsset};
 use super::bake::Bake;
 use super::{LoadedLibrary, phong, standard};
 use crate::mesh::mtl::{MtlMap, MtlMaterial, Said};
@@ -17,19 +17,19 @@ use std::collections::BTreeMap;
 /// The materials brought so far, and the images that they wait for.
 #[derive(Default)]
 pub(in super::super) struct MtlCache {
-    pub(in super::super) wanted: Vec<Wanted>,
+    pub(in super::super) pending_assets: Vec<PendingAsset>,
     /// What is made of images once they are there.
     pub(in super::super) bakes: Vec<Bake>,
     images: BTreeMap<(String, bool), ImageId>,
     textures: BTreeMap<(u32, Option<bool>), TextureId>,
     /// What of materials does not show: the first, why, and how many.
-    lost: Option<(Span, String, usize)>,
+    unsupported: Option<(Span, String, usize)>,
     /// Where `Tr 1` stands.
     transparency: Option<Span>,
 }
 
 /// A picture that a material names, and where.
-pub(super) struct Pictured<'a> {
+pub(super) struct MapReference<'a> {
     pub(super) path: String,
     pub(super) map: &'a MtlMap,
     pub(super) span: Span,
@@ -37,9 +37,9 @@ pub(super) struct Pictured<'a> {
 
 impl LoadedLibrary {
     /// A map of one of its materials.
-    pub(super) fn map<'a>(&self, map: &'a Said<MtlMap>) -> Pictured<'a> {
-        Pictured {
-            path: beside(&self.path, &map.value.file),
+    pub(super) fn map<'a>(&self, map: &'a Said<MtlMap>) -> MapReference<'a> {
+        MapReference {
+            path: sibling_path(&self.path, &map.value.file),
             map: &map.value,
             span: map.at.span(self.file),
         }
@@ -85,8 +85,8 @@ impl MtlCache {
         index: u32,
         lowered: &mut Lowered,
     ) -> Material {
-        for (at, what) in standard::lost(material) {
-            self.lose(at.span(loaded.file), what);
+        for (at, what) in standard::unsupported(material) {
+            self.add_unsupported(at.span(loaded.file), what);
         }
         let made = standard::standard(material);
         let made = self.with_maps(made, loaded, material, MaterialId(index), lowered);
@@ -100,7 +100,7 @@ impl MtlCache {
         lowered: &mut Lowered,
     ) -> Phong {
         for (at, what) in beyond_phong(material) {
-            self.lose(
+            self.add_unsupported(
                 at.span(loaded.file),
                 format!("{what} in traced paths alone"),
             );
@@ -122,7 +122,7 @@ impl MtlCache {
     }
 
     /// Adds a material of one picture, as a mesh file names it that has no other materials.
-    pub(super) fn plain(
+    pub(super) fn add_textured(
         &mut self,
         mesh: &MeshFile,
         texture: &Named,
@@ -151,13 +151,13 @@ impl MtlCache {
     }
 
     /// Something of a material does not show.
-    pub(super) fn lose(&mut self, span: Span, why: String) {
-        self.lost.get_or_insert((span, why, 0)).2 += 1;
+    pub(super) fn add_unsupported(&mut self, span: Span, why: String) {
+        self.unsupported.get_or_insert((span, why, 0)).2 += 1;
     }
 
     /// Tells what of the materials does not show, or was read in one of two ways.
-    pub(super) fn tell(&mut self, sink: &mut Sink) {
-        if let Some((span, why, count)) = self.lost.take() {
+    pub(super) fn report(&mut self, sink: &mut Sink) {
+        if let Some((span, why, count)) = self.unsupported.take() {
             let message = match count {
                 1 => format!("a statement of the MTL has no effect: {why}"),
                 _ => format!("{count} statements of the MTL have no effect: {why}"),
@@ -176,7 +176,7 @@ impl MtlCache {
     /// without.
     pub(super) fn image(
         &mut self,
-        map: &Pictured<'_>,
+        map: &MapReference<'_>,
         has_opacity: bool,
         lowered: &mut Lowered,
     ) -> ImageId {
@@ -191,10 +191,10 @@ impl MtlCache {
             kind: Pixels::Rgb8,
             pixels: vec![255; 3].into(),
         });
-        self.wanted.push(Wanted {
-            asset: match has_opacity {
-                true => Asset::Mask(image),
-                false => Asset::Map(image),
+        self.pending_assets.push(PendingAsset {
+            target: match has_opacity {
+                true => AssetTarget::Mask(image),
+                false => AssetTarget::Map(image),
             },
             path: map.path.clone(),
             span: Some(map.span),
@@ -227,28 +227,28 @@ impl MtlCache {
     }
 
     /// A map of the material of glTF, as the MTL lays it.
-    pub(super) fn laid(
+    pub(super) fn placement(
         &mut self,
-        map: &Pictured<'_>,
+        map: &MapReference<'_>,
         image: ImageId,
         lowered: &mut Lowered,
     ) -> Map {
-        let laid = Laid::of(map.map);
+        let placement = MapPlacement::of(map.map);
         Map {
-            texture: self.texture(image, Some(laid.wrap), lowered),
+            texture: self.texture(image, Some(placement.wrap), lowered),
             set: 0,
-            texture_from_surface: Some(laid.texture_from_surface),
+            texture_from_surface: Some(placement.texture_from_surface),
         }
     }
 }
 
 /// How a picture lies on a surface.
-pub(super) struct Laid {
+pub(super) struct MapPlacement {
     pub(super) wrap: Wrap,
     pub(super) texture_from_surface: [[f64; 3]; 2],
 }
 
-impl Laid {
+impl MapPlacement {
     pub(super) fn of(map: &MtlMap) -> Self {
         let ([u, v], [right, up]) = (map.scale, map.offset);
         Self {
@@ -298,7 +298,7 @@ fn beyond_phong(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
 }
 
 /// The path of a file named in the one at `path`; of a path from a root or a drive the last part.
-pub(super) fn beside(path: &str, name: &str) -> String {
+pub(super) fn sibling_path(path: &str, name: &str) -> String {
     let name = name.replace('\\', "/");
     let is_absolute = name.starts_with('/') || name.as_bytes().get(1) == Some(&b':');
     let name = match name.rsplit_once('/') {

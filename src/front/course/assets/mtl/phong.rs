@@ -5,7 +5,7 @@ use rtc_ir::Phong;
 
 /// The part of the light that a surface scatters as ambient light, at most: programs write a `Ka`
 /// of 1 and mean an ambient light that scenes of the course don't have.
-const MOST_AMBIENT: f64 = 0.2;
+const MAX_AMBIENT: f64 = 0.2;
 
 /// The diffuse reflectance of a material that says none.
 pub(super) const DIFFUSE: f64 = 0.8;
@@ -55,12 +55,12 @@ pub(super) fn phong(material: &MtlMaterial) -> Phong {
         _ => 1.0,
     };
     let ambient = material.ambient.as_ref();
-    let ka = ambient.map_or(MOST_AMBIENT, |ambient| mean(ambient.value));
+    let ka = ambient.map_or(MAX_AMBIENT, |ambient| mean(ambient.value));
     let (is_glass, opacity) = (is_glass(material), opacity(material));
     let index = material.index.as_ref().map_or(1.0, |index| index.value);
     Phong {
         color,
-        ka: opacity * ka.min(MOST_AMBIENT),
+        ka: opacity * ka.min(MAX_AMBIENT),
         kd: opacity * kd,
         ks: weight(material),
         n: material

@@ -1,7 +1,7 @@
 //! A material of an MTL as glTF's says it, for traced paths.
 
-use super::bake::{Bake, Baked};
-use super::cache::{Laid, MtlCache};
+use super::bake::{Bake, BakedMap};
+use super::cache::{MapPlacement, MtlCache};
 use super::phong::{is_glass, opacity, weight};
 use super::{LoadedLibrary, phong};
 use crate::mesh::WordSpan;
@@ -16,7 +16,7 @@ const IOR: f64 = 1.5;
 const SHEEN: f64 = 0.5;
 
 /// What of a material does not show along paths, and why; ambient light is no part of them.
-pub(super) fn lost(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
+pub(super) fn unsupported(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
     let m = material;
     let filter = m.filter.as_ref().filter(|filter| filter.value != [1.0; 3]);
     let filter = filter.filter(|_| !is_glass(m));
@@ -39,19 +39,19 @@ pub(super) fn lost(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
 /// write a half where they mean that of an index of 1.5. What refracts has the colour of `Tf`.
 pub(super) fn standard(material: &MtlMaterial) -> Standard {
     let m = material;
-    let own = phong::phong(m);
+    let color = phong::phong(m);
     let is_pbr = is_physical(m);
     let fit = fit_phong(&PhongTerms {
-        color: own.color,
+        color: color.color,
         kd: if opacity(m) > 0.0 {
-            own.kd / opacity(m)
+            color.kd / opacity(m)
         } else {
-            own.kd
+            color.kd
         },
-        ks: own.ks,
-        n: own.n,
+        ks: color.ks,
+        n: color.n,
         kt: 0.0,
-        eta: own.eta,
+        eta: color.eta,
     });
     let glass = is_glass(m) && opacity(m) < 1.0;
     let fraction = |channel: f64| channel.clamp(0.0, 1.0);
@@ -92,7 +92,7 @@ pub(super) fn standard(material: &MtlMaterial) -> Standard {
         double_sided: true,
         ..Standard::default()
     };
-    over(base, m)
+    with_layers(base, m)
 }
 
 /// Whether its base is said in physical words.
@@ -102,7 +102,7 @@ fn is_physical(m: &MtlMaterial) -> bool {
 }
 
 /// A material with its light and what lies over its base.
-fn over(base: Standard, m: &MtlMaterial) -> Standard {
+fn with_layers(base: Standard, m: &MtlMaterial) -> Standard {
     let value = |said: &Option<Said<f64>>| said.as_ref().map_or(0.0, |said| said.value);
     let emissive = m.emissive.as_ref().map_or([0.0; 3], |said| said.value);
     let is_mapped = emissive == [0.0; 3] && m.emissive_map.is_some();
@@ -121,19 +121,19 @@ fn over(base: Standard, m: &MtlMaterial) -> Standard {
 
 /// The base colour: that of the mirror image of a metal, else the diffuse one.
 fn base(m: &MtlMaterial, is_mirror: bool) -> [f64; 3] {
-    let own = match is_mirror {
+    let color = match is_mirror {
         true => m.specular.as_ref(),
         false => m.diffuse.as_ref(),
     };
-    let own = own.map_or([phong::DIFFUSE; 3], |said| said.value);
-    let is_black = own == [0.0; 3];
+    let color = color.map_or([phong::DIFFUSE; 3], |said| said.value);
+    let is_black = color == [0.0; 3];
     // A map of something black would be as good as none.
-    let own = if is_black && m.color_map.is_some() {
+    let color = if is_black && m.color_map.is_some() {
         [1.0; 3]
     } else {
-        own
+        color
     };
-    own.map(|channel| channel.clamp(0.0, 1.0))
+    color.map(|channel| channel.clamp(0.0, 1.0))
 }
 
 impl MtlCache {
@@ -153,26 +153,26 @@ impl MtlCache {
         let mask = image(&m.opacity_map, true);
         let [rough, metal] = [&m.roughness_map, &m.metallic_map].map(|map| image(map, false));
         let heights = image(&m.bump, false).filter(|_| m.normal_map.is_none());
-        let plain = [&m.specular_map, &m.normal_map, &m.emissive_map].map(|map| image(map, false));
-        let mut laid = |map: &Option<Said<MtlMap>>, image: Option<ImageId>| {
-            Some(self.laid(&loaded.map(map.as_ref()?), image?, lowered))
+        let direct = [&m.specular_map, &m.normal_map, &m.emissive_map].map(|map| image(map, false));
+        let mut placement = |map: &Option<Said<MtlMap>>, image: Option<ImageId>| {
+            Some(self.placement(&loaded.map(map.as_ref()?), image?, lowered))
         };
-        made.base_color_map = laid(&m.color_map, color);
-        made.specular_color_map = laid(&m.specular_map, plain[0]);
-        made.normal_map = laid(&m.normal_map, plain[1]);
-        made.emissive_map = laid(&m.emissive_map, plain[2]);
-        let mut bake = |map: &Option<Said<MtlMap>>, baked: Baked| {
+        made.base_color_map = placement(&m.color_map, color);
+        made.specular_color_map = placement(&m.specular_map, direct[0]);
+        made.normal_map = placement(&m.normal_map, direct[1]);
+        made.emissive_map = placement(&m.emissive_map, direct[2]);
+        let mut bake = |map: &Option<Said<MtlMap>>, baked: BakedMap| {
             let Some(map) = map else { return };
             self.bakes.push(Bake {
                 material,
                 baked,
-                laid: Laid::of(&map.value),
+                placement: MapPlacement::of(&map.value),
                 span: map.at.span(loaded.file),
             });
         };
         if let Some(mask) = mask {
-            let laid = m.color_map.as_ref().or(m.opacity_map.as_ref()).cloned();
-            bake(&laid, Baked::Opacity { color, mask });
+            let placement = m.color_map.as_ref().or(m.opacity_map.as_ref()).cloned();
+            bake(&placement, BakedMap::Opacity { color, mask });
         }
         if rough.is_some() || metal.is_some() {
             let first = m
@@ -180,11 +180,11 @@ impl MtlCache {
                 .as_ref()
                 .or(m.metallic_map.as_ref())
                 .cloned();
-            bake(&first, Baked::MetalRough { rough, metal });
+            bake(&first, BakedMap::MetalRough { rough, metal });
         }
         if let Some(heights) = heights {
             let height = m.bump.as_ref().map_or(1.0, |map| map.value.height);
-            bake(&m.bump, Baked::Normals { heights, height });
+            bake(&m.bump, BakedMap::Normals { heights, height });
         }
         made
     }

@@ -7,11 +7,11 @@ use rtc_ir::{BoundingSphere, Column, Mesh};
 use rtc_math::{Vec3, unit};
 
 /// From so many on, points and lines have the simplest solid.
-const MANY: u64 = 1 << 15;
+const SIMPLIFIED_FROM: u64 = 1 << 15;
 
 /// What a point or a line becomes: with normals a disc or a ribbon that faces them, so that it is
 /// lit as they say, else a solid.
-pub(crate) struct Solid {
+pub(crate) struct Glyph {
     /// From the point, or one end of a line: which end, and the offset at radius 1. Along a line
     /// lies z, and y towards its normal; along the normal of a point lies z.
     pub(crate) corners: &'static [(usize, [f64; 3])],
@@ -21,7 +21,7 @@ pub(crate) struct Solid {
 /// 1/√3.
 const EDGE: f64 = 0.577_350_269_189_625_8;
 
-static TETRAHEDRON: Solid = Solid {
+static TETRAHEDRON: Glyph = Glyph {
     corners: &[
         (0, [EDGE, EDGE, EDGE]),
         (0, [EDGE, -EDGE, -EDGE]),
@@ -31,7 +31,7 @@ static TETRAHEDRON: Solid = Solid {
     triangles: &[[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]],
 };
 
-static OCTAHEDRON: Solid = Solid {
+static OCTAHEDRON: Glyph = Glyph {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [0.0, 1.0, 0.0]),
@@ -53,7 +53,7 @@ static OCTAHEDRON: Solid = Solid {
 };
 
 /// A prism with four sides and no ends, which at this width are not seen.
-static PRISM: Solid = Solid {
+static PRISM: Glyph = Glyph {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [0.0, 1.0, 0.0]),
@@ -79,7 +79,7 @@ static PRISM: Solid = Solid {
 /// √3/2.
 const HEIGHT: f64 = 0.866_025_403_784_438_6;
 
-static DISC: Solid = Solid {
+static DISC: Glyph = Glyph {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [0.5, HEIGHT, 0.0]),
@@ -91,7 +91,7 @@ static DISC: Solid = Solid {
     triangles: &[[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]],
 };
 
-static RIBBON: Solid = Solid {
+static RIBBON: Glyph = Glyph {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [-1.0, 0.0, 0.0]),
@@ -103,7 +103,7 @@ static RIBBON: Solid = Solid {
 
 /// Of many lines each is a tetrahedron, with an edge across each end: of any side something is
 /// seen.
-static WEDGE: Solid = Solid {
+static WEDGE: Glyph = Glyph {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [-1.0, 0.0, 0.0]),
@@ -114,7 +114,7 @@ static WEDGE: Solid = Solid {
 };
 
 /// Of many points that have a normal each is a triangle.
-static SCALE: Solid = Solid {
+static TRIANGLE: Glyph = Glyph {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
         (0, [-0.5, HEIGHT, 0.0]),
@@ -131,16 +131,16 @@ pub(crate) fn radius(ball: BoundingSphere) -> f64 {
     RADIUS * gltf::pixel(ball)
 }
 
-impl Solid {
+impl Glyph {
     /// That of `count` points or lines, with normals or without.
     pub(crate) fn of(are_points: bool, have_normals: bool, count: u64) -> &'static Self {
         match (are_points, have_normals) {
-            (true, true) if count < MANY => &DISC,
-            (true, true) => &SCALE,
-            (true, false) if count < MANY => &OCTAHEDRON,
+            (true, true) if count < SIMPLIFIED_FROM => &DISC,
+            (true, true) => &TRIANGLE,
+            (true, false) if count < SIMPLIFIED_FROM => &OCTAHEDRON,
             (true, false) => &TETRAHEDRON,
             (false, true) => &RIBBON,
-            (false, false) if count < MANY => &PRISM,
+            (false, false) if count < SIMPLIFIED_FROM => &PRISM,
             (false, false) => &WEDGE,
         }
     }
@@ -148,11 +148,11 @@ impl Solid {
 
 /// Solids without a radius about points, which are lines from a vertex to itself, or lines: a mesh
 /// about its first vertex, the offsets of its corners, and where it stands.
-pub(crate) fn thin(
+pub(crate) fn thin_glyphs(
     source: &Mesh,
     ends: &[[u32; 2]],
     world: DAffine3,
-    solid: &Solid,
+    solid: &Glyph,
 ) -> Option<(Mesh, Column<3>, DAffine3)> {
     let place = |vertex: u32| {
         let own = Vec3::from_array(source.positions.at(vertex as usize));
@@ -237,7 +237,7 @@ mod tests {
         let normal = Vec3::new(0.6, 0.0, 0.8);
         let cases = [
             (&DISC, [Vec3::ONE; 2]),
-            (&SCALE, [Vec3::ONE; 2]),
+            (&TRIANGLE, [Vec3::ONE; 2]),
             (&RIBBON, [Vec3::ZERO, Vec3::Y]),
         ];
         for (solid, ends) in cases {
@@ -255,7 +255,7 @@ mod tests {
     }
 
     /// The volume by the divergence theorem, of a prism of height 1 its part of the sides.
-    fn volume(solid: &Solid) -> f64 {
+    fn volume(solid: &Glyph) -> f64 {
         let corner = |at: u32| {
             let (end, offset) = solid.corners[at as usize];
             Vec3::from_array(offset) + Vec3::Z * if end == 1 { 1.0 } else { 0.0 }

@@ -7,7 +7,7 @@ use crate::course::value::{Point, Vector};
 use rtc_math::{Vec3, unit};
 
 /// The values that may say it.
-pub(super) struct Upright<'o> {
+pub(super) struct AxisKeys<'o> {
     pub(super) position: &'o FieldOutcome<Spanned<Point>>,
     pub(super) up: &'o FieldOutcome<Spanned<Vector>>,
     pub(super) direction: &'o FieldOutcome<Spanned<Vector>>,
@@ -15,7 +15,7 @@ pub(super) struct Upright<'o> {
     pub(super) ends: &'o FieldOutcome<[Spanned<Point>; 2]>,
 }
 
-impl Upright<'_> {
+impl AxisKeys<'_> {
     /// The middle of the base, and the way from it to the top.
     pub(super) fn base_and_up(&self) -> Option<(Numbers, Numbers)> {
         let Self {

@@ -2,7 +2,7 @@
 
 use super::decode::{Context, Spanned, Value};
 use super::lower::Lowering;
-use super::number::{Side, json_number, plain_number};
+use super::number::{PixelCount, json_number, plain_number};
 use super::record::{FieldOutcome, record};
 use super::schema::Definitions;
 use super::settings::Scene;
@@ -13,9 +13,9 @@ use serde_json::{Value as Json, json};
 
 record! {
     /// Width and height of the picture in pixels.
-    struct Sides, "size" {
+    struct SizeMap, "size" {
         /// The width, the height.
-        sides: [Spanned<Side>; 2], required, &[&["width", "height"], &["x", "y"], &["w", "h"]];
+        sides: [Spanned<PixelCount>; 2], required, &[&["width", "height"], &["x", "y"], &["w", "h"]];
     }
 }
 
@@ -23,7 +23,7 @@ record! {
     /// The first of two maps that are the size of the picture.
     struct Width, "width" {
         /// The width in pixels.
-        side: Spanned<Side>, required, &[&["width"], &["x"], &["w"]];
+        side: Spanned<PixelCount>, required, &[&["width"], &["x"], &["w"]];
     }
 }
 
@@ -31,48 +31,51 @@ record! {
     /// The second of two maps that are the size of the picture.
     struct Height, "height" {
         /// The height in pixels.
-        side: Spanned<Side>, required, &[&["height"], &["y"], &["h"]];
+        side: Spanned<PixelCount>, required, &[&["height"], &["y"], &["h"]];
     }
 }
 
 /// Width and height of the picture in pixels: a list of two, a map, or a list of maps; or one
 /// number, the side of a square.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PictureSize(pub(super) [u32; 2]);
+pub(super) struct ViewSize(pub(super) [u32; 2]);
 
-impl Value for PictureSize {
+impl Value for ViewSize {
     const IS_LIST: bool = true;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let tree = context.tree;
         if plain_number(node, context).is_some() {
-            return square(node, context);
+            return square_size(node, context);
         }
         if tree.is_map(node) {
-            return Sides::decode(node, context).map(of_sides);
+            return SizeMap::decode(node, context).map(size_of_map);
         }
         let mut items = tree.items(node).filter(|_| tree.is_list(node));
         let is_map = |item: &NodeId| tree.is_map(*item);
         match [items.next(), items.next(), items.next()] {
-            [Some(only), None, None] if is_map(&only) => Sides::decode(only, context).map(of_sides),
+            [Some(only), None, None] if is_map(&only) => {
+                SizeMap::decode(only, context).map(size_of_map)
+            }
             [Some(first), Some(second), None] if is_map(&first) && is_map(&second) => {
                 let width = Width::decode(first, context);
                 let height = Height::decode(second, context);
                 Some(Self([width?.side.value.0, height?.side.value.0]))
             }
             [Some(only), None, None] if plain_number(only, context).is_some() => {
-                square(only, context)
+                square_size(only, context)
             }
             _ => {
                 const WHAT: &str = "a list of two whole numbers";
-                tuple(node, WHAT, context, Side::decode).map(|sides| Self(sides.map(|side| side.0)))
+                tuple(node, WHAT, context, PixelCount::decode)
+                    .map(|sides| Self(sides.map(|side| side.0)))
             }
         }
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        let side = Side::schema(definitions);
-        let one = [Sides::schema(definitions)];
+        let side = PixelCount::schema(definitions);
+        let one = [SizeMap::schema(definitions)];
         let two = [Width::schema(definitions), Height::schema(definitions)];
         json!({ "anyOf": [
             { "type": "array", "items": side, "minItems": 2, "maxItems": 2 },
@@ -90,21 +93,21 @@ impl Value for PictureSize {
 }
 
 /// One number says both sides.
-fn square(node: NodeId, context: &mut Context<'_>) -> Option<PictureSize> {
-    Side::decode(node, context).map(|side| PictureSize([side.0; 2]))
+fn square_size(node: NodeId, context: &mut Context<'_>) -> Option<ViewSize> {
+    PixelCount::decode(node, context).map(|side| ViewSize([side.0; 2]))
 }
 
-fn of_sides(
-    Sides {
+fn size_of_map(
+    SizeMap {
         sides: [width, height],
-    }: Sides,
-) -> PictureSize {
-    PictureSize([width.value.0, height.value.0])
+    }: SizeMap,
+) -> ViewSize {
+    ViewSize([width.value.0, height.value.0])
 }
 
 impl Lowering {
     /// Says which of the sizes a file gives does not count; after the camera.
-    pub(super) fn compare_sizes(&self, scene: &Scene, context: &mut Context<'_>) {
+    pub(super) fn report_unused_sizes(&self, scene: &Scene, context: &mut Context<'_>) {
         let Scene {
             camera,
             image_size,
@@ -139,7 +142,7 @@ impl Lowering {
         }) = aspect_ratio
         {
             let ratio = f64::from(width) / f64::from(height);
-            let is_same = (value.0 - ratio).abs() <= ROUNDED * ratio;
+            let is_same = (value.0 - ratio).abs() <= TOLERANCE * ratio;
             let message =
                 || format!("the picture has {width} × {height} pixels, all of them square");
             context.report(&codes::NO_EFFECT, *span, message, |d| {
@@ -152,7 +155,7 @@ impl Lowering {
 }
 
 /// How far a ratio that was written may be from that of two whole numbers, relatively.
-const ROUNDED: f64 = 0.01;
+const TOLERANCE: f64 = 0.01;
 
 /// What has no effect and says what is so anyway is only worth a note.
 fn severity(is_same: bool) -> Severity {

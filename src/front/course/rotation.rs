@@ -3,8 +3,8 @@
 
 use super::decode::{Context, Spanned, Value};
 use super::number::{Degrees, number, plain_number};
-use super::object::cube::axes_turned_about;
-use super::object::solid::turned;
+use super::object::cube::axes_rotated_about;
+use super::object::solid::euler_axes;
 use super::record::FieldOutcome;
 use super::schema::Definitions;
 use super::value::{Angles, Vector, tuple};
@@ -111,14 +111,14 @@ impl<T: Value> Value for Rotation<T> {
 }
 
 /// The keys by which an object is turned: angles about x, y and z; or an axis and an angle.
-pub(super) struct Turn<'o> {
+pub(super) struct RotationKeys<'o> {
     /// Beside an angle the axis.
     pub(super) rotation: &'o FieldOutcome<Spanned<Rotation<Angles>>>,
     pub(super) axis: &'o FieldOutcome<Spanned<Vector>>,
     pub(super) angle: &'o FieldOutcome<Spanned<Degrees>>,
 }
 
-impl Turn<'_> {
+impl RotationKeys<'_> {
     /// Where one of the keys stands, if there is any.
     pub(super) fn span(&self) -> Option<Span> {
         let Self {
@@ -147,25 +147,34 @@ impl Turn<'_> {
         match (axis.read(), angle.read(), angles) {
             (Some(axis), Some(angle), _) => {
                 let other = rotation.read().and_then(|rotation| rotation.span);
-                turns_nothing(other, "it is turned once: by `axis` and `angle`", context);
-                Some(about(axis.value.0, angle.value.0))
+                report_no_rotation(other, "it is turned once: by `axis` and `angle`", context);
+                Some(rotated_about(axis.value.0, angle.value.0))
             }
-            (None, Some(angle), Some(Angles(axis))) => Some(about(axis, angle.value.0)),
+            (None, Some(angle), Some(Angles(axis))) => Some(rotated_about(axis, angle.value.0)),
             (axis, angle, angles) => {
-                let alone = "an `axis` turns by an `angle`, and an `angle` about an `axis`";
-                turns_nothing(axis.and_then(|axis| axis.span), alone, context);
-                turns_nothing(angle.and_then(|angle| angle.span), alone, context);
-                Some(angles.map_or(Vec3::AXES, |angles| turned(angles.0)))
+                let lower_standalone_mesh =
+                    "an `axis` turns by an `angle`, and an `angle` about an `axis`";
+                report_no_rotation(
+                    axis.and_then(|axis| axis.span),
+                    lower_standalone_mesh,
+                    context,
+                );
+                report_no_rotation(
+                    angle.and_then(|angle| angle.span),
+                    lower_standalone_mesh,
+                    context,
+                );
+                Some(angles.map_or(Vec3::AXES, |angles| euler_axes(angles.0)))
             }
         }
     }
 }
 
-fn about(axis: [f64; 3], degrees: f64) -> [Vec3; 3] {
-    axes_turned_about(Vec3::from_array(axis), degrees.to_radians())
+fn rotated_about(axis: [f64; 3], degrees: f64) -> [Vec3; 3] {
+    axes_rotated_about(Vec3::from_array(axis), degrees.to_radians())
 }
 
-fn turns_nothing(span: Option<Span>, message: &str, context: &mut Context<'_>) {
+fn report_no_rotation(span: Option<Span>, message: &str, context: &mut Context<'_>) {
     if let Some(span) = span {
         context.report(
             &codes::NO_EFFECT,
@@ -178,7 +187,11 @@ fn turns_nothing(span: Option<Span>, message: &str, context: &mut Context<'_>) {
 
 /// The transform that scales along the axes, takes them to where they come to, and moves the
 /// origin.
-pub(super) fn placed(axes: [Vec3; 3], scale: [f64; 3], position: [f64; 3]) -> [[f64; 3]; 4] {
+pub(super) fn world_from_object(
+    axes: [Vec3; 3],
+    scale: [f64; 3],
+    position: [f64; 3],
+) -> [[f64; 3]; 4] {
     let [x, y, z] = axes;
     let [x, y, z] = [x * scale[0], y * scale[1], z * scale[2]].map(|axis| axis.to_array());
     [x, y, z, position]

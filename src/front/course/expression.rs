@@ -4,56 +4,56 @@
 use std::f64::consts::PI;
 
 /// The longest calculation that is looked at, in bytes.
-const LONGEST: usize = 64;
+const MAX_LENGTH: usize = 64;
 
 /// The result, if the text is a calculation and that is finite; a number alone is none.
 ///
 /// Operators and values wait on two stacks (Dijkstra's shunting yard).
-pub(super) fn result(text: &str) -> Option<f64> {
-    if text.len() > LONGEST || !text.contains(['+', '-', '*', '/', '^', '(', 'p', 'π', 's']) {
+pub(super) fn evaluate(text: &str) -> Option<f64> {
+    if text.len() > MAX_LENGTH || !text.contains(['+', '-', '*', '/', '^', '(', 'p', 'π', 's']) {
         return None;
     }
-    let mut yard = Yard::default();
-    let mut rest = text.trim_start();
+    let mut yard = ShuntingYard::default();
+    let mut remaining = text.trim_start();
     let mut after_value = false;
-    while let Some(sign) = rest.chars().next() {
-        let mut next = rest.get(sign.len_utf8()..)?;
+    while let Some(sign) = remaining.chars().next() {
+        let mut next = remaining.get(sign.len_utf8()..)?;
         match (sign, after_value) {
-            ('(', false) => yard.waiting.push(Operator::Open),
+            ('(', false) => yard.operators.push(Operator::Open),
             (')', true) => yard.close()?,
-            ('-', false) => yard.waiting.push(Operator::Negate),
+            ('-', false) => yard.operators.push(Operator::Negate),
             ('+', false) => {}
-            (_, false) if rest.starts_with("sqrt(") => {
-                yard.waiting.push(Operator::Root);
-                next = rest.strip_prefix("sqrt")?;
+            (_, false) if remaining.starts_with("sqrt(") => {
+                yard.operators.push(Operator::Root);
+                next = remaining.strip_prefix("sqrt")?;
             }
             (_, false) => {
-                let (value, after) = value(rest)?;
+                let (value, after) = value(remaining)?;
                 yard.values.push(value);
                 (next, after_value) = (after, true);
             }
             (_, true) => {
-                let (operator, after) = operator(rest)?;
+                let (operator, after) = operator(remaining)?;
                 yard.push(operator)?;
                 (next, after_value) = (after, false);
             }
         }
-        rest = next.trim_start();
+        remaining = next.trim_start();
     }
-    yard.all()
+    yard.finish()
         .filter(|result| result.is_finite() && after_value)
 }
 
 /// A number without a sign, or π.
 fn value(text: &str) -> Option<(f64, &str)> {
     for name in ["M_PI", "math.pi", "pi", "PI", "π"] {
-        if let Some(rest) = text.strip_prefix(name) {
-            return Some((PI, rest));
+        if let Some(remaining) = text.strip_prefix(name) {
+            return Some((PI, remaining));
         }
     }
     let end = text.find(|c: char| !c.is_ascii_digit() && c != '.');
-    let (number, rest) = text.split_at(end.unwrap_or(text.len()));
-    Some((number.parse().ok()?, rest))
+    let (number, remaining) = text.split_at(end.unwrap_or(text.len()));
+    Some((number.parse().ok()?, remaining))
 }
 
 fn operator(text: &str) -> Option<(Operator, &str)> {
@@ -83,7 +83,7 @@ enum Operator {
 
 impl Operator {
     /// What binds more is done first.
-    fn strength(self) -> u8 {
+    fn precedence(self) -> u8 {
         match self {
             Self::Open => 0,
             Self::Add | Self::Subtract => 1,
@@ -96,38 +96,38 @@ impl Operator {
 }
 
 #[derive(Default)]
-struct Yard {
+struct ShuntingYard {
     values: Vec<f64>,
-    waiting: Vec<Operator>,
+    operators: Vec<Operator>,
 }
 
-impl Yard {
+impl ShuntingYard {
     /// Adds an operator between two values, after those that bind as much; powers bind to the
     /// right.
     fn push(&mut self, operator: Operator) -> Option<()> {
-        let goes_first = |waiting: Operator| {
-            waiting.strength() > operator.strength()
-                || (waiting.strength() == operator.strength() && operator != Operator::Power)
+        let goes_first = |operators: Operator| {
+            operators.precedence() > operator.precedence()
+                || (operators.precedence() == operator.precedence() && operator != Operator::Power)
         };
-        while self.waiting.last().is_some_and(|last| goes_first(*last)) {
+        while self.operators.last().is_some_and(|last| goes_first(*last)) {
             self.apply()?;
         }
-        self.waiting.push(operator);
+        self.operators.push(operator);
         Some(())
     }
 
     /// Closes the last bracket.
     fn close(&mut self) -> Option<()> {
-        while *self.waiting.last()? != Operator::Open {
+        while *self.operators.last()? != Operator::Open {
             self.apply()?;
         }
-        self.waiting.pop();
+        self.operators.pop();
         Some(())
     }
 
     /// Does what waits last.
     fn apply(&mut self) -> Option<()> {
-        let operator = self.waiting.pop()?;
+        let operator = self.operators.pop()?;
         let last = self.values.pop()?;
         let result = match operator {
             Operator::Open => return None,
@@ -143,8 +143,8 @@ impl Yard {
         Some(())
     }
 
-    fn all(mut self) -> Option<f64> {
-        while !self.waiting.is_empty() {
+    fn finish(mut self) -> Option<f64> {
+        while !self.operators.is_empty() {
             self.apply()?;
         }
         let result = self.values.pop()?;
@@ -154,7 +154,7 @@ impl Yard {
 
 #[cfg(test)]
 mod tests {
-    use super::result;
+    use super::evaluate;
 
     #[test]
     fn calculations_come_to_what_they_say() {
@@ -169,12 +169,12 @@ mod tests {
             ("sqrt(2*8)", 4.0),
             ("3 * -2", -6.0),
         ] {
-            assert_eq!(result(text), Some(expected), "{text}");
+            assert_eq!(evaluate(text), Some(expected), "{text}");
         }
         for text in [
             "", "-", "1/0", "1 2", "(1", "1)", "()", "2*", "a/b", "1-", "spam", "p", "1//2",
         ] {
-            assert_eq!(result(text), None, "{text}");
+            assert_eq!(evaluate(text), None, "{text}");
         }
     }
 }

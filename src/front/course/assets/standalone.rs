@@ -1,11 +1,11 @@
 //! A mesh file given by itself, as an asset without camera and lights: grey, or in the colours of its
 //! vertices or the materials that it asks for.
 
-use super::Port;
-use super::dress::{Dress, Dressing};
+use super::AssetImport;
+use super::material_binder::{MaterialSource, PendingMaterial};
 use super::mesh::{self, MeshFile};
 use crate::mesh::{is_mesh, parse};
-use crate::words::Unread;
+use crate::words::ParseFault;
 use crate::{FrontOptions, gltf, over_limit};
 use rtc_diag::{Diagnostic, Sink, codes};
 use rtc_ir::{
@@ -23,7 +23,7 @@ const GREY: f64 = 0.7;
 
 /// Reads a mesh file and puts what it holds into a scene as of a glTF asset. `None` if it has
 /// errors; the sink says which.
-pub fn alone(
+pub fn lower_standalone_mesh(
     file: FileId,
     options: &FrontOptions,
     map: &mut SourceMap,
@@ -33,12 +33,12 @@ pub fn alone(
     let name = map.name(file).rsplit(['/', '\\']).next();
     let name = name.unwrap_or_default().to_owned();
     let has_colors = !parsed.mesh.colors.is_empty();
-    mesh::tell_not_drawn(&parsed, file, None, sink);
+    mesh::report_not_drawn(&parsed, file, None, sink);
     let own = MeshFile::new(parsed, file, name.clone());
     let mut scene = gltf::empty();
     scene.meshes.push(Mesh {
         name,
-        ..own.whole()
+        ..own.full_mesh()
     });
     scene
         .materials
@@ -69,14 +69,14 @@ pub fn alone(
     let folder = map.folder(file);
     let search = Search::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
-    let mut port = Port::new(search, options, map, sink);
-    port.meshes.put(MeshId(0), own);
-    let dressing = Dressing {
+    let mut import = AssetImport::new(search, options, map, sink);
+    import.meshes.add(MeshId(0), own);
+    let pending = PendingMaterial {
         surface: 0,
-        dress: Dress::Asset,
+        source: MaterialSource::AssetTarget,
         span: None,
     };
-    port.finish(&[dressing], &mut lowered);
+    import.finish(&[pending], &mut lowered);
     Some(lowered)
 }
 
@@ -91,11 +91,11 @@ fn read(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::mesh::P
     }
     match parse(bytes, map.budget()) {
         Ok(parsed) => return Some(parsed),
-        Err(Unread::Limit(fault)) => {
+        Err(ParseFault::Limit(fault)) => {
             let what = format!("the mesh `{}`", map.name(file));
             sink.push(over_limit(&what, &fault).at(Span::new(file, 0, 0), "this file"));
         }
-        Err(Unread::Faults(faults)) => {
+        Err(ParseFault::Faults(faults)) => {
             for fault in faults {
                 let finding = Diagnostic::new(&codes::BAD_MESH_FILE, fault.message.as_str());
                 sink.push(finding.at(fault.span(file), fault.label));

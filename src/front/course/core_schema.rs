@@ -1,7 +1,7 @@
 //! What words say about numbers, by the core schema of YAML 1.2.
 
 /// What a word says about a number.
-pub(super) enum WordNumber {
+pub(super) enum ScalarNumber {
     Number(f64),
     /// `.inf`, `.nan`, or more than a 64-bit float holds.
     NotFinite,
@@ -9,45 +9,45 @@ pub(super) enum WordNumber {
 }
 
 /// Reads a word by the core schema.
-pub(super) fn read(word: &str) -> WordNumber {
-    if let Some(value) = short_decimal(word) {
-        return WordNumber::Number(value);
+pub(super) fn parse_number(scalar: &str) -> ScalarNumber {
+    if let Some(value) = short_decimal(scalar) {
+        return ScalarNumber::Number(value);
     }
-    let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word);
-    if matches!(unsigned, ".inf" | ".Inf" | ".INF") || matches!(word, ".nan" | ".NaN" | ".NAN") {
-        return WordNumber::NotFinite;
+    let unsigned = scalar.strip_prefix(['+', '-']).unwrap_or(scalar);
+    if matches!(unsigned, ".inf" | ".Inf" | ".INF") || matches!(scalar, ".nan" | ".NaN" | ".NAN") {
+        return ScalarNumber::NotFinite;
     }
-    let value = match word
+    let value = match scalar
         .strip_prefix("0x")
         .map(|digits| (digits, 16))
-        .or(word.strip_prefix("0o").map(|d| (d, 8)))
+        .or(scalar.strip_prefix("0o").map(|d| (d, 8)))
     {
-        Some((digits, radix)) => in_base(digits, radix),
-        None if is_decimal(unsigned) => word.parse().ok(),
+        Some((digits, radix)) => in_radix(digits, radix),
+        None if is_decimal(unsigned) => scalar.parse().ok(),
         None => None,
     };
     match value {
-        Some(value) if value.is_finite() => WordNumber::Number(value),
-        Some(_) => WordNumber::NotFinite,
-        None => WordNumber::NoNumber,
+        Some(value) if value.is_finite() => ScalarNumber::Number(value),
+        Some(_) => ScalarNumber::NotFinite,
+        None => ScalarNumber::NoNumber,
     }
 }
 
 /// A decimal of at most 15 characters without an exponent, as nearly all are: its digits and the
 /// power of ten are exact in 64 bits, so their quotient is the nearest number.
-fn short_decimal(word: &str) -> Option<f64> {
+fn short_decimal(scalar: &str) -> Option<f64> {
     const TENS: [f64; 15] = [
         1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14,
     ];
-    let (sign, digits) = match word.as_bytes() {
+    let (sign, digits) = match scalar.as_bytes() {
         [b'-', digits @ ..] => (-1.0, digits),
         [b'+', digits @ ..] | digits => (1.0, digits),
     };
     let mut point = None;
-    let mut whole = 0_u64;
+    let mut integer = 0_u64;
     for (at, byte) in digits.iter().take(16).enumerate() {
         match byte {
-            b'0'..=b'9' => whole = whole * 10 + u64::from(byte - b'0'),
+            b'0'..=b'9' => integer = integer * 10 + u64::from(byte - b'0'),
             b'.' if point.is_none() => point = Some(at),
             _ => return None,
         }
@@ -57,10 +57,10 @@ fn short_decimal(word: &str) -> Option<f64> {
     }
     let decimals = point.map_or(0, |at| digits.len() - at - 1);
     #[expect(clippy::cast_precision_loss, reason = "15 digits are below 2^53")]
-    Some(sign * (whole as f64 / TENS[decimals]))
+    Some(sign * (integer as f64 / TENS[decimals]))
 }
 
-fn in_base(digits: &str, radix: u32) -> Option<f64> {
+fn in_radix(digits: &str, radix: u32) -> Option<f64> {
     let add =
         |sum: f64, digit: char| Some(sum * f64::from(radix) + f64::from(digit.to_digit(radix)?));
     if digits.is_empty() {
@@ -71,14 +71,14 @@ fn in_base(digits: &str, radix: u32) -> Option<f64> {
 }
 
 /// `[0-9]+(\.[0-9]*)?` or `\.[0-9]+`, and an exponent.
-fn is_decimal(word: &str) -> bool {
+fn is_decimal(scalar: &str) -> bool {
     let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
-    let (whole, rest) = word.split_at(digits(word));
+    let (integer, rest) = scalar.split_at(digits(scalar));
     let (fraction, rest) = match rest.strip_prefix('.') {
         Some(rest) => rest.split_at(digits(rest)),
         None => ("", rest),
     };
-    if whole.is_empty() && fraction.is_empty() {
+    if integer.is_empty() && fraction.is_empty() {
         return false;
     }
     match rest.strip_prefix(['e', 'E']) {
@@ -91,27 +91,29 @@ fn is_decimal(word: &str) -> bool {
 }
 
 /// Whether a word is what programs write for what is no finite number, though YAML does not.
-pub(super) fn is_not_finite_elsewhere(word: &str) -> bool {
-    const WORDS: [&str; 3] = ["nan", "inf", "infinity"];
-    let unsigned = word.trim_start_matches(['-', '+']);
-    WORDS.iter().any(|own| own.eq_ignore_ascii_case(unsigned))
+pub(super) fn is_not_finite_elsewhere(scalar: &str) -> bool {
+    const KEYWORDS: [&str; 3] = ["nan", "inf", "infinity"];
+    let unsigned = scalar.trim_start_matches(['-', '+']);
+    KEYWORDS
+        .iter()
+        .any(|own| own.eq_ignore_ascii_case(unsigned))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn value(word: &str) -> Option<f64> {
-        match read(word) {
-            WordNumber::Number(value) => Some(value),
-            WordNumber::NotFinite => Some(f64::INFINITY),
-            WordNumber::NoNumber => None,
+    fn value(scalar: &str) -> Option<f64> {
+        match parse_number(scalar) {
+            ScalarNumber::Number(value) => Some(value),
+            ScalarNumber::NotFinite => Some(f64::INFINITY),
+            ScalarNumber::NoNumber => None,
         }
     }
 
     #[test]
     fn the_core_schema_and_nothing_else_is_a_number() {
-        for (word, expected) in [
+        for (scalar, expected) in [
             ("12", 12.0),
             ("-0.5", -0.5),
             (".5", 0.5),
@@ -119,12 +121,12 @@ mod tests {
             ("1e3", 1000.0),
             ("0x1F", 31.0),
         ] {
-            assert_eq!(value(word), Some(expected), "{word}");
+            assert_eq!(value(scalar), Some(expected), "{scalar}");
         }
-        for word in ["+1.5E-3", "0o17"] {
-            assert!(value(word).is_some_and(f64::is_finite), "{word}");
+        for scalar in ["+1.5E-3", "0o17"] {
+            assert!(value(scalar).is_some_and(f64::is_finite), "{scalar}");
         }
-        for word in [
+        for scalar in [
             "0.1",
             "-123456789.12345",
             ".99999999999999",
@@ -134,18 +136,18 @@ mod tests {
             "123456789012345678",
         ] {
             assert_eq!(
-                value(word).map(f64::to_bits),
-                word.parse().ok().map(f64::to_bits),
-                "{word}"
+                value(scalar).map(f64::to_bits),
+                scalar.parse().ok().map(f64::to_bits),
+                "{scalar}"
             );
         }
-        for word in ["1e400", ".inf", "-.INF", ".nan"] {
-            assert_eq!(value(word), Some(f64::INFINITY), "{word}");
+        for scalar in ["1e400", ".inf", "-.INF", ".nan"] {
+            assert_eq!(value(scalar), Some(f64::INFINITY), "{scalar}");
         }
-        for word in [
+        for scalar in [
             "", ".", "-", "1_000", "1.2.3", "1e", "inf", "nan", "0x", "1f", "+.nan", "e5", "1 2",
         ] {
-            assert_eq!(value(word), None, "{word}");
+            assert_eq!(value(scalar), None, "{scalar}");
         }
     }
 }

@@ -1,14 +1,14 @@
 //! What was meant by a value of the wrong type: colours as the web writes them, units, fractions,
 //! decimal commas, round brackets, missing dashes.
 
-use super::calculation;
 use super::decode::ValueKey;
+use super::expression;
 use rtc_math::shortest;
 use rtc_source::tree::{NodeContent, NodeId, Tree};
 
 /// A hint, and the text to put in place of the value of a key, if that is known; `what` are the words
 /// for what the value must be.
-pub(super) fn of(
+pub(super) fn suggest(
     tree: &Tree<'_>,
     key: ValueKey<'_>,
     node: NodeId,
@@ -32,7 +32,7 @@ pub(super) fn of(
         NodeContent::Word(text) | NodeContent::Text(text)
             if what == "a map" && key.text == "material" && is_name(text) =>
         {
-            Some((by_name(text), None))
+            Some((material_by_name(text), None))
         }
         NodeContent::Word("") if what == "a list" => {
             Some(("an empty list is written `[]`".to_owned(), None))
@@ -48,7 +48,7 @@ pub(super) fn of(
         }
         NodeContent::Word(text) | NodeContent::Text(text) if takes_triple => {
             let hint = "a list stands in square brackets, with commas: `[1, 2, 3]`".to_owned();
-            if let Some(list) = listed(text, 3) {
+            if let Some(list) = as_list(text, 3) {
                 return Some((hint, Some(list)));
             }
             if text.starts_with('(') {
@@ -58,7 +58,7 @@ pub(super) fn of(
             Some(("a colour is three numbers".to_owned(), Some(color)))
         }
         NodeContent::Word(text) | NodeContent::Text(text) if takes_pair => {
-            let list = listed(text, 2)?;
+            let list = as_list(text, 2)?;
             Some((
                 "two numbers stand in square brackets".to_owned(),
                 Some(list),
@@ -70,21 +70,21 @@ pub(super) fn of(
 }
 
 /// So many numbers with anything but commas and square brackets about them, as a list.
-pub(super) fn listed(text: &str, count: usize) -> Option<String> {
+pub(super) fn as_list(text: &str, count: usize) -> Option<String> {
     let is_between = |c: char| c.is_whitespace() || ",;()[]{}x×".contains(c);
-    let parts: Vec<_> = text
+    let items: Vec<_> = text
         .split(is_between)
-        .filter(|part| !part.is_empty())
+        .filter(|item| !item.is_empty())
         .take(count + 1)
         .collect();
-    let are_numbers = parts
+    let are_numbers = items
         .iter()
-        .all(|part| part.parse::<f64>().is_ok_and(f64::is_finite));
-    (parts.len() == count && are_numbers).then(|| format!("[{}]", parts.join(", ")))
+        .all(|item| item.parse::<f64>().is_ok_and(f64::is_finite));
+    (items.len() == count && are_numbers).then(|| format!("[{}]", items.join(", ")))
 }
 
 /// The colours that people write by their names.
-const NAMED: &[(&str, &str)] = &[
+const NAMED_COLORS: &[(&str, &str)] = &[
     ("black", "[0, 0, 0]"),
     ("white", "[1, 1, 1]"),
     ("red", "[1, 0, 0]"),
@@ -100,7 +100,7 @@ const NAMED: &[(&str, &str)] = &[
 
 /// A name, `#rrggbb` or `#rgb` as three numbers from 0 to 1.
 fn color(text: &str) -> Option<String> {
-    let named = NAMED
+    let named = NAMED_COLORS
         .iter()
         .find(|(name, _)| name.eq_ignore_ascii_case(text));
     if let Some((_, color)) = named {
@@ -117,12 +117,12 @@ fn color(text: &str) -> Option<String> {
         [r, s, g, h, b, c] => [16 * r + s, 16 * g + h, 16 * b + c],
         _ => return None,
     };
-    let part = |value: u32| shortest((f64::from(value) / 255.0 * 1e3).round() / 1e3);
-    Some(format!("[{}, {}, {}]", part(r), part(g), part(b)))
+    let item = |value: u32| shortest((f64::from(value) / 255.0 * 1e3).round() / 1e3);
+    Some(format!("[{}, {}, {}]", item(r), item(g), item(b)))
 }
 
 /// How a material is used again that people call by a name.
-fn by_name(name: &str) -> String {
+fn material_by_name(name: &str) -> String {
     let call = "a material is a map; one that several objects have is marked";
     match color(name) {
         Some(color) => format!("a material is a map, with `color: {color}` among its keys"),
@@ -138,12 +138,12 @@ fn is_name(text: &str) -> bool {
 /// So many numbers, some of them with a decimal comma, as a list: what is followed by a space
 /// separates them; where nothing is, each comma between two of them does.
 pub(super) fn decimal_commas(text: &str, count: usize) -> Option<String> {
-    const LONGEST: usize = 256;
+    const MAX_LENGTH: usize = 256;
     let inside = text.strip_prefix('[')?.strip_suffix(']')?.trim();
-    if inside.len() > LONGEST || inside.contains(['#', '\n']) {
+    if inside.len() > MAX_LENGTH || inside.contains(['#', '\n']) {
         return None;
     }
-    let apart: Vec<&str> = match inside.contains(", ") {
+    let items: Vec<&str> = match inside.contains(", ") {
         true => inside.split(", ").map(str::trim).collect(),
         false => {
             let commas = inside.match_indices(',').skip(1).step_by(2);
@@ -153,26 +153,26 @@ pub(super) fn decimal_commas(text: &str, count: usize) -> Option<String> {
                 .collect::<Option<_>>()?
         }
     };
-    let point = |part: &&str| {
-        let number = part.replacen(',', ".", 1);
+    let point = |item: &&str| {
+        let number = item.replacen(',', ".", 1);
         number
             .parse::<f64>()
             .is_ok_and(f64::is_finite)
             .then_some(number)
     };
-    let numbers: Vec<String> = apart.iter().map(point).collect::<Option<_>>()?;
+    let numbers: Vec<String> = items.iter().map(point).collect::<Option<_>>()?;
     (numbers.len() == count).then(|| format!("[{}]", numbers.join(", ")))
 }
 
 /// A number with a decimal comma, a unit, an end as in a program, other signs, or as a calculation.
 fn number(text: &str) -> Option<(String, Option<String>)> {
-    let read = |part: &str| {
-        part.trim()
+    let read = |item: &str| {
+        item.trim()
             .parse::<f64>()
             .ok()
             .filter(|number| number.is_finite())
     };
-    let plain = in_ascii(text);
+    let plain = to_ascii(text);
     if plain != text && read(&plain).is_some() {
         let other = text.chars().find(|c| !c.is_ascii())?;
         let hint = format!(
@@ -193,13 +193,13 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
             Some(before.trim().to_owned()),
         ));
     }
-    if let Some((whole, decimals)) = text.split_once(',') {
+    if let Some((integer, decimals)) = text.split_once(',') {
         let is_decimal = !decimals.is_empty() && decimals.bytes().all(|byte| byte.is_ascii_digit());
-        let point = format!("{whole}.{decimals}");
+        let point = format!("{integer}.{decimals}");
         read(&point).filter(|_| is_decimal)?;
         return Some(("decimals stand behind a point".to_owned(), Some(point)));
     }
-    if let Some(result) = calculation::result(&plain) {
+    if let Some(result) = expression::evaluate(&plain) {
         let hint = "a number is written out: nothing is computed here".to_owned();
         return Some((hint, Some(shortest(result))));
     }
@@ -211,7 +211,7 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
 
 /// The text with ASCII signs in place of those that look like them: minus signs and dashes, the
 /// wide forms of East Asia, and spaces.
-fn in_ascii(text: &str) -> String {
+fn to_ascii(text: &str) -> String {
     let ascii = |c: char| match c {
         '\u{2010}'..='\u{2015}' | '\u{2212}' | '\u{fe58}' | '\u{fe63}' | '\u{207b}' => Some('-'),
         '\u{ff01}'..='\u{ff5e}' => char::from_u32(u32::from(c) - 0xfee0),
@@ -257,11 +257,11 @@ mod tests {
         assert_eq!(color("#1e90f"), None);
         assert_eq!(color("Red").as_deref(), Some("[1, 0, 0]"));
         assert_eq!(
-            listed("(90, 320, 100)", 3).as_deref(),
+            as_list("(90, 320, 100)", 3).as_deref(),
             Some("[90, 320, 100]")
         );
-        assert_eq!(listed("40x30", 2).as_deref(), Some("[40, 30]"));
-        assert_eq!((listed("1 0", 3), listed("1 0 up", 3)), (None, None));
+        assert_eq!(as_list("40x30", 2).as_deref(), Some("[40, 30]"));
+        assert_eq!((as_list("1 0", 3), as_list("1 0 up", 3)), (None, None));
         let list = Some("[0.5, 0.6, 1]".to_owned());
         assert_eq!(decimal_commas("[0,5, 0,6, 1]", 3), list);
         assert_eq!(

@@ -1,6 +1,6 @@
 //! The paths of light: how they are followed, and when.
 
-use super::assets::Asset;
+use super::assets::AssetTarget;
 use super::decode::Spanned;
 use super::lower::Lowering;
 use super::number::Count;
@@ -22,7 +22,7 @@ record! {
 impl Lowering {
     /// Has paths traced if the file says so, or holds what only paths show; after the lights and
     /// the objects.
-    pub(super) fn follow_paths(&mut self, scene: &Scene) {
+    pub(super) fn resolve_mode(&mut self, scene: &Scene) {
         let Scene {
             mode,
             sampling,
@@ -43,9 +43,9 @@ impl Lowering {
                 .any(|material| material.phong().is_none())
             || self
                 .files
-                .wanted
+                .pending_assets
                 .iter()
-                .any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
+                .any(|pending| matches!(pending.target, AssetTarget::Gltf(_)));
         if mode.value != Mode::Path && (mode.span.is_some() || !is_physical) {
             return;
         }
