@@ -22,6 +22,7 @@ mod ir_schema;
 mod laws;
 mod numbers;
 mod obj_oracle;
+mod pages;
 mod path;
 mod pictures;
 mod plain;

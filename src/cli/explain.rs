@@ -66,7 +66,7 @@ pub(super) fn entry(code: &Code) -> String {
         id,
         severity,
         summary,
-        explanation,
+        page,
         aliases,
     } = code;
     let severity = severity.name();
@@ -81,8 +81,8 @@ pub(super) fn entry(code: &Code) -> String {
         ),
     };
     format!(
-        "## {id} ({severity}): {summary}\n\n{}{known}",
-        fill(explanation)
+        "## {id} ({severity}): {summary}\n\n{}",
+        page.replacen("\n\n", &format!("\n{known}\n"), 1)
     )
 }
 

@@ -12,7 +12,7 @@ mod picture;
 mod references;
 mod shape;
 mod syntax;
-mod twins;
+mod exports;
 mod values;
 
 pub use container::*;
@@ -22,7 +22,7 @@ pub use picture::*;
 pub use references::*;
 pub use shape::*;
 pub use syntax::*;
-pub use twins::*;
+pub use exports::*;
 pub use values::*;
 
 /// How bad it is. Only errors stop the work.
@@ -57,10 +57,19 @@ pub struct Code {
     pub severity: Severity,
     /// One line: what the finding is.
     pub summary: &'static str,
-    /// The long text of `rtc explain`.
-    pub explanation: &'static str,
+    /// The page of `rtc explain`, in Markdown: what the code finds, why it matters, an example that
+    /// raises it and the same example without the mistake.
+    pub page: &'static str,
     /// The names that the glTF validator of Khronos has for it; none outside `GL`.
     pub aliases: &'static [&'static str],
+}
+
+impl Code {
+    /// The first paragraph of the page: what the code finds.
+    #[must_use]
+    pub fn explanation(&self) -> &'static str {
+        self.page.split("\n\n").next().unwrap_or_default()
+    }
 }
 
 impl fmt::Display for Code {
@@ -71,7 +80,7 @@ impl fmt::Display for Code {
 
 /// Declares a family: a static for each row, and `FAMILY`, all of them in order.
 macro_rules! codes {
-    ($family:ident: $($name:ident = $id:literal, $severity:ident, $summary:literal, $explanation:literal
+    ($family:ident: $($name:ident = $id:literal, $severity:ident, $summary:literal
         $(, [$($alias:literal),*])?;)*) => {
         $(
             #[doc = $summary]
@@ -79,7 +88,7 @@ macro_rules! codes {
                 id: $id,
                 severity: $crate::Severity::$severity,
                 summary: $summary,
-                explanation: $explanation,
+                page: include_str!(concat!("pages/", $id, ".md")),
                 aliases: &[$($($alias),*)?],
             };
         )*

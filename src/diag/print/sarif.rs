@@ -29,7 +29,7 @@ fn rule(code: &'static codes::Code) -> Value {
     json!({
         "id": code.id,
         "shortDescription": { "text": code.summary },
-        "fullDescription": { "text": code.explanation },
+        "fullDescription": { "text": code.explanation() },
         "defaultConfiguration": { "level": level(code.severity) },
     })
 }

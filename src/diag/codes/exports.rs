@@ -1,0 +1,5 @@
+//! `EX`: what is written for other renderers.
+
+super::codes! { EX:
+    NO_TWIN = "EX001", Warning, "a part of the scene has no exact equivalent in the other renderer";
+}
