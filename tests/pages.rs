@@ -127,14 +127,22 @@ fn faults(code: &Code) -> Vec<String> {
     let id = code.id;
     let mut faults = Vec::new();
     if example.is_empty() != WITHOUT.contains(&id) {
-        faults.push(format!("{id}: an example is missing, or is not needed any more"));
+        faults.push(format!(
+            "{id}: an example is missing, or is not needed any more"
+        ));
     }
     if fixed.is_empty() != (example.is_empty() || WITHOUT_FIX.contains(&id)) {
-        faults.push(format!("{id}: what is fixed is missing, or is not needed any more"));
+        faults.push(format!(
+            "{id}: what is fixed is missing, or is not needed any more"
+        ));
     }
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    fs::write(folder.join("scene.yaml"), [CAMERA, LIGHTS, OBJECTS].concat()).unwrap();
+    fs::write(
+        folder.join("scene.yaml"),
+        [CAMERA, LIGHTS, OBJECTS].concat(),
+    )
+    .unwrap();
     // The search for a project file ends here.
     fs::create_dir(folder.join(".git")).unwrap();
     let scene = match example.iter().find(|(language, _)| *language != "console") {
@@ -155,7 +163,9 @@ fn faults(code: &Code) -> Vec<String> {
         let printed = run(folder, if given.is_empty() { &commands } else { &given });
         let is_bad = printed.contains("error[") || printed.contains("warning[");
         if printed.contains(&raised) || is_bad {
-            faults.push(format!("{id}: not all is well when it is fixed:\n{printed}"));
+            faults.push(format!(
+                "{id}: not all is well when it is fixed:\n{printed}"
+            ));
         }
     }
     faults

@@ -1,28 +1,28 @@
-//! The user's words within a message: short, and without what would command a terminal.
+//! Quotes of the input in a message: short, and without control characters.
 
 use std::borrow::Cow;
 
-/// A word, or its beginning if it would fill the message.
+/// A key or value, cut to 40 characters.
 #[must_use]
 pub fn clip(word: &str) -> Cow<'_, str> {
     clipped(word, 40)
 }
 
-/// A path, or its beginning.
+/// A path, cut to 160 characters.
 #[must_use]
 pub fn clip_path(path: &str) -> Cow<'_, str> {
     clipped(path, 160)
 }
 
-/// What a library says, which may repeat a value, or the beginning of it.
+/// The message of a library, which may quote a value, cut to 400 characters.
 #[must_use]
 pub fn clip_words(words: &str) -> Cow<'_, str> {
     clipped(words, 400)
 }
 
-/// At most `shown` characters, and `…` if there are more.
-fn clipped(text: &str, shown: usize) -> Cow<'_, str> {
-    match text.char_indices().nth(shown) {
+/// At most `limit` characters, and `…` if there are more.
+fn clipped(text: &str, limit: usize) -> Cow<'_, str> {
+    match text.char_indices().nth(limit) {
         Some((end, _)) => Cow::Owned(format!("{}…", visible(text.split_at(end).0))),
         None => visible(text),
     }

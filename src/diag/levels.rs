@@ -1,12 +1,12 @@
-//! What is made of findings by those who read them: kept silent, warnings, errors.
+//! Levels of diagnostics: `--allow`, `--warn` and `--deny` for a code or for all warnings.
 
 use super::{Code, Severity, codes, nearest};
 use std::collections::BTreeMap;
 
-/// What is made of a finding that is no error by itself.
+/// The level of a diagnostic that is not an error by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FindingLevel {
-    /// Nothing: it is not told.
+    /// It is not reported.
     Allow,
     /// A warning.
     Warn,
@@ -18,7 +18,7 @@ impl FindingLevel {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Allow, Self::Warn, Self::Deny];
 
-    /// As it is asked for.
+    /// The name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -29,10 +29,10 @@ impl FindingLevel {
     }
 }
 
-/// What a level is set for.
+/// What a level applies to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LevelSubject {
-    /// The findings of a code.
+    /// The diagnostics of one code.
     Code(&'static Code),
     /// All warnings whose code has no level of its own.
     Warnings,
@@ -42,7 +42,7 @@ impl LevelSubject {
     /// The subject of this name: `warnings`, or a code in any case.
     ///
     /// # Errors
-    /// If there is none, in words, with the one that may be meant.
+    /// A message if there is none, with the closest name.
     pub fn parse(word: &str) -> Result<Self, String> {
         if word == "warnings" {
             return Ok(Self::Warnings);
@@ -58,7 +58,7 @@ impl LevelSubject {
     }
 }
 
-/// The levels that were asked for.
+/// The levels that the command line and the project file set.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FindingLevels {
     codes: BTreeMap<&'static str, FindingLevel>,
@@ -69,14 +69,15 @@ impl FindingLevels {
     /// Sets a level.
     ///
     /// # Errors
-    /// In words, if it would make less of an error, or another one is set for the same.
+    /// A message if the code is an error and the level is lower, or if the subject has another level.
     pub fn set(&mut self, subject: LevelSubject, level: FindingLevel) -> Result<(), String> {
         let (name, before) = match subject {
             LevelSubject::Code(code)
                 if code.severity == Severity::Error && level != FindingLevel::Deny =>
             {
                 return Err(format!(
-                    "`{code}` is an error, which can't be made less; `rtc explain {code}` tells how it is mended"
+                    "`{code}` is an error, which cannot be lowered; `rtc explain {code}` shows how to \
+                     fix it"
                 ));
             }
             LevelSubject::Code(code) => (code.id, self.codes.insert(code.id, level)),
@@ -85,20 +86,20 @@ impl FindingLevels {
         match before.filter(|before| *before != level) {
             None => Ok(()),
             Some(before) => Err(format!(
-                "`{name}` can't be both `{}` and `{}`",
+                "`{name}` cannot be both `{}` and `{}`",
                 before.name(),
                 level.name()
             )),
         }
     }
 
-    /// Sets all that are in another one, whatever was set before.
+    /// Takes over all levels of another set; they replace earlier ones.
     pub fn override_by(&mut self, other: Self) {
         self.codes.extend(other.codes);
         self.warnings = other.warnings.or(self.warnings);
     }
 
-    /// The severity of a finding; none if it is not to be told. An error stays one.
+    /// The severity of a diagnostic, `None` if it is not reported. An error stays an error.
     #[must_use]
     pub fn of(&self, code: &Code, severity: Severity) -> Option<Severity> {
         let of_all = self.warnings.filter(|_| severity == Severity::Warning);

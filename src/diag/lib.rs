@@ -1,8 +1,25 @@
 //! Diagnostics: one struct, one table of codes, one sink, and the printers.
 //!
-//! A diagnostic is made where the fault is seen and pushed into the sink; a user's mistake is never
-//! an `Err`. Messages are lower case without a full stop and say what is wrong; hints say what to
-//! do; labels say what is here.
+//! A stage that detects a mistake of the user creates a [`Diagnostic`] and pushes it into the
+//! [`Sink`]; a user's mistake is never an `Err`. The work goes on, so that one run reports all
+//! mistakes. When a file is finished, a [`Printer`] turns the contents of the sink into text:
+//!
+//! ```text
+//! stage → Diagnostic → Sink (levels, capacity) → Printer (sort, fold, cap) → text
+//! ```
+//!
+//! - [`Diagnostic`]: the code, the severity, the message, a primary label, secondary labels, hints
+//!   with replacements, and for JSON a pointer.
+//! - [`codes`]: the table of codes. The page of each code is a Markdown file in `codes/pages`.
+//! - [`FindingLevels`]: what `--deny`, `--warn` and `--allow` set for a code.
+//! - [`Sink`]: applies the levels, counts errors, and keeps a limited number of diagnostics.
+//! - [`Printer`]: formats for people ([`Format::Human`]), editors, programs, SARIF and GitHub.
+//!
+//! Callers may rely on this: no text of the input can send commands to a terminal, an error is kept
+//! even after a flood of notes, and the order of the output depends on the input alone.
+//!
+//! A message is in lower case without a full stop and says what is wrong. A hint says what to do. A
+//! label says what is at its span.
 
 mod clip;
 pub mod codes;
@@ -20,7 +37,7 @@ pub use sink::Sink;
 
 use rtc_source::Span;
 
-/// A span with a few words on what stands there; the words may be empty.
+/// A span and a short text about what is there; the text may be empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// Where.
@@ -29,7 +46,7 @@ pub struct Label {
     pub text: String,
 }
 
-/// What to do about it, if wanted with the text that does it.
+/// Advice, optionally with a replacement that follows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hint {
     /// The advice, lower case, no full stop.
@@ -45,36 +62,36 @@ pub struct Replacement {
     pub span: Span,
     /// By what.
     pub text: String,
-    /// It says what was most likely meant, which only who wrote it knows; else it says the same in
-    /// the right way.
+    /// Whether the replacement is a guess at what the author meant. Otherwise it has the same meaning
+    /// as the original text.
     pub is_guess: bool,
 }
 
-/// One finding about the user's input.
+/// One problem in the user's input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// The stable code; `rtc explain` tells more.
+    /// The stable code; `rtc explain` prints its page.
     pub code: &'static Code,
     /// Usually the severity of the code; `--strict` and `--lenient` change it.
     pub severity: Severity,
     /// What is wrong, in one sentence.
     pub message: String,
-    /// The culprit.
+    /// The span that is wrong.
     pub primary: Option<Label>,
-    /// Other places that matter.
+    /// Other spans that matter.
     pub secondary: Vec<Label>,
     /// What to do.
     pub hints: Vec<Hint>,
-    /// A JSON pointer to the culprit, for input that is JSON or has no text.
+    /// A JSON pointer to the value, for input that is JSON or has no text.
     pub pointer: Option<String>,
-    /// What the glTF validator of Khronos calls it: one of the aliases of the code.
+    /// The code that Khronos' glTF validator has for it: one of the aliases of `code`.
     pub alias: Option<&'static str>,
-    /// The culprit of the finding that most likely caused this one, and is shown before it.
+    /// The span of the diagnostic that probably caused this one; that one is printed first.
     pub cause: Option<Span>,
 }
 
 impl Diagnostic {
-    /// A finding with the severity of its code.
+    /// A diagnostic with the severity of its code.
     #[must_use]
     pub fn new(code: &'static Code, message: impl Into<String>) -> Self {
         Self {
@@ -96,7 +113,7 @@ impl Diagnostic {
         Self { severity, ..self }
     }
 
-    /// Sets the culprit; without a span nothing happens.
+    /// Sets the primary label; `None` changes nothing.
     #[must_use]
     pub fn at(self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
         let primary = span.into().map(|span| Label {
@@ -109,7 +126,7 @@ impl Diagnostic {
         }
     }
 
-    /// Adds another place that matters; without a span nothing happens.
+    /// Adds a secondary label; `None` changes nothing.
     #[must_use]
     pub fn also(mut self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
         self.secondary.extend(span.into().map(|span| Label {
@@ -119,8 +136,7 @@ impl Diagnostic {
         self
     }
 
-    /// Marks the culprit of the finding that most likely caused this one; without a span nothing
-    /// happens.
+    /// Sets the cause and adds a label for it; `None` changes nothing.
     #[must_use]
     pub fn because(self, cause: Option<Span>, text: impl Into<String>) -> Self {
         Self {
@@ -139,8 +155,7 @@ impl Diagnostic {
         self
     }
 
-    /// Adds advice with the text that says the same in the right way; without a span it is plain
-    /// advice.
+    /// Adds advice with a replacement of the same meaning; without a span it has no replacement.
     #[must_use]
     pub fn replace(
         self,
@@ -156,7 +171,7 @@ impl Diagnostic {
         self.advise(hint.into(), replacement)
     }
 
-    /// Adds advice with what was most likely meant; without a span it is plain advice.
+    /// Adds advice with a replacement that is a guess; without a span it has no replacement.
     #[must_use]
     pub fn guess(
         self,
@@ -186,7 +201,7 @@ impl Diagnostic {
         }
     }
 
-    /// Sets the name that the glTF validator of Khronos has for it.
+    /// Sets the code of Khronos' glTF validator.
     #[must_use]
     pub fn alias(self, alias: impl Into<Option<&'static str>>) -> Self {
         Self {

@@ -1,13 +1,13 @@
-//! The sink: collects findings, counts errors, and keeps no more than a hostile file can be allowed
-//! to make.
+//! The sink: collects diagnostics and counts errors. It keeps a limited number, so that a hostile
+//! file cannot fill the memory.
 
 use super::{Code, Diagnostic, FindingLevels, Severity};
 use rtc_source::{Limits, Resource};
 
-/// Where every stage pushes its findings.
+/// The collection into which every stage pushes its diagnostics.
 #[derive(Clone, Debug)]
 pub struct Sink {
-    /// No more findings than this are kept; the rest is counted.
+    /// The largest number of diagnostics that are kept; the others are counted.
     capacity: usize,
     kept: Vec<Diagnostic>,
     errors: usize,
@@ -22,7 +22,7 @@ impl Default for Sink {
 }
 
 impl Sink {
-    /// An empty sink that keeps as many findings as the limits say.
+    /// An empty sink whose capacity is the limit [`Resource::Findings`].
     #[must_use]
     pub fn within(limits: &Limits) -> Self {
         let capacity = usize::try_from(limits.of(Resource::Findings, 0)).unwrap_or(usize::MAX);
@@ -35,20 +35,19 @@ impl Sink {
         }
     }
 
-    /// The same with levels for what it takes from now on.
+    /// The same sink with levels for the diagnostics that follow.
     #[must_use]
     pub fn with_levels(self, levels: FindingLevels) -> Self {
         Self { levels, ..self }
     }
 
-    /// Takes one finding. An error always finds a place among the first of its kind, however many
-    /// notes came before.
+    /// Adds a diagnostic. The first error is always kept, even if the sink is full.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.push_with(diagnostic.code, diagnostic.severity, || diagnostic);
     }
 
-    /// Takes one finding of this code and severity, which is made only if it is kept: a flood of them
-    /// costs little.
+    /// Adds a diagnostic of this code and severity. It is created only if it is kept, so many of them
+    /// cost little.
     pub fn push_with(
         &mut self,
         code: &Code,
@@ -67,31 +66,31 @@ impl Sink {
         }
     }
 
-    /// True if any finding was an error.
+    /// Whether any diagnostic was an error.
     #[must_use]
     pub fn has_errors(&self) -> bool {
         self.errors > 0
     }
 
-    /// The findings so far, in the order they were made.
+    /// The diagnostics that were kept, in the order of creation, or of [`Sink::sort`].
     #[must_use]
     pub fn kept(&self) -> &[Diagnostic] {
         &self.kept
     }
 
-    /// How many findings were only counted.
+    /// The number of diagnostics that were counted and not kept.
     #[must_use]
     pub fn dropped(&self) -> usize {
         self.dropped
     }
 
-    /// Sorts the findings by place, each after its cause; those without a place come last, in the
-    /// order they were made.
+    /// Sorts by span, each diagnostic after its cause; those without a span come last, in the order
+    /// of creation.
     pub fn sort(&mut self) {
         self.kept.sort_by_key(|d| {
-            let place = d.primary.as_ref().map(|label| label.span);
-            let is_consequence = d.cause > place;
-            (place.is_none(), place.max(d.cause), is_consequence)
+            let span = d.primary.as_ref().map(|label| label.span);
+            let is_consequence = d.cause > span;
+            (span.is_none(), span.max(d.cause), is_consequence)
         });
     }
 }
@@ -142,7 +141,7 @@ mod tests {
         let kept: Vec<_> = sink
             .kept()
             .iter()
-            .map(|own| (own.code.id, own.severity))
+            .map(|diagnostic| (diagnostic.code.id, diagnostic.severity))
             .collect();
         let [key, tag, twice] = [&codes::UNKNOWN_KEY, &codes::TAG, &codes::DUPLICATE_KEY];
         let wanted = [

@@ -1,38 +1,42 @@
-//! The table of codes, one row each, in families that are the passes; a code is stable for ever.
+//! The table of codes, one row each. A code never changes its meaning.
 //!
-//! `IO` files, `SY` YAML syntax, `SC` shape and keys, `RE` files named by a scene, `VA` values,
-//! `GL` glTF, `IR` the container, `RD` what a render found, `EX` what is written for other renderers.
+//! The first two letters are the family, which is the stage that raises it: `IO` files, `SY` YAML
+//! syntax, `SC` structure and keys, `RE` files that a scene names, `VA` values, `GL` glTF, `IR` the
+//! intermediate representation, `RD` rendering, `EX` export to other renderers.
+//!
+//! The page of a code, `pages/<CODE>.md`, says what it finds and why that matters, with an example
+//! that raises it and the fixed example; `tests/pages.rs` runs both.
 
 use std::fmt;
 
 mod container;
+mod exports;
 mod files;
 mod gltf;
 mod picture;
 mod references;
 mod shape;
 mod syntax;
-mod exports;
 mod values;
 
 pub use container::*;
+pub use exports::*;
 pub use files::*;
 pub use gltf::*;
 pub use picture::*;
 pub use references::*;
 pub use shape::*;
 pub use syntax::*;
-pub use exports::*;
 pub use values::*;
 
-/// How bad it is. Only errors stop the work.
+/// The severity of a diagnostic. Only errors stop the work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// The input is refused.
+    /// The input is rejected.
     Error,
-    /// Probably not what was meant.
+    /// The picture is probably not the one that was meant.
     Warning,
-    /// Worth knowing, shown with `-v`.
+    /// Information; printed with `-v`.
     Note,
 }
 
@@ -55,12 +59,12 @@ pub struct Code {
     pub id: &'static str,
     /// The severity unless an option changes it.
     pub severity: Severity,
-    /// One line: what the finding is.
+    /// One line: what is wrong.
     pub summary: &'static str,
     /// The page of `rtc explain`, in Markdown: what the code finds, why it matters, an example that
     /// raises it and the same example without the mistake.
     pub page: &'static str,
-    /// The names that the glTF validator of Khronos has for it; none outside `GL`.
+    /// The codes of Khronos' glTF validator for it; empty outside `GL`.
     pub aliases: &'static [&'static str],
 }
 
@@ -78,7 +82,7 @@ impl fmt::Display for Code {
     }
 }
 
-/// Declares a family: a static for each row, and `FAMILY`, all of them in order.
+/// Declares a family: a static for each row, and `$family`, a list of all rows in order.
 macro_rules! codes {
     ($family:ident: $($name:ident = $id:literal, $severity:ident, $summary:literal
         $(, [$($alias:literal),*])?;)*) => {

@@ -1,11 +1,11 @@
-//! For GitHub: workflow commands, which become annotations in the lines of a pull request.
+//! GitHub workflow commands, which become annotations of the lines of a pull request.
 
-use super::place::{FilePlace, TextPosition};
+use super::location::{SourceLocation, TextPosition};
 use super::text::clean_except;
 use crate::{Diagnostic, Severity};
 use rtc_source::SourceMap;
 
-/// One finding; `name` stands for its file where it has no place.
+/// One diagnostic; `name` is its file if it has no span.
 pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
     let command = match diagnostic.severity {
         Severity::Error => "error",
@@ -15,7 +15,7 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
     let place = diagnostic
         .primary
         .as_ref()
-        .map(|label| FilePlace::new(map, label.span));
+        .map(|label| SourceLocation::new(map, label.span));
     let file = property(place.as_ref().map_or(name, |place| place.file));
     let at = place
         .and_then(|place| Some(position(place.start?, place.end?)))
@@ -27,7 +27,7 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
     )
 }
 
-/// That `count` findings of the file `name` were left out.
+/// A notice that `count` diagnostics of the file `name` are not printed.
 pub(super) fn more(name: &str, count: usize) -> String {
     format!("::notice file={}::and {count} more\n", property(name))
 }
@@ -42,7 +42,7 @@ fn position(start: TextPosition, end: TextPosition) -> String {
     }
 }
 
-/// The message, with the words of the label, the pointer and the hints on lines of their own.
+/// The message; the label, the pointer and the hints follow on separate lines.
 fn body(diagnostic: &Diagnostic) -> String {
     let label = diagnostic
         .primary

@@ -2,7 +2,7 @@
 //! `annotate-snippets`.
 
 use super::fold::Fold;
-use super::place::FilePlace;
+use super::location::SourceLocation;
 use super::text::{clean, clean_except};
 use super::window::{self, SourceWindow};
 use super::{PrintOptions, text};
@@ -13,10 +13,10 @@ use annotate_snippets::{
 };
 use rtc_source::SourceMap;
 
-/// A label and whether it is the culprit.
+/// A label, and whether it is the primary one.
 type Mark<'a> = (&'a Label, AnnotationKind);
 
-/// One finding and how often there is the same, with an empty line after it.
+/// One diagnostic, with the number of equal ones, and an empty line.
 pub(super) fn finding(fold: &Fold<'_>, map: &SourceMap, options: &PrintOptions) -> String {
     let renderer = if options.color {
         Renderer::styled()
@@ -31,8 +31,8 @@ pub(super) fn finding(fold: &Fold<'_>, map: &SourceMap, options: &PrintOptions) 
     format!("{}\n\n", rendered.trim_end_matches('\n'))
 }
 
-/// What stands after the findings of one file: how many there are, and where to read more about the
-/// worst.
+/// The text after the diagnostics of one file: their number, and how to read more about the most
+/// severe one.
 pub(super) fn summary(name: &str, found: &[&Diagnostic], hidden: usize) -> String {
     let more = if hidden == 0 {
         String::new()
@@ -64,8 +64,8 @@ fn report<'a>(fold: &Fold<'a>, map: &'a SourceMap) -> Vec<Group<'a>> {
     if let Some(pointer) = pointer.as_ref().filter(|_| diagnostic.primary.is_none()) {
         first = first.element(Level::NOTE.message(format!("at `{}`", clean(pointer))));
     }
-    if let Some(words) = fold.words(map) {
-        first = first.element(Level::NOTE.message(words));
+    if let Some(note) = fold.note(map) {
+        first = first.element(Level::NOTE.message(note));
     }
     let mut patches = Vec::new();
     for hint in hints {
@@ -85,7 +85,7 @@ fn level(severity: Severity) -> Level<'static> {
     }
 }
 
-/// The marked lines: the window with the culprit first, those of other places after it.
+/// The marked lines: the window with the primary label first, then the others.
 fn marks<'a>(diagnostic: &'a Diagnostic, map: &'a SourceMap) -> Vec<Element<'a>> {
     let primary = diagnostic
         .primary
@@ -116,7 +116,7 @@ fn snippet<'a>(run: &[Mark<'a>], map: &'a SourceMap) -> Vec<Element<'a>> {
             .iter()
             .all(|(label, _)| window::is_near(map, label.span))
     {
-        return without_source(run, &FilePlace::new(map, head.span));
+        return without_source(run, &SourceLocation::new(map, head.span));
     }
     let spans: Vec<_> = run
         .iter()
@@ -134,8 +134,8 @@ fn snippet<'a>(run: &[Mark<'a>], map: &'a SourceMap) -> Vec<Element<'a>> {
     vec![snippet.path(clean(map.name(head.span.file))).into()]
 }
 
-/// What is said of places whose source is not shown.
-fn without_source<'a>(run: &[Mark<'a>], place: &FilePlace) -> Vec<Element<'a>> {
+/// The location and the labels of spans whose source is not printed.
+fn without_source<'a>(run: &[Mark<'a>], place: &SourceLocation) -> Vec<Element<'a>> {
     let labels = run.iter().filter(|(label, _)| !label.text.is_empty());
     let notes = labels.map(|(label, _)| Level::NOTE.message(clean(&label.text)).into());
     std::iter::once(Origin::path(place.to_string()).into())
@@ -143,7 +143,7 @@ fn without_source<'a>(run: &[Mark<'a>], place: &FilePlace) -> Vec<Element<'a>> {
         .collect()
 }
 
-/// The hint as a change of the source, if it has one that can be shown.
+/// The hint as a change of the source, if it has a replacement that can be printed.
 fn patch<'a>(hint: &'a Hint, map: &'a SourceMap) -> Option<Group<'a>> {
     let Replacement { span, text, .. } = hint.replacement.as_ref()?;
     if !map.is_text(span.file) || !window::fits(map, *span) {

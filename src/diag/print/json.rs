@@ -1,17 +1,16 @@
-//! For programs: one JSON object a line, one line a finding. The fields are those of the structs
-//! below.
+//! For programs: one JSON object for each diagnostic, each on a line.
 //!
-//! If findings were left out, a last line `{"omitted": N}` says how many.
+//! If diagnostics were left out, a last line `{"omitted": N}` gives their number.
 
-use super::place::FilePlace;
+use super::location::SourceLocation;
 use super::text;
 use crate::{Diagnostic, Hint, Label, Replacement};
 use rtc_source::{SourceMap, Span};
 use serde::Serialize;
 
-/// One finding.
+/// One diagnostic.
 #[derive(Serialize)]
-struct Finding<'a> {
+struct JsonDiagnostic<'a> {
     /// The code, as `VA001`.
     code: &'a str,
     /// `error`, `warning` or `note`.
@@ -20,32 +19,32 @@ struct Finding<'a> {
     message: &'a str,
     /// The file that was checked.
     file: &'a str,
-    /// The culprit, or null.
+    /// The span that is wrong, or null.
     primary: Option<Marked<'a>>,
-    /// Other places that matter.
+    /// Other spans that matter.
     labels: Vec<Marked<'a>>,
     /// What to do.
     hints: Vec<Advice<'a>>,
-    /// A JSON pointer to the culprit, or null.
+    /// A JSON pointer to the value, or null.
     pointer: Option<&'a str>,
-    /// What the glTF validator of Khronos calls it; absent for what it has no name for.
+    /// The code of Khronos' glTF validator; absent if it has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     alias: Option<&'a str>,
 }
 
-/// A place and what is there, or what to put there.
+/// A location with the text of a label, or with the new text of a replacement.
 #[derive(Serialize)]
 struct Marked<'a> {
     #[serde(flatten)]
-    place: FilePlace<'a>,
-    /// The words of the label, or the new text of a replacement.
+    location: SourceLocation<'a>,
+    /// The text of the label, or the new text of a replacement.
     text: &'a str,
 }
 
 /// Advice.
 #[derive(Serialize)]
 struct Advice<'a> {
-    /// In words.
+    /// What to do.
     text: &'a str,
     /// As a change of the source, or null.
     replacement: Option<Change<'a>>,
@@ -56,7 +55,7 @@ struct Advice<'a> {
 struct Change<'a> {
     #[serde(flatten)]
     mark: Marked<'a>,
-    /// Whether it says what was most likely meant, and not the same in the right way.
+    /// Whether it is a guess at what the author meant.
     guess: bool,
 }
 
@@ -73,7 +72,7 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
         alias,
         cause: _,
     } = diagnostic;
-    let finding = Finding {
+    let object = JsonDiagnostic {
         code: code.id,
         severity: level.name(),
         message,
@@ -84,10 +83,10 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
         pointer: pointer.as_deref(),
         alias: *alias,
     };
-    line(&finding)
+    line(&object)
 }
 
-/// The last line, when `count` findings were left out.
+/// The last line, if `count` diagnostics were left out.
 pub(super) fn omitted(count: usize) -> String {
     line(&serde_json::json!({ "omitted": count }))
 }
@@ -99,7 +98,7 @@ fn labelled<'a>(map: &'a SourceMap, label: &'a Label) -> Marked<'a> {
 
 fn marked<'a>(map: &'a SourceMap, span: Span, text: &'a str) -> Marked<'a> {
     Marked {
-        place: FilePlace::new(map, span),
+        location: SourceLocation::new(map, span),
         text,
     }
 }

@@ -1,13 +1,13 @@
-//! From findings to text: for people, editors, programs, code scanning and GitHub.
+//! Printers: diagnostics as text for people, editors, programs, code scanning and GitHub.
 //!
-//! Findings come out sorted by place, folded and capped; nothing of the input can command a terminal;
-//! nothing is written here.
+//! The diagnostics of a file are sorted by span, equal ones are folded, and their number is capped.
+//! Control characters of the input are escaped. A printer returns text and writes nothing.
 
 mod fold;
 mod github;
 mod human;
 mod json;
-mod place;
+mod location;
 mod sarif;
 mod short;
 mod text;
@@ -20,15 +20,15 @@ use super::{Diagnostic, Severity, Sink, codes};
 use fold::Fold;
 use rtc_source::SourceMap;
 
-/// The form of the text.
+/// The format of the text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Format {
-    /// With the source and marks in it.
+    /// The source with marks, in the manner of rustc.
     #[default]
     Human,
-    /// One line a finding.
+    /// One line for each diagnostic.
     Short,
-    /// One JSON object a line.
+    /// One JSON object on each line.
     Json,
     /// SARIF 2.1.0.
     Sarif,
@@ -37,14 +37,14 @@ pub enum Format {
 }
 
 impl Format {
-    /// True if programs read it: then it holds every finding, whatever its severity.
+    /// Whether programs read it: then it holds the diagnostics of all severities.
     #[must_use]
     pub fn is_for_programs(self) -> bool {
         matches!(self, Self::Json | Self::Sarif)
     }
 }
 
-/// One finding for people, without colours.
+/// One diagnostic in the human format, without colours.
 #[must_use]
 pub fn one(found: &Diagnostic, map: &SourceMap, width: usize) -> String {
     let options = PrintOptions {
@@ -60,32 +60,32 @@ pub fn one(found: &Diagnostic, map: &SourceMap, width: usize) -> String {
     human::finding(&alone, map, &options)
 }
 
-/// How findings are shown.
+/// Options of a printer.
 #[derive(Clone, Copy, Debug)]
 pub struct PrintOptions {
-    /// With colours, in the human format.
+    /// Use colours, in the human format.
     pub color: bool,
-    /// Columns of the terminal.
+    /// The width of the terminal in columns.
     pub width: usize,
-    /// The least severity shown; programs always get everything.
+    /// The lowest severity that is printed; formats for programs hold all.
     pub least: Severity,
-    /// At most this many findings of a file, at least 1.
+    /// The largest number of diagnostics of a file, at least 1.
     pub max: usize,
 }
 
-/// Turns the findings of one file after another into text.
+/// Turns the diagnostics of one file after another into text.
 #[derive(Debug)]
 pub struct Printer {
     format: Format,
     options: PrintOptions,
     omitted: usize,
     results: Vec<serde_json::Value>,
-    /// Which settings hold, as it was told last.
+    /// The last printed message about settings of a project file.
     settings: Option<String>,
 }
 
 impl Printer {
-    /// A printer that has seen no file.
+    /// A printer before its first file.
     #[must_use]
     pub fn new(format: Format, options: PrintOptions) -> Self {
         Self {
@@ -97,19 +97,20 @@ impl Printer {
         }
     }
 
-    /// Which settings hold is told once wherever warnings are: what nobody typed surprises.
-    fn tells_settings(&self, finding: &Diagnostic) -> bool {
+    /// The note about settings of a project file is printed once even without `-v`: the command line
+    /// does not show them.
+    fn shows_settings(&self, finding: &Diagnostic) -> bool {
         finding.code.id == codes::SETTINGS_READ.id
             && self.options.least != Severity::Error
             && self.settings.as_ref() != Some(&finding.message)
     }
 
-    /// The text for the findings of the file `name`; empty if there are none to show.
+    /// The text for the diagnostics of the file `name`; empty if none is printed.
     pub fn file(&mut self, name: &str, mut sink: Sink, map: &SourceMap) -> String {
         sink.sort();
         let visible = |diagnostic: &&Diagnostic| {
             let is_shown = diagnostic.severity <= self.options.least;
-            self.format.is_for_programs() || is_shown || self.tells_settings(diagnostic)
+            self.format.is_for_programs() || is_shown || self.shows_settings(diagnostic)
         };
         let found: Vec<&Diagnostic> = sink.kept().iter().filter(visible).collect();
         let folds = match self.format {
@@ -117,8 +118,8 @@ impl Printer {
             Format::Short | Format::Json | Format::Sarif | Format::Github => fold::none(&found),
         };
         let shown = cap(folds, self.options.max);
-        let told: usize = shown.iter().map(|fold| 1 + fold.others.len()).sum();
-        let hidden = found.len() - told + sink.dropped();
+        let printed: usize = shown.iter().map(|fold| 1 + fold.others.len()).sum();
+        let hidden = found.len() - printed + sink.dropped();
         self.omitted += hidden;
         let each = |one: &dyn Fn(&Diagnostic) -> String| {
             shown.iter().map(|fold| one(fold.first)).collect()
@@ -140,16 +141,16 @@ impl Printer {
                 String::new()
             }
         };
-        let told = found
+        let settings = found
             .iter()
             .find(|finding| finding.code.id == codes::SETTINGS_READ.id);
-        if let Some(finding) = told {
+        if let Some(finding) = settings {
             self.settings = Some(finding.message.clone());
         }
         text + &self.after(name, &found, hidden)
     }
 
-    /// The text after the findings of one file.
+    /// The text after the diagnostics of one file.
     fn after(&self, name: &str, found: &[&Diagnostic], hidden: usize) -> String {
         match self.format {
             Format::Human if !found.is_empty() => human::summary(name, found, hidden),
@@ -172,8 +173,8 @@ impl Printer {
     }
 }
 
-/// At most `max` findings: errors before warnings before notes, and each kind from the top, in
-/// order of place.
+/// At most `max` diagnostics: errors before warnings before notes, of each severity the first ones.
+/// Their order stays.
 fn cap(found: Vec<Fold<'_>>, max: usize) -> Vec<Fold<'_>> {
     let mut order: Vec<usize> = (0..found.len()).collect();
     order.sort_by_key(|&index| found[index].first.severity);

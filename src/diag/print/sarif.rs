@@ -1,6 +1,6 @@
 //! For code scanning: SARIF 2.1.0, one run, the rules from the table of codes.
 
-use super::place::FilePlace;
+use super::location::SourceLocation;
 use super::text;
 use crate::{Diagnostic, Label, Severity, codes};
 use rtc_source::{SourceMap, Span, uri_path};
@@ -38,7 +38,7 @@ fn level(severity: Severity) -> &'static str {
     severity.name()
 }
 
-/// One finding; `name` stands for its file where it has no place.
+/// One diagnostic; `name` is its file if it has no span.
 pub(super) fn result(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> Value {
     let rule = codes::all().position(|code| code == diagnostic.code);
     let file = json!({ "physicalLocation": { "artifactLocation": { "uri": uri(name) } } });
@@ -49,13 +49,15 @@ pub(super) fn result(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> Va
     if let Some(pointer) = &diagnostic.pointer {
         location["logicalLocations"] = json!([{ "fullyQualifiedName": pointer }]);
     }
+    let related = diagnostic.secondary.iter();
+    let related: Vec<Value> = related.map(|label| self::location(label, map)).collect();
     let mut result = json!({
         "ruleId": diagnostic.code.id,
         "ruleIndex": rule,
         "level": level(diagnostic.severity),
         "message": { "text": message(diagnostic) },
         "locations": [location],
-        "relatedLocations": diagnostic.secondary.iter().map(|label| self::location(label, map)).collect::<Vec<_>>(),
+        "relatedLocations": related,
     });
     let fixes = fixes(diagnostic, map);
     if !fixes.is_empty() {
@@ -88,7 +90,7 @@ fn location(label: &Label, map: &SourceMap) -> Value {
 }
 
 fn region(span: Span, map: &SourceMap) -> Value {
-    let place = FilePlace::new(map, span);
+    let place = SourceLocation::new(map, span);
     let mut region =
         json!({ "byteOffset": span.start, "byteLength": span.end.saturating_sub(span.start) });
     if let (Some(start), Some(end)) = (place.start, place.end) {

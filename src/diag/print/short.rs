@@ -1,14 +1,14 @@
-//! For editors: one line a finding, `file:line:column: error[VA001]: message`.
+//! One line for each diagnostic, for editors: `file:line:column: error[VA001]: message`.
 
-use super::place::FilePlace;
+use super::location::SourceLocation;
 use super::text::clean;
 use crate::Diagnostic;
 use rtc_source::SourceMap;
 
-/// One finding; `name` stands for its file where it has no place.
+/// One diagnostic; `name` is its file if it has no span.
 pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
     let place = match (&diagnostic.primary, &diagnostic.pointer) {
-        (Some(label), _) => FilePlace::new(map, label.span).to_string(),
+        (Some(label), _) => SourceLocation::new(map, label.span).to_string(),
         (None, Some(pointer)) => format!("{}: {}", clean(name), clean(pointer)),
         (None, None) => clean(name).into_owned(),
     };

@@ -1,21 +1,22 @@
-//! Text from outside made safe to print: nothing of it can command a terminal or turn the order of
-//! the line round.
+//! Escapes characters of the input that could send commands to a terminal or change the direction
+//! of a line.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// True for characters that command a terminal or change the direction of text.
+/// Whether a character is a control character or changes the direction of text.
 pub(super) fn is_unsafe(c: char) -> bool {
-    let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{061c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    c.is_control() || turns || matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}')
+    let is_bidi = matches!(c, '\u{200e}' | '\u{200f}' | '\u{061c}')
+        || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    c.is_control() || is_bidi || matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}')
 }
 
-/// The text on one line, with every unsafe character spelled out as `\u{1b}`.
+/// The text on one line, with every unsafe character escaped, as in `\u{1b}`.
 pub(super) fn clean(text: &str) -> Cow<'_, str> {
     clean_except(text, &[])
 }
 
-/// The text with every unsafe character spelled out but those in `kept`.
+/// The text with every unsafe character escaped except those in `kept`.
 pub(super) fn clean_except<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
     if !text.contains(|c| is_unsafe(c) && !kept.contains(&c)) {
         return Cow::Borrowed(text);
@@ -31,7 +32,7 @@ pub(super) fn clean_except<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
     Cow::Owned(cleaned)
 }
 
-/// One character that stands for `c` in a line of source, so that columns stay; tabs stay tabs.
+/// A visible character in place of `c`, of the same width, so that columns stay; tabs stay tabs.
 pub(super) fn picture(c: char) -> char {
     match c {
         '\t' => '\t',
@@ -44,13 +45,13 @@ pub(super) fn picture(c: char) -> char {
     }
 }
 
-/// JSON in which every unsafe character but the line end is a `\u` escape; they occur only within
-/// its strings.
+/// JSON with a `\u` escape for every unsafe character except line ends; such characters occur only
+/// in strings.
 pub(super) fn clean_json(json: &str) -> String {
     let mut cleaned = String::with_capacity(json.len());
     for c in json.chars() {
         if is_unsafe(c) && c != '\n' {
-            // Every unsafe character lies in the basic plane, so that one unit says it.
+            // All unsafe characters are in the basic multilingual plane: one UTF-16 unit.
             let _ = write!(cleaned, "\\u{:04x}", u32::from(c));
         } else {
             cleaned.push(c);

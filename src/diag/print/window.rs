@@ -1,8 +1,8 @@
-//! A few lines of a file, safe to print: control characters pictured, long lines clipped, spans
-//! moved accordingly.
+//! The lines of a file around some spans, safe to print: control characters are replaced, long lines
+//! are cut, and spans are mapped to the new text.
 //!
-//! Its size depends on the spans asked for, never on that of the file or of its lines. Columns stay
-//! what they are.
+//! The size of the result depends on the spans, and not on the size of the file or of its lines.
+//! Columns stay the same.
 
 use super::text;
 use rtc_source::{SourceMap, Span};
@@ -10,12 +10,12 @@ use std::ops::Range;
 
 /// A line is clipped this many bytes after its last mark, or after its start.
 const AFTER: usize = 240;
-/// What starts further into its line than this, in bytes, is not shown but told by its place.
-const FAR: u32 = 4096;
+/// A span that starts further into its line than this, in bytes, is given by its position only.
+const MAX_COLUMN: u32 = 4096;
 /// A mark covers no more of its line than this, in bytes.
-const MARK: u32 = 160;
+const MAX_MARK: u32 = 160;
 /// Marks further apart than this, in bytes, are shown in separate windows.
-const APART: u32 = 400;
+const MAX_GAP: u32 = 400;
 
 /// Lines of a file.
 pub(super) struct SourceWindow {
@@ -23,8 +23,8 @@ pub(super) struct SourceWindow {
     pub(super) text: String,
     /// The number of the first line, from 1.
     pub(super) first_line: usize,
-    /// Offsets in the file and where they went in `text`, both ascending.
-    moved: Vec<(usize, usize)>,
+    /// Offsets in the file and the corresponding offsets in `text`, both ascending.
+    offsets: Vec<(usize, usize)>,
 }
 
 impl SourceWindow {
@@ -39,7 +39,7 @@ impl SourceWindow {
         let mut window = Self {
             text: String::new(),
             first_line: first as usize,
-            moved: Vec::new(),
+            offsets: Vec::new(),
         };
         for line in first..=last {
             let range = map.lines(file, line, line);
@@ -57,13 +57,15 @@ impl SourceWindow {
         window
     }
 
-    /// Where `span` is in the text.
+    /// The range of `span` in the text.
     pub(super) fn range(&self, span: Span) -> Range<usize> {
         let locate = |offset: u32| {
             let after = self
-                .moved
+                .offsets
                 .partition_point(|(from, _)| *from < offset as usize);
-            self.moved.get(after).map_or(self.text.len(), |(_, to)| *to)
+            self.offsets
+                .get(after)
+                .map_or(self.text.len(), |(_, to)| *to)
         };
         locate(span.start)..locate(span.end).max(locate(span.start))
     }
@@ -72,17 +74,17 @@ impl SourceWindow {
         let mut at = kept.start;
         for chunk in bytes[kept.clone()].utf8_chunks() {
             for (offset, c) in chunk.valid().char_indices() {
-                self.moved.push((at + offset, self.text.len()));
+                self.offsets.push((at + offset, self.text.len()));
                 self.text.push(text::picture(c));
             }
             at += chunk.valid().len();
             if !chunk.invalid().is_empty() {
-                self.moved.push((at, self.text.len()));
+                self.offsets.push((at, self.text.len()));
                 self.text.push(char::REPLACEMENT_CHARACTER);
                 at += chunk.invalid().len();
             }
         }
-        self.moved.push((kept.end, self.text.len()));
+        self.offsets.push((kept.end, self.text.len()));
     }
 }
 
@@ -93,7 +95,7 @@ fn without_line_end(bytes: &[u8], range: Range<usize>) -> Range<usize> {
     range.start..range.start + line.len()
 }
 
-/// Where a line is cut off: some way after what is marked in it, between two characters.
+/// Where a line is cut: [`AFTER`] bytes after its last mark, between two characters.
 fn clip(bytes: &[u8], line: &Range<usize>, spans: &[Span]) -> usize {
     let ends = spans
         .iter()
@@ -108,22 +110,23 @@ fn clip(bytes: &[u8], line: &Range<usize>, spans: &[Span]) -> usize {
         .unwrap_or(line.end)
 }
 
-/// True if the start of `span` stands in a line that can be shown up to there.
+/// Whether the line of `span` can be printed up to the start of the span.
 pub(super) fn is_near(map: &SourceMap, span: Span) -> bool {
     let before = map
         .bytes(span.file)
         .iter()
         .take(span.start as usize)
         .rev()
-        .take(FAR as usize + 1);
-    span.start <= FAR || before.into_iter().any(|byte| *byte == b'\n')
+        .take(MAX_COLUMN as usize + 1);
+    span.start <= MAX_COLUMN || before.into_iter().any(|byte| *byte == b'\n')
 }
 
-/// The part of a span that lies in its first line, no longer than a mark may be.
+/// The part of a span in its first line, at most [`MAX_MARK`] bytes.
 pub(super) fn mark(map: &SourceMap, span: Span) -> Span {
     let bytes = map.bytes(span.file);
     let start = (span.start as usize).min(bytes.len());
-    let end = (span.end.min(span.start.saturating_add(MARK)) as usize).clamp(start, bytes.len());
+    let end =
+        (span.end.min(span.start.saturating_add(MAX_MARK)) as usize).clamp(start, bytes.len());
     let line_end = bytes[start..end]
         .iter()
         .position(|byte| matches!(byte, b'\n' | b'\r'))
@@ -132,20 +135,20 @@ pub(super) fn mark(map: &SourceMap, span: Span) -> Span {
     Span::new(span.file, at(start), at(line_end))
 }
 
-/// True if all of `span` can be shown, line by line, for a replacement.
+/// Whether the whole span can be printed, for a replacement.
 pub(super) fn fits(map: &SourceMap, span: Span) -> bool {
     is_near(map, span)
         && span.end as usize <= map.bytes(span.file).len()
-        && span.end - span.start <= APART
+        && span.end - span.start <= MAX_GAP
 }
 
-/// Groups marks, sorted by place, into windows: one for each run of near ones in one file.
+/// Groups sorted marks into runs of close ones in one file; each run becomes one window.
 pub(super) fn runs<T>(marks: Vec<T>, span: impl Fn(&T) -> Span) -> Vec<Vec<T>> {
     let mut runs: Vec<Vec<T>> = Vec::new();
     for mark in marks {
         let near = |last: &T| {
             let (last, next) = (span(last), span(&mark));
-            last.file == next.file && next.start.saturating_sub(last.end) <= APART
+            last.file == next.file && next.start.saturating_sub(last.end) <= MAX_GAP
         };
         match runs.last_mut() {
             Some(run) if run.last().is_some_and(near) => run.push(mark),

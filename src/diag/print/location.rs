@@ -1,15 +1,14 @@
-//! A span as people and tools count it: bytes of a file, and lines and columns where the file is
-//! text.
+//! A location as people and tools count it: bytes of a file, and lines and columns if it is text.
 
 use super::text::clean;
 use rtc_source::{SourceMap, Span};
 use serde::Serialize;
 use std::fmt;
 
-/// A place in a file.
+/// A location in a file.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct FilePlace<'a> {
+pub(super) struct SourceLocation<'a> {
     /// The name of the file as the user gave it.
     pub(super) file: &'a str,
     /// The first byte, from 0.
@@ -31,8 +30,8 @@ pub(super) struct TextPosition {
     pub(super) column: u32,
 }
 
-impl<'a> FilePlace<'a> {
-    /// The place of `span`.
+impl<'a> SourceLocation<'a> {
+    /// The location of `span`.
     pub(super) fn new(map: &'a SourceMap, span: Span) -> Self {
         let Span { file, start, end } = span;
         let point = |offset| {
@@ -53,7 +52,7 @@ impl<'a> FilePlace<'a> {
     }
 }
 
-impl fmt::Display for FilePlace<'_> {
+impl fmt::Display for SourceLocation<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let file = clean(self.file);
         match self.start {
