@@ -79,7 +79,7 @@ fn scene(file: &str) -> ValidScene {
 fn render(scene: &ValidScene, arithmetic: Arithmetic) -> Film {
     render::render(
         scene,
-        &Plan::by(arithmetic, scene, Rules::ALL),
+        &Plan::with_arithmetic(arithmetic, scene, Rules::ALL),
         &Job::default(),
         &|_| true,
     )

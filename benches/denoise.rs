@@ -150,7 +150,7 @@ impl Tally {
             .denoised(SAMPLES[0], &job, &|_| true, &|| ())
             .unwrap();
         let order = Order { seed, ..case.order };
-        let told = probe(&case.world, &order, &picture, SAMPLES[0], &|_| true).unwrap();
+        let probed = probe(&case.world, &order, &picture, SAMPLES[0], &|_| true).unwrap();
         let shown = case.shown(&picture.film.image);
         let truth = mean(&shown, a, b);
         let all = [errors(&few), errors(&many), errors(&picture.film.image)];
@@ -161,13 +161,18 @@ impl Tally {
             flip: all.map(|errors| errors.flip),
             squares: [
                 levels(truth),
-                told.told * told.told,
-                told.error * told.error,
+                probed.estimate * probed.estimate,
+                probed.error * probed.error,
                 levels(case.by_halves(seed, &few)),
             ],
-            held: u64::from(told.unmet.is_none() && levels(truth) <= told.error * told.error),
-            unbounded: u64::from(told.unmet.is_some()),
-            rays: [picture.film.counts.rays() as f64, told.counts.rays() as f64],
+            held: u64::from(
+                probed.undersampled.is_none() && levels(truth) <= probed.error * probed.error,
+            ),
+            unbounded: u64::from(probed.undersampled.is_some()),
+            rays: [
+                picture.film.counts.rays() as f64,
+                probed.counts.rays() as f64,
+            ],
         }
     }
 
@@ -180,9 +185,9 @@ impl Tally {
         let n = self.pictures as f64;
         let [plain, more, denoised] = self.relative.map(|sum| sum / n);
         let flip = self.flip.map(|sum| sum / n);
-        let [truth, told, bound, halves] = self.squares.map(|sum| (sum / n).max(0.0).sqrt());
+        let [truth, probed, bound, halves] = self.squares.map(|sum| (sum / n).max(0.0).sqrt());
         println!(
-            "| {name} | {plain:.5} | {more:.5} | {denoised:.5} | {:.3} | {:.3} | {:.3} | {truth:.2} | {told:.2} | {bound:.2} | {} of {} | {} | {halves:.2} | {:.0} % |",
+            "| {name} | {plain:.5} | {more:.5} | {denoised:.5} | {:.3} | {:.3} | {:.3} | {truth:.2} | {probed:.2} | {bound:.2} | {} of {} | {} | {halves:.2} | {:.0} % |",
             flip[0],
             flip[1],
             flip[2],

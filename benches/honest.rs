@@ -49,18 +49,18 @@ impl Tally {
 
     /// Of the pictures of a scene, one for each seed.
     fn of(scene: &families::Case, target: f64, seeds: u64) -> Self {
-        let references = match scene.truth {
+        let references = match scene.reference {
             Truth::Known(_) => None,
             Truth::Rendered(_) => Some(scenes::references(scene.scene(), target)),
         };
         let mut tally = Self::default();
         for seed in 1..=seeds {
             let reached = scenes::render(scene.scene(), target, seed);
-            if reached.unmet.is_some() {
+            if reached.undersampled.is_some() {
                 tally.unbounded += 1;
                 continue;
             }
-            let error = match (&scene.truth, &references) {
+            let error = match (&scene.reference, &references) {
                 (Truth::Known(pattern), _) => pattern.error(&reached),
                 (Truth::Rendered(_), Some(references)) => scenes::error(&reached, references),
                 (Truth::Rendered(_), None) => f64::NAN,

@@ -17,7 +17,7 @@ use rtc::internals::diag::Sink;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::render::Step;
 use rtc::internals::source::{Loader, SourceMap};
-use rtc::internals::study::{self, About, Bench, Clock, Effort};
+use rtc::internals::study::{self, About, Clock, Effort, StudyRuntime};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -197,7 +197,7 @@ fn cheap_study(path: &str) -> String {
         traced.fetch_add(step.rays, Relaxed);
         true
     };
-    let bench = Bench::new(
+    let bench = StudyRuntime::new(
         0,
         Clock {
             cpu: &clock,

@@ -52,9 +52,9 @@ pub(crate) fn difference(scene: &ValidScene, unpruned: &Film, rules: Rules) -> O
 pub(crate) fn lies(scene: &ValidScene, counts: &Counts) -> Vec<(Effect, State, u64)> {
     let plan = Plan::new(scene, Rules::ALL);
     let is_lie = |state: State, count: u64| (state == State::Needed) != (count > 0);
-    let verdicts = plan.verdicts.iter().filter(|verdict| verdict.of.is_none());
-    verdicts
-        .map(|verdict| (verdict.effect, verdict.state, counts.of(verdict.effect)))
+    let statuses = plan.statuses.iter().filter(|status| status.of.is_none());
+    statuses
+        .map(|status| (status.effect, status.state, counts.of(status.effect)))
         .filter(|(_, state, count)| is_lie(*state, *count))
         .collect()
 }

@@ -17,7 +17,7 @@ pub(crate) struct Family {
 /// A scene with a name.
 pub(crate) struct Case {
     pub(crate) name: String,
-    pub(crate) truth: Truth,
+    pub(crate) reference: Truth,
 }
 
 /// What a scene is compared with.
@@ -29,17 +29,17 @@ pub(crate) enum Truth {
 
 impl Case {
     fn known(name: String, pattern: Pattern) -> Self {
-        let truth = Truth::Known(Box::new(pattern));
-        Self { name, truth }
+        let reference = Truth::Known(Box::new(pattern));
+        Self { name, reference }
     }
 
     fn rendered(name: String, scene: Scene) -> Self {
-        let truth = Truth::Rendered(Box::new(scene));
-        Self { name, truth }
+        let reference = Truth::Rendered(Box::new(scene));
+        Self { name, reference }
     }
 
     pub(crate) fn scene(&self) -> &Scene {
-        match &self.truth {
+        match &self.reference {
             Truth::Known(pattern) => &pattern.scene,
             Truth::Rendered(scene) => scene,
         }

@@ -20,13 +20,13 @@ pub struct Effect {
 }
 
 impl Effect {
-    pub(super) fn new(verdict: &EffectStatus) -> Self {
+    pub(super) fn new(status: &EffectStatus) -> Self {
         Self {
-            name: verdict.effect.name(),
-            of: verdict.of.map(|place| place.to_string()),
-            state: verdict.state,
-            rule: verdict.rule.map(rtc_plan::Rule::name),
-            because: verdict.because.clone(),
+            name: status.effect.name(),
+            of: status.of.map(|place| place.to_string()),
+            state: status.state,
+            rule: status.rule.map(rtc_plan::Rule::name),
+            because: status.reason.clone(),
         }
     }
 }

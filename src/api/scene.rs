@@ -85,7 +85,7 @@ impl Scene {
     pub fn effects(&mut self, options: &Options) -> Result<Vec<Effect>, Error> {
         let subject = self.validate(options, &mut options.setup()?)?;
         let plan = Plan::new(&subject.proven.scene, Rules::ALL);
-        Ok(plan.verdicts.iter().map(Effect::new).collect())
+        Ok(plan.statuses.iter().map(Effect::new).collect())
     }
 
     /// How many lights it has, besides surroundings and surfaces that glow; 0 if it has errors.
@@ -147,10 +147,10 @@ impl Scene {
                     coverage: grown.coverage,
                     counts: grown.counts,
                 };
-                (film, grown.unmet.is_none().then_some(grown.error))
+                (film, grown.undersampled.is_none().then_some(grown.error))
             } else {
                 let Traced { film, probed } = setup.trace(&mut subject, order, &observer)?;
-                let told = probed.filter(|probed| probed.unmet.is_none());
+                let told = probed.filter(|probed| probed.undersampled.is_none());
                 (film, told.map(|probed| probed.error))
             };
             let counts = film.counts;

@@ -16,7 +16,7 @@ use rtc_image::{FileFormat, Picture};
 use rtc_ir::Scene;
 use rtc_pipeline::{self as pipeline, Input};
 use rtc_source::{Loader, SourceMap};
-use rtc_study::{self as study, About, Bench, Clock, Journal, Stopped, Study};
+use rtc_study::{self as study, About, Clock, Journal, Stopped, Study, StudyRuntime};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -119,13 +119,13 @@ fn measure(
     let is_saved = AtomicBool::new(false);
     let save = |journal: &Journal| is_saved.store(try_save(&file, &journal.save()), Relaxed);
     let is_going = || !interrupt.is_raised();
-    let study = on_bench(threads(args), &is_going, |bench| {
-        let bench = match journal {
-            Some(journal) => bench.keeping(journal, args.every, &save),
-            None => bench,
+    let study = with_runtime(threads(args), &is_going, |runtime| {
+        let runtime = match journal {
+            Some(journal) => runtime.with_journal(journal, args.every, &save),
+            None => runtime,
         };
-        let study = study::study(scene, about, args.effort.into(), args.seed, &bench);
-        bench.save();
+        let study = study::study(scene, about, args.effort.into(), args.seed, &runtime);
+        runtime.save();
         study
     })?;
     study.map_err(|Stopped| {
@@ -136,15 +136,15 @@ fn measure(
     })
 }
 
-/// Does the work on a bench with the threads wanted and the clock of the machine.
+/// Does the work in a runtime with the threads wanted and the clock of the machine.
 #[expect(
     clippy::disallowed_methods,
     reason = "the study is handed the clock from here"
 )]
-pub(super) fn on_bench<T>(
+pub(super) fn with_runtime<T>(
     threads: usize,
     is_going: &(dyn Fn() -> bool + Sync),
-    work: impl FnOnce(Bench<'_>) -> T,
+    work: impl FnOnce(StudyRuntime<'_>) -> T,
 ) -> Result<T, Failure> {
     let (simd, start) = (simd::level()?, Instant::now());
     let cpu = || ThreadTime::try_now().map_or(Duration::ZERO, |time| time.as_duration());
@@ -154,9 +154,10 @@ pub(super) fn on_bench<T>(
         wall: &wall,
     };
     let on_pixel = |_| is_going();
-    let bench = Bench::new(threads, clock, &on_pixel);
-    let bench = bench.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
-    Ok(work(bench.at_level(simd)))
+    let runtime = StudyRuntime::new(threads, clock, &on_pixel);
+    let runtime =
+        runtime.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
+    Ok(work(runtime.with_simd(simd)))
 }
 
 /// What is rendered of the study, if that is kept.

@@ -163,13 +163,13 @@ fn picture(proven: &Proven) -> Value {
     };
     let grid = u64::from(settings.supersampling).pow(2);
     let plan = Plan::new(&proven.scene, Rules::ALL);
-    let whole = plan.verdicts.iter().filter(|verdict| verdict.of.is_none());
-    let effects = whole.map(|verdict| {
+    let whole = plan.statuses.iter().filter(|status| status.of.is_none());
+    let effects = whole.map(|status| {
         json!({
-            "effect": verdict.effect.name(),
-            "verdict": verdict.state.name(),
-            "rule": verdict.rule.map(Rule::name),
-            "because": verdict.because,
+            "effect": status.effect.name(),
+            "verdict": status.state.name(),
+            "rule": status.rule.map(Rule::name),
+            "because": status.reason,
         })
     });
     json!({

@@ -68,17 +68,17 @@ fn kernel(plan: &Plan) -> (&'static str, usize) {
 /// The rays or evaluations that a rule saves: of traced paths those of its effect, else all rays of
 /// the picture without the rule, less those as planned.
 fn saved(
-    verdict: &EffectStatus,
+    status: &EffectStatus,
     counter: &Counter<'_>,
     planned: &Counts,
     unpruned: &Counts,
 ) -> Result<u64, Failure> {
     let is_path = matches!(counter.scene.settings().mode, Mode::Path(_));
-    match verdict.rule.filter(|_| verdict.state == State::Pruned) {
+    match status.rule.filter(|_| status.state == State::Pruned) {
         None => Ok(0),
         Some(_) if is_path => Ok(unpruned
-            .of(verdict.effect)
-            .saturating_sub(planned.of(verdict.effect))),
+            .of(status.effect)
+            .saturating_sub(planned.of(status.effect))),
         Some(rule) => {
             let without = counter.count(Rules::ALL.without(rule))?;
             Ok(without.rays().saturating_sub(planned.rays()))
@@ -88,7 +88,7 @@ fn saved(
 
 /// One verdict, with what the effect costs.
 struct Row {
-    verdict: EffectStatus,
+    status: EffectStatus,
     /// `file:line` of the values that decided.
     places: Vec<String>,
     /// The address of the one light or material it is about.
@@ -102,12 +102,12 @@ struct Row {
 impl Row {
     /// That of a verdict, with the rays that it takes and saves.
     fn new(
-        verdict: &EffectStatus,
+        status: &EffectStatus,
         [costs, saves]: [u64; 2],
         proven: &Proven,
         input: &Input,
     ) -> Self {
-        let spans = verdict
+        let spans = status
             .facts
             .iter()
             .filter_map(|place| proven.lowered.source_spans.span(*place));
@@ -115,9 +115,9 @@ impl Row {
         let mut places: Vec<_> = lines.map(|(file, line)| at(file, line)).collect();
         places.dedup();
         Self {
-            verdict: verdict.clone(),
+            status: status.clone(),
             places,
-            of: verdict.of.map(|place| place.to_string()),
+            of: status.of.map(|place| place.to_string()),
             costs,
             saves,
         }
@@ -129,10 +129,10 @@ impl Row {
             0 => String::new(),
             _ => format!("{about}{}", HumanCount(count)),
         };
-        let verdict = &self.verdict;
+        let status = &self.status;
         let words = match &self.of {
-            Some(of) => format!("{of}: {}", verdict.because),
-            None => verdict.because.clone(),
+            Some(of) => format!("{of}: {}", status.reason),
+            None => status.reason.clone(),
         };
         let places = if self.places.is_empty() {
             String::new()
@@ -145,9 +145,9 @@ impl Row {
         }
         let line = format!(
             "{:<15} {:<7} {:<15} {:>12} {:>12}",
-            verdict.effect.name(),
-            verdict.state.name(),
-            verdict.rule.map_or("", Rule::name),
+            status.effect.name(),
+            status.state.name(),
+            status.rule.map_or("", Rule::name),
             rays(self.costs),
             rays(self.saves)
         );
@@ -162,19 +162,19 @@ impl PlanReport {
         let counter = Counter::new(&proven.scene);
         let planned = counter.count(Rules::ALL)?;
         let unpruned = counter.count(Rules::NONE)?;
-        let row = |verdict: &EffectStatus| {
-            let is_whole = verdict.of.is_none();
+        let row = |status: &EffectStatus| {
+            let is_whole = status.of.is_none();
             let saves = if is_whole {
-                saved(verdict, &counter, &planned, &unpruned)?
+                saved(status, &counter, &planned, &unpruned)?
             } else {
                 0
             };
             let costs = if is_whole {
-                planned.of(verdict.effect)
+                planned.of(status.effect)
             } else {
                 0
             };
-            Ok(Row::new(verdict, [costs, saves], proven, input))
+            Ok(Row::new(status, [costs, saves], proven, input))
         };
         Ok(Self {
             kernel: kernel(&plan),
@@ -182,7 +182,7 @@ impl PlanReport {
             planned: planned.rays(),
             unpruned: unpruned.rays(),
             rows: plan
-                .verdicts
+                .statuses
                 .iter()
                 .map(row)
                 .collect::<Result<_, Failure>>()?,
@@ -191,10 +191,10 @@ impl PlanReport {
     }
 
     /// The verdicts of a plan as a table, without counts.
-    pub(super) fn verdicts(proven: &Proven, input: &Input) -> String {
+    pub(super) fn statuses(proven: &Proven, input: &Input) -> String {
         let plan = Plan::new(&proven.scene, Rules::ALL);
-        let row = |verdict: &EffectStatus| Row::new(verdict, [0; 2], proven, input);
-        let lines = plan.verdicts.iter().map(|verdict| row(verdict).lines(""));
+        let row = |status: &EffectStatus| Row::new(status, [0; 2], proven, input);
+        let lines = plan.statuses.iter().map(|status| row(status).lines(""));
         lines.collect()
     }
 
@@ -227,7 +227,7 @@ impl PlanReport {
              rays a sample: {about}{planned:.2}, without the rules {about}{unpruned:.2}\n"
         );
         if let Some(caustics) = self.caustics {
-            text += &format!("caustics: {}\n", caustics.told());
+            text += &format!("caustics: {}\n", caustics.description());
         }
         if !self.counter.is_whole() {
             text += &format!(
@@ -244,13 +244,13 @@ impl PlanReport {
     fn object(&self) -> Value {
         let row = |row: &Row| {
             json!({
-                "effect": row.verdict.effect.name(),
+                "effect": row.status.effect.name(),
                 "of": row.of,
-                "verdict": row.verdict.state.name(),
-                "rule": row.verdict.rule.map(Rule::name),
-                "because": row.verdict.because,
+                "verdict": row.status.state.name(),
+                "rule": row.status.rule.map(Rule::name),
+                "because": row.status.reason,
                 "places": row.places,
-                "pointers": row.verdict.facts.iter().map(ToString::to_string).collect::<Vec<_>>(),
+                "pointers": row.status.facts.iter().map(ToString::to_string).collect::<Vec<_>>(),
                 "rays": row.costs,
                 "raysSaved": row.saves,
             })
@@ -259,7 +259,7 @@ impl PlanReport {
             "effects": self.rows.iter().map(row).collect::<Vec<_>>(),
             "kernel": self.kernel.0,
             "kernels": self.kernel.1,
-            "caustics": self.caustics.map(Caustics::told),
+            "caustics": self.caustics.map(Caustics::description),
             "stride": self.counter.stride.get(),
             "samples": self.counter.all,
             "samplesCounted": self.counter.paths,

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::args::{self, StudyFormat};
-use super::cost::{about, on_bench, threads};
+use super::cost::{about, threads, with_runtime};
 use super::gate::{self, JudgedGate};
 use super::input;
 use super::interrupt::Interrupt;
@@ -60,8 +60,8 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], talk: &mut Talk) -> Result<()
     }
     let (scenes, abouts) = ([&first.1, &second.1], [first.0.clone(), second.0.clone()]);
     let is_going = || !interrupt.is_raised();
-    let found = on_bench(threads(args), &is_going, |bench| {
-        versus(scenes, abouts, args.effort.into(), args.seed, &bench)
+    let found = with_runtime(threads(args), &is_going, |runtime| {
+        versus(scenes, abouts, args.effort.into(), args.seed, &runtime)
     })?;
     let found = found.map_err(|Stopped| Failure::Interrupted)?;
     let gates = args.gate.as_ref();

@@ -6,17 +6,17 @@ use rtc_math::{Vec3, acos, atan2, cos, sin};
 use std::f64::consts::FRAC_PI_2;
 
 /// So much of the picture the subject spans, in the direction in which it fills more of it.
-const SPAN: f64 = 0.85;
+const SUBJECT_FRACTION: f64 = 0.85;
 /// The opening where the scene has no camera of its own, in degrees from bottom to top, and the
 /// sides of its picture.
-const OPENING: f64 = 35.0;
+const DEFAULT_YFOV_DEGREES: f64 = 35.0;
 const SIZE: [u32; 2] = [512; 2];
 /// A ground is thinner than this part of its width, and at least so many times as wide as what
 /// stands on it.
-const FLAT: f64 = 0.02;
-const WIDE: f64 = 2.0;
+const MAX_FLATNESS: f64 = 0.02;
+const MIN_GROUND_RATIO: f64 = 2.0;
 /// Beyond so many triangles in all, each mesh counts as the box around it.
-const TRIANGLES: usize = 1 << 22;
+const MAX_TRIANGLES: usize = 1 << 22;
 
 /// From where a scene is seen, in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,11 +62,11 @@ impl Framing {
         let Some(ball) = scene.ball() else { return };
         let axes = self.orbit.axes();
         let size = self.size.unwrap_or(SIZE);
-        let half = self.yfov.unwrap_or(OPENING.to_radians()) / 2.0;
+        let half = self.yfov.unwrap_or(DEFAULT_YFOV_DEGREES.to_radians()) / 2.0;
         let tangent = sin(half) / cos(half);
         let aspect = f64::from(size[0]) / f64::from(size[1]);
         let tangents = [tangent * aspect, tangent];
-        let mut fit = Fit::new(axes, tangents.map(|tangent| tangent * SPAN));
+        let mut fit = Fit::new(axes, tangents.map(|tangent| tangent * SUBJECT_FRACTION));
         Subject::of(scene, self.ground).corners(&mut |corner| fit.add(corner - ball.center));
         let Some((eye, depth)) = fit.eye() else {
             return;
@@ -93,11 +93,11 @@ impl Framing {
 }
 
 /// The box around the subject of a scene; `None` if it stands on a ground of its own, or is nothing.
-pub(super) fn standing(scene: &Scene) -> Option<[Vec3; 2]> {
+pub(super) fn standing_bounds(scene: &Scene) -> Option<[Vec3; 2]> {
     let subject = Subject::of(scene, None);
-    let mut around = EMPTY;
-    subject.corners(&mut |corner| around = [around[0].min(corner), around[1].max(corner)]);
-    (!subject.has_ground && around[0].x <= around[1].x).then_some(around)
+    let mut bounds = EMPTY;
+    subject.corners(&mut |corner| bounds = [bounds[0].min(corner), bounds[1].max(corner)]);
+    (!subject.has_ground && bounds[0].x <= bounds[1].x).then_some(bounds)
 }
 
 impl Orbit {
@@ -179,60 +179,60 @@ struct Subject<'scene> {
 impl<'scene> Subject<'scene> {
     /// All surfaces that show, but for that of this index and those that others stand on.
     fn of(scene: &'scene Scene, ground: Option<usize>) -> Self {
-        let shows = |surface: &&Surface| {
+        let is_visible = |surface: &&Surface| {
             let material = scene.materials.get(surface.material.0 as usize);
             !material.is_some_and(is_invisible)
         };
         let triangles =
             |surface: &&Surface| mesh(scene, surface).map_or(0, |(mesh, ..)| mesh.triangles.len());
         let count = scene.surfaces.iter().map(|surface| triangles(&surface));
-        let own = || {
+        let candidates = || {
             let all = scene.surfaces.iter().enumerate();
             all.filter(|(index, _)| Some(*index) != ground)
                 .map(|(_, surface)| surface)
         };
         let mut subject = Self {
             scene,
-            surfaces: own().filter(shows).collect(),
+            surfaces: candidates().filter(is_visible).collect(),
             boxes: scene.mesh_boxes(),
-            vertices: (count.fold(0, usize::saturating_add) <= TRIANGLES)
-                .then(|| scene.meshes.iter().map(used).collect()),
+            vertices: (count.fold(0, usize::saturating_add) <= MAX_TRIANGLES)
+                .then(|| scene.meshes.iter().map(used_vertices).collect()),
             has_ground: false,
         };
         if subject.surfaces.is_empty() {
-            subject.surfaces = own().collect();
+            subject.surfaces = candidates().collect();
         }
-        subject.leave_ground();
+        subject.remove_ground();
         subject
     }
 
     /// Leaves out the surfaces that others stand on.
-    fn leave_ground(&mut self) {
+    fn remove_ground(&mut self) {
         let boxes: Vec<_> = self
             .surfaces
             .iter()
-            .map(|surface| self.around(surface))
+            .map(|surface| self.bounds(surface))
             .collect();
-        let standing = boxes.iter().filter(|around| !is_flat(**around));
-        let rest = standing.fold(EMPTY, |[low, high], [from, to]| {
+        let standing_bounds = boxes.iter().filter(|bounds| !is_flat(**bounds));
+        let standing_bounds_of_rest = standing_bounds.fold(EMPTY, |[low, high], [from, to]| {
             [low.min(*from), high.max(*to)]
         });
         let (mut boxes, count) = (boxes.into_iter(), self.surfaces.len());
         self.surfaces.retain(|_| {
-            !boxes
-                .next()
-                .is_some_and(|around| is_flat(around) && is_under(around, rest))
+            !boxes.next().is_some_and(|bounds| {
+                is_flat(bounds) && is_ground_of(bounds, standing_bounds_of_rest)
+            })
         });
         self.has_ground = self.surfaces.len() < count;
     }
 
     /// The box around a surface.
-    fn around(&self, surface: &Surface) -> [Vec3; 2] {
-        let mut around = EMPTY;
+    fn bounds(&self, surface: &Surface) -> [Vec3; 2] {
+        let mut bounds = EMPTY;
         self.each_corner(surface, &mut |corner| {
-            around = [around[0].min(corner), around[1].max(corner)];
+            bounds = [bounds[0].min(corner), bounds[1].max(corner)];
         });
-        around
+        bounds
     }
 
     fn corners(&self, visit: &mut dyn FnMut(Vec3)) {
@@ -244,8 +244,8 @@ impl<'scene> Subject<'scene> {
     /// Visits the corners of a surface; of one without any those of a box around it, of one without
     /// an end none.
     fn each_corner(&self, surface: &Surface, visit: &mut dyn FnMut(Vec3)) {
-        let placed = self.vertices.as_ref().zip(mesh(self.scene, surface));
-        let Some((vertices, (mesh, index, world))) = placed else {
+        let in_world = self.vertices.as_ref().zip(mesh(self.scene, surface));
+        let Some((vertices, (mesh, index, world))) = in_world else {
             return surface.shape.corners_around(&self.boxes, visit);
         };
         for vertex in &vertices[index] {
@@ -256,7 +256,7 @@ impl<'scene> Subject<'scene> {
 }
 
 /// The vertices of a mesh that triangles use, of those that there are.
-fn used(mesh: &Mesh) -> Vec<u32> {
+fn used_vertices(mesh: &Mesh) -> Vec<u32> {
     let mut is_used = vec![false; mesh.positions.len()];
     for corner in mesh.triangles.iter().flatten() {
         if let Some(is_used) = is_used.get_mut(*corner as usize) {
@@ -302,16 +302,16 @@ fn is_invisible(material: &Material) -> bool {
 /// Whether a box lies flat.
 fn is_flat([low, high]: [Vec3; 2]) -> bool {
     let extent = high - low;
-    extent.y <= FLAT * extent.x.min(extent.z) && extent.x.min(extent.z) > 0.0
+    extent.y <= MAX_FLATNESS * extent.x.min(extent.z) && extent.x.min(extent.z) > 0.0
 }
 
 /// Whether a flat box is a ground under others: below their middle, and much wider.
-fn is_under([low, high]: [Vec3; 2], [from, to]: [Vec3; 2]) -> bool {
-    let (own, others) = (high - low, to - from);
+fn is_ground_of([low, high]: [Vec3; 2], [from, to]: [Vec3; 2]) -> bool {
+    let (candidates, others) = (high - low, to - from);
     let widest = others.x.max(others.z);
     widest.is_finite()
         && widest > 0.0
-        && own.x.min(own.z) >= WIDE * widest
+        && candidates.x.min(candidates.z) >= MIN_GROUND_RATIO * widest
         && high.y <= (from.y + to.y) / 2.0
 }
 

@@ -23,7 +23,7 @@ const CORNERS: u32 = 48;
 
 /// Lays the ground under a box, if that has an extent; the index of its surface. It is seen from
 /// above alone.
-pub(super) fn lay(scene: &mut Scene, [low, high]: [Vec3; 2]) -> Option<usize> {
+pub(super) fn add_ground(scene: &mut Scene, [low, high]: [Vec3; 2]) -> Option<usize> {
     let middle = low + (high - low) / 2.0;
     let half = Vec3::new(high.x - low.x, 0.0, high.z - low.z).length() / 2.0;
     // What stands upright without any depth has a shadow as long as it is high.

@@ -28,9 +28,9 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
             clip_words(&fault.to_string())
         )
     };
-    let mut text = serde_json::to_value(&*settings).map_err(wrong)?;
+    let mut json = serde_json::to_value(&*settings).map_err(wrong)?;
     let value = serde_json::from_str(value).unwrap_or_else(|_| value.into());
-    let parameters = text["mode"]
+    let parameters = json["mode"]
         .as_object()
         .and_then(|mode| mode.values().next()?.as_object());
     let parameters: Vec<_> = parameters
@@ -38,9 +38,9 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
         .flat_map(|fields| fields.keys().cloned())
         .collect();
     if NAMES.contains(&name) {
-        text[name] = value;
-    } else if parameters.iter().any(|own| own == name) {
-        let mode = text["mode"]
+        json[name] = value;
+    } else if parameters.iter().any(|parameter| parameter == name) {
+        let mode = json["mode"]
             .as_object_mut()
             .and_then(|mode| mode.values_mut().next());
         mode.into_iter()
@@ -57,7 +57,7 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
             clip(name)
         ));
     }
-    *settings = serde_json::from_value(text).map_err(wrong)?;
+    *settings = serde_json::from_value(json).map_err(wrong)?;
     Ok(())
 }
 
@@ -84,8 +84,8 @@ mod tests {
 
     #[test]
     fn every_field_can_be_set_by_its_name() {
-        let text = serde_json::to_value(paths()).unwrap();
-        let names: Vec<_> = text.as_object().unwrap().keys().collect();
+        let json = serde_json::to_value(paths()).unwrap();
+        let names: Vec<_> = json.as_object().unwrap().keys().collect();
         assert_eq!(names, NAMES);
         let mut settings = paths();
         let values = [

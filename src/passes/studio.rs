@@ -51,9 +51,9 @@ impl SoftBox {
     fn at(&self, [azimuth, elevation]: [f64; 2]) -> f64 {
         let across = (azimuth - self.middle[0] + 540.0).rem_euclid(360.0) - 180.0;
         let offsets = [across, elevation - self.middle[1]];
-        let share =
+        let falloff =
             |axis: usize| 1.0 - smooth((offsets[axis].abs() - self.half[axis]) / EDGE + 0.5);
-        self.radiance * share(0) * share(1)
+        self.radiance * falloff(0) * falloff(1)
     }
 }
 
@@ -75,7 +75,7 @@ fn radiance(direction: Vec3) -> f64 {
 }
 
 /// The direction to the middle of the key light, a unit vector.
-pub(super) fn key() -> Vec3 {
+pub(super) fn key_light_direction() -> Vec3 {
     let [azimuth, elevation] = BOXES[0].middle.map(f64::to_radians);
     Vec3::new(
         sin(azimuth) * cos(elevation),
@@ -115,7 +115,7 @@ fn picture() -> Image {
 }
 
 /// Puts a scene into the studio, whose light is multiplied by a factor.
-pub(super) fn enter(scene: &mut Scene, factor: f64) {
+pub(super) fn install(scene: &mut Scene, factor: f64) {
     let image = scene.add_image(picture());
     scene.environment = Some(Environment {
         radiance: [factor; 3],
@@ -127,7 +127,7 @@ pub(super) fn enter(scene: &mut Scene, factor: f64) {
 /// Lets the studio fill in beside the light of a scene: dimmed, as a picture shows it whose exposure
 /// is so many stops.
 pub fn fill(scene: &mut Scene, stops: f64) {
-    enter(scene, FILL * pow(2.0, -stops));
+    install(scene, FILL * pow(2.0, -stops));
 }
 
 #[cfg(test)]
@@ -135,7 +135,7 @@ mod tests {
     use super::*;
 
     /// What a white diffuse surface of this normal shows in the studio.
-    fn shown(normal: Vec3) -> f64 {
+    fn reflected_radiance(normal: Vec3) -> f64 {
         let [width, height] = SIZE.map(f64::from);
         let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (y, direction(x, y))));
         let sum: f64 = pixels
@@ -148,13 +148,13 @@ mod tests {
 
     #[test]
     fn the_studio_shows_white_as_it_promises() {
-        let (front, below) = (shown(Vec3::Z), shown(Vec3::NEG_Y));
+        let (front, below) = (reflected_radiance(Vec3::Z), reflected_radiance(Vec3::NEG_Y));
         assert!(
             (front - 0.75).abs() < 0.02 && (below - 0.12).abs() < 0.02,
             "{front} {below}"
         );
         let normals = (0..8).flat_map(|y| (0..16).map(move |x| direction(4 * x, 4 * y)));
-        let most = normals.map(shown).fold(0.0, f64::max);
+        let most = normals.map(reflected_radiance).fold(0.0, f64::max);
         assert!((1.1..1.25).contains(&most), "{most}");
     }
 
@@ -164,6 +164,8 @@ mod tests {
         let brightest = brightest
             .max_by(|a, b| radiance(*a).total_cmp(&radiance(*b)))
             .unwrap();
-        assert!(brightest.dot(key()) > 0.9 && radiance(key()) > 5.0);
+        assert!(
+            brightest.dot(key_light_direction()) > 0.9 && radiance(key_light_direction()) > 5.0
+        );
     }
 }

@@ -8,7 +8,7 @@ use super::Renderer;
 use rtc_color::luminance;
 use rtc_ir::{Camera, Mode, Scene};
 use rtc_math::{exp, ln, pow};
-use rtc_passes::glowing;
+use rtc_passes::emissive_surfaces;
 use rtc_render::{Aov, Background, Film, Job, OnPixel, Values};
 use rtc_valid::{ValidScene, revalidate};
 
@@ -58,7 +58,7 @@ impl Renderer {
         self.change(own);
         let (film, numbers) = (film?, numbers?);
         let stops = if exposes { stops(&film) } else { 0.0 };
-        let glowing = glowing(scene);
+        let glowing = emissive_surfaces(scene);
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,

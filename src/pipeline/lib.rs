@@ -42,7 +42,7 @@ use rtc_front::{course, gltf, mesh};
 use rtc_image::Layers;
 use rtc_ir::{EntityKind, Field, Lowered, Scene, SourceSpans, ValuePath};
 use rtc_math::BasisFault;
-use rtc_passes::{SceneKind, StagedScene, ViewAndLight};
+use rtc_passes::{AppliedViewAndLight, SceneKind, ViewAndLight};
 use rtc_plan::{self as plan, Plan};
 use rtc_render::{
     self as render, AnyWorld, Aov, Film, FilmError, Job, Mismatch, OnPixel, PartialFilm, SimdLevel,
@@ -152,10 +152,10 @@ pub fn stage(
     stage: &ViewAndLight,
     kind: SceneKind,
     sink: &mut Sink,
-) -> Option<StagedScene> {
+) -> Option<AppliedViewAndLight> {
     let mismatch = match stage.apply(lowered, kind) {
         Ok(staged) => {
-            if staged.is_dark {
+            if staged.lacks_light {
                 let note = Diagnostic::new(
                     &codes::STUDIO,
                     "the scene has no light, so it stands in the studio",
@@ -194,7 +194,7 @@ pub fn validate(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option
 
 /// Warns of the objects that no ray meets. An object is all surfaces written at one place.
 fn unseen(scene: &ValidScene, lowered: &Lowered, sink: &mut Sink) {
-    let unseen = plan::unseen(scene);
+    let unseen = plan::invisible_surfaces(scene);
     if unseen.is_empty() {
         return;
     }

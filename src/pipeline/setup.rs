@@ -303,7 +303,7 @@ impl PictureSetup {
 
     /// What a scene needs for its picture.
     fn plan(&self, scene: &ValidScene) -> Plan {
-        Plan::by(self.arithmetic, scene, self.rules)
+        Plan::with_arithmetic(self.arithmetic, scene, self.rules)
     }
 
     /// A scene and its renderer, which is made when it is first asked for.

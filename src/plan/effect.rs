@@ -159,7 +159,7 @@ pub struct EffectStatus {
     /// The rule that left it out.
     pub rule: Option<Rule>,
     /// The reason in plain words: one line, lower case, no full stop.
-    pub because: String,
+    pub reason: String,
     /// The values that decided.
     pub facts: Vec<ValuePath>,
 }

@@ -68,7 +68,7 @@ impl PathFeatures {
     /// Alpha: surfaces that a ray passes at random, or by a mask.
     pub const ALPHA: Self = Self(1);
     /// Lights are sampled.
-    pub const AIM: Self = Self(1 << 1);
+    pub const NEE: Self = Self(1 << 1);
     /// Shadow rays.
     pub const SHADOWS: Self = Self(1 << 2);
     /// Microfacet reflection.
@@ -115,7 +115,7 @@ mod tests {
         assert_eq!(Features::EVERYTHING.count(), 9);
         let of_paths = [
             PathFeatures::ALPHA,
-            PathFeatures::AIM,
+            PathFeatures::NEE,
             PathFeatures::SHADOWS,
             PathFeatures::MICROFACETS,
             PathFeatures::TRANSMISSION,

@@ -1,9 +1,9 @@
 //! The facts of a scene of the course before any rule, and the findings of the rules.
 
-use super::body::{Body, bodies};
 use super::light::LightFindings;
 use super::rules::{Rule, Rules};
 use super::summary::{MaterialSummary, constants};
+use super::surface_bounds::{SurfaceBounds, surface_bounds};
 use super::visibility::Visibility;
 use super::{Features, facts, summary};
 use rtc_math::Vec3;
@@ -18,13 +18,13 @@ pub(super) struct Facts<'scene> {
     /// The materials as the integrator sees them.
     pub(super) materials: Vec<Phong>,
     /// Per surface, its bounds.
-    pub(super) bodies: Vec<Body>,
+    pub(super) surface_bounds: Vec<SurfaceBounds>,
     /// Per surface, a summary of its material.
     pub(super) summaries: Vec<MaterialSummary>,
     /// Per texture, its value if it has only one.
     pub(super) constants: Vec<Option<Vec3>>,
     /// Per mesh, whether no triangle has several shading normals.
-    pub(super) even: Vec<bool>,
+    pub(super) has_flat_normals: Vec<bool>,
 }
 
 impl<'scene> Facts<'scene> {
@@ -43,7 +43,7 @@ impl<'scene> Facts<'scene> {
             MaterialSummary::of(surface, &materials[surface.material], scene, &constants)
         };
         let summaries = scene.surfaces().iter().map(summary).collect();
-        let even = scene
+        let has_flat_normals = scene
             .meshes()
             .iter()
             .map(|mesh| summary::is_even(mesh))
@@ -53,10 +53,10 @@ impl<'scene> Facts<'scene> {
             rules,
             sources: facts::light::course(scene.lights()),
             materials,
-            bodies: bodies(scene),
+            surface_bounds: surface_bounds(scene),
             summaries,
             constants,
-            even,
+            has_flat_normals,
         }
     }
 
@@ -71,7 +71,7 @@ impl<'scene> Facts<'scene> {
         let Shape::Instance(instance) = shape else {
             return true;
         };
-        self.rules.contains(Rule::NormalFlat) && self.even[instance.mesh]
+        self.rules.contains(Rule::NormalFlat) && self.has_flat_normals[instance.mesh]
     }
 
     /// Whether all camera rays start at the eye.
@@ -96,7 +96,7 @@ pub(super) struct Findings<'scene> {
     /// Bounces planned.
     pub(super) max_depth: u32,
     /// Bounces that the scene asks for.
-    pub(super) asked: u32,
+    pub(super) requested: u32,
 }
 
 impl Findings<'_> {
@@ -105,13 +105,13 @@ impl Findings<'_> {
     }
 
     /// The surfaces that are seen, directly or in a mirror.
-    pub(super) fn reached(&self) -> impl Iterator<Item = usize> {
-        (0..self.facts.bodies.len()).filter(|surface| self.visibility.reached[*surface])
+    pub(super) fn visible(&self) -> impl Iterator<Item = usize> {
+        (0..self.facts.surface_bounds.len()).filter(|surface| self.visibility.visible[*surface])
     }
 
     /// Whether any seen surface adds something.
     pub(super) fn any(&self, shows: impl Fn(&MaterialSummary) -> bool) -> bool {
-        self.reached()
+        self.visible()
             .any(|surface| shows(&self.facts.summaries[surface]))
     }
 
@@ -124,8 +124,8 @@ impl Findings<'_> {
     }
 
     /// Whether a light adds more than its ambient term to a surface.
-    pub(super) fn is_lit(&self, summary: &MaterialSummary) -> bool {
-        summary.is_lit() && self.lights.plans.iter().any(|light| light.direct)
+    pub(super) fn is_illuminated(&self, summary: &MaterialSummary) -> bool {
+        summary.is_illuminated() && self.lights.plans.iter().any(|light| light.direct)
     }
 
     /// Whether the picture depends on the shading normal of a surface.
@@ -134,7 +134,9 @@ impl Findings<'_> {
             Mode::Zbuffer => false,
             Mode::Normal | Mode::Path(_) => true,
             Mode::Gooch(_) => !self.lights.plans.is_empty(),
-            Mode::Phong => self.is_lit(summary) || (summary.mirrors() && self.max_depth > 0),
+            Mode::Phong => {
+                self.is_illuminated(summary) || (summary.has_bounce() && self.max_depth > 0)
+            }
         }
     }
 
@@ -151,7 +153,7 @@ impl Findings<'_> {
         let is_constant = summary
             .specular_map
             .is_none_or(|map| self.facts.constants[map].is_some());
-        self.is_shaded() && !is_constant && summary.shines
+        self.is_shaded() && !is_constant && summary.is_specular
     }
 
     /// Whether shadow rays are needed.
@@ -171,7 +173,7 @@ impl Findings<'_> {
 
     /// Whether a lobe is sampled.
     pub(super) fn is_glossy(&self) -> bool {
-        self.max_depth > 0 && self.any(|summary| summary.glossy && summary.mirrors())
+        self.max_depth > 0 && self.any(|summary| summary.glossy && summary.has_bounce())
     }
 
     /// Whether a pixel has several rays, or rays that do not go through its centre.
@@ -185,15 +187,18 @@ impl Findings<'_> {
     pub(super) fn features(&self) -> Features {
         let rules = self.facts.rules;
         let bends = |summary: &MaterialSummary| {
-            summary.is_bent() && (self.shows_normal(summary) || !rules.contains(Rule::NormalFlat))
+            summary.has_shading_normals()
+                && (self.shows_normal(summary) || !rules.contains(Rule::NormalFlat))
         };
         let colors = |summary: &MaterialSummary| {
             let unseen = summary.color_map.is_some() || summary.specular_map.is_some();
             let shows = self.shows_color_map(summary) || self.shows_specular_map(summary);
             shows || (unseen && !rules.contains(Rule::TextureUnseen))
         };
-        let shines = |summary: &MaterialSummary| summary.shines && self.is_lit(summary);
-        let lit = self.any(|summary| self.is_lit(summary)) || !rules.contains(Rule::LightUnreached);
+        let is_specular =
+            |summary: &MaterialSummary| summary.is_specular && self.is_illuminated(summary);
+        let illuminated = self.any(|summary| self.is_illuminated(summary))
+            || !rules.contains(Rule::LightUnreached);
         let mut features = Features::NONE;
         let mut add = |feature, condition: bool| {
             features = if condition {
@@ -210,8 +215,11 @@ impl Findings<'_> {
             Features::MAPS,
             self.any(|summary| bends(summary) || colors(summary)),
         );
-        add(Features::LIGHT, self.is_phong() && lit);
-        add(Features::HIGHLIGHT, self.is_shaded() && self.any(shines));
+        add(Features::LIGHT, self.is_phong() && illuminated);
+        add(
+            Features::HIGHLIGHT,
+            self.is_shaded() && self.any(is_specular),
+        );
         let is_drawing = matches!(self.mode(), Mode::Gooch(_)) || self.facts.scene.settings().toon;
         add(Features::GOOCH, is_drawing);
         add(Features::SHADOW, self.casts_shadows());

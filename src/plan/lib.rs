@@ -7,43 +7,43 @@
 //! neighbour. Sums keep their order. Random numbers are keyed by pixel, sample and path, so leaving
 //! out one does not shift the others.
 
-mod body;
 mod effect;
 pub mod facts;
 mod features;
 mod findings;
+mod invisible;
 mod layer;
 mod light;
+mod margin;
 mod path;
+mod pixel_classes;
 mod precision;
-mod region;
+mod projection;
 mod rules;
 mod shape;
-mod space;
+mod status;
 mod summary;
-mod unseen;
-mod verdicts;
+mod surface_bounds;
 mod visibility;
-mod window;
 
 pub use effect::{Effect, EffectStatus, State};
 pub use features::{Features, PathFeatures, Shapes};
+pub use invisible::invisible_surfaces;
 pub use layer::Layer;
 pub use path::{Caustics, EnvironmentUse, LightUse, PathPlan};
-pub use precision::{Loss, NEAREST, Symptom, loss};
-pub use region::{PixelClass, Region};
+pub use pixel_classes::{PixelClass, PixelClasses};
+pub use precision::{Loss, MIN_HIT_DISTANCE, Symptom, loss};
 pub use rules::{Rule, Rules};
-pub use unseen::unseen;
 
 use findings::{Facts, Findings};
 use light::LightFindings;
 use path::Planned;
+use projection::{ScreenProjection, ScreenRect};
 use rtc_math::Vec3;
 use rtc_valid::{Mode, PathSettings, Projection, Shape, ValidScene};
 use serde::{Deserialize, Serialize};
 use summary::MaterialSummary;
 use visibility::Visibility;
-use window::{Shown, Window};
 
 /// The maximum number of pairs of surfaces or lights that a plan tests for visibility.
 const MAX_PAIRS: usize = 500_000;
@@ -80,22 +80,22 @@ impl Arithmetic {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LightPlan {
     /// Whether it adds anything.
-    pub kept: bool,
+    pub is_used: bool,
     /// Whether it adds more than its ambient term.
     pub direct: bool,
     /// Per surface of the scene, whether something may stand between it and the light.
     pub shadowed: Vec<bool>,
     /// Per surface of the scene, which surfaces may: a bit for each. Empty where there are more than
     /// 64, of which all may.
-    pub casters: Vec<u64>,
+    pub occluders: Vec<u64>,
 }
 
 impl LightPlan {
     /// Whether a surface may hide the light from another one.
     #[must_use]
-    pub fn may_hide(&self, caster: usize, receiver: usize) -> bool {
-        let bits = self.casters.get(receiver);
-        bits.is_none_or(|bits| bits >> caster & 1 == 1)
+    pub fn may_occlude(&self, occluder: usize, receiver: usize) -> bool {
+        let bits = self.occluders.get(receiver);
+        bits.is_none_or(|bits| bits >> occluder & 1 == 1)
     }
 }
 
@@ -119,11 +119,11 @@ pub struct Plan {
     /// Bounces after the first hit that may add something.
     pub max_depth: u32,
     /// The class of each pixel.
-    pub region: Region,
+    pub pixel_classes: PixelClasses,
     /// The plan of paths, where paths are traced.
     pub paths: Option<PathPlan>,
     /// The verdict on each effect.
-    pub verdicts: Vec<EffectStatus>,
+    pub statuses: Vec<EffectStatus>,
 }
 
 impl Plan {
@@ -134,45 +134,45 @@ impl Plan {
         if let Mode::Path(path) = settings.mode {
             return Self::of_paths(scene, path, rules);
         }
-        let rules = proven_for(scene, rules);
+        let rules = rules_for_camera(scene, rules);
         let facts = Facts::new(scene, rules);
-        let window = Window::new(scene.camera(), facts.is_pinhole());
-        let shown = facts
-            .bodies
+        let projection = ScreenProjection::new(scene.camera(), facts.is_pinhole());
+        let screen_rects = facts
+            .surface_bounds
             .iter()
-            .map(|body| window.shown(body))
+            .map(|bounds| projection.screen_rect(bounds))
             .collect::<Vec<_>>();
-        let asked = if let Mode::Phong = settings.mode {
+        let requested = if let Mode::Phong = settings.mode {
             settings.max_depth
         } else {
             0
         };
-        let anywhere = vec![Shown::Anywhere; shown.len()];
+        let anywhere = vec![ScreenRect::Unknown; screen_rects.len()];
         let seen = if rules.contains(Rule::Cull) {
-            &shown
+            &screen_rects
         } else {
             &anywhere
         };
-        let visibility = Visibility::new(&facts, &window, seen, asked);
+        let visibility = Visibility::new(&facts, &projection, seen, requested);
         let lights = LightFindings::new(&facts, &visibility);
         let needed = if rules.contains(Rule::MirrorKs) {
             visibility.depth
         } else {
-            asked
+            requested
         };
-        let max_depth = visibility::cut(&facts, needed, rules);
+        let max_depth = visibility::truncated_depth(&facts, needed, rules);
         let is_kept = |surface: usize| {
-            visibility.reached[surface] || lights.casts[surface] || !rules.contains(Rule::Cull)
+            visibility.visible[surface] || lights.occludes[surface] || !rules.contains(Rule::Cull)
         };
-        let surfaces = (0..shown.len()).map(is_kept).collect::<Vec<_>>();
+        let surfaces = (0..screen_rects.len()).map(is_kept).collect::<Vec<_>>();
         let findings = Findings {
             facts,
             visibility,
             lights,
             max_depth,
-            asked,
+            requested,
         };
-        let region = Region::new(&findings, &window, &shown);
+        let pixel_classes = PixelClasses::new(&findings, &projection, &screen_rects);
         Self {
             arithmetic: Arithmetic::Robust,
             rules,
@@ -180,8 +180,8 @@ impl Plan {
             shapes: shapes(scene, &surfaces),
             surfaces,
             max_depth,
-            verdicts: verdicts::verdicts(&findings, &region),
-            region,
+            statuses: status::statuses(&findings, &pixel_classes),
+            pixel_classes,
             lights: findings.lights.plans,
             constants: findings.facts.constants,
             paths: None,
@@ -194,7 +194,7 @@ impl Plan {
             plan,
             surfaces,
             max_depth,
-            verdicts,
+            statuses,
         } = path::plan(scene, path, rules);
         Self {
             arithmetic: Arithmetic::Robust,
@@ -205,19 +205,19 @@ impl Plan {
             surfaces,
             constants: vec![None; scene.textures().len()],
             max_depth,
-            region: Region::default(),
+            pixel_classes: PixelClasses::default(),
             paths: Some(plan),
-            verdicts,
+            statuses,
         }
     }
 
     /// Plans the picture by an arithmetic, with those of the given rules that hold for it: proofs
     /// about shapes hold for the robust one alone.
     #[must_use]
-    pub fn by(arithmetic: Arithmetic, scene: &ValidScene, rules: Rules) -> Self {
+    pub fn with_arithmetic(arithmetic: Arithmetic, scene: &ValidScene, rules: Rules) -> Self {
         let rules = match arithmetic {
             Arithmetic::Robust => rules,
-            Arithmetic::Plain | Arithmetic::F32 => rules.of(Rules::AT_HITS),
+            Arithmetic::Plain | Arithmetic::F32 => rules.intersection(Rules::AT_HITS),
         };
         Self {
             arithmetic,
@@ -228,38 +228,42 @@ impl Plan {
     /// The rule that left out an effect, of the whole scene or else of some entity.
     #[must_use]
     pub fn rule_of(&self, effect: Effect) -> Option<Rule> {
-        let mut verdicts = self
-            .verdicts
+        let mut statuses = self
+            .statuses
             .iter()
-            .filter(|verdict| verdict.effect == effect);
-        verdicts.find_map(|verdict| verdict.rule)
+            .filter(|status| status.effect == effect);
+        statuses.find_map(|status| status.rule)
     }
 
     /// Whether the picture needs an effect, of whatever entity.
     #[must_use]
     pub fn needs(&self, effect: Effect) -> bool {
-        self.verdicts
+        self.statuses
             .iter()
-            .any(|verdict| verdict.effect == effect && verdict.state == State::Needed)
+            .any(|status| status.effect == effect && status.state == State::Needed)
     }
 }
 
 /// The rules whose proofs hold for a camera: most assume that all rays start at the eye.
-fn proven_for(scene: &ValidScene, rules: Rules) -> Rules {
+fn rules_for_camera(scene: &ValidScene, rules: Rules) -> Rules {
     match scene.camera().projection {
-        Projection::Orthographic => rules.of(Rules::AT_HITS),
+        Projection::Orthographic => rules.intersection(Rules::AT_HITS),
         Projection::Perspective => rules,
     }
 }
 
-fn shapes(scene: &ValidScene, kept: &[bool]) -> Shapes {
+fn shapes(scene: &ValidScene, is_used: &[bool]) -> Shapes {
     let is_basic = |shape: &Shape| {
         matches!(
             shape,
             Shape::Sphere(_) | Shape::Plane(_) | Shape::Triangle(_)
         )
     };
-    let mut planned = scene.surfaces().iter().zip(kept).filter(|(_, kept)| **kept);
+    let mut planned = scene
+        .surfaces()
+        .iter()
+        .zip(is_used)
+        .filter(|(_, is_used)| **is_used);
     if planned.all(|(surface, _)| is_basic(&surface.shape)) {
         Shapes::Basic
     } else {

@@ -10,7 +10,7 @@ use rtc_valid::{Mode, Phong, Surface, ValidScene};
 
 /// The plain arithmetics ignore hits nearer than this, in units of the world: they take them for
 /// the start of the ray.
-pub const NEAREST: f64 = 1e-5;
+pub const MIN_HIT_DISTANCE: f64 = 1e-5;
 
 /// The largest relative error of the points of a curved surface that is invisible in its shading in
 /// 8 bits.
@@ -59,7 +59,7 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
         .iter()
         .enumerate()
         .filter_map(|(index, surface)| {
-            let measure = Measure::of(scene, surface);
+            let measure = HitAccuracy::of(scene, surface);
             let symptoms = [Symptom::SelfHit, Symptom::Shape, Symptom::Skipped];
             let excess = symptoms
                 .map(|symptom| measure.excess(symptom, unit, sends_rays(scene, surface, is_lit)));
@@ -99,39 +99,44 @@ fn sends_rays(scene: &ValidScene, surface: &Surface, is_lit: bool) -> bool {
 }
 
 /// The sizes that decide the accuracy of hits on a surface.
-struct Measure {
+struct HitAccuracy {
     /// The size of the coordinates at both ends of rays.
     coordinates: f64,
     /// From the eye to the middle of the surface.
     distance: f64,
-    form: Formula,
+    equation: EquationKind,
 }
 
 /// The type of equation of a surface, with the sizes that divide its error.
-pub(super) enum Formula {
+pub(super) enum EquationKind {
     /// Flat: t is one quotient. The size, infinite for an unbounded one.
-    Flat(f64),
+    Linear(f64),
     /// A quadratic, of this radius.
-    Round(f64),
+    Quadratic(f64),
     /// The quartic of a torus.
-    Torus { major: f64, minor: f64 },
+    Quartic { major: f64, minor: f64 },
 }
 
-impl Measure {
+impl HitAccuracy {
     fn of(scene: &ValidScene, surface: &Surface) -> Self {
         let eye = scene.camera().eye;
-        let (middle, form) = shape_facts(&surface.shape).formula(scene);
-        let coordinates = eye.abs().max_element().max(middle.abs().max_element());
+        let (project_through_center, equation) = shape_facts(&surface.shape).formula(scene);
+        let coordinates = eye
+            .abs()
+            .max_element()
+            .max(project_through_center.abs().max_element());
         Self {
             coordinates,
-            distance: eye.distance(middle),
-            form,
+            distance: eye.distance(project_through_center),
+            equation,
         }
     }
 
     fn size(&self) -> f64 {
-        match self.form {
-            Formula::Flat(size) | Formula::Round(size) | Formula::Torus { minor: size, .. } => size,
+        match self.equation {
+            EquationKind::Linear(size)
+            | EquationKind::Quadratic(size)
+            | EquationKind::Quartic { minor: size, .. } => size,
         }
     }
 
@@ -139,13 +144,13 @@ impl Measure {
     /// its slope at the root.
     fn error(&self, unit: f64) -> f64 {
         let distance = self.distance;
-        let polynomial = match self.form {
-            Formula::Flat(_) => distance,
+        let polynomial = match self.equation {
+            EquationKind::Linear(_) => distance,
             // The discriminant is known to u·d², and its root is about the radius.
-            Formula::Round(radius) => distance * (distance / radius).max(1.0),
+            EquationKind::Quadratic(radius) => distance * (distance / radius).max(1.0),
             // The quartic is known to 16 u·d⁴, the sum of its terms' sizes; its slope is the
             // product of the distances to the other roots.
-            Formula::Torus { major, minor } => {
+            EquationKind::Quartic { major, minor } => {
                 let other = distance / (2.0 * (major + minor));
                 16.0 * distance
                     * other.max(1.0)
@@ -159,11 +164,11 @@ impl Measure {
     /// The ratio of a symptom to the largest invisible one.
     fn excess(&self, symptom: Symptom, unit: f64, sends_rays: bool) -> f64 {
         match symptom {
-            Symptom::SelfHit if sends_rays => self.error(unit) / NEAREST,
-            Symptom::Shape if !matches!(self.form, Formula::Flat(_)) => {
+            Symptom::SelfHit if sends_rays => self.error(unit) / MIN_HIT_DISTANCE,
+            Symptom::Shape if !matches!(self.equation, EquationKind::Linear(_)) => {
                 self.error(unit) / (VISIBLE * self.size())
             }
-            Symptom::Skipped if sends_rays => NEAREST / (SKIPPED * self.size()),
+            Symptom::Skipped if sends_rays => MIN_HIT_DISTANCE / (SKIPPED * self.size()),
             Symptom::SelfHit | Symptom::Shape | Symptom::Skipped => 0.0,
         }
     }

@@ -1,10 +1,12 @@
 //! What the rules know of each shape: where it is, whether it is flat or convex, its texture
 //! coordinates, and the formula that rays meet it by.
 
-use super::body::{Body, Extent, Hull, face, placed, ring};
+use super::margin::OrientedPlane;
 use super::path::Area;
-use super::precision::Formula;
-use super::space::Flat;
+use super::precision::EquationKind;
+use super::surface_bounds::{
+    Extent, ShapeClass, SurfaceBounds, circle_bounds, instance_bounds, triangle_plane,
+};
 use rtc_math::{Basis, Bounds, Vec3, cos_sin_turns, unit};
 use rtc_valid::{
     Cone, Cylinder, Disc, Instance, Paraboloid, Plane, Quad, Shape, Sphere, Torus, Triangle,
@@ -14,14 +16,14 @@ use rtc_valid::{
 /// What the rules ask of a shape.
 pub(super) trait ShapeFacts {
     /// Its form and place; `meshes` are the boxes of the meshes.
-    fn body(&self, meshes: &[Bounds]) -> Body;
+    fn bounds(&self, meshes: &[Bounds]) -> SurfaceBounds;
 
     /// How thick a solid is, or how long the shortest side of a face; infinite where nothing rests
     /// on it.
     fn thickness(&self) -> f64;
 
     /// The formula that meets it, and a point in its middle or nearest to the eye.
-    fn formula(&self, scene: &ValidScene) -> (Vec3, Formula);
+    fn formula(&self, scene: &ValidScene) -> (Vec3, EquationKind);
 
     /// Corners of a convex polygon within a flat shape, in order around it.
     fn polygon(&self, _normal: Vec3) -> Option<Vec<Vec3>> {
@@ -57,18 +59,18 @@ macro_rules! facts {
 rtc_tables::shapes!(facts);
 
 impl ShapeFacts for Sphere {
-    fn body(&self, _: &[Bounds]) -> Body {
+    fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
         let radius = self.radius.get();
-        let space = Bounds::about(self.center, Vec3::splat(radius));
-        Body::within(space, Hull::Ball(self.center, radius))
+        let aabb = Bounds::about(self.center, Vec3::splat(radius));
+        SurfaceBounds::within(aabb, ShapeClass::Sphere(self.center, radius))
     }
 
     fn thickness(&self) -> f64 {
         self.radius.get()
     }
 
-    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
-        (self.center, Formula::Round(self.radius.get()))
+    fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
+        (self.center, EquationKind::Quadratic(self.radius.get()))
     }
 
     fn has_uv(&self, _: &ValidScene) -> bool {
@@ -77,14 +79,14 @@ impl ShapeFacts for Sphere {
 }
 
 impl ShapeFacts for Plane {
-    fn body(&self, _: &[Bounds]) -> Body {
-        let flat = unit(self.normal).map(|normal| Flat {
+    fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
+        let plane = unit(self.normal).map(|normal| OrientedPlane {
             point: self.center,
             normal,
         });
-        Body {
-            extent: flat.map_or(Extent::Anywhere, Extent::Plane),
-            form: Hull::Other,
+        SurfaceBounds {
+            extent: plane.map_or(Extent::Anywhere, Extent::Plane),
+            class: ShapeClass::Other,
         }
     }
 
@@ -92,24 +94,24 @@ impl ShapeFacts for Plane {
         f64::INFINITY
     }
 
-    fn formula(&self, scene: &ValidScene) -> (Vec3, Formula) {
+    fn formula(&self, scene: &ValidScene) -> (Vec3, EquationKind) {
         let (normal, eye) = (unit(self.normal).unwrap_or(Vec3::ZERO), scene.camera().eye);
         let nearest = eye + normal * normal.dot(self.center - eye);
-        (nearest, Formula::Flat(f64::INFINITY))
+        (nearest, EquationKind::Linear(f64::INFINITY))
     }
 }
 
 impl ShapeFacts for Triangle {
-    fn body(&self, _: &[Bounds]) -> Body {
-        Body::within(Bounds::of(self.vertices), face(self.vertices))
+    fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
+        SurfaceBounds::within(Bounds::of(self.vertices), triangle_plane(self.vertices))
     }
 
     fn thickness(&self) -> f64 {
         shortest_side(&self.vertices)
     }
 
-    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
-        flat(&self.vertices)
+    fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
+        linear_equation(&self.vertices)
     }
 
     fn polygon(&self, _: Vec3) -> Option<Vec<Vec3>> {
@@ -128,27 +130,29 @@ impl ShapeFacts for Triangle {
 
 impl ShapeFacts for Quad {
     /// The formulas of a patch have no known error bound, so it may be anywhere.
-    fn body(&self, _: &[Bounds]) -> Body {
+    fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
         let [a, b, c, d] = self.vertices;
         if !self.is_flat() {
-            return Body {
+            return SurfaceBounds {
                 extent: Extent::Anywhere,
-                form: Hull::Other,
+                class: ShapeClass::Other,
             };
         }
-        let form = match face([a, b, c]) {
-            Hull::Flat(flat) => Hull::Flat(flat),
-            Hull::Ball(..) | Hull::Convex | Hull::Other => face([a, c, d]),
+        let class = match triangle_plane([a, b, c]) {
+            ShapeClass::Planar(plane) => ShapeClass::Planar(plane),
+            ShapeClass::Sphere(..) | ShapeClass::Convex | ShapeClass::Other => {
+                triangle_plane([a, c, d])
+            }
         };
-        Body::within(Bounds::of(self.vertices), form)
+        SurfaceBounds::within(Bounds::of(self.vertices), class)
     }
 
     fn thickness(&self) -> f64 {
         shortest_side(&self.vertices)
     }
 
-    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
-        flat(&self.vertices)
+    fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
+        linear_equation(&self.vertices)
     }
 
     fn polygon(&self, _: Vec3) -> Option<Vec<Vec3>> {
@@ -161,19 +165,20 @@ impl ShapeFacts for Quad {
 }
 
 impl ShapeFacts for Disc {
-    fn body(&self, _: &[Bounds]) -> Body {
+    fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
         let point = self.center;
-        let flat = unit(self.normal).map(|normal| Hull::Flat(Flat { point, normal }));
-        let space = ring(self.center, self.normal, self.radius.get(), 0.0);
-        Body::within(space, flat.unwrap_or(Hull::Other))
+        let plane =
+            unit(self.normal).map(|normal| ShapeClass::Planar(OrientedPlane { point, normal }));
+        let aabb = circle_bounds(self.center, self.normal, self.radius.get(), 0.0);
+        SurfaceBounds::within(aabb, plane.unwrap_or(ShapeClass::Other))
     }
 
     fn thickness(&self) -> f64 {
         self.radius.get()
     }
 
-    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
-        (self.center, Formula::Flat(self.radius.get()))
+    fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
+        (self.center, EquationKind::Linear(self.radius.get()))
     }
 
     fn polygon(&self, normal: Vec3) -> Option<Vec<Vec3>> {
@@ -189,52 +194,52 @@ impl ShapeFacts for Disc {
 }
 
 impl ShapeFacts for Cylinder {
-    fn body(&self, _: &[Bounds]) -> Body {
+    fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
         let top = self.base + unit(self.axis).unwrap_or(Vec3::ZERO) * self.height.get();
-        let rim = |center| ring(center, self.axis, self.radius.get(), 0.0);
-        Body::within(rim(self.base).union(rim(top)), Hull::Convex)
+        let rim = |center| circle_bounds(center, self.axis, self.radius.get(), 0.0);
+        SurfaceBounds::within(rim(self.base).union(rim(top)), ShapeClass::Convex)
     }
 
     fn thickness(&self) -> f64 {
         self.height.get().min(self.radius.get())
     }
 
-    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
-        (self.base, Formula::Round(self.radius.get()))
+    fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
+        (self.base, EquationKind::Quadratic(self.radius.get()))
     }
 }
 
 impl ShapeFacts for Cone {
-    fn body(&self, _: &[Bounds]) -> Body {
-        let rim = ring(self.base, self.up, self.radius.get(), 0.0);
+    fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
+        let rim = circle_bounds(self.base, self.up, self.radius.get(), 0.0);
         let apex = Bounds::of([self.base + self.up]);
-        Body::within(rim.union(apex), Hull::Convex)
+        SurfaceBounds::within(rim.union(apex), ShapeClass::Convex)
     }
 
     fn thickness(&self) -> f64 {
         self.up.abs().max_element().min(self.radius.get())
     }
 
-    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
-        (self.base, Formula::Round(self.radius.get()))
+    fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
+        (self.base, EquationKind::Quadratic(self.radius.get()))
     }
 }
 
 impl ShapeFacts for Paraboloid {
-    fn body(&self, _: &[Bounds]) -> Body {
+    fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
         let radius = self.radius.get();
-        let rim = ring(self.base, self.up, radius, 0.0);
+        let rim = circle_bounds(self.base, self.up, radius, 0.0);
         // The profile lies between the rim, and the vertex and half the radius beside it.
-        let top = ring(self.base + self.up, self.up, 0.5 * radius, 0.0);
-        Body::within(rim.union(top), Hull::Convex)
+        let top = circle_bounds(self.base + self.up, self.up, 0.5 * radius, 0.0);
+        SurfaceBounds::within(rim.union(top), ShapeClass::Convex)
     }
 
     fn thickness(&self) -> f64 {
         self.up.abs().max_element().min(self.radius.get())
     }
 
-    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
-        (self.base, Formula::Round(self.radius.get()))
+    fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
+        (self.base, EquationKind::Quadratic(self.radius.get()))
     }
 
     fn has_uv(&self, _: &ValidScene) -> bool {
@@ -243,24 +248,24 @@ impl ShapeFacts for Paraboloid {
 }
 
 impl ShapeFacts for Torus {
-    fn body(&self, _: &[Bounds]) -> Body {
-        let space = ring(self.center, self.axis, self.major.get(), self.minor.get());
-        Body::within(space, Hull::Other)
+    fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
+        let aabb = circle_bounds(self.center, self.axis, self.major.get(), self.minor.get());
+        SurfaceBounds::within(aabb, ShapeClass::Other)
     }
 
     fn thickness(&self) -> f64 {
         f64::INFINITY
     }
 
-    fn formula(&self, _: &ValidScene) -> (Vec3, Formula) {
+    fn formula(&self, _: &ValidScene) -> (Vec3, EquationKind) {
         let (major, minor) = (self.major.get(), self.minor.get());
-        (self.center, Formula::Torus { major, minor })
+        (self.center, EquationKind::Quartic { major, minor })
     }
 }
 
 impl ShapeFacts for Instance {
-    fn body(&self, meshes: &[Bounds]) -> Body {
-        Body::within(placed(self, &meshes[self.mesh]), Hull::Other)
+    fn bounds(&self, meshes: &[Bounds]) -> SurfaceBounds {
+        SurfaceBounds::within(instance_bounds(self, &meshes[self.mesh]), ShapeClass::Other)
     }
 
     fn thickness(&self) -> f64 {
@@ -268,7 +273,7 @@ impl ShapeFacts for Instance {
     }
 
     /// The first corner of the mesh, and how far that extends.
-    fn formula(&self, scene: &ValidScene) -> (Vec3, Formula) {
+    fn formula(&self, scene: &ValidScene) -> (Vec3, EquationKind) {
         let [x, y, z, origin] = self.world_from_object;
         let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
         let mut corners = scene.meshes()[self.mesh]
@@ -278,7 +283,7 @@ impl ShapeFacts for Instance {
             .map(to_world);
         let first = corners.next().unwrap_or(origin);
         let distances = corners.map(|corner| corner.distance(first));
-        (first, Formula::Flat(distances.fold(0.0, f64::max)))
+        (first, EquationKind::Linear(distances.fold(0.0, f64::max)))
     }
 
     fn has_uv(&self, scene: &ValidScene) -> bool {
@@ -301,7 +306,10 @@ fn shortest_side(corners: &[Vec3]) -> f64 {
 }
 
 /// The first corner of a face, and how far the others are from there.
-fn flat(corners: &[Vec3]) -> (Vec3, Formula) {
+fn linear_equation(corners: &[Vec3]) -> (Vec3, EquationKind) {
     let distances = corners[1..].iter().map(|c| c.distance(corners[0]));
-    (corners[0], Formula::Flat(distances.fold(0.0, f64::max)))
+    (
+        corners[0],
+        EquationKind::Linear(distances.fold(0.0, f64::max)),
+    )
 }

@@ -12,19 +12,19 @@ pub(super) struct MaterialSummary {
     /// kd·C is not 0 everywhere.
     pub(super) diffuse: bool,
     /// ks is not 0 everywhere.
-    pub(super) shines: bool,
+    pub(super) is_specular: bool,
     /// The maximum of ks and kt together.
     pub(super) weight: f64,
     /// The maximum of its terms for a light of colour 1.
-    pub(super) brightest: f64,
+    pub(super) max_direct: f64,
     /// kt is above 0.
     pub(super) refracts: bool,
     /// It has several mirrored rays.
     pub(super) glossy: bool,
     /// Its shading normals come from its mesh.
-    pub(super) smooth: bool,
+    pub(super) has_vertex_normals: bool,
     /// A map changes its shading normals.
-    pub(super) mapped: bool,
+    pub(super) has_normal_map: bool,
     /// The texture that gives its colour.
     pub(super) color_map: Option<usize>,
     /// The texture that scales its ks.
@@ -59,21 +59,21 @@ impl MaterialSummary {
         let scale = specular_map.map_or(Some(1.0), |map| constants[map].map(|value| value.x));
         let most_ks = ks.get() * scale.unwrap_or_else(|| largest(scene, specular_map).x);
         let colored = color != Some(Vec3::ZERO);
-        let shines = ks.get() > 0.0 && scale != Some(0.0);
+        let is_specular = ks.get() > 0.0 && scale != Some(0.0);
         Self {
             ambient: ka.get() > 0.0 && colored,
             diffuse: kd.get() > 0.0 && colored,
-            shines,
+            is_specular,
             weight: most_ks + kt.get(),
-            brightest: (ka.get() + kd.get())
+            max_direct: (ka.get() + kd.get())
                 * color
                     .unwrap_or_else(|| largest(scene, color_map))
                     .max_element()
                 + most_ks,
             refracts: kt.get() > 0.0,
             glossy: glossy_samples.get() > 1,
-            smooth: has_normals(&surface.shape, scene),
-            mapped: maps
+            has_vertex_normals: has_normals(&surface.shape, scene),
+            has_normal_map: maps
                 .is_some_and(|Maps { normal, bump, .. }| normal.is_some() || bump.is_some()),
             color_map,
             specular_map,
@@ -81,18 +81,18 @@ impl MaterialSummary {
     }
 
     /// Whether a light adds more than its ambient term.
-    pub(super) fn is_lit(&self) -> bool {
-        self.diffuse || self.shines
+    pub(super) fn is_illuminated(&self) -> bool {
+        self.diffuse || self.is_specular
     }
 
     /// Whether a mirrored or refracted ray has a weight above 0.
-    pub(super) fn mirrors(&self) -> bool {
-        self.shines || self.refracts
+    pub(super) fn has_bounce(&self) -> bool {
+        self.is_specular || self.refracts
     }
 
     /// Whether the shading normal may not be the geometric one.
-    pub(super) fn is_bent(&self) -> bool {
-        self.smooth || self.mapped
+    pub(super) fn has_shading_normals(&self) -> bool {
+        self.has_vertex_normals || self.has_normal_map
     }
 }
 

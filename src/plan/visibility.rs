@@ -1,16 +1,16 @@
 //! Visibility: the surfaces seen by the camera and in mirrors, and the longest chain of mirrors.
 
-use super::body::{Body, Hull};
+use super::margin::Sides;
+use super::projection::{ScreenProjection, ScreenRect};
 use super::rules::{Rule, Rules};
-use super::space::Sides;
-use super::window::{Shown, Window};
+use super::surface_bounds::{ShapeClass, SurfaceBounds};
 use super::{Facts, MAX_PAIRS};
 use rtc_valid::Ambient;
 
 /// The surfaces that rays may meet.
 pub(super) struct Visibility {
     /// Per surface, whether a camera ray or a ray that bounced may meet it.
-    pub(super) reached: Vec<bool>,
+    pub(super) visible: Vec<bool>,
     /// Per surface, from which sides.
     pub(super) sides: Vec<Sides>,
     /// The bounces after the first hit that may add something.
@@ -21,22 +21,32 @@ pub(super) struct Visibility {
 
 impl Visibility {
     /// The visibility of all surfaces, given their rectangles in the picture, with at most `depth` bounces.
-    pub(super) fn new(facts: &Facts<'_>, window: &Window, shown: &[Shown], depth: u32) -> Self {
-        let lens = window.lens();
-        let reached = shown
+    pub(super) fn new(
+        facts: &Facts<'_>,
+        projection: &ScreenProjection,
+        screen_rects: &[ScreenRect],
+        depth: u32,
+    ) -> Self {
+        let lens = projection.lens();
+        let visible = screen_rects
             .iter()
-            .map(|shown| *shown != Shown::Nowhere)
+            .map(|rect| *rect != ScreenRect::Outside)
             .collect::<Vec<_>>();
-        let seen = |(body, reached): (&Body, &bool)| {
-            if *reached {
-                body.sides_seen_from(Some(&lens))
+        let seen = |(bounds, visible): (&SurfaceBounds, &bool)| {
+            if *visible {
+                bounds.visible_sides(Some(&lens))
             } else {
                 Sides::default()
             }
         };
-        let sides = facts.bodies.iter().zip(&reached).map(seen).collect();
+        let sides = facts
+            .surface_bounds
+            .iter()
+            .zip(&visible)
+            .map(seen)
+            .collect();
         let visibility = Self {
-            reached,
+            visible,
             sides,
             depth: 0,
             capped: false,
@@ -54,37 +64,40 @@ impl Visibility {
     /// bounces shows, on a side from which that mirror is seen. By induction, no ray leaves the
     /// set.
     fn bounce(mut self, facts: &Facts<'_>, depth: u32) -> Self {
-        let count = facts.bodies.len();
-        let mirrors = facts
+        let count = facts.surface_bounds.len();
+        let has_bounce = facts
             .summaries
             .iter()
-            .filter(|summary| summary.mirrors())
+            .filter(|summary| summary.has_bounce())
             .count();
-        let is_reached = |mirror: usize| self.reached[mirror] && facts.summaries[mirror].mirrors();
-        let mut open = (0..count)
+        let is_reached =
+            |mirror: usize| self.visible[mirror] && facts.summaries[mirror].has_bounce();
+        let mut pending = (0..count)
             .filter(|surface| is_reached(*surface))
             .collect::<Vec<_>>();
-        if open.is_empty() {
+        if pending.is_empty() {
             return self;
         }
-        if mirrors.saturating_mul(count) > MAX_PAIRS {
+        if has_bounce.saturating_mul(count) > MAX_PAIRS {
             return Self {
-                reached: vec![true; count],
+                visible: vec![true; count],
                 sides: vec![Sides::BOTH; count],
                 depth,
                 capped: true,
             };
         }
         let mut targets = vec![Vec::new(); count];
-        while let Some(mirror) = open.pop() {
+        while let Some(mirror) = pending.pop() {
             targets[mirror] = facts.shown_by(mirror, self.sides[mirror]);
             for target in &targets[mirror] {
-                let sides = facts.bodies[*target].sides_seen_from(facts.bodies[mirror].space());
+                let sides = facts.surface_bounds[*target]
+                    .visible_sides(facts.surface_bounds[mirror].aabb());
                 let sides = self.sides[*target].with(sides);
-                let is_news = sides != self.sides[*target];
-                (self.reached[*target], self.sides[*target]) = (true, sides);
-                if is_news && facts.summaries[*target].mirrors() && !open.contains(target) {
-                    open.push(*target);
+                let is_changed = sides != self.sides[*target];
+                (self.visible[*target], self.sides[*target]) = (true, sides);
+                if is_changed && facts.summaries[*target].has_bounce() && !pending.contains(target)
+                {
+                    pending.push(*target);
                 }
             }
         }
@@ -96,12 +109,12 @@ impl Visibility {
 impl Facts<'_> {
     /// The surfaces that rays off a mirror seen from `sides` may meet.
     fn shown_by(&self, mirror: usize, sides: Sides) -> Vec<usize> {
-        let (body, summary) = (&self.bodies[mirror], &self.summaries[mirror]);
-        let scatters = summary.refracts || (summary.glossy && summary.is_bent());
-        let others = |may_show: &dyn Fn(&Body) -> bool| {
-            let others = (0..self.bodies.len()).filter(|surface| *surface != mirror);
+        let (bounds, summary) = (&self.surface_bounds[mirror], &self.summaries[mirror]);
+        let scatters = summary.refracts || (summary.glossy && summary.has_shading_normals());
+        let others = |may_show: &dyn Fn(&SurfaceBounds) -> bool| {
+            let others = (0..self.surface_bounds.len()).filter(|surface| *surface != mirror);
             others
-                .filter(|surface| may_show(&self.bodies[*surface]))
+                .filter(|surface| may_show(&self.surface_bounds[*surface]))
                 .collect()
         };
         let one_side = if sides == Sides::BOTH {
@@ -109,23 +122,28 @@ impl Facts<'_> {
         } else {
             Some(sides)
         };
-        match (body.form, one_side) {
-            (Hull::Flat(flat), Some(side))
+        match (bounds.class, one_side) {
+            (ShapeClass::Planar(plane), Some(side))
                 if !scatters && self.rules.contains(Rule::MirrorUnreached) =>
             {
-                others(&|body| {
-                    body.space()
-                        .is_none_or(|space| flat.sides(space) != side.opposite())
+                others(&|bounds| {
+                    bounds
+                        .aabb()
+                        .is_none_or(|aabb| plane.sides(aabb) != side.opposite())
                 })
             }
-            (Hull::Ball(..) | Hull::Convex, Some(Sides::FRONT))
+            (ShapeClass::Sphere(..) | ShapeClass::Convex, Some(Sides::FRONT))
                 if !scatters && self.rules.contains(Rule::MirrorConvex) =>
             {
                 others(&|_| true)
             }
-            (Hull::Flat(_) | Hull::Ball(..) | Hull::Convex | Hull::Other, _) => {
-                (0..self.bodies.len()).collect()
-            }
+            (
+                ShapeClass::Planar(_)
+                | ShapeClass::Sphere(..)
+                | ShapeClass::Convex
+                | ShapeClass::Other,
+                _,
+            ) => (0..self.surface_bounds.len()).collect(),
         }
     }
 }
@@ -161,7 +179,7 @@ fn longest_chain(targets: &[Vec<usize>]) -> Option<u32> {
 ///
 /// After D bounces a path adds at most `Σ_{i > D} kⁱ·L`, where k is the largest sum of weights of
 /// the rays from a point, and L the maximum of the direct terms of a point.
-pub(super) fn cut(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
+pub(super) fn truncated_depth(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
     if !rules.contains(Rule::Cut) {
         return depth;
     }
@@ -180,13 +198,13 @@ pub(super) fn cut(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
         Ambient::PerLight => light,
         Ambient::Once => light.max(1.0),
     };
-    let brightest = facts
+    let max_direct = facts
         .summaries
         .iter()
-        .map(|summary| summary.brightest)
+        .map(|summary| summary.max_direct)
         .fold(0.0, f64::max)
         * light;
-    let mut rest = brightest * weight / (1.0 - weight);
+    let mut rest = max_direct * weight / (1.0 - weight);
     let mut bounces = 0;
     while bounces < depth && !(weight < 1.0 && rest < 0.5 / 255.0) {
         rest *= weight;

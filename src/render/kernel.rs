@@ -100,7 +100,7 @@ pub struct PathKernel {
     pub features: PathFeatures,
 }
 
-const AIMED: PathFeatures = PathFeatures::AIM.with(PathFeatures::SHADOWS);
+const AIMED: PathFeatures = PathFeatures::NEE.with(PathFeatures::SHADOWS);
 
 const REFLECTING: PathFeatures = AIMED
     .with(PathFeatures::MICROFACETS)

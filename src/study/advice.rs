@@ -1,8 +1,8 @@
 //! The advice that follows from a study, in plain words.
 
-use super::knob::Parameter;
 use super::metrics::Errors;
 use super::outcome::{MoreBounces, Row, Study};
+use super::parameter::Parameter;
 use super::setting::Setting;
 use rtc_math::pow;
 use rtc_plan::Arithmetic;
@@ -18,10 +18,10 @@ pub fn advice(study: &Study) -> Vec<String> {
         return Vec::new();
     };
     let mut lines = vec![best(study, &front[chosen..])];
-    lines.extend(study.own().map(|own| about_own(study, own, &front)));
+    lines.extend(study.scene_row().map(|own| about_own(study, own, &front)));
     lines.extend(about_paths(study));
     lines.extend(study.bounces.as_ref().and_then(about_more));
-    if study.rows.iter().any(|row| !row.judged) {
+    if study.rows.iter().any(|row| !row.is_resolved) {
         lines
             .push("Rows with ≤ are as good as the reference, which can't tell them apart; more effort can.".to_owned());
     }
@@ -31,7 +31,7 @@ pub fn advice(study: &Study) -> Vec<String> {
 /// The rows of the front.
 fn front(study: &Study) -> Vec<&Row> {
     let rows = study.rows.iter().filter(|row| row.front);
-    rows.map(|row| steady(study, row)).collect()
+    rows.map(|row| stabilised(study, row)).collect()
 }
 
 /// The place of the row that is recommended: the first whose error is surely invisible, or the last.
@@ -52,7 +52,7 @@ pub fn recommended(study: &Study) -> Option<&Row> {
 /// The command that renders the scene in the setting that is recommended.
 pub(super) fn command(study: &Study) -> Option<String> {
     let row = recommended(study)?;
-    let own = study.own()?.setting;
+    let own = study.scene_row()?.setting;
     let is_plain = |letter: char| letter.is_alphanumeric() || "._-".contains(letter);
     let name = match study.about.scene.as_str() {
         "" => "SCENE",
@@ -60,17 +60,19 @@ pub(super) fn command(study: &Study) -> Option<String> {
         _ => "SCENE",
     };
     let flags = study.used().into_iter();
-    let flags = flags.filter(|knob| row.setting.get(*knob) != own.get(*knob));
-    let flags = flags.map(|knob| format!(" {}", knob.argument(row.setting.get(knob))));
+    let flags = flags.filter(|parameter| row.setting.get(*parameter) != own.get(*parameter));
+    let flags =
+        flags.map(|parameter| format!(" {}", parameter.argument(row.setting.get(parameter))));
     Some(format!("rtc render {name}{}", flags.collect::<String>()))
 }
 
 /// How many paths an error takes that an eye can hardly tell: by the error of the scene's own number,
 /// and the law by which it falls.
 fn about_paths(study: &Study) -> Option<String> {
-    let knobs = &mut study.knobs.iter();
-    let paths = knobs.find(|report| report.knob == Parameter::Paths && report.idle.is_none())?;
-    let (own, delta) = (study.own()?, study.own()?.errors.delta_e);
+    let parameters = &mut study.parameters.iter();
+    let paths = parameters
+        .find(|report| report.parameter == Parameter::Paths && report.not_applicable.is_none())?;
+    let (own, delta) = (study.scene_row()?, study.scene_row()?.errors.delta_e);
     let exponent = paths.law.map_or(0.5, |law| law.p.value.clamp(0.25, 1.0));
     let wanted = f64::from(own.setting.paths) * pow(delta, 1.0 / exponent);
     (delta > 0.0).then(|| {
@@ -106,7 +108,7 @@ fn about_more(bounces: &MoreBounces) -> Option<String> {
 
 /// The row, or the same row by the robust arithmetic if the row is not clearly cheaper: the
 /// difference may be noise of the few rounds.
-fn steady<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
+fn stabilised<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
     /// A ratio that is certainly below 1.
     const CLEAR: f64 = 0.95;
     let robust = Setting {
@@ -195,7 +197,7 @@ fn error(row: &Row) -> String {
         0.0 => "no error".to_owned(),
         rmse => format!(
             "error {}{}{} grey levels",
-            if row.judged { "" } else { "≤ " },
+            if row.is_resolved { "" } else { "≤ " },
             digits(rmse),
             interval(&row.errors)
         ),

@@ -1,14 +1,14 @@
 //! Rendering until the time is out: a crude picture first, then a whole one, then samples where they
 //! reduce the error most. A pass that the time cuts short leaves whole tiles.
 
-use super::growth::ProgressiveRender;
 use super::noise::{Bound, Noise};
+use super::progressive::ProgressiveRender;
 use super::rounds::next_round;
 use super::subject::Stopped;
 use super::target::{
     Order, Progress, TAIL, TargetResult, Watch, begin, first_round, light_samples,
 };
-use super::target::{spread, tail_of};
+use super::target::{set_sampling, tail_of};
 use rtc_ir::Scene;
 use rtc_render::{AnyWorld, Step};
 use std::time::Duration;
@@ -22,7 +22,7 @@ pub struct CoarsePicture {
     /// In some blocks of so many pixels a side only one was sampled; all show its value.
     pub block: u32,
     /// The time after which each pixel would have had a sample, about.
-    pub whole: Duration,
+    pub complete_after: Duration,
 }
 
 /// How a pass ended.
@@ -30,43 +30,43 @@ pub struct CoarsePicture {
 enum Pass {
     Done,
     /// The time is out, or the rays are.
-    Cut,
+    Interrupted,
 }
 
 /// A picture under way, and when it is to be ready.
-struct Race<'run, 'watch> {
+struct TimedRender<'run, 'watch> {
     world: &'run mut AnyWorld,
     watch: &'run Watch<'watch>,
-    growth: ProgressiveRender,
+    progressive: ProgressiveRender,
     time: Duration,
 }
 
 /// As [`super::approach`], until a time is out; it is the clock's, so the picture depends on the machine.
 /// The crudest picture is made in any case.
-pub(super) fn within(
+pub(super) fn render_within(
     world: &mut AnyWorld,
     scene: &Scene,
     order: &Order,
     watch: &Watch<'_>,
     time: Duration,
 ) -> Result<TargetResult, Stopped> {
-    let growth = begin(scene.settings.light_samples, order);
-    spread(world, scene, growth.light_samples);
-    let mut race = Race {
+    let progressive = begin(scene.settings.light_samples, order);
+    set_sampling(world, scene, progressive.light_samples);
+    let mut timed = TimedRender {
         world,
         watch,
-        growth,
+        progressive,
         time,
     };
-    race.make_room(order);
-    if let Some(whole) = race.sketch()? {
-        return Ok(race.crude(order, whole));
+    timed.reserve_output_time(order);
+    if let Some(complete_after) = timed.coarse_pass()? {
+        return Ok(timed.coarse(order, complete_after));
     }
-    race.choose_lights(scene, order)?;
-    race.rounds(scene, order)
+    timed.choose_lights(scene, order)?;
+    timed.rounds(scene, order)
 }
 
-impl Race<'_, '_> {
+impl TimedRender<'_, '_> {
     fn elapsed(&self) -> Duration {
         (self.watch.elapsed)()
     }
@@ -76,39 +76,39 @@ impl Race<'_, '_> {
         let (watch, time) = (self.watch, self.time);
         let is_late = || is_timed && (watch.elapsed)() > time;
         let on_pixel = |step: Step| (watch.on_pixel)(step) && !is_late();
-        match self.growth.grow(self.world, &on_pixel, None) {
+        match self.progressive.refine(self.world, &on_pixel, None) {
             true => Ok(Pass::Done),
             false if (watch.is_stopped)() => Err(Stopped),
-            false => Ok(Pass::Cut),
+            false => Ok(Pass::Interrupted),
         }
     }
 
     /// One sample of each replicate for one pixel of ever smaller blocks. If the time ends before,
     /// when all would have one.
-    fn sketch(&mut self) -> Result<Option<Duration>, Stopped> {
-        let (begun, width) = (self.elapsed(), self.growth.film.crop().width as usize);
+    fn coarse_pass(&mut self) -> Result<Option<Duration>, Stopped> {
+        let (start, width) = (self.elapsed(), self.progressive.film.crop().width as usize);
         for block in BLOCKS {
             let is_one = |index: usize| {
                 (index % width).is_multiple_of(block) && (index / width).is_multiple_of(block)
             };
-            let all = 0..self.growth.film.len();
-            self.growth.wanted = all.map(|index| [u32::from(is_one(index)), 0]).collect();
-            let is_crudest = block == BLOCKS[0];
-            let end = self.pass(!is_crudest)?;
-            if is_crudest && end == Pass::Cut {
+            let all = 0..self.progressive.film.len();
+            self.progressive.wanted = all.map(|index| [u32::from(is_one(index)), 0]).collect();
+            let is_coarsest = block == BLOCKS[0];
+            let end = self.pass(!is_coarsest)?;
+            if is_coarsest && end == Pass::Interrupted {
                 // Its rays ran out.
                 return Err(Stopped);
             }
             let is_late = block > 1 && self.elapsed() > self.time;
-            if end == Pass::Cut || is_late {
-                let took = self.elapsed().saturating_sub(begun).as_secs_f64();
+            if end == Pass::Interrupted || is_late {
+                let took = self.elapsed().saturating_sub(start).as_secs_f64();
                 let pixels = self
-                    .growth
+                    .progressive
                     .film
                     .pixels()
                     .filter(|pixel| pixel.samples() > 0);
-                let fraction = pixels.count() as f64 / self.growth.film.len() as f64;
-                return Ok(Some(begun + Duration::from_secs_f64(took / fraction)));
+                let fraction = pixels.count() as f64 / self.progressive.film.len() as f64;
+                return Ok(Some(start + Duration::from_secs_f64(took / fraction)));
             }
         }
         Ok(None)
@@ -120,24 +120,24 @@ impl Race<'_, '_> {
         const SAMPLES: f64 = 1e5;
         const PART: f64 = 0.1;
         let passed = self.elapsed();
-        let left = self.time.saturating_sub(passed).as_secs_f64();
-        let a_sample = passed.as_secs_f64() / self.growth.film.samples() as f64;
-        if a_sample * SAMPLES < PART * left {
+        let remaining = self.time.saturating_sub(passed).as_secs_f64();
+        let a_sample = passed.as_secs_f64() / self.progressive.film.samples() as f64;
+        if a_sample * SAMPLES < PART * remaining {
             let (count, tried) = light_samples(self.world, scene, order, self.watch)?;
-            self.growth.light_samples = count;
-            self.growth.film.counts = self.growth.film.counts.plus(tried);
-            spread(self.world, scene, count);
+            self.progressive.light_samples = count;
+            self.progressive.film.counts = self.progressive.film.counts.plus(tried);
+            set_sampling(self.world, scene, count);
         }
         Ok(())
     }
 
     /// Ends the time for samples earlier, by what the picture takes after the last of them.
-    fn make_room(&mut self, order: &Order) {
-        let begun = self.elapsed();
-        let noise = Noise::of(&self.growth.film, &order.unmet(self.world));
+    fn reserve_output_time(&mut self, order: &Order) {
+        let start = self.elapsed();
+        let noise = Noise::of(&self.progressive.film, &order.undersampled(self.world));
         let bound = noise.bound(TAIL, order.goal.error);
-        drop(self.growth.reached(bound, order.values));
-        let took = self.elapsed().saturating_sub(begun);
+        drop(self.progressive.result(bound, order.values));
+        let took = self.elapsed().saturating_sub(start);
         self.time = self.time.saturating_sub(took);
     }
 
@@ -145,47 +145,47 @@ impl Race<'_, '_> {
     /// help most, until the error or the end of the time is reached.
     fn rounds(&mut self, scene: &Scene, order: &Order) -> Result<TargetResult, Stopped> {
         let [first, pilot] = first_round(scene, order, self.world);
-        let (begun, before) = (self.elapsed(), self.growth.film.samples());
-        let unmet = order.unmet(self.world);
+        let (start, before) = (self.elapsed(), self.progressive.film.samples());
+        let undersampled = order.undersampled(self.world);
         // Where the time alone ends the render, nobody looks at the error to end it.
         let tail = |rounds| order.goal.error.map_or(TAIL, |_| tail_of(rounds));
         let (mut shown, mut error) = (1, None);
         loop {
-            let wanted = if shown < first || self.growth.wanted[0][1] == 0 {
+            let wanted = if shown < first || self.progressive.wanted[0][1] == 0 {
                 shown = first.min(2 * shown);
-                vec![[shown, pilot.min(shown.max(2))]; self.growth.film.len()]
+                vec![[shown, pilot.min(shown.max(2))]; self.progressive.film.len()]
             } else {
-                let noise = Noise::of(&self.growth.film, &unmet);
-                let tail = tail(self.growth.rounds);
+                let noise = Noise::of(&self.progressive.film, &undersampled);
+                let tail = tail(self.progressive.rounds);
                 error = Some(noise.bound(tail, order.goal.error).error);
-                let took = self.elapsed().saturating_sub(begun).as_secs_f64();
-                let left = self.time.saturating_sub(self.elapsed()).as_secs_f64();
-                let samples = (self.growth.film.samples() - before) as f64;
-                let most = samples * left / took.max(1e-9);
-                match next_round(&self.growth.film, &noise, tail, order.goal.error, most) {
+                let took = self.elapsed().saturating_sub(start).as_secs_f64();
+                let remaining = self.time.saturating_sub(self.elapsed()).as_secs_f64();
+                let samples = (self.progressive.film.samples() - before) as f64;
+                let most = samples * remaining / took.max(1e-9);
+                match next_round(&self.progressive.film, &noise, tail, order.goal.error, most) {
                     Some(wanted) => wanted,
                     None => break,
                 }
             };
-            self.growth.wanted = wanted;
-            self.growth.rounds += 1;
-            let pixels = self.growth.film.len() as u64;
+            self.progressive.wanted = wanted;
+            self.progressive.rounds += 1;
+            let pixels = self.progressive.film.len() as u64;
             (self.watch.round)(Progress { pixels, error });
-            if self.pass(true)? == Pass::Cut {
+            if self.pass(true)? == Pass::Interrupted {
                 break;
             }
         }
-        let noise = Noise::of(&self.growth.film, &unmet);
-        let bound = noise.bound(tail(self.growth.rounds), order.goal.error);
-        Ok(self.growth.reached(bound, order.values))
+        let noise = Noise::of(&self.progressive.film, &undersampled);
+        let bound = noise.bound(tail(self.progressive.rounds), order.goal.error);
+        Ok(self.progressive.result(bound, order.values))
     }
 
     /// The picture of which not all pixels have a sample: they show the nearest that has one, above and
     /// to the left.
-    fn crude(&self, order: &Order, whole: Duration) -> TargetResult {
-        let film = &self.growth.film;
+    fn coarse(&self, order: &Order, complete_after: Duration) -> TargetResult {
+        let film = &self.progressive.film;
         let width = film.crop().width as usize;
-        let has = |index: usize| film.pixel(index).samples() > 0;
+        let has_samples = |index: usize| film.pixel(index).samples() > 0;
         let corner = |index: usize, block: usize| {
             let (x, y) = (index % width, index / width);
             (y - y % block) * width + x - x % block
@@ -193,23 +193,23 @@ impl Race<'_, '_> {
         let finest = |index: usize| {
             let mut blocks = BLOCKS.into_iter().rev();
             blocks
-                .find(|block| has(corner(index, *block)))
+                .find(|block| has_samples(corner(index, *block)))
                 .unwrap_or(BLOCKS[0])
         };
         let blocks: Vec<_> = (0..film.len()).map(finest).collect();
         let nothing = Bound {
             error: f64::INFINITY,
-            unmet: None,
+            undersampled: None,
         };
-        let mut reached = self.growth.reached(nothing, order.values);
+        let mut reached = self.progressive.result(nothing, order.values);
         for (index, block) in blocks.iter().enumerate() {
             reached.image.pixels[index] = reached.image.pixels[corner(index, *block)];
             reached.coverage[index] = reached.coverage[corner(index, *block)];
         }
         let block = blocks.into_iter().max().unwrap_or(1);
-        reached.crude = Some(CoarsePicture {
+        reached.coarse = Some(CoarsePicture {
             block: u32::try_from(block).unwrap_or(u32::MAX),
-            whole,
+            complete_after,
         });
         reached
     }

@@ -22,7 +22,8 @@ pub struct Difference {
     /// Images", 2020).
     pub flip: f64,
     /// The fraction of pixels with a channel, or an opacity, off by more than so many grey levels.
-    pub share: f64,
+    #[serde(rename = "share")]
+    pub fraction: f64,
     /// So many.
     pub levels: f64,
 }
@@ -31,14 +32,14 @@ impl Difference {
     /// The difference of pictures of one size.
     #[must_use]
     pub fn of(test: &ShownPicture, reference: &ShownPicture, levels: f64) -> Self {
-        Self::told(test, reference, levels, &mut |_, _| ())
+        Self::compute(test, reference, levels, &mut |_, _| ())
     }
 
     /// The same, and FLIP of each pixel, row by row.
     #[must_use]
     pub fn mapped(test: &ShownPicture, reference: &ShownPicture, levels: f64) -> (Self, Vec<f64>) {
         let mut flips = vec![0.0; test.pixels()];
-        let found = Self::told(test, reference, levels, &mut |index, flip| {
+        let found = Self::compute(test, reference, levels, &mut |index, flip| {
             flips[index] = flip;
         });
         (found, flips)
@@ -53,13 +54,13 @@ impl Difference {
             max_at: None,
             relative_mse: 0.0,
             flip: 0.0,
-            share: 0.0,
+            fraction: 0.0,
             levels,
         }
     }
 
     /// The difference; `on_flip` takes that of each pixel where there is any.
-    fn told(
+    fn compute(
         test: &ShownPicture,
         reference: &ShownPicture,
         levels: f64,
@@ -69,14 +70,14 @@ impl Difference {
         let width = test.size()[0] as usize;
         for index in 0..test.pixels() {
             let [shown, wanted] = [test, reference].map(|picture| picture.display(index));
-            square += apart(shown, wanted)
+            square += channel_pairs(shown, wanted)
                 .map(|(x, r)| (x - r) * (x - r))
                 .sum::<f64>();
             let light = test.light(index).zip(reference.light(index));
             let (own, other) = light.unwrap_or((shown, wanted));
-            found.relative_mse += apart(own, other).map(relative).sum::<f64>();
+            found.relative_mse += channel_pairs(own, other).map(relative).sum::<f64>();
             let opacity = (test.opacity(index) - reference.opacity(index)).abs();
-            let off = apart(shown, wanted).map(|(x, r)| (x - r).abs());
+            let off = channel_pairs(shown, wanted).map(|(x, r)| (x - r).abs());
             let off = off.fold(opacity, f64::max) * LEVELS;
             // What a file of 8 bits holds is no whole number of levels, by rounding.
             over += u64::from(off > levels + 1e-9);
@@ -87,7 +88,7 @@ impl Difference {
         let count = test.pixels().max(1) as f64;
         found.rmse = (square / (3.0 * count)).sqrt() * LEVELS;
         found.relative_mse /= 3.0 * count;
-        found.share = over as f64 / count;
+        found.fraction = over as f64 / count;
         let mut sum = 0.0;
         by_tiles(test, reference, &mut |index, flip| {
             sum += flip;
@@ -105,7 +106,7 @@ impl Difference {
 }
 
 /// The channels of two colours.
-fn apart(test: [f64; 3], reference: [f64; 3]) -> impl Iterator<Item = (f64, f64)> {
+fn channel_pairs(test: [f64; 3], reference: [f64; 3]) -> impl Iterator<Item = (f64, f64)> {
     test.into_iter().zip(reference)
 }
 
@@ -143,12 +144,12 @@ pub fn heat_map([width, height]: [u32; 2], flips: &[f64]) -> Image {
     Image {
         width,
         height,
-        pixels: flips.iter().copied().map(glow).collect(),
+        pixels: flips.iter().copied().map(heat_color).collect(),
     }
 }
 
 /// A colour that grows brighter from 0 to 1.
-fn glow(value: f64) -> [f64; 3] {
+fn heat_color(value: f64) -> [f64; 3] {
     const STOPS: [[f64; 3]; 5] = [
         [0.0, 0.0, 0.02],
         [0.32, 0.07, 0.48],
@@ -185,8 +186,8 @@ mod tests {
         let (found, flips) = Difference::mapped(&a, &b, 51.0);
         assert!((found.rmse - (2.0 * 51.0 * 51.0 / 12.0_f64).sqrt()).abs() < 1e-9);
         assert!((found.max - 51.0).abs() < 1e-9 && found.max_at == Some([0, 1]));
-        assert!(found.share == 0.0 && found.flip == flips.iter().sum::<f64>() / 4.0);
-        assert_eq!(Difference::of(&a, &b, 50.0).share, 0.5);
+        assert!(found.fraction == 0.0 && found.flip == flips.iter().sum::<f64>() / 4.0);
+        assert_eq!(Difference::of(&a, &b, 50.0).fraction, 0.5);
         let relative = (0.04 / 0.37 + 0.04 / 0.65) / 12.0;
         assert!((found.relative_mse - relative).abs() < 1e-12);
         assert_eq!(Difference::of(&a, &a, 0.0), Difference::none(0.0));
@@ -210,7 +211,7 @@ mod tests {
         };
         let found = Difference::of(&file(0.8), &file(1.0), 1.0);
         assert_eq!(
-            (found.rmse, found.max_at, found.share),
+            (found.rmse, found.max_at, found.fraction),
             (0.0, Some([1, 1]), 0.25)
         );
     }

@@ -1,11 +1,11 @@
 //! What each effect, light, object and material of a scene costs: the scene is rendered with and without
 //! it, with the same random numbers.
 
-use super::knob::Parameter;
-use super::left_out::{self, Ablation};
+use super::ablation::{self, Ablation};
+use super::benchmark::{BenchmarkCase, benchmark};
 use super::metrics::{LEVELS, mean_product, rmse};
 use super::outcome::Rays;
-use super::race::{Runner, race};
+use super::parameter::Parameter;
 use super::reference::independent;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng};
@@ -50,32 +50,36 @@ pub(super) fn costs(
     /// More paths tell no more of ratios.
     const PATHS: u32 = 4;
     let setting = setting.with(Parameter::Paths, setting.paths.min(PATHS));
-    let mut without = left_out::of(&subject.scene);
-    let Some((subject, count)) = affordable(subject, setting, (budget, without.len()))? else {
+    let mut ablations = ablation::of(&subject.scene);
+    let Some((subject, count)) = affordable(subject, setting, (budget, ablations.len()))? else {
         return Ok(Vec::new());
     };
-    without.truncate(count);
-    let mut runners = vec![runner(subject.clone(), setting)];
+    ablations.truncate(count);
+    let mut cases = vec![case(subject.clone(), setting)];
     let mut names = Vec::new();
-    for left_out in without {
-        names.push((left_out.kind, left_out.name));
-        runners.push(runner(subject.with_scene(left_out.scene), setting));
+    for ablated in ablations {
+        names.push((ablated.kind, ablated.name));
+        cases.push(case(subject.with_scene(ablated.scene), setting));
     }
-    let race = race(&runners, budget * 3 / RENDERS, None, rng)?;
-    let pairs = runners.iter().map(SampledPair::of);
+    let benchmark = benchmark(&cases, budget * 3 / RENDERS, None, rng)?;
+    let pairs = cases.iter().map(SampledPair::of);
     let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
-    let (with, all) = (&pairs[0], Rays::from(race.runs[0].shot.counts).all());
-    let costs = names.into_iter().zip(&pairs[1..]).zip(&race.runs[1..]);
-    let cost =
-        |(((kind, effect), pair), run): ((_, &SampledPair), &super::race::TimedRun)| EffectCost {
+    let (with, all) = (
+        &pairs[0],
+        Rays::from(benchmark.runs[0].rendered.counts).all(),
+    );
+    let costs = names.into_iter().zip(&pairs[1..]).zip(&benchmark.runs[1..]);
+    let cost = |(((kind, effect), pair), run): ((_, &SampledPair), &super::benchmark::TimedRun)| {
+        EffectCost {
             kind,
             effect,
-            rays: run.shot.counts.into(),
-            ray_ratio: Rays::from(run.shot.counts).all() as f64 / all.max(1) as f64,
+            rays: run.rendered.counts.into(),
+            ray_ratio: Rays::from(run.rendered.counts).all() as f64 / all.max(1) as f64,
             ratio: run.ratio,
             noise_ratio: pair.noise_over(with),
             difference: pair.difference(with),
-        };
+        }
+    };
     // An effect that changes neither picture nor work is absent.
     let costs = costs.map(cost);
     Ok(costs
@@ -83,9 +87,9 @@ pub(super) fn costs(
         .collect())
 }
 
-fn runner(subject: Subject<'_>, setting: Setting) -> Runner<'_> {
+fn case(subject: Subject<'_>, setting: Setting) -> BenchmarkCase<'_> {
     let depth = subject.scene.settings.max_depth.min(setting.depth);
-    Runner {
+    BenchmarkCase {
         subject,
         setting: Setting { depth, ..setting },
     }
@@ -96,18 +100,18 @@ fn runner(subject: Subject<'_>, setting: Setting) -> Runner<'_> {
 fn affordable<'a>(
     subject: &Subject<'a>,
     setting: Setting,
-    (budget, wanted): (u64, usize),
+    (budget, requested): (u64, usize),
 ) -> Result<Option<(Subject<'a>, usize)>, Stopped> {
     let pilot = subject.keep(FEWEST);
-    let rays = pilot.shoot(setting, independent(1))?.counts.rays();
+    let rays = pilot.render(setting, independent(1))?.counts.rays();
     let of_tile = RENDERS as f64 * rays as f64 / pilot.count() as f64;
     let renders = budget as f64 / of_tile.max(1.0);
     // The scene as it is takes one more.
     let count = (renders / pilot.count() as f64) as usize;
-    if wanted == 0 || count < 2 {
+    if requested == 0 || count < 2 {
         return Ok(None);
     }
-    let count = wanted.min(count - 1);
+    let count = requested.min(count - 1);
     let tiles = renders / (count + 1) as f64;
     Ok(Some((subject.keep(tiles as usize), count)))
 }
@@ -116,9 +120,9 @@ fn affordable<'a>(
 struct SampledPair([Vec<Image>; 2]);
 
 impl SampledPair {
-    fn of(runner: &Runner<'_>) -> Result<Self, Stopped> {
-        let shoot = |seed| runner.subject.shoot(runner.setting, independent(seed));
-        Ok(Self([shoot(11)?.tiles, shoot(12)?.tiles]))
+    fn of(case: &BenchmarkCase<'_>) -> Result<Self, Stopped> {
+        let render = |seed| case.subject.render(case.setting, independent(seed));
+        Ok(Self([render(11)?.tiles, render(12)?.tiles]))
     }
 
     fn noise_over(&self, other: &Self) -> f64 {

@@ -34,7 +34,7 @@ struct JournalHead {
 #[derive(Clone)]
 pub(super) struct Entry {
     pub(super) key: u64,
-    pub(super) shot: RenderedTiles,
+    pub(super) rendered: RenderedTiles,
     pub(super) seconds: Vec<f64>,
 }
 
@@ -70,7 +70,7 @@ impl Journal {
     }
 
     /// The next render, if it was done before.
-    pub(super) fn recall(&mut self, key: u64) -> Option<Entry> {
+    pub(super) fn replay(&mut self, key: u64) -> Option<Entry> {
         let entry = self.entries.get(self.next);
         let Some(entry) = entry.filter(|entry| entry.key == key).cloned() else {
             // Whatever follows is of another study.
@@ -82,7 +82,7 @@ impl Journal {
     }
 
     /// Takes down a render.
-    pub(super) fn note(&mut self, entry: Entry) {
+    pub(super) fn record(&mut self, entry: Entry) {
         self.entries.push(entry);
         self.next = self.entries.len();
     }
@@ -110,24 +110,24 @@ impl Journal {
             return Err("it holds no renders of a study".to_owned());
         }
         let (bytes, sum) = bytes.split_last_chunk().ok_or(SHORT)?;
-        let mut rest = Rest(bytes.get(MAGIC.len()..).ok_or(SHORT)?);
-        let version = rest.number().ok_or(SHORT)?;
+        let mut reader = ByteReader(bytes.get(MAGIC.len()..).ok_or(SHORT)?);
+        let version = reader.number().ok_or(SHORT)?;
         if version != VERSION {
             return Err(format!("version {version} of its format is unknown"));
         }
         if xxh3_64(bytes) != u64::from_le_bytes(*sum) {
             return Err("it is damaged: its checksum does not fit".to_owned());
         }
-        let length = rest.number().ok_or(SHORT)? as usize;
-        let head: Option<JournalHead> = rest
+        let length = reader.number().ok_or(SHORT)? as usize;
+        let head: Option<JournalHead> = reader
             .take(length)
             .and_then(|head| serde_json::from_slice(head).ok());
         let head = head.ok_or("it is damaged: its header is not as it should be")?;
         if let Some(what) = self.head.difference(&head) {
             return Err(format!("it is of another study: {what}"));
         }
-        while !rest.0.is_empty() {
-            self.entries.push(rest.entry().ok_or(SHORT)?);
+        while !reader.0.is_empty() {
+            self.entries.push(reader.entry().ok_or(SHORT)?);
         }
         Ok(self)
     }
@@ -160,18 +160,18 @@ impl Entry {
             hits,
             unnumbered,
             ..
-        } = self.shot.counts;
+        } = self.rendered.counts;
         let numbers = [
             self.key, camera, shadow, mirror, refracted, hits, unnumbered,
         ];
         bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
-        bytes.extend(count(self.shot.tiles.len()));
+        bytes.extend(count(self.rendered.tiles.len()));
         bytes.extend(count(self.seconds.len()));
         for Image {
             width,
             height,
             pixels,
-        } in &self.shot.tiles
+        } in &self.rendered.tiles
         {
             bytes.extend(width.to_le_bytes());
             bytes.extend(height.to_le_bytes());
@@ -186,12 +186,12 @@ fn count(count: usize) -> [u8; 4] {
 }
 
 /// Bytes that are still to be read; no memory is taken that they do not fill.
-struct Rest<'a>(&'a [u8]);
+struct ByteReader<'a>(&'a [u8]);
 
-impl<'a> Rest<'a> {
+impl<'a> ByteReader<'a> {
     fn take(&mut self, count: usize) -> Option<&'a [u8]> {
-        let (taken, rest) = self.0.split_at_checked(count)?;
-        self.0 = rest;
+        let (taken, reader) = self.0.split_at_checked(count)?;
+        self.0 = reader;
         Some(taken)
     }
 
@@ -241,7 +241,11 @@ impl<'a> Rest<'a> {
             tiles.push(self.image()?);
         }
         let seconds = self.floats(seconds as usize)?;
-        let shot = RenderedTiles { tiles, counts };
-        Some(Entry { key, shot, seconds })
+        let rendered = RenderedTiles { tiles, counts };
+        Some(Entry {
+            key,
+            rendered,
+            seconds,
+        })
     }
 }

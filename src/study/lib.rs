@@ -5,70 +5,72 @@
 //! depend on rays, never on time: the same study renders the same settings on every machine. All
 //! errors are in grey levels of 8 bits.
 
+mod ablation;
 mod advice;
-mod bench;
+mod batch;
+mod benchmark;
 mod budget;
 mod denoised;
 mod difference;
 mod effects;
 mod flip;
-mod growth;
 mod journal;
-mod knob;
-mod left_out;
 mod maps;
 mod metrics;
 mod noise;
 mod outcome;
+mod parameter;
 mod pareto;
 mod precision;
 mod probe;
-mod race;
+mod progressive;
 mod reference;
 #[cfg(feature = "cli")]
 mod report;
 mod rounds;
 mod rows;
-mod sample;
+mod runtime;
 mod setting;
 mod spread;
 mod statistics;
-mod stretch;
 mod subject;
 mod sweep;
 mod target;
-mod unmet;
+mod tile_errors;
+mod undersampled;
 mod versus;
 
+pub use ablation::Ablation;
 pub use advice::{advice, recommended};
-pub use bench::{Bench, Clock};
+pub use batch::WorkBatch;
 pub use budget::CoarsePicture;
 pub use difference::{Difference, heat_map};
 pub use effects::EffectCost;
 pub use flip::{PIXELS_PER_DEGREE, flip};
-pub use growth::{CheckpointSink, ProgressiveRender};
 pub use journal::Journal;
-pub use knob::{Parameter, arithmetic, idle};
-pub use left_out::Ablation;
 pub use maps::{StudyMap, maps};
 pub use metrics::{Errors, LEVELS, rmse};
 pub use outcome::{
-    About, BounceCost, KnobReport, MoreBounces, Rays, ReferenceReport, Row, Study, StudyArea,
+    About, BounceCost, MoreBounces, ParameterReport, Rays, ReferenceReport, Row, Study, StudyArea,
 };
+pub use parameter::{Parameter, arithmetic, not_applicable};
 pub use precision::PrecisionCost;
 pub use probe::{ProbedError, probe};
+pub use progressive::{CheckpointSink, ProgressiveRender};
 pub use reference::{DepthEnd, Level};
 #[cfg(feature = "cli")]
-pub use report::{SliderPage, csv, html, json, maps_page, slider_page, table, told, versus_table};
+pub use report::{
+    SliderPage, csv, html, json, maps_page, slider_page, table, value_text, versus_table,
+};
+pub use runtime::{Clock, StudyRuntime};
 pub use setting::Setting;
 pub use spread::ErrorSpread;
 pub use statistics::{Estimate, PowerLaw, Rng, median};
-pub use stretch::WorkStretch;
 pub use subject::Stopped;
 pub use target::{Goal, Order, Progress, Samples, TargetResult, Watch, approach, approach_keeping};
 pub use versus::{DifferentTile, Versus, versus};
 
-use knob::idle_in;
+use parameter::not_applicable_in;
 use reference::{Depths, Reference};
 use rtc_ir::{Mode, Scene, Shape, Surface};
 use rtc_render::Seeds;
@@ -91,13 +93,13 @@ impl Effort {
 
     /// The rays of a scene that are so much work.
     fn rays(self, scene: &Scene) -> u64 {
-        self.0 / price(scene)
+        self.0 / ray_cost(scene)
     }
 }
 
 /// A ray of the scene in rays of a scene of a few balls, roughly: prices are rules of thumb from
 /// processor times, so that a study takes about as long whatever the scene is.
-fn price(scene: &Scene) -> u64 {
+fn ray_cost(scene: &Scene) -> u64 {
     let is_torus = |surface: &Surface| matches!(surface.shape, Shape::Torus(_));
     if matches!(scene.settings.mode, Mode::Path(_)) {
         return 8;
@@ -117,7 +119,7 @@ const FOR_EFFECTS: u64 = 10;
 const FOR_PRECISION: u64 = 4;
 
 /// The error of a reference is at most this fraction of the errors measured against it.
-const JUDGE: f64 = 0.2;
+const MAX_REFERENCE_ERROR: f64 = 0.2;
 
 /// Studies a proven scene.
 ///
@@ -128,15 +130,15 @@ pub fn study(
     about: About,
     effort: Effort,
     seed: u64,
-    bench: &Bench<'_>,
+    runtime: &StudyRuntime<'_>,
 ) -> Result<Study, Stopped> {
     let scope = Scope::new(scene, effort);
-    let subject = scope.part(&Subject::new(scene, seed, bench))?;
+    let subject = scope.subject_within_budget(&Subject::new(scene, seed, runtime))?;
     let mut context = scope.context(&subject)?;
     let mut rng = Rng::new(seed);
     let precision = precision::costs(
         &subject,
-        scope.own,
+        scope.scene_setting,
         scope.hundredths(FOR_PRECISION),
         &mut rng,
     )?;
@@ -144,9 +146,15 @@ pub fn study(
         context.model.learn_precision(precision::levels(&precision));
     }
     let (rows, wall_over_cpu) = scope.rows(&subject, &context, &mut rng)?;
-    let effects = effects::costs(&subject, scope.own, scope.hundredths(FOR_EFFECTS), &mut rng)?;
+    let effects = effects::costs(
+        &subject,
+        scope.scene_setting,
+        scope.hundredths(FOR_EFFECTS),
+        &mut rng,
+    )?;
     let (model, is_whole) = (&context.model, subject.is_whole());
-    let knob = |knob| model.report(knob, idle_in(knob, scene, is_whole));
+    let parameter =
+        |parameter| model.report(parameter, not_applicable_in(parameter, scene, is_whole));
     let mut study = Study {
         schema: "rtc-cost/3".to_owned(),
         about,
@@ -154,7 +162,7 @@ pub fn study(
         seed,
         part: subject.area(),
         reference: context.report(),
-        knobs: Parameter::ALL.map(knob).to_vec(),
+        parameters: Parameter::ALL.map(parameter).to_vec(),
         bounces: context.depths.map(|depths| depths.more),
         rows,
         effects,
@@ -162,7 +170,7 @@ pub fn study(
         wall_over_cpu,
         advice: Vec::new(),
         command: None,
-        truth: context.reference.tiles,
+        reference_tiles: context.reference.tiles,
         areas: subject.areas(),
         mapped: Vec::new(),
     };
@@ -174,7 +182,7 @@ pub fn study(
 
 /// The knobs of a scene, and the work that a study may take.
 struct Scope {
-    own: Setting,
+    scene_setting: Setting,
     used: Vec<Parameter>,
     /// The knobs that are numbers of samples.
     sampling: Vec<Parameter>,
@@ -193,15 +201,15 @@ impl Scope {
     fn new(scene: &Scene, effort: Effort) -> Self {
         let used: Vec<_> = Parameter::ALL
             .into_iter()
-            .filter(|knob| idle(*knob, scene).is_none())
+            .filter(|parameter| not_applicable(*parameter, scene).is_none())
             .collect();
         let sampling = used
             .iter()
             .copied()
-            .filter(|knob| knob.samples_pixels())
+            .filter(|parameter| parameter.samples_pixels())
             .collect();
         Self {
-            own: Setting::of(scene),
+            scene_setting: Setting::of(scene),
             used,
             sampling,
             rays: effort.rays(scene),
@@ -216,11 +224,13 @@ impl Scope {
     fn at(&self, value: u32) -> Setting {
         self.sampling
             .iter()
-            .fold(self.own, |setting, knob| setting.with(*knob, value))
+            .fold(self.scene_setting, |setting, parameter| {
+                setting.with(*parameter, value)
+            })
     }
 
     /// The number of tiles that the budget allows, with a good reference and in the scene's own setting.
-    fn part<'a>(&self, subject: &Subject<'a>) -> Result<Subject<'a>, Stopped> {
+    fn subject_within_budget<'a>(&self, subject: &Subject<'a>) -> Result<Subject<'a>, Stopped> {
         /// The samples per pixel of a good reference.
         const GOOD: [f64; 2] = [1024.0, 4e8];
         /// Fewer tiles do not represent a picture: of those that are afforded in the scene's own
@@ -232,11 +242,12 @@ impl Scope {
         }
         let pilot = subject.keep(2 * FEWEST);
         let setting = self.at(2);
-        let counts = pilot.shoot(setting, reference::independent(1))?.counts;
+        let counts = pilot.render(setting, reference::independent(1))?.counts;
         let rays = counts.rays() as f64 / counts.camera.max(1) as f64;
         let samples = GOOD[0] * (self.rays as f64 / GOOD[1]).sqrt();
         let of_reference = self.hundredths(FOR_REFERENCE) as f64 / (3.0 * samples * rays);
-        let of_own = self.hundredths(FOR_ROWS) as f64 / (6.0 * self.own.camera_rays() * rays);
+        let of_own =
+            self.hundredths(FOR_ROWS) as f64 / (6.0 * self.scene_setting.camera_rays() * rays);
         let tiles = |pixels: f64| pixels / pilot.pixels() as f64 * pilot.count() as f64;
         let fraction = tiles(of_reference).max(ENOUGH as f64).min(tiles(of_own));
         let enough = (0..subject.count())
@@ -279,22 +290,22 @@ impl Scope {
             start
         };
         let fair = self.hundredths(FOR_SWEEPS) / self.sampling.len().max(1) as u64;
-        let knobs = self
+        let parameters = self
             .sampling
             .iter()
-            .map(|knob| sweep(subject, &reference, (*knob, base), fair));
-        let knobs = knobs.collect::<Result<Vec<_>, _>>()?;
+            .map(|parameter| sweep(subject, &reference, (*parameter, base), fair));
+        let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
         let base_rays = subject
-            .shoot(base, reference::independent(5))?
+            .render(base, reference::independent(5))?
             .counts
             .rays();
-        let mut model = Model::new(knobs, depths.as_ref(), base, base_rays);
+        let mut model = Model::new(parameters, depths.as_ref(), base, base_rays);
         if self.used.contains(&Parameter::Aperture) {
             let coarse = base
                 .with(Parameter::Supersampling, 1)
                 .with(Parameter::Aperture, 1);
-            let shot = subject.shoot(coarse, Seeds::NONE)?;
-            model.learn_interplay(coarse, rmse(&shot.tiles, &reference.tiles));
+            let rendered = subject.render(coarse, Seeds::NONE)?;
+            model.learn_interaction(coarse, rmse(&rendered.tiles, &reference.tiles));
         }
         Ok(Context {
             reference,

@@ -43,7 +43,7 @@ pub(super) fn count(study: &Study, subject: &Subject<'_>) -> Result<Vec<PixelRay
 
 /// The rows that are mapped, with what they are called.
 fn mapped(study: &Study) -> Vec<(&'static str, &Row)> {
-    let own = study.own().map(|row| ("own", row));
+    let own = study.scene_row().map(|row| ("own", row));
     let best = advice::recommended(study).filter(|row| !row.own);
     own.into_iter()
         .chain(best.map(|row| ("recommended", row)))
@@ -91,8 +91,13 @@ pub fn maps(study: &Study) -> Vec<StudyMap> {
 fn errors(study: &Study, row: &Row) -> Vec<f64> {
     let [width, height] = study.part.size.map(|side| side as usize);
     let mut values = vec![0.0; width * height];
-    for ((area, test), truth) in study.areas.iter().zip(&row.tiles).zip(&study.truth) {
-        let pairs = test.pixels.iter().zip(&truth.pixels).enumerate();
+    for ((area, test), reference_tiles) in study
+        .areas
+        .iter()
+        .zip(&row.tiles)
+        .zip(&study.reference_tiles)
+    {
+        let pairs = test.pixels.iter().zip(&reference_tiles.pixels).enumerate();
         for (index, (x, r)) in pairs {
             let (column, line) = (index % test.width as usize, index / test.width as usize);
             let place = (area.y as usize + line) * width + area.x as usize + column;

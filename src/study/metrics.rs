@@ -2,7 +2,7 @@
 //! [0, 1] before the mean, as in a picture file, without rounding.
 
 use super::flip::{PIXELS_PER_DEGREE, delta_e, flip};
-use super::sample::TileErrors;
+use super::tile_errors::TileErrors;
 use rtc_image::Image;
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,7 @@
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
-use super::unmet::{Undersampled, UnmetError};
+use super::undersampled::{Undersampled, UndersampledError};
 use rtc_render::{ProgressiveFilm, Replicates};
 
 /// The noise of a whole film.
@@ -13,12 +13,12 @@ pub(super) struct Noise {
     /// The degrees of freedom of the error itself, and of `square`.
     freedom: f64,
     /// What no sample may have met.
-    unmet: UnmetError,
+    undersampled: UndersampledError,
 }
 
 impl Noise {
     /// The noise of a film with samples everywhere, each of at most a value.
-    pub(super) fn of(film: &ProgressiveFilm, unmet: &Undersampled) -> Self {
+    pub(super) fn of(film: &ProgressiveFilm, undersampled: &Undersampled) -> Self {
         let (mut sum, mut squares) = (0.0, 0.0);
         for variance in film.pixels().map(Replicates::variance) {
             sum += variance;
@@ -39,12 +39,12 @@ impl Noise {
         Self {
             square: sum / film.len().max(1) as f64,
             freedom,
-            unmet: unmet.of(film),
+            undersampled: undersampled.of(film),
         }
     }
 
     /// The factor on the square such that the error exceeds it only with the probability `tail`.
-    pub(super) fn caution(&self, tail: f64) -> f64 {
+    pub(super) fn safety_factor(&self, tail: f64) -> f64 {
         if self.freedom.is_finite() {
             fisher_quantile(tail, self.freedom, self.freedom)
         } else {
@@ -55,24 +55,30 @@ impl Noise {
     /// The error that is exceeded with the probability `tail` by what samples met, and with 5 % by what
     /// they did not. A target, in grey levels, says how much of that is too much.
     pub(super) fn bound(&self, tail: f64, target: Option<f64>) -> Bound {
-        let met = if self.square == 0.0 {
+        let sampled = if self.square == 0.0 {
             0.0
         } else {
-            self.square * self.caution(tail)
+            self.square * self.safety_factor(tail)
         };
-        let is_whole = self.unmet.is_told(met, target);
-        let all = met + if is_whole { self.unmet.square } else { 0.0 };
+        let is_whole = self.undersampled.is_included(sampled, target);
+        let all = sampled
+            + if is_whole {
+                self.undersampled.square
+            } else {
+                0.0
+            };
         Bound {
             error: all.sqrt() * LEVELS,
-            unmet: (!is_whole).then_some(self.unmet.brightest),
+            undersampled: (!is_whole).then_some(self.undersampled.brightest),
         }
     }
 
     /// The mean square error, for a white of 1, that a target in grey levels leaves to what samples met.
-    pub(super) fn left(&self, tail: f64, target: f64) -> f64 {
+    pub(super) fn remaining(&self, tail: f64, target: f64) -> f64 {
         let square = target * target / (LEVELS * LEVELS);
-        let unmet = Some(self.unmet.square).filter(|unmet| *unmet < square);
-        (square - unmet.unwrap_or(0.0)) / self.caution(tail)
+        let undersampled =
+            Some(self.undersampled.square).filter(|undersampled| *undersampled < square);
+        (square - undersampled.unwrap_or(0.0)) / self.safety_factor(tail)
     }
 }
 
@@ -83,7 +89,7 @@ pub(super) struct Bound {
     pub(super) error: f64,
     /// Without a bound: how bright, in multiples of white, light may be that no sample met. The error is
     /// that of what was met, then.
-    pub(super) unmet: Option<f64>,
+    pub(super) undersampled: Option<f64>,
 }
 
 /// The maximum length of a replicate.
@@ -91,14 +97,14 @@ const LONGEST: u32 = 1 << 24;
 
 /// The fraction of the mean deviation that is added to each: what the pilots have not met, the
 /// replicates still come to.
-const EVERYWHERE: f64 = 0.125;
+const MIN_DEVIATION: f64 = 0.125;
 
 /// The samples of a pilot are at most this fraction of those of the replicates of its pixel, or of
 /// all in the mean, after the next round.
-const GUIDE: f64 = 0.125;
+const PILOT_FRACTION: f64 = 0.125;
 
 /// The allocation of samples to pixels.
-pub(super) struct Allotment {
+pub(super) struct SampleAllocation {
     /// The standard deviation of a single sample, estimated from the pilots of the pixel and its
     /// neighbours.
     deviations: Vec<f64>,
@@ -108,14 +114,14 @@ pub(super) struct Allotment {
     gain: f64,
 }
 
-impl Allotment {
+impl SampleAllocation {
     /// The noise of a film with samples everywhere.
     pub(super) fn of(film: &ProgressiveFilm, noise: &Noise) -> Self {
         let variances = smoothed(film);
         let pixels = variances.len().max(1) as f64;
         let independent = |(pixel, variance): (&Replicates, &f64)| {
-            let [shown, _] = pixel.counts();
-            0.5 * variance / f64::from(shown)
+            let [replicate, _] = pixel.counts();
+            0.5 * variance / f64::from(replicate)
         };
         let square = film.pixels().zip(&variances).map(independent).sum::<f64>() / pixels;
         let deviations: Vec<_> = variances.into_iter().map(f64::sqrt).collect();
@@ -133,40 +139,41 @@ impl Allotment {
     /// How many samples each replicate, and the pilot, of the pixels are to have so that the mean
     /// square error becomes `square`.
     pub(super) fn wanted(&self, film: &ProgressiveFilm, square: f64) -> Vec<[u32; 2]> {
-        let shown: Vec<_> = (0..film.len())
-            .map(|index| self.shown(film, index, square))
+        let replicate: Vec<_> = (0..film.len())
+            .map(|index| self.replicate(film, index, square))
             .collect();
-        let mean = 2.0 * shown.iter().copied().map(f64::from).sum::<f64>() / shown.len() as f64;
+        let mean =
+            2.0 * replicate.iter().copied().map(f64::from).sum::<f64>() / replicate.len() as f64;
         // A pixel of many samples has a long pilot, too: a short one that met something by luck
         // would ask for ever more.
-        let pilot = |shown: u32, count: u32| {
-            let samples = mean.max(2.0 * f64::from(shown));
-            let is_short = self.mean == 0.0 || 2.0 * f64::from(count) <= GUIDE * samples;
-            grown(count, is_short)
+        let pilot = |replicate: u32, count: u32| {
+            let samples = mean.max(2.0 * f64::from(replicate));
+            let needs_more = self.mean == 0.0 || 2.0 * f64::from(count) <= PILOT_FRACTION * samples;
+            doubled_if(count, needs_more)
         };
         let counts = film.pixels().map(Replicates::counts);
-        shown
+        replicate
             .iter()
             .zip(counts)
-            .map(|(shown, [_, count])| [*shown, pilot(*shown, count)])
+            .map(|(replicate, [_, count])| [*replicate, pilot(*replicate, count)])
             .collect()
     }
 
     /// How many samples a replicate of pixel `index` is to have: the least work is samples in
     /// proportion to the deviation (Neyman, Journal of the Royal Statistical Society 97 (1934)).
     /// At most twice as many as there are; a power of two, of which replicates are stratified.
-    fn shown(&self, film: &ProgressiveFilm, index: usize, square: f64) -> u32 {
+    fn replicate(&self, film: &ProgressiveFilm, index: usize, square: f64) -> u32 {
         let [count, _] = film.pixel(index).counts();
         let scale = self.gain * self.mean / (2.0 * square);
-        let best = scale * (self.deviations[index] + EVERYWHERE * self.mean);
+        let best = scale * (self.deviations[index] + MIN_DEVIATION * self.mean);
         // Where no pilot has met what the replicates differ by, all go on.
-        grown(count, self.mean == 0.0 || best >= 2.0 * f64::from(count))
+        doubled_if(count, self.mean == 0.0 || best >= 2.0 * f64::from(count))
     }
 }
 
 /// Twice as many samples, if there are too few.
-pub(super) fn grown(count: u32, is_short: bool) -> u32 {
-    if is_short && count < LONGEST {
+pub(super) fn doubled_if(count: u32, needs_more: bool) -> u32 {
+    if needs_more && count < LONGEST {
         2 * count
     } else {
         count

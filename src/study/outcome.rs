@@ -1,8 +1,8 @@
 //! The result of a study, to be printed, kept and read again.
 
-use super::knob::Parameter;
 use super::maps::PixelRays;
 use super::metrics::Errors;
+use super::parameter::Parameter;
 use super::reference::{DepthEnd, Level};
 use super::setting::Setting;
 use super::spread::ErrorSpread;
@@ -81,11 +81,13 @@ pub struct BounceCost {
 /// A knob alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct KnobReport {
+pub struct ParameterReport {
     /// The knob.
-    pub knob: Parameter,
+    #[serde(rename = "knob")]
+    pub parameter: Parameter,
     /// The reason to leave it alone in this scene, if there is one.
-    pub idle: Option<String>,
+    #[serde(rename = "idle")]
+    pub not_applicable: Option<String>,
     /// Its values, with all other knobs as in the reference.
     #[serde(rename = "rungs")]
     pub levels: Vec<Level>,
@@ -155,7 +157,8 @@ pub struct Row {
     /// The error over renders by other random numbers.
     pub spread: ErrorSpread,
     /// Whether the reference is accurate enough: if not, the errors are upper limits.
-    pub judged: bool,
+    #[serde(rename = "judged")]
+    pub is_resolved: bool,
     /// Whether some of its seconds were measured before the study was interrupted.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub resumed: bool,
@@ -183,7 +186,8 @@ pub struct Study {
     /// The reference for all errors.
     pub reference: ReferenceReport,
     /// Each knob alone.
-    pub knobs: Vec<KnobReport>,
+    #[serde(rename = "knobs")]
+    pub parameters: Vec<ParameterReport>,
     /// What more bounces would add; none if depth changes nothing.
     pub bounces: Option<MoreBounces>,
     /// The measured settings in ascending order of cost: by seconds where those differ clearly, else by rays.
@@ -201,7 +205,7 @@ pub struct Study {
     pub command: Option<String>,
     /// The pixels of the reference.
     #[serde(skip)]
-    pub(super) truth: Vec<Image>,
+    pub(super) reference_tiles: Vec<Image>,
     /// Where its pictures lie in the whole one.
     #[serde(skip)]
     pub(super) areas: Vec<Crop>,
@@ -214,16 +218,16 @@ impl Study {
     /// The knobs that change something.
     #[must_use]
     pub fn used(&self) -> Vec<Parameter> {
-        self.knobs
+        self.parameters
             .iter()
-            .filter(|report| report.idle.is_none())
-            .map(|report| report.knob)
+            .filter(|report| report.not_applicable.is_none())
+            .map(|report| report.parameter)
             .collect()
     }
 
     /// The row of the scene's own setting.
     #[must_use]
-    pub fn own(&self) -> Option<&Row> {
+    pub fn scene_row(&self) -> Option<&Row> {
         self.rows.iter().find(|row| row.own)
     }
 }

@@ -1,6 +1,6 @@
 //! The Pareto front: candidates by a greedy search on the model, and the front of those measured.
 
-use super::knob::Parameter;
+use super::parameter::Parameter;
 use super::setting::Setting;
 use super::sweep::Model;
 use rtc_math::ln;
@@ -19,7 +19,7 @@ const SAME_COST: f64 = 1.02;
 pub(super) fn candidates(
     model: &Model,
     min: Setting,
-    knobs: &[Parameter],
+    parameters: &[Parameter],
     most_rays: f64,
     least_error: f64,
 ) -> Vec<Setting> {
@@ -30,9 +30,11 @@ pub(super) fn candidates(
         if error < least_error {
             return path;
         }
-        let raised = knobs.iter().filter_map(|knob| {
-            let value = knob.levels().find(|value| *value > now.get(*knob))?;
-            Some(now.with(*knob, value))
+        let raised = parameters.iter().filter_map(|parameter| {
+            let value = parameter
+                .levels()
+                .find(|value| *value > now.get(*parameter))?;
+            Some(now.with(*parameter, value))
         });
         let affordable = raised
             .filter(|next| model.rays(*next) <= most_rays && model.error(*next) < WORTH * error);
@@ -50,7 +52,7 @@ pub(super) fn candidates(
 /// arithmetic already.
 pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
     let mut others = model
-        .tried(Parameter::Precision)
+        .measured_values(Parameter::Precision)
         .map(|value| setting.with(Parameter::Precision, value));
     let enough = others.find(|other| WORTH * model.error(*other) <= model.error(setting));
     enough.filter(|other| *other != setting)

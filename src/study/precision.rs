@@ -1,9 +1,9 @@
 //! The cost of each arithmetic: the same samples of the same scene, by all three.
 
-use super::knob::{Parameter, bears, place};
+use super::benchmark::{BenchmarkCase, TimedRun, benchmark};
 use super::metrics::Errors;
 use super::outcome::Rays;
-use super::race::{Runner, TimedRun, race};
+use super::parameter::{Parameter, precision_value, tolerates};
 use super::reference::Level;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng};
@@ -19,7 +19,8 @@ pub struct PrecisionCost {
     /// The arithmetic.
     pub arithmetic: Arithmetic,
     /// Whether the plan expects no visible loss. Only then rows may use it.
-    pub borne: bool,
+    #[serde(rename = "borne")]
+    pub is_tolerated: bool,
     /// The rays of the part rendered: rules proven for the robust arithmetic alone do not apply to
     /// the others.
     pub rays: Rays,
@@ -36,7 +37,11 @@ impl PrecisionCost {
         format!(
             "{}{}",
             self.arithmetic.name(),
-            if self.borne { "" } else { " (warned of)" }
+            if self.is_tolerated {
+                ""
+            } else {
+                " (warned of)"
+            }
         )
     }
 }
@@ -51,7 +56,7 @@ pub(super) fn costs(
     budget: u64,
     rng: &mut Rng,
 ) -> Result<Vec<PrecisionCost>, Stopped> {
-    let runner = |precision| Runner {
+    let case = |precision| BenchmarkCase {
         subject: subject.clone(),
         setting: Setting {
             precision,
@@ -59,18 +64,18 @@ pub(super) fn costs(
             ..setting
         },
     };
-    let race = race(&Arithmetic::ALL.map(runner), budget, None, rng)?;
-    let robust = &race.runs[0].shot.tiles;
+    let benchmark = benchmark(&Arithmetic::ALL.map(case), budget, None, rng)?;
+    let robust = &benchmark.runs[0].rendered.tiles;
     let cost = |(arithmetic, run): (Arithmetic, &TimedRun)| PrecisionCost {
         arithmetic,
-        borne: bears(&subject.scene, arithmetic),
-        rays: run.shot.counts.into(),
+        is_tolerated: tolerates(&subject.scene, arithmetic),
+        rays: run.rendered.counts.into(),
         ratio: run.ratio,
-        difference: Errors::of(&run.shot.tiles, robust, subject.fraction()),
+        difference: Errors::of(&run.rendered.tiles, robust, subject.fraction()),
     };
     Ok(Arithmetic::ALL
         .into_iter()
-        .zip(&race.runs)
+        .zip(&benchmark.runs)
         .map(cost)
         .collect())
 }
@@ -79,7 +84,7 @@ pub(super) fn costs(
 /// noise.
 pub(super) fn levels(costs: &[PrecisionCost]) -> Levels {
     let level = |cost: &PrecisionCost| Level {
-        value: place(cost.arithmetic),
+        value: precision_value(cost.arithmetic),
         error: cost.difference.rmse,
         resolved: true,
         rays: cost.rays.all(),
@@ -87,11 +92,11 @@ pub(super) fn levels(costs: &[PrecisionCost]) -> Levels {
     let levels = costs
         .iter()
         .rev()
-        .filter(|cost| cost.borne)
+        .filter(|cost| cost.is_tolerated)
         .map(level)
         .collect();
     Levels {
-        knob: Parameter::Precision,
+        parameter: Parameter::Precision,
         levels,
         law: None,
     }

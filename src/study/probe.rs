@@ -16,11 +16,11 @@ use rtc_render::{AnyWorld, Counts, DenoisedFilm, Film, OnPixel, ProgressiveFilm}
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProbedError {
     /// The root mean square error in grey levels: the best estimate, of what samples met.
-    pub told: f64,
+    pub estimate: f64,
     /// What it is at most in 90 % of all renders; of what samples met alone, if there is no bound.
     pub error: f64,
     /// If there is no bound: how bright, in multiples of white, light may be that no sample met.
-    pub unmet: Option<f64>,
+    pub undersampled: Option<f64>,
     /// The pixels that were sampled anew; one that was chosen twice counts twice.
     pub probes: usize,
     /// The samples that each of them took.
@@ -58,8 +58,8 @@ pub fn probe(
     samples: u32,
     on_pixel: &OnPixel<'_>,
 ) -> Option<ProbedError> {
-    let shares = shares(picture, order);
-    let probes = Probes::spread(&shares, order.seed);
+    let probabilities = probabilities(picture, order);
+    let probes = Probes::spread(&probabilities, order.seed);
     // Of a power of two, replicates are stratified.
     let length = samples.min(LONGEST).next_power_of_two();
     let mut film = ProgressiveFilm::new(order.crop, order.seed);
@@ -68,15 +68,15 @@ pub fn probe(
     if !world.grow(&mut film, &wanted, on_pixel) {
         return None;
     }
-    let found = probes.found(&film, picture, &shares);
-    let (square, most) = mean_and_most(&found);
-    let unmet = order.unmet(world).within(samples / 2);
-    let is_whole = unmet.is_told(most, None);
-    let all = most + if is_whole { unmet.square } else { 0.0 };
+    let found = probes.found(&film, picture, &probabilities);
+    let (square, most) = mean_and_bound(&found);
+    let undersampled = order.undersampled(world).within(samples / 2);
+    let is_whole = undersampled.is_included(most, None);
+    let all = most + if is_whole { undersampled.square } else { 0.0 };
     Some(ProbedError {
-        told: square.max(0.0).sqrt() * LEVELS,
+        estimate: square.max(0.0).sqrt() * LEVELS,
         error: all.sqrt() * LEVELS,
-        unmet: (!is_whole).then_some(unmet.brightest),
+        undersampled: (!is_whole).then_some(undersampled.brightest),
         probes: probes.count,
         samples: 2 * length,
         counts: film.counts,
@@ -85,7 +85,7 @@ pub fn probe(
 
 /// The share of the probes that each pixel is to have, in sum 1: even, and in proportion to the squares by
 /// which denoising changed what is displayed of 3 × 3 pixels, by noise or by mistake.
-fn shares(picture: &DenoisedFilm, order: &Order) -> Vec<f64> {
+fn probabilities(picture: &DenoisedFilm, order: &Order) -> Vec<f64> {
     let (tone, exposure) = order.display;
     let shown = |pixel: &[f64; 3]| tone.display(pixel.map(|value| value * exposure));
     let Film { image, .. } = &picture.film;
@@ -108,11 +108,11 @@ fn shares(picture: &DenoisedFilm, order: &Order) -> Vec<f64> {
         changed.iter().sum::<f64>(),
         1.0 / changed.len().max(1) as f64,
     );
-    let share = |changed: f64| match all > 0.0 {
+    let probability = |changed: f64| match all > 0.0 {
         true => ANYWHERE * even + (1.0 - ANYWHERE) * changed / all,
         false => even,
     };
-    changed.into_iter().map(share).collect()
+    changed.into_iter().map(probability).collect()
 }
 
 /// Which pixels are sampled anew.
@@ -125,18 +125,18 @@ struct Probes {
 impl Probes {
     /// Chooses pixels with probabilities in proportion to their shares: one at random in each of as many
     /// stretches, of equal shares, of the pixels row by row.
-    fn spread(shares: &[f64], seed: u64) -> Self {
-        let pixels = shares.len();
+    fn spread(probabilities: &[f64], seed: u64) -> Self {
+        let pixels = probabilities.len();
         let least = LEAST.min(pixels / 4).max(FEWEST.min(pixels));
         let count = (pixels / SPACING).clamp(least, MOST);
         let mut hits = vec![0; pixels];
-        let (mut index, mut sum) = (0, shares[0]);
+        let (mut index, mut sum) = (0, probabilities[0]);
         for probe in 0..count {
             let within = fraction(mix((seed << 32 | probe as u64).wrapping_mul(GAMMA)));
             let place = (probe as f64 + within) / count as f64;
             while sum < place && index + 1 < pixels {
                 index += 1;
-                sum += shares[index];
+                sum += probabilities[index];
             }
             hits[index] += 1;
         }
@@ -144,13 +144,18 @@ impl Probes {
     }
 
     /// What the probes of each pixel find.
-    fn found(&self, film: &ProgressiveFilm, picture: &DenoisedFilm, shares: &[f64]) -> Vec<Found> {
+    fn found(
+        &self,
+        film: &ProgressiveFilm,
+        picture: &DenoisedFilm,
+        probabilities: &[f64],
+    ) -> Vec<ProbeResult> {
         let pixels = self.hits.len() as f64;
         let hit = self.hits.iter().enumerate().filter(|(_, hits)| **hits > 0);
         hit.map(|(index, hits)| {
             let value = picture.film.image.pixels[index];
-            Found {
-                square: film.pixel(index).square_error(value) / (pixels * shares[index]),
+            ProbeResult {
+                square: film.pixel(index).square_error(value) / (pixels * probabilities[index]),
                 hits: f64::from(*hits),
             }
         })
@@ -159,7 +164,7 @@ impl Probes {
 }
 
 /// What the probes of a pixel find, all of them the same.
-struct Found {
+struct ProbeResult {
     /// Its square error over its share, of a picture of one pixel.
     square: f64,
     hits: f64,
@@ -168,7 +173,7 @@ struct Found {
 /// The mean of what probes found, and what it is at most but for [`TAIL`]: as if it were χ² of as many
 /// degrees of freedom as its spread says, which squares of errors are nearer to than to a normal
 /// variable.
-fn mean_and_most(found: &[Found]) -> (f64, f64) {
+fn mean_and_bound(found: &[ProbeResult]) -> (f64, f64) {
     let probes: f64 = found.iter().map(|one| one.hits).sum();
     let mean = found.iter().map(|one| one.square * one.hits).sum::<f64>() / probes;
     let squares = found.iter().map(|one| {
@@ -205,16 +210,16 @@ mod tests {
         -size * rtc_math::ln(uniform(rng))
     }
 
-    fn once(square: f64) -> Found {
-        Found { square, hits: 1.0 }
+    fn once(square: f64) -> ProbeResult {
+        ProbeResult { square, hits: 1.0 }
     }
 
     #[test]
     fn probes_of_one_pixel_tell_no_more_than_one() {
         let (one, two) = ([1.0, 4.0].map(once), [1.0, 1.0, 4.0, 4.0].map(once));
-        let twice = [1.0, 4.0].map(|square| Found { square, hits: 2.0 });
-        assert_eq!(mean_and_most(&one), mean_and_most(&twice));
-        assert!(mean_and_most(&two).1 < mean_and_most(&twice).1);
+        let twice = [1.0, 4.0].map(|square| ProbeResult { square, hits: 2.0 });
+        assert_eq!(mean_and_bound(&one), mean_and_bound(&twice));
+        assert!(mean_and_bound(&two).1 < mean_and_bound(&twice).1);
     }
 
     #[test]
@@ -224,7 +229,7 @@ mod tests {
             let mut rng = Rng::new(count as u64);
             let held = (0..400).filter(|_| {
                 let found: Vec<_> = (0..count).map(|_| once(square(&mut rng))).collect();
-                mean_and_most(&found).1 >= truth
+                mean_and_bound(&found).1 >= truth
             });
             let held = held.count();
             // 0.9 is promised; a bound that always holds would say nothing.
@@ -234,22 +239,22 @@ mod tests {
 
     #[test]
     fn what_noise_takes_below_zero_has_a_bound_above() {
-        let (mean, most) = mean_and_most(&[-1.0, 0.5, -0.5, 0.0].map(once));
+        let (mean, most) = mean_and_bound(&[-1.0, 0.5, -0.5, 0.0].map(once));
         assert!(
             mean < 0.0 && most > 0.0 && most.is_finite(),
             "{mean} {most}"
         );
-        assert_eq!(mean_and_most(&[0.0; 9].map(once)), (0.0, 0.0));
+        assert_eq!(mean_and_bound(&[0.0; 9].map(once)), (0.0, 0.0));
     }
 
     #[test]
     fn shares_say_how_often_a_pixel_is_chosen() {
-        let shares: Vec<_> = (0..4096)
+        let probabilities: Vec<_> = (0..4096)
             .map(|index| if index % 64 == 0 { 32.5 } else { 0.5 } / 4096.0)
             .collect();
         let mut hits = vec![0_u32; 4096];
         for seed in 0..200 {
-            let probes = Probes::spread(&shares, seed);
+            let probes = Probes::spread(&probabilities, seed);
             assert_eq!(probes.hits.iter().sum::<u32>() as usize, probes.count);
             hits.iter_mut()
                 .zip(probes.hits)

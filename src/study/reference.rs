@@ -2,9 +2,9 @@
 //! the budget ends; then it is rendered twice with independent sampling. The mean of the two halves
 //! is the reference, and their difference estimates its error.
 
-use super::knob::{MAX_DEPTH, Parameter};
 use super::metrics::{LEVELS, mean, mean_product, rmse};
 use super::outcome::{BounceCost, MoreBounces};
+use super::parameter::{MAX_DEPTH, Parameter};
 use super::setting::Setting;
 use super::subject::{RenderedTiles, Stopped, Subject};
 use rtc_image::Image;
@@ -12,10 +12,10 @@ use rtc_render::Seeds;
 use serde::{Deserialize, Serialize};
 
 /// The smallest error worth a row, in grey levels: a twentieth of a level is beyond any eye.
-pub(super) const SMALLEST: f64 = 0.05;
+pub(super) const MIN_ERROR: f64 = 0.05;
 
 /// The picture counts as unchanged if raising a knob changes it by less than this, in grey levels.
-const STILL: f64 = SMALLEST / 10.0;
+const UNCHANGED: f64 = MIN_ERROR / 10.0;
 
 /// A value of a knob alone, and its error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,17 +72,20 @@ struct DepthProbe(Vec<RenderedTiles>);
 
 impl DepthProbe {
     fn rays(&self) -> u64 {
-        self.0.iter().map(|shot| shot.counts.rays()).sum()
+        self.0.iter().map(|rendered| rendered.counts.rays()).sum()
     }
 
     fn secondary(&self) -> u64 {
-        self.0.iter().map(|shot| shot.counts.secondary()).sum()
+        self.0
+            .iter()
+            .map(|rendered| rendered.counts.secondary())
+            .sum()
     }
 
     /// Its difference from another depth in the common part of all samplings.
     fn error(&self, other: &Self) -> f64 {
-        let [a, b] =
-            [&self.0, &other.0].map(|shots| [&shots[0].tiles, &shots[shots.len() - 1].tiles]);
+        let [a, b] = [&self.0, &other.0]
+            .map(|renders| [&renders[0].tiles, &renders[renders.len() - 1].tiles]);
         mean_product([a[0], b[0]], [a[1], b[1]]).max(0.0).sqrt() * LEVELS
     }
 }
@@ -95,34 +98,34 @@ pub(super) fn depths(
     seeds: &[Seeds],
     budget: u64,
 ) -> Result<Depths, Stopped> {
-    let shoot = |depth| {
-        let shots = seeds
+    let render = |depth| {
+        let renders = seeds
             .iter()
-            .map(|seeds| subject.shoot(start.with(Parameter::Depth, depth), *seeds));
-        shots.collect::<Result<_, _>>().map(DepthProbe)
+            .map(|seeds| subject.render(start.with(Parameter::Depth, depth), *seeds));
+        renders.collect::<Result<_, _>>().map(DepthProbe)
     };
-    let (mut shots, end) = climb(shoot, budget)?;
+    let (mut renders, end) = search_depths(render, budget)?;
     // A search that ended for its budget still asks for the scene's own depth.
-    let last = shots.len() - 1;
+    let last = renders.len() - 1;
     if end == DepthEnd::Open && last < start.depth as usize {
-        shots.push(shoot(start.depth)?);
+        renders.push(render(start.depth)?);
     }
     let depth = |place: usize| match u32::try_from(place) {
         Ok(depth) if place <= last => depth,
         _ => start.depth,
     };
-    let own = (shots.len() - 1).min(start.depth as usize);
-    let level = |(place, shot): (usize, &DepthProbe)| {
-        let error = shot.error(&shots[own]);
+    let own = (renders.len() - 1).min(start.depth as usize);
+    let level = |(place, rendered): (usize, &DepthProbe)| {
+        let error = rendered.error(&renders[own]);
         Level {
             value: depth(place),
             error,
             resolved: error > 0.0,
-            rays: shot.rays(),
+            rays: rendered.rays(),
         }
     };
-    let mut levels: Vec<_> = shots.iter().enumerate().map(level).collect();
-    let own_rays = shots[own].rays().max(1) as f64;
+    let mut levels: Vec<_> = renders.iter().enumerate().map(level).collect();
+    let own_rays = renders[own].rays().max(1) as f64;
     let deeper = levels.split_off(own + 1).into_iter();
     let cost = |level: Level| BounceCost {
         depth: level.value,
@@ -138,33 +141,33 @@ pub(super) fn depths(
 }
 
 /// The depths from 0 up, until the picture no longer changes or the budget ends.
-fn climb(
-    shoot: impl Fn(u32) -> Result<DepthProbe, Stopped>,
+fn search_depths(
+    render: impl Fn(u32) -> Result<DepthProbe, Stopped>,
     budget: u64,
 ) -> Result<(Vec<DepthProbe>, DepthEnd), Stopped> {
-    let mut shots = vec![shoot(0)?];
-    let mut spent = shots[0].rays();
+    let mut renders = vec![render(0)?];
+    let mut spent = renders[0].rays();
     let end = loop {
-        let depth = u32::try_from(shots.len()).unwrap_or(MAX_DEPTH);
-        if let [.., before, last] = shots.as_slice() {
+        let depth = u32::try_from(renders.len()).unwrap_or(MAX_DEPTH);
+        if let [.., before, last] = renders.as_slice() {
             let grows = last.rays() as f64 / before.rays() as f64;
             if last.secondary() == before.secondary() {
-                shots.pop();
+                renders.pop();
                 break DepthEnd::Exact;
             }
             if depth > MAX_DEPTH || spent as f64 + last.rays() as f64 * grows > budget as f64 {
                 break DepthEnd::Open;
             }
         }
-        if let [.., first, second, third] = shots.as_slice()
-            && first.error(second).max(second.error(third)) < STILL
+        if let [.., first, second, third] = renders.as_slice()
+            && first.error(second).max(second.error(third)) < UNCHANGED
         {
             break DepthEnd::Still;
         }
-        shots.push(shoot(depth)?);
-        spent += shots[shots.len() - 1].rays();
+        renders.push(render(depth)?);
+        spent += renders[renders.len() - 1].rays();
     };
-    Ok((shots, end))
+    Ok((renders, end))
 }
 
 /// Renders the reference with about `budget` rays: raises one of the knobs that sample after the
@@ -172,36 +175,37 @@ fn climb(
 pub(super) fn reference(
     subject: &Subject<'_>,
     start: Setting,
-    knobs: &[Parameter],
+    parameters: &[Parameter],
     budget: u64,
 ) -> Result<Reference, Stopped> {
     let mut setting = start;
-    if knobs.is_empty() {
-        let shot = subject.shoot(setting, Seeds::NONE)?;
+    if parameters.is_empty() {
+        let rendered = subject.render(setting, Seeds::NONE)?;
         return Ok(Reference {
-            tiles: shot.tiles,
+            tiles: rendered.tiles,
             setting,
             floor: 0.0,
         });
     }
-    let mut half = subject.shoot(setting, independent(1))?;
+    let mut half = subject.render(setting, independent(1))?;
     let mut spent = half.counts.rays() as f64;
-    for (number, knob) in (2..).zip(knobs.iter().cycle()) {
-        let raised = setting.with(*knob, raised(setting.get(*knob)));
-        let growth = knob.samples(raised.get(*knob)) / knob.samples(setting.get(*knob));
+    for (number, parameter) in (2..).zip(parameters.iter().cycle()) {
+        let raised = setting.with(*parameter, raised(setting.get(*parameter)));
+        let growth =
+            parameter.samples(raised.get(*parameter)) / parameter.samples(setting.get(*parameter));
         // The other half costs the same.
         if spent + 2.0 * growth * half.counts.rays() as f64 > budget as f64 {
             break;
         }
-        let next = subject.shoot(raised, independent(number))?;
+        let next = subject.render(raised, independent(number))?;
         spent += next.counts.rays() as f64;
-        let moved = rmse(&half.tiles, &next.tiles);
+        let change = rmse(&half.tiles, &next.tiles);
         (setting, half) = (raised, next);
-        if moved < STILL {
+        if change < UNCHANGED {
             break;
         }
     }
-    let other = subject.shoot(setting, independent(0x5EED))?;
+    let other = subject.render(setting, independent(0x5EED))?;
     let tiles = mean(&half.tiles, &other.tiles);
     Ok(Reference {
         floor: 0.5 * rmse(&half.tiles, &other.tiles),

@@ -1,7 +1,7 @@
 //! What a growing picture lacks for its goal, and the samples of its next round.
 
 use super::metrics::LEVELS;
-use super::noise::{Allotment, Noise, grown};
+use super::noise::{Noise, SampleAllocation, doubled_if};
 use rtc_render::{ProgressiveFilm, Replicates};
 
 /// A target is given up with so many times the samples that its noise needs: where few pixels have
@@ -25,9 +25,9 @@ impl Missing {
     fn of(film: &ProgressiveFilm, noise: &Noise, tail: f64, error: f64) -> Self {
         let bound = noise.bound(tail, Some(error));
         let enough = error * error / (LEVELS * LEVELS * MOST_SAMPLES);
-        let is_open = bound.unmet.is_some_and(|white| white > 1.0);
+        let is_open = bound.undersampled.is_some_and(|white| white > 1.0);
         if bound.error > error && noise.square > enough {
-            return Self::Samples(noise.left(tail, error).max(enough));
+            return Self::Samples(noise.remaining(tail, error).max(enough));
         }
         let shown = film.pixels().map(|pixel| pixel.counts()[0]).min();
         match is_open && shown.is_some_and(|count| count < LEAST_UNBOUNDED) {
@@ -57,10 +57,10 @@ pub(super) fn next_round(
         Some(Missing::Samples(square)) => square,
         None => noise.square / 4.0,
     };
-    let allotment = Allotment::of(film, noise);
+    let allocation = SampleAllocation::of(film, noise);
     let samples = film.samples() as f64;
     let round = |square: f64| {
-        let wanted = allotment.wanted(film, square);
+        let wanted = allocation.wanted(film, square);
         let all = wanted
             .iter()
             .map(|[shown, pilot]| 2.0 * f64::from(*shown) + f64::from(*pilot));
@@ -88,7 +88,7 @@ pub(super) fn next_round(
 
 /// Twice the samples in all pixels, if no more than so many are too many.
 fn doubled(film: &ProgressiveFilm, most: f64) -> Option<Vec<[u32; 2]>> {
-    let twice = |pixel: &Replicates| pixel.counts().map(|count| grown(count, true));
+    let twice = |pixel: &Replicates| pixel.counts().map(|count| doubled_if(count, true));
     let wanted: Vec<_> = film.pixels().map(twice).collect();
     let grows = film
         .pixels()

@@ -1,16 +1,16 @@
 //! The rows of a study: the settings worth it, rendered, timed and judged, and those on the front.
 
-use super::knob::Parameter;
+use super::benchmark::{BenchmarkCase, TimedRun, benchmark};
 use super::metrics::Errors;
 use super::outcome::Row;
+use super::parameter::Parameter;
 use super::pareto;
-use super::race::{Runner, TimedRun, race};
 use super::reference::{self, Reference};
-use super::sample::TileErrors;
 use super::spread::ErrorSpread;
 use super::statistics::Rng;
 use super::subject::{Stopped, Subject};
-use super::{Context, FOR_ROWS, JUDGE, Scope};
+use super::tile_errors::TileErrors;
+use super::{Context, FOR_ROWS, MAX_REFERENCE_ERROR, Scope};
 
 impl Scope {
     /// The scene's own setting and the best ones by the model, rendered, timed and judged.
@@ -26,52 +26,57 @@ impl Scope {
             model,
         } = context;
         let budget = self.hundredths(FOR_ROWS);
-        let turned: Vec<_> = self
+        let varied: Vec<_> = self
             .used
             .iter()
             .copied()
-            .filter(|knob| !matches!(knob, Parameter::Denoise | Parameter::Precision))
+            .filter(|parameter| !matches!(parameter, Parameter::Denoise | Parameter::Precision))
             .collect();
-        let min = turned
+        let min = varied
             .iter()
-            .fold(self.own, |setting, knob| setting.with(*knob, knob.lowest()));
-        let least_error = (3.0 * reference.floor).max(reference::SMALLEST);
-        let best = pareto::candidates(model, min, &turned, budget as f64 / 10.0, least_error);
+            .fold(self.scene_setting, |setting, parameter| {
+                setting.with(*parameter, parameter.lowest())
+            });
+        let least_error = (3.0 * reference.floor).max(reference::MIN_ERROR);
+        let best = pareto::candidates(model, min, &varied, budget as f64 / 10.0, least_error);
         // Of tiles alone the pixels around are not known.
         let is_denoised = self.used.contains(&Parameter::Denoise) && subject.is_whole();
-        let settings = std::iter::once(self.own)
-            .chain(best.into_iter().filter(|setting| *setting != self.own));
+        let settings = std::iter::once(self.scene_setting).chain(
+            best.into_iter()
+                .filter(|setting| *setting != self.scene_setting),
+        );
         let settings = settings
             .flat_map(|setting| std::iter::once(setting).chain(pareto::cheaper(model, setting)))
-            .chain(self.own.denoised().filter(|_| is_denoised));
-        let runners: Vec<_> = settings
-            .map(|setting| Runner {
+            .chain(self.scene_setting.denoised().filter(|_| is_denoised));
+        let cases: Vec<_> = settings
+            .map(|setting| BenchmarkCase {
                 subject: subject.clone(),
                 setting,
             })
             .collect();
-        let race = race(&runners, budget, Some(&reference.tiles), rng)?;
-        let row = |(runner, run): (&Runner<'_>, TimedRun)| {
-            let errors = Errors::of(&run.shot.tiles, &reference.tiles, subject.fraction());
+        let benchmark = benchmark(&cases, budget, Some(&reference.tiles), rng)?;
+        let row = |(case, run): (&BenchmarkCase<'_>, TimedRun)| {
+            let errors = Errors::of(&run.rendered.tiles, &reference.tiles, subject.fraction());
             Row {
-                setting: runner.setting,
-                own: runner.setting == self.own,
+                setting: case.setting,
+                own: case.setting == self.scene_setting,
                 front: false,
-                rays: run.shot.counts.into(),
+                rays: run.rendered.counts.into(),
                 seconds: run.seconds,
                 ratio: run.ratio,
-                judged: reference.floor <= JUDGE * errors.rmse || reference.floor == 0.0,
+                is_resolved: reference.floor <= MAX_REFERENCE_ERROR * errors.rmse
+                    || reference.floor == 0.0,
                 spread: ErrorSpread::of(&run.squares),
                 errors,
                 resumed: run.is_resumed,
-                model: model.error(runner.setting),
-                tiles: run.shot.tiles,
+                model: model.error(case.setting),
+                tiles: run.rendered.tiles,
             }
         };
-        let rows: Vec<_> = runners.iter().zip(race.runs).map(row).collect();
+        let rows: Vec<_> = cases.iter().zip(benchmark.runs).map(row).collect();
         Ok((
             ranked(rows, reference, subject.fraction()),
-            race.wall_over_cpu,
+            benchmark.wall_over_cpu,
         ))
     }
 }

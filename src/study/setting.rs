@@ -1,6 +1,6 @@
 //! A setting: a value for each knob, read from a scene and written into one.
 
-use super::knob::{Parameter, arithmetic, place};
+use super::parameter::{Parameter, arithmetic, precision_value};
 use rtc_ir::{Material, Mode, Scene};
 use rtc_passes::Overrides;
 use rtc_plan::Arithmetic;
@@ -53,8 +53,8 @@ impl Setting {
 
     /// The value of a knob.
     #[must_use]
-    pub fn get(&self, knob: Parameter) -> u32 {
-        match knob {
+    pub fn get(&self, parameter: Parameter) -> u32 {
+        match parameter {
             Parameter::Supersampling => self.supersampling,
             Parameter::Aperture => self.aperture,
             Parameter::Lights => self.lights,
@@ -62,14 +62,14 @@ impl Setting {
             Parameter::Paths => self.paths,
             Parameter::Denoise => u32::from(self.denoise),
             Parameter::Depth => self.depth,
-            Parameter::Precision => place(self.precision),
+            Parameter::Precision => precision_value(self.precision),
         }
     }
 
     /// The same with another value for a knob.
     #[must_use]
-    pub fn with(mut self, knob: Parameter, value: u32) -> Self {
-        let held = match knob {
+    pub fn with(mut self, parameter: Parameter, value: u32) -> Self {
+        let slot = match parameter {
             Parameter::Supersampling => &mut self.supersampling,
             Parameter::Aperture => &mut self.aperture,
             Parameter::Lights => &mut self.lights,
@@ -87,7 +87,7 @@ impl Setting {
                 };
             }
         };
-        *held = value;
+        *slot = value;
         self
     }
 
@@ -137,20 +137,21 @@ impl Setting {
     /// In words, for the knobs given: "4×4 with 16 aperture samples, depth 3". The robust
     /// arithmetic is not mentioned, nor is a picture that is not denoised.
     #[must_use]
-    pub fn words(&self, knobs: &[Parameter]) -> String {
-        let is_said = |knob: &&Parameter| {
-            (**knob != Parameter::Precision || self.precision != Arithmetic::Robust)
-                && (**knob != Parameter::Denoise || self.denoise)
+    pub fn words(&self, parameters: &[Parameter]) -> String {
+        let is_named = |parameter: &&Parameter| {
+            (**parameter != Parameter::Precision || self.precision != Arithmetic::Robust)
+                && (**parameter != Parameter::Denoise || self.denoise)
         };
-        let words: Vec<_> = knobs
+        let words: Vec<_> = parameters
             .iter()
-            .filter(is_said)
-            .map(|knob| knob.words(self.get(*knob)))
+            .filter(is_named)
+            .map(|parameter| parameter.words(self.get(*parameter)))
             .collect();
         match words.split_first() {
             Some((first, [])) => first.clone(),
             Some((first, rest))
-                if knobs[0] == Parameter::Supersampling && knobs[1] != Parameter::Depth =>
+                if parameters[0] == Parameter::Supersampling
+                    && parameters[1] != Parameter::Depth =>
             {
                 format!("{first} with {}", rest.join(", "))
             }
@@ -180,7 +181,7 @@ mod tests {
             paths: 32,
             ..setting(4, 16, 3)
         };
-        let words = |knobs: &[Parameter]| setting.words(knobs);
+        let words = |parameters: &[Parameter]| setting.words(parameters);
         assert_eq!(
             words(&[
                 Parameter::Supersampling,
@@ -242,8 +243,12 @@ mod tests {
 
     #[test]
     fn what_is_set_is_held() {
-        for knob in Parameter::ALL {
-            assert_eq!(setting(9, 9, 9).with(knob, 1).get(knob), 1, "{knob:?}");
+        for parameter in Parameter::ALL {
+            assert_eq!(
+                setting(9, 9, 9).with(parameter, 1).get(parameter),
+                1,
+                "{parameter:?}"
+            );
         }
     }
 }

@@ -55,20 +55,20 @@ impl ErrorSpread {
 
 /// The random numbers of the renders of a row, and what each is held against.
 #[derive(Clone, Copy)]
-pub(super) struct Afresh<'t> {
+pub(super) struct Reseeded<'t> {
     /// The reference; without one all renders are alike.
-    pub(super) truth: Option<&'t [Image]>,
+    pub(super) reference: Option<&'t [Image]>,
     /// How many renders of the row there were before.
     pub(super) before: u64,
 }
 
-impl Afresh<'_> {
+impl Reseeded<'_> {
     /// The seeds of a render: those of `rtc render` for the first one.
     pub(super) fn seeds(&self, number: u64, settings: &Settings) -> Seeds {
         /// Other than those of references and sweeps.
         const FIRST: u64 = 0xAF7E;
         let number = self.before + number;
-        if self.truth.is_none() || number == 0 {
+        if self.reference.is_none() || number == 0 {
             return Seeds::NONE;
         }
         let seed = FIRST + number;
@@ -91,9 +91,12 @@ impl Afresh<'_> {
     }
 
     /// The mean square error of a render.
-    pub(super) fn square(&self, shot: &RenderedTiles) -> Option<f64> {
-        let truth = self.truth?;
-        Some(mean_product([&shot.tiles, truth], [&shot.tiles, truth]))
+    pub(super) fn square(&self, rendered: &RenderedTiles) -> Option<f64> {
+        let reference = self.reference?;
+        Some(mean_product(
+            [&rendered.tiles, reference],
+            [&rendered.tiles, reference],
+        ))
     }
 }
 
@@ -113,8 +116,8 @@ mod tests {
         let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
         assert!(renders == 4 && near(expected, 2.5_f64.sqrt()));
         assert!(near(deviation, (1.0_f64 / 3.0).sqrt()), "{deviation}");
-        let alike = ErrorSpread::of(&[squares[0]]);
-        assert!(near(alike.expected, 1.0) && alike.deviation == 0.0);
+        let identical = ErrorSpread::of(&[squares[0]]);
+        assert!(near(identical.expected, 1.0) && identical.deviation == 0.0);
         assert_eq!(ErrorSpread::of(&[]).relative(), 0.0);
     }
 }

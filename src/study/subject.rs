@@ -1,11 +1,11 @@
 //! The subject of a study: a scene, and some tiles of its picture. It renders them in any setting,
 //! and counts their rays.
 
-use super::bench::{Bench, Time};
 use super::journal::Entry;
 use super::outcome::StudyArea;
+use super::runtime::{StudyRuntime, Time};
 use super::setting::Setting;
-use super::spread::Afresh;
+use super::spread::Reseeded;
 use rtc_image::Image;
 use rtc_ir::{Pattern, Scene};
 use rtc_plan::{Plan, Rules};
@@ -16,12 +16,12 @@ use xxhash_rust::xxh3::xxh3_64;
 
 /// A scene, and the part of its picture that is rendered.
 #[derive(Clone)]
-pub(super) struct Subject<'bench> {
+pub(super) struct Subject<'runtime> {
     pub(super) scene: Arc<Scene>,
     seed: u64,
     /// The tiles by rank, as column and row.
     tiles: Vec<[u32; 2]>,
-    bench: &'bench Bench<'bench>,
+    runtime: &'runtime StudyRuntime<'runtime>,
 }
 
 /// The tiles of a picture as rendered.
@@ -33,7 +33,7 @@ pub(super) struct RenderedTiles {
 
 /// A render of some tiles, and how long it took.
 pub(super) struct Timed {
-    pub(super) shot: RenderedTiles,
+    pub(super) rendered: RenderedTiles,
     pub(super) time: Time,
     /// The mean square error of each render, if they were held against something.
     pub(super) squares: Vec<f64>,
@@ -45,9 +45,9 @@ pub(super) struct Timed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stopped;
 
-impl<'bench> Subject<'bench> {
+impl<'runtime> Subject<'runtime> {
     /// The whole picture of a proven scene; `seed` gives the order of tiles for smaller parts.
-    pub(super) fn new(scene: &Scene, seed: u64, bench: &'bench Bench<'bench>) -> Self {
+    pub(super) fn new(scene: &Scene, seed: u64, runtime: &'runtime StudyRuntime<'runtime>) -> Self {
         let [columns, rows] = scene.camera.size.map(|pixels| pixels.div_ceil(Tiles::SIDE));
         let mut tiles: Vec<_> = (0..rows)
             .flat_map(|y| (0..columns).map(move |x| [x, y]))
@@ -57,7 +57,7 @@ impl<'bench> Subject<'bench> {
             scene: Arc::new(scene.clone()),
             seed,
             tiles,
-            bench,
+            runtime,
         }
     }
 
@@ -116,19 +116,19 @@ impl<'bench> Subject<'bench> {
     /// The rays of each pixel of the whole picture in a setting, row by row.
     pub(super) fn rays_of_pixels(&self, setting: Setting) -> Result<Vec<u64>, Stopped> {
         let key = self.key("rays", setting, Seeds::NONE);
-        if let Some(entry) = self.bench.recall(key) {
+        if let Some(entry) = self.runtime.replay(key) {
             return Ok(entry.seconds.iter().map(|rays| *rays as u64).collect());
         }
         let (scene, job) = (self.validate(setting, Seeds::NONE), self.job(Seeds::NONE));
-        let plan = Plan::by(setting.precision, &scene, Rules::ALL);
+        let plan = Plan::with_arithmetic(setting.precision, &scene, Rules::ALL);
         let count = || {
-            self.bench
+            self.runtime
                 .rays_of_pixels((&scene, &plan), &job, setting.denoise)
         };
-        let rays = self.bench.work(count).ok_or(Stopped)?;
-        self.bench.note(|| Entry {
+        let rays = self.runtime.in_parallel(count).ok_or(Stopped)?;
+        self.runtime.record(|| Entry {
             key,
-            shot: RenderedTiles {
+            rendered: RenderedTiles {
                 tiles: Vec::new(),
                 counts: Counts::default(),
             },
@@ -139,13 +139,13 @@ impl<'bench> Subject<'bench> {
     }
 
     /// The tiles of a render, also of a whole picture.
-    pub(super) fn tiles_of(&self, shot: RenderedTiles) -> Vec<Image> {
-        match shot.tiles.as_slice() {
+    pub(super) fn tiles_of(&self, rendered: RenderedTiles) -> Vec<Image> {
+        match rendered.tiles.as_slice() {
             [whole] if self.is_whole() => {
                 let cells = self.cells();
                 cells.iter().map(|cell| cut(whole, *cell)).collect()
             }
-            _ => shot.tiles,
+            _ => rendered.tiles,
         }
     }
 
@@ -173,19 +173,21 @@ impl<'bench> Subject<'bench> {
 
     /// Renders in a setting on all threads. A seed other than 0 makes that sampling independent of
     /// all other seeds.
-    pub(super) fn shoot(&self, setting: Setting, seeds: Seeds) -> Result<RenderedTiles, Stopped> {
+    pub(super) fn render(&self, setting: Setting, seeds: Seeds) -> Result<RenderedTiles, Stopped> {
         let key = self.key("picture", setting, seeds);
-        if let Some(entry) = self.bench.recall(key) {
-            return Ok(entry.shot);
+        if let Some(entry) = self.runtime.replay(key) {
+            return Ok(entry.rendered);
         }
         let scene = self.validate(setting, seeds);
-        let shot = self.bench.work(|| self.render(&scene, setting, seeds))?;
-        self.bench.note(|| Entry {
+        let rendered = self
+            .runtime
+            .in_parallel(|| self.render_scene(&scene, setting, seeds))?;
+        self.runtime.record(|| Entry {
             key,
-            shot: shot.clone(),
+            rendered: rendered.clone(),
             seconds: Vec::new(),
         });
-        Ok(shot)
+        Ok(rendered)
     }
 
     /// Tells renders of a study apart.
@@ -195,55 +197,58 @@ impl<'bench> Subject<'bench> {
     }
 
     /// Renders in a setting on one thread, `repeats` times as decided from the first result, each as
-    /// `afresh` says. If the picture of the first is not wanted, it may be missing.
+    /// `reseeded` says. If the picture of the first is not wanted, it may be missing.
     pub(super) fn time(
         &self,
         setting: Setting,
         is_wanted: bool,
-        afresh: Afresh<'_>,
+        reseeded: Reseeded<'_>,
         repeats: impl FnOnce(&RenderedTiles) -> u64,
     ) -> Result<Timed, Stopped> {
-        let key = self.key("time", setting, afresh.seeds(0, &self.scene.settings));
-        if let Some(Entry { shot, seconds, .. }) = self.bench.recall(key)
+        let key = self.key("time", setting, reseeded.seeds(0, &self.scene.settings));
+        if let Some(Entry {
+            rendered, seconds, ..
+        }) = self.runtime.replay(key)
             && let [cpu, wall, squares @ ..] = &seconds[..]
         {
-            repeats(&shot);
+            repeats(&rendered);
             let (cpu, wall) = (*cpu, *wall);
             return Ok(Timed {
-                shot,
+                rendered,
                 time: Time { cpu, wall },
                 squares: squares.to_vec(),
                 is_resumed: true,
             });
         }
-        let scene = self.prove_with(setting, None);
+        let scene = self.validate_with(setting, None);
         let render = |number| {
-            let seeds = afresh.seeds(number, &self.scene.settings);
-            self.bench.measure(|| self.render(&scene, setting, seeds))
+            let seeds = reseeded.seeds(number, &self.scene.settings);
+            self.runtime
+                .measure(|| self.render_scene(&scene, setting, seeds))
         };
-        let (shot, mut time) = render(0);
-        let shot = shot?;
-        let mut squares = Vec::from_iter(afresh.square(&shot));
-        let count = repeats(&shot);
+        let (rendered, mut time) = render(0);
+        let rendered = rendered?;
+        let mut squares = Vec::from_iter(reseeded.square(&rendered));
+        let count = repeats(&rendered);
         for number in 1..count {
             let (again, more) = render(number);
-            squares.extend(afresh.square(&again?));
+            squares.extend(reseeded.square(&again?));
             time = time.plus(more);
         }
         let time = time.over(count as f64);
-        self.bench.note(|| Entry {
+        self.runtime.record(|| Entry {
             key,
-            shot: RenderedTiles {
+            rendered: RenderedTiles {
                 tiles: match is_wanted {
-                    true => shot.tiles.clone(),
+                    true => rendered.tiles.clone(),
                     false => Vec::new(),
                 },
-                counts: shot.counts,
+                counts: rendered.counts,
             },
             seconds: [&[time.cpu, time.wall], &squares[..]].concat(),
         });
         Ok(Timed {
-            shot,
+            rendered,
             time,
             squares,
             is_resumed: false,
@@ -253,7 +258,7 @@ impl<'bench> Subject<'bench> {
     /// The seconds for preparing the scene and for skipping all pixels, in each of `rounds`.
     pub(super) fn time_overhead(&self, setting: Setting, rounds: usize) -> Vec<[f64; 2]> {
         let key = self.key("overhead", setting, Seeds::NONE);
-        if let Some(entry) = self.bench.recall(key) {
+        if let Some(entry) = self.runtime.replay(key) {
             let (pairs, _) = entry.seconds.as_chunks();
             return pairs.to_vec();
         }
@@ -277,18 +282,18 @@ impl<'bench> Subject<'bench> {
             ..Job::default()
         };
         let seconds = |job| {
-            let plan = || Plan::by(setting.precision, &scene, Rules::ALL);
-            let work = || self.bench.render((&scene, &plan()), job, false);
-            self.bench.measure(work).1.cpu
+            let plan = || Plan::with_arithmetic(setting.precision, &scene, Rules::ALL);
+            let work = || self.runtime.render((&scene, &plan()), job, false);
+            self.runtime.measure(work).1.cpu
         };
         let round = |_| {
             let prepare = seconds(&without_pixels);
             [prepare, (seconds(&without_tiles) - prepare).max(0.0)]
         };
         let seconds: Vec<[f64; 2]> = (0..rounds).map(round).collect();
-        self.bench.note(|| Entry {
+        self.runtime.record(|| Entry {
             key,
-            shot: RenderedTiles {
+            rendered: RenderedTiles {
                 tiles: Vec::new(),
                 counts: Counts::default(),
             },
@@ -299,11 +304,11 @@ impl<'bench> Subject<'bench> {
 
     /// The scene in a setting, with sub-samples in a pattern that seeds change.
     fn validate(&self, setting: Setting, seeds: Seeds) -> ValidScene {
-        self.prove_with(setting, (seeds.pixel != 0).then_some(Pattern::Jitter))
+        self.validate_with(setting, (seeds.pixel != 0).then_some(Pattern::Jitter))
     }
 
     /// The scene in a setting, in its own pattern or in another.
-    fn prove_with(&self, setting: Setting, pattern: Option<Pattern>) -> ValidScene {
+    fn validate_with(&self, setting: Setting, pattern: Option<Pattern>) -> ValidScene {
         let mut scene = Scene::clone(&self.scene);
         setting.apply(&mut scene);
         if let Some(pattern) = pattern {
@@ -312,15 +317,15 @@ impl<'bench> Subject<'bench> {
         revalidate(&scene)
     }
 
-    fn render(
+    fn render_scene(
         &self,
         scene: &ValidScene,
         setting: Setting,
         seeds: Seeds,
     ) -> Result<RenderedTiles, Stopped> {
         let job = self.job(seeds);
-        let plan = Plan::by(setting.precision, scene, Rules::ALL);
-        let film = self.bench.render((scene, &plan), &job, setting.denoise);
+        let plan = Plan::with_arithmetic(setting.precision, scene, Rules::ALL);
+        let film = self.runtime.render((scene, &plan), &job, setting.denoise);
         let film = film.ok_or(Stopped)?;
         let counts = film.counts;
         if self.is_whole() {

@@ -1,9 +1,9 @@
 //! Each knob alone: its error if all others have none, the power law of that error, and a model of
 //! all together: squares of errors add.
 
-use super::knob::Parameter;
 use super::metrics::{LEVELS, products};
-use super::outcome::KnobReport;
+use super::outcome::ParameterReport;
+use super::parameter::Parameter;
 use super::reference::{Depths, Level, Reference, independent};
 use super::setting::Setting;
 use super::statistics::PowerLaw;
@@ -14,7 +14,7 @@ use rtc_render::Seeds;
 
 /// A knob at each of its values, all others as in the reference.
 pub(super) struct Levels {
-    pub(super) knob: Parameter,
+    pub(super) parameter: Parameter,
     pub(super) levels: Vec<Level>,
     pub(super) law: Option<PowerLaw>,
 }
@@ -26,22 +26,23 @@ pub(super) struct Levels {
 pub(super) fn sweep(
     subject: &Subject<'_>,
     reference: &Reference,
-    (knob, base): (Parameter, Setting),
+    (parameter, base): (Parameter, Setting),
     budget: u64,
 ) -> Result<Levels, Stopped> {
     let mut levels: Vec<Level> = Vec::new();
     let mut spent = 0;
-    for value in knob.levels() {
+    for value in parameter.levels() {
         if let Some(last) = levels.last() {
-            let expected = last.rays as f64 * knob.samples(value) / knob.samples(last.value);
+            let expected =
+                last.rays as f64 * parameter.samples(value) / parameter.samples(last.value);
             if levels.len() > 2 && spent as f64 + 2.0 * expected > budget as f64 {
                 break;
             }
         }
-        let setting = base.with(knob, value);
+        let setting = base.with(parameter, value);
         let (a, b) = (
-            subject.shoot(setting, others(knob, 3))?,
-            subject.shoot(setting, others(knob, 4))?,
+            subject.render(setting, others(parameter, 3))?,
+            subject.render(setting, others(parameter, 4))?,
         );
         let level = level(value, [&a.tiles, &b.tiles], reference, a.counts.rays());
         spent += a.counts.rays() + b.counts.rays();
@@ -51,16 +52,16 @@ pub(super) fn sweep(
         }
     }
     Ok(Levels {
-        knob,
-        law: law(knob, &levels),
+        parameter,
+        law: law(parameter, &levels),
         levels,
     })
 }
 
 /// Independent sampling, except for that of the knob.
-fn others(knob: Parameter, number: u64) -> Seeds {
+fn others(parameter: Parameter, number: u64) -> Seeds {
     let seeds = independent(number);
-    match knob {
+    match parameter {
         Parameter::Supersampling => Seeds { pixel: 0, ..seeds },
         Parameter::Aperture => Seeds { lens: 0, ..seeds },
         Parameter::Lights | Parameter::Glossy => Seeds { path: 0, ..seeds },
@@ -74,8 +75,8 @@ fn level(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) ->
     /// The channels of a block of pixels that a tile has too.
     const BLOCK: usize = 3 * 256;
     let floor = reference.floor / LEVELS;
-    let truth = reference.tiles.as_slice();
-    let products: Vec<_> = products([a, truth], [b, truth])
+    let reference_tiles = reference.tiles.as_slice();
+    let products: Vec<_> = products([a, reference_tiles], [b, reference_tiles])
         .map(|product| product - floor * floor)
         .collect();
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
@@ -97,79 +98,85 @@ fn level(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) ->
 
 /// The law of the rungs that stand out; a single point of a light or lobe is another picture, not a
 /// sample of it.
-fn law(knob: Parameter, levels: &[Level]) -> Option<PowerLaw> {
+fn law(parameter: Parameter, levels: &[Level]) -> Option<PowerLaw> {
     let is_sample = |level: &&Level| {
         level.resolved
-            && !(level.value == 1 && matches!(knob, Parameter::Lights | Parameter::Glossy))
+            && !(level.value == 1 && matches!(parameter, Parameter::Lights | Parameter::Glossy))
     };
     let points: Vec<_> = levels
         .iter()
         .filter(is_sample)
-        .map(|level| (knob.samples(level.value), level.error))
+        .map(|level| (parameter.samples(level.value), level.error))
         .collect();
     PowerLaw::fit(&points)
 }
 
 /// A model of the error and the rays of any setting.
 pub(super) struct Model {
-    knobs: Vec<Levels>,
+    parameters: Vec<Levels>,
     base: Setting,
     base_rays: f64,
     /// The square of what sub-samples and points of the lens leave together beyond what each
     /// leaves alone, one of each.
-    interplay: f64,
+    interaction: f64,
 }
 
 impl Model {
     /// The model of ladders that were measured around `base`, which takes `base_rays`.
     pub(super) fn new(
-        mut knobs: Vec<Levels>,
+        mut parameters: Vec<Levels>,
         depths: Option<&Depths>,
         base: Setting,
         base_rays: u64,
     ) -> Self {
-        knobs.extend(depths.map(|depths| Levels {
-            knob: Parameter::Depth,
+        parameters.extend(depths.map(|depths| Levels {
+            parameter: Parameter::Depth,
             levels: depths.levels.clone(),
             law: None,
         }));
         Self {
-            knobs,
+            parameters,
             base,
             base_rays: base_rays as f64,
-            interplay: 0.0,
+            interaction: 0.0,
         }
     }
 
     /// Learns from the error of the base with one sub-sample and one point of the lens.
-    pub(super) fn learn_interplay(&mut self, coarse: Setting, error: f64) {
+    pub(super) fn learn_interaction(&mut self, coarse: Setting, error: f64) {
         let alone = self.error(coarse);
-        self.interplay = (error * error - alone * alone).max(0.0);
+        self.interaction = (error * error - alone * alone).max(0.0);
     }
 
     /// Adds the errors of the arithmetics.
     pub(super) fn learn_precision(&mut self, levels: Levels) {
-        self.knobs.push(levels);
+        self.parameters.push(levels);
     }
 
-    fn levels(&self, knob: Parameter) -> Option<&Levels> {
-        self.knobs.iter().find(|levels| levels.knob == knob)
+    fn levels(&self, parameter: Parameter) -> Option<&Levels> {
+        self.parameters
+            .iter()
+            .find(|levels| levels.parameter == parameter)
     }
 
     /// The measured values of a knob, in ascending order of work.
-    pub(super) fn tried(&self, knob: Parameter) -> impl Iterator<Item = u32> {
-        self.levels(knob)
+    pub(super) fn measured_values(&self, parameter: Parameter) -> impl Iterator<Item = u32> {
+        self.levels(parameter)
             .into_iter()
             .flat_map(|levels| &levels.levels)
             .map(|level| level.value)
     }
 
-    /// The measurements of a knob; `idle` is the reason to leave it alone, if there is one.
-    pub(super) fn report(&self, knob: Parameter, idle: Option<String>) -> KnobReport {
-        let levels = self.levels(knob);
-        KnobReport {
-            knob,
-            idle,
+    /// The measurements of a knob; `not_applicable` is the reason to leave it alone, if there is one.
+    pub(super) fn report(
+        &self,
+        parameter: Parameter,
+        not_applicable: Option<String>,
+    ) -> ParameterReport {
+        let levels = self.levels(parameter);
+        ParameterReport {
+            parameter,
+            not_applicable,
             levels: levels
                 .map(|levels| levels.levels.clone())
                 .unwrap_or_default(),
@@ -180,26 +187,28 @@ impl Model {
     /// The error of a setting in grey levels.
     pub(super) fn error(&self, setting: Setting) -> f64 {
         let more = self.base.camera_rays() / setting.camera_rays();
-        let squares = self.knobs.iter().map(|levels| {
-            let value = setting.get(levels.knob);
+        let squares = self.parameters.iter().map(|levels| {
+            let value = setting.get(levels.parameter);
             let error = levels.error(value);
             // Lights and lobes are sampled anew for each camera ray; one point of them is the same
             // every time.
-            let is_anew = matches!(levels.knob, Parameter::Lights | Parameter::Glossy) && value > 1;
-            error * error * if is_anew { more } else { 1.0 }
+            let is_resampled =
+                matches!(levels.parameter, Parameter::Lights | Parameter::Glossy) && value > 1;
+            error * error * if is_resampled { more } else { 1.0 }
         });
         // The edges of each point's picture are jagged in their own way: their mean is as smooth as
         // they are many.
         let samples = Parameter::Supersampling.samples(setting.supersampling);
-        let together = self.interplay / (samples * samples.sqrt() * f64::from(setting.aperture));
-        (squares.sum::<f64>() + together).sqrt()
+        let interaction =
+            self.interaction / (samples * samples.sqrt() * f64::from(setting.aperture));
+        (squares.sum::<f64>() + interaction).sqrt()
     }
 
     /// The rays of a setting.
     pub(super) fn rays(&self, setting: Setting) -> f64 {
-        let factors = self.knobs.iter().map(|levels| {
+        let factors = self.parameters.iter().map(|levels| {
             let rays = |value| levels.rays(value);
-            rays(setting.get(levels.knob)) / rays(self.base.get(levels.knob))
+            rays(setting.get(levels.parameter)) / rays(self.base.get(levels.parameter))
         });
         self.base_rays * factors.product::<f64>()
     }
@@ -209,7 +218,7 @@ impl Levels {
     fn error(&self, value: u32) -> f64 {
         // The first rung leaves the most error; it counts even where the noise hides it.
         let counts = |(index, level): &(usize, &Level)| {
-            *index == 0 || level.resolved || self.knob == Parameter::Depth
+            *index == 0 || level.resolved || self.parameter == Parameter::Depth
         };
         let clear: Vec<_> = self
             .levels
@@ -221,7 +230,7 @@ impl Levels {
         if let Some(level) = clear.iter().find(|level| level.value == value) {
             return level.error;
         }
-        let (Some(last), x) = (clear.last(), self.knob.samples(value)) else {
+        let (Some(last), x) = (clear.last(), self.parameter.samples(value)) else {
             return 0.0;
         };
         let above = clear
@@ -230,7 +239,7 @@ impl Levels {
             .filter(|above| *above > 0);
         match above {
             // Between the depths tried and the scene's own, which has no error.
-            Some(above) if self.knob == Parameter::Depth => {
+            Some(above) if self.parameter == Parameter::Depth => {
                 let (below, above) = (clear[above - 1], clear[above]);
                 let fraction =
                     f64::from(value - below.value) / f64::from(above.value - below.value);
@@ -238,10 +247,10 @@ impl Levels {
             }
             Some(above) => self.between([clear[above - 1], clear[above]], x, |level| level.error),
             // Beyond the last value: no more gain in depth, the power law otherwise.
-            None if self.knob == Parameter::Depth => last.error,
+            None if self.parameter == Parameter::Depth => last.error,
             None => {
                 let exponent = self.law.map_or(0.5, |law| law.p.value.clamp(0.25, 2.0));
-                last.error * exp(-exponent * ln(x / self.knob.samples(last.value)))
+                last.error * exp(-exponent * ln(x / self.parameter.samples(last.value)))
             }
         }
     }
@@ -252,7 +261,7 @@ impl Levels {
         if let Some(level) = self.levels.iter().find(|level| level.value == value) {
             return at(level);
         }
-        let x = self.knob.samples(value);
+        let x = self.parameter.samples(value);
         let above = self
             .levels
             .iter()
@@ -260,8 +269,8 @@ impl Levels {
             .filter(|above| *above > 0);
         match (above, self.levels.last()) {
             (Some(above), _) => self.between([&self.levels[above - 1], &self.levels[above]], x, at),
-            (None, Some(last)) if self.knob == Parameter::Depth => at(last),
-            (None, Some(last)) => at(last) * x / self.knob.samples(last.value),
+            (None, Some(last)) if self.parameter == Parameter::Depth => at(last),
+            (None, Some(last)) => at(last) * x / self.parameter.samples(last.value),
             (None, None) => 1.0,
         }
     }
@@ -270,8 +279,8 @@ impl Levels {
     fn between(&self, [below, above]: [&Level; 2], x: f64, of: impl Fn(&Level) -> f64) -> f64 {
         let log = |x: f64| ln(x.max(f64::MIN_POSITIVE));
         let (from, to) = (
-            log(self.knob.samples(below.value)),
-            log(self.knob.samples(above.value)),
+            log(self.parameter.samples(below.value)),
+            log(self.parameter.samples(above.value)),
         );
         let fraction = (log(x) - from) / (to - from);
         exp(log(of(below)) * (1.0 - fraction) + log(of(above)) * fraction)

@@ -6,12 +6,12 @@
 //! whole film: a target error alone gives the same picture on any number of threads.
 
 use super::budget::{self, CoarsePicture};
-use super::growth::{CheckpointSink, Checkpointer, ProgressiveRender};
-use super::knob::{Parameter, idle};
 use super::noise::Noise;
+use super::parameter::{Parameter, not_applicable};
+use super::progressive::{CheckpointSink, Checkpointer, ProgressiveRender};
 use super::rounds::next_round;
 use super::subject::Stopped;
-use super::unmet::Undersampled;
+use super::undersampled::Undersampled;
 use rtc_color::Tone;
 use rtc_image::Image;
 use rtc_ir::{Pattern, Scene};
@@ -95,9 +95,9 @@ pub struct TargetResult {
     /// counts; of what samples met alone, if there is no bound.
     pub error: f64,
     /// If there is no bound: how bright, in multiples of white, light may be that no sample met.
-    pub unmet: Option<f64>,
+    pub undersampled: Option<f64>,
     /// If the time ended before each pixel had a sample; there is no bound on its error then.
-    pub crude: Option<CoarsePicture>,
+    pub coarse: Option<CoarsePicture>,
     /// Its samples.
     pub samples: Samples,
     /// Points of each soft light at a hit.
@@ -141,21 +141,21 @@ pub fn approach_keeping(
     scene: &Scene,
     order: &Order,
     watch: &Watch<'_>,
-    keep: Option<CheckpointSink<'_>>,
+    sink: Option<CheckpointSink<'_>>,
 ) -> Result<TargetResult, Stopped> {
     let mut samples = Parameter::ALL
         .into_iter()
-        .filter(|knob| knob.samples_pixels());
-    if samples.all(|knob| idle(knob, scene).is_some()) {
-        return exactly(world, order, watch);
+        .filter(|parameter| parameter.samples_pixels());
+    if samples.all(|parameter| not_applicable(parameter, scene).is_some()) {
+        return render_unsampled(world, order, watch);
     }
-    let own = world.scene().clone();
-    let reached = match order.goal.time {
-        Some(time) => budget::within(world, scene, order, watch, time),
-        None => in_rounds(world, scene, order, watch, keep.map(Checkpointer::new)),
+    let scene_samples = world.scene().clone();
+    let result = match order.goal.time {
+        Some(time) => budget::render_within(world, scene, order, watch, time),
+        None => in_rounds(world, scene, order, watch, sink.map(Checkpointer::new)),
     };
-    world.change(own);
-    reached
+    world.change(scene_samples);
+    result
 }
 
 /// As [`approach`], for a scene that is sampled; the world is left in another setting.
@@ -164,37 +164,39 @@ fn in_rounds(
     scene: &Scene,
     order: &Order,
     watch: &Watch<'_>,
-    mut keeper: Option<Checkpointer<'_>>,
+    mut checkpointer: Option<Checkpointer<'_>>,
 ) -> Result<TargetResult, Stopped> {
-    let mut growth = match keeper.as_mut().and_then(Checkpointer::begun) {
-        Some(begun) => begun,
+    let mut progressive = match checkpointer.as_mut().and_then(Checkpointer::resumed_from) {
+        Some(resumed_from) => resumed_from,
         None => {
             let (light_samples, tried) = light_samples(world, scene, order, watch)?;
-            let mut growth = begin(light_samples, order);
-            growth.film.counts = tried;
-            growth.wanted = vec![first_round(scene, order, world); growth.film.len()];
-            growth
+            let mut progressive = begin(light_samples, order);
+            progressive.film.counts = tried;
+            progressive.wanted = vec![first_round(scene, order, world); progressive.film.len()];
+            progressive
         }
     };
-    spread(world, scene, growth.light_samples);
-    let unmet = order.unmet(world);
+    set_sampling(world, scene, progressive.light_samples);
+    let undersampled = order.undersampled(world);
     let mut error = None;
     loop {
-        let pixels = growth.film.len() as u64;
+        let pixels = progressive.film.len() as u64;
         (watch.round)(Progress { pixels, error });
-        if !growth.grow(world, watch.on_pixel, keeper.as_mut()) {
+        if !progressive.refine(world, watch.on_pixel, checkpointer.as_mut()) {
             return Err(Stopped);
         }
-        let noise = Noise::of(&growth.film, &unmet);
-        let tail = tail_of(growth.rounds + 1);
+        let noise = Noise::of(&progressive.film, &undersampled);
+        let tail = tail_of(progressive.rounds + 1);
         let bound = noise.bound(tail, order.goal.error);
         let goal = order.goal.error;
-        let Some(wanted) = next_round(&growth.film, &noise, tail, goal, f64::INFINITY) else {
-            keeper.iter().for_each(|keeper| keeper.save(&growth));
-            return Ok(growth.reached(bound, order.values));
+        let Some(wanted) = next_round(&progressive.film, &noise, tail, goal, f64::INFINITY) else {
+            checkpointer
+                .iter()
+                .for_each(|checkpointer| checkpointer.save(&progressive));
+            return Ok(progressive.result(bound, order.values));
         };
-        (growth.wanted, error) = (wanted, Some(bound.error));
-        growth.rounds += 1;
+        (progressive.wanted, error) = (wanted, Some(bound.error));
+        progressive.rounds += 1;
     }
 }
 
@@ -219,7 +221,7 @@ pub(super) fn begin(light_samples: u32, order: &Order) -> ProgressiveRender {
 /// The samples of each replicate, and of the pilot, that all pixels are to have before it is decided
 /// which have more.
 pub(super) fn first_round(scene: &Scene, order: &Order, world: &AnyWorld) -> [u32; 2] {
-    let min = if idle(Parameter::Paths, scene).is_none() {
+    let min = if not_applicable(Parameter::Paths, scene).is_none() {
         FIRST_PATHS
     } else {
         1
@@ -227,7 +229,7 @@ pub(super) fn first_round(scene: &Scene, order: &Order, world: &AnyWorld) -> [u3
     let pixels = order.crop.pixels().max(1);
     let first = FIRST.div_ceil(pixels).max(min).next_power_of_two();
     let goal = order.goal.error;
-    let least = goal.map_or(1, |error| order.unmet(world).least(error));
+    let least = goal.map_or(1, |error| order.undersampled(world).least(error));
     let first = u32::try_from(first).unwrap_or(1).max(least);
     [first, (first / 2).max(FIRST_PILOT)]
 }
@@ -241,7 +243,7 @@ impl Order {
     }
 
     /// What samples of a world may show.
-    pub(super) fn unmet(&self, world: &AnyWorld) -> Undersampled {
+    pub(super) fn undersampled(&self, world: &AnyWorld) -> Undersampled {
         let (_, exposure) = self.display;
         Undersampled {
             brightest: (world.brightest() * exposure).max(1.0),
@@ -251,7 +253,11 @@ impl Order {
 }
 
 /// The picture of a mode without sampling.
-fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<TargetResult, Stopped> {
+fn render_unsampled(
+    world: &AnyWorld,
+    order: &Order,
+    watch: &Watch<'_>,
+) -> Result<TargetResult, Stopped> {
     let job = Job {
         crop: Some(order.crop),
         values: order.values,
@@ -274,15 +280,15 @@ fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<TargetR
         coverage,
         counts,
         error: 0.0,
-        unmet: None,
-        crude: None,
+        undersampled: None,
+        coarse: None,
         samples,
         light_samples: 1,
     })
 }
 
 /// Sets random sub-samples in the pixels, and the number of points of soft lights.
-pub(super) fn spread(world: &mut AnyWorld, scene: &Scene, light_samples: u32) {
+pub(super) fn set_sampling(world: &mut AnyWorld, scene: &Scene, light_samples: u32) {
     let mut scene = scene.clone();
     scene.settings.pattern = Pattern::Jitter;
     scene.settings.light_samples = light_samples;
@@ -301,10 +307,11 @@ pub(super) fn light_samples(
     /// Tiles, and samples of a replicate in them.
     const TILES: usize = 4;
     const LENGTH: u32 = 4;
-    let own = scene.settings.light_samples;
-    let (mut best, mut tried) = ((own, f64::INFINITY), Counts::default());
-    if order.keep_lights || own == 1 || idle(Parameter::Lights, scene).is_some() {
-        return Ok((own, tried));
+    let scene_samples = scene.settings.light_samples;
+    let (mut best, mut tried) = ((scene_samples, f64::INFINITY), Counts::default());
+    if order.keep_lights || scene_samples == 1 || not_applicable(Parameter::Lights, scene).is_some()
+    {
+        return Ok((scene_samples, tried));
     }
     let Crop {
         x,
@@ -333,7 +340,7 @@ pub(super) fn light_samples(
         .collect();
     for count in [2, 4, 8, 16, 32] {
         let mut film = ProgressiveFilm::new(order.crop, order.seed);
-        spread(world, scene, count);
+        set_sampling(world, scene, count);
         (watch.round)(Progress {
             pixels: film.len() as u64,
             error: None,
@@ -342,11 +349,11 @@ pub(super) fn light_samples(
             return Err(Stopped);
         }
         tried = tried.plus(film.counts);
-        let price = Noise::of(&film, &order.unmet(world)).square * film.counts.rays() as f64;
-        if price >= best.1 {
+        let cost = Noise::of(&film, &order.undersampled(world)).square * film.counts.rays() as f64;
+        if cost >= best.1 {
             break;
         }
-        best = (count, price);
+        best = (count, cost);
     }
     Ok((best.0, tried))
 }

@@ -6,14 +6,14 @@
 //! whether it differs (as Welch's does for unpaired renders in Jung, Hanika, Dachsbacher, "Detecting Bias in
 //! Monte Carlo Renderers using Welch's t-test", JCGT 9(2), 2020).
 
+use super::benchmark::{BenchmarkCase, benchmark};
 use super::metrics::{LEVELS, mean_product, products, rmse};
 use super::outcome::{About, Rays, StudyArea};
-use super::race::{Runner, race};
 use super::reference::independent;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng, normal_quantile, paired};
 use super::subject::{Stopped, Subject};
-use super::{Bench, Effort};
+use super::{Effort, StudyRuntime};
 use rtc_image::Image;
 use rtc_ir::Scene;
 use rtc_render::Crop;
@@ -111,28 +111,28 @@ pub fn versus(
     about: [About; 2],
     effort: Effort,
     seed: u64,
-    bench: &Bench<'_>,
+    runtime: &StudyRuntime<'_>,
 ) -> Result<Versus, Stopped> {
     assert_eq!(scenes[0].camera.size, scenes[1].camera.size);
     let budget = scenes
         .map(|scene| effort.rays(scene))
         .into_iter()
         .fold(u64::MAX, u64::min) as f64;
-    let [first, second] = scenes.map(|scene| Subject::new(scene, seed, bench));
+    let [first, second] = scenes.map(|scene| Subject::new(scene, seed, runtime));
     let count = affordable([&first, &second], budget)?;
     let subjects = [first.keep(count), second.keep(count)];
     // A race tells ratios to the first.
-    let runners = [&subjects[1], &subjects[0]].map(|subject| Runner {
+    let cases = [&subjects[1], &subjects[0]].map(|subject| BenchmarkCase {
         subject: subject.clone(),
         setting: Setting::of(&subject.scene),
     });
     let rounds = (budget * ROUNDS / RENDERS) as u64;
-    let race = race(&runners, rounds, None, &mut Rng::new(seed))?;
-    let [first, second] = [1, 0].map(|which| &race.runs[which]);
+    let benchmark = benchmark(&cases, rounds, None, &mut Rng::new(seed))?;
+    let [first, second] = [1, 0].map(|which| &benchmark.runs[which]);
     let cells = subjects[0].cells();
     let [scene, reference] = subjects
         .each_ref()
-        .map(|subject| Sampled::of(subject, seed));
+        .map(|subject| SampledScene::of(subject, seed));
     let sampled = [scene?, reference?];
     Ok(Versus {
         schema: "rtc-versus/1".to_owned(),
@@ -140,13 +140,13 @@ pub fn versus(
         part: subjects[0].area(),
         seconds: [first.seconds, second.seconds],
         time: first.ratio,
-        rays: [first.shot.counts.into(), second.shot.counts.into()],
-        noise: sampled.each_ref().map(Sampled::noise),
-        rendered: rmse(&first.shot.tiles, &second.shot.tiles),
+        rays: [first.rendered.counts.into(), second.rendered.counts.into()],
+        noise: sampled.each_ref().map(SampledScene::noise),
+        rendered: rmse(&first.rendered.tiles, &second.rendered.tiles),
         error: beyond_noise(&sampled, subjects[0].fraction()),
         tested: cells.len(),
         different: different(&sampled, &cells),
-        wall_over_cpu: race.wall_over_cpu,
+        wall_over_cpu: benchmark.wall_over_cpu,
     })
 }
 
@@ -155,22 +155,22 @@ fn affordable(subjects: [&Subject<'_>; 2], budget: f64) -> Result<usize, Stopped
     let mut rays = 0.0;
     for subject in subjects {
         let pilot = subject.keep(FEWEST);
-        let shot = pilot.shoot(Setting::of(&subject.scene), independent(PILOT))?;
-        rays += shot.counts.rays() as f64 / pilot.count() as f64;
+        let rendered = pilot.render(Setting::of(&subject.scene), independent(PILOT))?;
+        rays += rendered.counts.rays() as f64 / pilot.count() as f64;
     }
     let tiles = (budget / (RENDERS * rays)).min(subjects[0].count() as f64);
     Ok((tiles as usize).max(FEWEST))
 }
 
 /// The replicates of a scene.
-struct Sampled {
+struct SampledScene {
     /// The means of the first half of them and of the second, in tiles.
     halves: [Vec<Image>; 2],
     /// The mean colour of each tile, for each replicate.
     means: Vec<Vec<[f64; 3]>>,
 }
 
-impl Sampled {
+impl SampledScene {
     /// The samples of a seed, which are independent of those of other seeds.
     fn of(subject: &Subject<'_>, seed: u64) -> Result<Self, Stopped> {
         let first = seed.wrapping_mul(u64::from(REPLICATES)).wrapping_add(1);
@@ -178,8 +178,8 @@ impl Sampled {
         let mut means = Vec::new();
         for number in 0..REPLICATES {
             let seeds = independent(first.wrapping_add(u64::from(number)).max(1));
-            let shot = subject.shoot(Setting::of(&subject.scene), seeds)?;
-            let tiles = subject.tiles_of(shot);
+            let rendered = subject.render(Setting::of(&subject.scene), seeds)?;
+            let tiles = subject.tiles_of(rendered);
             means.push(tiles.iter().map(mean_color).collect());
             let half = &mut halves[usize::from(number % 2)];
             match half.is_empty() {
@@ -231,7 +231,7 @@ fn add(sum: &mut Image, tile: &Image) {
 
 /// The difference of two scenes beyond noise, in grey levels, with the interval of 95 %: what noise leaves
 /// open of it, and the choice of tiles.
-fn beyond_noise([a, b]: &[Sampled; 2], fraction: f64) -> Estimate {
+fn beyond_noise([a, b]: &[SampledScene; 2], fraction: f64) -> Estimate {
     let first = [a.halves[0].as_slice(), &b.halves[0]];
     let second = [a.halves[1].as_slice(), &b.halves[1]];
     let square = mean_product(first, second);
@@ -269,7 +269,7 @@ fn variance_of(values: &[f64]) -> f64 {
 
 /// The tiles in which a colour differs, all tests together (Holm, "A simple sequentially
 /// rejective multiple test procedure", Scandinavian Journal of Statistics 6 (1979)).
-fn different([a, b]: &[Sampled; 2], cells: &[Crop]) -> Vec<DifferentTile> {
+fn different([a, b]: &[SampledScene; 2], cells: &[Crop]) -> Vec<DifferentTile> {
     let of = |(tile, cell): (usize, &Crop)| {
         let tests = [0, 1, 2].map(|c| paired(&a.channel(tile, c), &b.channel(tile, c)));
         let square = tests

@@ -4,11 +4,11 @@ use super::*;
 
 #[test]
 fn error_follows_the_laws_of_sampling() {
-    let law = |study: &Study, knob| {
+    let law = |study: &Study, parameter| {
         study
-            .knobs
+            .parameters
             .iter()
-            .find(|report| report.knob == knob)
+            .find(|report| report.parameter == parameter)
             .and_then(|report| report.law)
     };
     let edges = law(&WHOLE, Parameter::Supersampling).unwrap().p;
@@ -22,8 +22,8 @@ fn error_follows_the_laws_of_sampling() {
     )]);
     let coarse = Setting::of(&blurred).with(Parameter::Supersampling, 1);
     let at = |points| [picture(&blurred, coarse.with(Parameter::Aperture, points))];
-    let truth = at(1024);
-    let lens = PowerLaw::fit(&[4, 16, 64].map(|n| (f64::from(n), study::rmse(&at(n), &truth))))
+    let reference = at(1024);
+    let lens = PowerLaw::fit(&[4, 16, 64].map(|n| (f64::from(n), study::rmse(&at(n), &reference))))
         .unwrap()
         .p
         .value;
@@ -37,7 +37,7 @@ fn the_model_foresees_the_error_of_settings_together() {
         for row in study
             .rows
             .iter()
-            .filter(|row| row.judged && row.setting.aperture != 2)
+            .filter(|row| row.is_resolved && row.setting.aperture != 2)
         {
             let off = row.model / row.errors.rmse - 1.0;
             assert!(off.abs() < 0.3, "{}", study::table(study));
@@ -54,12 +54,12 @@ fn rows_that_the_reference_cannot_judge_say_so() {
             study
                 .rows
                 .iter()
-                .all(|row| row.judged == (floor <= 0.2 * row.errors.rmse))
+                .all(|row| row.is_resolved == (floor <= 0.2 * row.errors.rmse))
         );
     }
     let poor = study_of(&scene(&[]), 400_000, 0);
     assert!(
-        poor.rows.iter().any(|row| !row.judged) && study::table(&poor).contains('≤'),
+        poor.rows.iter().any(|row| !row.is_resolved) && study::table(&poor).contains('≤'),
         "{}",
         study::table(&poor)
     );
@@ -72,7 +72,7 @@ fn the_error_told_is_the_distance_to_a_finer_render() {
     let own = Setting::of(&scene);
     let fine = own.with(Parameter::Supersampling, 32);
     let (coarse, fine) = (picture(&scene, own), picture(&scene, fine));
-    let told = WHOLE.own().unwrap().errors.rmse;
+    let told = WHOLE.scene_row().unwrap().errors.rmse;
     let error = study::rmse(&[coarse], &[fine]);
     assert!((told / error - 1.0).abs() < 0.02, "{told} for {error}");
 }
@@ -105,7 +105,7 @@ pub(super) fn film(scene: &Scene) -> Image {
 #[test]
 fn a_planted_defect_shows_as_a_floor() {
     let scene = scene(&[]);
-    let truth = [picture(
+    let reference = [picture(
         &scene,
         Setting::of(&scene).with(Parameter::Supersampling, 24),
     )];
@@ -121,7 +121,7 @@ fn a_planted_defect_shows_as_a_floor() {
                         scene,
                         Setting::of(scene).with(Parameter::Supersampling, factor),
                     )],
-                    &truth,
+                    &reference,
                 ),
             )
         })
@@ -137,9 +137,9 @@ fn a_planted_defect_shows_as_a_floor() {
 #[test]
 fn what_is_left_out_of_the_depth_ends_at_the_scenes_own() {
     let depth = WHOLE
-        .knobs
+        .parameters
         .iter()
-        .find(|report| report.knob == Parameter::Depth)
+        .find(|report| report.parameter == Parameter::Depth)
         .unwrap();
     let errors: Vec<_> = depth.levels.iter().map(|level| level.error).collect();
     assert!(
@@ -158,7 +158,7 @@ fn the_scenes_own_depth_is_no_error() {
     let own = Setting::of(&flat);
     let fine = own.with(Parameter::Supersampling, 16);
     let error = study::rmse(&[picture(&flat, own)], &[picture(&flat, fine)]);
-    let told = study.own().unwrap().errors.rmse;
+    let told = study.scene_row().unwrap().errors.rmse;
     assert!((told / error - 1.0).abs() < 0.05, "{told} for {error}");
     assert!(
         study.rows.iter().all(|row| row.setting.depth == 0),
@@ -204,10 +204,10 @@ fn the_interval_of_a_part_holds_the_error_of_the_whole() {
     let whole = study::rmse(&pictures[..1], &pictures[1..]);
     let errors = |places: &[[u32; 2]]| {
         let of = |image: &Image| places.iter().map(|place| tile(image, *place)).collect();
-        let [test, truth]: [Vec<Image>; 2] = pictures.each_ref().map(of);
+        let [test, reference]: [Vec<Image>; 2] = pictures.each_ref().map(of);
         Errors::of(
             &test,
-            &truth,
+            &reference,
             places.len() as f64 / f64::from(columns * rows),
         )
     };
@@ -278,9 +278,9 @@ fn paths_have_a_ladder_and_a_law_of_their_own() {
         "{table}"
     );
     let law = study
-        .knobs
+        .parameters
         .iter()
-        .find(|report| report.knob == Parameter::Paths)
+        .find(|report| report.parameter == Parameter::Paths)
         .and_then(|report| report.law)
         .unwrap();
     assert!(
@@ -288,13 +288,18 @@ fn paths_have_a_ladder_and_a_law_of_their_own() {
         "noise falls as 1/√n or faster: {table}"
     );
     assert!(
-        study.own().unwrap().setting.paths == 16
+        study.scene_row().unwrap().setting.paths == 16
             && study.rows.iter().any(|row| row.setting.paths > 16),
         "{table}"
     );
     a_quarter_of_the_paths_is_denoised(&study);
     let is_plain = |row: &&study::Row| !row.setting.denoise;
-    for row in study.rows.iter().filter(|row| row.judged).filter(is_plain) {
+    for row in study
+        .rows
+        .iter()
+        .filter(|row| row.is_resolved)
+        .filter(is_plain)
+    {
         assert!((row.model / row.errors.rmse - 1.0).abs() < 0.3, "{table}");
     }
     assert!(
@@ -308,10 +313,10 @@ fn paths_have_a_ladder_and_a_law_of_their_own() {
         .unwrap();
     let (_, wanted) = line.split_once("`--spp ").unwrap();
     let wanted: f64 = wanted.split('`').next().unwrap().parse().unwrap();
-    let own = study.own().unwrap().setting;
+    let own = study.scene_row().unwrap().setting;
     for row in &study.rows {
         let paths = f64::from(row.setting.paths);
-        if row.setting == own.with(Parameter::Paths, row.setting.paths) && row.judged {
+        if row.setting == own.with(Parameter::Paths, row.setting.paths) && row.is_resolved {
             let delta = row.errors.delta_e;
             assert!(
                 paths > 0.5 * wanted || delta > 1.0,

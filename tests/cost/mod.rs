@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 mod error;
-mod knob;
+mod parameter;
 mod report;
 mod resume;
 mod versus;
@@ -19,8 +19,8 @@ use rtc::internals::plan::{Arithmetic, Plan, Rules};
 use rtc::internals::render::{Job, Step, Tiles, render};
 use rtc::internals::source::SourceMap;
 use rtc::internals::study::{
-    self, Ablation, About, Bench, Clock, DepthEnd, EffectCost, Effort, ErrorSpread, Errors,
-    Parameter, PowerLaw, Row, Setting, Stopped, Study,
+    self, Ablation, About, Clock, DepthEnd, EffectCost, Effort, ErrorSpread, Errors, Parameter,
+    PowerLaw, Row, Setting, Stopped, Study, StudyRuntime,
 };
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{LazyLock, Mutex};
@@ -70,8 +70,8 @@ fn study_by(scene: &Scene, rays: u64, threads: usize, pace: impl FnMut() -> f64 
         scene: "<balls> & \"floor\"".to_owned(),
         ..About::default()
     };
-    let study = on_bench(threads, pace, |bench| {
-        study::study(scene, about, Effort(rays), 1, bench)
+    let study = on_bench(threads, pace, |runtime| {
+        study::study(scene, about, Effort(rays), 1, runtime)
     });
     study.unwrap()
 }
@@ -80,7 +80,7 @@ fn study_by(scene: &Scene, rays: u64, threads: usize, pace: impl FnMut() -> f64 
 fn on_bench<T>(
     threads: usize,
     mut pace: impl FnMut() -> f64 + Send,
-    work: impl FnOnce(&Bench<'_>) -> T,
+    work: impl FnOnce(&StudyRuntime<'_>) -> T,
 ) -> T {
     let traced = AtomicU64::new(0);
     let mut read = (0, 0.0);
@@ -97,7 +97,7 @@ fn on_bench<T>(
         cpu: &clock,
         wall: &clock,
     };
-    work(&Bench::new(threads, clock, &on_pixel).unwrap())
+    work(&StudyRuntime::new(threads, clock, &on_pixel).unwrap())
 }
 
 static WHOLE: LazyLock<Study> = LazyLock::new(|| study_of(&scene(&[]), 8_000_000, 0));
@@ -159,7 +159,7 @@ fn time_is_told_as_the_clock_has_it() {
             "{row:?}"
         );
     }
-    assert_eq!(WHOLE.own().unwrap().ratio.value, 1.0);
+    assert_eq!(WHOLE.scene_row().unwrap().ratio.value, 1.0);
     for row in &PART.rows {
         let ticks = row.rays.all() as f64 * 1e-6 / PART.part.fraction;
         assert!(
@@ -179,7 +179,7 @@ fn a_study_is_the_same_on_any_number_of_threads() {
 #[test]
 fn a_study_can_be_stopped() {
     let clock = || Duration::ZERO;
-    let bench = Bench::new(
+    let runtime = StudyRuntime::new(
         1,
         Clock {
             cpu: &clock,
@@ -189,7 +189,7 @@ fn a_study_can_be_stopped() {
     )
     .unwrap();
     assert_eq!(
-        study::study(&scene(&[]), About::default(), Effort::QUICK, 1, &bench).unwrap_err(),
+        study::study(&scene(&[]), About::default(), Effort::QUICK, 1, &runtime).unwrap_err(),
         Stopped
     );
 }

@@ -219,17 +219,19 @@ fn advice_names_a_row_and_judges_the_scenes_own() {
 #[test]
 fn the_recommended_setting_has_a_command() {
     let command = WHOLE.command.as_ref().unwrap();
-    let own = WHOLE.own().unwrap().setting;
+    let own = WHOLE.scene_row().unwrap().setting;
     let words = command.strip_prefix("rtc render SCENE ").unwrap();
     let mut setting = own;
     for flag in words.split_whitespace().collect::<Vec<_>>().chunks(2) {
-        let knob = Parameter::ALL
+        let parameter = Parameter::ALL
             .into_iter()
-            .find(|knob| knob.flag() == flag[0])
+            .find(|parameter| parameter.flag() == flag[0])
             .unwrap();
-        let value = (0..200).find(|value| knob.cell(*value) == flag[1]).unwrap();
-        assert!(own.get(knob) != value, "{command}");
-        setting = setting.with(knob, value);
+        let value = (0..200)
+            .find(|value| parameter.cell(*value) == flag[1])
+            .unwrap();
+        assert!(own.get(parameter) != value, "{command}");
+        setting = setting.with(parameter, value);
     }
     let used = WHOLE.used();
     assert!(

@@ -21,11 +21,11 @@ fn go_on(scene: &Scene, kept: &[u8], most: u64) -> (Result<Study, Stopped>, Vec<
     };
     let saved = Mutex::new(Vec::new());
     let save = |journal: &Journal| *saved.lock().unwrap() = journal.save();
-    let bench = Bench::new(1, clock, &on_pixel).unwrap();
-    let bench = bench.keeping(journal, Duration::from_secs(1), &save);
-    let study = study::study(scene, About::default(), Effort(RAYS), 1, &bench);
-    bench.save();
-    drop(bench);
+    let runtime = StudyRuntime::new(1, clock, &on_pixel).unwrap();
+    let runtime = runtime.with_journal(journal, Duration::from_secs(1), &save);
+    let study = study::study(scene, About::default(), Effort(RAYS), 1, &runtime);
+    runtime.save();
+    drop(runtime);
     (study, saved.into_inner().unwrap())
 }
 
@@ -47,8 +47,8 @@ fn timeless(study: &Study) -> String {
         .iter()
         .map(|cost| (cost.rays, cost.difference));
     let precision: Vec<_> = precision.collect();
-    let (reference, knobs) = (study.reference, &study.knobs);
-    format!("{rows:?} {precision:?} {reference:?} {knobs:?}")
+    let (reference, parameters) = (study.reference, &study.parameters);
+    format!("{rows:?} {precision:?} {reference:?} {parameters:?}")
 }
 
 #[test]

@@ -25,9 +25,15 @@ fn against(scene: &Scene, reference: &Scene, seed: u64) -> Versus {
     let found = on_bench(
         0,
         || 1.0,
-        |bench| {
+        |runtime| {
             let scenes = [scene, reference];
-            study::versus(scenes, [about(), about()], Effort(30_000_000), seed, bench)
+            study::versus(
+                scenes,
+                [about(), about()],
+                Effort(30_000_000),
+                seed,
+                runtime,
+            )
         },
     );
     found.unwrap()
@@ -73,7 +79,7 @@ fn other_noise_is_no_difference() {
 #[test]
 fn a_change_is_seen_where_it_is() {
     let (before, after) = (balls(2, BLUE), balls(2, [0.5, 0.55, 0.7]));
-    let truth = {
+    let reference = {
         let fine = |scene| {
             [picture(
                 scene,
@@ -86,10 +92,10 @@ fn a_change_is_seen_where_it_is() {
     let all: Vec<_> = (1..=10)
         .map(|seed| against(&after, &before, seed))
         .collect();
-    let holds = |found: &&Versus| found.error.low <= truth && truth <= found.error.high;
+    let holds = |found: &&Versus| found.error.low <= reference && reference <= found.error.high;
     let held = all.iter().filter(holds).count();
     let errors: Vec<_> = all.iter().map(|found| found.error).collect();
-    assert!(held >= 8, "{truth}: {errors:?}");
+    assert!(held >= 8, "{reference}: {errors:?}");
     let found = &all[0];
     assert!(found.error.relative() < 0.3, "{found:?}");
     // The ball most of all, and more tiles by what mirrors show of it; the far corners stay.

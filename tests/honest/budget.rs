@@ -58,7 +58,7 @@ fn the_error_said_is_kept_wherever_the_time_ends() {
     let times = (1..=12).map(|part| 17 * part);
     let kept = times.filter(|millis| {
         let reached = within(&scene, *millis);
-        assert!(reached.error.is_finite() && reached.crude.is_none());
+        assert!(reached.error.is_finite() && reached.coarse.is_none());
         error(&reached, &references) <= reached.error
     });
     assert!(kept.count() >= 10);
@@ -86,12 +86,12 @@ fn a_crude_picture_is_better_than_none() {
         time: Some(Duration::from_millis(1)),
     };
     let late = with_clock(&pattern.scene, goal, 5000);
-    let crude = late.crude.unwrap();
-    assert!(crude.block == 8 && late.error.is_infinite());
+    let coarse = late.coarse.unwrap();
+    assert!(coarse.block == 8 && late.error.is_infinite());
     assert_eq!(late.samples.most, 2);
     // 16 of 1024 pixels took 32 camera rays, all of which meet a quad or not.
     assert_eq!(late.counts.camera, 32);
-    let whole = crude.whole.as_micros();
+    let whole = coarse.complete_after.as_micros();
     assert!(
         (5000 + 1024..5000 + 64 * 2 * 64).contains(&whole),
         "{whole}"
@@ -103,8 +103,8 @@ fn a_crude_picture_is_better_than_none() {
 
     let some = with_clock(&pattern.scene, goal, 500);
     assert!(
-        matches!(some.crude.map(|crude| crude.block), Some(2 | 4)),
+        matches!(some.coarse.map(|coarse| coarse.block), Some(2 | 4)),
         "{:?}",
-        some.crude
+        some.coarse
     );
 }

@@ -88,7 +88,7 @@ fn rare_light_takes_no_more_than_a_few_times_the_samples_that_a_target_needs() {
 fn a_render_goes_on_while_much_brighter_light_than_white_may_be_unmet() {
     let reached = render(&under(1e5), 12.0, 1);
     assert!(
-        reached.unmet.is_some() && reached.samples.min >= 128,
+        reached.undersampled.is_some() && reached.samples.min >= 128,
         "{:?}",
         reached.samples
     );

@@ -26,8 +26,8 @@ fn denoised(world: &AnyWorld, order: &Order, seed: u64) -> (Image, ProbedError) 
         seed: 1000 * seed,
         ..*order
     };
-    let told = probe(world, &order, &picture, SAMPLES, &|_| true).unwrap();
-    (picture.film.image, told)
+    let probed = probe(world, &order, &picture, SAMPLES, &|_| true).unwrap();
+    (picture.film.image, probed)
 }
 
 /// The mean square error of a picture, as displayed: the noise of two references cancels.
@@ -48,20 +48,24 @@ fn the_error_told_is_the_true_one_and_the_bound_is_kept() {
     let references = references(&scene, 2.0);
     let (mut kept, mut sums, mut said) = (0, [0.0; 3], Vec::new());
     for seed in 1..=20 {
-        let (image, told) = denoised(&world, &order, seed);
-        let truth = square(&image, &references);
-        kept += u32::from(truth <= told.error * told.error);
-        let squares = [truth, told.told * told.told, told.error * told.error];
+        let (image, probed) = denoised(&world, &order, seed);
+        let reference = square(&image, &references);
+        kept += u32::from(reference <= probed.error * probed.error);
+        let squares = [
+            reference,
+            probed.estimate * probed.estimate,
+            probed.error * probed.error,
+        ];
         sums.iter_mut()
             .zip(squares)
             .for_each(|(sum, square)| *sum += square);
         said.push(squares.map(f64::sqrt));
     }
     assert!(kept >= 15, "{kept} of 20: {said:.2?}");
-    let [told, bound] = [1, 2].map(|k| (sums[k] / sums[0]).sqrt());
+    let [probed, bound] = [1, 2].map(|k| (sums[k] / sums[0]).sqrt());
     assert!(
-        (0.8..1.25).contains(&told),
-        "{told} of the true error: {said:.2?}"
+        (0.8..1.25).contains(&probed),
+        "{probed} of the true error: {said:.2?}"
     );
     assert!(
         bound < 2.0,

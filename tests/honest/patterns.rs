@@ -11,21 +11,22 @@ use std::fmt::Write as _;
 pub(crate) struct Pattern {
     pub(crate) scene: Scene,
     /// The grey of each pixel, row by row.
-    truth: Vec<f64>,
+    reference: Vec<f64>,
 }
 
 impl Pattern {
     /// The error of a picture of it in grey levels.
     pub(crate) fn error(&self, reached: &TargetResult) -> f64 {
         let Image { pixels, .. } = &reached.image;
-        let squares = pixels.iter().zip(&self.truth);
-        let sum =
-            squares.flat_map(|(pixel, truth)| pixel.map(|value| (value - truth) * (value - truth)));
+        let squares = pixels.iter().zip(&self.reference);
+        let sum = squares.flat_map(|(pixel, reference)| {
+            pixel.map(|value| (value - reference) * (value - reference))
+        });
         (sum.sum::<f64>() / (3 * pixels.len()) as f64).sqrt() * LEVELS
     }
 
     /// Objects in the plane of the image, where a pixel has the side 1 and the middle is the origin.
-    pub(crate) fn new(side: u32, objects: &str, truth: impl Fn(u32, u32) -> f64) -> Self {
+    pub(crate) fn new(side: u32, objects: &str, reference: impl Fn(u32, u32) -> f64) -> Self {
         let text = format!(
             "Camera: {{eye: [0, 0, 100], center: [0, 0, 0], up: [0, 1, 0], viewSize: [{side}, {side}]}}\n\
              Lights:\n- {{position: [0, 0, 50], color: [1, 1, 1]}}\nObjects:\n{objects}"
@@ -33,7 +34,7 @@ impl Pattern {
         let pixels = (0..side).flat_map(|y| (0..side).map(move |x| (x, y)));
         Self {
             scene: lowered("pattern", text),
-            truth: pixels.map(|(x, y)| truth(x, y)).collect(),
+            reference: pixels.map(|(x, y)| reference(x, y)).collect(),
         }
     }
 }

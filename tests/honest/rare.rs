@@ -16,7 +16,7 @@ fn the_error_said_is_kept_where_few_pixels_show_anything() {
         for seed in 1..=16 {
             let reached = render(&pattern.scene, 1.0, seed);
             let error = pattern.error(&reached);
-            assert!(reached.unmet.is_none());
+            assert!(reached.undersampled.is_none());
             assert!(reached.error > 0.0, "some may be unmet");
             kept += u32::from(error <= reached.error);
             told.push([radius, error, reached.error]);
@@ -38,8 +38,8 @@ pub(super) fn under(brightness: f64) -> Scene {
 
 #[test]
 fn there_is_no_bound_where_much_brighter_light_may_be_unmet() {
-    let unmet = |brightness| render(&under(brightness), 12.0, 1).unmet;
-    assert_eq!(unmet(1.0), None);
-    let white = unmet(1e5).unwrap();
+    let undersampled = |brightness| render(&under(brightness), 12.0, 1).undersampled;
+    assert_eq!(undersampled(1.0), None);
+    let white = undersampled(1e5).unwrap();
     assert!((1e5..1e6).contains(&white), "{white}");
 }

@@ -258,7 +258,7 @@ fn a_veil_that_is_opaque_changes_no_order() {
 fn veils_let_light_through_in_every_arithmetic() {
     let proof = validate(&below_veils(2));
     let [robust, plain, _] = Arithmetic::ALL.map(|arithmetic| {
-        let plan = Plan::by(arithmetic, &proof, Rules::ALL);
+        let plan = Plan::with_arithmetic(arithmetic, &proof, Rules::ALL);
         mean(&rtc::internals::render::render(&proof, &plan, &JOB, &|_| true).unwrap())
     });
     assert!(

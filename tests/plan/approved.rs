@@ -60,7 +60,7 @@ fn line(seed: u64) -> String {
         let _ = write!(
             all,
             "{:?}{:?}",
-            Plan::by(arithmetic, &scene, Rules::ALL),
+            Plan::with_arithmetic(arithmetic, &scene, Rules::ALL),
             loss(&scene, arithmetic)
         );
     }
@@ -68,13 +68,13 @@ fn line(seed: u64) -> String {
     all += &format!(
         "{:?}",
         pixels
-            .map(|pixel| plan.region.class_of(pixel))
+            .map(|pixel| plan.pixel_classes.class_of(pixel))
             .collect::<Vec<_>>()
     );
     let mut line = format!("{seed:3} {:016x}", xxh3_64(all.as_bytes()));
-    for verdict in plan.verdicts.iter().filter(|verdict| verdict.of.is_none()) {
-        match (verdict.state, verdict.rule) {
-            (State::Needed, _) => line += &format!(", {}", verdict.effect.name()),
+    for status in plan.statuses.iter().filter(|status| status.of.is_none()) {
+        match (status.state, status.rule) {
+            (State::Needed, _) => line += &format!(", {}", status.effect.name()),
             (State::Pruned, Some(rule)) => line += &format!(", {}", rule.name()),
             (State::Pruned | State::Absent, _) => {}
         }
@@ -107,10 +107,10 @@ fn plans_are_as_approved() {
 fn effects_and_states_are_named_as_in_the_books() {
     let plan = Plan::new(&proven(&Dice::new(0).scene()), Rules::ALL);
     let mut names = plan
-        .verdicts
+        .statuses
         .iter()
-        .filter(|verdict| verdict.of.is_none())
-        .map(|verdict| verdict.effect.name());
+        .filter(|status| status.of.is_none())
+        .map(|status| status.effect.name());
     let wanted = "depth buffer, normal buffer, surfaces, direct light, shadows, soft light, highlight, bounces, mirror, \
                   glossy mirror, refraction, textures, corner normals, normal maps, lens, supersampling";
     assert!(names.by_ref().eq(wanted.split(", ")));

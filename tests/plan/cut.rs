@@ -1,7 +1,7 @@
 //! Where bounces are cut off: once all that is left is below half a level of 8 bits, and no sooner.
 
 use super::proven;
-use super::stage::{ball, first_light, material, matt, texture, with};
+use super::scenes::{ball, first_light, material, matt, texture, with};
 use rtc::internals::ir::{Phong, Scene, Texture, TextureId};
 use rtc::internals::plan::{Plan, Rule, Rules};
 

@@ -1,7 +1,7 @@
 //! What would take too much to look at is kept, and nothing is said of it that was not looked at.
 
-use super::stage::{ball, matt, shiny, with};
-use super::verdict;
+use super::scenes::{ball, matt, shiny, with};
+use super::status;
 use rtc::internals::ir::Scene;
 use rtc::internals::plan::{Effect, PixelClass, Plan, Rules};
 
@@ -33,7 +33,7 @@ fn too_many_surfaces_are_kept_without_asking() {
         scene.lights = vec![scene.lights[0].clone(); lights];
         Plan::new(&super::proven(&scene), Rules::ALL)
     };
-    let is_asked = |plan: &Plan| !verdict(plan, Effect::Shadows).because.contains("too many");
+    let is_asked = |plan: &Plan| !status(plan, Effect::Shadows).reason.contains("too many");
     assert!(is_asked(&plan(500, 2)), "500 times 500 times 2");
     let plan = plan(501, 2);
     assert!(plan.needs(Effect::Shadows) && !is_asked(&plan));
@@ -42,13 +42,13 @@ fn too_many_surfaces_are_kept_without_asking() {
 
 #[test]
 fn too_many_mirrors_are_followed_without_asking() {
-    let because = |count, mirrors| {
+    let reason = |count, mirrors| {
         let plan = Plan::new(&super::proven(&many(count, mirrors)), Rules::ALL);
-        verdict(&plan, Effect::Depth).because.clone()
+        status(&plan, Effect::Depth).reason.clone()
     };
-    assert_eq!(because(1000, 500), "2 bounces: mirrors show mirrors");
+    assert_eq!(reason(1000, 500), "2 bounces: mirrors show mirrors");
     assert_eq!(
-        because(1001, 500),
+        reason(1001, 500),
         "2 bounces; too many mirrors to ask which sees which"
     );
 }
@@ -59,9 +59,9 @@ fn a_large_picture_is_looked_at_in_coarse_cells() {
     let mut scene = with(&[(ball([0.0; 3], 1.0), matt())]);
     (scene.camera.size, scene.camera.right, scene.camera.up) =
         ([2400, 2000], [2.5e-3, 0.0, 0.0], [0.0, 2.5e-3, 0.0]);
-    let region = Plan::new(&super::proven(&scene), Rules::ALL).region;
-    let sights =
-        [[0, 0], [1200, 1000], [2399, 1999], [2399, 1000]].map(|pixel| region.class_of(pixel));
+    let pixel_classes = Plan::new(&super::proven(&scene), Rules::ALL).pixel_classes;
+    let sights = [[0, 0], [1200, 1000], [2399, 1999], [2399, 1000]]
+        .map(|pixel| pixel_classes.class_of(pixel));
     assert_eq!(
         sights,
         [

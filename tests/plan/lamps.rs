@@ -2,7 +2,7 @@
 
 use super::dice::Dice;
 use super::path_rules::{traced, white};
-use super::stage::disc;
+use super::scenes::disc;
 use super::{film, proven};
 use rtc::internals::ir::{Emitter, Light, Punctual, Scene};
 use rtc::internals::math::Vec3;

@@ -2,7 +2,7 @@
 //! rule costs a ray.
 
 use super::dice::Dice;
-use super::stage::{ball, disc, first_light, matt, shiny, with};
+use super::scenes::{ball, disc, first_light, matt, shiny, with};
 use super::{bits, file_name, files, film, proven, scene, small};
 use proptest::prelude::*;
 use rtc::internals::ir::Scene;
@@ -116,9 +116,9 @@ fn each_rule_leaves_something_out_of_some_scene() {
     for seed in 0..1000 {
         let plan = Plan::new(&proven(&Dice::new(seed).scene()), Rules::ALL);
         let fired = |rule: &Rule| {
-            plan.verdicts
+            plan.statuses
                 .iter()
-                .any(|verdict| verdict.rule == Some(*rule))
+                .any(|status| status.rule == Some(*rule))
         };
         idle.retain(|rule| !fired(rule));
     }

@@ -18,13 +18,13 @@ mod law;
 mod need;
 mod path_effects;
 mod path_materials;
+mod path_reports;
 mod path_rules;
 mod path_scenes;
-mod path_told;
 mod paths;
 mod precision;
+mod scenes;
 mod sensitivity;
-mod stage;
 mod validation;
 mod written;
 
@@ -84,11 +84,11 @@ fn film(scene: &ValidScene, rules: Rules, values: Values) -> Film {
 }
 
 /// The verdict on an effect of the whole scene.
-fn verdict(plan: &Plan, effect: Effect) -> &EffectStatus {
+fn status(plan: &Plan, effect: Effect) -> &EffectStatus {
     let mut all = plan
-        .verdicts
+        .statuses
         .iter()
-        .filter(|verdict| verdict.effect == effect && verdict.of.is_none());
+        .filter(|status| status.effect == effect && status.of.is_none());
     let first = all
         .next()
         .unwrap_or_else(|| panic!("there is a verdict on {effect:?}"));
@@ -99,7 +99,7 @@ fn verdict(plan: &Plan, effect: Effect) -> &EffectStatus {
 /// What became of an effect, and by which rule.
 fn fate(scene: &Scene, effect: Effect) -> (State, Option<Rule>) {
     let plan = Plan::new(&proven(scene), Rules::ALL);
-    let EffectStatus { state, rule, .. } = verdict(&plan, effect);
+    let EffectStatus { state, rule, .. } = status(&plan, effect);
     (*state, *rule)
 }
 

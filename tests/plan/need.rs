@@ -2,7 +2,9 @@
 //! left out in all.
 
 use super::fate;
-use super::stage::{ball, disc, first_light, material, matt, plane, shiny, stage, texture, with};
+use super::scenes::{
+    ball, base_scene, disc, first_light, material, matt, plane, shiny, texture, with,
+};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Bump, Lowered, Mode, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Options};
@@ -157,7 +159,7 @@ fn lights() {
                 "a depth buffer",
                 changed(&busy(), |scene| scene.settings.mode = Mode::Zbuffer),
             ),
-            ("no surface", stage()),
+            ("no surface", base_scene()),
         ],
     );
     let soft = changed(&busy(), |scene| first_light(scene).radius = 0.5);
@@ -339,10 +341,10 @@ fn a_light_that_is_not_finite_is_reported_whatever_it_is_multiplied_by() {
 #[test]
 fn pixels_that_show_nothing_are_traced_where_no_rule_may_leave_them_out() {
     let scene = super::proven(&with(&[(ball([0.0; 3], 1.0), matt())]));
-    let region = |rules| Plan::new(&scene, rules).region;
+    let pixel_classes = |rules| Plan::new(&scene, rules).pixel_classes;
     let (some, none) = (
-        region(Rules::ALL),
-        region(Rules::ALL.without(Rule::PixelMiss)),
+        pixel_classes(Rules::ALL),
+        pixel_classes(Rules::ALL.without(Rule::PixelMiss)),
     );
     assert_eq!(
         [some.class_of([0, 0]), none.class_of([0, 0])],
@@ -369,10 +371,10 @@ fn materials_that_show_no_highlight_are_named_and_the_others_are_not() {
     let plan = Plan::new(&super::proven(&scene), Rules::ALL);
     for effect in [Effect::Highlight, Effect::Mirror] {
         let named = plan
-            .verdicts
+            .statuses
             .iter()
-            .filter(|verdict| verdict.effect == effect)
-            .filter_map(|verdict| verdict.of);
+            .filter(|status| status.effect == effect)
+            .filter_map(|status| status.of);
         assert_eq!(
             named.map(|place| place.to_string()).collect::<Vec<_>>(),
             ["/materials/0"],

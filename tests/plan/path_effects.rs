@@ -3,7 +3,7 @@
 
 use super::path_rules::{lamp, traced, white};
 use super::proven;
-use super::stage::{ball, disc};
+use super::scenes::{ball, disc};
 use crate::told::{film, lies};
 use rtc::internals::ir::{Alpha, Scene, Standard};
 use rtc::internals::plan::{Effect, Layer, PathFeatures, Plan, Rules, State};
@@ -25,8 +25,8 @@ pub(super) fn needs(scene: &Scene) -> (Vec<Effect>, PathFeatures) {
     let lies = lies(&proof, &film(&proof, Rules::ALL).counts);
     assert!(lies.is_empty(), "{lies:?}");
     let plan = Plan::new(&proof, Rules::ALL);
-    let needed = plan.verdicts.iter().filter(|v| v.state == State::Needed);
-    let effects = needed.map(|verdict| verdict.effect).collect();
+    let needed = plan.statuses.iter().filter(|v| v.state == State::Needed);
+    let effects = needed.map(|status| status.effect).collect();
     (effects, plan.paths.unwrap().features)
 }
 
@@ -36,7 +36,7 @@ pub(super) fn beyond(effects: &[Effect], others: &[Effect]) -> Vec<Effect> {
     effects.iter().filter(is_new).copied().collect()
 }
 
-pub(super) const LIT: PathFeatures = PathFeatures::AIM.with(PathFeatures::SHADOWS);
+pub(super) const LIT: PathFeatures = PathFeatures::NEE.with(PathFeatures::SHADOWS);
 pub(super) const GLOSSY: PathFeatures = LIT.with(PathFeatures::MICROFACETS);
 const GLASS: PathFeatures = GLOSSY.with(PathFeatures::TRANSMISSION);
 pub(super) const LAYERED: PathFeatures = LIT.with(PathFeatures::LAYERS);

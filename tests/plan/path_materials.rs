@@ -3,7 +3,7 @@
 
 use super::path_rules::{across, add, fires, lamp, placed, traced, white};
 use super::proven;
-use super::stage::ball;
+use super::scenes::ball;
 use crate::told::film;
 use rtc::internals::ir::{
     self, Alpha, ImageId, Map, Mode, Pixels, Punctual, Scene, Standard, Texture, TextureId,
@@ -279,13 +279,9 @@ fn a_texture_is_opaque_where_all_its_texels_are() {
     assert!(fires(Rule::PathOpaque, &veil(255)));
     assert!(!fires(Rule::PathOpaque, &veil(254)));
     let plan = Plan::new(&proven(&veil(255)), Rules::ALL);
-    assert!(
-        plan.verdicts
-            .iter()
-            .all(|verdict| !verdict.because.is_empty())
-    );
-    let mut verdicts = plan.verdicts.iter();
-    let textures = verdicts.find(|verdict| verdict.effect == Effect::Textures);
+    assert!(plan.statuses.iter().all(|status| !status.reason.is_empty()));
+    let mut statuses = plan.statuses.iter();
+    let textures = statuses.find(|status| status.effect == Effect::Textures);
     assert_eq!(textures.unwrap().facts.len(), 1, "the material with a map");
 }
 

@@ -2,7 +2,7 @@
 //! does not. The first is told so, the second is not, and the picture of neither changes a bit.
 
 use super::proven;
-use super::stage::{ball, disc, stage};
+use super::scenes::{ball, base_scene, disc};
 use crate::told::{difference, film};
 use rtc::internals::ir::{
     self, Alpha, Emitter, Environment, ImageId, Material, MaterialId, Mode, PathSettings, Pixels,
@@ -23,7 +23,7 @@ pub(super) fn white() -> Standard {
 
 /// A stage whose paths are traced, with surfaces of glTF materials.
 pub(super) fn traced(surfaces: &[(Shape, Standard)]) -> Scene {
-    let mut scene = stage();
+    let mut scene = base_scene();
     scene.settings.mode = Mode::Path(PathSettings {
         samples: 4,
         multiple_scattering: false,
@@ -94,9 +94,7 @@ pub(super) fn fires(rule: Rule, scene: &Scene) -> bool {
         assert_eq!(difference(&proof, &unpruned, rules), None, "{rule:?}");
     }
     let plan = Plan::new(&proof, Rules::ALL);
-    plan.verdicts
-        .iter()
-        .any(|verdict| verdict.rule == Some(rule))
+    plan.statuses.iter().any(|status| status.rule == Some(rule))
 }
 
 #[test]

@@ -18,9 +18,9 @@ fn scenes() -> u64 {
 fn sets(scene: &Scene) -> Vec<(String, Rules)> {
     let plan = Plan::new(&proven(scene), Rules::ALL);
     let mut applied: Vec<_> = plan
-        .verdicts
+        .statuses
         .iter()
-        .filter_map(|verdict| verdict.rule)
+        .filter_map(|status| status.rule)
         .collect();
     applied.sort_unstable();
     applied.dedup();
@@ -77,9 +77,9 @@ fn each_rule_for_paths_leaves_something_out_of_some_scene() {
         }
         let plan = Plan::new(&proven(&Dice::new(seed).path_scene()), Rules::ALL);
         idle.retain(|rule| {
-            plan.verdicts
+            plan.statuses
                 .iter()
-                .all(|verdict| verdict.rule != Some(*rule))
+                .all(|status| status.rule != Some(*rule))
         });
     }
     assert!(idle.is_empty(), "never fired: {idle:?}");

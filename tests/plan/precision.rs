@@ -1,9 +1,9 @@
 //! What the plain arithmetics lose: estimates worked out by hand, of each shape and each symptom.
 
 use super::proven;
-use super::stage::{ball, first_light, material, matt, plane, with};
+use super::scenes::{ball, first_light, material, matt, plane, with};
 use rtc::internals::ir::{self, Mode, Phong, Scene, Shape, Surface};
-use rtc::internals::plan::{Arithmetic, Loss, NEAREST, Symptom, loss};
+use rtc::internals::plan::{Arithmetic, Loss, MIN_HIT_DISTANCE, Symptom, loss};
 
 /// The unit of rounding of f32.
 const UNIT: f64 = f32::EPSILON as f64 / 2.0;
@@ -117,7 +117,7 @@ fn points_are_off_by_the_rounding_of_their_coordinates_and_of_the_polynomial_ove
     for (shape, units) in rows {
         let loss = lost(&one(shape.clone())).unwrap_or_else(|| panic!("{shape:?} loses something"));
         is_near(loss.error, units * UNIT);
-        is_near(loss.excess, units * UNIT / NEAREST);
+        is_near(loss.excess, units * UNIT / MIN_HIT_DISTANCE);
         assert_eq!(
             (loss.symptom, loss.surface, loss.surfaces),
             (Symptom::SelfHit, 0, 1)
@@ -161,7 +161,7 @@ fn a_surface_is_skipped_as_a_whole_if_it_is_no_larger_than_what_is_skipped_befor
     let excess = |scene: &Scene, size: f64| {
         let loss = lost(scene).unwrap();
         assert_eq!(loss.symptom, Symptom::Skipped);
-        is_near(loss.excess, 100.0 * NEAREST / size);
+        is_near(loss.excess, 100.0 * MIN_HIT_DISTANCE / size);
     };
     excess(&one(triangle(corner(3.0, 4.0), corner(1.0, 0.0))), 5e-4);
     excess(&one(triangle(corner(1.0, 0.0), corner(-3.0, 4.0))), 5e-4);

@@ -1,7 +1,7 @@
 //! Sensitivity: the least change of the fact that a rule rests on turns its verdict, and the
 //! picture changes.
 
-use super::stage::{
+use super::scenes::{
     ball, disc, first_light, light, material, matt, plane, shiny, square, texture, with,
 };
 use super::{bits, fate, film, proven};
@@ -80,11 +80,12 @@ fn a_light_is_asked_of_those_alone_that_may_hide_it() {
     ]);
     let asked = |scene: &Scene, rules: Rules| {
         let plan = Plan::new(&proven(scene), rules);
-        let may_hide = |receiver: usize| {
-            let casters = (0..5).filter(|caster| plan.lights[0].may_hide(*caster, receiver));
-            casters.collect::<Vec<_>>()
+        let may_occlude = |receiver: usize| {
+            let occluders =
+                (0..5).filter(|occluder| plan.lights[0].may_occlude(*occluder, receiver));
+            occluders.collect::<Vec<_>>()
         };
-        [0, 3].map(may_hide)
+        [0, 3].map(may_occlude)
     };
     assert_eq!(asked(&scene, Rules::ALL), [vec![1], vec![0, 1, 2]]);
     let all = vec![0, 1, 2, 3, 4];
@@ -269,5 +270,5 @@ fn a_second_light_behind_the_disc_is_left_out_alone() {
         [plan.lights[0].direct, plan.lights[1].direct],
         [true, false]
     );
-    assert!(plan.lights[1].kept, "its ambient term stays");
+    assert!(plan.lights[1].is_used, "its ambient term stays");
 }

@@ -2,7 +2,7 @@
 //! that leaves out too much is found out, by effect and pixel.
 
 use super::dice::Dice;
-use super::stage::{ball, disc, matt, shiny, with};
+use super::scenes::{ball, disc, matt, shiny, with};
 use super::{file_name, files, proven, scene, small};
 use proptest::prelude::*;
 use rtc::internals::ir::Scene;
@@ -68,7 +68,7 @@ fn a_light_left_out_is_found_at_the_first_pixel_it_shines_on() {
         (mismatch.effect, mismatch.what),
         (Effect::DirectLight, "a light left out shines")
     );
-    let dark = validate(&busy(), |plan| plan.lights[0].kept = false).unwrap_err();
+    let dark = validate(&busy(), |plan| plan.lights[0].is_used = false).unwrap_err();
     assert!(
         dark.pixel[1] <= mismatch.pixel[1],
         "its ambient term shows no later"

@@ -135,7 +135,7 @@ fn it_calls_for(scene: &ValidScene, needed: &[Effect], pruned: &[(Effect, &str)]
     assert!(plan.needs(Surfaces));
     let mut faults = Vec::new();
     for effect in EFFECTS {
-        let found = verdict(&plan, effect);
+        let found = status(&plan, effect);
         let is_needed = found.state == State::Needed;
         let rule = pruned
             .iter()
@@ -150,11 +150,11 @@ fn it_calls_for(scene: &ValidScene, needed: &[Effect], pruned: &[(Effect, &str)]
 }
 
 /// The verdict on an effect of the whole scene.
-fn verdict(plan: &Plan, effect: Effect) -> &EffectStatus {
+fn status(plan: &Plan, effect: Effect) -> &EffectStatus {
     let mut all = plan
-        .verdicts
+        .statuses
         .iter()
-        .filter(|verdict| verdict.effect == effect && verdict.of.is_none());
+        .filter(|status| status.effect == effect && status.of.is_none());
     let first = all.next().unwrap();
     assert!(all.next().is_none(), "there is one verdict on {effect:?}");
     first

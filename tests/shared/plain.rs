@@ -33,7 +33,7 @@ fn small(scene: Scene, side: u32) -> ValidScene {
 }
 
 fn by(scene: &ValidScene, arithmetic: Arithmetic) -> Film {
-    let plan = Plan::by(arithmetic, scene, Rules::ALL);
+    let plan = Plan::with_arithmetic(arithmetic, scene, Rules::ALL);
     film(scene, &plan, &Job::default())
 }
 

@@ -14,7 +14,7 @@ use super::shown::over_limit;
 use rtc_codec::Change;
 use rtc_image::{FileFormat, Image, Picture, ShownPicture};
 use rtc_source::{Budget, Resource};
-use rtc_study::{Difference, SliderPage, heat_map, slider_page, told};
+use rtc_study::{Difference, SliderPage, heat_map, slider_page, value_text};
 use serde_json::Value;
 
 /// The results of a comparison, each fit to be written.
@@ -132,7 +132,7 @@ fn measure(found: &Difference, name: &str) -> f64 {
         "max" => found.max,
         "relmse" => found.relative_mse,
         "flip" => found.flip,
-        _ => found.share,
+        _ => found.fraction,
     }
 }
 
@@ -141,7 +141,7 @@ fn changed(changes: &[Change]) -> String {
     /// So many lines at most.
     const MOST: usize = 40;
     let line = |Change { path, new, old }: &Change| {
-        let (new, old) = (told(new.as_ref()), told(old.as_ref()));
+        let (new, old) = (value_text(new.as_ref()), value_text(old.as_ref()));
         format!("  {path}: {old} → {new}\n")
     };
     let lines: String = changes.iter().take(MOST).map(line).collect();
@@ -173,7 +173,7 @@ fn words(args: &Diff, [width, height]: [u32; 2], found: &Difference) -> String {
         max_at: _,
         relative_mse,
         flip,
-        share,
+        fraction,
         levels,
     } = found;
     format!(
@@ -183,7 +183,7 @@ fn words(args: &Diff, [width, height]: [u32; 2], found: &Difference) -> String {
          relmse  {relative_mse:.3e}\n\
          flip    {flip:.6}\n\
          share   {:.4} % of the pixels are off by more than {levels} grey levels\n",
-        100.0 * share
+        100.0 * fraction
     )
 }
 

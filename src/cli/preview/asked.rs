@@ -17,7 +17,7 @@ impl Session<'_> {
             return;
         }
         if let (Some(scene), Some((_, subject))) = (&self.scene, &self.shown) {
-            let effects = PlanReport::verdicts(&subject.proven, &scene.input);
+            let effects = PlanReport::statuses(&subject.proven, &scene.input);
             self.board.show(|state| state.effects = Some(effects));
         }
     }

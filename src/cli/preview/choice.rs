@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use rtc_ir::{Mode, Scene};
 use rtc_passes::{IntegratorChoice, Overrides};
 use rtc_pipeline::PictureSetup;
-use rtc_study::{Parameter, Setting, arithmetic, idle};
+use rtc_study::{Parameter, Setting, arithmetic, not_applicable};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -24,9 +24,9 @@ impl Choice {
     /// A choice as sent by the page; none of values that no flag takes.
     pub(super) fn read(bytes: &[u8]) -> Option<Self> {
         let choice: Self = serde_json::from_slice(bytes).ok()?;
-        let is_sound = |(knob, value): (&Parameter, &u32)| {
-            let is_known = words(*knob).is_none_or(|words| (*value as usize) < words.len());
-            *value >= knob.lowest() && is_known
+        let is_sound = |(parameter, value): (&Parameter, &u32)| {
+            let is_known = words(*parameter).is_none_or(|words| (*value as usize) < words.len());
+            *value >= parameter.lowest() && is_known
         };
         let is_known = choice.integrator.is_none() || choice.integrator().is_some();
         (is_known && choice.values.iter().all(is_sound)).then_some(choice)
@@ -49,7 +49,7 @@ impl Choice {
 
     /// The picture as it is asked for, in these settings.
     pub(super) fn settle(&self, setup: &PictureSetup) -> PictureSetup {
-        let of = |knob| self.values.get(&knob).copied();
+        let of = |parameter| self.values.get(&parameter).copied();
         let chosen = Overrides {
             size: None,
             supersampling: of(Parameter::Supersampling),
@@ -69,10 +69,12 @@ impl Choice {
 
     /// The flags of `rtc render`, with their values if they take one.
     pub(super) fn flags(&self) -> Vec<(&'static str, Option<String>)> {
-        let is_given =
-            |(knob, value): &(&Parameter, &u32)| **knob != Parameter::Denoise || **value > 0;
+        let is_given = |(parameter, value): &(&Parameter, &u32)| {
+            **parameter != Parameter::Denoise || **value > 0
+        };
         let values = self.values.iter().filter(is_given);
-        let values = values.map(|(knob, value)| (knob.flag(), knob.flag_value(*value)));
+        let values =
+            values.map(|(parameter, value)| (parameter.flag(), parameter.flag_value(*value)));
         let integrator = self.integrator.clone();
         let integrator = integrator.map(|word| ("--integrator", Some(word)));
         values.chain(integrator).collect()
@@ -80,9 +82,14 @@ impl Choice {
 }
 
 /// The words of the values of a knob, for one that does not count.
-fn words(knob: Parameter) -> Option<Vec<String>> {
-    let is_named = matches!(knob, Parameter::Precision | Parameter::Denoise);
-    is_named.then(|| knob.levels().map(|value| knob.cell(value)).collect())
+fn words(parameter: Parameter) -> Option<Vec<String>> {
+    let is_named = matches!(parameter, Parameter::Precision | Parameter::Denoise);
+    is_named.then(|| {
+        parameter
+            .levels()
+            .map(|value| parameter.cell(value))
+            .collect()
+    })
 }
 
 /// The setting of a scene without the values of a choice.
@@ -97,14 +104,14 @@ pub(super) fn own_setting(scene: &Scene, setup: &PictureSetup) -> Setting {
 /// What the page is told of the settings of a scene, which is without the values of the choice: each
 /// knob with its own value, and why it is to be left alone, if it is.
 pub(super) fn told(scene: &Scene, own: &Setting) -> Value {
-    let knob = |knob: Parameter| {
+    let parameter = |parameter: Parameter| {
         json!({
-            "knob": knob,
-            "name": knob.name(),
-            "lowest": knob.lowest(),
-            "own": own.get(knob),
-            "words": words(knob),
-            "idle": idle(knob, scene),
+            "knob": parameter,
+            "name": parameter.name(),
+            "lowest": parameter.lowest(),
+            "own": own.get(parameter),
+            "words": words(parameter),
+            "idle": not_applicable(parameter, scene),
         })
     };
     let integrator = match scene.settings.mode {
@@ -112,8 +119,8 @@ pub(super) fn told(scene: &Scene, own: &Setting) -> Value {
         Mode::Phong => Some("whitted"),
         Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => None,
     };
-    let knobs = Parameter::ALL.map(knob);
-    json!({ "knobs": knobs, "integrator": integrator })
+    let parameters = Parameter::ALL.map(parameter);
+    json!({ "knobs": parameters, "integrator": integrator })
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! each with its seconds and its error.
 
 use super::Failure;
-use crate::cost::{about, on_bench};
+use crate::cost::{about, with_runtime};
 use rtc_ir::Scene;
 use rtc_study::{self as study, Effort, Parameter, Row, Setting, Study};
 use serde_json::{Value, json};
@@ -17,8 +17,8 @@ pub(super) fn costs(
     threads: usize,
     is_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Value>, Failure> {
-    let study = on_bench(threads, is_going, |bench| {
-        study::study(scene, about(name, scene), Effort::QUICK, SEED, &bench)
+    let study = with_runtime(threads, is_going, |runtime| {
+        study::study(scene, about(name, scene), Effort::QUICK, SEED, &runtime)
     })?;
     Ok(study.ok().map(|study| told(&study, own)))
 }
@@ -38,7 +38,7 @@ fn told(study: &Study, own: &Setting) -> Value {
             "ratio": row.ratio.value,
             "error": row.errors.rmse,
             "most": row.errors.rmse_high,
-            "isJudged": row.judged,
+            "isJudged": row.is_resolved,
             "isFront": row.front,
             "isBest": best == Some(row.setting),
         })

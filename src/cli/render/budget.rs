@@ -50,24 +50,24 @@ impl PictureClock {
     pub(super) fn stop(
         &self,
         time: Option<Duration>,
-        (crude, crop): (Option<CoarsePicture>, Crop),
+        (coarse, crop): (Option<CoarsePicture>, Crop),
     ) -> Option<Diagnostic> {
         // As the file is still to be written.
         let took = self.begun().elapsed() + writing(crop);
         self.0.set(Instant::now());
         let time = time?;
         let is_late = took > time + LATE.max(time.mul_f64(LATE_PART));
-        let words = match (is_late, crude) {
+        let words = match (is_late, coarse) {
             (false, None) => return None,
             (true, None) => late(took, time),
-            (true, Some(crude)) => format!("{}, and {}", late(took, time), lacking(crude)),
-            (false, Some(crude)) => lacking(crude),
+            (true, Some(coarse)) => format!("{}, and {}", late(took, time), lacking(coarse)),
+            (false, Some(coarse)) => lacking(coarse),
         };
         let finding = Diagnostic::new(&codes::TOO_SHORT, words);
-        Some(match crude {
-            Some(CoarsePicture { whole, .. }) => finding.hint(format!(
+        Some(match coarse {
+            Some(CoarsePicture { complete_after, .. }) => finding.hint(format!(
                 "a sample for each pixel takes about `--time-budget {:.2}`",
-                (whole + writing(crop)).as_secs_f64()
+                (complete_after + writing(crop)).as_secs_f64()
             )),
             None => finding.hint(
                 "reading, preparing and writing take time, too: a smaller `--size` takes less",

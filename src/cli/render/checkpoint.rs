@@ -14,7 +14,7 @@ use rtc_pipeline::{
 };
 use rtc_render::{Crop, Tiles};
 use rtc_source::{Resource, SourceMap};
-use rtc_study::{Goal, WorkStretch};
+use rtc_study::{Goal, WorkBatch};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -237,9 +237,9 @@ impl RenderSetup {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
         };
-        let mut stretch = WorkStretch::new(checkpoint.every, workers(self.picture.threads));
+        let mut batch = WorkBatch::new(checkpoint.every, workers(self.picture.threads));
         let mut saved = progress.elapsed();
-        while let Some(next) = next(done, stretch.shares()) {
+        while let Some(next) = next(done, batch.shards()) {
             let begun = progress.elapsed();
             let left = rays.saturating_sub(done.counts().rays());
             let order = (shares(window, next), window, left);
@@ -250,7 +250,7 @@ impl RenderSetup {
             let added = done.add(part?);
             added.map_err(|error| RenderError::Refused(error.to_string()))?;
             let now = progress.elapsed();
-            stretch.adapt(next[1] - next[0] + 1, now.saturating_sub(begun));
+            batch.adapt(next[1] - next[0] + 1, now.saturating_sub(begun));
             if now.saturating_sub(saved) >= checkpoint.every {
                 checkpoint.try_save(done);
                 saved = progress.elapsed();

@@ -32,7 +32,7 @@ pub(super) struct Quality {
     /// The bound on its error in grey levels.
     pub(super) error: f64,
     /// How bright light may be that no sample met, if there is no bound.
-    pub(super) unmet: Option<f64>,
+    pub(super) undersampled: Option<f64>,
     pub(super) known: KnownBy,
 }
 
@@ -41,7 +41,7 @@ pub(super) enum KnownBy {
     /// The picture grew until it was good enough.
     Growing {
         /// If the time was too short for it.
-        crude: Option<CoarsePicture>,
+        coarse: Option<CoarsePicture>,
         samples: Samples,
         /// Its rays ran out.
         has_run_out: bool,
@@ -51,7 +51,7 @@ pub(super) enum KnownBy {
     /// Some pixels of a denoised picture were sampled anew.
     Probing {
         /// The likely error, in grey levels.
-        told: f64,
+        estimate: f64,
         /// So many pixels.
         probes: usize,
         /// Each so often.
@@ -148,9 +148,9 @@ impl Quality {
     pub(super) fn probed(probed: &ProbedError) -> Self {
         Self {
             error: probed.error,
-            unmet: probed.unmet,
+            undersampled: probed.undersampled,
             known: KnownBy::Probing {
-                told: probed.told,
+                estimate: probed.estimate,
                 probes: probed.probes,
                 samples: probed.samples,
             },
@@ -158,19 +158,19 @@ impl Quality {
     }
 
     /// If the time was too short for the picture.
-    pub(super) fn crude(&self) -> Option<CoarsePicture> {
+    pub(super) fn coarse(&self) -> Option<CoarsePicture> {
         match self.known {
-            KnownBy::Growing { crude, .. } => crude,
+            KnownBy::Growing { coarse, .. } => coarse,
             KnownBy::Probing { .. } => None,
         }
     }
 
     fn words(&self) -> String {
-        let bound = match self.crude() {
+        let bound = match self.coarse() {
             Some(CoarsePicture { block, .. }) => {
                 format!("no bound: of some blocks of {block} × {block} pixels one was sampled")
             }
-            None => bound(self.error, self.unmet),
+            None => bound(self.error, self.undersampled),
         };
         match &self.known {
             KnownBy::Growing {
@@ -189,24 +189,26 @@ impl Quality {
                 format!("{bound}, {mean:.0} samples a pixel on the mean, {min} … {most}{end}")
             }
             KnownBy::Probing {
-                told,
+                estimate,
                 probes,
                 samples,
             } => {
-                format!("{bound}, likely {told:.2}, by {samples} more samples of {probes} pixels")
+                format!(
+                    "{bound}, likely {estimate:.2}, by {samples} more samples of {probes} pixels"
+                )
             }
         }
     }
 
     /// Without a bound there is none in the object, but the error of what samples met.
     fn object(&self) -> Value {
-        let crude = self.crude();
-        let has_bound = self.unmet.is_none() && crude.is_none();
+        let coarse = self.coarse();
+        let has_bound = self.undersampled.is_none() && coarse.is_none();
         let mut object = json!({
             "bound": has_bound.then_some(self.error),
             "confidence": has_bound.then_some(0.9),
-            "metError": crude.is_none().then_some(self.error),
-            "unmetWhites": self.unmet,
+            "metError": coarse.is_none().then_some(self.error),
+            "unmetWhites": self.undersampled,
         });
         match &self.known {
             KnownBy::Growing {
@@ -215,17 +217,17 @@ impl Quality {
                 ends_above,
                 ..
             } => {
-                object["crudeBlock"] = json!(crude.map(|crude| crude.block));
+                object["crudeBlock"] = json!(coarse.map(|coarse| coarse.block));
                 object["samples"] = json!({ "min": min, "mean": mean, "most": most });
                 object["ranOut"] = json!(has_run_out);
                 object["endsAbove"] = json!(ends_above);
             }
             KnownBy::Probing {
-                told,
+                estimate,
                 probes,
                 samples,
             } => {
-                object["toldError"] = json!(told);
+                object["toldError"] = json!(estimate);
                 object["probes"] = json!({ "pixels": probes, "samples": samples });
             }
         }
@@ -235,8 +237,8 @@ impl Quality {
 
 /// A bound on the error in grey levels, in words; or how bright light may be, in multiples of white, that
 /// leaves none.
-fn bound(levels: f64, unmet: Option<f64>) -> String {
-    match unmet {
+fn bound(levels: f64, undersampled: Option<f64>) -> String {
+    match undersampled {
         None => format!("{} (90 %)", error(levels)),
         Some(white) if white <= 1.0 => format!(
             "no bound: what few samples show may be unmet; {} (90 %) of what was met",

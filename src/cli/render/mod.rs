@@ -287,7 +287,7 @@ impl RenderSetup {
             }
         };
         let shot = shot.map_err(|error| ended(error, input, talk))?;
-        let crude = shot.crude();
+        let coarse = shot.coarse();
         let size = [shot.image.width, shot.image.height];
         let work = (shot.counts, shot.elapsed);
         let made = MadePicture::new(path, &self.picture, size, work).with(shot.quality);
@@ -295,7 +295,7 @@ impl RenderSetup {
         let is_stopped = || interrupt.is_raised();
         let picture = self.picture.develop(subject, film, input, &is_stopped)?;
         let time = self.picture.goal.time;
-        let found = self.clock.stop(time, (crude, window));
+        let found = self.clock.stop(time, (coarse, window));
         found.into_iter().for_each(|finding| input.push(finding));
         input::tell(input, talk)?;
         Ok((picture, made))

@@ -33,11 +33,11 @@ impl Rendered {
             counts,
             samples,
             error,
-            unmet,
-            crude,
+            undersampled,
+            coarse,
             light_samples: _,
         } = reached;
-        let is_above = |target: &f64| unmet.is_none() && crude.is_none() && error > *target;
+        let is_above = |target: &f64| undersampled.is_none() && coarse.is_none() && error > *target;
         let ends_above = goal
             .error
             .filter(|target| goal.time.is_none() && is_above(target));
@@ -48,9 +48,9 @@ impl Rendered {
             elapsed,
             quality: Some(Quality {
                 error,
-                unmet,
+                undersampled,
                 known: KnownBy::Growing {
-                    crude,
+                    coarse,
                     samples,
                     has_run_out,
                     ends_above,
@@ -60,8 +60,8 @@ impl Rendered {
     }
 
     /// If the time was too short for it.
-    pub(super) fn crude(&self) -> Option<CoarsePicture> {
-        self.quality.as_ref()?.crude()
+    pub(super) fn coarse(&self) -> Option<CoarsePicture> {
+        self.quality.as_ref()?.coarse()
     }
 }
 
@@ -85,7 +85,7 @@ impl<'a> KeptGrowth<'a> {
             RenderError::Refused(format!("what was saved can't be used: {error}"))
         })?;
         Ok(CheckpointSink {
-            begun,
+            resumed_from: begun,
             every: self.every,
             threads: workers(threads),
             elapsed,
@@ -155,7 +155,7 @@ impl RenderSetup {
         let elapsed = || begun.elapsed();
         let keep = kept.map(|kept| kept.into_keep(&order, setup.threads, &elapsed));
         let keep = keep.transpose()?;
-        let begun = keep.as_ref().and_then(|keep| keep.begun.as_ref());
+        let begun = keep.as_ref().and_then(|keep| keep.resumed_from.as_ref());
         let left = rays.saturating_sub(begun.map_or(0, ProgressiveRender::rays));
         let meter = RayCounter::new(left, window);
         let observer = Observer {

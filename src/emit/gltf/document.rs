@@ -18,7 +18,7 @@ pub(super) const ARRAY_BUFFER: u32 = 34962;
 /// What a buffer view is for: indices of vertices.
 pub(super) const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 /// A filter of a sampler: the nearest pixel.
-pub(super) const NEAREST: u32 = 9728;
+pub(super) const MIN_HIT_DISTANCE: u32 = 9728;
 /// A filter of a sampler: between pixels.
 pub(super) const LINEAR: u32 = 9729;
 /// A filter of a sampler: between pixels, and between sizes of the picture.

@@ -1,8 +1,8 @@
 //! Textures: images as PNG, samplers, and how the materials look them up.
 
 use super::document::{
-    CLAMP_TO_EDGE, Image, Index, LINEAR, LINEAR_MIPMAP_LINEAR, MIRRORED_REPEAT, NEAREST, REPEAT,
-    Sampler, Texture, TextureInfo,
+    CLAMP_TO_EDGE, Image, Index, LINEAR, LINEAR_MIPMAP_LINEAR, MIN_HIT_DISTANCE, MIRRORED_REPEAT,
+    REPEAT, Sampler, Texture, TextureInfo,
 };
 use super::writer::{GltfWriter, number};
 use rtc_diag::codes;
@@ -88,7 +88,7 @@ impl GltfWriter<'_> {
         let [wrap_s, wrap_t] = wrap.map(wrapping);
         let [mag_filter, min_filter] = match filter {
             Filter::Linear => [LINEAR, LINEAR_MIPMAP_LINEAR],
-            Filter::Nearest => [NEAREST, NEAREST],
+            Filter::Nearest => [MIN_HIT_DISTANCE, MIN_HIT_DISTANCE],
         };
         let key = [wrap_s, wrap_t, mag_filter];
         if let Some(known) = self.samplers.get(&key) {

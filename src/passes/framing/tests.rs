@@ -109,9 +109,16 @@ fn a_subject_spans_85_percent_and_stands_in_the_middle() {
         };
         let [x, y] = shown(&framed(&boxes, framing), &boxes);
         let spans = [x, y].map(|[from, to]| (to - from) / 2.0);
-        assert!((spans[0].max(spans[1]) - SPAN).abs() < 1e-9, "{spans:?}");
+        assert!(
+            (spans[0].max(spans[1]) - SUBJECT_FRACTION).abs() < 1e-9,
+            "{spans:?}"
+        );
         for [from, to] in [x, y] {
-            assert!((from + to).abs() < 0.3 && from >= -SPAN - 1e-9 && to <= SPAN + 1e-9);
+            assert!(
+                (from + to).abs() < 0.3
+                    && from >= -SUBJECT_FRACTION - 1e-9
+                    && to <= SUBJECT_FRACTION + 1e-9
+            );
         }
         let widest = if spans[0] > spans[1] { x } else { y };
         assert!(
@@ -185,7 +192,7 @@ fn the_ground_of_the_studio_takes_no_part() {
     let flat = [[[-1.0, 0.0, -1.0], [1.0, 0.0, 1.0]]];
     let mut scene = scene(&flat);
     let [low, high] = flat[0].map(Vec3::from_array);
-    let ground = crate::ground::lay(&mut scene, [low, high]);
+    let ground = crate::ground::add_ground(&mut scene, [low, high]);
     assert_eq!(ground, Some(1));
     let framing = Framing {
         ground,
@@ -193,5 +200,8 @@ fn the_ground_of_the_studio_takes_no_part() {
     };
     framing.apply(&mut scene);
     let spans = shown(&scene, &flat).map(|[least, most]| (most - least) / 2.0);
-    assert!((spans[0].max(spans[1]) - SPAN).abs() < 1e-9, "{spans:?}");
+    assert!(
+        (spans[0].max(spans[1]) - SUBJECT_FRACTION).abs() < 1e-9,
+        "{spans:?}"
+    );
 }

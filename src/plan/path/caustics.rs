@@ -23,8 +23,8 @@ impl PathPlan {
         let shines = |m: &Standard| !m.unlit && m.emissive != Vec3::ZERO;
         let has_wide = self.environment != EnvironmentUse::Nothing;
         let has_light = has_punctual || has_wide || self.materials.iter().any(shines);
-        let is_thrown = has_light && self.materials.iter().any(throws);
-        let is_exact = |m: &Standard| throws(m) && m.roughness == UnitInterval::ZERO;
+        let is_thrown = has_light && self.materials.iter().any(casts_caustics);
+        let is_exact = |m: &Standard| casts_caustics(m) && m.roughness == UnitInterval::ZERO;
         let is_missed = has_punctual && self.materials.iter().any(is_exact);
         is_thrown.then_some(match is_missed {
             true => Caustics::LeftOut,
@@ -38,8 +38,9 @@ impl PathPlan {
     #[must_use]
     pub fn has_unbounded_caustics(&self) -> bool {
         let is_mapped = |m: &Standard| m.metallic_roughness_map.is_some();
-        let is_narrow = |m: &Standard| throws(m) && m.roughness != UnitInterval::ZERO;
-        let may_be_narrow = |m: &Standard| is_narrow(m) || (is_mapped(m) && bends(m));
+        let is_narrow = |m: &Standard| casts_caustics(m) && m.roughness != UnitInterval::ZERO;
+        let may_be_narrow =
+            |m: &Standard| is_narrow(m) || (is_mapped(m) && reflects_or_refracts(m));
         self.has_punctual() && self.materials.iter().any(may_be_narrow)
     }
 
@@ -51,7 +52,7 @@ impl PathPlan {
 impl Caustics {
     /// How they are found, in words.
     #[must_use]
-    pub const fn told(self) -> &'static str {
+    pub const fn description(self) -> &'static str {
         match self {
             Self::ByChance => "found by chance alone, as noise; `--clamp` bounds it",
             Self::LeftOut => "those of lights without size are left out, as no path finds them",
@@ -60,13 +61,13 @@ impl Caustics {
 }
 
 /// Whether a material mirrors or refracts most light in nearly one direction.
-fn throws(m: &Standard) -> bool {
+fn casts_caustics(m: &Standard) -> bool {
     /// So rough, light is spread over tens of degrees.
     const ROUGH: f64 = 0.4;
-    m.roughness.get() < ROUGH && bends(m)
+    m.roughness.get() < ROUGH && reflects_or_refracts(m)
 }
 
 /// Whether a material mirrors or refracts most light.
-fn bends(m: &Standard) -> bool {
+fn reflects_or_refracts(m: &Standard) -> bool {
     !m.unlit && (m.metallic.get() > 0.5 || m.transmission.get() > 0.0)
 }

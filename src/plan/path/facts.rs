@@ -9,7 +9,7 @@ use rtc_valid::{Map, Shape, Standard, ValidScene};
 
 /// Facts of all surfaces of one material.
 #[derive(Clone, Debug)]
-pub(super) struct Uses {
+pub(super) struct MaterialUses {
     /// The surfaces, as indices into those of the scene.
     pub(super) surfaces: Vec<usize>,
     /// Per set of texture coordinates, the surfaces that have it.
@@ -40,7 +40,7 @@ impl Presence {
     }
 }
 
-impl Uses {
+impl MaterialUses {
     /// The uses of each material of a scene.
     pub(super) fn of(scene: &ValidScene) -> Vec<Self> {
         let unused = Self {
@@ -53,16 +53,16 @@ impl Uses {
         // A mesh is looked through once, however many instances it has.
         let mut of_meshes = vec![None; scene.meshes().len()];
         for (index, surface) in scene.surfaces().iter().enumerate() {
-            let used = &mut uses[surface.material];
+            let used_materials = &mut uses[surface.material];
             let areas = || shape_facts(&surface.shape).uv_areas(scene);
             let areas = if let Shape::Instance(instance) = &surface.shape {
                 let mesh = &scene.meshes()[instance.mesh];
-                used.has_colors |= !mesh.colors.is_empty();
+                used_materials.has_colors |= !mesh.colors.is_empty();
                 *of_meshes[instance.mesh].get_or_insert_with(areas)
             } else {
                 areas()
             };
-            used.add(index, areas);
+            used_materials.add(index, areas);
         }
         uses
     }

@@ -4,26 +4,26 @@
 //! scene never asked for it, pruned if a rule removed it, and needed otherwise. So the verdicts
 //! always agree with the work that the integrator gets.
 
+mod builder;
 mod caustics;
-mod draft;
 mod facts;
 pub(crate) mod rules;
+mod status;
 mod texture;
-mod verdicts;
 
+pub use builder::{EnvironmentUse, LightUse};
 pub use caustics::Caustics;
-pub use draft::{EnvironmentUse, LightUse};
 pub(super) use texture::Area;
 
-use super::body::bodies;
 use super::effect::{Effect, EffectStatus};
 use super::facts as facts_seen;
 use super::features::PathFeatures;
 use super::layer::Layer;
+use super::projection::{ScreenProjection, ScreenRect};
 use super::rules::Rules;
-use super::window::{Shown, Window};
-use draft::{Applied, Draft};
-use facts::Uses;
+use super::surface_bounds::surface_bounds;
+use builder::{Applied, PlanBuilder};
+use facts::MaterialUses;
 use rtc_math::Vec3;
 use rtc_valid::{Map, PathSettings, Projection, Standard, UvSet, ValidScene};
 use texture::TextureValues;
@@ -62,29 +62,36 @@ pub(super) struct Planned {
     pub(super) surfaces: Vec<bool>,
     /// The maximum number of bounces.
     pub(super) max_depth: u32,
-    pub(super) verdicts: Vec<EffectStatus>,
+    pub(super) statuses: Vec<EffectStatus>,
 }
 
 /// Plans the paths of a scene.
 pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Planned {
-    let (uses, bodies, textures) = (Uses::of(scene), bodies(scene), TextureValues::new(scene));
+    let (uses, surface_bounds, textures) = (
+        MaterialUses::of(scene),
+        surface_bounds(scene),
+        TextureValues::new(scene),
+    );
     let punctual = facts_seen::light::punctual(scene.lights());
     let camera = scene.camera();
     let is_pinhole = camera.lens.radius.get() == 0.0;
-    let shown: Vec<_> = match camera.projection {
+    let screen_rects: Vec<_> = match camera.projection {
         Projection::Perspective => {
-            let window = Window::new(camera, is_pinhole);
-            bodies.iter().map(|body| window.shown(body)).collect()
+            let projection = ScreenProjection::new(camera, is_pinhole);
+            surface_bounds
+                .iter()
+                .map(|bounds| projection.screen_rect(bounds))
+                .collect()
         }
-        Projection::Orthographic => vec![Shown::Anywhere; bodies.len()],
+        Projection::Orthographic => vec![ScreenRect::Unknown; surface_bounds.len()],
     };
-    let asked = Draft {
+    let requested = PlanBuilder {
         scene,
         path,
         uses: &uses,
         textures: &textures,
-        bodies: &bodies,
-        shown: &shown,
+        surface_bounds: &surface_bounds,
+        screen_rects: &screen_rects,
         punctual: &punctual,
         materials: scene
             .materials()
@@ -98,15 +105,15 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
         } else {
             EnvironmentUse::All
         },
-        surfaces: vec![true; bodies.len()],
+        surfaces: vec![true; surface_bounds.len()],
         max_depth: scene.settings().max_depth,
         last_ray: true,
-        aims: true,
+        nee: true,
         shadows: true,
     };
-    let mut left = asked.clone();
+    let mut left = requested.clone();
     let applied = apply(&mut left, rules);
-    let verdicts = verdicts::verdicts(&asked, &left, &applied);
+    let statuses = status::statuses(&requested, &left, &applied);
     let folded = |(index, material): (usize, &Standard)| {
         let maps = material.maps().filter(|map| left.is_folded(index, map));
         maps.map(|map| (map.texture, map.set)).collect()
@@ -123,18 +130,18 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
         plan,
         surfaces: left.surfaces,
         max_depth: left.max_depth,
-        verdicts,
+        statuses,
     }
 }
 
 /// Applies the rules until none changes the draft. Every change removes something, so this ends.
-fn apply(draft: &mut Draft<'_>, rules: Rules) -> Vec<Applied> {
+fn apply(builder: &mut PlanBuilder<'_>, rules: Rules) -> Vec<Applied> {
     let mut applied = Vec::new();
     loop {
         let before = applied.len();
         for item in rules::ALL {
             if rules.contains(item.rule) {
-                applied.extend(draft.apply(item));
+                applied.extend(builder.apply(item));
             }
         }
         if applied.len() == before {
@@ -144,18 +151,21 @@ fn apply(draft: &mut Draft<'_>, rules: Rules) -> Vec<Applied> {
 }
 
 /// The features that the integrator needs for the draft.
-fn features(draft: &Draft<'_>, rules: Rules) -> PathFeatures {
+fn features(builder: &PlanBuilder<'_>, rules: Rules) -> PathFeatures {
     if rules == Rules::NONE {
         return PathFeatures::EVERYTHING;
     }
-    let asks = |effects: &[Effect]| effects.iter().any(|effect| draft.asks(*effect));
+    let requires = |effects: &[Effect]| effects.iter().any(|effect| builder.requires(*effect));
     let all = [
-        (PathFeatures::ALPHA, asks(&[Effect::Alpha])),
-        (PathFeatures::AIM, asks(&[Effect::DirectLight])),
-        (PathFeatures::MICROFACETS, asks(&[Effect::Microfacets])),
-        (PathFeatures::TRANSMISSION, draft.transmits()),
-        (PathFeatures::LAYERS, asks(&Layer::ALL.map(Effect::Layer))),
-        (PathFeatures::SHADOWS, asks(&[Effect::Shadows])),
+        (PathFeatures::ALPHA, requires(&[Effect::Alpha])),
+        (PathFeatures::NEE, requires(&[Effect::DirectLight])),
+        (PathFeatures::MICROFACETS, requires(&[Effect::Microfacets])),
+        (PathFeatures::TRANSMISSION, builder.transmits()),
+        (
+            PathFeatures::LAYERS,
+            requires(&Layer::ALL.map(Effect::Layer)),
+        ),
+        (PathFeatures::SHADOWS, requires(&[Effect::Shadows])),
     ];
     let needed = all.into_iter().filter(|(_, is_asked)| *is_asked);
     needed.fold(PathFeatures::NONE, |features, (feature, _)| {

@@ -13,7 +13,7 @@ pub(crate) struct Area([[f64; 2]; 2]);
 const MARGIN: f64 = 2.0;
 
 /// An area of more repetitions than this counts as the whole image.
-const FAR: f64 = 1e6;
+const MAX_REPEATS: f64 = 1e6;
 
 impl Area {
     /// The empty area.
@@ -23,17 +23,17 @@ impl Area {
     pub(crate) const UNIT: Self = Self([[0.0, 1.0]; 2]);
 
     /// The bounding rectangle of points.
-    pub(crate) fn of(places: impl Iterator<Item = [f64; 2]>) -> Self {
-        places.fold(Self::NONE, |area, [u, v]| {
+    pub(crate) fn of(points: impl Iterator<Item = [f64; 2]>) -> Self {
+        points.fold(Self::NONE, |area, [u, v]| {
             area.around(Self([[u, u], [v, v]]))
         })
     }
 
     /// The union with another area.
     pub(super) fn around(self, Self(other): Self) -> Self {
-        let Self(own) = self;
+        let Self(area) = self;
         Self([0, 1].map(|axis| {
-            let ([low, high], [other_low, other_high]) = (own[axis], other[axis]);
+            let ([low, high], [other_low, other_high]) = (area[axis], other[axis]);
             [low.min(other_low), high.max(other_high)]
         }))
     }
@@ -52,7 +52,7 @@ impl Area {
 pub(super) struct TextureValues<'scene> {
     scene: &'scene ValidScene,
     /// Per image, whether all texels are equal.
-    even: Vec<OnceCell<bool>>,
+    constant: Vec<OnceCell<bool>>,
     /// Per image and channel, the value of all texels, if they have only one.
     values: Vec<[OnceCell<Option<f64>>; 4]>,
 }
@@ -62,21 +62,21 @@ impl<'scene> TextureValues<'scene> {
         let count = scene.images().len();
         Self {
             scene,
-            even: vec![OnceCell::new(); count],
+            constant: vec![OnceCell::new(); count],
             values: vec![std::array::from_fn(|_| OnceCell::new()); count],
         }
     }
 
     /// Whether a map is constant.
-    pub(super) fn is_even(&self, map: &Map) -> bool {
+    pub(super) fn is_constant(&self, map: &Map) -> bool {
         let texture = &self.scene.textures()[map.texture];
-        image_of(texture).is_some_and(|image| self.is_even_image(image))
+        image_of(texture).is_some_and(|image| self.is_constant_image(image))
     }
 
     /// Whether all texels of an image are equal.
-    pub(super) fn is_even_image(&self, image: usize) -> bool {
-        let is_even = || self.scene.images()[image].texels.are_even();
-        *self.even[image].get_or_init(is_even)
+    pub(super) fn is_constant_image(&self, image: usize) -> bool {
+        let is_constant = || self.scene.images()[image].texels.are_even();
+        *self.constant[image].get_or_init(is_constant)
     }
 
     /// The value of a channel (red, green, blue, alpha) that a map shows everywhere on an area, if
@@ -87,11 +87,11 @@ impl<'scene> TextureValues<'scene> {
         let Some(image) = image_of(texture) else {
             return UV[channel];
         };
-        let part = self.part(texture, image, area.mapped(&map.texture_from_surface));
-        if part.is_whole() {
-            *self.values[image][channel].get_or_init(|| part.value(channel))
+        let region = self.region(texture, image, area.mapped(&map.texture_from_surface));
+        if region.is_entire() {
+            *self.values[image][channel].get_or_init(|| region.value(channel))
         } else {
-            part.value(channel)
+            region.value(channel)
         }
     }
 
@@ -107,14 +107,14 @@ impl<'scene> TextureValues<'scene> {
         match image_of(texture) {
             None => UV[channel].is_some_and(holds),
             Some(image) => self
-                .part(texture, image, area.mapped(&map.texture_from_surface))
+                .region(texture, image, area.mapped(&map.texture_from_surface))
                 .channel(channel)
                 .all(holds),
         }
     }
 
     /// The part of an image that a texture may show on an area of its coordinates.
-    fn part(&self, texture: &Texture, image: usize, Area([us, vs]): Area) -> Part<'scene> {
+    fn region(&self, texture: &Texture, image: usize, Area([us, vs]): Area) -> ImageRegion<'scene> {
         let image = &self.scene.images()[image];
         let [width, height] = [image.width.get(), image.height.get()];
         let (columns, rows) = match texture {
@@ -124,7 +124,7 @@ impl<'scene> TextureValues<'scene> {
                 texels(vs, height, sampled.wrap[1]),
             ),
         };
-        Part {
+        ImageRegion {
             image,
             columns,
             rows,
@@ -145,14 +145,14 @@ fn image_of(texture: &Texture) -> Option<usize> {
 }
 
 /// A part of an image.
-struct Part<'scene> {
+struct ImageRegion<'scene> {
     image: &'scene Image,
     columns: Range<u32>,
     rows: Range<u32>,
 }
 
-impl Part<'_> {
-    fn is_whole(&self) -> bool {
+impl ImageRegion<'_> {
+    fn is_entire(&self) -> bool {
         self.columns.len() == self.image.width.get() as usize
             && self.rows.len() == self.image.height.get() as usize
     }
@@ -196,7 +196,7 @@ fn value(texel: Texel, channel: usize) -> f64 {
 )]
 fn texels([low, high]: [f64; 2], count: u32, wrap: Wrap) -> Range<u32> {
     let size = f64::from(count);
-    let is_near = low.abs() < FAR && high.abs() < FAR && low <= high;
+    let is_near = low.abs() < MAX_REPEATS && high.abs() < MAX_REPEATS && low <= high;
     let (low, high) = match wrap {
         _ if !is_near => return 0..count,
         Wrap::Repeat => (low - low.floor(), high - low.floor()),
@@ -248,8 +248,8 @@ mod tests {
         assert_eq!(texels([0.5, 1.5], 64, Wrap::Repeat), 0..64);
         assert_eq!(texels([1.4, 1.5], 64, Wrap::Mirror), 0..64);
         assert_eq!(texels([1e7, 1e7], 64, Wrap::Clamp), 0..64);
-        assert_eq!(texels([-FAR, 0.0], 64, Wrap::Clamp), 0..64);
-        assert_eq!(texels([0.5, FAR], 64, Wrap::Clamp), 0..64);
+        assert_eq!(texels([-MAX_REPEATS, 0.0], 64, Wrap::Clamp), 0..64);
+        assert_eq!(texels([0.5, MAX_REPEATS], 64, Wrap::Clamp), 0..64);
         let Area([none, _]) = Area::NONE;
         assert_eq!(texels(none, 64, Wrap::Clamp), 0..64, "no place known");
     }
@@ -273,40 +273,40 @@ mod tests {
     fn a_part_has_a_value_where_its_own_texels_agree() {
         let image = image(2, &[[1, 0, 9], [2, 0, 9], [3, 0, 9], [3, 0, 9]]);
         let values = |columns, rows| {
-            let part = Part {
+            let region = ImageRegion {
                 image: &image,
                 columns,
                 rows,
             };
-            [0, 1, 2, 3].map(|channel| part.value(channel))
+            [0, 1, 2, 3].map(|channel| region.value(channel))
         };
         let byte = |byte: u8| Some(f64::from(f32::from(byte) / 255.0));
         let (zero, nine, one) = (Some(0.0), byte(9), Some(1.0));
         assert_eq!(values(0..2, 0..2), [None, zero, nine, one]);
         assert_eq!(values(0..2, 1..2), [byte(3), zero, nine, one]);
         assert_eq!(values(1..2, 0..1), [byte(2), zero, nine, one]);
-        let is_whole = |columns, rows| {
+        let is_entire = |columns, rows| {
             let image = &image;
-            Part {
+            ImageRegion {
                 image,
                 columns,
                 rows,
             }
-            .is_whole()
+            .is_entire()
         };
-        assert!(is_whole(0..2, 0..2) && !is_whole(0..2, 1..2) && !is_whole(1..2, 0..2));
+        assert!(is_entire(0..2, 0..2) && !is_entire(0..2, 1..2) && !is_entire(1..2, 0..2));
     }
 
     #[test]
     fn no_texel_is_read_after_the_one_that_decides() {
         let image = image(3, &[[1; 3], [2; 3], [3; 3], [4; 3], [5; 3], [6; 3]]);
-        let part = Part {
+        let region = ImageRegion {
             image: &image,
             columns: 1..3,
             rows: 0..2,
         };
         let read = Cell::new(0);
-        let mut values = part.channel(0).inspect(|_| read.set(read.get() + 1));
+        let mut values = region.channel(0).inspect(|_| read.set(read.get() + 1));
         assert!(!values.all(|value| value * 255.0 < 2.5));
         assert_eq!(read.get(), 2, "the second texel is 3");
     }

@@ -280,7 +280,7 @@ impl Rules {
 
     /// The rules that are in both sets.
     #[must_use]
-    pub const fn of(self, others: Self) -> Self {
+    pub const fn intersection(self, others: Self) -> Self {
         Self(self.0 & others.0)
     }
 
@@ -320,7 +320,7 @@ mod tests {
         assert_eq!([two.with(Rule::Cull), two.without(Rule::Cut)], [two, two]);
         assert_eq!(two.without(Rule::Cull), Rules::NONE.with(Rule::Mode));
         assert_eq!(
-            two.of(Rules::AT_HITS.with(Rule::Cull)),
+            two.intersection(Rules::AT_HITS.with(Rule::Cull)),
             Rules::NONE.with(Rule::Cull)
         );
         assert!(two.contains(Rule::Cull) && two.contains_all(two) && two.contains_all(Rules::NONE));

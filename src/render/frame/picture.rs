@@ -31,7 +31,7 @@ impl<S: Geometry> World<S> {
             1
         };
         let open = |pixel: [u32; 2], _: usize, _: &PixelSum| {
-            let is_blank = self.plan.region.class_of(pixel) == PixelClass::Nothing;
+            let is_blank = self.plan.pixel_classes.class_of(pixel) == PixelClass::Nothing;
             let samples = if is_blank { 0 } else { samples };
             (
                 InOrder::new(job.values),
@@ -69,7 +69,7 @@ impl<S: Geometry> World<S> {
     /// Distances of the whole picture: the brightness of a pixel depends on all of them.
     fn sum_distances(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Sums> {
         let open = |pixel: [u32; 2], _: usize, _: &PixelSum| {
-            let is_blank = self.plan.region.class_of(pixel) == PixelClass::Nothing;
+            let is_blank = self.plan.pixel_classes.class_of(pixel) == PixelClass::Nothing;
             (Distance::default(), asked(job, 0..u32::from(!is_blank)))
         };
         let mut film = self.film(job);

@@ -70,7 +70,7 @@ impl AnyWorld {
     /// the same rules. Shapes, materials and lights stay if the new plan needs the same ones.
     pub fn change(&mut self, scene: ValidScene) {
         let old = each!(self, world => &world.plan);
-        let plan = Plan::by(old.arithmetic, &scene, old.rules);
+        let plan = Plan::with_arithmetic(old.arithmetic, &scene, old.rules);
         // The plan of paths has the materials and lights.
         let is_same = (plan.shapes, &plan.surfaces, &plan.constants, &plan.paths)
             == (old.shapes, &old.surfaces, &old.constants, &old.paths);
@@ -126,8 +126,12 @@ impl AnyWorld {
         }
         // Rules keep the colours; only a plan without them keeps all that a layer may show.
         let simd = each!(self, world => world.simd);
-        Self::prepare_at(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE), simd)
-            .layers(wanted, job, on_pixel)
+        Self::prepare_at(
+            scene,
+            &Plan::with_arithmetic(plan.arithmetic, scene, Rules::NONE),
+            simd,
+        )
+        .layers(wanted, job, on_pixel)
     }
 
     /// Sums a range of the samples of traced paths.
@@ -152,7 +156,11 @@ impl AnyWorld {
         let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
         // As of layers.
         let simd = each!(self, world => world.simd);
-        let whole = Self::prepare_at(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE), simd);
+        let whole = Self::prepare_at(
+            scene,
+            &Plan::with_arithmetic(plan.arithmetic, scene, Rules::NONE),
+            simd,
+        );
         let of = |range| each!(&whole, world => world.guides(range, job, on_pixel));
         let (first, a) = of(&samples[0])?;
         between();

@@ -45,11 +45,11 @@ impl Few {
     /// Takes over from a plan which surfaces may hide a light from which.
     pub(super) fn follow<S>(&mut self, surfaces: &[Surface<S>], plan: &Plan) {
         let hiding = |light: &LightPlan, receiver: usize| {
-            let may_hide = |bit: &usize| light.may_hide(surfaces[*bit].index, receiver);
-            self.casters & bits((0..surfaces.len()).filter(may_hide))
+            let may_occlude = |bit: &usize| light.may_occlude(surfaces[*bit].index, receiver);
+            self.casters & bits((0..surfaces.len()).filter(may_occlude))
         };
         let of_light = |light: &LightPlan| {
-            let receivers = 0..light.casters.len();
+            let receivers = 0..light.occluders.len();
             receivers.map(|receiver| hiding(light, receiver)).collect()
         };
         self.hiding = plan.lights.iter().map(of_light).collect();

@@ -43,7 +43,10 @@ fn naively<S: Prepare>(
     job: &Job,
     on_pixel: &OnPixel<'_>,
 ) -> Option<(Film, Verify)> {
-    let mut world = World::<S>::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE));
+    let mut world = World::<S>::prepare(
+        scene,
+        &Plan::with_arithmetic(plan.arithmetic, scene, Rules::NONE),
+    );
     world.verify = Some(Verify::new(plan.clone()));
     let naive = world.render(job, on_pixel)?;
     Some((naive, world.verify?))
@@ -72,11 +75,11 @@ fn blame(
         rule: None,
         what: "the pixel is another without the rules",
     };
-    for verdict in &plan.verdicts {
+    for verdict in &plan.statuses {
         let Some(rule) = verdict.rule.filter(|rule| plan.rules.contains(*rule)) else {
             continue;
         };
-        let without = Plan::by(plan.arithmetic, scene, plan.rules.without(rule));
+        let without = Plan::with_arithmetic(plan.arithmetic, scene, plan.rules.without(rule));
         let film = render(scene, &without, &Job { crop, ..*job }, on_pixel)?;
         if film.image.pixels.first() == Some(&color) {
             (mismatch.effect, mismatch.rule) = (verdict.effect, Some(rule));

@@ -24,8 +24,8 @@ pub(super) const REACH: u32 = 10;
 /// The difference of each pixel, row by row; the pictures are of one size.
 #[must_use]
 pub fn flip(reference: &Image, test: &Image, pixels_per_degree: f64) -> Vec<f64> {
-    let eye = Eye::new(pixels_per_degree);
-    let (reference, test) = (eye.look(reference), eye.look(test));
+    let vision = VisionFilters::new(pixels_per_degree);
+    let (reference, test) = (vision.perceive(reference), vision.perceive(test));
     let largest = pow(
         hyab(hunt(linear_to_lab(Vec3::Y)), hunt(linear_to_lab(Vec3::Z))),
         Q_COLOR,
@@ -71,7 +71,7 @@ fn difference(reference: &PixelFeatures, test: &PixelFeatures, largest: f64) -> 
 }
 
 /// The filters of an eye at some distance.
-struct Eye {
+struct VisionFilters {
     /// The contrast sensitivity to luminance, red–green and blue–yellow: a sum of separable
     /// Gaussians for each, with their weights.
     sensitivity: [Vec<(f64, Vec<f64>)>; 3],
@@ -85,7 +85,7 @@ struct FeatureFilter {
     second: Vec<f64>,
 }
 
-impl Eye {
+impl VisionFilters {
     fn new(pixels_per_degree: f64) -> Self {
         // Weights and widths of the Gaussians, from the paper's table of contrast sensitivity
         // functions.
@@ -104,7 +104,7 @@ impl Eye {
     }
 
     /// All pixels of a picture as perceived.
-    fn look(&self, image: &Image) -> Vec<PixelFeatures> {
+    fn perceive(&self, image: &Image) -> Vec<PixelFeatures> {
         let (width, height) = (image.width as usize, image.height as usize);
         let opponent: Vec<_> = image
             .pixels
@@ -244,11 +244,11 @@ impl Channel {
         } = self;
         let rows = (0..*height).flat_map(|y| (0..*width).map(move |x| (x, y)));
         let rows = rows
-            .map(|(x, y)| weigh(across, x, *width, |x| values[y * width + x]))
+            .map(|(x, y)| weighted_sum(across, x, *width, |x| values[y * width + x]))
             .collect::<Vec<_>>();
         let columns = (0..*height).flat_map(|y| (0..*width).map(move |x| (x, y)));
         let values = columns
-            .map(|(x, y)| weigh(along, y, *height, |y| rows[y * width + x]))
+            .map(|(x, y)| weighted_sum(along, y, *height, |y| rows[y * width + x]))
             .collect();
         Self { values, ..*self }
     }
@@ -256,12 +256,12 @@ impl Channel {
 
 /// The weighted sum around a place on a line of `length` values, the first and last of which go on
 /// for ever.
-fn weigh(weights: &[f64], at: usize, length: usize, value: impl Fn(usize) -> f64) -> f64 {
+fn weighted_sum(weights: &[f64], at: usize, length: usize, value: impl Fn(usize) -> f64) -> f64 {
     let radius = weights.len() / 2;
-    let place = |k: usize| (at + k).saturating_sub(radius).min(length - 1);
+    let index = |k: usize| (at + k).saturating_sub(radius).min(length - 1);
     (0..)
         .zip(weights)
-        .map(|(k, weight)| weight * value(place(k)))
+        .map(|(k, weight)| weight * value(index(k)))
         .sum()
 }
 
@@ -374,10 +374,10 @@ mod tests {
 
     #[test]
     fn no_filter_reaches_farther_than_is_told() {
-        let Eye {
+        let VisionFilters {
             sensitivity,
             feature,
-        } = Eye::new(PIXELS_PER_DEGREE);
+        } = VisionFilters::new(PIXELS_PER_DEGREE);
         let lines = sensitivity.iter().flatten().map(|(_, line)| line);
         let reach = lines.chain([&feature.smooth]).map(|line| line.len() / 2);
         assert_eq!(reach.max(), Some(REACH as usize));

@@ -2,11 +2,11 @@
 //! turns that for the dark.
 
 use super::super::advice::{digits, seconds};
-use super::super::knob::Parameter;
-use super::super::outcome::{KnobReport, Row, Study};
+use super::super::outcome::{ParameterReport, Row, Study};
+use super::super::parameter::Parameter;
 use super::super::reference::Level;
+use super::captions;
 use super::html::escaped;
-use super::words;
 use plotters::coord::Shift;
 use plotters::coord::combinators::{IntoLogRange, LogCoord};
 use plotters::prelude::*;
@@ -21,7 +21,7 @@ type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>,
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
 /// A point of a plot that says its values when the pointer is over it, or the keyboard gets to it.
-struct Spot {
+struct Mark {
     /// Where it is, in units of the plot.
     at: (i32, i32),
     words: String,
@@ -66,11 +66,11 @@ pub(super) fn front(study: &Study) -> String {
                 draw_label(&mut chart, row, &used, &mut labels)?;
             }
         }
-        let spot = |row: &&Row| Spot {
+        let mark_of = |row: &&Row| Mark {
             at: chart.backend_coord(&(row.seconds.value, row.errors.rmse)),
-            words: words::measured(row, &used),
+            words: captions::measured(row, &used),
         };
-        Ok(rows.iter().map(spot).collect())
+        Ok(rows.iter().map(mark_of).collect())
     })
 }
 
@@ -99,7 +99,7 @@ fn draw_row(chart: &mut Chart<'_, '_>, row: &Row) -> Outcome {
     for bar in [across, along] {
         chart.draw_series([PathElement::new(bar, color.mix(0.5).stroke_width(1))])?;
     }
-    let fill = if row.judged {
+    let fill = if row.is_resolved {
         color.filled()
     } else {
         color.stroke_width(1)
@@ -133,7 +133,7 @@ fn draw_label(
     labels.push((x, y + up));
     let values: Vec<_> = used
         .iter()
-        .map(|knob| knob.cell(row.setting.get(*knob)))
+        .map(|parameter| parameter.cell(row.setting.get(*parameter)))
         .collect();
     let own = if row.own { " (own)" } else { "" };
     let label = Text::new(format!("{}{own}", values.join("·")), (6, up), font(11));
@@ -142,9 +142,9 @@ fn draw_label(
 }
 
 /// The error of a knob alone, and its law.
-pub(super) fn knob(report: &KnobReport) -> String {
+pub(super) fn parameter(report: &ParameterReport) -> String {
     // A logarithmic axis has no 0; a depth of 0 stands beside 1.
-    let x = |value: u32| report.knob.samples(value).max(0.5);
+    let x = |value: u32| report.parameter.samples(value).max(0.5);
     let points: Vec<_> = report
         .levels
         .iter()
@@ -153,15 +153,15 @@ pub(super) fn knob(report: &KnobReport) -> String {
         .collect();
     let xs = span(points.iter().map(|point| point.0));
     let ys = span(points.iter().map(|point| point.1.error));
-    let name = match report.knob {
+    let name = match report.parameter {
         Parameter::Supersampling => "samples of a pixel",
         Parameter::Depth => "depth, 0 at ½",
-        knob @ (Parameter::Aperture
+        parameter @ (Parameter::Aperture
         | Parameter::Lights
         | Parameter::Glossy
         | Parameter::Paths
         | Parameter::Denoise
-        | Parameter::Precision) => knob.name(),
+        | Parameter::Precision) => parameter.name(),
     };
     plot((400, 300), |root| {
         let mut chart = axes(
@@ -188,15 +188,15 @@ pub(super) fn knob(report: &KnobReport) -> String {
             Circle::new((*x, level.error), 4, style)
         };
         chart.draw_series(points.iter().map(mark))?;
-        let spot = |(x, level): &(f64, &Level)| Spot {
+        let mark_of = |(x, level): &(f64, &Level)| Mark {
             at: chart.backend_coord(&(*x, level.error)),
             words: format!(
                 "{name} {}: error {} grey levels",
-                report.knob.cell(level.value),
+                report.parameter.cell(level.value),
                 digits(level.error)
             ),
         };
-        Ok(points.iter().map(spot).collect())
+        Ok(points.iter().map(mark_of).collect())
     })
 }
 
@@ -216,41 +216,41 @@ fn span(values: impl Iterator<Item = f64>) -> AxisRange {
 
 fn plot(
     size: (u32, u32),
-    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Outcome<Vec<Spot>>,
+    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Outcome<Vec<Mark>>,
 ) -> String {
     let mut svg = String::new();
     let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
-    let drawn = draw(&root).and_then(|spots| {
+    let drawn = draw(&root).and_then(|marks| {
         root.present()?;
-        Ok(spots)
+        Ok(marks)
     });
     drop(root);
     // Drawing into a string cannot fail; if it did, the page has no plot.
     match drawn {
-        Ok(spots) => with_spots(&svg, &spots),
+        Ok(marks) => with_marks(&svg, &marks),
         Err(error) => format!("<p>no plot: {error}</p>"),
     }
 }
 
 /// A plot with its spots on top, and a line below it for what the last one says.
-fn with_spots(svg: &str, spots: &[Spot]) -> String {
-    let spot = |Spot { at: (x, y), words }: &Spot| {
+fn with_marks(svg: &str, marks: &[Mark]) -> String {
+    let mark_of = |Mark { at: (x, y), words }: &Mark| {
         let words = escaped(words);
         format!(
             "<circle class=\"spot\" cx=\"{x}\" cy=\"{y}\" r=\"10\" tabindex=\"0\" role=\"img\" \
              aria-label=\"{words}\"><title>{words}</title></circle>\n"
         )
     };
-    let spots: String = spots.iter().map(spot).collect();
+    let marks: String = marks.iter().map(mark_of).collect();
     let drawing = svg.trim_end().trim_end_matches("</svg>");
     format!(
-        "<div onpointerover=\"{TELL}\" onfocusin=\"{TELL}\">{drawing}{spots}</svg>\n\
+        "<div onpointerover=\"{SHOW_VALUES}\" onfocusin=\"{SHOW_VALUES}\">{drawing}{marks}</svg>\n\
          <p class=\"said\">Point at a mark to see its values.</p></div>"
     )
 }
 
 /// Shows below a plot what the mark says that the pointer or the keyboard got to.
-const TELL: &str = "const words = event.target.getAttribute('aria-label'); \
+const SHOW_VALUES: &str = "const words = event.target.getAttribute('aria-label'); \
                     if (words) this.lastElementChild.textContent = words";
 
 fn axes<'a, 'b>(

@@ -1,8 +1,8 @@
 //! The rows of a study as CSV (RFC 4180): a line of names, then one line a row; errors in grey
 //! levels, time in seconds.
 
-use super::super::knob::Parameter;
 use super::super::outcome::{Row, Study};
+use super::super::parameter::Parameter;
 
 const NAMES: &str = "supersampling,aperture,lights,glossy,paths,denoise,depth,precision,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
 refracted_rays,seconds,seconds_low,seconds_high,ratio,ratio_low,ratio_high,rmse,rmse_low,rmse_high,relative_mse,\
@@ -28,13 +28,13 @@ fn line(row: &Row) -> String {
         ratio,
         errors,
         spread,
-        judged,
+        is_resolved,
         resumed: _,
         model,
         tiles: _,
     } = row;
-    let knobs = Parameter::ALL.map(|knob| knob.cell(setting.get(knob)));
-    let flags = [own, front, judged].map(ToString::to_string);
+    let parameters = Parameter::ALL.map(|parameter| parameter.cell(setting.get(parameter)));
+    let flags = [own, front, is_resolved].map(ToString::to_string);
     let rays =
         [rays.camera, rays.shadow, rays.mirror, rays.refracted].map(|count| count.to_string());
     let times = [seconds, ratio]
@@ -56,7 +56,7 @@ fn line(row: &Row) -> String {
     ];
     // The shortest digits that read back as the same number.
     let numbers = times.chain(errors).map(|number| number.to_string());
-    knobs
+    parameters
         .into_iter()
         .chain(flags)
         .chain(rays)

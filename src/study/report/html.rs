@@ -2,9 +2,9 @@
 //! and dark.
 
 use super::super::advice::{digits, interval, seconds};
-use super::super::knob::Parameter;
 use super::super::outcome::{BounceCost, Row, Study};
-use super::words::{MEANINGS, bought, buys};
+use super::super::parameter::Parameter;
+use super::captions::{MEANINGS, best_by_time, best_within};
 use super::{chart, maps, picture, table};
 use std::fmt::Write;
 
@@ -21,7 +21,7 @@ pub fn html(study: &Study) -> String {
         front(study),
         legend(&study.used()),
         times(study),
-        knobs(study),
+        parameters(study),
         bounces(study),
         effects(study),
         precision(study),
@@ -75,7 +75,7 @@ fn front(study: &Study) -> String {
         "FLIP",
     ];
     let names = std::iter::once("")
-        .chain(used.iter().map(|knob| knob.short()))
+        .chain(used.iter().map(|parameter| parameter.short()))
         .chain(names);
     let head: String = names.map(|name| format!("<th>{name}</th>")).collect();
     format!(
@@ -89,13 +89,15 @@ fn front(study: &Study) -> String {
 
 /// What the columns mean; it opens by mouse and keyboard.
 fn legend(used: &[Parameter]) -> String {
-    let knobs = used.iter().map(|knob| (knob.short(), knob.name()));
+    let parameters = used
+        .iter()
+        .map(|parameter| (parameter.short(), parameter.name()));
     let meanings = MEANINGS.iter().map(|(_, name, meaning)| (*name, *meaning));
     let entry = |(name, meaning)| {
         let meaning = escaped(meaning);
         format!("<dt>{name}</dt><dd>{meaning}</dd>\n")
     };
-    let entries: String = knobs.chain(meanings).map(entry).collect();
+    let entries: String = parameters.chain(meanings).map(entry).collect();
     format!(
         "<details>\n<summary>What the columns mean</summary>\n<dl>\n{entries}</dl>\n</details>\n"
     )
@@ -103,9 +105,9 @@ fn legend(used: &[Parameter]) -> String {
 
 /// What a time buys, with a slider over the times at which it is another row.
 fn times(study: &Study) -> String {
-    let lines: Vec<_> = buys(study)
+    let lines: Vec<_> = best_by_time(study)
         .iter()
-        .map(|what| escaped(&bought(study, what)))
+        .map(|what| escaped(&best_within(study, what)))
         .collect();
     let Some(last) = lines.len().checked_sub(1) else {
         return String::new();
@@ -129,8 +131,10 @@ fn times(study: &Study) -> String {
 fn cells(row: &Row, used: &[Parameter], fraction: f64) -> Vec<String> {
     let star = if row.front { "★" } else { "" };
     let own = if row.own { " own" } else { "" };
-    let limit = if row.judged { "" } else { "≤ " };
-    let knobs = used.iter().map(|knob| knob.cell(row.setting.get(*knob)));
+    let limit = if row.is_resolved { "" } else { "≤ " };
+    let parameters = used
+        .iter()
+        .map(|parameter| parameter.cell(row.setting.get(*parameter)));
     let measured = [
         table::count(row.rays.all() as f64 / fraction),
         format!(
@@ -159,21 +163,24 @@ fn cells(row: &Row, used: &[Parameter], fraction: f64) -> Vec<String> {
         digits(row.errors.flip),
     ];
     std::iter::once(format!("{star}{own}"))
-        .chain(knobs)
+        .chain(parameters)
         .chain(measured)
         .collect()
 }
 
-fn knobs(study: &Study) -> String {
+fn parameters(study: &Study) -> String {
     let mut figures = String::new();
-    let mut idle = String::new();
-    for report in &study.knobs {
+    let mut not_applicable = String::new();
+    for report in &study.parameters {
         let words = escaped(&table::knob_line(report, study.bounces.as_ref()));
         let has_points = report.levels.iter().any(|level| level.error > 0.0);
-        if report.idle.is_some() || report.knob == Parameter::Precision || !has_points {
-            let _ = writeln!(idle, "<li>{words}</li>");
+        if report.not_applicable.is_some()
+            || report.parameter == Parameter::Precision
+            || !has_points
+        {
+            let _ = writeln!(not_applicable, "<li>{words}</li>");
         } else {
-            let plot = chart::knob(report);
+            let plot = chart::parameter(report);
             let _ = writeln!(
                 figures,
                 "<figure>{plot}<figcaption>{words}</figcaption></figure>"
@@ -182,7 +189,7 @@ fn knobs(study: &Study) -> String {
     }
     let note = "The error that each knob leaves if all others leave none; hollow points do not stand out from the noise.";
     format!(
-        "<h2>Each knob alone</h2>\n<p>{note}</p>\n<div class=\"grid\">\n{figures}</div>\n<ul>\n{idle}</ul>\n"
+        "<h2>Each knob alone</h2>\n<p>{note}</p>\n<div class=\"grid\">\n{figures}</div>\n<ul>\n{not_applicable}</ul>\n"
     )
 }
 
@@ -264,7 +271,7 @@ fn precision(study: &Study) -> String {
 }
 
 fn pictures(study: &Study) -> String {
-    if study.truth.is_empty() {
+    if study.reference_tiles.is_empty() {
         return String::new();
     }
     let shown: Vec<_> = study
@@ -273,7 +280,7 @@ fn pictures(study: &Study) -> String {
         .filter(|row| row.front || row.own)
         .collect();
     let step = shown.len().div_ceil(PICTURES).max(1);
-    let mut figures = figure(&[picture::tiles(&study.truth)], "The reference");
+    let mut figures = figure(&[picture::tiles(&study.reference_tiles)], "The reference");
     for row in shown.into_iter().step_by(step) {
         let own = if row.own { ", the scene's own" } else { "" };
         let words = format!(
@@ -285,7 +292,7 @@ fn pictures(study: &Study) -> String {
         figures += &figure(
             &[
                 picture::tiles(&row.tiles),
-                picture::heat(&row.tiles, &study.truth),
+                picture::heat(&row.tiles, &study.reference_tiles),
             ],
             &words,
         );

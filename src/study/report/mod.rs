@@ -2,6 +2,7 @@
 //! browser.
 
 mod braille;
+mod captions;
 mod chart;
 mod csv;
 mod html;
@@ -10,12 +11,11 @@ mod picture;
 mod slider;
 mod table;
 mod versus;
-mod words;
 
 pub use csv::csv;
 pub use html::html;
 pub use maps::maps_page;
-pub use slider::{SliderPage, slider_page, told};
+pub use slider::{SliderPage, slider_page, value_text};
 pub use table::table;
 pub use versus::versus_table;
 

@@ -62,7 +62,7 @@ fn numbers(difference: &Difference) -> String {
         max_at: _,
         relative_mse,
         flip,
-        share,
+        fraction,
         levels,
     } = difference;
     let rows = [
@@ -72,7 +72,10 @@ fn numbers(difference: &Difference) -> String {
         ("FLIP, on the mean", format!("{flip:.6}")),
         (
             "pixels off",
-            format!("{:.4} % by more than {levels} grey levels", 100.0 * share),
+            format!(
+                "{:.4} % by more than {levels} grey levels",
+                100.0 * fraction
+            ),
         ),
     ];
     let rows = rows.map(|(name, value)| format!("<tr><td>{name}</td><td>{value}</td></tr>\n"));
@@ -85,7 +88,7 @@ fn changed(page: &SliderPage<'_>) -> String {
     };
     let mut rows = String::new();
     for Change { path, new, old } in changes.iter().take(MOST) {
-        let cell = |value: &Option<Value>| escaped(&told(value.as_ref()));
+        let cell = |value: &Option<Value>| escaped(&value_text(value.as_ref()));
         let (path, old, new) = (escaped(path), cell(old), cell(new));
         let _ = writeln!(rows, "<tr><td>{path}</td><td>{old}</td><td>{new}</td></tr>");
     }
@@ -104,7 +107,7 @@ fn changed(page: &SliderPage<'_>) -> String {
 
 /// A value of a scene in a few words; a dash for none.
 #[must_use]
-pub fn told(value: Option<&Value>) -> String {
+pub fn value_text(value: Option<&Value>) -> String {
     const MOST: usize = 60;
     let text = value.map_or_else(|| "–".to_owned(), Value::to_string);
     match text.char_indices().nth(MOST) {

@@ -1,11 +1,11 @@
 //! The table for a terminal of 80 columns.
 
 use super::super::advice::{digits, seconds};
-use super::super::knob::Parameter;
-use super::super::outcome::{BounceCost, KnobReport, MoreBounces, Row, Study};
+use super::super::outcome::{BounceCost, MoreBounces, ParameterReport, Row, Study};
+use super::super::parameter::Parameter;
 use super::super::reference::DepthEnd;
 use super::braille;
-use super::words::{MEANINGS, bought, buys};
+use super::captions::{MEANINGS, best_by_time, best_within};
 use std::fmt::Write;
 
 const WIDTH: usize = 80;
@@ -17,7 +17,7 @@ pub fn table(study: &Study) -> String {
     let mut text = format!("{}\n", head(study));
     let mut names = String::from(" ");
     used.iter()
-        .for_each(|knob| write_cell(&mut names, knob.short(), width(*knob)));
+        .for_each(|parameter| write_cell(&mut names, parameter.short(), width(*parameter)));
     let columns = columns(study, &used);
     for column in &columns {
         let (name, width) = COLUMNS[*column];
@@ -32,15 +32,15 @@ pub fn table(study: &Study) -> String {
     }
     text += &legend(&used, &columns);
     text += "\n";
-    for what in buys(study) {
-        text += &wrapped(&bought(study, &what));
+    for what in best_by_time(study) {
+        text += &wrapped(&best_within(study, &what));
     }
     text += &braille::plot(study);
     text += "\n";
     study
-        .knobs
+        .parameters
         .iter()
-        .for_each(|knob| text += &wrapped(&knob_line(knob, study.bounces.as_ref())));
+        .for_each(|parameter| text += &wrapped(&knob_line(parameter, study.bounces.as_ref())));
     text += &more_bounces(study.bounces.as_ref());
     text += &effects(study);
     text += "\n";
@@ -63,13 +63,13 @@ pub fn table(study: &Study) -> String {
 
 /// What the columns mean that are shown.
 fn legend(used: &[Parameter], columns: &[usize]) -> String {
-    let knobs = used
+    let parameters = used
         .iter()
-        .map(|knob| format!("{}: {}", knob.short(), knob.name()));
+        .map(|parameter| format!("{}: {}", parameter.short(), parameter.name()));
     let is_shown = |name: &str| name == "*" || columns.iter().any(|at| COLUMNS[*at].0 == name);
     let meanings = MEANINGS.iter().filter(|(name, ..)| is_shown(name));
     let meanings = meanings.map(|(name, _, meaning)| format!("{name}: {meaning}"));
-    wrapped(&knobs.chain(meanings).collect::<Vec<_>>().join("; "))
+    wrapped(&parameters.chain(meanings).collect::<Vec<_>>().join("; "))
 }
 
 /// What more bounces than the scene's own would add.
@@ -163,10 +163,13 @@ fn columns(study: &Study, used: &[Parameter]) -> Vec<usize> {
         .filter(|place| *place != COLUMNS.len() - 1 || study.part.tiles > 0)
         .filter(|place| !(is_alike && [MEAN, SPREAD].contains(place)))
         .collect();
-    let knobs = used.iter().map(|knob| width(*knob)).sum::<usize>();
+    let parameters = used
+        .iter()
+        .map(|parameter| width(*parameter))
+        .sum::<usize>();
     for place in [MODEL, MEAN, FLIP, SPREAD] {
         let columns = shown.iter().map(|place| COLUMNS[*place].1).sum::<usize>();
-        if 1 + knobs + columns > WIDTH {
+        if 1 + parameters + columns > WIDTH {
             shown.retain(|other| *other != place);
         }
     }
@@ -174,15 +177,24 @@ fn columns(study: &Study, used: &[Parameter]) -> Vec<usize> {
 }
 
 /// The width of the column of a knob.
-fn width(knob: Parameter) -> usize {
-    if knob == Parameter::Precision { 7 } else { 6 }
+fn width(parameter: Parameter) -> usize {
+    if parameter == Parameter::Precision {
+        7
+    } else {
+        6
+    }
 }
 
 fn line(row: &Row, used: &[Parameter], (columns, fraction): (&[usize], f64)) -> String {
     let mut line = String::from(if row.front { "*" } else { " " });
-    used.iter()
-        .for_each(|knob| write_cell(&mut line, &knob.cell(row.setting.get(*knob)), width(*knob)));
-    let limit = if row.judged { "" } else { "≤" };
+    used.iter().for_each(|parameter| {
+        write_cell(
+            &mut line,
+            &parameter.cell(row.setting.get(*parameter)),
+            width(*parameter),
+        )
+    });
+    let limit = if row.is_resolved { "" } else { "≤" };
     let cells = [
         count(row.rays.all() as f64 / fraction),
         format!(
@@ -262,15 +274,15 @@ pub(super) fn reference(study: &Study) -> String {
 }
 
 /// The result for a knob, in one sentence.
-pub(super) fn knob_line(report: &KnobReport, bounces: Option<&MoreBounces>) -> String {
-    let name = report.knob.name();
+pub(super) fn knob_line(report: &ParameterReport, bounces: Option<&MoreBounces>) -> String {
+    let name = report.parameter.name();
     let last = report.levels.last().map_or(0, |level| level.value);
-    if let Some(reason) = &report.idle {
+    if let Some(reason) = &report.not_applicable {
         return format!("{name}: not used by this scene: {reason}");
     }
-    match (&report.law, report.knob, bounces) {
-        (Some(law), knob, _) => {
-            let samples = if knob == Parameter::Supersampling {
+    match (&report.law, report.parameter, bounces) {
+        (Some(law), parameter, _) => {
+            let samples = if parameter == Parameter::Supersampling {
                 "samples"
             } else {
                 "n"
@@ -286,7 +298,7 @@ pub(super) fn knob_line(report: &KnobReport, bounces: Option<&MoreBounces>) -> S
             let robust = report.levels.len().saturating_sub(1);
             let words: Vec<_> = report.levels[..robust]
                 .iter()
-                .map(|level| report.knob.cell(level.value))
+                .map(|level| report.parameter.cell(level.value))
                 .collect();
             format!(
                 "{name}: rows are by {} arithmetic too where that adds no error",

@@ -29,7 +29,7 @@ pub(super) struct Shot {
 pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
     let options = Options::read(case)?;
     let scene = validate(case, &options)?;
-    let plan = Plan::by(options.arithmetic, &scene, Rules::ALL);
+    let plan = Plan::with_arithmetic(options.arithmetic, &scene, Rules::ALL);
     let renderer = Renderer::new(&scene, &plan, options.threads)?;
     let picture = match options.aov {
         Some((aov, range)) => layer(&renderer, &scene, aov, range),

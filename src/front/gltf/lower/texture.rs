@@ -23,7 +23,7 @@ pub(super) struct LoweredTextures {
 /// The codes of OpenGL for what lies beyond an image, and for the nearest texel.
 const CLAMP: u64 = 33071;
 const MIRROR: u64 = 33648;
-const NEAREST: u64 = 9728;
+const MIN_HIT_DISTANCE: u64 = 9728;
 
 impl LoweredTextures {
     pub(super) fn new(doc: &Document<'_>) -> Self {
@@ -113,7 +113,8 @@ impl LoweredTextures {
             .sampler
             .and_then(|sampler| doc.samplers.get(sampler));
         let wrap = sampler.map_or([Wrap::Repeat; 2], |sampler| sampler.wrap.map(wrap));
-        let is_nearest = sampler.is_some_and(|sampler| sampler.mag_filter == Some(NEAREST));
+        let is_nearest =
+            sampler.is_some_and(|sampler| sampler.mag_filter == Some(MIN_HIT_DISTANCE));
         let filter = if is_nearest {
             Filter::Nearest
         } else {

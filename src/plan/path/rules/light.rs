@@ -1,55 +1,55 @@
 //! Rules on lights, light sampling and shadows.
 
 use super::PathRule;
-use crate::body::{Body, Hull};
-use crate::path::draft::{Draft, EnvironmentUse, LightUse, lets_light_through};
+use crate::margin::{MARGIN, OrientedPlane, Sides};
+use crate::path::builder::{EnvironmentUse, LightUse, PlanBuilder, is_transmissive};
 use crate::path::facts::is_delta;
 use crate::rules::Rule;
-use crate::space::{Flat, MARGIN, Sides};
+use crate::surface_bounds::{ShapeClass, SurfaceBounds};
 use rtc_image::Texels;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{Bounds, Vec3};
 use rtc_valid::{Alpha, Falloff, Punctual};
 
-fn place(light: usize) -> ValuePath {
+fn light_path(light: usize) -> ValuePath {
     ValuePath::new(EntityKind::Light, light, Field::Whole)
 }
 
-pub(super) const BLACK: PathRule = PathRule {
+pub(super) const ZERO_INTENSITY: PathRule = PathRule {
     rule: Rule::PathLightBlack,
     name: "P-LIGHT-ZERO",
     text: "A light of intensity 0 is chosen with probability 0: it leaves the choice of lights.",
-    because: "all lights have intensity 0",
-    apply: |draft| {
-        let lights = draft.punctual;
+    reason: "all lights have intensity 0",
+    apply: |builder| {
+        let lights = builder.punctual;
         let is_black = |light: &usize| is_dark(&lights[*light]);
-        leave(draft, LightUse::Nothing, is_black)
+        reduce_lights(builder, LightUse::Nothing, is_black)
     },
 };
 
-pub(super) const DARK_SKY: PathRule = PathRule {
+pub(super) const BLACK_ENVIRONMENT: PathRule = PathRule {
     rule: Rule::PathDarkSky,
     name: "P-ENV-ZERO",
     text: "An environment whose radiance is 0 in all directions adds 0 to a path that leaves the scene.",
-    because: "the environment is black",
-    apply: |draft| {
-        reduce_environment(draft, EnvironmentUse::Nothing, |draft, image| {
-            is_black(&draft.scene.images()[image].texels)
+    reason: "the environment is black",
+    apply: |builder| {
+        reduce_environment(builder, EnvironmentUse::Nothing, |builder, image| {
+            is_black(&builder.scene.images()[image].texels)
         })
     },
 };
 
-pub(super) const EVEN_SKY: PathRule = PathRule {
+pub(super) const CONSTANT_ENVIRONMENT: PathRule = PathRule {
     rule: Rule::PathEvenSky,
     name: "P-ENV-CONST",
     text: "An environment image whose texels are all equal shows that value in every direction: what \
            filtering blends of equal texels is that texel. It is read once, when the scene is \
            prepared. Directions to it are chosen by its table as before, so that no random number \
            changes its meaning.",
-    because: "all texels of the environment's image are equal",
-    apply: |draft| {
-        reduce_environment(draft, EnvironmentUse::Constant, |draft, image| {
-            draft.textures.is_even_image(image)
+    reason: "all texels of the environment's image are equal",
+    apply: |builder| {
+        reduce_environment(builder, EnvironmentUse::Constant, |builder, image| {
+            builder.textures.is_constant_image(image)
         })
     },
 };
@@ -57,123 +57,132 @@ pub(super) const EVEN_SKY: PathRule = PathRule {
 /// Reduces an environment with an image that has a property to `rest`; returns its place if that
 /// changed it.
 fn reduce_environment(
-    draft: &mut Draft<'_>,
+    builder: &mut PlanBuilder<'_>,
     rest: EnvironmentUse,
-    has: impl Fn(&Draft<'_>, usize) -> bool,
+    has: impl Fn(&PlanBuilder<'_>, usize) -> bool,
 ) -> Vec<ValuePath> {
-    let image = draft.scene.environment().image;
-    let is_all = draft.environment == EnvironmentUse::All;
-    if !(is_all && image.is_some_and(|image| has(draft, image))) {
+    let image = builder.scene.environment().image;
+    let is_all = builder.environment == EnvironmentUse::All;
+    if !(is_all && image.is_some_and(|image| has(builder, image))) {
         return Vec::new();
     }
-    draft.environment = rest;
+    builder.environment = rest;
     vec![ValuePath::new(EntityKind::Environment, 0, Field::Whole)]
 }
 
-pub(super) const OUT_OF_REACH: PathRule = PathRule {
+pub(super) const OUT_OF_RANGE: PathRule = PathRule {
     rule: Rule::PathLightReach,
     name: "P-LIGHT-REACH",
     text: "A light whose range, or whose cone, ends before the boxes of all surfaces sends nothing to \
            them. It keeps its place in the choice of lights, so that no random number changes its \
            meaning, and loses its evaluation and its shadow ray.",
-    because: "no surface is within the range or the cone of a light",
-    apply: |draft| {
-        let lights = draft.punctual;
-        let (bodies, left) = (draft.bodies, draft.surfaces.clone());
+    reason: "no surface is within the range or the cone of a light",
+    apply: |builder| {
+        let lights = builder.punctual;
+        let (surface_bounds, left) = (builder.surface_bounds, builder.surfaces.clone());
         let is_out = |light: &usize| {
-            let mut bodies = bodies.iter().zip(&left).filter(|(_, is_left)| **is_left);
-            bodies.all(|(body, _)| is_out_of_reach(&lights[*light], body))
+            let mut surface_bounds = surface_bounds
+                .iter()
+                .zip(&left)
+                .filter(|(_, is_in_world)| **is_in_world);
+            surface_bounds.all(|(bounds, _)| is_out_of_range(&lights[*light], bounds))
         };
-        leave(draft, LightUse::OnlyIndex, is_out)
+        reduce_lights(builder, LightUse::OnlyIndex, is_out)
     },
 };
 
-pub(super) const MIRRORS_ONLY: PathRule = PathRule {
+pub(super) const DELTA_ONLY: PathRule = PathRule {
     rule: Rule::PathDelta,
     name: "P-DELTA",
     text: "Where every material scatters light into single directions alone, a direction aimed at a \
            light has value 0: no light is sampled, and no two ways of sampling need weights.",
-    because: "all materials are mirrors or clear glass",
-    apply: |draft| {
-        let multiple = draft.path.multiple_scattering;
-        let aims =
-            |material: &rtc_valid::Standard| !material.unlit && !is_delta(material, multiple);
-        if !draft.aims || draft.used().any(|(_, material)| aims(material)) {
+    reason: "all materials are mirrors or clear glass",
+    apply: |builder| {
+        let multiple = builder.path.multiple_scattering;
+        let nee = |material: &rtc_valid::Standard| !material.unlit && !is_delta(material, multiple);
+        if !builder.nee || builder.used_materials().any(|(_, material)| nee(material)) {
             return Vec::new();
         }
-        draft.aims = false;
-        draft
-            .used()
+        builder.nee = false;
+        builder
+            .used_materials()
             .map(|(material, _)| ValuePath::new(EntityKind::Material, material, Field::Whole))
             .collect()
     },
 };
 
-pub(super) const ALONE: PathRule = PathRule {
+pub(super) const SINGLE_CONVEX: PathRule = PathRule {
     rule: Rule::PathShadowAlone,
     name: "P-SHADOW-ALONE",
     text: "A convex opaque solid that stands alone, looked at from outside, lies behind the plane that \
            touches it at any of its points, and a light before that plane is not hidden by it. A flat \
            surface that stands alone hides no light that is off its plane; of an environment with an image \
            some directions are not.",
-    because: "one convex surface stands alone and does not hide its lights",
-    apply: |draft| {
-        let mut left = (0..draft.surfaces.len()).filter(|surface| draft.surfaces[*surface]);
+    reason: "one convex surface stands alone and does not hide its lights",
+    apply: |builder| {
+        let mut left = (0..builder.surfaces.len()).filter(|surface| builder.surfaces[*surface]);
         let (Some(surface), None) = (left.next(), left.next()) else {
             return Vec::new();
         };
-        if !draft.shadows || !hides_nothing(draft, surface) {
+        if !builder.shadows || !casts_no_self_shadow(builder, surface) {
             return Vec::new();
         }
-        draft.shadows = false;
-        let index = draft.scene.surfaces()[surface].index;
+        builder.shadows = false;
+        let index = builder.scene.surfaces()[surface].index;
         vec![ValuePath::new(EntityKind::Surface, index, Field::Whole)]
     },
 };
 
 /// Reduces lights to `rest`; returns the places of the changed ones.
-fn leave(draft: &mut Draft<'_>, rest: LightUse, which: impl Fn(&usize) -> bool) -> Vec<ValuePath> {
-    let left = |light: &usize| draft.lights[*light] == LightUse::All;
-    let out: Vec<_> = (0..draft.lights.len()).filter(left).filter(which).collect();
-    out.iter().for_each(|light| draft.lights[*light] = rest);
-    out.into_iter().map(place).collect()
+fn reduce_lights(
+    builder: &mut PlanBuilder<'_>,
+    rest: LightUse,
+    which: impl Fn(&usize) -> bool,
+) -> Vec<ValuePath> {
+    let left = |light: &usize| builder.lights[*light] == LightUse::All;
+    let out: Vec<_> = (0..builder.lights.len())
+        .filter(left)
+        .filter(which)
+        .collect();
+    out.iter().for_each(|light| builder.lights[*light] = rest);
+    out.into_iter().map(light_path).collect()
 }
 
 /// Whether the only surface of a scene surely casts no shadow on itself.
-fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
-    let (body, material) = (
-        &draft.bodies[surface],
-        &draft.materials[draft.scene.surfaces()[surface].material],
+fn casts_no_self_shadow(builder: &PlanBuilder<'_>, surface: usize) -> bool {
+    let (bounds, material) = (
+        &builder.surface_bounds[surface],
+        &builder.materials[builder.scene.surfaces()[surface].material],
     );
     let eye = Bounds::about(
-        draft.scene.camera().eye,
-        Vec3::splat(draft.scene.camera().lens.radius.get()),
+        builder.scene.camera().eye,
+        Vec3::splat(builder.scene.camera().lens.radius.get()),
     );
-    let keeps_rays_out = !lets_light_through(material) && material.alpha == Alpha::Opaque;
+    let keeps_rays_out = !is_transmissive(material) && material.alpha == Alpha::Opaque;
     let is_dark = material.emissive == Vec3::ZERO;
-    let is_perspective = draft.scene.camera().projection == rtc_valid::Projection::Perspective;
-    let spares = match body.form {
-        Hull::Flat(flat) => {
-            let mut lights = draft.punctual.iter();
-            !draft.has_extended_light() && lights.all(|light| is_off(light, &flat))
+    let is_perspective = builder.scene.camera().projection == rtc_valid::Projection::Perspective;
+    let spares = match bounds.class {
+        ShapeClass::Planar(plane) => {
+            let mut lights = builder.punctual.iter();
+            !builder.has_extended_light() && lights.all(|light| is_off_plane(light, &plane))
         }
-        Hull::Ball(..) | Hull::Convex => {
-            let mut places = draft.punctual.iter().filter_map(position);
-            body.is_clear_of(&eye) && places.all(|at| body.is_clear_of(&point(at)))
+        ShapeClass::Sphere(..) | ShapeClass::Convex => {
+            let mut places = builder.punctual.iter().filter_map(position);
+            bounds.is_disjoint_from(&eye) && places.all(|at| bounds.is_disjoint_from(&point(at)))
         }
         // Nor is a closed convex mesh known to spare them: a ray from beside an edge starts a few
         // rounding errors above its face, and by as much the edge functions of the next face may be
         // wrong, the more so the flatter the ray runs to it.
-        Hull::Other => false,
+        ShapeClass::Other => false,
     };
     keeps_rays_out && is_dark && is_perspective && spares
 }
 
 /// Whether a light is surely off a plane. A ray along the plane may round to either side of it.
-fn is_off(light: &Punctual, flat: &Flat) -> bool {
+fn is_off_plane(light: &Punctual, plane: &OrientedPlane) -> bool {
     match light {
-        Punctual::Directional(sun) => sun.direction.dot(flat.normal).abs() > 4.0 * MARGIN,
-        Punctual::Point(light) => flat.sides(&point(light.position)) != Sides::BOTH,
+        Punctual::Directional(sun) => sun.direction.dot(plane.normal).abs() > 4.0 * MARGIN,
+        Punctual::Point(light) => plane.sides(&point(light.position)) != Sides::BOTH,
     }
 }
 
@@ -207,17 +216,17 @@ fn point(at: Vec3) -> Bounds {
 }
 
 /// Whether a light surely does not reach a surface.
-fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
-    let (Some(space), Punctual::Point(light)) = (body.space(), light) else {
+fn is_out_of_range(light: &Punctual, bounds: &SurfaceBounds) -> bool {
+    let (Some(aabb), Punctual::Point(light)) = (bounds.aabb(), light) else {
         return false;
     };
-    let margin = 8.0 * MARGIN * (space.reach() + light.position.abs().max_element());
+    let margin = 8.0 * MARGIN * (aabb.reach() + light.position.abs().max_element());
     let is_beyond = match light.falloff {
-        Falloff::Ranged(range) => space.distance(light.position) > range.get() + margin,
+        Falloff::Ranged(range) => aabb.distance(light.position) > range.get() + margin,
         Falloff::None | Falloff::Square => false,
     };
     let cone = light.profile.bounding_cone();
-    is_beyond || cone.is_some_and(|cone| is_beside(space, light.position, cone, margin))
+    is_beyond || cone.is_some_and(|cone| is_outside_cone(aabb, light.position, cone, margin))
 }
 
 /// Far above the rounding error of the cosine of an angle.
@@ -225,23 +234,23 @@ const SLACK: f64 = 1e-12;
 
 /// Whether the ball around a box lies outside of a cone by a margin: the cone is given by its apex, its
 /// axis and the cosine of its half angle.
-fn is_beside(space: &Bounds, apex: Vec3, (axis, cosine): (Vec3, f64), margin: f64) -> bool {
+fn is_outside_cone(aabb: &Bounds, apex: Vec3, (axis, cosine): (Vec3, f64), margin: f64) -> bool {
     // Widen the cone: where it is narrow, a rounding error of the cosine is a large one of the angle.
     let cosine = cosine - SLACK;
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
     // Compute the distance of the centre from the side of the cone, a lower bound on that from it.
-    let center = space.min * 0.5 + space.max * 0.5;
+    let center = aabb.min * 0.5 + aabb.max * 0.5;
     let to = center - apex;
     let along = to.dot(axis);
     let across = (to.length_squared() - along * along).max(0.0).sqrt();
     let outside = across * cosine - along * sine;
-    outside > (space.max - center).length() + margin
+    outside > (aabb.max - center).length() + margin
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::Extent;
+    use crate::surface_bounds::Extent;
     use rtc_math::{Positive, cos, sin};
     use rtc_profile::Profile;
     use rtc_valid::{DirectionalLight, PointLight};
@@ -254,37 +263,37 @@ mod tests {
             let angle = f64::to_radians(degrees);
             let apex = Vec3::new(1.0, -2.0, 3.0);
             let center = apex + Vec3::new(sin(angle), 0.0, cos(angle)) * 4.0;
-            let space = Bounds::about(center, Vec3::splat(0.1));
-            let is_beside = is_beside(&space, apex, (Vec3::Z, cosine), 0.0);
-            assert_eq!(is_beside, is_outside, "{degrees}°");
+            let aabb = Bounds::about(center, Vec3::splat(0.1));
+            let is_outside_cone = is_outside_cone(&aabb, apex, (Vec3::Z, cosine), 0.0);
+            assert_eq!(is_outside_cone, is_outside, "{degrees}°");
         }
     }
 
     #[test]
     fn the_narrowest_cone_has_an_angle_that_its_cosine_can_not_tell() {
         for (angle, is_outside) in [(1e-7, false), (1e-5, true)] {
-            let space = Bounds::about(Vec3::new(4.0 * angle, 0.0, 4.0), Vec3::splat(1e-12));
-            let is_beside = is_beside(&space, Vec3::ZERO, (Vec3::Z, 1.0), 0.0);
-            assert_eq!(is_beside, is_outside, "{angle}");
+            let aabb = Bounds::about(Vec3::new(4.0 * angle, 0.0, 4.0), Vec3::splat(1e-12));
+            let is_outside_cone = is_outside_cone(&aabb, Vec3::ZERO, (Vec3::Z, 1.0), 0.0);
+            assert_eq!(is_outside_cone, is_outside, "{angle}");
         }
     }
 
     #[test]
     fn a_box_beside_a_cone_keeps_a_margin_from_it() {
         // A half space, half a unit before a box that lies in a ball of an eighth.
-        let space = Bounds::about(Vec3::new(0.0, 0.0, -0.5), Vec3::X * 0.125);
-        let is_beside = |margin| is_beside(&space, Vec3::ZERO, (Vec3::Z, SLACK), margin);
-        assert!(!is_beside(0.375) && is_beside(0.3749));
+        let aabb = Bounds::about(Vec3::new(0.0, 0.0, -0.5), Vec3::X * 0.125);
+        let is_outside_cone = |margin| is_outside_cone(&aabb, Vec3::ZERO, (Vec3::Z, SLACK), margin);
+        assert!(!is_outside_cone(0.375) && is_outside_cone(0.3749));
     }
 
     #[test]
     fn a_range_ends_before_a_box_by_a_margin_that_grows_with_both_coordinates() {
-        let body = Body {
+        let bounds = SurfaceBounds {
             extent: Extent::Within(Bounds {
                 min: Vec3::new(0.0625, -0.125, -0.125),
                 max: Vec3::splat(0.125),
             }),
-            form: Hull::Other,
+            class: ShapeClass::Other,
         };
         let is_out = |margin: f64, outer: f64| {
             let cone = Profile::Cone {
@@ -299,7 +308,7 @@ mod tests {
                     profile,
                     falloff: Falloff::Ranged(Positive::new(0.1875 - margin).unwrap()),
                 };
-                is_out_of_reach(&Punctual::Point(light), &body)
+                is_out_of_range(&Punctual::Point(light), &bounds)
             })
         };
         let margin = 8.0 * MARGIN * (0.125 + 0.125);
@@ -311,19 +320,19 @@ mod tests {
 
     #[test]
     fn a_sun_is_off_a_plane_beyond_the_error_of_its_direction() {
-        let flat = Flat {
+        let plane = OrientedPlane {
             point: Vec3::ZERO,
             normal: Vec3::Z,
         };
-        let is_off = |height: f64| {
+        let is_off_plane = |height: f64| {
             let direction = Vec3::new(1.0, 0.0, height);
             let irradiance = Vec3::ONE;
             let sun = DirectionalLight {
                 direction,
                 irradiance,
             };
-            is_off(&Punctual::Directional(sun), &flat)
+            is_off_plane(&Punctual::Directional(sun), &plane)
         };
-        assert!(!is_off(4.0 * MARGIN) && is_off(4.1 * MARGIN) && is_off(-1.0));
+        assert!(!is_off_plane(4.0 * MARGIN) && is_off_plane(4.1 * MARGIN) && is_off_plane(-1.0));
     }
 }

@@ -3,7 +3,7 @@
 use super::PathRule;
 use crate::Layer;
 use crate::facts;
-use crate::path::draft::Draft;
+use crate::path::builder::PlanBuilder;
 use crate::rules::Rule;
 use rtc_math::{NonNegative, UnitInterval, Vec3};
 use rtc_valid::{Alpha, Map, Standard};
@@ -13,31 +13,31 @@ pub(super) const ZERO: PathRule = PathRule {
     name: "P-WEIGHT-ZERO",
     text: "Transmission, specular reflection, emission and layers of weight 0 add nothing: where the \
            factor is 0, or the texture is 0 in the channel that counts, wherever a surface lies on it.",
-    because: "its textures are 0 wherever a surface lies on them",
-    apply: |draft| draft.simplify(without_zeros),
+    reason: "its textures are 0 wherever a surface lies on them",
+    apply: |builder| builder.simplify(without_zeros),
 };
 
-fn without_zeros(draft: &Draft<'_>, index: usize, m: &Standard) -> Standard {
+fn without_zeros(builder: &PlanBuilder<'_>, index: usize, m: &Standard) -> Standard {
     let mut new = m.clone();
-    let weighs = |weight: UnitInterval| weight > UnitInterval::ZERO;
+    let is_nonzero = |weight: UnitInterval| weight > UnitInterval::ZERO;
     let is_zero =
-        |map: &Option<Map>, channel| draft.is_zero(index, map.as_ref(), channel..channel + 1);
-    let are_zero = |map: &Option<Map>| draft.is_zero(index, map.as_ref(), 0..3);
-    if weighs(m.transmission) && is_zero(&m.transmission_map, 0) {
+        |map: &Option<Map>, channel| builder.is_zero(index, map.as_ref(), channel..channel + 1);
+    let are_zero = |map: &Option<Map>| builder.is_zero(index, map.as_ref(), 0..3);
+    if is_nonzero(m.transmission) && is_zero(&m.transmission_map, 0) {
         // The factor alone decides that the camera sees back faces.
         new.double_sided = true;
         new.transmission = UnitInterval::ZERO;
     }
     for layer in Layer::ALL.into_iter().filter(|layer| layer.is_in(m)) {
         let (map, channels) = layer.weight_map(m);
-        if draft.is_zero(index, map, channels) {
+        if builder.is_zero(index, map, channels) {
             layer.remove(&mut new);
         }
     }
     if m.iridescence_thickness == [NonNegative::ZERO; 2] {
         new.iridescence = UnitInterval::ZERO;
     }
-    if weighs(m.specular) && is_zero(&m.specular_map, 3) {
+    if is_nonzero(m.specular) && is_zero(&m.specular_map, 3) {
         new.specular = UnitInterval::ZERO;
     }
     if m.emissive != Vec3::ZERO && are_zero(&m.emissive_map) {
@@ -50,9 +50,9 @@ pub(super) const UNLIT: PathRule = PathRule {
     rule: Rule::PathUnlitMaterial,
     name: "P-UNLIT-MATERIAL",
     text: "An unlit material shows its base colour and ends the path: nothing else of it counts.",
-    because: "the materials that have it are unlit",
-    apply: |draft| {
-        draft.simplify(|_, _, material| {
+    reason: "the materials that have it are unlit",
+    apply: |builder| {
+        builder.simplify(|_, _, material| {
             if !material.unlit {
                 return material.clone();
             }
@@ -74,10 +74,10 @@ pub(super) const OPAQUE: PathRule = PathRule {
     text: "A material whose alpha is 1 wherever a surface lies on its texture, or that is masked and \
            whose alpha is above the cutoff there, covers what is behind it: it is opaque. Not where \
            surfaces have colours at their corners, whose alpha is interpolated.",
-    because: "alpha is 1, or above the cutoff, wherever a surface lies",
-    apply: |draft| {
-        draft.simplify(|draft, index, material| {
-            let is_opaque = covers(draft, index, material);
+    reason: "alpha is 1, or above the cutoff, wherever a surface lies",
+    apply: |builder| {
+        builder.simplify(|builder, index, material| {
+            let is_opaque = covers(builder, index, material);
             let alpha = if is_opaque {
                 Alpha::Opaque
             } else {
@@ -92,12 +92,12 @@ pub(super) const OPAQUE: PathRule = PathRule {
 };
 
 /// Whether a material is opaque. Its texture is looked at only where the factor leaves that open.
-fn covers(draft: &Draft<'_>, index: usize, material: &Standard) -> bool {
+fn covers(builder: &PlanBuilder<'_>, index: usize, material: &Standard) -> bool {
     /// A margin above the rounding error of filtered values.
     const MARGIN: f64 = 1e-6;
-    let uses = &draft.uses[index];
+    let uses = &builder.uses[index];
     let factor = material.base_color[3].get();
-    let (map, textures) = (material.base_color_map.as_ref(), draft.textures);
+    let (map, textures) = (material.base_color_map.as_ref(), builder.textures);
     let only_value = || map.map_or(Some(1.0), |map| uses.value(map, 3, textures));
     match material.alpha {
         Alpha::Opaque => true,

@@ -6,7 +6,7 @@ mod material;
 mod paths;
 mod texture;
 
-use super::draft::Draft;
+use super::builder::PlanBuilder;
 use crate::rules::Rule;
 use rtc_ir::ValuePath;
 
@@ -19,28 +19,28 @@ pub(crate) struct PathRule {
     /// The text: what the rule says, and why it is right.
     pub(crate) text: &'static str,
     /// Why an effect is not needed then: lower case, no full stop.
-    pub(crate) because: &'static str,
+    pub(crate) reason: &'static str,
     /// Removes the parts that add nothing; returns the values that decided, none if nothing
     /// changed.
-    pub(super) apply: fn(&mut Draft<'_>) -> Vec<ValuePath>,
+    pub(super) apply: fn(&mut PlanBuilder<'_>) -> Vec<ValuePath>,
 }
 
 /// All rules for paths.
 pub(crate) const ALL: [&PathRule; 16] = [
-    &light::BLACK,
-    &light::DARK_SKY,
-    &light::EVEN_SKY,
+    &light::ZERO_INTENSITY,
+    &light::BLACK_ENVIRONMENT,
+    &light::CONSTANT_ENVIRONMENT,
     &material::ZERO,
     &material::UNLIT,
     &texture::UNSEEN,
     &texture::CONSTANT,
     &material::OPAQUE,
-    &light::OUT_OF_REACH,
-    &paths::NO_LIGHT,
+    &light::OUT_OF_RANGE,
+    &paths::NO_EMISSION,
     &paths::UNLIT_ONLY,
-    &paths::LAST,
-    &light::MIRRORS_ONLY,
-    &light::ALONE,
+    &paths::LAST_RAY,
+    &light::DELTA_ONLY,
+    &light::SINGLE_CONVEX,
     &paths::CULL,
     &paths::CULL_SHADOW,
 ];

@@ -3,10 +3,10 @@
 use super::PathRule;
 use crate::MAX_PAIRS;
 use crate::effect::Effect;
-use crate::path::draft::{Draft, LightUse};
+use crate::margin::Margins;
+use crate::path::builder::{LightUse, PlanBuilder};
+use crate::projection::ScreenRect;
 use crate::rules::Rule;
-use crate::space::Margins;
-use crate::window::Shown;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{Bounds, Vec3};
 use rtc_valid::{Falloff, Punctual, Standard};
@@ -16,20 +16,23 @@ fn depth() -> ValuePath {
 }
 
 /// Whether a scattered ray may find light at a surface or in the environment.
-fn finds_light(draft: &Draft<'_>) -> bool {
-    let glows = |material: &Standard| material.unlit || material.emissive != Vec3::ZERO;
-    draft.asks(Effect::Environment) || draft.used().any(|(_, material)| glows(material))
+fn finds_light(builder: &PlanBuilder<'_>) -> bool {
+    let is_emissive = |material: &Standard| material.unlit || material.emissive != Vec3::ZERO;
+    builder.requires(Effect::Environment)
+        || builder
+            .used_materials()
+            .any(|(_, material)| is_emissive(material))
 }
 
-pub(super) const NO_LIGHT: PathRule = PathRule {
+pub(super) const NO_EMISSION: PathRule = PathRule {
     rule: Rule::PathDark,
     name: "P-DARK",
     text: "Where nothing shines, neither a light nor a surface nor the environment, every path is \
            black after its first hit: none is followed.",
-    because: "nothing shines",
-    apply: |draft| {
-        let is_lit = draft.lights.contains(&LightUse::All) || finds_light(draft);
-        end_paths(draft, !is_lit)
+    reason: "nothing shines",
+    apply: |builder| {
+        let is_lit = builder.lights.contains(&LightUse::All) || finds_light(builder);
+        end_paths(builder, !is_lit)
     },
 };
 
@@ -37,24 +40,24 @@ pub(super) const UNLIT_ONLY: PathRule = PathRule {
     rule: Rule::PathUnlit,
     name: "P-UNLIT",
     text: "A path ends on an unlit surface. Where all are unlit it is one ray.",
-    because: "all surfaces are unlit",
-    apply: |draft| {
-        let all_unlit = draft.used().all(|(_, material)| material.unlit);
-        end_paths(draft, all_unlit)
+    reason: "all surfaces are unlit",
+    apply: |builder| {
+        let all_unlit = builder.used_materials().all(|(_, material)| material.unlit);
+        end_paths(builder, all_unlit)
     },
 };
 
-pub(super) const LAST: PathRule = PathRule {
+pub(super) const LAST_RAY: PathRule = PathRule {
     rule: Rule::PathLast,
     name: "P-LAST",
     text: "After its last bounce a path adds only what it finds there shining. Where neither a surface \
            nor the environment shines, the last ray finds nothing: it is not traced.",
-    because: "a ray after the last bounce would find nothing that shines",
-    apply: |draft| {
-        if !draft.last_ray || draft.max_depth == 0 || finds_light(draft) {
+    reason: "a ray after the last bounce would find nothing that shines",
+    apply: |builder| {
+        if !builder.last_ray || builder.max_depth == 0 || finds_light(builder) {
             return Vec::new();
         }
-        draft.last_ray = false;
+        builder.last_ray = false;
         vec![depth()]
     },
 };
@@ -64,13 +67,13 @@ pub(super) const CULL: PathRule = PathRule {
     name: "P-CULL",
     text: "Where no path goes on and no light is looked for, a surface outside the view of the camera \
            is met by no ray.",
-    because: "no ray of the camera meets it",
-    apply: |draft| {
-        if draft.bounces() || draft.asks(Effect::Shadows) {
+    reason: "no ray of the camera meets it",
+    apply: |builder| {
+        if builder.bounces() || builder.requires(Effect::Shadows) {
             return Vec::new();
         }
-        let (_, unseen) = split(draft);
-        leave_out(draft, unseen)
+        let (_, unseen) = split(builder);
+        remove_surfaces(builder, unseen)
     },
 };
 
@@ -81,21 +84,28 @@ pub(super) const CULL_SHADOW: PathRule = PathRule {
            view, and from these to the lights. A surface outside the view, and outside the convex hull \
            of each surface in view and each light, is met by no ray. Not where lights are chosen by \
            what they send to the whole scene, of which the surface is a part.",
-    because: "no ray of the camera meets it, and it is not between a surface in view and a light",
-    apply: |draft| {
+    reason: "no ray of the camera meets it, and it is not between a surface in view and a light",
+    apply: |builder| {
         // A path goes on to each light with an extent.
-        if draft.bounces() || !draft.asks(Effect::Shadows) || is_choice_by_size(draft) {
+        if builder.bounces() || !builder.requires(Effect::Shadows) || depends_on_scene_size(builder)
+        {
             return Vec::new();
         }
-        let unmet = unmet_by_shadow_rays(draft).unwrap_or_default();
-        leave_out(draft, unmet)
+        let missed = missed_by_shadow_rays(builder).unwrap_or_default();
+        remove_surfaces(builder, missed)
     },
 };
 
 /// Whether the choice between lights without extent depends on the size of the scene.
-fn is_choice_by_size(draft: &Draft<'_>) -> bool {
+fn depends_on_scene_size(builder: &PlanBuilder<'_>) -> bool {
     let is_chosen = |(_, left): &(&Punctual, &LightUse)| **left != LightUse::Nothing;
-    let chosen = || draft.punctual.iter().zip(&draft.lights).filter(is_chosen);
+    let chosen = || {
+        builder
+            .punctual
+            .iter()
+            .zip(&builder.lights)
+            .filter(is_chosen)
+    };
     let is_by_size = |(light, _): (&Punctual, &LightUse)| match light {
         Punctual::Directional(_) => true,
         Punctual::Point(light) => matches!(light.falloff, Falloff::None),
@@ -105,10 +115,16 @@ fn is_choice_by_size(draft: &Draft<'_>) -> bool {
 
 /// The surfaces outside the view that surely no ray from one in view to a light meets; `None` where
 /// that is not known.
-fn unmet_by_shadow_rays(draft: &Draft<'_>) -> Option<Vec<usize>> {
-    let (seen, unseen) = split(draft);
-    let is_left = |(_, left): &(&Punctual, &LightUse)| **left == LightUse::All;
-    let lights = || draft.punctual.iter().zip(&draft.lights).filter(is_left);
+fn missed_by_shadow_rays(builder: &PlanBuilder<'_>) -> Option<Vec<usize>> {
+    let (seen, unseen) = split(builder);
+    let is_in_world = |(_, left): &(&Punctual, &LightUse)| **left == LightUse::All;
+    let lights = || {
+        builder
+            .punctual
+            .iter()
+            .zip(&builder.lights)
+            .filter(is_in_world)
+    };
     if lights()
         .count()
         .saturating_mul(seen.len())
@@ -117,16 +133,16 @@ fn unmet_by_shadow_rays(draft: &Draft<'_>) -> Option<Vec<usize>> {
     {
         return None;
     }
-    let space = |surface: &usize| draft.bodies[*surface].space().copied();
-    let starts = seen.iter().map(space).collect::<Option<Vec<_>>>()?;
-    let is_met = |other: &Bounds| {
+    let aabb = |surface: &usize| builder.surface_bounds[*surface].aabb().copied();
+    let starts = seen.iter().map(aabb).collect::<Option<Vec<_>>>()?;
+    let may_be_hit = |other: &Bounds| {
         let meets = |start: &Bounds| {
-            lights().any(|(light, _)| start.may_see_through(&end(light, start, other), other))
+            lights().any(|(light, _)| start.segment_may_hit(&end(light, start, other), other))
         };
         starts.iter().any(meets)
     };
-    let is_unmet = |surface: &usize| space(surface).is_some_and(|space| !is_met(&space));
-    Some(unseen.into_iter().filter(is_unmet).collect())
+    let is_missed = |surface: &usize| aabb(surface).is_some_and(|aabb| !may_be_hit(&aabb));
+    Some(unseen.into_iter().filter(is_missed).collect())
 }
 
 /// Where the rays to a light that start in a box end; for a sun, beyond another box.
@@ -145,28 +161,28 @@ fn end(light: &Punctual, start: &Bounds, other: &Bounds) -> Bounds {
 }
 
 /// The surfaces of the world that a ray of the camera may meet, and the others.
-fn split(draft: &Draft<'_>) -> (Vec<usize>, Vec<usize>) {
-    let left = (0..draft.surfaces.len()).filter(|surface| draft.surfaces[*surface]);
-    left.partition(|surface| draft.shown[*surface] != Shown::Nowhere)
+fn split(builder: &PlanBuilder<'_>) -> (Vec<usize>, Vec<usize>) {
+    let left = (0..builder.surfaces.len()).filter(|surface| builder.surfaces[*surface]);
+    left.partition(|surface| builder.screen_rects[*surface] != ScreenRect::Outside)
 }
 
 /// Leaves surfaces out of the world; returns their places.
-fn leave_out(draft: &mut Draft<'_>, surfaces: Vec<usize>) -> Vec<ValuePath> {
+fn remove_surfaces(builder: &mut PlanBuilder<'_>, surfaces: Vec<usize>) -> Vec<ValuePath> {
     surfaces
         .iter()
-        .for_each(|surface| draft.surfaces[*surface] = false);
-    let index = |surface: usize| draft.scene.surfaces()[surface].index;
+        .for_each(|surface| builder.surfaces[*surface] = false);
+    let index = |surface: usize| builder.scene.surfaces()[surface].index;
     let place = |surface| ValuePath::new(EntityKind::Surface, index(surface), Field::Whole);
     surfaces.into_iter().map(place).collect()
 }
 
 /// Ends all paths at their first hit, if that is proven to be sufficient.
-fn end_paths(draft: &mut Draft<'_>, is_enough: bool) -> Vec<ValuePath> {
-    if !is_enough || draft.max_depth == 0 {
+fn end_paths(builder: &mut PlanBuilder<'_>, is_enough: bool) -> Vec<ValuePath> {
+    if !is_enough || builder.max_depth == 0 {
         return Vec::new();
     }
-    draft.max_depth = 0;
-    draft.last_ray = false;
+    builder.max_depth = 0;
+    builder.last_ray = false;
     vec![depth()]
 }
 

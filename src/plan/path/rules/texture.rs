@@ -2,7 +2,7 @@
 
 use super::PathRule;
 use crate::Layer;
-use crate::path::draft::Draft;
+use crate::path::builder::PlanBuilder;
 use crate::path::facts::Presence;
 use crate::rules::Rule;
 use rtc_ir::{EntityKind, Field, ValuePath};
@@ -15,16 +15,16 @@ pub(super) const UNSEEN: PathRule = PathRule {
     text: "A map shows ones on surfaces without its texture coordinates, and a map that multiplies 0 \
            does not show at all: neither is looked up. Nor are maps that only light needs, where no \
            path goes on.",
-    because: "its maps multiply 0, or no surface has their texture coordinates",
-    apply: |draft| draft.simplify(without_unseen),
+    reason: "its maps multiply 0, or no surface has their texture coordinates",
+    apply: |builder| builder.simplify(without_unused_maps),
 };
 
-fn without_unseen(draft: &Draft<'_>, index: usize, m: &Standard) -> Standard {
+fn without_unused_maps(builder: &PlanBuilder<'_>, index: usize, m: &Standard) -> Standard {
     let mut new = m.clone();
-    let weighs = |weight: UnitInterval| weight > UnitInterval::ZERO;
-    let is_shaded = draft.max_depth > 0 && !m.unlit;
-    let is_clear = !weighs(m.transmission);
-    let is_metal_or_rough = is_shaded && (weighs(m.metallic) || weighs(m.roughness));
+    let is_nonzero = |weight: UnitInterval| weight > UnitInterval::ZERO;
+    let is_shaded = builder.max_depth > 0 && !m.unlit;
+    let is_clear = !is_nonzero(m.transmission);
+    let is_metal_or_rough = is_shaded && (is_nonzero(m.metallic) || is_nonzero(m.roughness));
     let conditions = [
         (&mut new.base_color_map, true),
         (
@@ -37,7 +37,7 @@ fn without_unseen(draft: &Draft<'_>, index: usize, m: &Standard) -> Standard {
         ),
         (&mut new.emissive_map, m.emissive != Vec3::ZERO),
         (&mut new.normal_map, is_shaded),
-        (&mut new.specular_map, is_shaded && weighs(m.specular)),
+        (&mut new.specular_map, is_shaded && is_nonzero(m.specular)),
         (
             &mut new.specular_color_map,
             is_shaded && m.specular_color != Vec3::ZERO,
@@ -47,11 +47,11 @@ fn without_unseen(draft: &Draft<'_>, index: usize, m: &Standard) -> Standard {
         (&mut new.thickness_map, false),
         (
             &mut new.clearcoat_normal_map,
-            is_shaded && weighs(m.clearcoat),
+            is_shaded && is_nonzero(m.clearcoat),
         ),
     ];
     let keep = |map: &mut Option<Map>, shows: bool| {
-        let has_places = |map: &Map| draft.uses[index].presence(map) != Presence::Never;
+        let has_places = |map: &Map| builder.uses[index].presence(map) != Presence::Never;
         *map = map.filter(|map| shows && has_places(map));
     };
     for (map, shows) in conditions {
@@ -68,19 +68,20 @@ pub(super) const CONSTANT: PathRule = PathRule {
     name: "P-TEX-CONST",
     text: "A texture whose texels are all equal shows that value everywhere: maps of it become factors, \
            and a normal map one normal, when the scene is prepared.",
-    because: "all texels of each of its textures are equal",
-    apply: |draft| {
+    reason: "all texels of each of its textures are equal",
+    apply: |builder| {
         let mut changed = Vec::new();
-        let mut folded = draft.folded.clone();
-        for (index, material) in draft.used() {
-            let is_new = |map: &&Map| !draft.is_folded(index, map) && draft.is_even(index, map);
+        let mut folded = builder.folded.clone();
+        for (index, material) in builder.used_materials() {
+            let is_new =
+                |map: &&Map| !builder.is_folded(index, map) && builder.is_constant(index, map);
             for map in material.maps().filter(is_new) {
                 folded[map.texture] = true;
                 changed.push(ValuePath::new(EntityKind::Material, index, Field::Whole));
             }
         }
         changed.dedup();
-        draft.folded = folded;
+        builder.folded = folded;
         changed
     },
 };

@@ -79,7 +79,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             wo,
         };
         // Sample one light.
-        if self.does(PathFeatures::AIM) && !bsdf.is_delta() {
+        if self.does(PathFeatures::NEE) && !bsdf.is_delta() {
             state.radiance += state.beta * self.direct(state, vertex, &shading);
         }
         state.bounces < self.max_bounces && self.turn(state, vertex, &shading)
@@ -225,7 +225,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
 
     /// The MIS weight of light found by BSDF sampling, given both densities.
     fn weight_of_scattering(&mut self, pdf: Option<f64>, light_pdf: impl FnOnce() -> f64) -> f64 {
-        if !self.does(PathFeatures::AIM) {
+        if !self.does(PathFeatures::NEE) {
             return 1.0;
         }
         let Some(pdf) = pdf else { return 1.0 };

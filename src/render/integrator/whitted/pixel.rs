@@ -37,7 +37,7 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
             return;
         }
         let several = matches!(first.stream, Stream::Picture(_)) && self.grid.samples() > 1;
-        let class = || self.world.plan.region.class_of(first.pixel);
+        let class = || self.world.plan.pixel_classes.class_of(first.pixel);
         self.pixel = PixelState {
             place: self.grid.place_of(first.index),
             is_uniform: several && class() == PixelClass::Uniform,
@@ -156,11 +156,11 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         self.verify(Effect::Supersampling, "samples of a pixel differ", |plan| {
             let differs = |last: Sample| last.radiance != sample.radiance;
             self.pixel.last.is_some_and(differs)
-                && plan.region.class_of(pixel) == PixelClass::Uniform
+                && plan.pixel_classes.class_of(pixel) == PixelClass::Uniform
         });
         let what = "a pixel that shows nothing shows something";
         self.verify(Effect::Surfaces, what, |plan| {
-            sample.hit && plan.region.class_of(pixel) == PixelClass::Nothing
+            sample.hit && plan.pixel_classes.class_of(pixel) == PixelClass::Nothing
         });
     }
 }

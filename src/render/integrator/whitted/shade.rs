@@ -124,7 +124,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         };
         for (index, light) in world.lights.course.iter().enumerate() {
             let plan = &world.plan.lights[index];
-            if !plan.kept {
+            if !plan.is_used {
                 continue;
             }
             if !self.goes_on() {
@@ -153,8 +153,8 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             }
             self.verify(Effect::DirectLight, "a light left out shines", |plan| {
                 let kept = &plan.lights[index];
-                let left_out = if kept.kept { term - ambient } else { term };
-                !(kept.kept && kept.direct) && light.color * left_out != Vec3::ZERO
+                let left_out = if kept.is_used { term - ambient } else { term };
+                !(kept.is_used && kept.direct) && light.color * left_out != Vec3::ZERO
             });
             sum += light.color * term;
         }

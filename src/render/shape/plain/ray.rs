@@ -2,7 +2,7 @@
 
 use super::real::{Real, Vector};
 use crate::ray::Ray;
-use rtc_plan::NEAREST;
+use rtc_plan::MIN_HIT_DISTANCE;
 
 /// A ray in the numbers of the plain formulas.
 #[derive(Clone, Copy, Debug)]
@@ -29,11 +29,13 @@ impl<R: Real> PlainRay<R> {
         self.origin + self.direction * t
     }
 
-    /// Whether a root is a number and lies beyond [`NEAREST`].
+    /// Whether a root is a number and lies beyond [`MIN_HIT_DISTANCE`].
     #[inline]
     pub(in crate::shape) fn counts(&self, t: R) -> bool {
         let zero = R::of(0.0);
-        t > zero && t * t * self.length2 > R::of(NEAREST * NEAREST) && t < R::of(f64::INFINITY)
+        t > zero
+            && t * t * self.length2 > R::of(MIN_HIT_DISTANCE * MIN_HIT_DISTANCE)
+            && t < R::of(f64::INFINITY)
     }
 
     /// The first of some roots that counts, each with the part it is on.

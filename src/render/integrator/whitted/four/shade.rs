@@ -26,7 +26,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         };
         for (index, light) in world.lights.course.iter().enumerate() {
             let plan = &world.plan.lights[index];
-            if !plan.kept {
+            if !plan.is_used {
                 continue;
             }
             let mut term = ambient;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// The most lights, objects and materials, each, that are left out.
-const MOST: usize = 8;
+const MAX_PER_KIND: usize = 8;
 
 /// What kind of thing is left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -24,16 +24,16 @@ pub enum Ablation {
 }
 
 /// A scene without something.
-pub(super) struct LeftOut {
+pub(super) struct AblatedScene {
     pub(super) kind: Ablation,
     pub(super) name: String,
     pub(super) scene: Scene,
 }
 
 /// A function that removes an effect from a scene.
-type Without = (&'static str, fn(&mut Scene));
+type EffectRemoval = (&'static str, fn(&mut Scene));
 
-const EFFECTS: [Without; 6] = [
+const EFFECTS: [EffectRemoval; 6] = [
     ("shadows", |scene| scene.settings.shadows = false),
     ("mirrors and refraction", |scene| {
         scene.settings.max_depth = 0
@@ -43,14 +43,14 @@ const EFFECTS: [Without; 6] = [
         phongs(scene).for_each(|phong| phong.ks = 0.0)
     }),
     ("soft lights", |scene| {
-        scene.lights.iter_mut().for_each(without_radius)
+        scene.lights.iter_mut().for_each(remove_radius)
     }),
-    ("textures", |scene| phongs(scene).for_each(without_maps)),
+    ("textures", |scene| phongs(scene).for_each(remove_maps)),
 ];
 
 /// All that is worth leaving out of a scene: effects first, then of each kind the first of those seen
 /// largest.
-pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
+pub(super) fn of(scene: &Scene) -> Vec<AblatedScene> {
     if !matches!(scene.settings.mode, Mode::Phong | Mode::Path(_)) {
         return Vec::new();
     }
@@ -59,16 +59,16 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
         lights(scene),
         objects
             .iter()
-            .map(|object| without_object(scene, object))
+            .map(|object| object_removal(scene, object))
             .collect(),
         materials(scene, &objects),
     ];
     let mut all: Vec<_> = effects(scene);
-    for rank in 0..MOST {
+    for rank in 0..MAX_PER_KIND {
         all.extend(
             kinds
                 .iter()
-                .filter_map(|kind| kind.get(rank)?.left_out(scene)),
+                .filter_map(|kind| kind.get(rank)?.ablated(scene)),
         );
     }
     all
@@ -78,46 +78,46 @@ pub(super) fn of(scene: &Scene) -> Vec<LeftOut> {
 struct Candidate {
     kind: Ablation,
     name: String,
-    without: Box<dyn Fn(&mut Scene)>,
+    remove: Box<dyn Fn(&mut Scene)>,
 }
 
 impl Candidate {
     /// The scene without it, if it is another.
-    fn left_out(&self, scene: &Scene) -> Option<LeftOut> {
-        let mut without = scene.clone();
-        (self.without)(&mut without);
-        (without != *scene).then(|| LeftOut {
+    fn ablated(&self, scene: &Scene) -> Option<AblatedScene> {
+        let mut remove = scene.clone();
+        (self.remove)(&mut remove);
+        (remove != *scene).then(|| AblatedScene {
             kind: self.kind,
             name: self.name.clone(),
-            scene: without,
+            scene: remove,
         })
     }
 }
 
-fn effects(scene: &Scene) -> Vec<LeftOut> {
+fn effects(scene: &Scene) -> Vec<AblatedScene> {
     if !matches!(scene.settings.mode, Mode::Phong) {
         return Vec::new();
     }
-    let effect = |(name, without): Without| Candidate {
+    let effect = |(name, remove): EffectRemoval| Candidate {
         kind: Ablation::Effect,
         name: name.to_owned(),
-        without: Box::new(without),
+        remove: Box::new(remove),
     };
     let all = EFFECTS.into_iter().map(effect);
-    all.filter_map(|effect| effect.left_out(scene)).collect()
+    all.filter_map(|effect| effect.ablated(scene)).collect()
 }
 
 fn phongs(scene: &mut Scene) -> impl Iterator<Item = &mut Phong> {
     scene.materials.iter_mut().filter_map(Material::phong_mut)
 }
 
-fn without_radius(light: &mut Light) {
+fn remove_radius(light: &mut Light) {
     if let Light::Point(light) = light {
         light.radius = 0.0;
     }
 }
 
-fn without_maps(phong: &mut Phong) {
+fn remove_maps(phong: &mut Phong) {
     (
         phong.color_map,
         phong.specular_map,
@@ -131,19 +131,19 @@ fn lights(scene: &Scene) -> Vec<Candidate> {
     let light = |index: usize| Candidate {
         kind: Ablation::Light,
         name: format!("light {}", index + 1),
-        without: Box::new(move |scene| {
+        remove: Box::new(move |scene| {
             scene.lights.remove(index);
         }),
     };
-    let shining = |index: &usize| scene.lights[*index].shines();
+    let emits = |index: &usize| scene.lights[*index].shines();
     let lights = (0..scene.lights.len())
-        .filter(shining)
-        .take(MOST)
+        .filter(emits)
+        .take(MAX_PER_KIND)
         .map(light);
     let surroundings = Candidate {
         kind: Ablation::Light,
         name: "surroundings".to_owned(),
-        without: Box::new(|scene| scene.environment = None),
+        remove: Box::new(|scene| scene.environment = None),
     };
     let surroundings = scene.environment.is_some().then_some(surroundings);
     surroundings.into_iter().chain(lights).collect()
@@ -172,7 +172,7 @@ fn objects(scene: &Scene) -> Vec<SceneObject> {
             }
             Some(_) | None => objects.push(SceneObject {
                 surfaces: index..index + 1,
-                name: called(name(index), surface, index),
+                name: display_name(name(index), surface, index),
                 extent,
             }),
         }
@@ -181,7 +181,7 @@ fn objects(scene: &Scene) -> Vec<SceneObject> {
     objects
 }
 
-fn called(name: &str, surface: &Surface, index: usize) -> String {
+fn display_name(name: &str, surface: &Surface, index: usize) -> String {
     match name {
         "" => format!("{} {}", surface.shape.kind().word(), index + 1),
         name => format!("`{name}`"),
@@ -201,7 +201,7 @@ fn extent(shape: &Shape, meshes: &[[Vec3; 2]], eye: Vec3) -> f64 {
     half / (0.5 * (low + high) - eye).length().max(half * f64::EPSILON)
 }
 
-fn without_object(scene: &Scene, object: &SceneObject) -> Candidate {
+fn object_removal(scene: &Scene, object: &SceneObject) -> Candidate {
     // Surfaces after the last name have none.
     let surfaces = object.surfaces.clone();
     let end = surfaces.end.min(scene.names.len());
@@ -209,7 +209,7 @@ fn without_object(scene: &Scene, object: &SceneObject) -> Candidate {
     Candidate {
         kind: Ablation::Object,
         name: object.name.clone(),
-        without: Box::new(move |scene| {
+        remove: Box::new(move |scene| {
             scene.surfaces.drain(surfaces.clone());
             scene.names.drain(names.clone());
         }),
@@ -221,7 +221,9 @@ fn materials(scene: &Scene, objects: &[SceneObject]) -> Vec<Candidate> {
     let mut order: Vec<usize> = Vec::new();
     for surface in objects.iter().flat_map(|object| object.surfaces.clone()) {
         let material = scene.surfaces[surface].material.0 as usize;
-        if !order.contains(&material) && order.len() < MOST && !is_matt(&scene.materials[material])
+        if !order.contains(&material)
+            && order.len() < MAX_PER_KIND
+            && !is_diffuse(&scene.materials[material])
         {
             order.push(material);
         }
@@ -236,19 +238,19 @@ fn materials(scene: &Scene, objects: &[SceneObject]) -> Vec<Candidate> {
                 format!("material {}, matt instead", index + 1)
             }
         },
-        without: Box::new(move |scene| matt(&mut scene.materials[index])),
+        remove: Box::new(move |scene| make_diffuse(&mut scene.materials[index])),
     };
     order.into_iter().map(material).collect()
 }
 
-fn is_matt(material: &Material) -> bool {
+fn is_diffuse(material: &Material) -> bool {
     let mut other = material.clone();
-    matt(&mut other);
+    make_diffuse(&mut other);
     other == *material
 }
 
 /// Makes a material matt in its colour, without textures. What shows its colour as it is stays.
-fn matt(material: &mut Material) {
+fn make_diffuse(material: &mut Material) {
     match material {
         Material::Phong(phong) => {
             let (color, ka, kd) = (phong.color, phong.ka, phong.kd);

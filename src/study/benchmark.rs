@@ -2,23 +2,23 @@
 //! the machine affects all. Times are processor times of one thread, so other load has little
 //! effect.
 
-use super::bench::Time;
+use super::runtime::Time;
 use super::setting::Setting;
-use super::spread::Afresh;
+use super::spread::Reseeded;
 use super::statistics::{Estimate, Rng, median};
 use super::subject::{RenderedTiles, Stopped, Subject};
 use rtc_image::Image;
 use rtc_ir as ir;
 
 /// A runner.
-pub(super) struct Runner<'a> {
+pub(super) struct BenchmarkCase<'a> {
     pub(super) subject: Subject<'a>,
     pub(super) setting: Setting,
 }
 
 /// The result of a runner.
 pub(super) struct TimedRun {
-    pub(super) shot: RenderedTiles,
+    pub(super) rendered: RenderedTiles,
     /// Seconds for the whole picture.
     pub(super) seconds: Estimate,
     /// Seconds over those of the first runner.
@@ -30,7 +30,7 @@ pub(super) struct TimedRun {
 }
 
 /// The results of all runners.
-pub(super) struct Race {
+pub(super) struct Benchmark {
     pub(super) runs: Vec<TimedRun>,
     /// Wall time over processor time of all renders: above 1 others used the machine.
     pub(super) wall_over_cpu: f64,
@@ -46,36 +46,40 @@ const MOST_REPEATS: u64 = 8;
 /// Times all runners in at least three rounds, those that take few rays in more and several times
 /// in each, of about `budget` rays in all. With a truth, each render of a runner after the first has
 /// random numbers of its own.
-pub(super) fn race(
-    runners: &[Runner<'_>],
+pub(super) fn benchmark(
+    cases: &[BenchmarkCase<'_>],
     budget: u64,
-    truth: Option<&[Image]>,
+    reference: Option<&[Image]>,
     rng: &mut Rng,
-) -> Result<Race, Stopped> {
-    let mut laps: Vec<_> = runners.iter().map(|_| Laps::default()).collect();
+) -> Result<Benchmark, Stopped> {
+    let mut timings: Vec<_> = cases.iter().map(|_| Timings::default()).collect();
     for round in 0..MOST_ROUNDS {
-        let mut order: Vec<_> = (0..runners.len())
-            .filter(|index| laps[*index].rounds > round || *index == 0)
+        let mut order: Vec<_> = (0..cases.len())
+            .filter(|index| timings[*index].rounds > round || *index == 0)
             .collect();
         if round >= FEWEST_ROUNDS && order.len() < 2 {
             break;
         }
         rng.shuffle(&mut order);
-        laps.iter_mut().for_each(|laps| laps.times.push(None));
+        timings
+            .iter_mut()
+            .for_each(|timings| timings.times.push(None));
         for index in order {
-            laps[index].add(&runners[index], budget / runners.len() as u64, truth)?;
+            timings[index].add(&cases[index], budget / cases.len() as u64, reference)?;
         }
     }
     let mut overheads = Overheads::default();
-    let wholes: Vec<Vec<Option<f64>>> = runners
+    let wholes: Vec<Vec<Option<f64>>> = cases
         .iter()
-        .zip(&laps)
-        .map(|(runner, laps)| overheads.whole_picture(runner, &laps.times, rng))
+        .zip(&timings)
+        .map(|(case, timings)| overheads.whole_picture(case, &timings.times, rng))
         .collect();
-    let times = laps.iter().flat_map(|laps| laps.times.iter().flatten());
+    let times = timings
+        .iter()
+        .flat_map(|timings| timings.times.iter().flatten());
     let total = |of: fn(&Time) -> f64| times.clone().map(of).sum::<f64>();
     let wall_over_cpu = total(|time| time.wall) / total(|time| time.cpu).max(1e-9);
-    let run = |(laps, seconds): (Laps, &Vec<Option<f64>>)| {
+    let run = |(timings, seconds): (Timings, &Vec<Option<f64>>)| {
         let ratios: Vec<_> = seconds
             .iter()
             .zip(&wholes[0])
@@ -83,15 +87,15 @@ pub(super) fn race(
             .collect();
         let seconds: Vec<_> = seconds.iter().flatten().copied().collect();
         Some(TimedRun {
-            shot: laps.shot?,
+            rendered: timings.rendered?,
             seconds: median(&seconds, rng),
             ratio: median(&ratios, rng),
-            squares: laps.squares,
-            is_resumed: laps.is_resumed,
+            squares: timings.squares,
+            is_resumed: timings.is_resumed,
         })
     };
-    Ok(Race {
-        runs: laps.into_iter().zip(&wholes).filter_map(run).collect(),
+    Ok(Benchmark {
+        runs: timings.into_iter().zip(&wholes).filter_map(run).collect(),
         wall_over_cpu,
     })
 }
@@ -99,7 +103,7 @@ pub(super) fn race(
 impl Subject<'_> {
     /// What a render takes beside its rays, in rays, roughly: a triangle is as much work to prepare as a ray,
     /// and so are many pixels of images, and some of a picture, which is as large if only tiles are rendered.
-    fn preparing(&self) -> u64 {
+    fn preparation_rays(&self) -> u64 {
         const PIXELS: u64 = 512;
         const SHOWN: u64 = 8;
         let triangles = self
@@ -119,8 +123,8 @@ impl Subject<'_> {
 }
 
 /// What a runner has done so far.
-struct Laps {
-    shot: Option<RenderedTiles>,
+struct Timings {
+    rendered: Option<RenderedTiles>,
     /// The times of each round; none where it rested.
     times: Vec<Option<Time>>,
     squares: Vec<f64>,
@@ -130,10 +134,10 @@ struct Laps {
     repeats: u64,
 }
 
-impl Default for Laps {
+impl Default for Timings {
     fn default() -> Self {
         Self {
-            shot: None,
+            rendered: None,
             times: Vec::new(),
             squares: Vec::new(),
             is_resumed: false,
@@ -143,31 +147,36 @@ impl Default for Laps {
     }
 }
 
-impl Laps {
+impl Timings {
     /// Runs once more; the first time says how often within the budget.
     fn add(
         &mut self,
-        runner: &Runner<'_>,
+        case: &BenchmarkCase<'_>,
         budget: u64,
-        truth: Option<&[Image]>,
+        reference: Option<&[Image]>,
     ) -> Result<(), Stopped> {
-        let Runner { subject, setting } = runner;
-        let is_first = self.shot.is_none();
+        let BenchmarkCase { subject, setting } = case;
+        let is_first = self.rendered.is_none();
         let before = self.squares.len() as u64;
-        let timed = subject.time(*setting, is_first, Afresh { truth, before }, |shot| {
-            if is_first {
-                let work = subject.preparing() + shot.counts.rays();
-                let fair = budget / work.max(1);
-                self.repeats = (fair / MOST_ROUNDS).clamp(1, MOST_REPEATS);
-                self.rounds = (fair / self.repeats).clamp(FEWEST_ROUNDS, MOST_ROUNDS);
-            }
-            self.repeats
-        })?;
+        let timed = subject.time(
+            *setting,
+            is_first,
+            Reseeded { reference, before },
+            |rendered| {
+                if is_first {
+                    let work = subject.preparation_rays() + rendered.counts.rays();
+                    let fair = budget / work.max(1);
+                    self.repeats = (fair / MOST_ROUNDS).clamp(1, MOST_REPEATS);
+                    self.rounds = (fair / self.repeats).clamp(FEWEST_ROUNDS, MOST_ROUNDS);
+                }
+                self.repeats
+            },
+        )?;
         self.is_resumed |= timed.is_resumed;
         self.squares.extend(timed.squares);
-        self.shot.get_or_insert(timed.shot);
-        if let Some(place) = self.times.last_mut() {
-            *place = Some(timed.time);
+        self.rendered.get_or_insert(timed.rendered);
+        if let Some(slot) = self.times.last_mut() {
+            *slot = Some(timed.time);
         }
         Ok(())
     }
@@ -177,29 +186,29 @@ impl Laps {
 /// on the setting.
 #[derive(Default)]
 struct Overheads<'a> {
-    known: Vec<(Runner<'a>, [f64; 2])>,
+    cached: Vec<(BenchmarkCase<'a>, [f64; 2])>,
 }
 
 impl<'a> Overheads<'a> {
-    fn of(&mut self, runner: &Runner<'a>, rng: &mut Rng) -> [f64; 2] {
+    fn of(&mut self, case: &BenchmarkCase<'a>, rng: &mut Rng) -> [f64; 2] {
         const ROUNDS: usize = 5;
-        let Runner { subject, setting } = runner;
-        let is_alike = |(other, _): &&(Runner<'a>, [f64; 2])| {
+        let BenchmarkCase { subject, setting } = case;
+        let is_alike = |(other, _): &&(BenchmarkCase<'a>, [f64; 2])| {
             other.subject.is_of_scene_of(subject) && other.setting.precision == setting.precision
         };
-        if let Some((_, known)) = self.known.iter().find(is_alike) {
-            return *known;
+        if let Some((_, cached)) = self.cached.iter().find(is_alike) {
+            return *cached;
         }
         let rounds = subject.time_overhead(*setting, ROUNDS);
         let overhead = [0, 1].map(|which| {
             let seconds: Vec<_> = rounds.iter().map(|round| round[which]).collect();
             median(&seconds, rng).value
         });
-        let runner = Runner {
+        let case = BenchmarkCase {
             subject: subject.clone(),
             setting: *setting,
         };
-        self.known.push((runner, overhead));
+        self.cached.push((case, overhead));
         overhead
     }
 
@@ -207,16 +216,16 @@ impl<'a> Overheads<'a> {
     /// both, and skipping the other pixels does not belong to a picture.
     fn whole_picture(
         &mut self,
-        runner: &Runner<'a>,
+        case: &BenchmarkCase<'a>,
         times: &[Option<Time>],
         rng: &mut Rng,
     ) -> Vec<Option<f64>> {
-        if runner.subject.is_whole() {
+        if case.subject.is_whole() {
             let cpu = |time: &Option<Time>| time.as_ref().map(|time| time.cpu);
             return times.iter().map(cpu).collect();
         }
-        let [prepare, pass] = self.of(runner, rng);
-        let fraction = runner.subject.fraction();
+        let [prepare, pass] = self.of(case, rng);
+        let fraction = case.subject.fraction();
         let whole = |time: &Time| prepare + (time.cpu - prepare - pass).max(0.0) / fraction;
         times.iter().map(|time| time.as_ref().map(whole)).collect()
     }

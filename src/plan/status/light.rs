@@ -1,6 +1,6 @@
 //! Verdicts on lights, shadows and highlights.
 
-use super::{MAX_DETAILS, few, light, settings};
+use super::{MAX_DETAILS, first_n, light, settings};
 use crate::effect::{Effect, EffectStatus};
 use crate::light::Shadow;
 use crate::rules::Rule;
@@ -8,9 +8,9 @@ use crate::{Findings, MaterialSummary};
 use rtc_ir::{Field, ValuePath};
 use rtc_valid::Mode;
 
-pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<EffectStatus> {
+pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
     let mut all = vec![direct(findings)];
-    all.extend(single_lights(findings).take(MAX_DETAILS));
+    all.extend(per_light(findings).take(MAX_DETAILS));
     all.push(shadows(findings));
     all.push(soft(findings));
     all.push(highlight(findings));
@@ -31,14 +31,18 @@ fn reason(findings: &Findings<'_>, index: usize, rule: Rule) -> (&'static str, V
     }
     if rule == Rule::LightBehind {
         let mut facts = vec![light(index, Field::Position)];
-        facts.extend(few(findings
-            .reached()
-            .map(|surface| findings.surface(surface, Field::Whole))));
+        facts.extend(first_n(
+            findings
+                .visible()
+                .map(|surface| findings.surface(surface, Field::Whole)),
+        ));
         return ("it stands behind all surfaces that can be seen", facts);
     }
-    let facts = few(findings
-        .reached()
-        .map(|surface| findings.material(surface, Field::Kd)));
+    let facts = first_n(
+        findings
+            .visible()
+            .map(|surface| findings.material(surface, Field::Kd)),
+    );
     ("kd·C and ks are 0 on all that can be seen", facts)
 }
 
@@ -61,7 +65,7 @@ fn direct(findings: &Findings<'_>) -> EffectStatus {
         );
     }
     let needed = findings.lights.plans.iter().position(|light| light.direct);
-    match needed.zip(findings.first(MaterialSummary::is_lit)) {
+    match needed.zip(findings.first(MaterialSummary::is_illuminated)) {
         Some((index, surface)) => {
             let count = findings
                 .lights
@@ -91,19 +95,19 @@ fn direct(findings: &Findings<'_>) -> EffectStatus {
                 .next()
                 .copied()
                 .unwrap_or(Rule::LightUnreached);
-            let (words, facts) = reason(findings, 0, rule);
-            EffectStatus::pruned(effect, rule, format!("each light: {words}"), facts)
+            let (reason, facts) = reason(findings, 0, rule);
+            EffectStatus::pruned(effect, rule, format!("each light: {reason}"), facts)
         }
     }
 }
 
-fn single_lights(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
+fn per_light(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
     let rules = findings.lights.rules.iter().enumerate();
     let shaded = findings.is_shaded();
     rules.filter(move |_| shaded).filter_map(|(index, rule)| {
-        let (words, facts) = reason(findings, index, (*rule)?);
+        let (reason, facts) = reason(findings, index, (*rule)?);
         Some(
-            EffectStatus::pruned(Effect::DirectLight, (*rule)?, words, facts)
+            EffectStatus::pruned(Effect::DirectLight, (*rule)?, reason, facts)
                 .of(light(index, Field::Whole)),
         )
     })
@@ -111,37 +115,37 @@ fn single_lights(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> 
 
 fn shadows(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Shadows;
-    let asked = findings.facts.scene.settings().shadows;
-    if let Some(verdict) = findings.by_mode(effect, asked) {
-        return verdict;
+    let requested = findings.facts.scene.settings().shadows;
+    if let Some(status) = findings.by_mode(effect, requested) {
+        return status;
     }
-    if !asked {
-        let words = "the scene does not ask for shadows";
-        return EffectStatus::absent(effect, words, vec![]).by(Rule::ShadowOff);
+    if !requested {
+        let reason = "the scene does not ask for shadows";
+        return EffectStatus::absent(effect, reason, vec![]).by(Rule::ShadowOff);
     }
     if let Some(Shadow {
         light: index,
-        caster,
+        occluder,
         receiver,
     }) = findings.lights.shadow
     {
         let facts = vec![
             light(index, Field::Position),
-            findings.surface(caster, Field::Whole),
+            findings.surface(occluder, Field::Whole),
             findings.surface(receiver, Field::Whole),
         ];
-        let words = match (caster == receiver, findings.lights.capped) {
+        let reason = match (occluder == receiver, findings.lights.capped) {
             (_, true) => "too many surfaces to ask which hides which",
             (true, false) => "a surface may hide a light from itself",
             (false, false) => "a surface may hide a light from another",
         };
-        return EffectStatus::needed(effect, words, facts);
+        return EffectStatus::needed(effect, reason, facts);
     }
-    if findings.facts.casters().next().is_none() {
+    if findings.facts.occluders().next().is_none() {
         return EffectStatus::absent(effect, "no surface casts shadows", vec![]);
     }
-    let lit = findings.first(|summary| findings.is_lit(summary));
-    let Some(surface) = lit else {
+    let illuminated = findings.first(|summary| findings.is_illuminated(summary));
+    let Some(surface) = illuminated else {
         return EffectStatus::pruned(
             effect,
             Rule::ShadowUnlit,
@@ -153,7 +157,7 @@ fn shadows(findings: &Findings<'_>) -> EffectStatus {
         findings.surface(surface, Field::Whole),
         light(0, Field::Position),
     ];
-    if findings.lights.alone {
+    if findings.lights.single_surface {
         return EffectStatus::pruned(
             effect,
             Rule::ShadowConvex,
@@ -180,8 +184,8 @@ fn soft(findings: &Findings<'_>) -> EffectStatus {
     else {
         return EffectStatus::absent(effect, "no light has a radius", vec![]).by(Rule::SoftPoint);
     };
-    if let Some(verdict) = findings.by_mode(effect, true) {
-        return verdict;
+    if let Some(status) = findings.by_mode(effect, true) {
+        return status;
     }
     let facts = vec![samples, light(first, Field::LightRadius)];
     let count = scene.settings().light_samples.get();
@@ -201,8 +205,8 @@ fn soft(findings: &Findings<'_>) -> EffectStatus {
         );
     }
     let rule = findings.lights.rules[first].unwrap_or(Rule::LightUnreached);
-    let (words, facts) = reason(findings, first, rule);
-    EffectStatus::pruned(effect, rule, format!("soft light: {words}"), facts)
+    let (reason, facts) = reason(findings, first, rule);
+    EffectStatus::pruned(effect, rule, format!("soft light: {reason}"), facts)
 }
 
 fn highlight(findings: &Findings<'_>) -> EffectStatus {
@@ -217,14 +221,16 @@ fn highlight(findings: &Findings<'_>) -> EffectStatus {
             .by_mode(effect, any_ks)
             .unwrap_or_else(|| EffectStatus::absent(effect, "", vec![]));
     }
-    if let Some(surface) = findings.first(|summary| summary.shines && findings.is_lit(summary)) {
+    if let Some(surface) =
+        findings.first(|summary| summary.is_specular && findings.is_illuminated(summary))
+    {
         let facts = vec![
             findings.material(surface, Field::Ks),
             findings.surface(surface, Field::Whole),
         ];
         return EffectStatus::needed(effect, "ks > 0 on a surface that can be seen", facts);
     }
-    if findings.any(|summary| summary.shines) {
+    if findings.any(|summary| summary.is_specular) {
         let rule = findings
             .lights
             .rules
@@ -240,14 +246,16 @@ fn highlight(findings: &Findings<'_>) -> EffectStatus {
             vec![],
         );
     }
-    let unseen = findings.first_unseen(|summary| summary.shines);
+    let unseen = findings.first_unseen(|summary| summary.is_specular);
     if let Some(surface) = unseen.filter(|_| findings.facts.rules.contains(Rule::Cull)) {
         let facts = vec![findings.surface(surface, Field::Whole)];
         return EffectStatus::pruned(effect, Rule::Cull, "nothing with ks > 0 can be seen", facts);
     }
-    let facts = few(findings
-        .reached()
-        .map(|surface| findings.material(surface, Field::Ks)));
+    let facts = first_n(
+        findings
+            .visible()
+            .map(|surface| findings.material(surface, Field::Ks)),
+    );
     EffectStatus::pruned(
         effect,
         Rule::HighlightKs,
@@ -258,14 +266,14 @@ fn highlight(findings: &Findings<'_>) -> EffectStatus {
 
 /// Seen materials without highlights, beside others with them.
 fn materials_without_highlight(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
-    let is_needed = findings.is_shaded() && findings.any(|summary| summary.shines);
+    let is_needed = findings.is_shaded() && findings.any(|summary| summary.is_specular);
     let surfaces = findings
-        .materials_without(|summary| summary.shines)
+        .materials_without(|summary| summary.is_specular)
         .filter(move |_| is_needed);
     surfaces.map(|surface| {
         let facts = vec![findings.material(surface, Field::Ks)];
-        let verdict =
+        let status =
             EffectStatus::pruned(Effect::Highlight, Rule::HighlightKs, "its ks is 0", facts);
-        verdict.of(findings.material(surface, Field::Whole))
+        status.of(findings.material(surface, Field::Whole))
     })
 }

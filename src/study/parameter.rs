@@ -189,7 +189,7 @@ pub fn arithmetic(value: u32) -> Arithmetic {
 }
 
 /// The value of the precision that is an arithmetic.
-pub(super) fn place(arithmetic: Arithmetic) -> u32 {
+pub(super) fn precision_value(arithmetic: Arithmetic) -> u32 {
     (0..)
         .zip(Arithmetic::ALL.into_iter().rev())
         .find(|(_, other)| *other == arithmetic)
@@ -197,29 +197,33 @@ pub(super) fn place(arithmetic: Arithmetic) -> u32 {
 }
 
 /// Whether the plan expects no visible loss from an arithmetic.
-pub(super) fn bears(scene: &Scene, arithmetic: Arithmetic) -> bool {
+pub(super) fn tolerates(scene: &Scene, arithmetic: Arithmetic) -> bool {
     loss(&revalidate(scene), arithmetic).is_none()
 }
 
 /// The reason to leave a knob alone in a scene, or `None`: the scene does not ask for its effect,
 /// or the plan prunes the effect at all values, or only one value is right.
 #[must_use]
-pub fn idle(knob: Parameter, scene: &Scene) -> Option<String> {
-    not_asked_for(knob, scene)
+pub fn not_applicable(parameter: Parameter, scene: &Scene) -> Option<String> {
+    unused_reason(parameter, scene)
         .map(str::to_owned)
-        .or_else(|| left_out(knob, scene))
+        .or_else(|| pruned_reason(parameter, scene))
 }
 
 /// The same in a study, which looks at the whole picture or at tiles of it.
-pub(super) fn idle_in(knob: Parameter, scene: &Scene, is_whole: bool) -> Option<String> {
-    let is_cut = knob == Parameter::Denoise && !is_whole;
+pub(super) fn not_applicable_in(
+    parameter: Parameter,
+    scene: &Scene,
+    is_whole: bool,
+) -> Option<String> {
+    let is_cut = parameter == Parameter::Denoise && !is_whole;
     let tiles = "a picture is denoised as a whole, and only tiles were looked at";
-    idle(knob, scene).or_else(|| is_cut.then(|| tiles.to_owned()))
+    not_applicable(parameter, scene).or_else(|| is_cut.then(|| tiles.to_owned()))
 }
 
 /// The reason of the plan for pruning the effect of a knob, if it does.
-fn left_out(knob: Parameter, scene: &Scene) -> Option<String> {
-    let effect = match knob {
+fn pruned_reason(parameter: Parameter, scene: &Scene) -> Option<String> {
+    let effect = match parameter {
         Parameter::Supersampling => Effect::Supersampling,
         Parameter::Aperture => Effect::Lens,
         Parameter::Lights => Effect::SoftLight,
@@ -230,45 +234,48 @@ fn left_out(knob: Parameter, scene: &Scene) -> Option<String> {
         }
     };
     let own = Setting::of(scene);
-    let mut turned = scene.clone();
+    let mut varied = scene.clone();
     Parameter::ALL
         .into_iter()
-        .fold(own, |all, knob| all.with(knob, own.get(knob).max(2)))
-        .apply(&mut turned);
-    let plan = Plan::new(&revalidate(&turned), Rules::ALL);
-    let verdict = plan
-        .verdicts
+        .fold(own, |all, parameter| {
+            all.with(parameter, own.get(parameter).max(2))
+        })
+        .apply(&mut varied);
+    let plan = Plan::new(&revalidate(&varied), Rules::ALL);
+    let status = plan
+        .statuses
         .iter()
-        .find(|verdict| verdict.effect == effect && verdict.of.is_none())?;
-    let EffectStatus { because, rule, .. } = verdict;
+        .find(|status| status.effect == effect && status.of.is_none())?;
+    let EffectStatus { reason, rule, .. } = status;
     let reason = rule.map_or_else(
-        || because.clone(),
-        |rule| format!("{because} ({})", rule.name()),
+        || reason.clone(),
+        |rule| format!("{reason} ({})", rule.name()),
     );
-    (verdict.state != State::Needed).then_some(reason)
+    (status.state != State::Needed).then_some(reason)
 }
 
-fn not_asked_for(knob: Parameter, scene: &Scene) -> Option<&'static str> {
+fn unused_reason(parameter: Parameter, scene: &Scene) -> Option<&'static str> {
     let mode = &scene.settings.mode;
     let (phong, paths) = (*mode == Mode::Phong, matches!(mode, Mode::Path(_)));
-    let counted = (paths, "each path takes a sample of its own");
+    let per_path = (paths, "each path takes a sample of its own");
     let weights = || scene.materials.iter().filter_map(Material::phong);
-    let is_dull = |phong: &Phong| phong.ks == 0.0 && phong.kt == 0.0;
-    let is_robust =
-        |arithmetic: &Arithmetic| *arithmetic == Arithmetic::Robust || !bears(scene, *arithmetic);
+    let is_matte = |phong: &Phong| phong.ks == 0.0 && phong.kt == 0.0;
+    let is_robust = |arithmetic: &Arithmetic| {
+        *arithmetic == Arithmetic::Robust || !tolerates(scene, *arithmetic)
+    };
     let tries_none = Setting::of(scene).denoised().next().is_none();
-    let cases: &[(bool, &'static str)] = match knob {
+    let cases: &[(bool, &'static str)] = match parameter {
         Parameter::Supersampling => &[
-            counted,
+            per_path,
             (*mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel"),
         ],
         Parameter::Aperture => &[
-            counted,
+            per_path,
             (*mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel"),
             (scene.camera.lens.radius == 0.0, "the lens has no radius"),
         ],
         Parameter::Lights => &[
-            counted,
+            per_path,
             (!phong, "the mode asks only the middle of a light"),
             (
                 scene
@@ -280,7 +287,7 @@ fn not_asked_for(knob: Parameter, scene: &Scene) -> Option<&'static str> {
             ),
         ],
         Parameter::Glossy => &[
-            counted,
+            per_path,
             (!phong, "the mode follows no mirror"),
             (
                 weights().all(|phong| phong.glossy_samples == 1),
@@ -295,7 +302,7 @@ fn not_asked_for(knob: Parameter, scene: &Scene) -> Option<&'static str> {
                 "the mode follows no mirror and no refraction",
             ),
             (
-                phong && weights().all(is_dull),
+                phong && weights().all(is_matte),
                 "no material mirrors or lets light through",
             ),
         ],
@@ -316,15 +323,15 @@ mod tests {
 
     #[test]
     fn ladders_rise_from_the_least() {
-        for knob in Parameter::ALL {
-            let values: Vec<_> = knob.levels().collect();
+        for parameter in Parameter::ALL {
+            let values: Vec<_> = parameter.levels().collect();
             assert!(
-                values[0] == knob.lowest() && values.is_sorted_by(|a, b| a < b),
-                "{knob:?}: {values:?}"
+                values[0] == parameter.lowest() && values.is_sorted_by(|a, b| a < b),
+                "{parameter:?}: {values:?}"
             );
         }
         assert_eq!(
-            [Arithmetic::F32, Arithmetic::Plain, Arithmetic::Robust].map(place),
+            [Arithmetic::F32, Arithmetic::Plain, Arithmetic::Robust].map(precision_value),
             [0, 1, 2]
         );
     }

@@ -12,19 +12,16 @@ use rtc::internals::plan::{EffectStatus, Plan, Rule, Rules, State};
 /// What is told of the effects in some state, a line each: the effect, the rule, the reason, the
 /// values.
 fn told(scene: &Scene, state: State) -> String {
-    let line = |verdict: &EffectStatus| {
-        let places = verdict.facts.iter();
+    let line = |status: &EffectStatus| {
+        let places = status.facts.iter();
         let places = places.map(|place| format!(" {:?} {}", place.entity, place.index));
-        let rule = verdict.rule.map_or("", Rule::name);
-        let (effect, because) = (verdict.effect.name(), &verdict.because);
-        format!("{effect}: {rule} {because};{}", places.collect::<String>())
+        let rule = status.rule.map_or("", Rule::name);
+        let (effect, reason) = (status.effect.name(), &status.reason);
+        format!("{effect}: {rule} {reason};{}", places.collect::<String>())
     };
     let plan = Plan::new(&proven(scene), Rules::ALL);
-    let verdicts = plan
-        .verdicts
-        .iter()
-        .filter(|verdict| verdict.state == state);
-    verdicts.map(line).collect::<Vec<_>>().join("\n")
+    let statuses = plan.statuses.iter().filter(|status| status.state == state);
+    statuses.map(line).collect::<Vec<_>>().join("\n")
 }
 
 /// What [`told`] says of a white ball before a white disc.

@@ -1,13 +1,13 @@
 //! Verdicts on bounces: mirrors, lobes, refraction, depth.
 
-use super::{MAX_DETAILS, few, settings};
+use super::{MAX_DETAILS, first_n, settings};
 use crate::effect::{Effect, EffectStatus};
 use crate::rules::Rule;
 use crate::{Findings, MaterialSummary};
 use rtc_ir::Field;
 use rtc_valid::Phong;
 
-pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<EffectStatus> {
+pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
     let mut all = vec![depth(findings), mirror(findings)];
     all.extend(materials_without_mirror(findings).take(MAX_DETAILS));
     all.push(glossy(findings));
@@ -15,29 +15,29 @@ pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<EffectStatus> {
     all
 }
 
-/// The reason why no bounce adds anything, if so; `asks` says whether a material asks for the effect.
+/// The reason why no bounce adds anything, if so; `requires` says whether a material asks for the effect.
 fn no_bounce(
     findings: &Findings<'_>,
     effect: Effect,
-    asks: impl Fn(&Phong) -> bool,
+    requires: impl Fn(&Phong) -> bool,
 ) -> Option<EffectStatus> {
-    let asked = findings.facts.materials.iter().any(&asks);
-    if let Some(verdict) = findings.by_mode(effect, asked) {
-        return Some(verdict);
+    let requested = findings.facts.materials.iter().any(&requires);
+    if let Some(status) = findings.by_mode(effect, requested) {
+        return Some(status);
     }
     if findings.max_depth > 0 {
         return None;
     }
     let facts = vec![settings(Field::MaxDepth)];
     if findings.facts.scene.settings().max_depth == 0 {
-        let words = "the scene allows no bounce";
-        return Some(if asked {
-            EffectStatus::pruned(effect, Rule::MirrorDepth, words, facts)
+        let reason = "the scene allows no bounce";
+        return Some(if requested {
+            EffectStatus::pruned(effect, Rule::MirrorDepth, reason, facts)
         } else {
-            EffectStatus::absent(effect, words, facts).by(Rule::MirrorDepth)
+            EffectStatus::absent(effect, reason, facts).by(Rule::MirrorDepth)
         });
     }
-    if findings.any(MaterialSummary::mirrors) && findings.visibility.depth > 0 {
+    if findings.any(MaterialSummary::has_bounce) && findings.visibility.depth > 0 {
         return Some(EffectStatus::pruned(
             effect,
             Rule::Cut,
@@ -45,18 +45,18 @@ fn no_bounce(
             facts,
         ));
     }
-    Some(no_sight(findings, effect, asked))
+    Some(no_visible_reflection(findings, effect, requested))
 }
 
 /// The reason why mirrors show nothing, although bounces are allowed.
-fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> EffectStatus {
-    if let Some(mirror) = findings.first(MaterialSummary::mirrors) {
+fn no_visible_reflection(findings: &Findings<'_>, effect: Effect, requested: bool) -> EffectStatus {
+    if let Some(mirror) = findings.first(MaterialSummary::has_bounce) {
         let facts = vec![
             findings.surface(mirror, Field::Whole),
             findings.material(mirror, Field::Ks),
         ];
-        let is_alone = findings.facts.bodies.len() == 1;
-        let (rule, words) = if is_alone {
+        let is_alone = findings.facts.surface_bounds.len() == 1;
+        let (rule, reason) = if is_alone {
             (
                 Rule::MirrorConvex,
                 "the mirrors that can be seen show nothing: one convex surface",
@@ -67,15 +67,17 @@ fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> EffectStatu
                 "the mirrors that can be seen show nothing",
             )
         };
-        return EffectStatus::pruned(effect, rule, words, facts);
+        return EffectStatus::pruned(effect, rule, reason, facts);
     }
-    if asked && let Some(mirror) = findings.first_unseen(MaterialSummary::mirrors) {
+    if requested && let Some(mirror) = findings.first_unseen(MaterialSummary::has_bounce) {
         let facts = vec![findings.surface(mirror, Field::Whole)];
         return EffectStatus::pruned(effect, Rule::Cull, "no mirror can be seen", facts);
     }
-    let facts = few(findings
-        .reached()
-        .map(|surface| findings.material(surface, Field::Ks)));
+    let facts = first_n(
+        findings
+            .visible()
+            .map(|surface| findings.material(surface, Field::Ks)),
+    );
     EffectStatus::pruned(
         effect,
         Rule::MirrorKs,
@@ -87,51 +89,51 @@ fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> EffectStatu
 /// The number of bounces after the first hit.
 fn depth(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Depth;
-    if let Some(verdict) = no_bounce(findings, effect, |material| {
+    if let Some(status) = no_bounce(findings, effect, |material| {
         material.ks.get() + material.kt.get() > 0.0
     }) {
-        return verdict;
+        return status;
     }
     let mut facts = vec![settings(Field::MaxDepth)];
     facts.extend(
         findings
-            .first(MaterialSummary::mirrors)
+            .first(MaterialSummary::has_bounce)
             .map(|mirror| findings.surface(mirror, Field::Whole)),
     );
-    let (planned, asked) = (findings.max_depth, findings.asked);
-    let rest = asked - planned.min(asked);
+    let (planned, requested) = (findings.max_depth, findings.requested);
+    let rest = requested - planned.min(requested);
     let bounces = if planned == 1 { "bounce" } else { "bounces" };
-    let words = match (rest, findings.visibility.capped) {
+    let reason = match (rest, findings.visibility.capped) {
         (0, true) => format!("{planned} {bounces}; too many mirrors to ask which sees which"),
         (0, false) => format!("{planned} {bounces}: mirrors show mirrors"),
-        _ => format!("{planned} {bounces} of {asked}: no chain of mirrors is longer"),
+        _ => format!("{planned} {bounces} of {requested}: no chain of mirrors is longer"),
     };
-    let verdict = EffectStatus::needed(effect, words, facts);
+    let status = EffectStatus::needed(effect, reason, facts);
     match rest {
-        0 => verdict,
-        _ if findings.visibility.depth > planned => verdict.by(Rule::Cut),
-        _ => verdict.by(Rule::MirrorUnreached),
+        0 => status,
+        _ if findings.visibility.depth > planned => status.by(Rule::Cut),
+        _ => status.by(Rule::MirrorUnreached),
     }
 }
 
 fn mirror(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Mirror;
-    if let Some(verdict) = no_bounce(findings, effect, |material| material.ks.get() > 0.0) {
-        return verdict;
+    if let Some(status) = no_bounce(findings, effect, |material| material.ks.get() > 0.0) {
+        return status;
     }
-    match findings.first(MaterialSummary::mirrors) {
+    match findings.first(MaterialSummary::has_bounce) {
         Some(surface) => {
             let facts = vec![
                 findings.material(surface, Field::Ks),
                 findings.surface(surface, Field::Whole),
             ];
-            let shines = findings.facts.summaries[surface].shines;
-            let words = if shines {
+            let is_specular = findings.facts.summaries[surface].is_specular;
+            let reason = if is_specular {
                 "ks > 0 on a surface that can be seen"
             } else {
                 "light may be reflected totally"
             };
-            EffectStatus::needed(effect, words, facts)
+            EffectStatus::needed(effect, reason, facts)
         }
         None => EffectStatus::pruned(
             effect,
@@ -144,14 +146,14 @@ fn mirror(findings: &Findings<'_>) -> EffectStatus {
 
 /// Seen materials without mirrors, beside others with them.
 fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
-    let is_needed = findings.max_depth > 0 && findings.any(MaterialSummary::mirrors);
+    let is_needed = findings.max_depth > 0 && findings.any(MaterialSummary::has_bounce);
     let surfaces = findings
-        .materials_without(MaterialSummary::mirrors)
+        .materials_without(MaterialSummary::has_bounce)
         .filter(move |_| is_needed);
     surfaces.map(|surface| {
         let facts = vec![findings.material(surface, Field::Ks)];
-        let verdict = EffectStatus::pruned(Effect::Mirror, Rule::MirrorKs, "its ks is 0", facts);
-        verdict.of(findings.material(surface, Field::Whole))
+        let status = EffectStatus::pruned(Effect::Mirror, Rule::MirrorKs, "its ks is 0", facts);
+        status.of(findings.material(surface, Field::Whole))
     })
 }
 
@@ -165,10 +167,10 @@ fn glossy(findings: &Findings<'_>) -> EffectStatus {
         return EffectStatus::absent(effect, "each mirror is sharp: one sample", vec![])
             .by(Rule::GlossyMirror);
     }
-    if let Some(verdict) = no_bounce(findings, effect, |_| true) {
-        return verdict;
+    if let Some(status) = no_bounce(findings, effect, |_| true) {
+        return status;
     }
-    match findings.first(|summary| summary.glossy && summary.mirrors()) {
+    match findings.first(|summary| summary.glossy && summary.has_bounce()) {
         Some(surface) => {
             let count = materials[findings.facts.scene.surfaces()[surface].material].glossy_samples;
             let facts = vec![
@@ -178,8 +180,8 @@ fn glossy(findings: &Findings<'_>) -> EffectStatus {
             EffectStatus::needed(effect, format!("{count} rays of a lobe"), facts)
         }
         None => {
-            let words = "no glossy surface that can be seen has ks > 0";
-            EffectStatus::pruned(effect, Rule::GlossyMirror, words, vec![])
+            let reason = "no glossy surface that can be seen has ks > 0";
+            EffectStatus::pruned(effect, Rule::GlossyMirror, reason, vec![])
         }
     }
 }
@@ -191,8 +193,8 @@ fn refraction(findings: &Findings<'_>) -> EffectStatus {
         return EffectStatus::absent(effect, "no material lets light through", vec![])
             .by(Rule::Opaque);
     }
-    if let Some(verdict) = no_bounce(findings, effect, |_| true) {
-        return verdict;
+    if let Some(status) = no_bounce(findings, effect, |_| true) {
+        return status;
     }
     match findings.first(|summary| summary.refracts) {
         Some(surface) => {
@@ -204,9 +206,11 @@ fn refraction(findings: &Findings<'_>) -> EffectStatus {
         }
         None => {
             let unseen = findings.first_unseen(|summary| summary.refracts);
-            let facts = few(unseen
-                .iter()
-                .map(|surface| findings.surface(*surface, Field::Whole)));
+            let facts = first_n(
+                unseen
+                    .iter()
+                    .map(|surface| findings.surface(*surface, Field::Whole)),
+            );
             EffectStatus::pruned(
                 effect,
                 Rule::Opaque,

@@ -48,12 +48,12 @@ impl TileErrors {
         more.squares.push(WORSE * worst);
         more.weights.push(1.0);
         // No channel is off by more than 1.
-        let high = (more.mean() * more.width()).clamp(mean, mean.max(1.0));
-        [mean / self.width(), high]
+        let high = (more.mean() * more.factor()).clamp(mean, mean.max(1.0));
+        [mean / self.factor(), high]
     }
 
     /// The factor by which the mean is known.
-    fn width(&self) -> f64 {
+    fn factor(&self) -> f64 {
         let n = self.squares.len();
         exp(student(n - 1) * self.scale(n) * deviation(&self.squares, &self.weights) / self.mean())
     }

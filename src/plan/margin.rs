@@ -11,17 +11,17 @@ pub(crate) const MARGIN: f64 = 1.0 / 4_294_967_296.0;
 /// What the rules ask of boxes, with margins.
 pub(crate) trait Margins {
     /// Whether the two certainly have no common point.
-    fn is_apart_from(&self, other: &Self) -> bool;
+    fn is_disjoint_from(&self, other: &Self) -> bool;
 
     /// Whether a segment from this box to `end` may meet `other`, all with margins.
     ///
     /// At the fraction τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face
     /// of `other` bounds τ by a linear inequality; if no τ satisfies all of them, no segment meets it.
-    fn may_see_through(&self, end: &Self, other: &Self) -> bool;
+    fn segment_may_hit(&self, end: &Self, other: &Self) -> bool;
 }
 
 impl Margins for Bounds {
-    fn is_apart_from(&self, other: &Self) -> bool {
+    fn is_disjoint_from(&self, other: &Self) -> bool {
         let margin = MARGIN * (self.reach() + other.reach());
         (self.min - other.max)
             .max(other.min - self.max)
@@ -29,7 +29,7 @@ impl Margins for Bounds {
             > margin
     }
 
-    fn may_see_through(&self, end: &Self, other: &Self) -> bool {
+    fn segment_may_hit(&self, end: &Self, other: &Self) -> bool {
         /// Far above the rounding of the bounds on τ, which are at most 1.
         const SLACK: f64 = MARGIN;
         let near = MARGIN * (self.reach() + other.reach());
@@ -65,7 +65,7 @@ impl Margins for Bounds {
 
 /// A plane, by a point of it and its unit normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Flat {
+pub(crate) struct OrientedPlane {
     pub(crate) point: Vec3,
     pub(crate) normal: Vec3,
 }
@@ -108,11 +108,11 @@ impl Sides {
     }
 }
 
-impl Flat {
+impl OrientedPlane {
     /// The sides of the plane on which a box lies; both if that is uncertain.
-    pub(crate) fn sides(&self, space: &Bounds) -> Sides {
-        let margin = 4.0 * MARGIN * (space.reach() + self.point.abs().max_element());
-        let heights = space
+    pub(crate) fn sides(&self, aabb: &Bounds) -> Sides {
+        let margin = 4.0 * MARGIN * (aabb.reach() + self.point.abs().max_element());
+        let heights = aabb
             .corners()
             .map(|corner| (corner - self.point).dot(self.normal));
         let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
@@ -157,9 +157,9 @@ pub(crate) mod tests {
 
     #[test]
     fn boxes_that_touch_are_not_apart() {
-        assert!(unit(0.0, 0.0, 0.0).is_apart_from(&unit(1.1, 0.0, 0.0)));
-        assert!(!unit(0.0, 0.0, 0.0).is_apart_from(&unit(1.0, 0.0, 0.0)));
-        assert!(!unit(0.0, 0.0, 0.0).is_apart_from(&unit(0.0, 1.0 + 1e-12, 0.0)));
+        assert!(unit(0.0, 0.0, 0.0).is_disjoint_from(&unit(1.1, 0.0, 0.0)));
+        assert!(!unit(0.0, 0.0, 0.0).is_disjoint_from(&unit(1.0, 0.0, 0.0)));
+        assert!(!unit(0.0, 0.0, 0.0).is_disjoint_from(&unit(0.0, 1.0 + 1e-12, 0.0)));
     }
 
     #[test]
@@ -168,39 +168,39 @@ pub(crate) mod tests {
             unit(0.0, 0.0, 0.0),
             Bounds::about(Vec3::new(10.0, 0.0, 0.0), Vec3::ZERO),
         );
-        assert!(from.may_see_through(&light, &unit(5.0, 0.0, 0.0)));
+        assert!(from.segment_may_hit(&light, &unit(5.0, 0.0, 0.0)));
         assert!(
-            !from.may_see_through(&light, &unit(11.0, 0.0, 0.0)),
+            !from.segment_may_hit(&light, &unit(11.0, 0.0, 0.0)),
             "behind the light"
         );
         assert!(
-            !from.may_see_through(&light, &unit(-1.5, 0.0, 0.0)),
+            !from.segment_may_hit(&light, &unit(-1.5, 0.0, 0.0)),
             "behind the surface"
         );
         assert!(
-            from.may_see_through(&light, &unit(2.0, 0.8, 0.0)),
+            from.segment_may_hit(&light, &unit(2.0, 0.8, 0.0)),
             "the way is still broad here"
         );
         assert!(
-            !from.may_see_through(&light, &unit(8.0, 0.8, 0.0)),
+            !from.segment_may_hit(&light, &unit(8.0, 0.8, 0.0)),
             "the way has narrowed"
         );
         let soft = Bounds::about(Vec3::new(10.0, 0.0, 0.0), Vec3::splat(0.5));
         assert!(
-            from.may_see_through(&soft, &unit(8.0, 0.8, 0.0)),
+            from.segment_may_hit(&soft, &unit(8.0, 0.8, 0.0)),
             "a soft light is broad"
         );
     }
 
     #[test]
     fn a_box_across_a_plane_is_on_both_sides() {
-        let flat = Flat {
+        let plane = OrientedPlane {
             point: Vec3::ZERO,
             normal: Vec3::Y,
         };
-        assert_eq!(flat.sides(&unit(0.0, 3.0, 0.0)), Sides::FRONT);
-        assert_eq!(flat.sides(&unit(0.0, -3.0, 0.0)), Sides::BACK);
-        assert_eq!(flat.sides(&unit(0.0, 0.5, 0.0)), Sides::BOTH);
+        assert_eq!(plane.sides(&unit(0.0, 3.0, 0.0)), Sides::FRONT);
+        assert_eq!(plane.sides(&unit(0.0, -3.0, 0.0)), Sides::BACK);
+        assert_eq!(plane.sides(&unit(0.0, 0.5, 0.0)), Sides::BOTH);
     }
 
     /// The boxes of a test with permuted and mirrored axes.
@@ -237,10 +237,10 @@ pub(crate) mod tests {
         let small = span([2.0, -1.0, -1.0], [3.0, 1.0, 1.0]);
         let boxes = |gap| [small, small, span([3.0 + gap, -2.0, -2.0], [8.0, 2.0, 2.0])];
         have_margin(11.0 * MARGIN, boxes, |[small, _, large]| {
-            small.is_apart_from(&large)
+            small.is_disjoint_from(&large)
         });
         let [_, _, large] = boxes(11.0 * MARGIN);
-        assert!(!small.is_apart_from(&large), "in doubt they are not");
+        assert!(!small.is_disjoint_from(&large), "in doubt they are not");
     }
 
     #[test]
@@ -250,7 +250,7 @@ pub(crate) mod tests {
             span([0.0, -10.0, 0.0], [0.0, -10.0, 0.0]),
         );
         let boxes = |gap| [near, far, span([-7.0, 1.0 + gap, -7.0], [7.0, 2.0, 7.0])];
-        let hides = |[start, end, other]: [Bounds; 3]| start.may_see_through(&end, &other);
+        let hides = |[start, end, other]: [Bounds; 3]| start.segment_may_hit(&end, &other);
         // Of the start and the other: 3 and 7, twice, as both grow.
         have_margin(20.0 * MARGIN, boxes, |boxes| !hides(boxes));
         // Of the end and the start, 3 and 10, and of the start and the other, 10 and 7.
@@ -277,22 +277,24 @@ pub(crate) mod tests {
         };
         // Of size 3, the other takes room thrice, the end once, the fraction of the way once.
         have_margin(11.0 * MARGIN, boxes, |[start, end, other]| {
-            !start.may_see_through(&end, &other)
+            !start.segment_may_hit(&end, &other)
         });
     }
 
     #[test]
     fn a_box_is_off_a_plane_by_room_of_both() {
-        let flat = Flat {
+        let plane = OrientedPlane {
             point: Vec3::new(0.0, 5.0, -3.0),
             normal: Vec3::Z,
         };
         let above = |gap: f64| span([-2.0, -6.0, gap - 3.0], [2.0, 1.0, -1.0]);
         let below = |gap: f64| span([-2.0, -6.0, -5.0], [2.0, 1.0, -3.0 - gap]);
-        has_margin(44.0 * MARGIN, |gap| flat.sides(&above(gap)) == Sides::FRONT);
-        has_margin(44.0 * MARGIN, |gap| flat.sides(&below(gap)) == Sides::BACK);
+        has_margin(44.0 * MARGIN, |gap| {
+            plane.sides(&above(gap)) == Sides::FRONT
+        });
+        has_margin(44.0 * MARGIN, |gap| plane.sides(&below(gap)) == Sides::BACK);
         assert_eq!(
-            [above(44.0 * MARGIN), below(44.0 * MARGIN)].map(|space| flat.sides(&space)),
+            [above(44.0 * MARGIN), below(44.0 * MARGIN)].map(|aabb| plane.sides(&aabb)),
             [Sides::BOTH; 2],
             "in doubt"
         );

@@ -9,38 +9,38 @@ use std::f64::consts::TAU;
 
 /// Surfaces that glow less than this light nothing: a white surface would look black, a twentieth
 /// of what it reflects.
-const FAINT: f64 = 0.05;
+const MIN_BRIGHTNESS: f64 = 0.05;
 
 /// Whether the scene brings light: a light, an environment (a dark one is meant so), or surfaces
 /// that glow; those of an asset only if they glow enough, those of a scene text are meant so.
 ///
 /// Surfaces of radiance L and area A inside a ball of radius R send about π·L·A over it, so a white
-/// surface in it would show about L·A/(4·π·R²). If that is less than [`FAINT`], they are labels,
+/// surface in it would show about L·A/(4·π·R²). If that is less than [`MIN_BRIGHTNESS`], they are labels,
 /// lamps on a dashboard or eyes: they light nothing, and the studio is wanted. Unlit materials
 /// light nothing at all.
-pub(super) fn is_lit(scene: &Scene, kind: SceneKind) -> bool {
-    let glows = || match kind {
-        SceneKind::Text => glowing(scene).contains(&true),
-        SceneKind::Asset | SceneKind::BareAsset => glow(scene) >= FAINT,
+pub(super) fn has_light(scene: &Scene, kind: SceneKind) -> bool {
+    let is_emissive = || match kind {
+        SceneKind::Text => emissive_surfaces(scene).contains(&true),
+        SceneKind::Asset | SceneKind::BareAsset => emissive_brightness(scene) >= MIN_BRIGHTNESS,
     };
-    scene.environment.is_some() || scene.lights.iter().any(Light::shines) || glows()
+    scene.environment.is_some() || scene.lights.iter().any(Light::shines) || is_emissive()
 }
 
 /// Of each surface, whether it glows.
 #[must_use]
-pub fn glowing(scene: &Scene) -> Vec<bool> {
+pub fn emissive_surfaces(scene: &Scene) -> Vec<bool> {
     let materials = scene.materials.iter();
-    let glows: Vec<bool> = materials
+    let is_emissive: Vec<bool> = materials
         .map(|material| emission(scene, material) > 0.0)
         .collect();
     let surfaces = scene.surfaces.iter();
     surfaces
-        .map(|surface| glows.get(surface.material.0 as usize) == Some(&true))
+        .map(|surface| is_emissive.get(surface.material.0 as usize) == Some(&true))
         .collect()
 }
 
 /// What the surfaces that glow would make a white surface show, by the strongest channel.
-fn glow(scene: &Scene) -> f64 {
+fn emissive_brightness(scene: &Scene) -> f64 {
     let emissions: Vec<f64> = scene
         .materials
         .iter()
@@ -52,15 +52,17 @@ fn glow(scene: &Scene) -> f64 {
             .copied()
             .unwrap_or(0.0)
     };
-    let glowing = scene
+    let emissive_surfaces = scene
         .surfaces
         .iter()
         .map(|surface| (surface, emission(surface)));
-    let glowing: Vec<_> = glowing.filter(|(_, emission)| *emission > 0.0).collect();
-    let Some(ball) = scene.ball().filter(|_| !glowing.is_empty()) else {
+    let emissive_surfaces: Vec<_> = emissive_surfaces
+        .filter(|(_, emission)| *emission > 0.0)
+        .collect();
+    let Some(ball) = scene.ball().filter(|_| !emissive_surfaces.is_empty()) else {
         return 0.0;
     };
-    let power: f64 = glowing
+    let power: f64 = emissive_surfaces
         .iter()
         .map(|(surface, emission)| emission * area(scene, &surface.shape))
         .sum();
@@ -104,15 +106,15 @@ fn area(scene: &Scene, shape: &Shape) -> f64 {
         let Some(mesh) = scene.meshes.get(instance.mesh.0 as usize) else {
             return 0.0;
         };
-        let known = |index: &u32| (*index as usize) < mesh.positions.len();
+        let is_in_range = |index: &u32| (*index as usize) < mesh.positions.len();
         let corner = |index: u32| Vec3::from_array(mesh.positions.at(index as usize));
-        let sound = mesh
+        let valid = mesh
             .triangles
             .iter()
-            .filter(|indices| indices.iter().all(known));
-        let placed =
-            sound.map(|indices| indices.map(|index| world.transform_point3(corner(index))));
-        placed.map(triangle).sum()
+            .filter(|indices| indices.iter().all(is_in_range));
+        let in_world =
+            valid.map(|indices| indices.map(|index| world.transform_point3(corner(index))));
+        in_world.map(triangle).sum()
     } else {
         0.0
     }

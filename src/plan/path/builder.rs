@@ -1,13 +1,13 @@
 //! The draft of the path plan: everything that the scene asks for, minus everything that a rule
 //! proves to add nothing.
 
-use super::facts::{Presence, Uses};
+use super::facts::{MaterialUses, Presence};
 use super::rules::PathRule;
 use super::texture::TextureValues;
-use crate::body::Body;
 use crate::effect::Effect;
 use crate::layer::Layer;
-use crate::window::Shown;
+use crate::projection::ScreenRect;
+use crate::surface_bounds::SurfaceBounds;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{UnitInterval, Vec3};
 use rtc_valid::{Alpha, Map, Mesh, PathSettings, Punctual, Shape, Standard, Surface, ValidScene};
@@ -15,19 +15,19 @@ use std::ops::Range;
 
 /// The part of a scene that is still in the plan.
 #[derive(Clone)]
-pub(super) struct Draft<'scene> {
+pub(super) struct PlanBuilder<'scene> {
     pub(super) scene: &'scene ValidScene,
     pub(super) path: PathSettings,
     /// The punctual lights.
     pub(super) punctual: &'scene [Punctual],
     /// Per material, its surfaces.
-    pub(super) uses: &'scene [Uses],
+    pub(super) uses: &'scene [MaterialUses],
     /// What its textures show.
     pub(super) textures: &'scene TextureValues<'scene>,
     /// Per surface, its bounds.
-    pub(super) bodies: &'scene [Body],
+    pub(super) surface_bounds: &'scene [SurfaceBounds],
     /// Per surface, its footprint in the picture.
-    pub(super) shown: &'scene [Shown],
+    pub(super) screen_rects: &'scene [ScreenRect],
     /// Per material of the scene, the simplified material.
     pub(super) materials: Vec<Standard>,
     /// Per texture, whether maps of it are folded into the factors.
@@ -42,7 +42,7 @@ pub(super) struct Draft<'scene> {
     /// Whether the last ray of a path may still find light.
     pub(super) last_ray: bool,
     /// Whether lights are sampled.
-    pub(super) aims: bool,
+    pub(super) nee: bool,
     /// Whether any surface may shadow another.
     pub(super) shadows: bool,
 }
@@ -73,29 +73,29 @@ pub enum EnvironmentUse {
 pub(super) struct Applied {
     pub(super) rule: &'static PathRule,
     /// The effects that are not needed after this rule.
-    pub(super) spared: Vec<Effect>,
+    pub(super) removed_effects: Vec<Effect>,
     /// The values that decided.
     pub(super) places: Vec<ValuePath>,
 }
 
-impl Draft<'_> {
+impl PlanBuilder<'_> {
     /// Applies a rule; `None` if it changes nothing.
     pub(super) fn apply(&mut self, rule: &'static PathRule) -> Option<Applied> {
-        let before = Effect::OF_PATHS.map(|effect| self.asks(effect));
+        let before = Effect::OF_PATHS.map(|effect| self.requires(effect));
         let places = (rule.apply)(self);
         if places.is_empty() {
             return None;
         }
         let gone =
-            |(effect, before): (Effect, bool)| (before && !self.asks(effect)).then_some(effect);
-        let spared = Effect::OF_PATHS
+            |(effect, before): (Effect, bool)| (before && !self.requires(effect)).then_some(effect);
+        let removed_effects = Effect::OF_PATHS
             .into_iter()
             .zip(before)
             .filter_map(gone)
             .collect();
         Some(Applied {
             rule,
-            spared,
+            removed_effects,
             places,
         })
     }
@@ -107,7 +107,7 @@ impl Draft<'_> {
     ) -> Vec<ValuePath> {
         let new = |(index, material)| (index, simplified(self, index, material));
         let is_new = |(index, new): &(usize, Standard)| *new != self.materials[*index];
-        let changed: Vec<_> = self.used().map(new).filter(is_new).collect();
+        let changed: Vec<_> = self.used_materials().map(new).filter(is_new).collect();
         let put = |(index, new): (usize, Standard)| {
             self.materials[index] = new;
             ValuePath::new(EntityKind::Material, index, Field::Whole)
@@ -116,7 +116,7 @@ impl Draft<'_> {
     }
 
     /// The materials with a surface in the world, each with its index.
-    pub(super) fn used(&self) -> impl Iterator<Item = (usize, &Standard)> {
+    pub(super) fn used_materials(&self) -> impl Iterator<Item = (usize, &Standard)> {
         let is_used = |material: &usize| {
             self.uses[*material]
                 .surfaces
@@ -132,23 +132,23 @@ impl Draft<'_> {
     fn any(&self, has: impl Fn(&Standard) -> bool) -> bool {
         self.max_depth > 0
             && self
-                .used()
+                .used_materials()
                 .any(|(_, material)| !material.unlit && has(material))
     }
 
     /// Whether a path may follow a scattered ray.
     pub(super) fn bounces(&self) -> bool {
-        self.max_depth > u32::from(!self.last_ray) && self.used().next().is_some()
+        self.max_depth > u32::from(!self.last_ray) && self.used_materials().next().is_some()
     }
 
     /// Whether light comes through any surface: that of a ray that goes on, or that of a light
     /// behind it.
     pub(super) fn transmits(&self) -> bool {
-        self.any(|material| is_asked_by(material, Effect::Refraction))
+        self.any(|material| material_requires(material, Effect::Refraction))
     }
 
     /// Whether the draft still asks for an effect.
-    pub(super) fn asks(&self, effect: Effect) -> bool {
+    pub(super) fn requires(&self, effect: Effect) -> bool {
         match effect {
             Effect::Surfaces => self.surfaces.contains(&true),
             Effect::Supersampling => self.path.samples.get() > 1,
@@ -158,21 +158,21 @@ impl Draft<'_> {
                 self.environment == EnvironmentUse::All && self.has_environment_image()
             }
             Effect::Emission | Effect::Unlit | Effect::Alpha => self
-                .used()
-                .any(|(_, material)| is_asked_by(material, effect)),
-            Effect::DirectLight => self.aims_at_lights(),
-            Effect::Shadows => self.shadows && self.aims_at_lights(),
-            Effect::Mis => self.aims_at_lights() && self.has_extended_light(),
+                .used_materials()
+                .any(|(_, material)| material_requires(material, effect)),
+            Effect::DirectLight => self.samples_lights(),
+            Effect::Shadows => self.shadows && self.samples_lights(),
+            Effect::Mis => self.samples_lights() && self.has_extended_light(),
             Effect::Depth => self.bounces(),
             Effect::Refraction | Effect::Volume => {
-                self.bounces() && self.any(|material| is_asked_by(material, effect))
+                self.bounces() && self.any(|material| material_requires(material, effect))
             }
             Effect::Dispersion | Effect::Microfacets | Effect::Layer(_) => {
-                self.any(|material| is_asked_by(material, effect))
+                self.any(|material| material_requires(material, effect))
             }
             Effect::Compensation => {
                 self.path.multiple_scattering
-                    && self.any(|material| is_asked_by(material, Effect::Microfacets))
+                    && self.any(|material| material_requires(material, Effect::Microfacets))
             }
             Effect::Textures => self.any_map(false),
             Effect::NormalMapping => self.any_map(true),
@@ -194,7 +194,7 @@ impl Draft<'_> {
     /// The surfaces in the world.
     fn used_surfaces(&self) -> impl Iterator<Item = &Surface> {
         let surfaces = self.scene.surfaces().iter().zip(&self.surfaces);
-        surfaces.filter_map(|(surface, is_left)| is_left.then_some(surface))
+        surfaces.filter_map(|(surface, is_in_world)| is_in_world.then_some(surface))
     }
 
     /// The meshes in the world, each with its material.
@@ -220,7 +220,7 @@ impl Draft<'_> {
         };
         // A constant normal map still changes the normals.
         let is_looked_up = |index: usize, map: &Map| of_normals || !self.is_folded(index, map);
-        self.used().any(|(index, material)| {
+        self.used_materials().any(|(index, material)| {
             let mut maps = material.maps();
             maps.any(|map| is_of_normals(material, map) == of_normals && is_looked_up(index, map))
         })
@@ -232,8 +232,8 @@ impl Draft<'_> {
     }
 
     /// Whether a map is constant, so that it could be folded.
-    pub(super) fn is_even(&self, material: usize, map: &Map) -> bool {
-        self.is_everywhere(material, map) && self.textures.is_even(map)
+    pub(super) fn is_constant(&self, material: usize, map: &Map) -> bool {
+        self.is_everywhere(material, map) && self.textures.is_constant(map)
     }
 
     /// Whether all surfaces of a material have the texture coordinates of a map.
@@ -257,12 +257,12 @@ impl Draft<'_> {
     }
 
     /// Whether there is a light to sample, and a surface with a lobe that is not a delta lobe.
-    fn aims_at_lights(&self) -> bool {
-        self.aims && self.any(|_| true) && self.has_light_to_aim_at()
+    fn samples_lights(&self) -> bool {
+        self.nee && self.any(|_| true) && self.has_sampled_light()
     }
 
     /// Whether the light distribution has a light that may reach a surface.
-    fn has_light_to_aim_at(&self) -> bool {
+    fn has_sampled_light(&self) -> bool {
         self.lights.contains(&LightUse::All) || self.has_extended_light()
     }
 
@@ -270,7 +270,7 @@ impl Draft<'_> {
     /// image, or emissive triangles.
     pub(super) fn has_extended_light(&self) -> bool {
         let shines = self.environment != EnvironmentUse::Nothing;
-        (shines && self.has_environment_image()) || self.shines_somewhere()
+        (shines && self.has_environment_image()) || self.has_emissive_mesh()
     }
 
     fn has_environment_image(&self) -> bool {
@@ -278,7 +278,7 @@ impl Draft<'_> {
     }
 
     /// Whether a mesh has an emissive material.
-    fn shines_somewhere(&self) -> bool {
+    fn has_emissive_mesh(&self) -> bool {
         let shines = |material: usize| {
             let material = &self.materials[material];
             !material.unlit && material.emissive != Vec3::ZERO
@@ -291,29 +291,32 @@ impl Draft<'_> {
 }
 
 /// Whether light goes through a material.
-pub(super) fn lets_light_through(m: &Standard) -> bool {
+pub(super) fn is_transmissive(m: &Standard) -> bool {
     let mut layers = Layer::ALL.into_iter();
     let by_layer = layers.any(|layer| layer.transmits() && layer.is_in(m));
     by_layer || m.transmission > UnitInterval::ZERO
 }
 
 /// Whether a material asks for an effect; false for effects that no material has.
-pub(super) fn is_asked_by(m: &Standard, effect: Effect) -> bool {
-    let weighs = |weight: UnitInterval| weight > UnitInterval::ZERO;
+pub(super) fn material_requires(m: &Standard, effect: Effect) -> bool {
+    let is_nonzero = |weight: UnitInterval| weight > UnitInterval::ZERO;
     match effect {
         Effect::Emission => !m.unlit && m.emissive != Vec3::ZERO,
         Effect::Unlit => m.unlit,
         Effect::Alpha => m.alpha != Alpha::Opaque,
         Effect::Microfacets => {
-            let is_dielectric = weighs(m.specular) || m.specular_glossiness.is_some();
-            is_dielectric || weighs(m.metallic) || weighs(m.iridescence) || weighs(m.transmission)
+            let is_dielectric = is_nonzero(m.specular) || m.specular_glossiness.is_some();
+            is_dielectric
+                || is_nonzero(m.metallic)
+                || is_nonzero(m.iridescence)
+                || is_nonzero(m.transmission)
         }
-        Effect::Refraction => lets_light_through(m),
+        Effect::Refraction => is_transmissive(m),
         Effect::Volume => {
             let absorbs = m.attenuation_distance.is_some() && m.attenuation_color != Vec3::ONE;
-            lets_light_through(m) && m.thickness.get() > 0.0 && absorbs
+            is_transmissive(m) && m.thickness.get() > 0.0 && absorbs
         }
-        Effect::Dispersion => m.dispersion.get() > 0.0 && weighs(m.transmission),
+        Effect::Dispersion => m.dispersion.get() > 0.0 && is_nonzero(m.transmission),
         Effect::Layer(layer) => layer.is_in(m),
         Effect::DepthBuffer
         | Effect::NormalBuffer

@@ -4,39 +4,39 @@ use super::metrics::LEVELS;
 use rtc_render::ProgressiveFilm;
 
 /// The expected meetings that do not stay out, but with a probability of 5 %.
-const MEETINGS: f64 = 3.0;
+const EXPECTED_HITS: f64 = 3.0;
 
 /// The fraction of the square of a target that may be left to what is not met. Where noise needs many
 /// samples, all pixels soon have so many that far less is left.
-const SHARE: f64 = 0.25;
+const TARGET_FRACTION: f64 = 0.25;
 
 /// The most samples of a replicate that all pixels are to have for what is not met alone.
 const MOST: u32 = 256;
 
 /// The error by what no sample of a film may have met.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct UnmetError {
+pub(super) struct UndersampledError {
     /// Its mean square, for a white of 1.
     pub(super) square: f64,
     /// As of [`Undersampled`].
     pub(super) brightest: f64,
 }
 
-impl UnmetError {
+impl UndersampledError {
     /// Whether a bound is told that counts it, beside the mean square error of what was met. A target is
     /// in grey levels. If much brighter light than white may be unmet, a bound would tell of nothing
     /// else.
-    pub(super) fn is_told(&self, met: f64, target: Option<f64>) -> bool {
+    pub(super) fn is_included(&self, sampled: f64, target: Option<f64>) -> bool {
         match target {
-            Some(target) => self.square <= share(target),
-            None => self.brightest <= 1.0 || self.square <= met,
+            Some(target) => self.square <= allowance(target),
+            None => self.brightest <= 1.0 || self.square <= sampled,
         }
     }
 }
 
 /// The mean square error, for a white of 1, that a target in grey levels leaves to what is not met.
-fn share(target: f64) -> f64 {
-    SHARE * target * target / (LEVELS * LEVELS)
+fn allowance(target: f64) -> f64 {
+    TARGET_FRACTION * target * target / (LEVELS * LEVELS)
 }
 
 /// What a sample may show, and in how many pixels.
@@ -60,7 +60,7 @@ impl Undersampled {
     /// The mean square error by what is not met, for a white of 1, if the replicates of each pixel
     /// have `count` samples or more.
     fn square(&self, count: u32) -> f64 {
-        let changed = MEETINGS * self.brightest / (2.0 * f64::from(count.max(1)));
+        let changed = EXPECTED_HITS * self.brightest / (2.0 * f64::from(count.max(1)));
         let squares = if changed < 1.0 {
             changed * changed
         } else {
@@ -70,14 +70,14 @@ impl Undersampled {
     }
 
     /// Of a film with samples everywhere.
-    pub(super) fn of(&self, film: &ProgressiveFilm) -> UnmetError {
+    pub(super) fn of(&self, film: &ProgressiveFilm) -> UndersampledError {
         let shown = film.pixels().map(|pixel| pixel.counts()[0]);
         self.within(shown.min().unwrap_or(0))
     }
 
     /// Of pixels that have `count` samples or more in each of two replicates.
-    pub(super) fn within(&self, count: u32) -> UnmetError {
-        UnmetError {
+    pub(super) fn within(&self, count: u32) -> UndersampledError {
+        UndersampledError {
             square: self.square(count),
             brightest: self.brightest,
         }
@@ -89,7 +89,7 @@ impl Undersampled {
         let counts = std::iter::successors(Some(1), |count| Some(2 * count));
         let mut counts = counts.take_while(|count| *count <= MOST);
         counts
-            .find(|count| self.square(*count) <= share(error))
+            .find(|count| self.square(*count) <= allowance(error))
             .unwrap_or(1)
     }
 }
@@ -100,43 +100,46 @@ mod tests {
 
     #[test]
     fn the_bound_by_hand() {
-        let unmet = |brightest| Undersampled {
+        let undersampled = |brightest| Undersampled {
             brightest,
             pixels: 100,
         };
         // One pixel of a hundred, off by 3/8.
-        assert_eq!(unmet(1.0).square(4), 0.375 * 0.375 / 100.0);
+        assert_eq!(undersampled(1.0).square(4), 0.375 * 0.375 / 100.0);
         // Three pixels, off by 1.
-        assert_eq!(unmet(8.0).square(4), 0.03);
+        assert_eq!(undersampled(8.0).square(4), 0.03);
     }
 
     #[test]
     fn as_few_samples_as_leave_a_quarter_of_the_square() {
-        let unmet = Undersampled {
+        let undersampled = Undersampled {
             brightest: 1.0,
             pixels: 1600,
         };
-        let left = |count| unmet.square(count).sqrt() * LEVELS;
-        let least = unmet.least(1.0);
-        assert!(left(least) <= 0.5 && left(least / 2) > 0.5, "{least}");
-        assert_eq!(unmet.least(1e-9), 1, "too many");
+        let remaining = |count| undersampled.square(count).sqrt() * LEVELS;
+        let least = undersampled.least(1.0);
+        assert!(
+            remaining(least) <= 0.5 && remaining(least / 2) > 0.5,
+            "{least}"
+        );
+        assert_eq!(undersampled.least(1e-9), 1, "too many");
     }
 
     /// No other share-out of three meetings over pixels changes them by more.
     #[test]
     fn nothing_unmet_is_worse() {
         for (brightest, count) in [(1.0, 1), (1.0, 4), (8.0, 4), (3.0, 16)] {
-            let unmet = Undersampled {
+            let undersampled = Undersampled {
                 brightest,
                 pixels: 64,
             };
             let samples = 2.0 * f64::from(count);
             for pixels in 1..=64 {
-                let fraction = (MEETINGS / (samples * f64::from(pixels))).min(1.0);
+                let fraction = (EXPECTED_HITS / (samples * f64::from(pixels))).min(1.0);
                 let change = (fraction * brightest).min(1.0);
                 let square = f64::from(pixels) * change * change / 64.0;
                 assert!(
-                    square <= unmet.square(count) * (1.0 + 1e-12),
+                    square <= undersampled.square(count) * (1.0 + 1e-12),
                     "{pixels} pixels of {samples} samples"
                 );
             }

@@ -28,7 +28,7 @@ pub(super) fn shiny() -> Phong {
 }
 
 /// A stage with shadows and two bounces, a white light at (3, 4, 12), and no surface.
-pub(super) fn stage() -> Scene {
+pub(super) fn base_scene() -> Scene {
     Scene {
         camera: ir::Camera {
             eye: [0.0, 0.0, 10.0],
@@ -75,7 +75,7 @@ pub(super) fn light(position: [f64; 3]) -> Light {
 
 /// A stage with the surfaces given, each of a material of its own.
 pub(super) fn with(surfaces: &[(Shape, Phong)]) -> Scene {
-    let mut scene = stage();
+    let mut scene = base_scene();
     for (index, (shape, phong)) in (0_u32..).zip(surfaces) {
         scene.materials.push(Material::Phong(phong.clone()));
         scene.surfaces.push(Surface {

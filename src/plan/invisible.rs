@@ -1,9 +1,9 @@
 //! The surfaces that no ray of any pixel meets, by their bounds: what is not among them may be
 //! hidden too, but what is among them is never seen.
 
-use super::body::{Body, Extent, bodies};
 use super::findings::is_pinhole;
-use super::window::{Shown, Window};
+use super::projection::{ScreenProjection, ScreenRect};
+use super::surface_bounds::{Extent, SurfaceBounds, surface_bounds};
 use super::{Plan, Rules};
 use rtc_valid::{Material, Mode, Projection, ValidScene};
 
@@ -15,22 +15,24 @@ const MAX_PAIRS: usize = 20_000;
 ///
 /// Traced paths may meet anything, and for an orthographic camera nothing is proven.
 #[must_use]
-pub fn unseen(scene: &ValidScene) -> Vec<usize> {
+pub fn invisible_surfaces(scene: &ValidScene) -> Vec<usize> {
     let is_perspective = matches!(scene.camera().projection, Projection::Perspective);
     if matches!(scene.settings().mode, Mode::Path(_)) || !is_perspective {
         return Vec::new();
     }
-    let window = Window::new(scene.camera(), is_pinhole(scene));
-    let is_outside = |body: &Body| match &body.extent {
-        Extent::Plane(plane) => window.is_behind(plane),
-        Extent::Within(_) | Extent::Anywhere => window.shown(body) == Shown::Nowhere,
+    let projection = ScreenProjection::new(scene.camera(), is_pinhole(scene));
+    let is_outside = |bounds: &SurfaceBounds| match &bounds.extent {
+        Extent::Plane(plane) => projection.is_behind(plane),
+        Extent::Within(_) | Extent::Anywhere => {
+            projection.screen_rect(bounds) == ScreenRect::Outside
+        }
     };
-    let bodies = bodies(scene);
-    let mut outside: Vec<usize> = (0..bodies.len())
-        .filter(|surface| is_outside(&bodies[*surface]))
+    let surface_bounds = surface_bounds(scene);
+    let mut outside: Vec<usize> = (0..surface_bounds.len())
+        .filter(|surface| is_outside(&surface_bounds[*surface]))
         .collect();
     if !outside.is_empty() && has_secondary_rays(scene) {
-        if outside.len().saturating_mul(bodies.len()) > MAX_PAIRS {
+        if outside.len().saturating_mul(surface_bounds.len()) > MAX_PAIRS {
             return Vec::new();
         }
         let plan = Plan::new(scene, Rules::ALL);
@@ -48,6 +50,6 @@ fn has_secondary_rays(scene: &ValidScene) -> bool {
         Material::Standard(_) => true,
     };
     let is_phong = matches!(settings.mode, Mode::Phong);
-    let casts = settings.shadows && !scene.lights().is_empty();
-    is_phong && (casts || (settings.max_depth > 0 && scene.materials().iter().any(bounces)))
+    let occludes = settings.shadows && !scene.lights().is_empty();
+    is_phong && (occludes || (settings.max_depth > 0 && scene.materials().iter().any(bounces)))
 }

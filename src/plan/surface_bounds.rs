@@ -1,7 +1,7 @@
 //! The bounds of surfaces for the rules: a bounding box, the plane of a flat one, convexity.
 
+use super::margin::{MARGIN, Margins, OrientedPlane, Sides};
 use super::shape::shape_facts;
-use super::space::{Flat, MARGIN, Margins, Sides};
 use rtc_math::{Bounds, Vec3, cross, unit};
 use rtc_valid::{Instance, Mesh, ValidScene};
 use std::sync::Arc;
@@ -12,36 +12,36 @@ pub(crate) enum Extent {
     /// Inside a box.
     Within(Bounds),
     /// In an unbounded plane.
-    Plane(Flat),
+    Plane(OrientedPlane),
     /// Anywhere its arithmetic may report a hit.
     Anywhere,
 }
 
 /// The shape and the bounds of a surface, as far as the rules use them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Body {
+pub(crate) struct SurfaceBounds {
     pub(crate) extent: Extent,
-    pub(crate) form: Hull,
+    pub(crate) class: ShapeClass,
 }
 
 /// A shape with a property that rules use.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Hull {
+pub(crate) enum ShapeClass {
     /// A bounded piece of a plane.
-    Flat(Flat),
+    Planar(OrientedPlane),
     /// A ball.
-    Ball(Vec3, f64),
+    Sphere(Vec3, f64),
     /// A convex solid.
     Convex,
     /// Any other.
     Other,
 }
 
-impl Body {
-    pub(crate) fn within(space: Bounds, form: Hull) -> Self {
+impl SurfaceBounds {
+    pub(crate) fn within(aabb: Bounds, class: ShapeClass) -> Self {
         Self {
-            extent: Extent::Within(space),
-            form,
+            extent: Extent::Within(aabb),
+            class,
         }
     }
 
@@ -49,69 +49,73 @@ impl Body {
     /// shape says nothing of them.
     fn grow(&mut self, error_bound: f64, thickness: f64) {
         const SMALL: f64 = 1.0 / 1024.0;
-        if let Extent::Within(space) = &mut self.extent {
-            *space = space.widened(error_bound);
+        if let Extent::Within(aabb) = &mut self.extent {
+            *aabb = aabb.widened(error_bound);
         }
         if error_bound > SMALL * thickness {
-            self.form = Hull::Other;
+            self.class = ShapeClass::Other;
         }
     }
 
     /// The box around it, if it has one.
-    pub(crate) fn space(&self) -> Option<&Bounds> {
+    pub(crate) fn aabb(&self) -> Option<&Bounds> {
         match &self.extent {
-            Extent::Within(space) => Some(space),
+            Extent::Within(aabb) => Some(aabb),
             Extent::Plane(_) | Extent::Anywhere => None,
         }
     }
 
     /// The sides of it that face a box, or anything.
-    pub(crate) fn sides_seen_from(&self, from: Option<&Bounds>) -> Sides {
+    pub(crate) fn visible_sides(&self, from: Option<&Bounds>) -> Sides {
         let Some(from) = from else { return Sides::BOTH };
-        match self.form {
-            Hull::Flat(flat) => flat.sides(from),
-            Hull::Ball(..) | Hull::Convex if self.is_clear_of(from) => Sides::FRONT,
-            Hull::Ball(..) | Hull::Convex | Hull::Other => Sides::BOTH,
+        match self.class {
+            ShapeClass::Planar(plane) => plane.sides(from),
+            ShapeClass::Sphere(..) | ShapeClass::Convex if self.is_disjoint_from(from) => {
+                Sides::FRONT
+            }
+            ShapeClass::Sphere(..) | ShapeClass::Convex | ShapeClass::Other => Sides::BOTH,
         }
     }
 
     /// Whether a convex solid certainly does not overlap a box.
-    pub(crate) fn is_clear_of(&self, other: &Bounds) -> bool {
-        let Some(space) = self.space() else {
+    pub(crate) fn is_disjoint_from(&self, other: &Bounds) -> bool {
+        let Some(aabb) = self.aabb() else {
             return false;
         };
-        match self.form {
-            Hull::Ball(center, radius) => {
-                other.distance(center) > radius + 4.0 * MARGIN * (space.reach() + other.reach())
+        match self.class {
+            ShapeClass::Sphere(center, radius) => {
+                other.distance(center) > radius + 4.0 * MARGIN * (aabb.reach() + other.reach())
             }
-            Hull::Flat(_) | Hull::Convex | Hull::Other => space.is_apart_from(other),
+            ShapeClass::Planar(_) | ShapeClass::Convex | ShapeClass::Other => {
+                aabb.is_disjoint_from(other)
+            }
         }
     }
 }
 
 /// The bodies of all surfaces, grown by the rounding of rays: a ray starts at the eye or on another
 /// surface, and rounds by its coordinates.
-pub(crate) fn bodies(scene: &ValidScene) -> Vec<Body> {
+pub(crate) fn surface_bounds(scene: &ValidScene) -> Vec<SurfaceBounds> {
     let extent = |mesh: &Arc<Mesh>| Bounds::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
     let surfaces = || scene.surfaces().iter().map(|surface| &surface.shape);
-    let mut bodies = surfaces()
-        .map(|shape| shape_facts(shape).body(&meshes))
+    let mut surface_bounds = surfaces()
+        .map(|shape| shape_facts(shape).bounds(&meshes))
         .collect::<Vec<_>>();
     let eye = scene.camera().eye.abs().max_element();
-    let farthest = bodies
+    let farthest = surface_bounds
         .iter()
-        .filter_map(Body::space)
+        .filter_map(SurfaceBounds::aabb)
         .map(Bounds::reach)
         .fold(eye, f64::max);
-    for (body, shape) in bodies.iter_mut().zip(surfaces()) {
-        body.grow(MARGIN * farthest, shape_facts(shape).thickness());
+    for (bounds, shape) in surface_bounds.iter_mut().zip(surfaces()) {
+        bounds.grow(MARGIN * farthest, shape_facts(shape).thickness());
     }
-    bodies
+    surface_bounds
 }
 
 /// The plane of a triangle, unless its corners are too nearly in line for a reliable normal.
-pub(crate) fn face([a, b, c]: [Vec3; 3]) -> Hull {
+pub(crate) fn triangle_plane([a, b, c]: [Vec3; 3]) -> ShapeClass {
     /// The least sine between two edges: the normal is then right to within 2⁻³⁶.
     const SLIVER: f64 = 1.0 / 65536.0;
     let normal = || {
@@ -119,11 +123,13 @@ pub(crate) fn face([a, b, c]: [Vec3; 3]) -> Hull {
         let normal = cross(first, second);
         (normal.length() > SLIVER).then(|| normal.normalize())
     };
-    normal().map_or(Hull::Other, |normal| Hull::Flat(Flat { point: a, normal }))
+    normal().map_or(ShapeClass::Other, |normal| {
+        ShapeClass::Planar(OrientedPlane { point: a, normal })
+    })
 }
 
 /// The box of a circle around an axis, with a tube around it.
-pub(crate) fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Bounds {
+pub(crate) fn circle_bounds(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Bounds {
     let axis = unit(axis).unwrap_or(Vec3::ZERO);
     let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + MARGIN * (radius + tube);
     Bounds::about(
@@ -134,25 +140,25 @@ pub(crate) fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Bounds {
 
 /// The box of a mesh in the world. Rays are transformed to its own space and back: a flat transform
 /// has larger rounding errors.
-pub(crate) fn placed(instance: &Instance, mesh: &Bounds) -> Bounds {
+pub(crate) fn instance_bounds(instance: &Instance, mesh: &Bounds) -> Bounds {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
     let axes = [x, y, z].map(|axis| unit(axis).unwrap_or(Vec3::ZERO));
     let volume = axes[0].dot(axes[1].cross(axes[2])).abs();
-    let space = Bounds::of(mesh.corners().map(to_world));
+    let aabb = Bounds::of(mesh.corners().map(to_world));
     let terms = x.abs() + y.abs() + z.abs();
     let size = terms.max_element() * mesh.reach() + origin.abs().max_element();
-    space.widened(MARGIN * size / volume)
+    aabb.widened(MARGIN * size / volume)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::space::tests::{has_margin, span};
+    use super::super::margin::tests::{has_margin, span};
     use super::*;
 
     /// That a box is another with a margin, as exactly as its corners are rounded.
-    fn is_grown(space: Bounds, from: Bounds, margin: f64) {
-        let (low, high) = (from.min - space.min, space.max - from.max);
+    fn is_grown(aabb: Bounds, from: Bounds, margin: f64) {
+        let (low, high) = (from.min - aabb.min, aabb.max - from.max);
         let margins = [low.x, low.y, low.z, high.x, high.y, high.z];
         assert!(
             margins
@@ -164,7 +170,7 @@ mod tests {
 
     #[test]
     fn a_ring_reaches_across_its_axis_and_has_room() {
-        let found = ring(
+        let found = circle_bounds(
             Vec3::new(1.0, 2.0, -1.0),
             Vec3::new(0.0, 3.0, 4.0),
             2.0,
@@ -182,7 +188,7 @@ mod tests {
         let [x, y, z] = [[2.0, 0.0, 0.0], [0.0, 3.0, 4.0], [0.0, 0.0, 5.0]].map(Vec3::from_array);
         let world_from_object = [x, y, z, Vec3::new(7.0, -20.0, 1.0)];
         let mesh = span([-1.0, -2.0, -3.0], [4.0, 5.0, 6.0]);
-        let found = placed(
+        let found = instance_bounds(
             &Instance {
                 mesh: 0,
                 world_from_object,
@@ -200,21 +206,26 @@ mod tests {
     #[test]
     fn a_ball_is_clear_of_a_box_by_room_of_both_and_other_solids_by_their_boxes() {
         let center = Vec3::X * 3.0;
-        let ball = Body::within(Bounds::about(center, Vec3::ONE), Hull::Ball(center, 1.0));
+        let ball = SurfaceBounds::within(
+            Bounds::about(center, Vec3::ONE),
+            ShapeClass::Sphere(center, 1.0),
+        );
         let before = |gap: f64| span([4.0 + gap, -1.0, -1.0], [9.0, 1.0, 1.0]);
-        has_margin(4.0 * 13.0 * MARGIN, |gap| ball.is_clear_of(&before(gap)));
+        has_margin(4.0 * 13.0 * MARGIN, |gap| {
+            ball.is_disjoint_from(&before(gap))
+        });
         assert!(
-            !ball.is_clear_of(&before(4.0 * 13.0 * MARGIN)),
+            !ball.is_disjoint_from(&before(4.0 * 13.0 * MARGIN)),
             "in doubt it is not"
         );
-        let solid = Body {
-            form: Hull::Convex,
+        let solid = SurfaceBounds {
+            class: ShapeClass::Convex,
             ..ball
         };
-        has_margin(13.0 * MARGIN, |gap| solid.is_clear_of(&before(gap)));
+        has_margin(13.0 * MARGIN, |gap| solid.is_disjoint_from(&before(gap)));
         let corner = span([3.8, 0.8, 0.8], [9.0, 1.0, 1.0]);
         assert!(
-            ball.is_clear_of(&corner) && !solid.is_clear_of(&corner),
+            ball.is_disjoint_from(&corner) && !solid.is_disjoint_from(&corner),
             "a ball has no corners"
         );
     }
@@ -223,7 +234,7 @@ mod tests {
     fn a_triangle_has_a_plane_unless_it_is_a_sliver() {
         let corners = |sine: f64| [Vec3::ZERO, Vec3::X * 3.0, Vec3::new(2.0, 2.0 * sine, 0.0)];
         has_margin(1.0 / 65536.0, |sine| {
-            matches!(face(corners(sine)), Hull::Flat(_))
+            matches!(triangle_plane(corners(sine)), ShapeClass::Planar(_))
         });
         // Of a sine of just 2⁻¹⁶.
         let slim = [
@@ -231,13 +242,16 @@ mod tests {
             Vec3::X * 3.0,
             Vec3::new((1.0 - MARGIN).sqrt(), 1.0 / 65536.0, 0.0),
         ];
-        assert!(matches!(face(slim), Hull::Other), "in doubt it is");
-        let Hull::Flat(flat) = face(corners(1.0)) else {
+        assert!(
+            matches!(triangle_plane(slim), ShapeClass::Other),
+            "in doubt it is"
+        );
+        let ShapeClass::Planar(plane) = triangle_plane(corners(1.0)) else {
             panic!("no sliver")
         };
         assert_eq!(
-            flat,
-            Flat {
+            plane,
+            OrientedPlane {
                 point: Vec3::ZERO,
                 normal: Vec3::Z
             }

@@ -1,8 +1,8 @@
 //! A picture on its way to its goal, which can be saved between two stretches of a round and goes on from
 //! there to the same bytes: a round takes the samples that are missing, whoever took the others.
 
+use super::batch::WorkBatch;
 use super::noise::Bound;
-use super::stretch::WorkStretch;
 use super::target::{Order, Samples, TargetResult};
 use rtc_render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
 use std::time::Duration;
@@ -24,7 +24,7 @@ pub struct ProgressiveRender {
 /// How a growing picture is kept on its way.
 pub struct CheckpointSink<'a> {
     /// What was kept before.
-    pub begun: Option<ProgressiveRender>,
+    pub resumed_from: Option<ProgressiveRender>,
     /// The time between two saves.
     pub every: Duration,
     /// How many threads are to have work.
@@ -37,37 +37,37 @@ pub struct CheckpointSink<'a> {
 
 /// Keeps what grows now and then.
 pub(super) struct Checkpointer<'a> {
-    keep: CheckpointSink<'a>,
-    stretch: WorkStretch,
+    sink: CheckpointSink<'a>,
+    batch: WorkBatch,
     saved: Duration,
 }
 
 impl<'a> Checkpointer<'a> {
-    pub(super) fn new(keep: CheckpointSink<'a>) -> Self {
+    pub(super) fn new(sink: CheckpointSink<'a>) -> Self {
         Self {
-            stretch: WorkStretch::new(keep.every, keep.threads),
-            saved: (keep.elapsed)(),
-            keep,
+            batch: WorkBatch::new(sink.every, sink.threads),
+            saved: (sink.elapsed)(),
+            sink,
         }
     }
 
     /// What was kept before.
-    pub(super) fn begun(&mut self) -> Option<ProgressiveRender> {
-        self.keep.begun.take()
+    pub(super) fn resumed_from(&mut self) -> Option<ProgressiveRender> {
+        self.sink.resumed_from.take()
     }
 
     /// Keeps it now.
-    pub(super) fn save(&self, growth: &ProgressiveRender) {
-        (self.keep.save)(growth.save());
+    pub(super) fn save(&self, progressive: &ProgressiveRender) {
+        (self.sink.save)(progressive.save());
     }
 
     /// So many tiles took since then.
-    fn took(&mut self, growth: &ProgressiveRender, tiles: u32, begun: Duration) {
-        let now = (self.keep.elapsed)();
-        self.stretch.adapt(tiles, now.saturating_sub(begun));
-        if now.saturating_sub(self.saved) >= self.keep.every {
-            self.save(growth);
-            self.saved = (self.keep.elapsed)();
+    fn took(&mut self, progressive: &ProgressiveRender, tiles: u32, resumed_from: Duration) {
+        let now = (self.sink.elapsed)();
+        self.batch.adapt(tiles, now.saturating_sub(resumed_from));
+        if now.saturating_sub(self.saved) >= self.sink.every {
+            self.save(progressive);
+            self.saved = (self.sink.elapsed)();
         }
     }
 }
@@ -81,13 +81,13 @@ impl ProgressiveRender {
 
     /// Takes the samples of the round that are missing, and keeps them on the way; false if someone said
     /// stop.
-    pub(super) fn grow(
+    pub(super) fn refine(
         &mut self,
         world: &AnyWorld,
         on_pixel: &OnPixel<'_>,
-        keeper: Option<&mut Checkpointer<'_>>,
+        checkpointer: Option<&mut Checkpointer<'_>>,
     ) -> bool {
-        let Some(keeper) = keeper else {
+        let Some(checkpointer) = checkpointer else {
             let wanted = |index: usize| self.wanted[index];
             return world.grow(&mut self.film, &wanted, on_pixel);
         };
@@ -95,31 +95,31 @@ impl ProgressiveRender {
         let count = u32::try_from(count).unwrap_or(u32::MAX);
         let mut done = 0;
         while done < count {
-            let last = count.min(done.saturating_add(keeper.stretch.shares()));
-            let begun = (keeper.keep.elapsed)();
+            let last = count.min(done.saturating_add(checkpointer.batch.shards()));
+            let resumed_from = (checkpointer.sink.elapsed)();
             self.film.tiles = Some(Tiles::shares([done + 1, last], count));
             let wanted = |index: usize| self.wanted[index];
             let is_done = world.grow(&mut self.film, &wanted, on_pixel);
             self.film.tiles = None;
             if !is_done {
-                keeper.save(self);
+                checkpointer.save(self);
                 return false;
             }
-            keeper.took(self, last - done, begun);
+            checkpointer.took(self, last - done, resumed_from);
             done = last;
         }
         true
     }
 
     /// The picture as far as it is, of a bound on its error.
-    pub(super) fn reached(&self, bound: Bound, values: Values) -> TargetResult {
+    pub(super) fn result(&self, bound: Bound, values: Values) -> TargetResult {
         TargetResult {
             image: self.film.image(values),
             coverage: self.film.coverage(),
             counts: self.film.counts,
             error: bound.error,
-            unmet: bound.unmet,
-            crude: None,
+            undersampled: bound.undersampled,
+            coarse: None,
             samples: samples_of(&self.film),
             light_samples: self.light_samples,
         }
@@ -160,7 +160,7 @@ impl ProgressiveRender {
             return Err(FilmError::OtherPicture);
         }
         let wanted: Vec<[u32; 2]> = pairs.collect();
-        let is_grown = |(wanted, index): (&[u32; 2], usize)| {
+        let is_consistent = |(wanted, index): (&[u32; 2], usize)| {
             let counts = film.pixel(index).counts().into_iter().zip(wanted);
             counts.into_iter().all(|(count, &wanted)| {
                 // A round doubles what is there; the first begins with none.
@@ -170,8 +170,8 @@ impl ProgressiveRender {
                     && wanted <= LONGEST
             })
         };
-        let are_grown = wanted.iter().zip(0..).all(is_grown);
-        if rounds > MOST || light_samples == 0 || !are_grown {
+        let are_consistent = wanted.iter().zip(0..).all(is_consistent);
+        if rounds > MOST || light_samples == 0 || !are_consistent {
             return Err(WRONG);
         }
         Ok(Self {

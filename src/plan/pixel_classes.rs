@@ -4,11 +4,11 @@
 //! cells that its rectangle overlaps. A cell without a rectangle shows nothing, whatever the order
 //! or shape of the surfaces.
 
-use super::body::Hull;
+use super::margin::Sides;
+use super::projection::{PixelRect, ScreenProjection, ScreenRect};
 use super::rules::Rule;
 use super::shape::shape_facts;
-use super::space::Sides;
-use super::window::{Rect, Shown, Window};
+use super::surface_bounds::ShapeClass;
 use super::{Facts, Findings};
 use rtc_valid::{Mode, Shape};
 
@@ -31,7 +31,7 @@ pub enum PixelClass {
 
 /// The classes of the pixels of a picture.
 #[derive(Clone, Debug, Default)]
-pub struct Region {
+pub struct PixelClasses {
     /// Cells are 2 to this pixels wide.
     shift: u32,
     /// Cells in a row; `None` if no pixel has a known class.
@@ -40,7 +40,7 @@ pub struct Region {
     /// Convex polygons in the picture, each inside a surface of one value.
     polygons: Vec<Vec<[f64; 2]>>,
     /// Whether pixels without surfaces may be left out.
-    misses: bool,
+    skips_empty: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,19 +51,25 @@ enum CellContent {
     Anything,
 }
 
-impl Region {
-    pub(super) fn new(findings: &Findings<'_>, window: &Window, shown: &[Shown]) -> Self {
+impl PixelClasses {
+    pub(super) fn new(
+        findings: &Findings<'_>,
+        projection: &ScreenProjection,
+        screen_rects: &[ScreenRect],
+    ) -> Self {
         let rules = findings.facts.rules;
         let is_wanted = rules.contains(Rule::PixelMiss) || rules.contains(Rule::PixelFlat);
-        if !is_wanted || shown.contains(&Shown::Anywhere) {
+        if !is_wanted || screen_rects.contains(&ScreenRect::Unknown) {
             return Self::default();
         }
         let (mut grid, mut polygons) = (CellGrid::new(findings), Vec::new());
         let flats = findings.has_flat_pixels();
-        for (surface, shown) in shown.iter().enumerate() {
-            let Shown::In(rect) = shown else { continue };
+        for (surface, rect) in screen_rects.iter().enumerate() {
+            let ScreenRect::Within(rect) = rect else {
+                continue;
+            };
             let polygon = if flats {
-                findings.polygon(surface, window)
+                findings.polygon(surface, projection)
             } else {
                 None
             };
@@ -80,7 +86,7 @@ impl Region {
             columns,
             cells,
             polygons,
-            misses: rules.contains(Rule::PixelMiss),
+            skips_empty: rules.contains(Rule::PixelMiss),
         }
     }
 
@@ -91,7 +97,7 @@ impl Region {
             return PixelClass::Anything;
         }
         match self.cells[(y >> self.shift) as usize * self.columns + (x >> self.shift) as usize] {
-            CellContent::Nothing if self.misses => PixelClass::Nothing,
+            CellContent::Nothing if self.skips_empty => PixelClass::Nothing,
             CellContent::One(polygon) if is_inside(&self.polygons[polygon as usize], [x, y]) => {
                 PixelClass::Uniform
             }
@@ -109,7 +115,7 @@ impl Region {
             .iter()
             .filter(|cell| **cell == CellContent::Nothing)
             .count();
-        if self.misses {
+        if self.skips_empty {
             empty as f64 / self.cells.len().max(1) as f64
         } else {
             0.0
@@ -133,8 +139,8 @@ impl Findings<'_> {
 
     /// The outline in the picture of a convex polygon inside a surface, if the surface is flat and
     /// has one value.
-    fn polygon(&self, surface: usize, window: &Window) -> Option<Vec<[f64; 2]>> {
-        let Hull::Flat(flat) = self.facts.bodies[surface].form else {
+    fn polygon(&self, surface: usize, projection: &ScreenProjection) -> Option<Vec<[f64; 2]>> {
+        let ShapeClass::Planar(plane) = self.facts.surface_bounds[surface].class else {
             return None;
         };
         let shape = &self.facts.scene.surfaces()[surface].shape;
@@ -142,7 +148,7 @@ impl Findings<'_> {
         let shows_one_value = match self.mode() {
             // The two halves of a quad may differ in the last bit of their normals.
             Mode::Normal => {
-                !summary.is_bent()
+                !summary.has_shading_normals()
                     && !matches!(shape, Shape::Quad(_))
                     && self.visibility.sides[surface] != Sides::BOTH
             }
@@ -151,25 +157,25 @@ impl Findings<'_> {
             Mode::Phong => {
                 let lights = self.facts.sources.iter().zip(&self.lights.plans);
                 let mut direct = lights.filter(|(_, plan)| plan.direct);
-                let is_dark = direct.all(|(light, _)| {
+                let adds_no_direct = direct.all(|(light, _)| {
                     self.facts
-                        .is_dark(surface, self.visibility.sides[surface], light)
+                        .adds_no_direct(surface, self.visibility.sides[surface], light)
                 });
-                is_dark
+                adds_no_direct
                     && !self.shows_color_map(summary)
-                    && (self.max_depth == 0 || !summary.mirrors())
+                    && (self.max_depth == 0 || !summary.has_bounce())
             }
             Mode::Zbuffer | Mode::Gooch(_) | Mode::Path(_) => false,
         };
         let corners = if shows_one_value {
-            shape_facts(shape).polygon(flat.normal)
+            shape_facts(shape).polygon(plane.normal)
         } else {
             None
         };
         convex(
             corners?
                 .into_iter()
-                .map(|corner| window.middle(corner))
+                .map(|corner| projection.project_through_center(corner))
                 .collect::<Option<_>>()?,
         )
     }
@@ -240,7 +246,7 @@ impl CellGrid {
         }
     }
 
-    fn add(&mut self, rect: Rect, mark: i64) {
+    fn add(&mut self, rect: PixelRect, mark: i64) {
         let span = |[first, last]: [u32; 2]| {
             [first >> self.shift, ((last - 1) >> self.shift) + 1].map(|k| k as usize)
         };
@@ -295,14 +301,14 @@ mod tests {
             differences: vec![(0, 0); 20],
         };
         grid.add(
-            Rect {
+            PixelRect {
                 x: [0, 4],
                 y: [0, 2],
             },
             1,
         );
         grid.add(
-            Rect {
+            PixelRect {
                 x: [3, 8],
                 y: [1, 6],
             },

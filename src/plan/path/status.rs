@@ -1,56 +1,58 @@
 //! The verdict on each effect of traced paths, derived from the final draft.
 
-use super::draft::{Applied, Draft, is_asked_by};
+use super::builder::{Applied, PlanBuilder, material_requires};
 use crate::effect::{Effect, EffectStatus, State};
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_valid::Standard;
 
 /// The most places named for one verdict.
-const FEW: usize = 3;
+const MAX_FACTS: usize = 3;
 
 /// A verdict on each effect that paths may have.
-pub(super) fn verdicts(
-    asked: &Draft<'_>,
-    left: &Draft<'_>,
+pub(super) fn statuses(
+    requested: &PlanBuilder<'_>,
+    left: &PlanBuilder<'_>,
     applied: &[Applied],
 ) -> Vec<EffectStatus> {
     Effect::OF_PATHS
         .into_iter()
-        .map(|effect| verdict(effect, asked, left, applied))
+        .map(|effect| status(effect, requested, left, applied))
         .collect()
 }
 
-fn verdict(
+fn status(
     effect: Effect,
-    asked: &Draft<'_>,
-    left: &Draft<'_>,
+    requested: &PlanBuilder<'_>,
+    left: &PlanBuilder<'_>,
     applied: &[Applied],
 ) -> EffectStatus {
-    let spared = || {
+    let removed_effects = || {
         applied
             .iter()
-            .find(|applied| applied.spared.contains(&effect))
+            .find(|applied| applied.removed_effects.contains(&effect))
     };
-    let (state, rule, because, mut facts) = if left.asks(effect) {
-        let (because, places) = left.need(effect);
-        (State::Needed, None, because, places)
-    } else if let Some(Applied { rule, places, .. }) = spared().filter(|_| asked.asks(effect)) {
+    let (state, rule, reason, mut facts) = if left.requires(effect) {
+        let (reason, places) = left.need(effect);
+        (State::Needed, None, reason, places)
+    } else if let Some(Applied { rule, places, .. }) =
+        removed_effects().filter(|_| requested.requires(effect))
+    {
         (
             State::Pruned,
             Some(rule.rule),
-            rule.because.to_owned(),
+            rule.reason.to_owned(),
             places.clone(),
         )
     } else {
         (State::Absent, None, absence(effect).to_owned(), Vec::new())
     };
-    facts.truncate(FEW);
+    facts.truncate(MAX_FACTS);
     EffectStatus {
         effect,
         of: None,
         state,
         rule,
-        because,
+        reason,
         facts,
     }
 }
@@ -89,7 +91,7 @@ fn absence(effect: Effect) -> &'static str {
     }
 }
 
-impl Draft<'_> {
+impl PlanBuilder<'_> {
     /// Why the picture needs an effect, and the values that make it necessary.
     fn need(&self, effect: Effect) -> (String, Vec<ValuePath>) {
         let materials: Vec<_> = self.materials_with(effect).map(material).collect();
@@ -103,29 +105,33 @@ impl Draft<'_> {
     /// As [`Self::need`], of an effect that no material asks for by itself.
     fn need_of_scene(&self, effect: Effect) -> (String, Vec<ValuePath>) {
         let at = |entity, field| vec![ValuePath::new(entity, 0, field)];
-        let says = |because: &str, entity| (because.to_owned(), at(entity, Field::Whole));
+        let says = |reason: &str, entity| (reason.to_owned(), at(entity, Field::Whole));
         match effect {
             Effect::Surfaces => {
-                let left = self.surfaces.iter().filter(|is_left| **is_left).count();
-                let because = format!("{left} of {} may be met by a ray", self.surfaces.len());
-                (because, at(EntityKind::Surface, Field::Whole))
+                let left = self
+                    .surfaces
+                    .iter()
+                    .filter(|is_in_world| **is_in_world)
+                    .count();
+                let reason = format!("{left} of {} may be met by a ray", self.surfaces.len());
+                (reason, at(EntityKind::Surface, Field::Whole))
             }
             Effect::Supersampling => {
-                let because = counted(self.path.samples.get() as usize, "path") + " a pixel";
-                (because, at(EntityKind::Settings, Field::Mode))
+                let reason = counted(self.path.samples.get() as usize, "path") + " a pixel";
+                (reason, at(EntityKind::Settings, Field::Mode))
             }
             Effect::Lens => {
-                let because = format!("a lens of radius {}", self.scene.camera().lens.radius.get());
-                (because, at(EntityKind::Camera, Field::LensRadius))
+                let reason = format!("a lens of radius {}", self.scene.camera().lens.radius.get());
+                (reason, at(EntityKind::Camera, Field::LensRadius))
             }
             Effect::Depth => {
                 let bounces = self.max_depth - u32::from(!self.last_ray);
-                let because = format!("at most {}", counted(bounces as usize, "bounce"));
-                (because, at(EntityKind::Settings, Field::MaxDepth))
+                let reason = format!("at most {}", counted(bounces as usize, "bounce"));
+                (reason, at(EntityKind::Settings, Field::MaxDepth))
             }
             Effect::Compensation => {
-                let because = "light bounces between the facets of rough surfaces";
-                (because.to_owned(), at(EntityKind::Settings, Field::Mode))
+                let reason = "light bounces between the facets of rough surfaces";
+                (reason.to_owned(), at(EntityKind::Settings, Field::Mode))
             }
             Effect::Environment => says(
                 "paths that leave the scene find light",
@@ -170,14 +176,17 @@ impl Draft<'_> {
     /// The materials with maps.
     fn with_maps(&self) -> Vec<ValuePath> {
         let has_map = |(_, m): &(usize, &Standard)| m.maps().next().is_some();
-        let with_maps = self.used().filter(has_map);
+        let with_maps = self.used_materials().filter(has_map);
         with_maps.map(|(index, _)| material(index)).collect()
     }
 
     /// The materials that ask for an effect by themselves.
     fn materials_with(&self, effect: Effect) -> impl Iterator<Item = usize> {
-        let asks = move |(_, material): &(usize, &Standard)| is_asked_by(material, effect);
-        self.used().filter(asks).map(|(index, _)| index)
+        let requires =
+            move |(_, material): &(usize, &Standard)| material_requires(material, effect);
+        self.used_materials()
+            .filter(requires)
+            .map(|(index, _)| index)
     }
 }
 

@@ -6,7 +6,7 @@ mod mirror;
 mod picture;
 
 use super::effect::{Effect, EffectStatus, State};
-use super::region::Region;
+use super::pixel_classes::PixelClasses;
 use super::rules::Rule;
 use super::{Findings, MaterialSummary};
 use rtc_ir::{EntityKind, Field, ValuePath};
@@ -16,13 +16,13 @@ use rtc_valid::Mode;
 const MAX_DETAILS: usize = 24;
 
 /// The verdicts on all effects, each followed by those on single entities.
-pub(super) fn verdicts(findings: &Findings<'_>, region: &Region) -> Vec<EffectStatus> {
-    let mut all = picture::buffers(findings, region);
-    all.extend(light::verdicts(findings));
-    all.extend(mirror::verdicts(findings));
+pub(super) fn statuses(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> Vec<EffectStatus> {
+    let mut all = picture::buffers(findings, pixel_classes);
+    all.extend(light::statuses(findings));
+    all.extend(mirror::statuses(findings));
     all.extend(picture::maps(findings));
     all.push(picture::lens(findings));
-    all.push(picture::supersampling(findings, region));
+    all.push(picture::supersampling(findings, pixel_classes));
     all
 }
 
@@ -39,24 +39,24 @@ fn light(index: usize, field: Field) -> ValuePath {
 }
 
 impl EffectStatus {
-    fn needed(effect: Effect, because: impl Into<String>, facts: Vec<ValuePath>) -> Self {
+    fn needed(effect: Effect, reason: impl Into<String>, facts: Vec<ValuePath>) -> Self {
         Self {
             effect,
             of: None,
             state: State::Needed,
             rule: None,
-            because: because.into(),
+            reason: reason.into(),
             facts,
         }
     }
 
-    fn absent(effect: Effect, because: impl Into<String>, facts: Vec<ValuePath>) -> Self {
+    fn absent(effect: Effect, reason: impl Into<String>, facts: Vec<ValuePath>) -> Self {
         Self {
             effect,
             of: None,
             state: State::Absent,
             rule: None,
-            because: because.into(),
+            reason: reason.into(),
             facts,
         }
     }
@@ -64,7 +64,7 @@ impl EffectStatus {
     fn pruned(
         effect: Effect,
         rule: Rule,
-        because: impl Into<String>,
+        reason: impl Into<String>,
         facts: Vec<ValuePath>,
     ) -> Self {
         Self {
@@ -72,7 +72,7 @@ impl EffectStatus {
             of: None,
             state: State::Pruned,
             rule: Some(rule),
-            because: because.into(),
+            reason: reason.into(),
             facts,
         }
     }
@@ -114,7 +114,7 @@ impl Findings<'_> {
 
     /// The first surface that is seen and has nonzero terms.
     fn first(&self, shows: impl Fn(&MaterialSummary) -> bool) -> Option<usize> {
-        self.reached()
+        self.visible()
             .find(|surface| shows(&self.facts.summaries[*surface]))
     }
 
@@ -122,7 +122,7 @@ impl Findings<'_> {
     fn first_unseen(&self, shows: impl Fn(&MaterialSummary) -> bool) -> Option<usize> {
         let mut surfaces = 0..self.facts.summaries.len();
         surfaces.find(|surface| {
-            !self.visibility.reached[*surface] && shows(&self.facts.summaries[*surface])
+            !self.visibility.visible[*surface] && shows(&self.facts.summaries[*surface])
         })
     }
 
@@ -132,7 +132,7 @@ impl Findings<'_> {
         shows: impl Fn(&MaterialSummary) -> bool,
     ) -> impl Iterator<Item = usize> {
         let mut without = vec![None; self.facts.materials.len()];
-        for surface in self.reached() {
+        for surface in self.visible() {
             let first =
                 without[self.facts.scene.surfaces()[surface].material].get_or_insert(Some(surface));
             *first = first.filter(|_| !shows(&self.facts.summaries[surface]));
@@ -141,33 +141,33 @@ impl Findings<'_> {
     }
 
     /// The verdict on an effect of shading in a mode without it, or with another form of it.
-    fn by_mode(&self, effect: Effect, asked: bool) -> Option<EffectStatus> {
-        let words = match self.mode() {
+    fn by_mode(&self, effect: Effect, requested: bool) -> Option<EffectStatus> {
+        let reason = match self.mode() {
             Mode::Phong | Mode::Path(_) => return None,
             Mode::Gooch(_) => "Gooch's shading has none",
             Mode::Normal => "a normal buffer shows the first hit alone",
             Mode::Zbuffer => "a depth buffer shows the first hit alone",
         };
         let facts = vec![settings(Field::Mode)];
-        Some(if asked {
-            EffectStatus::pruned(effect, Rule::Mode, words, facts)
+        Some(if requested {
+            EffectStatus::pruned(effect, Rule::Mode, reason, facts)
         } else {
-            EffectStatus::absent(effect, words, facts).by(Rule::Mode)
+            EffectStatus::absent(effect, reason, facts).by(Rule::Mode)
         })
     }
 }
 
 /// The first few of many places.
-fn few(places: impl Iterator<Item = ValuePath>) -> Vec<ValuePath> {
-    const FEW: usize = 3;
-    let mut few = Vec::with_capacity(FEW);
+fn first_n(places: impl Iterator<Item = ValuePath>) -> Vec<ValuePath> {
+    const MAX_FACTS: usize = 3;
+    let mut first_n = Vec::with_capacity(MAX_FACTS);
     for place in places {
-        if !few.contains(&place) {
-            few.push(place);
+        if !first_n.contains(&place) {
+            first_n.push(place);
         }
-        if few.len() == FEW {
+        if first_n.len() == MAX_FACTS {
             break;
         }
     }
-    few
+    first_n
 }

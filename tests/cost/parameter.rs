@@ -5,7 +5,8 @@ use super::*;
 
 #[test]
 fn knobs_that_change_nothing_say_why() {
-    let reason = |changes: &[(&str, &str)], knob| study::idle(knob, &scene(changes));
+    let reason =
+        |changes: &[(&str, &str)], parameter| study::not_applicable(parameter, &scene(changes));
     assert_eq!(
         reason(&[], Parameter::Aperture).unwrap(),
         "the lens has no radius"
@@ -40,7 +41,7 @@ fn idle_knobs_change_no_bit() {
     let mut one_ball = scene(&[]);
     one_ball.surfaces.truncate(1);
     assert!(
-        study::idle(Parameter::Depth, &one_ball)
+        study::not_applicable(Parameter::Depth, &one_ball)
             .is_some_and(|reason| reason.contains("E-REFL-CONVEX"))
     );
     let changed = [
@@ -55,12 +56,12 @@ fn idle_knobs_change_no_bit() {
             film(&scene)
         };
         let plain = film(&scene);
-        for knob in Parameter::ALL
+        for parameter in Parameter::ALL
             .into_iter()
-            .filter(|knob| study::idle(*knob, &scene).is_some())
+            .filter(|parameter| study::not_applicable(*parameter, &scene).is_some())
         {
-            let other = Setting::of(&scene).with(knob, 7);
-            assert!(picture(&scene, other) == plain, "{knob:?}");
+            let other = Setting::of(&scene).with(parameter, 7);
+            assert!(picture(&scene, other) == plain, "{parameter:?}");
         }
         assert!(
             picture_with(Overrides {
@@ -173,7 +174,7 @@ fn precision_is_told_without_noise() {
     let plain = study.precision[1].difference;
     println!("plain differs by {plain:?}");
     assert!(
-        study.own().unwrap().errors.rmse > 1.0 && plain.rmse < 0.05,
+        study.scene_row().unwrap().errors.rmse > 1.0 && plain.rmse < 0.05,
         "{}",
         study::table(&study)
     );
@@ -200,7 +201,7 @@ fn precision_is_turned_where_that_adds_no_error() {
             study
                 .precision
                 .iter()
-                .all(|cost| cost.borne == is_borne(cost.arithmetic)),
+                .all(|cost| cost.is_tolerated == is_borne(cost.arithmetic)),
             "{table}"
         );
         let by = |arithmetic| {

@@ -1,8 +1,8 @@
 //! Words for those who read a report: what each column means, and what a time buys.
 
 use super::super::advice::{digits, interval, seconds};
-use super::super::knob::Parameter;
 use super::super::outcome::{Row, Study};
+use super::super::parameter::Parameter;
 
 /// What the columns of the table mean, by their names in the terminal and on the page; knobs explain themselves
 /// by their long names.
@@ -64,27 +64,27 @@ pub(super) const MEANINGS: [(&str, &str, &str); 13] = [
 
 /// The row with the least error of those on the front that are done within each time, for times of 1, 2, 5, 10 …:
 /// only those times at which another row is bought.
-pub(super) fn buys(study: &Study) -> Vec<(f64, &Row)> {
+pub(super) fn best_by_time(study: &Study) -> Vec<(f64, &Row)> {
     let front: Vec<_> = study.rows.iter().filter(|row| row.front).collect();
     let times = (-4..6).flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * power_of_ten(decade)));
-    let mut bought: Vec<(f64, &Row)> = Vec::new();
+    let mut best_within: Vec<(f64, &Row)> = Vec::new();
     for time in times {
         let Some(row) = front.iter().rfind(|row| row.seconds.value <= time) else {
             continue;
         };
-        if bought
+        if best_within
             .last()
             .is_none_or(|(_, last)| last.setting != row.setting)
         {
-            bought.push((time, row));
+            best_within.push((time, row));
         }
     }
-    bought
+    best_within
 }
 
 /// As "0.17 s ± 3.1 %, error 1.07 grey levels, 1.09 ± 0.02 over 12 renders (2×2, depth 2)".
 pub(super) fn measured(row: &Row, used: &[Parameter]) -> String {
-    let limit = if row.judged { "" } else { "≤ " };
+    let limit = if row.is_resolved { "" } else { "≤ " };
     let (time, off) = (seconds(row.seconds.value), 100.0 * row.seconds.relative());
     let (error, interval) = (digits(row.errors.rmse), interval(&row.errors));
     let spread = &row.spread;
@@ -106,8 +106,8 @@ fn power_of_ten(decade: i32) -> f64 {
 }
 
 /// As "in 1.00 s: error 0.4 grey levels (4×4, depth 2)".
-pub(super) fn bought(study: &Study, (time, row): &(f64, &Row)) -> String {
-    let limit = if row.judged { "" } else { "≤ " };
+pub(super) fn best_within(study: &Study, (time, row): &(f64, &Row)) -> String {
+    let limit = if row.is_resolved { "" } else { "≤ " };
     let (time, error) = (seconds(*time), digits(row.errors.rmse));
     let (interval, setting) = (interval(&row.errors), row.setting.words(&study.used()));
     format!("in {time}: error {limit}{error}{interval} grey levels ({setting})")

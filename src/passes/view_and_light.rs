@@ -2,7 +2,7 @@
 //! surroundings of a scene before it is proven. Nothing else of the scene changes.
 
 use super::framing::{Framing, Orbit};
-use super::{framing, ground, lit, studio};
+use super::{emission, framing, ground, studio};
 use rtc_ir::{
     BoundingSphere, Camera, Emitter, EntityKind, Environment, Image, Light, Lowered, Mode,
     PathSettings, PointLight, Projection, Punctual, Scene,
@@ -113,9 +113,9 @@ pub struct Sun {
 
 /// What became of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StagedScene {
+pub struct AppliedViewAndLight {
     /// It had no light, and was put into the studio.
-    pub is_dark: bool,
+    pub lacks_light: bool,
     /// Whether the studio is still to fill in.
     pub fill: FillLight,
     /// How its view was found, if it was.
@@ -123,14 +123,18 @@ pub struct StagedScene {
 }
 
 /// Distance of a sun, in scene radii, for integrators that need a position.
-const FAR: f64 = 1e4;
+const SUN_DISTANCE: f64 = 1e4;
 
 impl ViewAndLight {
     /// Puts view and light into a scene.
     ///
     /// # Errors
     /// If the view has no direction, or no upward one.
-    pub fn apply(&self, lowered: &mut Lowered, kind: SceneKind) -> Result<StagedScene, BasisFault> {
+    pub fn apply(
+        &self,
+        lowered: &mut Lowered,
+        kind: SceneKind,
+    ) -> Result<AppliedViewAndLight, BasisFault> {
         let Lowered {
             scene,
             source_spans,
@@ -157,27 +161,28 @@ impl ViewAndLight {
         }
         let adds_light = !self.suns.is_empty() || self.environment.is_some();
         match self.integrator {
-            Some(IntegratorChoice::Path) => trace_paths(scene),
-            Some(IntegratorChoice::Whitted) => leave_paths(scene),
+            Some(IntegratorChoice::Path) => use_path_integrator(scene),
+            Some(IntegratorChoice::Whitted) => use_whitted_integrator(scene),
             // As of a scene text: what has a sun or a sky is shown by its paths.
-            None if adds_light && scene.settings.mode == Mode::Phong => trace_paths(scene),
+            None if adds_light && scene.settings.mode == Mode::Phong => use_path_integrator(scene),
             None => {}
         }
         if !matches!(scene.settings.mode, Mode::Path(_)) {
-            stand_lights(scene);
+            replace_physical_lights(scene);
         }
-        let (is_dark, fill) = self.enter_studio(scene, kind);
-        let stands = (is_dark || self.studio == StudioChoice::On) && is_bare && !scene.is_unlit();
-        if self.ground.unwrap_or(stands)
-            && let Some(around) = framing::standing(scene)
+        let (lacks_light, fill) = self.apply_studio(scene, kind);
+        let gets_ground =
+            (lacks_light || self.studio == StudioChoice::On) && is_bare && !scene.is_unlit();
+        if self.ground.unwrap_or(gets_ground)
+            && let Some(bounds) = framing::standing_bounds(scene)
         {
-            let ground = ground::lay(scene, around);
+            let ground = ground::add_ground(scene, bounds);
             if let Some(framing) = &mut framing {
                 framing.ground = ground;
             }
         }
-        Ok(StagedScene {
-            is_dark,
+        Ok(AppliedViewAndLight {
+            lacks_light,
             fill,
             framing,
         })
@@ -185,13 +190,13 @@ impl ViewAndLight {
 
     /// Puts a scene whose paths are traced into the studio, if it is to stand there; whether it was
     /// dark, and whether the studio is still to fill in.
-    fn enter_studio(&self, scene: &mut Scene, kind: SceneKind) -> (bool, FillLight) {
+    fn apply_studio(&self, scene: &mut Scene, kind: SceneKind) -> (bool, FillLight) {
         if !matches!(scene.settings.mode, Mode::Path(_)) {
             return (false, FillLight::Never);
         }
-        let is_dark = self.studio == StudioChoice::Auto && !lit::is_lit(scene, kind);
-        if is_dark || self.studio == StudioChoice::On {
-            studio::enter(scene, 1.0);
+        let lacks_light = self.studio == StudioChoice::Auto && !emission::has_light(scene, kind);
+        if lacks_light || self.studio == StudioChoice::On {
+            studio::install(scene, 1.0);
         }
         let fill = match self.studio {
             _ if scene.environment.is_some() => FillLight::Never,
@@ -199,21 +204,21 @@ impl ViewAndLight {
             StudioChoice::Fill => FillLight::Always,
             StudioChoice::On | StudioChoice::Off => FillLight::Never,
         };
-        (is_dark, fill)
+        (lacks_light, fill)
     }
 }
 
 impl View {
     /// How a view is found: of a scene without a camera, or from where one is asked for.
     fn framing(&self, camera: &Camera, has_camera: bool) -> Option<Framing> {
-        let is_placed = self.eye.is_some() || self.center.is_some() || self.up.is_some();
-        if is_placed || (has_camera && self.orbit.is_none()) {
+        let has_position = self.eye.is_some() || self.center.is_some() || self.up.is_some();
+        if has_position || (has_camera && self.orbit.is_none()) {
             return None;
         }
-        let own = has_camera.then(|| camera.yfov()).flatten();
+        let scene_yfov = has_camera.then(|| camera.yfov()).flatten();
         Some(Framing {
             orbit: self.orbit.unwrap_or_default(),
-            yfov: self.yfov.or(own),
+            yfov: self.yfov.or(scene_yfov),
             size: Some(camera.size),
             ground: None,
         })
@@ -221,7 +226,7 @@ impl View {
 
     fn apply(&self, scene: &mut Scene) -> Result<(), BasisFault> {
         if self.eye.is_some() || self.center.is_some() || self.up.is_some() {
-            self.aim(scene)?;
+            self.look_at(scene)?;
         }
         if let Some(yfov) = self.yfov {
             scene.camera.open(yfov);
@@ -229,7 +234,7 @@ impl View {
         Ok(())
     }
 
-    fn aim(&self, scene: &mut Scene) -> Result<(), BasisFault> {
+    fn look_at(&self, scene: &mut Scene) -> Result<(), BasisFault> {
         let middle = self
             .eye
             .and_then(|_| scene.ball())
@@ -294,7 +299,7 @@ impl EnvironmentOverride {
 }
 
 /// Has all paths traced, if they are not.
-fn trace_paths(scene: &mut Scene) {
+fn use_path_integrator(scene: &mut Scene) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
         scene.settings.mode = Mode::Path(PathSettings::default());
         scene.settings.max_depth = PathSettings::DEPTH;
@@ -304,24 +309,24 @@ fn trace_paths(scene: &mut Scene) {
 
 /// Has Whitted's integrator draw what was made for paths; with a light from the left and above if
 /// there is none.
-fn leave_paths(scene: &mut Scene) {
+fn use_whitted_integrator(scene: &mut Scene) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
         return;
     }
     scene.settings.mode = Mode::Phong;
     if scene.lights.is_empty() {
-        let key = Sun {
-            direction: studio::key().to_array(),
+        let key_light_direction = Sun {
+            direction: studio::key_light_direction().to_array(),
             irradiance: [PI; 3],
         };
-        scene.lights.push(key.light());
+        scene.lights.push(key_light_direction.light());
     }
 }
 
 /// Adds a light. As of a scene text: what has a physical light is shown by its paths.
 pub fn add_light(scene: &mut Scene, light: Light) {
     if light.point().is_none() && scene.settings.mode == Mode::Phong {
-        trace_paths(scene);
+        use_path_integrator(scene);
     }
     scene.lights.push(light);
 }
@@ -333,7 +338,7 @@ pub fn remove_lights(lowered: &mut Lowered) {
 }
 
 /// Puts lights of the course in place of physical ones, which Whitted's integrator does not see.
-fn stand_lights(scene: &mut Scene) {
+fn replace_physical_lights(scene: &mut Scene) {
     if scene.lights.iter().all(|light| light.point().is_some()) {
         return;
     }
@@ -356,7 +361,7 @@ fn as_point(light: &Punctual, ball: BoundingSphere) -> PointLight {
     } else {
         let direction = light.emitter.direction().map(Vec3::from_array);
         let direction = direction.and_then(unit).unwrap_or(Vec3::Y);
-        let position = ball.center + direction * (FAR * ball.radius);
+        let position = ball.center + direction * (SUN_DISTANCE * ball.radius);
         (position.to_array(), 1.0)
     };
     // A white surface that faces the light shows its colour here, its irradiance over π there.

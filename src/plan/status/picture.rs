@@ -1,19 +1,19 @@
 //! Verdicts on buffers and surfaces, on maps and normals, on lens and samples.
 
-use super::{camera, few, settings};
+use super::{camera, first_n, settings};
 use crate::effect::{Effect, EffectStatus};
-use crate::region::Region;
+use crate::pixel_classes::PixelClasses;
 use crate::rules::Rule;
 use crate::{Findings, MaterialSummary};
 use rtc_ir::Field;
 use rtc_valid::{Mode, Pattern};
 
 /// Depth and normal buffers, and the surfaces in the world.
-pub(super) fn buffers(findings: &Findings<'_>, region: &Region) -> Vec<EffectStatus> {
-    let buffer = |effect, is_shown: bool, words: &str| {
+pub(super) fn buffers(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> Vec<EffectStatus> {
+    let buffer = |effect, is_shown: bool, reason: &str| {
         let facts = vec![settings(Field::Mode)];
         if is_shown {
-            EffectStatus::needed(effect, words, facts)
+            EffectStatus::needed(effect, reason, facts)
         } else {
             EffectStatus::absent(effect, "another mode", facts)
         }
@@ -24,21 +24,23 @@ pub(super) fn buffers(findings: &Findings<'_>, region: &Region) -> Vec<EffectSta
     vec![
         buffer(Effect::DepthBuffer, matches!(mode, Mode::Zbuffer), depth),
         buffer(Effect::NormalBuffer, matches!(mode, Mode::Normal), normal),
-        surfaces(findings, region),
+        surfaces(findings, pixel_classes),
     ]
 }
 
-fn surfaces(findings: &Findings<'_>, region: &Region) -> EffectStatus {
-    let count = findings.facts.bodies.len();
-    let is_left_out =
-        |surface: usize| !findings.visibility.reached[surface] && !findings.lights.casts[surface];
+fn surfaces(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> EffectStatus {
+    let count = findings.facts.surface_bounds.len();
+    let is_left_out = |surface: usize| {
+        !findings.visibility.visible[surface] && !findings.lights.occludes[surface]
+    };
     let out = (0..count)
         .filter(|surface| is_left_out(*surface))
         .collect::<Vec<_>>();
-    let places = few(out
-        .iter()
-        .map(|surface| findings.surface(*surface, Field::Whole)));
-    let empty = region.empty_fraction();
+    let places = first_n(
+        out.iter()
+            .map(|surface| findings.surface(*surface, Field::Whole)),
+    );
+    let empty = pixel_classes.empty_fraction();
     if count == 0 {
         return EffectStatus::absent(Effect::Surfaces, "the scene has none", vec![]);
     }
@@ -50,12 +52,14 @@ fn surfaces(findings: &Findings<'_>, region: &Region) -> EffectStatus {
             places,
         );
     }
-    let seen = few(findings
-        .reached()
-        .map(|surface| findings.surface(surface, Field::Whole)));
-    let mut words = format!("{} of {count} may be met by a ray", count - out.len());
+    let seen = first_n(
+        findings
+            .visible()
+            .map(|surface| findings.surface(surface, Field::Whole)),
+    );
+    let mut reason = format!("{} of {count} may be met by a ray", count - out.len());
     if empty > 0.0 {
-        words += &format!(
+        reason += &format!(
             "; {:.0} % of the pixels show none (E-SS-MISS)",
             100.0 * empty
         );
@@ -63,13 +67,13 @@ fn surfaces(findings: &Findings<'_>, region: &Region) -> EffectStatus {
     if !findings.facts.rules.contains(Rule::Cull) {
         return EffectStatus::needed(Effect::Surfaces, "all are kept", seen);
     }
-    let verdict = EffectStatus::needed(Effect::Surfaces, words, seen);
+    let status = EffectStatus::needed(Effect::Surfaces, reason, seen);
     if out.is_empty() {
-        verdict
+        status
     } else {
         EffectStatus {
             facts: places,
-            ..verdict
+            ..status
         }
         .by(Rule::Cull)
     }
@@ -110,11 +114,11 @@ fn textures(findings: &Findings<'_>) -> EffectStatus {
     if !materials.iter().any(|material| has_map(&material)) {
         return EffectStatus::absent(effect, "no material has a texture", vec![]);
     }
-    if let Some(verdict) = findings
+    if let Some(status) = findings
         .by_mode(effect, true)
         .filter(|_| !findings.is_shaded())
     {
-        return verdict;
+        return status;
     }
     let is_constant =
         |map: Option<usize>| map.is_some_and(|map| findings.facts.constants[map].is_some());
@@ -132,11 +136,13 @@ fn textures(findings: &Findings<'_>) -> EffectStatus {
     }
     let unseen = findings
         .first_unseen(|summary| summary.color_map.is_some() || summary.specular_map.is_some());
-    let facts = few(unseen
-        .iter()
-        .map(|surface| findings.surface(*surface, Field::Whole)));
-    let words = "textures are on surfaces without uv, out of sight, or of weight 0";
-    EffectStatus::pruned(effect, Rule::TextureUnseen, words, facts)
+    let facts = first_n(
+        unseen
+            .iter()
+            .map(|surface| findings.surface(*surface, Field::Whole)),
+    );
+    let reason = "textures are on surfaces without uv, out of sight, or of weight 0";
+    EffectStatus::pruned(effect, Rule::TextureUnseen, reason, facts)
 }
 
 fn interpolation(findings: &Findings<'_>) -> EffectStatus {
@@ -144,14 +150,14 @@ fn interpolation(findings: &Findings<'_>) -> EffectStatus {
     let is_even = |surface: usize| findings.facts.is_even(surface);
     let shows = |surface: &usize| {
         let summary = &findings.facts.summaries[*surface];
-        summary.smooth && findings.shows_normal(summary)
+        summary.has_vertex_normals && findings.shows_normal(summary)
     };
-    let mut smooth = findings.reached().filter(shows);
-    if let Some(surface) = smooth.find(|surface| !is_even(*surface)) {
+    let mut has_vertex_normals = findings.visible().filter(shows);
+    if let Some(surface) = has_vertex_normals.find(|surface| !is_even(*surface)) {
         let facts = vec![findings.surface(surface, Field::Whole)];
         return EffectStatus::needed(effect, "a mesh has normals at its corners", facts);
     }
-    let has_normals = |surface: &usize| findings.facts.summaries[*surface].smooth;
+    let has_normals = |surface: &usize| findings.facts.summaries[*surface].has_vertex_normals;
     let Some(surface) = (0..findings.facts.summaries.len()).find(has_normals) else {
         return EffectStatus::absent(effect, "no mesh has normals", vec![]);
     };
@@ -164,18 +170,18 @@ fn interpolation(findings: &Findings<'_>) -> EffectStatus {
             vec![settings(Field::Mode)],
         );
     }
-    let words = if findings.reached().any(|surface| shows(&surface)) {
+    let reason = if findings.visible().any(|surface| shows(&surface)) {
         "all corners of each triangle have the same normal"
     } else {
         "meshes with normals are out of sight, or neither lit nor mirrors"
     };
-    EffectStatus::pruned(effect, Rule::NormalFlat, words, facts)
+    EffectStatus::pruned(effect, Rule::NormalFlat, reason, facts)
 }
 
 fn mapping(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::NormalMapping;
     if let Some(surface) =
-        findings.first(|summary| summary.mapped && findings.shows_normal(summary))
+        findings.first(|summary| summary.has_normal_map && findings.shows_normal(summary))
     {
         let facts = vec![
             findings.material(surface, Field::NormalMap),
@@ -204,8 +210,8 @@ fn mapping(findings: &Findings<'_>) -> EffectStatus {
             vec![settings(Field::Mode)],
         );
     }
-    let words = "such maps are on surfaces without uv, out of sight, or neither lit nor mirrors";
-    EffectStatus::pruned(effect, Rule::TextureUnseen, words, vec![])
+    let reason = "such maps are on surfaces without uv, out of sight, or neither lit nor mirrors";
+    EffectStatus::pruned(effect, Rule::TextureUnseen, reason, vec![])
 }
 
 /// Depth of field.
@@ -247,7 +253,7 @@ pub(super) fn lens(findings: &Findings<'_>) -> EffectStatus {
             facts,
         );
     }
-    if findings.reached().next().is_none() {
+    if findings.visible().next().is_none() {
         return EffectStatus::pruned(effect, Rule::PixelMiss, "nothing is in view", facts);
     }
     EffectStatus::needed(
@@ -258,18 +264,18 @@ pub(super) fn lens(findings: &Findings<'_>) -> EffectStatus {
 }
 
 /// Samples per pixel.
-pub(super) fn supersampling(findings: &Findings<'_>, region: &Region) -> EffectStatus {
+pub(super) fn supersampling(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> EffectStatus {
     let effect = Effect::Supersampling;
     let settings_of_scene = findings.facts.scene.settings();
     let factor = settings_of_scene.supersampling.get();
     let facts = vec![settings(Field::Supersampling)];
     if factor == 1 {
-        let words = if settings_of_scene.pattern == Pattern::Grid {
+        let reason = if settings_of_scene.pattern == Pattern::Grid {
             "a factor of 1"
         } else {
             "a factor of 1, at random"
         };
-        return EffectStatus::absent(effect, words, facts).by(Rule::OneSample);
+        return EffectStatus::absent(effect, reason, facts).by(Rule::OneSample);
     }
     if matches!(findings.mode(), Mode::Zbuffer) {
         let facts = vec![settings(Field::Mode), settings(Field::Supersampling)];
@@ -280,15 +286,15 @@ pub(super) fn supersampling(findings: &Findings<'_>, region: &Region) -> EffectS
             facts,
         );
     }
-    if findings.reached().next().is_none() && findings.facts.rules.contains(Rule::PixelMiss) {
+    if findings.visible().next().is_none() && findings.facts.rules.contains(Rule::PixelMiss) {
         return EffectStatus::pruned(effect, Rule::PixelMiss, "nothing is in view", facts);
     }
-    let mut words = format!(
+    let mut reason = format!(
         "a factor of {factor}: {} rays a pixel",
         u64::from(factor) * u64::from(factor)
     );
-    if region.has_flat_pixels() {
-        words += ", but one where one flat surface fills it (E-SS-FLAT)";
+    if pixel_classes.has_flat_pixels() {
+        reason += ", but one where one flat surface fills it (E-SS-FLAT)";
     }
-    EffectStatus::needed(effect, words, facts)
+    EffectStatus::needed(effect, reason, facts)
 }

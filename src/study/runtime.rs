@@ -60,30 +60,30 @@ impl Clock<'_> {
 }
 
 /// Threads, a clock, and an observer who may say stop.
-pub struct Bench<'a> {
+pub struct StudyRuntime<'a> {
     clock: Clock<'a>,
     on_pixel: &'a OnPixel<'a>,
     /// All threads, for work that is not timed.
-    wide: ThreadPool,
+    all_threads: ThreadPool,
     /// One thread, for timed work: its processor time does not depend on other load.
-    narrow: ThreadPool,
+    one_thread: ThreadPool,
     /// The vector instructions that scenes are rendered with.
     simd: SimdLevel,
     /// What was rendered, if that is kept.
-    memory: Option<Mutex<Memory>>,
+    journal_state: Option<Mutex<JournalState>>,
     /// Who saves it.
     save: &'a (dyn Fn(&Journal) + Sync),
 }
 
 /// What was rendered, and how it is kept.
-struct Memory {
+struct JournalState {
     journal: Journal,
     every: Duration,
     /// When it was kept last.
     saved: Duration,
 }
 
-impl<'a> Bench<'a> {
+impl<'a> StudyRuntime<'a> {
     /// A bench with `threads` threads, 0 for one per core. `on_pixel` is asked from all of them
     /// after each pixel and within long ones.
     ///
@@ -98,10 +98,10 @@ impl<'a> Bench<'a> {
         Ok(Self {
             clock,
             on_pixel,
-            wide: pool(threads)?,
-            narrow: pool(1)?,
+            all_threads: pool(threads)?,
+            one_thread: pool(1)?,
             simd: SimdLevel::best(),
-            memory: None,
+            journal_state: None,
             save: &|_| (),
         })
     }
@@ -109,20 +109,20 @@ impl<'a> Bench<'a> {
     /// The same bench, where scenes are rendered with the vector instructions of a level: what is
     /// found is the same, but for the time it takes.
     #[must_use]
-    pub fn at_level(self, simd: SimdLevel) -> Self {
+    pub fn with_simd(self, simd: SimdLevel) -> Self {
         Self { simd, ..self }
     }
 
     /// The same bench, which renders nothing that is in the journal, and hands it to `save` with all renders that
     /// are done after so much time.
     #[must_use]
-    pub fn keeping(
+    pub fn with_journal(
         mut self,
         journal: Journal,
         every: Duration,
         save: &'a (dyn Fn(&Journal) + Sync),
     ) -> Self {
-        self.memory = Some(Mutex::new(Memory {
+        self.journal_state = Some(Mutex::new(JournalState {
             journal,
             every,
             saved: (self.clock.wall)(),
@@ -133,31 +133,31 @@ impl<'a> Bench<'a> {
 
     /// Hands the journal to whoever saves it.
     pub fn save(&self) {
-        if let Some(memory) = self.memory() {
-            (self.save)(&memory.journal);
+        if let Some(journal_state) = self.journal_state() {
+            (self.save)(&journal_state.journal);
         }
     }
 
-    fn memory(&self) -> Option<MutexGuard<'_, Memory>> {
-        let memory = self.memory.as_ref()?;
-        Some(memory.lock().unwrap_or_else(PoisonError::into_inner))
+    fn journal_state(&self) -> Option<MutexGuard<'_, JournalState>> {
+        let journal_state = self.journal_state.as_ref()?;
+        Some(journal_state.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// The next render, if it was done before.
-    pub(super) fn recall(&self, key: u64) -> Option<Entry> {
-        self.memory()?.journal.recall(key)
+    pub(super) fn replay(&self, key: u64) -> Option<Entry> {
+        self.journal_state()?.journal.replay(key)
     }
 
     /// Takes down a render, if that is to be kept.
-    pub(super) fn note(&self, entry: impl FnOnce() -> Entry) {
-        let Some(mut memory) = self.memory() else {
+    pub(super) fn record(&self, entry: impl FnOnce() -> Entry) {
+        let Some(mut journal_state) = self.journal_state() else {
             return;
         };
-        memory.journal.note(entry());
+        journal_state.journal.record(entry());
         let now = (self.clock.wall)();
-        if now.saturating_sub(memory.saved) >= memory.every {
-            (self.save)(&memory.journal);
-            memory.saved = (self.clock.wall)();
+        if now.saturating_sub(journal_state.saved) >= journal_state.every {
+            (self.save)(&journal_state.journal);
+            journal_state.saved = (self.clock.wall)();
         }
     }
 
@@ -193,12 +193,12 @@ impl<'a> Bench<'a> {
     }
 
     /// Does a piece of work on all threads.
-    pub(super) fn work<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
-        self.wide.install(work)
+    pub(super) fn in_parallel<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        self.all_threads.install(work)
     }
 
     /// Does a piece of work on one thread. Returns its duration, too.
     pub(super) fn measure<T: Send>(&self, work: impl FnOnce() -> T + Send) -> (T, Time) {
-        self.narrow.install(|| self.clock.measure(work))
+        self.one_thread.install(|| self.clock.measure(work))
     }
 }

@@ -1,53 +1,53 @@
 //! Projection of boxes through the lens to rectangles of pixels, with a margin.
 
-use crate::body::{Body, Extent};
-use crate::space::{Flat, MARGIN};
+use crate::margin::{MARGIN, OrientedPlane};
+use crate::surface_bounds::{Extent, SurfaceBounds};
 use rtc_math::{Bounds, U, Vec3, cross, dot};
 use rtc_valid::Camera;
 
 /// The largest rounding error of a projected point, in pixels, that is accepted.
-const DOUBT: f64 = 0.25;
+const MAX_ERROR: f64 = 0.25;
 
 /// A rectangle of pixels: columns and rows, each from the first to before the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Rect {
+pub(crate) struct PixelRect {
     pub(crate) x: [u32; 2],
     pub(crate) y: [u32; 2],
 }
 
 /// The rectangle of a surface in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Shown {
+pub(crate) enum ScreenRect {
     /// Outside the picture: no camera ray meets it.
-    Nowhere,
+    Outside,
     /// Only in these pixels.
-    In(Rect),
-    /// Anywhere.
-    Anywhere,
+    Within(PixelRect),
+    /// Unknown.
+    Unknown,
 }
 
 /// The camera as a map from the world to the picture.
-pub(crate) struct Window {
+pub(crate) struct ScreenProjection {
     camera: Camera,
     /// The normal of the image plane, scaled so that the plane is at distance 1 from the eye.
     depth: Vec3,
     /// The length of that direction.
-    steepness: f64,
+    depth_scale: f64,
     /// Points whose convex hull contains the lens.
     lens: Vec<Vec3>,
     /// The box of all points of the lens.
     lens_box: Bounds,
     /// The maximum distance of the lens and the centre of the picture from the origin.
-    far: f64,
+    reach: f64,
     /// The steps between pixels, across and upward.
     steps: [f64; 2],
     /// The pixels, in pixels.
     size: [f64; 2],
     /// Whether rounding makes the map useless everywhere.
-    blurred: bool,
+    is_ill_conditioned: bool,
 }
 
-impl Window {
+impl ScreenProjection {
     pub(crate) fn new(camera: &Camera, pinhole: bool) -> Self {
         let (right, up) = (camera.right.length(), camera.up.length());
         let normal = cross(camera.right / right, camera.up / up);
@@ -69,23 +69,23 @@ impl Window {
         let reach = camera.eye.abs().max(camera.center.abs()).max_element()
             + right * size[0]
             + up * size[1];
-        let blurred =
-            64.0 * U * reach > DOUBT * right.min(up) || U * reach > MARGIN * distance.abs();
+        let is_ill_conditioned =
+            64.0 * U * reach > MAX_ERROR * right.min(up) || U * reach > MARGIN * distance.abs();
         let depth = normal / distance;
-        let far =
+        let reach =
             lens.iter().map(|from| from.length()).fold(0.0, f64::max) + camera.center.length();
         let lens_box = Bounds::of(lens.iter().copied());
-        let (steepness, steps) = (depth.length(), [right, up]);
+        let (depth_scale, steps) = (depth.length(), [right, up]);
         Self {
             camera: camera.clone(),
             depth,
-            steepness,
+            depth_scale,
             lens,
             lens_box,
-            far,
+            reach,
             steps,
             size,
-            blurred,
+            is_ill_conditioned,
         }
     }
 
@@ -95,16 +95,16 @@ impl Window {
     }
 
     /// The rectangle of a surface in the picture.
-    pub(crate) fn shown(&self, body: &Body) -> Shown {
-        match &body.extent {
-            Extent::Within(space) if !self.blurred => self.project(space),
-            Extent::Within(_) | Extent::Plane(_) | Extent::Anywhere => Shown::Anywhere,
+    pub(crate) fn screen_rect(&self, bounds: &SurfaceBounds) -> ScreenRect {
+        match &bounds.extent {
+            Extent::Within(aabb) if !self.is_ill_conditioned => self.project(aabb),
+            Extent::Within(_) | Extent::Plane(_) | Extent::Anywhere => ScreenRect::Unknown,
         }
     }
 
     /// Whether no camera ray meets a plane: from all of the lens, the rays through all of the picture
     /// lead away from it. Both are convex, and the distance from the plane is linear in each.
-    pub(crate) fn is_behind(&self, plane: &Flat) -> bool {
+    pub(crate) fn is_behind(&self, plane: &OrientedPlane) -> bool {
         let Camera {
             center, right, up, ..
         } = &self.camera;
@@ -121,39 +121,39 @@ impl Window {
                 && approach.abs() > MARGIN * reach
         };
         let leads_away = |from: &Vec3| corners.iter().all(|corner| away(from, corner));
-        !self.blurred && self.lens.iter().all(leads_away)
+        !self.is_ill_conditioned && self.lens.iter().all(leads_away)
     }
 
     /// The projection of a point through the centre of the lens, in pixels; `None` if it is uncertain.
-    pub(crate) fn middle(&self, point: Vec3) -> Option<[f64; 2]> {
+    pub(crate) fn project_through_center(&self, point: Vec3) -> Option<[f64; 2]> {
         let size = point.abs().max_element() + self.lens_box.reach();
         let depth = (point - self.camera.eye).dot(self.depth);
-        let error_bound = 64.0 * U * size * self.steepness;
-        let (at, error) = self.place(self.camera.eye, point, depth, error_bound);
-        (!self.blurred && depth > 16.0 * error_bound && error <= DOUBT).then_some(at)
+        let error_bound = 64.0 * U * size * self.depth_scale;
+        let (at, error) = self.project_point(self.camera.eye, point, depth, error_bound);
+        (!self.is_ill_conditioned && depth > 16.0 * error_bound && error <= MAX_ERROR).then_some(at)
     }
 
     /// The rectangle of a box: the hull of the projections of its corners through the corners of the lens.
-    fn project(&self, space: &Bounds) -> Shown {
-        let size = space.reach() + self.lens_box.reach();
-        let space = space.widened(MARGIN * size);
-        let depths = space
+    fn project(&self, aabb: &Bounds) -> ScreenRect {
+        let size = aabb.reach() + self.lens_box.reach();
+        let aabb = aabb.widened(MARGIN * size);
+        let depths = aabb
             .corners()
             .map(|corner| (corner - self.camera.eye).dot(self.depth));
-        let error_bound = 64.0 * U * size * self.steepness;
+        let error_bound = 64.0 * U * size * self.depth_scale;
         if depths.iter().all(|depth| *depth < -error_bound) {
-            return Shown::Nowhere;
+            return ScreenRect::Outside;
         }
         if depths.iter().any(|depth| *depth <= 16.0 * error_bound) {
-            return Shown::Anywhere;
+            return ScreenRect::Unknown;
         }
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];
-        for (corner, depth) in space.corners().into_iter().zip(depths) {
+        for (corner, depth) in aabb.corners().into_iter().zip(depths) {
             for from in &self.lens {
-                let (at, error) = self.place(*from, corner, depth, error_bound);
-                if error.is_nan() || error > DOUBT {
-                    return Shown::Anywhere;
+                let (at, error) = self.project_point(*from, corner, depth, error_bound);
+                if error.is_nan() || error > MAX_ERROR {
+                    return ScreenRect::Unknown;
                 }
                 low = [0, 1].map(|axis| low[axis].min(at[axis]));
                 high = [0, 1].map(|axis| high[axis].max(at[axis]));
@@ -164,7 +164,13 @@ impl Window {
 
     /// The projection of a point through a point of the lens, in pixels from the upper left, and a
     /// bound on its error.
-    fn place(&self, from: Vec3, point: Vec3, depth: f64, error_bound: f64) -> ([f64; 2], f64) {
+    fn project_point(
+        &self,
+        from: Vec3,
+        point: Vec3,
+        depth: f64,
+        error_bound: f64,
+    ) -> ([f64; 2], f64) {
         /// The steps of a camera are at a right angle to within this.
         const RIGHT_ANGLE: f64 = 1e-9;
         let Camera {
@@ -175,7 +181,7 @@ impl Window {
         let [across_step, upward_step] = self.steps;
         let across = on_plane.dot(*right) / (across_step * across_step);
         let upward = on_plane.dot(*up) / (upward_step * upward_step);
-        let error = (error_bound / depth + 16.0 * U) * away.length() + 16.0 * U * self.far;
+        let error = (error_bound / depth + 16.0 * U) * away.length() + 16.0 * U * self.reach;
         let skew = RIGHT_ANGLE * (across.abs() + upward.abs()) * (across_step + upward_step);
         let at = [across + self.size[0] / 2.0, self.size[1] / 2.0 - upward];
         (at, (error + skew) / across_step.min(upward_step))
@@ -187,25 +193,25 @@ impl Window {
         clippy::cast_sign_loss,
         reason = "clamped to the picture before"
     )]
-    fn rectangle(&self, low: [f64; 2], high: [f64; 2]) -> Shown {
+    fn rectangle(&self, low: [f64; 2], high: [f64; 2]) -> ScreenRect {
         let side = |axis: usize| {
-            let first = (low[axis] - 1.0 - DOUBT)
+            let first = (low[axis] - 1.0 - MAX_ERROR)
                 .floor()
                 .clamp(0.0, self.size[axis]);
-            let last = (high[axis] + 1.0 + DOUBT)
+            let last = (high[axis] + 1.0 + MAX_ERROR)
                 .ceil()
                 .clamp(0.0, self.size[axis]);
             [first as u32, last as u32]
         };
-        let rect = Rect {
+        let rect = PixelRect {
             x: side(0),
             y: side(1),
         };
         let is_empty = rect.x[0] >= rect.x[1] || rect.y[0] >= rect.y[1];
         if is_empty {
-            Shown::Nowhere
+            ScreenRect::Outside
         } else {
-            Shown::In(rect)
+            ScreenRect::Within(rect)
         }
     }
 }

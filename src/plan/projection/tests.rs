@@ -1,0 +1,267 @@
+//! Where things show, to within rounding.
+
+use super::*;
+use crate::margin::tests::{has_margin, span};
+use crate::surface_bounds::ShapeClass;
+use rtc_math::NonNegative;
+use rtc_valid::{Lens, Projection};
+use std::num::NonZeroU32;
+
+/// A camera of 100 × 80 pixels that looks along −z.
+fn camera(eye: [f64; 3], center: [f64; 3], [right, up]: [f64; 2], radius: f64) -> Camera {
+    let count = |n| NonZeroU32::new(n).unwrap();
+    Camera {
+        eye: Vec3::from_array(eye),
+        center: Vec3::from_array(center),
+        right: Vec3::X * right,
+        up: Vec3::Y * up,
+        width: count(100),
+        height: count(80),
+        lens: Lens {
+            radius: NonNegative::new(radius).unwrap(),
+            samples: count(9),
+        },
+        projection: Projection::Perspective,
+    }
+}
+
+/// Pixels of size 1 around the origin, seen from 100 in front.
+fn projection(radius: f64) -> ScreenProjection {
+    ScreenProjection::new(
+        &camera([0.0, 0.0, 100.0], [0.0; 3], [1.0; 2], radius),
+        radius == 0.0,
+    )
+}
+
+fn pinhole(eye: [f64; 3], center: [f64; 3], steps: [f64; 2]) -> ScreenProjection {
+    ScreenProjection::new(&camera(eye, center, steps, 0.0), true)
+}
+
+fn screen_rect(projection: &ScreenProjection, center: Vec3, reach: f64) -> ScreenRect {
+    let aabb = Bounds::about(center, Vec3::splat(reach));
+    projection.screen_rect(&SurfaceBounds {
+        extent: Extent::Within(aabb),
+        class: ShapeClass::Other,
+    })
+}
+
+#[test]
+fn a_box_shows_in_its_pixels_and_one_more_on_each_side() {
+    let rect = ScreenRect::Within(PixelRect {
+        x: [58, 64],
+        y: [27, 33],
+    });
+    assert_eq!(
+        screen_rect(&projection(0.0), Vec3::new(11.0, 10.0, 0.0), 1.0),
+        rect
+    );
+}
+
+#[test]
+fn what_is_behind_or_beside_shows_nowhere_and_what_reaches_the_lens_anywhere() {
+    let projection = projection(0.0);
+    assert_eq!(
+        screen_rect(&projection, Vec3::Z * 110.0, 1.0),
+        ScreenRect::Outside
+    );
+    assert_eq!(
+        screen_rect(&projection, Vec3::X * 60.0, 1.0),
+        ScreenRect::Outside
+    );
+    assert_eq!(
+        screen_rect(&projection, Vec3::Z * 100.0, 1.0),
+        ScreenRect::Unknown
+    );
+    assert_ne!(
+        screen_rect(&projection, Vec3::X * 51.0, 1.0),
+        ScreenRect::Outside
+    );
+}
+
+#[test]
+fn a_lens_sees_round_the_edge_of_the_picture() {
+    let reach = Vec3::new(40.0, 0.0, 50.0);
+    assert_eq!(
+        screen_rect(&projection(0.0), reach, 1.0),
+        ScreenRect::Outside
+    );
+    assert_ne!(
+        screen_rect(&projection(60.0), reach, 1.0),
+        ScreenRect::Outside
+    );
+}
+
+#[test]
+fn where_rounding_blurs_a_pixel_nothing_is_said() {
+    let reach = Vec3::splat(1e16);
+    let mut projection = projection(0.0);
+    projection.camera.eye += reach;
+    projection.camera.center += reach;
+    let projection = ScreenProjection::new(&projection.camera, true);
+    assert_eq!(
+        screen_rect(&projection, Vec3::ZERO, 1.0),
+        ScreenRect::Unknown
+    );
+}
+
+#[test]
+fn a_camera_is_measured() {
+    let projection = pinhole([3.0, 0.0, 4.0], [3.0, 0.0, -4.0], [0.5, 0.25]);
+    assert_eq!(
+        (projection.depth, projection.depth_scale, projection.reach),
+        (Vec3::Z * -0.125, 0.125, 10.0)
+    );
+    assert_eq!(projection.lens(), span([3.0, 0.0, 4.0], [3.0, 0.0, 4.0]));
+    // The radius counts in steps upward, the lens is as wide as pixels are.
+    let open = ScreenProjection::new(
+        &camera([3.0, 0.0, 4.0], [3.0, 0.0, -4.0], [0.5, 0.25], 0.75),
+        false,
+    );
+    assert_eq!(open.lens(), span([1.5, -0.75, 4.0], [4.5, 0.75, 4.0]));
+    let corners = [
+        [1.5, -0.75, 4.0],
+        [4.5, -0.75, 4.0],
+        [1.5, 0.75, 4.0],
+        [4.5, 0.75, 4.0],
+    ];
+    assert_eq!(open.lens, corners.map(Vec3::from_array));
+    assert_eq!(
+        open.reach,
+        (4.5_f64 * 4.5 + 0.75 * 0.75 + 16.0).sqrt() + 5.0
+    );
+}
+
+#[test]
+fn a_picture_is_blurred_where_rounding_is_a_part_of_a_pixel_or_of_the_way_to_it() {
+    let reach = 1.0 / (1024.0 * U);
+    let steps = |steps| pinhole([reach, 0.0, 1_073_741_824.0], [reach, 0.0, 0.0], steps);
+    has_margin(0.25, |up| !steps([4.0, up]).is_ill_conditioned);
+    has_margin(0.25, |right| !steps([right, 4.0]).is_ill_conditioned);
+    // 30 aside, and the picture is 50 and 20 large.
+    has_margin(100.0 * U / MARGIN, |z| {
+        !pinhole([30.0, 0.0, z], [30.0, 0.0, 0.0], [0.5, 0.25]).is_ill_conditioned
+    });
+    has_margin(100.0 * U / MARGIN, |z| {
+        !pinhole([0.0, 0.0, 0.0], [0.0, -30.0, z], [0.5, 0.25]).is_ill_conditioned
+    });
+}
+
+#[test]
+fn a_point_shows_where_the_line_to_it_meets_the_picture() {
+    let projection = pinhole([1.0, 2.0, 100.0], [1.0, 2.0, 0.0], [0.5, 0.25]);
+    assert_eq!(
+        projection.project_through_center(Vec3::new(6.0, 4.5, 0.0)),
+        Some([60.0, 30.0])
+    );
+    assert_eq!(
+        projection.project_through_center(Vec3::new(3.5, 3.25, 50.0)),
+        Some([60.0, 30.0])
+    );
+    assert_eq!(
+        projection.project_through_center(Vec3::new(3.5, 3.25, 150.0)),
+        None,
+        "behind the eye"
+    );
+    assert_eq!(
+        pinhole([1e16, 0.0, 100.0], [1e16, 0.0, 0.0], [1.0; 2])
+            .project_through_center(Vec3::X * 1e16),
+        None,
+        "blurred"
+    );
+}
+
+#[test]
+fn what_is_beside_the_eye_is_in_doubt_by_room_of_both_and_the_rounding_of_its_depth() {
+    let beside = |step: f64| pinhole([100.0, 0.0, 0.0], [100.0, 0.0, -128.0], [step; 2]);
+    let point = |z: f64| beside(100.0).project_through_center(Vec3::new(100.0, 0.0, -z));
+    has_margin(16.0 * 64.0 * 200.0 * U, |z| point(z).is_some());
+    assert!(point(16.0 * 64.0 * 200.0 * U).is_none(), "in doubt");
+    let screen_rect = |low: f64, high: f64| {
+        let extent = Extent::Within(span([100.0, 0.0, low], [100.0, 0.0, high]));
+        beside(1e6).screen_rect(&SurfaceBounds {
+            extent,
+            class: ShapeClass::Other,
+        })
+    };
+    has_margin(200.0 * MARGIN + 16.0 * 64.0 * 200.0 * U, |z| {
+        screen_rect(-100.0, -z) != ScreenRect::Unknown
+    });
+    has_margin(200.0 * MARGIN + 64.0 * 200.0 * U, |z| {
+        screen_rect(z, 100.0) == ScreenRect::Outside
+    });
+    assert_eq!(
+        screen_rect(200.0 * MARGIN + 64.0 * 200.0 * U, 100.0),
+        ScreenRect::Unknown,
+        "in doubt"
+    );
+}
+
+#[test]
+fn the_place_of_a_point_has_its_rounding_and_that_of_the_steps() {
+    let projection = pinhole([0.0, 0.0, 100.0], [0.0; 3], [0.5, 0.25]);
+    let from = Vec3::new(1.0, 2.0, 0.0);
+    let project_point = |away: [f64; 3], error_bound: f64| {
+        projection.project_point(from, from + Vec3::from_array(away) * 0.5, 0.5, error_bound)
+    };
+    let is_near = |found: f64, wanted: f64| {
+        assert!(
+            (found / wanted - 1.0).abs() < 1e-5,
+            "{found:e}, not {wanted:e}"
+        )
+    };
+    // Seen in the middle: what the depth is in doubt by, and the rounding of the way, 3, and of
+    // the camera, 100.
+    let (at, error) = project_point([-1.0, -2.0, 2.0], 100.0 * U);
+    assert_eq!(at, [50.0, 40.0]);
+    is_near(error, ((200.0 + 16.0) * 3.0 + 16.0 * 100.0) * U / 0.25);
+    // 6 pixels across and 20 upward: what two steps at no right angle come to.
+    let (at, error) = project_point([2.0, 3.0, 6.0], 0.0);
+    assert_eq!(at, [56.0, 20.0]);
+    is_near(error, 1e-9 * 26.0 * 0.75 / 0.25);
+}
+
+#[test]
+fn what_shows_nowhere_for_sure_is_not_too_far_aside_nor_without_bounds() {
+    let projection = projection(0.0);
+    assert_eq!(
+        screen_rect(&projection, Vec3::X * 4e7, 1.0),
+        ScreenRect::Outside
+    );
+    assert_eq!(
+        screen_rect(&projection, Vec3::X * 6e7, 1.0),
+        ScreenRect::Unknown
+    );
+    assert_eq!(
+        screen_rect(&projection, Vec3::ZERO, f64::INFINITY),
+        ScreenRect::Unknown
+    );
+}
+
+#[test]
+fn a_stretch_of_the_picture_is_taken_with_a_pixel_and_the_doubt_on_each_side() {
+    let projection = projection(0.0);
+    assert_eq!(
+        projection.rectangle([3.2, -5.0], [6.8, 200.0]),
+        ScreenRect::Within(PixelRect {
+            x: [1, 9],
+            y: [0, 80]
+        })
+    );
+    assert_eq!(
+        projection.rectangle([3.3, 20.0], [6.7, 30.0]),
+        ScreenRect::Within(PixelRect {
+            x: [2, 8],
+            y: [18, 32]
+        })
+    );
+    assert_eq!(
+        projection.rectangle([101.5, 20.0], [110.0, 30.0]),
+        ScreenRect::Outside,
+        "beside"
+    );
+    assert_eq!(
+        projection.rectangle([20.0, -9.0], [30.0, -1.5]),
+        ScreenRect::Outside,
+        "above"
+    );
+}
