@@ -1,12 +1,11 @@
-//! Files that are no scenes: what they are, by their first bytes, and what a scene has to do with
-//! them.
+//! Detects files that are no scenes by their first bytes, and explains how to use them.
 
 use rtc_diag::{Diagnostic, clip_path, codes};
 
-/// A kind of file that is no scene: what it is, how it begins, and what to do with it.
+/// A file format that is no scene: its name, the test of its first bytes, and the hint.
 type ForeignFile = (&'static str, fn(&[u8]) -> bool, &'static str);
 
-const TEXTURE: &str = "name it in a scene, as the `texture` of a material";
+const TEXTURE: &str = "name it in a scene as the `texture` of a material";
 const SKY: &str = "name it in a scene, as `Environment: {file: …}`, or light a scene by `--env`";
 const EXPORT: &str = "export the scene as glTF 2.0 (`.glb`) from the program that made it";
 const CONVERT: &str =
@@ -15,7 +14,7 @@ const TESSELLATE: &str =
     "open it in a program for CAD, and export triangles as glTF 2.0, STL or OBJ";
 const UNPACK: &str = "unpack it, and give the scene in it";
 
-/// What begins with bytes of its own.
+/// The formats with magic bytes.
 const FOREIGN: &[ForeignFile] = &[
     ("a PNG picture", |b| b.starts_with(b"\x89PNG"), TEXTURE),
     (
@@ -138,7 +137,7 @@ const FOREIGN: &[ForeignFile] = &[
     ("a file of POV-Ray", is_pov, EXPORT),
 ];
 
-/// XML, by the name of its first element.
+/// The XML formats: the name of the root element, the name of the format, and the hint.
 const XML: &[(&str, &str, &str)] = &[
     ("scene", "a file of Mitsuba", EXPORT),
     ("COLLADA", "a COLLADA file", EXPORT),
@@ -148,10 +147,10 @@ const XML: &[(&str, &str, &str)] = &[
     ("amf", "an AMF model", EXPORT),
 ];
 
-/// How much of a file is looked at, in bytes.
+/// The number of bytes that are examined.
 const HEAD: usize = 4096;
 
-/// Why a file is no scene, if its first bytes say that it is something else.
+/// The finding that a file is no scene, if its first bytes are those of another format.
 pub fn foreign(name: &str, bytes: &[u8]) -> Option<Diagnostic> {
     let head = &bytes[..bytes.len().min(HEAD)];
     let found = FOREIGN.iter().find(|(_, begins, _)| begins(head));
@@ -161,7 +160,7 @@ pub fn foreign(name: &str, bytes: &[u8]) -> Option<Diagnostic> {
     Some(Diagnostic::new(&codes::NOT_A_SCENE, message).hint(hint))
 }
 
-/// The text without a byte order mark and the space before its first word.
+/// The text without a byte order mark and leading white space.
 fn text(head: &[u8]) -> &[u8] {
     let mark: &[u8] = b"\xef\xbb\xbf";
     head.strip_prefix(mark).unwrap_or(head).trim_ascii_start()
@@ -179,7 +178,7 @@ fn is_html(head: &[u8]) -> bool {
     })
 }
 
-/// What a document of XML is, if the file is one.
+/// The name and the hint of an XML document, if the file is one.
 fn xml(head: &[u8]) -> Option<(&'static str, &'static str)> {
     let mut rest = text(head);
     if !rest.starts_with(b"<") {
@@ -233,7 +232,7 @@ fn is_text_fbx(head: &[u8]) -> bool {
     start.starts_with(b"; FBX ") || start.starts_with(b"FBXHeaderExtension:")
 }
 
-/// The first line of IGES has an `S` and a number at its end.
+/// The first line of an IGES file ends in `S` and the number 1.
 fn is_iges(head: &[u8]) -> bool {
     let line = head.split(|byte| matches!(byte, b'\n' | b'\r')).next();
     line.and_then(|line| line.get(72..80)) == Some(b"S      1")
@@ -245,14 +244,14 @@ fn is_dxf(head: &[u8]) -> bool {
     words.next() == Some(b"0") && words.next() == Some(b"SECTION")
 }
 
-/// The lines that say something, but for comments that begin with a sign.
+/// The lines that are neither empty nor comments.
 fn lines<'h>(head: &'h [u8], comment: &'static [u8]) -> impl Iterator<Item = &'h [u8]> {
     let lines = text(head).split(|byte| matches!(byte, b'\n' | b'\r'));
     let lines = lines.map(<[u8]>::trim_ascii);
     lines.filter(move |line| !line.is_empty() && !line.starts_with(comment))
 }
 
-/// A scene of pbrt is lines of directives, each with words and numbers after it.
+/// Whether the first line is a directive of pbrt with an argument.
 fn is_pbrt(head: &[u8]) -> bool {
     const DIRECTIVES: [&[u8]; 12] = [
         b"LookAt",
@@ -281,7 +280,7 @@ fn is_pbrt(head: &[u8]) -> bool {
     first == b"WorldBegin" || (!has_colon && DIRECTIVES.iter().any(is_directive))
 }
 
-/// A scene of POV-Ray has directives, comments as C has them, and things in braces.
+/// Whether the lines are directives and objects of POV-Ray.
 fn is_pov(head: &[u8]) -> bool {
     const DIRECTIVES: [&[u8]; 5] = [
         b"#version",

@@ -1,19 +1,19 @@
-//! What points and lines become: meshes about them of a radius that is chosen later, since files
-//! say nothing of how thick they are.
+//! Glyphs: the triangles that represent points and lines. Files give them no size, so the radius is
+//! chosen later.
 
 use crate::gltf;
 use glam::{DAffine3, DMat3};
 use rtc_ir::{BoundingSphere, Column, Mesh};
 use rtc_math::{Vec3, unit};
 
-/// From so many on, points and lines have the simplest solid.
+/// The number of points or lines from which on they have the simplest glyph.
 const SIMPLIFIED_FROM: u64 = 1 << 15;
 
-/// What a point or a line becomes: with normals a disc or a ribbon that faces them, so that it is
-/// lit as they say, else a solid.
+/// The shape of a point or a line. With normals it is a disc or a ribbon that faces the normal, so
+/// that shading uses it; without, a polyhedron.
 pub(crate) struct Glyph {
-    /// From the point, or one end of a line: which end, and the offset at radius 1. Along a line
-    /// lies z, and y towards its normal; along the normal of a point lies z.
+    /// The corners: the end of the line, and the offset from it for a radius of 1. z is along the
+    /// line and y along its normal; for a point z is along its normal.
     pub(crate) corners: &'static [(usize, [f64; 3])],
     pub(crate) triangles: &'static [[u32; 3]],
 }
@@ -52,7 +52,7 @@ static OCTAHEDRON: Glyph = Glyph {
     ],
 };
 
-/// A prism with four sides and no ends, which at this width are not seen.
+/// A prism with four sides and without caps, which are too small to be visible.
 static PRISM: Glyph = Glyph {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
@@ -101,8 +101,8 @@ static RIBBON: Glyph = Glyph {
     triangles: &[[0, 1, 2], [0, 2, 3]],
 };
 
-/// Of many lines each is a tetrahedron, with an edge across each end: of any side something is
-/// seen.
+/// The glyph of one of many lines: a tetrahedron with an edge across each end, visible from all
+/// sides.
 static WEDGE: Glyph = Glyph {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
@@ -113,7 +113,7 @@ static WEDGE: Glyph = Glyph {
     triangles: &[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
 };
 
-/// Of many points that have a normal each is a triangle.
+/// The glyph of one of many points with normals.
 static TRIANGLE: Glyph = Glyph {
     corners: &[
         (0, [1.0, 0.0, 0.0]),
@@ -123,16 +123,16 @@ static TRIANGLE: Glyph = Glyph {
     triangles: &[[0, 1, 2]],
 };
 
-/// The radius, in pixels of the picture that is made of an asset without cameras.
+/// The radius in pixels of the default view of an asset without cameras.
 const RADIUS: f64 = 1.0;
 
-/// The radius of the points and lines of what a ball holds.
+/// The radius of the points and lines of a scene with this bounding sphere.
 pub(crate) fn radius(ball: BoundingSphere) -> f64 {
     RADIUS * gltf::pixel(ball)
 }
 
 impl Glyph {
-    /// That of `count` points or lines, with normals or without.
+    /// The glyph for `count` points or lines, with or without normals.
     pub(crate) fn of(are_points: bool, have_normals: bool, count: u64) -> &'static Self {
         match (are_points, have_normals) {
             (true, true) if count < SIMPLIFIED_FROM => &DISC,
@@ -146,8 +146,8 @@ impl Glyph {
     }
 }
 
-/// Solids without a radius about points, which are lines from a vertex to itself, or lines: a mesh
-/// about its first vertex, the offsets of its corners, and where it stands.
+/// The glyphs of points (lines from a vertex to itself) or lines, at radius 0: a mesh relative to
+/// its first vertex, the offsets of its corners for a radius of 1, and the transform.
 pub(crate) fn thin_glyphs(
     source: &Mesh,
     ends: &[[u32; 2]],
@@ -158,7 +158,7 @@ pub(crate) fn thin_glyphs(
         let own = Vec3::from_array(source.positions.at(vertex as usize));
         world.transform_point3(own)
     };
-    // Normals turn with the inverse transpose.
+    // Normals are transformed by the inverse transpose.
     let turned = world.matrix3.inverse().transpose();
     let normal = |vertex: u32| {
         let has_normals = !source.normals.is_empty();
@@ -193,7 +193,7 @@ pub(crate) fn thin_glyphs(
     is_sound.then(|| (mesh, Column::rounded(offsets), world))
 }
 
-/// The axes of the solid of a point or a line.
+/// The axes of the glyph of a point or a line.
 fn frame([from, to]: [Vec3; 2], normal: Option<Vec3>) -> DMat3 {
     let along = unit(to - from);
     let z = along.or(normal).unwrap_or(Vec3::Z);
@@ -207,7 +207,7 @@ fn frame([from, to]: [Vec3; 2], normal: Option<Vec3>) -> DMat3 {
     }
 }
 
-/// Makes a mesh of these vertices of it, whatever its triangles say.
+/// Replaces the vertices of a mesh by a selection of them; its triangles are unchanged.
 pub(crate) fn pick(mesh: &mut Mesh, vertices: &[u32]) {
     let Mesh {
         name: _,
@@ -254,7 +254,7 @@ mod tests {
         }
     }
 
-    /// The volume by the divergence theorem, of a prism of height 1 its part of the sides.
+    /// The volume by the divergence theorem; for a prism of height 1 the contribution of its sides.
     fn volume(solid: &Glyph) -> f64 {
         let corner = |at: u32| {
             let (end, offset) = solid.corners[at as usize];
@@ -273,7 +273,7 @@ mod tests {
         let edge = 2.0 * 2.0_f64.sqrt() * EDGE;
         let tetrahedron = edge * edge * edge / (6.0 * 2.0_f64.sqrt());
         assert!((volume(&TETRAHEDRON) - tetrahedron).abs() < 1e-12);
-        // The sides of a prism are two thirds of the flux, its ends the rest.
+        // The sides of a prism contribute two thirds, the caps the rest.
         assert!((volume(&PRISM) - 2.0 * 2.0 / 3.0).abs() < 1e-12);
         assert!((volume(&WEDGE) - 2.0 / 3.0).abs() < 1e-12);
     }

@@ -1,5 +1,23 @@
-//! Front ends: what people and tools write, lowered to the IR. One folder a language: the course's
-//! YAML, glTF, mesh files; and pixel files, decoded within the budget for all of them.
+//! Front ends: the languages that people and tools write, lowered to the IR. One folder a
+//! language.
+//!
+//! * [`course`]: the scene format of the course, YAML or JSON, with the files that a scene names.
+//! * [`gltf`]: glTF 2.0 assets with their extensions.
+//! * [`mesh`]: OBJ, OFF, STL, PLY and XYZ files. They are inputs themselves, or parts of a scene.
+//!
+//! All front ends share the modules beside them: [`pixels`] decodes images within the budget,
+//! `glyph` gives points and lines a shape, `words` splits text files into words with spans, and
+//! [`foreign()`] explains files of other formats.
+//!
+//! Each front end takes a `FileId` of the source map, [`FrontOptions`] and a sink, and returns an
+//! `rtc_ir::Lowered`: the scene with the span of every value. Callers may rely on this:
+//!
+//! * Mistakes of the user are never `Err`. They are pushed into the sink, all in one run; `None`
+//!   means that at least one error was reported.
+//! * Units, colour spaces and defaults are resolved. The IR has no notion of the source language.
+//! * Values are finite or reported. Ranges are left to the validator, which checks every scene.
+//! * Input is not trusted: sizes are charged to the budget of the source map before memory is
+//!   allocated, and nothing panics on malformed bytes.
 
 pub mod course;
 mod foreign;
@@ -15,31 +33,31 @@ use rtc_diag::{Diagnostic, codes};
 use rtc_source::Exceeded;
 use std::path::PathBuf;
 
-/// What a front end lets pass, and where it may look.
+/// Options of all front ends.
 #[derive(Clone, Debug, Default)]
 pub struct FrontOptions {
     /// Unknown keys are errors.
     pub strict: bool,
-    /// Mistakes with one sensible repair are repaired, with a warning that says what was done.
+    /// Mistakes with one sensible repair are repaired with a warning.
     pub lenient: bool,
-    /// A folder beside that of the scene below which files named by the scene may lie.
+    /// A further folder that is searched for the files that a scene names.
     pub asset_root: Option<PathBuf>,
-    /// The home of the user, which lends no files to the scenes in its folders.
+    /// The home folder of the user. It is not searched as the parent of a scene's folder.
     pub home: Option<PathBuf>,
-    /// Of a glTF asset: the moment at which it is shown, in seconds; at rest without.
+    /// The time of a glTF animation, in seconds; the rest pose by default.
     pub time: Option<f64>,
-    /// Of a glTF asset: the animation that the moment is of; without, the first.
+    /// The name of the glTF animation; the first by default.
     pub animation: Option<String>,
-    /// Of a glTF asset: the variant of its materials.
+    /// The name of the glTF material variant.
     pub variant: Option<String>,
-    /// Of a glTF asset: the camera, by its name, that of its node, or its index; the first one
-    /// that shows anything without.
+    /// The glTF camera, by its name, the name of its node, or its index. The default is the first
+    /// camera that sees a surface.
     pub camera: Option<String>,
-    /// How many threads decode the images of a glTF asset, 0 for one per core.
+    /// The number of threads that decode images of a glTF asset; 0 for one per core.
     pub threads: usize,
 }
 
-/// Whether a file of this name is taken for a scene where files are looked for: by its extension.
+/// Whether a file with this extension is a scene, when folders are searched for scenes.
 #[must_use]
 pub fn is_scene_name(name: &str) -> bool {
     const OTHERS: [&str; 6] = ["yaml", "yml", "json", "gltf", "glb", "rtir"];
@@ -50,18 +68,19 @@ pub fn is_scene_name(name: &str) -> bool {
     })
 }
 
-/// Whether a file of this name is taken for a scene text where files are looked for to lay out.
+/// Whether a file with this extension is a scene text, when folders are searched for texts to
+/// format.
 #[must_use]
 pub fn is_scene_text_name(name: &str) -> bool {
     let extension = name.rsplit_once('.').map(|(_, last)| last.to_lowercase());
     extension.is_some_and(|extension| matches!(extension.as_str(), "yaml" | "yml"))
 }
 
-/// A file asks for more than the budget has.
+/// The finding that a file exceeds the budget.
 fn over_limit(what: &str, fault: &Exceeded) -> Diagnostic {
     Diagnostic::new(
         &codes::OVER_LIMIT,
-        format!("{what} asks for too much: {fault}"),
+        format!("{what} exceeds a limit: {fault}"),
     )
     .hint(fault.hint())
 }

@@ -1,4 +1,4 @@
-//! Pixel files decoded within the budget of the run: what a file takes is charged before it is
+//! Decodes pixel files within the budget of the run. The cost of a file is charged before it is
 //! decoded.
 
 use super::over_limit;
@@ -11,18 +11,18 @@ use rtc_image::{
 use rtc_ir as ir;
 use rtc_source::{Budget, Exceeded, FileKind, Resource};
 
-/// The files of pictures that scenes and assets name.
+/// The image formats of textures.
 pub const PICTURES: FileKind = FileKind {
     extensions: &["png", "jpg", "jpeg", "webp"],
     begins: is_picture,
 };
 
-/// Why there is no picture.
+/// Why an image could not be decoded.
 #[derive(Debug)]
 pub enum PixelFault {
-    /// The file can't be read as one.
+    /// The file is invalid.
     File(DecodeError),
-    /// It would take more than the budget has.
+    /// The image exceeds the budget.
     Limit(Exceeded),
 }
 
@@ -35,26 +35,27 @@ impl From<DecodeError> for PixelFault {
 /// Decodes a PNG, JPEG or WebP.
 ///
 /// # Errors
-/// If the bytes are no such file, damaged, or ask for too much.
+/// If the file has another format, is damaged, or exceeds the budget.
 pub fn decode(bytes: &[u8], opacity: Opacity, budget: &Budget) -> Result<Pixels, PixelFault> {
     let file = PixelFile::open(bytes, opacity, budget.limit(Resource::Pixels))?;
     charge(file.cost(), Resource::Textures, budget)?;
     Ok(file.decode()?)
 }
 
-/// A pixel file that is charged, and still to be decoded.
+/// A pixel file whose cost is charged, not decoded yet.
 pub struct ChargedFile<'a> {
     bytes: &'a [u8],
     opacity: Opacity,
     most_pixels: u64,
-    /// Bytes that decoding it takes beside its pixels.
+    /// The bytes that decoding needs besides the pixels.
     scratch: u64,
 }
 
-/// Charges what a PNG, JPEG or WebP takes. Its decoder is not kept: it takes memory of its own.
+/// Charges the cost of a PNG, JPEG or WebP. The decoder is dropped, because it holds memory of its
+/// own.
 ///
 /// # Errors
-/// As [`decode`], but for faults beyond its header.
+/// As [`decode`], except for errors behind the header.
 pub fn charge_file<'a>(
     bytes: &'a [u8],
     opacity: Opacity,
@@ -77,8 +78,8 @@ impl ChargedFile<'_> {
     }
 }
 
-/// Decodes files on so many threads, 0 for one per core; one after another where the budget, or the
-/// system, has no room for more. What comes of each does not depend on that.
+/// Decodes files on `threads` threads, 0 for one per core; one by one if the budget or the system
+/// does not allow several. The results do not depend on the number of threads.
 pub fn decode_all(
     files: &[ChargedFile<'_>],
     threads: usize,
@@ -108,7 +109,7 @@ pub fn decode_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, PixelF
     Ok(file.decode()?)
 }
 
-/// The image of an environment: a Radiance HDR or OpenEXR file.
+/// Decodes the image of an environment: a Radiance HDR or OpenEXR file.
 ///
 /// # Errors
 /// As [`decode`].
@@ -128,14 +129,15 @@ pub fn environment(name: &str, bytes: &[u8], budget: &Budget) -> Result<ir::Imag
     })
 }
 
-/// What to say of the file of an environment that can't be read.
+/// The finding about the file of an environment that can't be decoded.
 #[must_use]
 pub fn environment_rejection(fault: &PixelFault, name: &str) -> Diagnostic {
     let formats = "environments are Radiance HDR or OpenEXR";
     rejection(fault, &format!("the environment `{name}`"), formats)
 }
 
-/// What to say of a file that can't be read: `what` names it, `formats` says what it may be.
+/// The finding about a file that can't be decoded. `what` names it, `formats` lists the accepted
+/// formats.
 pub(super) fn rejection(fault: &PixelFault, what: &str, formats: &'static str) -> Diagnostic {
     let fault = match fault {
         PixelFault::Limit(fault) => return over_limit(what, fault),
@@ -164,7 +166,7 @@ fn charge(cost: DecodeCost, resource: Resource, budget: &Budget) -> Result<(), P
     budget
         .charge(Resource::Pixels, pixels)
         .map_err(PixelFault::Limit)?;
-    // What is given back at once only has to be there, and is no texture.
+    // Scratch memory is freed again, so it is checked and not charged.
     budget
         .has(Resource::Memory, scratch)
         .map_err(PixelFault::Limit)?;

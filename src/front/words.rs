@@ -1,25 +1,25 @@
-//! Lines of words with their places, for files of meshes and of lamps: bytes in any encoding,
-//! comments gone, lines joined by `\`.
+//! Splits text files of meshes and profiles into lines of words with their spans: bytes in any
+//! encoding, without comments, and with lines joined by `\`.
 
 use rtc_source::{Exceeded, FileId, Span};
 use std::ops::Range;
 
-/// A word of a file.
+/// A word of a file: bytes without white space.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Word<'a> {
     pub(super) bytes: &'a [u8],
-    /// Where it starts in the file.
+    /// Its offset in the file.
     start: usize,
 }
 
-/// A place of such a file.
+/// The range of bytes of words in a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WordSpan {
     start: usize,
     end: usize,
 }
 
-/// What is wrong with such a file, and where.
+/// An error in such a file.
 #[derive(Debug)]
 pub struct WordFault {
     at: WordSpan,
@@ -29,12 +29,12 @@ pub struct WordFault {
     pub label: String,
 }
 
-/// Why such a file can't be read.
+/// Why such a file could not be parsed.
 #[derive(Debug)]
 pub enum ParseFault {
-    /// Its faults in the order of the file, at least one.
+    /// The errors in the order of the file, at least one.
     Faults(Vec<WordFault>),
-    /// It would take more than the budget has.
+    /// The file exceeds the budget.
     Limit(Exceeded),
 }
 
@@ -45,7 +45,7 @@ impl From<Exceeded> for ParseFault {
 }
 
 impl WordSpan {
-    /// The span of it in its file.
+    /// The span in the source map.
     #[must_use]
     pub fn span(self, file: FileId) -> Span {
         let offset =
@@ -55,7 +55,7 @@ impl WordSpan {
 }
 
 impl WordFault {
-    /// A fault in some bytes of a file.
+    /// An error in some bytes of a file.
     pub(super) fn new(
         bytes: Range<usize>,
         message: impl Into<String>,
@@ -69,7 +69,7 @@ impl WordFault {
         }
     }
 
-    /// Where it is.
+    /// Its range in the file.
     #[must_use]
     pub fn span(&self, file: FileId) -> Span {
         self.at.span(file)
@@ -83,7 +83,7 @@ impl<'a> Word<'a> {
         start: 0,
     };
 
-    /// The parts between `separator`, empty ones too.
+    /// The parts between separators, including empty ones.
     pub(super) fn split(self, separator: u8) -> impl Iterator<Item = Word<'a>> {
         let mut start = self.start;
         self.bytes
@@ -95,24 +95,23 @@ impl<'a> Word<'a> {
             })
     }
 
-    /// A fault at this word.
+    /// An error at this word.
     pub(super) fn fault(&self, message: impl Into<String>, label: impl Into<String>) -> WordFault {
         WordFault::new(self.range(), message, label)
     }
 
-    /// Where it is.
+    /// Its range in the file.
     pub(super) fn place(&self) -> WordSpan {
         let Range { start, end } = self.range();
         WordSpan { start, end }
     }
 
-    /// The bytes of the file that it is.
+    /// Its range of bytes in the file.
     pub(super) fn range(&self) -> Range<usize> {
         self.start..self.start + self.bytes.len()
     }
 
-    /// From this word to another one of its line, as one: a name with spaces. `file` is what both
-    /// are of.
+    /// The bytes from this word to `last` on the same line, as a name with spaces.
     pub(super) fn through(self, last: &Self, file: &'a [u8]) -> Self {
         let end = last.range().end;
         Self {
@@ -161,7 +160,7 @@ impl<'a> Word<'a> {
     }
 }
 
-/// The first `N` of `words` as numbers; `line` is where to say that there are fewer.
+/// The first `N` of `words` as numbers; `line` is where a missing one is reported.
 pub(super) fn numbers<const N: usize>(
     line: &Word<'_>,
     words: &[Word<'_>],
@@ -205,7 +204,8 @@ impl<'a> Lines<'a> {
         self.at >= self.file.len()
     }
 
-    /// Puts the words of the next line that has any into `words`; false at the end of the file.
+    /// Reads the words of the next line that is not empty into `words`; returns false at the end of
+    /// the file.
     pub(super) fn next(&mut self, words: &mut Vec<Word<'a>>) -> bool {
         words.clear();
         while self.at < self.file.len() {
@@ -225,7 +225,7 @@ impl<'a> Lines<'a> {
         !words.is_empty()
     }
 
-    /// True if nothing but white space stands between the backslash here and the end of the line.
+    /// Whether only white space is between the backslash here and the end of the line.
     fn joins(&self) -> bool {
         let mut rest = self.file[self.at + 1..]
             .iter()

@@ -333,7 +333,7 @@ fn an_obj_alone_has_the_materials_of_its_mtl() {
     assert_eq!(lowered.unwrap().scene.surfaces.len(), 1);
     assert_eq!(
         findings,
-        "RE010 there is no file `m.mtl`; the mesh goes without its materials\n"
+        "RE010 there is no file `m.mtl`; its materials are left out\n"
     );
 }
 

@@ -35,7 +35,7 @@ fn obj_files_become_triangles() {
             lowered, findings, ..
         } = mesh(bytes);
         let traced =
-            "RE007 warning scene.yaml:1:3 the colours of its vertices show in traced paths alone\n";
+            "RE007 warning scene.yaml:1:3 only path tracing shows the colours of vertices\n";
         assert_eq!(findings, traced);
         let mesh = &lowered.scene.meshes[0];
         assert_eq!(
@@ -252,7 +252,7 @@ fn nothing_is_told_from_a_file_that_is_no_mesh() {
 #[test]
 fn what_does_not_show_is_told() {
     let outcome = mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\ncurv 0 1 1 2\nf 1 2\nf 1 2 3\n");
-    let expected = "RE007 warning m.obj:4:1 2 elements of this file don't show: free-form curves and surfaces are not supported\n";
+    let expected = "RE007 warning m.obj:4:1 2 elements of the file are not drawn: free-form curves and surfaces are not supported\n";
     assert_eq!(
         (
             outcome.findings.as_str(),

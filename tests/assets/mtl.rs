@@ -298,7 +298,7 @@ fn statements_become_parts_of_the_material_of_gltf() {
     let (clear, told) = standard("Kd 1 0 0\nd 0");
     assert_eq!(clear.base_color[3], 0.0);
     assert!(
-        told.contains("nothing is seen of a material of this opacity"),
+        told.contains("a material of this opacity is invisible"),
         "{told}"
     );
     let (glass, _) = standard("Kd 0 0 0\nillum 4\nNi 1.4\nTf .9 1 .9");

@@ -1,4 +1,4 @@
-//! How often the ambient term is added: the file may say so, else its form does.
+//! How often the ambient term is added: once, or once per light.
 
 use super::decode::{Context, Spanned};
 use super::keyword::Keyword;
@@ -14,8 +14,9 @@ impl Keyword for Ambient {
 }
 
 impl Lowering {
-    /// Sets how often the ambient term is added. The programs of the years whose scenes are JSON
-    /// add it once, those of the YAML years for each light. After the lights and the objects.
+    /// Sets how often the ambient term is added. Without the key `Ambient` a JSON scene adds it
+    /// once and a YAML scene adds it per light, as the programs of these years did. Call it after
+    /// the lights and the objects.
     pub(super) fn ambient(&mut self, scene: &Scene, context: &mut Context<'_>) {
         self.scene.settings.ambient = match &scene.ambient {
             FieldOutcome::Read(Spanned { value, .. }) => *value,
@@ -40,7 +41,7 @@ impl Lowering {
         }
     }
 
-    /// Whether the picture depends on how often the ambient term is added.
+    /// Whether the image depends on how often the ambient term is added.
     fn shows_ambient(&self) -> bool {
         let ir::Scene {
             settings,
@@ -57,7 +58,7 @@ impl Lowering {
     }
 }
 
-/// Whether the scene is written as JSON: its keys stand in quotes inside braces.
+/// Whether the scene is written as JSON: an opening brace, then a key in quotes.
 fn is_json(context: &Context<'_>) -> bool {
     let text = context.tree.written(context.tree.root());
     let inside = text.strip_prefix('{').map(str::trim_start);

@@ -1,4 +1,4 @@
-//! The camera, as new files (`Camera`) and old ones (`Eye`) say it.
+//! The camera, as a `Camera` or in the older form of an `Eye`.
 
 use super::decode::{Context, Spanned};
 use super::keyword::Keyword;
@@ -14,34 +14,38 @@ use rtc_math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, un
 use rtc_source::Span;
 
 record! {
-    /// The camera: where it stands, what it looks at, and the image it makes.
+    /// The camera: its position, its target, and its image.
     struct Camera, "camera" {
-        /// Where the camera stands.
+        /// The position of the camera.
         eye: Spanned<Point>, required, &EYE;
-        /// The point in the middle of the image; the plane through it is in focus.
+        /// The point in the middle of the image. The plane through it is in focus.
         center: Spanned<Point>, required, &TARGET;
-        /// The upward direction; its length is the size of a pixel in the plane through `center`.
+        /// The up vector; its length is the size of a pixel in the plane through `center`.
         up: Spanned<Vector>, required, keys!["up" "upVector" "viewUp" "worldUp" "vup"];
-        /// The step from a pixel to its right neighbour; then `up`, at a right angle to it, is the step to the upper one as
-        /// it stands, and the image need not face the eye. Without it pixels are square.
+        /// The vector from a pixel to its right neighbour. With it `up`, at a right angle, is the
+        /// vector to the upper neighbour, and the image plane need not be perpendicular to the view
+        /// direction. Without it pixels are square.
         right: Spanned<Vector>, optional, keys!["right"];
         /// Width and height of the image in pixels.
         view_size: Spanned<ViewSize>, unless("sides"), &IMAGE_SIZE;
         /// Width and height of the image as two keys.
         sides: [Spanned<PixelCount>; 2], optional, &[&["width", "height"]];
-        /// The distance from the eye to an image whose pixels have the size 1; then `center` and `up` are directions alone.
-        focal_distance: Spanned<Positive>, optional, keys!["focalDistance" "planeDistance" "imagePlaneDistance"];
-        /// The size of a pixel in the plane of the image; then the length of `up` does not count.
+        /// The distance from the eye to an image plane with pixels of size 1; then only the
+        /// directions of `center` and `up` are used.
+        focal_distance: Spanned<Positive>, optional,
+            keys!["focalDistance" "planeDistance" "imagePlaneDistance"];
+        /// The size of a pixel in the image plane; then the length of `up` has no effect.
         pixel_size: Spanned<Positive>, optional, keys!["pixelSize" "pixSize"];
-        /// The angle in degrees that the image spans from bottom to top, above 0 and below 180; then the length of `up` does
-        /// not count.
+        /// The vertical field of view in degrees, above 0 and below 180; then the length of `up`
+        /// has no effect.
         fov: Spanned<FieldOfView>, optional, keys!["fov" "fovy" "vfov" "yfov"];
-        /// How the rays run: `perspective`, from the eye; or `orthographic`, side by side in the direction from the eye to
-        /// `center`, so that the picture is as large everywhere; then `fov` has no effect.
-        projection: Spanned<ir::Projection>, default(ir::Projection::Perspective), keys!["projection"];
-        /// The radius of the lens in scene units; 0 keeps everything in focus.
+        /// The projection: `perspective`, with all rays from the eye; or `orthographic`, with
+        /// parallel rays in the direction from the eye to `center`, so that `fov` has no effect.
+        projection: Spanned<ir::Projection>, default(ir::Projection::Perspective),
+            keys!["projection"];
+        /// The radius of the lens in scene units; at 0 everything is in focus.
         aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["apertureRadius"];
-        /// How many points of the lens each sub-sample looks through.
+        /// The number of lens samples per sub-sample.
         aperture_samples: Spanned<Count>, default(Count(1)), keys!["apertureSamples"];
     }
     variants { [view_size] [sides] }
@@ -55,21 +59,21 @@ impl Keyword for ir::Projection {
 }
 
 impl Camera {
-    /// Whether the length of `up`, or what stands in its place, is the size of a pixel.
+    /// Whether the length of `up`, or `pixelSize`, is the size of a pixel.
     fn has_own_pixels(&self) -> bool {
         !self.has_fov() && self.right.is_absent()
     }
 
-    /// Whether an angle says how much the image shows.
+    /// Whether `fov` determines the size of a pixel.
     fn has_fov(&self) -> bool {
         !self.fov.is_absent() && self.projection.value == ir::Projection::Perspective
     }
 }
 
-/// The size of the picture where neither a `Camera` nor an `ViewSize` says it.
+/// The size of the image if neither a `Camera` nor an `ImageSize` gives it.
 pub(super) const DEFAULT_SIZE: ViewSize = ViewSize([400, 400]);
 
-/// A sound camera for a scene whose own can't be read.
+/// A valid camera for a scene without a valid one.
 pub(super) fn placeholder() -> ir::Camera {
     ir::Camera {
         eye: [0.0, 0.0, 1.0],
@@ -150,7 +154,7 @@ impl Lowering {
         }
     }
 
-    /// Lowers a camera of three top-level keys: eye, the point looked at, and the upward direction.
+    /// Lowers a camera of three top-level keys: eye, target and up vector.
     pub(super) fn camera_from_keys(
         &mut self,
         [eye, center, up]: &[Spanned<Point>; 3],
@@ -180,8 +184,8 @@ impl Lowering {
         );
     }
 
-    /// Lowers an `Eye`: it looks at a rectangle in the plane z = 0 that begins at the origin, one
-    /// unit a pixel.
+    /// Lowers an `Eye`: it looks at a rectangle in the plane z = 0 with one corner at the origin
+    /// and pixels of size 1.
     pub(super) fn old_eye_camera(&mut self, eye: Spanned<Point>, size: ViewSize) {
         let [x, y] = size.0.map(|side| f64::from(side) / 2.0);
         self.scene.camera = ir::Camera {
@@ -195,8 +199,8 @@ impl Lowering {
     }
 }
 
-/// The middle of the image and the upward step: with a focal distance the image lies at that
-/// distance, with pixels of the size 1 or that which is given.
+/// The centre of the image and the up vector. With a focal distance the image plane has that
+/// distance, and pixels of size 1 or of the given size.
 fn image_plane(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
     let (mut center, mut up) = (camera.center, camera.up);
     let [eye, at, upward] = [camera.eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
@@ -213,7 +217,7 @@ fn image_plane(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
     (center, up)
 }
 
-/// Says that another key gives the size of a pixel.
+/// Reports a `pixelSize` that another key overrides.
 fn report_pixel_size_without_effect(camera: &Camera, context: &mut Context<'_>) {
     let span = camera.pixel_size.read().and_then(|size| size.span);
     if let (Some(span), false) = (span, camera.has_own_pixels()) {
@@ -224,7 +228,8 @@ fn report_pixel_size_without_effect(camera: &Camera, context: &mut Context<'_>) 
     }
 }
 
-/// The angle that the image spans, in radians, if that is given.
+/// The vertical field of view in radians, if it is given. Reports a `fov` or a length of `up`
+/// without effect.
 fn fov(camera: &Camera, up: &Spanned<Vector>, context: &mut Context<'_>) -> Option<f64> {
     let FieldOutcome::Read(Spanned {
         value: FieldOfView(degrees),
@@ -234,7 +239,7 @@ fn fov(camera: &Camera, up: &Spanned<Vector>, context: &mut Context<'_>) -> Opti
         return None;
     };
     if !camera.has_fov() {
-        let message = || "`fov` has no effect on rays that run side by side".to_owned();
+        let message = || "`fov` has no effect on an orthographic camera".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {
             d.at(span, "ignored: the length of `up` is the size of a pixel")
                 .also(camera.projection.span, "an orthographic picture")
@@ -246,15 +251,15 @@ fn fov(camera: &Camera, up: &Spanned<Vector>, context: &mut Context<'_>) -> Opti
     if let (Some(up_span), true) = (up.span, (length - 1.0).abs() > 1e-6) {
         let message = || "the length of `up` has no effect beside `fov`".to_owned();
         context.report(&codes::NO_EFFECT, up_span, message, |d| {
-            d.at(up_span, "only the direction counts")
-                .also(span, "this gives the size of a pixel")
+            d.at(up_span, "only the direction is used")
+                .also(span, "gives the size of a pixel")
                 .severity(Severity::Warning)
         });
     }
     Some(degrees.to_radians())
 }
 
-/// The steps from pixel to pixel; `None` if there are none, and then the sink has an error.
+/// The vectors between neighbouring pixels; `None` if there are none, which is reported.
 fn basis(
     camera: &Camera,
     center: &Spanned<Point>,
@@ -311,7 +316,7 @@ fn basis(
     }
 }
 
-/// Reports an `up` along the view, with a better one; that one if repairs are wanted.
+/// Reports an `up` along the view direction, with a replacement; returns it if `--lenient` is on.
 fn report_parallel_up(
     view_dir: Vec3,
     up: Vec3,
@@ -328,8 +333,8 @@ fn report_parallel_up(
         || "`up` points along the view".to_owned(),
         |d| match lenient {
             false => d
-                .at(span, "parallel to the way from `eye` to `center`")
-                .guess("turn it, for instance", span, text),
+                .at(span, "parallel to the direction from `eye` to `center`")
+                .guess("change it, for instance to", span, text),
             true => d
                 .at(span, format!("parallel to the view; taken as {text}"))
                 .severity(Severity::Warning),

@@ -1,14 +1,14 @@
-//! What words say about numbers, by the core schema of YAML 1.2.
+//! Numbers in plain scalars, by the core schema of YAML 1.2.
 
-/// What a word says about a number.
+/// The result of reading a plain scalar as a number.
 pub(super) enum ScalarNumber {
     Number(f64),
-    /// `.inf`, `.nan`, or more than a 64-bit float holds.
+    /// `.inf`, `.nan`, or a number beyond the range of a 64-bit float.
     NotFinite,
     NoNumber,
 }
 
-/// Reads a word by the core schema.
+/// Reads a plain scalar as a number.
 pub(super) fn parse_number(scalar: &str) -> ScalarNumber {
     if let Some(value) = short_decimal(scalar) {
         return ScalarNumber::Number(value);
@@ -33,7 +33,7 @@ pub(super) fn parse_number(scalar: &str) -> ScalarNumber {
     }
 }
 
-/// A decimal of at most 15 characters without an exponent, as nearly all are: its digits and the
+/// The fast path for a decimal of at most 15 characters without an exponent. Its digits and the
 /// power of ten are exact in 64 bits, so their quotient is the nearest number.
 fn short_decimal(scalar: &str) -> Option<f64> {
     const TENS: [f64; 15] = [
@@ -70,7 +70,7 @@ fn in_radix(digits: &str, radix: u32) -> Option<f64> {
     }
 }
 
-/// `[0-9]+(\.[0-9]*)?` or `\.[0-9]+`, and an exponent.
+/// Whether a scalar matches `([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?`.
 fn is_decimal(scalar: &str) -> bool {
     let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
     let (integer, rest) = scalar.split_at(digits(scalar));
@@ -90,7 +90,7 @@ fn is_decimal(scalar: &str) -> bool {
     }
 }
 
-/// Whether a word is what programs write for what is no finite number, though YAML does not.
+/// Whether a scalar is how programs other than YAML write NaN or infinity.
 pub(super) fn is_not_finite_elsewhere(scalar: &str) -> bool {
     const KEYWORDS: [&str; 3] = ["nan", "inf", "infinity"];
     let unsigned = scalar.trim_start_matches(['-', '+']);

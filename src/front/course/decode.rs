@@ -1,4 +1,5 @@
-//! What decoding stands on: values with their spans, and the context that collects every finding.
+//! The basis of decoding: the trait [`Value`], values with spans, and the context that collects all
+//! findings.
 
 use super::schema::Definitions;
 use super::spelling::same_letters;
@@ -12,15 +13,15 @@ use serde_json::Value as Json;
 use std::collections::BTreeSet;
 use std::marker::PhantomData;
 
-/// A type of the format: read from the tree, described in the schema.
+/// A type of the format: it is decoded from the tree and described by a schema.
 pub(super) trait Value: Sized {
-    /// Whether the value is a list, or may be one; a list of one item is that item for the others.
+    /// Whether the value may be a list. For other types a list of one item is read as that item.
     const IS_LIST: bool = false;
 
-    /// Reads the value; `None` if it can't be read, and then the sink has an error.
+    /// Decodes the value; `None` if that fails, which is reported.
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self>;
 
-    /// The JSON Schema of exactly what [`Value::decode`] takes without an error.
+    /// The JSON Schema of exactly the values that [`Value::decode`] accepts without an error.
     fn schema(definitions: &mut Definitions) -> Json;
 
     /// The value as the schema shows a default.
@@ -29,7 +30,7 @@ pub(super) trait Value: Sized {
     }
 }
 
-/// A value and where it was written; a default was written nowhere.
+/// A value and its span; a default has no span.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spanned<T> {
     pub(super) value: T,
@@ -42,7 +43,7 @@ impl<T> Spanned<T> {
         Self { value, span: None }
     }
 
-    /// Another value from the same place.
+    /// Another value with the same span.
     pub(super) fn map<U>(&self, change: impl FnOnce(&T) -> U) -> Spanned<U> {
         Spanned {
             value: change(&self.value),
@@ -51,11 +52,11 @@ impl<T> Spanned<T> {
     }
 }
 
-/// Three numbers and where they were written.
+/// Three numbers with their span.
 pub(super) type Numbers = Spanned<[f64; 3]>;
 
-/// A value that aliases and merge keys may bring us to again: its node, and the value the first
-/// time.
+/// A value that aliases and merge keys may repeat: its node, and the value when it is decoded
+/// first.
 pub(super) struct SharedValue<T> {
     pub(super) node: NodeId,
     pub(super) value: Option<T>,
@@ -85,7 +86,7 @@ impl<T: Value> Value for SharedValue<T> {
     }
 }
 
-/// A list whose items are decoded one by one, as they are lowered.
+/// A list whose items are decoded one at a time, while they are lowered.
 pub(super) struct LazyList<T> {
     list: Option<NodeId>,
     items: PhantomData<T>,
@@ -102,12 +103,12 @@ impl<T> LazyList<T> {
 }
 
 impl<T: Value> LazyList<T> {
-    /// How many items there are, sound or not.
+    /// The number of items, valid or not.
     pub(super) fn len(&self, context: &Context<'_>) -> usize {
         self.list.map_or(0, |list| context.tree.items(list).count())
     }
 
-    /// Decodes every item and hands it on with its span; those that fail are left out.
+    /// Decodes each item and passes it to `take` with its span; items that fail are omitted.
     pub(super) fn decode_each(
         &self,
         context: &mut Context<'_>,
@@ -152,15 +153,15 @@ impl<T: Value> Value for LazyList<T> {
     }
 }
 
-/// The key a value belongs to.
+/// The key of a value.
 #[derive(Clone, Copy)]
 pub(super) struct ValueKey<'a> {
     pub(super) text: &'a str,
-    /// Where the key stands; an item of a list has none of its own.
+    /// The span of the key; the items of a list have none.
     pub(super) span: Option<Span>,
 }
 
-/// A key of a map, its own or merged, with its value.
+/// An entry of a map or of a map that it merges.
 #[derive(Clone, Copy)]
 pub(super) struct MapEntry<'a> {
     pub(super) key: &'a str,
@@ -169,30 +170,29 @@ pub(super) struct MapEntry<'a> {
     pub(super) claimed: bool,
 }
 
-/// More findings than this are no longer looked through for repetition.
+/// The number of findings that are remembered to prevent duplicates.
 const MAX_REMEMBERED: usize = 10_000;
 
-/// One pass over a tree: the findings, and what the pass remembers.
+/// The state of decoding one tree, with its findings.
 pub(super) struct Context<'a> {
     pub(super) tree: &'a Tree<'a>,
     pub(super) options: &'a FrontOptions,
     pub(super) key: ValueKey<'a>,
     /// The entries of the maps being read, innermost last.
     pub(super) entries: Vec<MapEntry<'a>>,
-    /// Other spellings met, once each, with the first place.
+    /// The spellings that are not canonical, each with the span of its first use.
     pub(super) spellings: Vec<(&'a str, &'static str, Span)>,
     /// The first key in another case of letters.
     pub(super) other_case: Option<(&'a str, &'static str, Span)>,
-    /// Unknown keys, and the keys that were probably meant.
+    /// Unknown keys: the key that was probably intended, and the span.
     pub(super) typos: Vec<(&'static str, Span)>,
     sink: &'a mut Sink,
     /// The shared values decoded so far.
     decoded: BTreeSet<NodeId>,
-    /// What has been said about which bytes: an alias brings a reader to the same place again.
+    /// The codes reported for each span: aliases visit a node several times.
     reported: BTreeSet<(Span, &'static str)>,
     steps: u64,
-    /// How many entries may be looked at: those of the text, and those that aliases and merge keys
-    /// repeat.
+    /// The limit of entries read: those of the text and those that aliases and merge keys repeat.
     max_steps: u64,
 }
 
@@ -222,7 +222,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Pushes what `make` adds to a finding at `span`, unless the same was said there before.
+    /// Reports a finding at `span`, unless the same code was reported there. `make` completes it.
     pub(super) fn report(
         &mut self,
         code: &'static Code,
@@ -241,7 +241,7 @@ impl<'a> Context<'a> {
             .push(make(Diagnostic::new(code, message()).at(span, "")));
     }
 
-    /// How many different findings there were so far.
+    /// The number of different findings so far.
     pub(super) fn findings(&self) -> usize {
         self.reported.len()
     }
@@ -251,7 +251,7 @@ impl<'a> Context<'a> {
         self.expected_as(node, what, what)
     }
 
-    /// The same of a part of a value: `part` says what that must be.
+    /// The same for a part of a value: `part` describes the expected part.
     pub(super) fn expected_as<T>(&mut self, node: NodeId, what: &str, part: &str) -> Option<T> {
         let (tree, key) = (self.tree, self.key);
         let found = describe(tree.shape(node));
@@ -281,7 +281,7 @@ impl<'a> Context<'a> {
         None
     }
 
-    /// Remembers that something was written otherwise than it should be, unless that is known.
+    /// Records the first use of a spelling that is not canonical.
     pub(super) fn record_spelling(
         &mut self,
         written: &'a str,
@@ -294,7 +294,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// A word in place of one that was written, in the same quotes: JSON needs them.
+    /// The replacement of a scalar, with the same quotes: JSON requires them.
     pub(super) fn with_quotes_of(&self, node: NodeId, word: &str) -> String {
         match self.tree.written(node).chars().next() {
             Some(quote @ ('"' | '\'')) => format!("{quote}{word}{quote}"),
@@ -302,21 +302,21 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Remembers that a key was written in another case of letters, the first time.
+    /// Records the first key that differs in case from the declared one.
     pub(super) fn record_case(&mut self, written: &'a str, suggestion: &'static str, key: NodeId) {
         if self.other_case.is_none() {
             self.other_case = Some((written, suggestion, self.tree.span(key)));
         }
     }
 
-    /// The last unknown key from the slip of this index on for which one of these was meant.
+    /// The last unknown key, from the typo of index `from` on, that was probably one of these keys.
     pub(super) fn typo_for(&self, keys: &[&str], from: usize) -> Option<Span> {
         let typos = self.typos[from..].iter().rev();
         let mut suggestion = typos.filter(|(suggestion, _)| keys.contains(suggestion));
         suggestion.next().map(|(_, span)| *span)
     }
 
-    /// The severity of what is left unread: an error if the user asked for strictness.
+    /// The severity of an unknown key: an error with `--strict`.
     pub(super) fn unknown_key_severity(&self) -> Severity {
         if self.options.strict {
             Severity::Error
@@ -325,8 +325,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// A span that stands for a node as a whole: its first pair if it is a map, else its first
-    /// line.
+    /// A short span that stands for a node: the first entry of a map, else the node.
     pub(super) fn head(&self, node: NodeId) -> Span {
         match self.tree.pairs(node).next() {
             Some((key, value)) if self.tree.is_map(node) => match self.tree.shape(value) {
@@ -339,7 +338,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// The node, or only its head if it is a map or list in block form.
+    /// The span of a node, or only its head if it is a map.
     fn first_line(&self, node: NodeId) -> Span {
         if self.tree.is_map(node) {
             self.head(node)
@@ -348,8 +347,8 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Counts work that aliases can repeat. False once there was too much of it, which is reported
-    /// once.
+    /// Counts work that aliases can repeat. Returns false if the limit is exceeded, which is
+    /// reported once.
     pub(super) fn step(&mut self, node: NodeId) -> bool {
         if self.is_exhausted() {
             return false;
@@ -358,14 +357,11 @@ impl<'a> Context<'a> {
         if self.is_exhausted() {
             let finding = Diagnostic::new(
                 &codes::REPETITION,
-                "aliases and merge keys make this scene too large",
+                "aliases and merge keys make the scene too large",
             );
             self.sink.push(
                 finding
-                    .at(
-                        self.first_line(node),
-                        "the limit was passed while reading this",
-                    )
+                    .at(self.first_line(node), "the limit was exceeded here")
                     .hint("write it out, or allow more by `--limit nodes=…`"),
             );
         }
@@ -377,7 +373,7 @@ impl<'a> Context<'a> {
     }
 }
 
-/// What a node is, in the user's words.
+/// A description of a node for messages.
 pub(super) fn describe(shape: NodeContent<'_>) -> String {
     match shape {
         NodeContent::Word("" | "~" | "null" | "Null" | "NULL") => "nothing".to_owned(),

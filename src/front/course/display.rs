@@ -1,4 +1,4 @@
-//! How a picture shows its values: the tone map and the exposure.
+//! The display settings: tone map and exposure.
 
 use super::keyword::Keyword;
 use super::lower::Lowering;
@@ -17,7 +17,7 @@ impl Keyword for Tone {
 }
 
 impl Lowering {
-    /// Lowers what the file says of it.
+    /// Lowers the display settings.
     pub(super) fn display(&mut self, scene: &Scene) {
         self.scene.display = ir::Display {
             exposure: scene.exposure.value.0,

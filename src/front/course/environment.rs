@@ -1,4 +1,4 @@
-//! What surrounds a scene.
+//! The environment light.
 
 use super::decode::{Context, Spanned};
 use super::lower::Lowering;
@@ -11,22 +11,25 @@ use rtc_ir::{self as ir, EntityKind, Field};
 use rtc_source::Span;
 
 record! {
-    /// What surrounds the scene: light from every direction where nothing stands. A scene with one is shown by its paths.
+    /// The environment: light from every direction that no surface blocks. A scene with an
+    /// environment is rendered by path tracing.
     struct Environment, "environment" {
-        /// The radiance: red, green, blue, or one number for all; with a `file`, a factor of it.
+        /// The radiance: red, green, blue, or one number for all; with a `file`, a factor of the
+        /// image.
         color: Spanned<Channels>, default(Channels([1.0; 3])), keys!["color"];
-        /// A picture of all directions, Radiance HDR or OpenEXR: longitude across, its middle towards −z, +y up.
+        /// An image of all directions, Radiance HDR or OpenEXR: longitude across, its middle
+        /// towards −z, +y up.
         file: Spanned<FileName>, optional, keys!["file"];
-        /// The angles in radians by which it is turned: first about x, then y, then z.
+        /// The rotation of the environment by angles in radians: first about x, then y, then z.
         rotation: Spanned<Vector>, optional, keys!["rotation"];
-        /// The same as nine numbers, in place of `rotation`: the rows of the rotation from directions of the world to those
-        /// of the picture.
+        /// The rotation as nine numbers, in place of `rotation`: the rows of the matrix from
+        /// directions of the world to those of the image.
         matrix: Spanned<RotationRows>, optional, keys!["matrix"];
     }
 }
 
 impl Lowering {
-    /// Lowers an environment: its file is wanted.
+    /// Lowers an environment; its file is added to the pending assets.
     pub(super) fn environment(
         &mut self,
         environment: &Spanned<Environment>,
@@ -50,7 +53,7 @@ impl Lowering {
                 }
                 Some(matrix.value.0)
             }
-            // Its rows are where the axes come to: the way back from the world.
+            // The rotated axes are the columns of world_from_image, and so the rows of its inverse.
             (FieldOutcome::Absent, FieldOutcome::Read(rotation)) => {
                 Some(euler_axes(rotation.value.0).map(|axis| axis.to_array()))
             }
@@ -66,10 +69,10 @@ impl Lowering {
     }
 }
 
-/// Says that a matrix counts alone.
+/// Reports a `rotation` beside a `matrix`, which takes precedence.
 fn report_two_rotations(rotation: Option<Span>, context: &mut Context<'_>) {
     let Some(span) = rotation else { return };
-    let message = || "the environment is turned once: the `matrix` counts".to_owned();
+    let message = || "`rotation` has no effect beside `matrix`".to_owned();
     context.report(&codes::NO_EFFECT, span, message, |d| {
         d.at(span, "no effect").severity(Severity::Warning)
     });

@@ -1,14 +1,14 @@
-//! What a small calculation comes to that was written in place of a number: `1/3`, `2*0.6`,
-//! `-pi/4`.
+//! Evaluates an arithmetic expression that a file has in place of a number, as `1/3`, `2*0.6` or
+//! `-pi/4`, so that a hint can propose its value.
 
 use std::f64::consts::PI;
 
-/// The longest calculation that is looked at, in bytes.
+/// The longest expression that is evaluated, in bytes.
 const MAX_LENGTH: usize = 64;
 
-/// The result, if the text is a calculation and that is finite; a number alone is none.
+/// The value of an expression, if it is finite. A number without an operator is no expression.
 ///
-/// Operators and values wait on two stacks (Dijkstra's shunting yard).
+/// Dijkstra's shunting-yard algorithm: operators and values wait on two stacks.
 pub(super) fn evaluate(text: &str) -> Option<f64> {
     if text.len() > MAX_LENGTH || !text.contains(['+', '-', '*', '/', '^', '(', 'p', 'π', 's']) {
         return None;
@@ -82,7 +82,7 @@ enum Operator {
 }
 
 impl Operator {
-    /// What binds more is done first.
+    /// The operator of higher precedence is applied first.
     fn precedence(self) -> u8 {
         match self {
             Self::Open => 0,
@@ -102,8 +102,8 @@ struct ShuntingYard {
 }
 
 impl ShuntingYard {
-    /// Adds an operator between two values, after those that bind as much; powers bind to the
-    /// right.
+    /// Pushes a binary operator, after applying all stacked operators that bind more tightly, or
+    /// equally: only powers are right-associative.
     fn push(&mut self, operator: Operator) -> Option<()> {
         let goes_first = |operators: Operator| {
             operators.precedence() > operator.precedence()
@@ -116,7 +116,7 @@ impl ShuntingYard {
         Some(())
     }
 
-    /// Closes the last bracket.
+    /// Applies all operators up to the last open bracket and removes it.
     fn close(&mut self) -> Option<()> {
         while *self.operators.last()? != Operator::Open {
             self.apply()?;
@@ -125,7 +125,7 @@ impl ShuntingYard {
         Some(())
     }
 
-    /// Does what waits last.
+    /// Applies the last operator to the last values.
     fn apply(&mut self) -> Option<()> {
         let operator = self.operators.pop()?;
         let last = self.values.pop()?;

@@ -1,4 +1,5 @@
-//! Glass: what some files say of it by words, and what becomes of its own colour.
+//! Glass: materials that files declare transparent by a keyword (`isTransparent`, `type:
+//! refraction`) instead of by the weight `kt`.
 
 use super::decode::Context;
 use super::lower::Lowering;
@@ -8,18 +9,18 @@ use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, MaterialId};
 use rtc_source::Span;
 
-/// A material that lets light through.
+/// A material that transmits light.
 pub(super) struct Glass {
     pub(super) id: MaterialId,
-    /// Where that is said.
+    /// Where the file declares it transparent.
     pub(super) span: Span,
-    /// Whether it shows what is behind it alone.
+    /// Whether it shows only the light that it transmits, without its own colour.
     pub(super) is_clear: bool,
 }
 
 impl Lowering {
-    /// Takes its own colour from clear glass; where no ray is followed through it, glass keeps
-    /// that, and it is told. After the settings are known.
+    /// Removes the ambient and diffuse term of clear glass. If the scene follows no refracted rays,
+    /// glass keeps them, and that is reported. Call it after the settings are known.
     pub(super) fn glass(&mut self, context: &mut Context<'_>) {
         let ir::Settings {
             mode, max_depth, ..
@@ -36,7 +37,7 @@ impl Lowering {
     }
 }
 
-/// Whether a material is said to be glass or not, and where; by words, not by a weight.
+/// Whether a keyword declares a material transparent or opaque, and where.
 pub(super) fn glass_setting(material: &PhongMaterial) -> Option<(bool, Span)> {
     let PhongMaterial {
         kind,
@@ -52,46 +53,46 @@ pub(super) fn glass_setting(material: &PhongMaterial) -> Option<(bool, Span)> {
     }
 }
 
-/// Takes its own colour from glass, which shows what is behind it alone.
+/// Removes the ambient and diffuse term of glass, so that it shows only transmitted light.
 fn remove_own_color(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
     let is_colored = phong.color_map.is_some() || phong.color != [1.0; 3];
-    // A negative weight is left to the proof to refuse.
+    // The validator rejects a negative weight.
     (phong.ka, phong.kd) = (phong.ka.min(0.0), phong.kd.min(0.0));
     if is_colored {
         let message = || "glass has no colour of its own here".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {
             d.at(span, "its `color`, `ka` and `kd` have no effect")
                 .severity(Severity::Warning)
-                .hint("in place of this word `kt: 1` adds what is behind it to its own colour")
+                .hint("`kt: 1` instead adds the transmitted light to its own colour")
         });
     }
 }
 
-/// Says that no light comes through glass where no ray is followed.
+/// Reports that glass transmits no light, because `MaxRecursionDepth` is 0.
 fn report_opaque_glass(span: Span, context: &mut Context<'_>) {
     let message = || "without a `MaxRecursionDepth` nothing is seen through glass".to_owned();
     context.report(&codes::NO_EFFECT, span, message, |d| {
-        d.at(span, "the surface shows its own colour alone")
+        d.at(span, "shows only its own colour")
             .severity(Severity::Warning)
             .hint("`MaxRecursionDepth: 5` follows the light through it")
     });
 }
 
-/// Leaves a surface opaque.
+/// Makes a surface opaque and reports that its `kt` has no effect.
 pub(super) fn make_opaque(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
     phong.kt = 0.0;
-    // A negative index is left to the proof to refuse.
+    // The validator rejects a negative index.
     if phong.eta > 0.0 {
         phong.eta = 1.0;
     }
-    let message = || "the surface has a weight of refraction, but is said to be opaque".to_owned();
+    let message = || "the material has a weight of refraction, but is declared opaque".to_owned();
     context.report(&codes::NO_EFFECT, span, message, |d| {
         d.at(span, "so its `kt` has no effect")
             .severity(Severity::Warning)
     });
 }
 
-/// Says that an index of refraction refracts nothing without a weight.
+/// Reports an index of refraction without a weight: it has no effect.
 pub(super) fn report_index_without_weight(material: &PhongMaterial, context: &mut Context<'_>) {
     let PhongMaterial { kt, eta, .. } = material;
     let refracts = eta.value.0 > 0.0 && (eta.value.0 - 1.0).abs() > 1e-9;

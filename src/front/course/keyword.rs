@@ -1,4 +1,4 @@
-//! Words: values of which each has a name.
+//! Values that are written as keywords.
 
 use super::decode::{Context, Value};
 use super::schema::Definitions;
@@ -7,9 +7,9 @@ use rtc_diag::{clip, codes, nearest};
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
-/// A type of which each value is written as a word.
+/// A type whose values are keywords.
 pub(super) trait Keyword: Copy + PartialEq + 'static {
-    /// The words, and what each means; of several for one value the first is shown.
+    /// The keywords and their values. If several keywords have one value, the first is canonical.
     const KEYWORDS: &'static [(&'static str, Self)];
 }
 
@@ -28,7 +28,7 @@ impl<T: Keyword> Value for T {
     }
 }
 
-/// A word of a table, in any case of letters: the table's words, and what each means.
+/// Reads a keyword of a table; case-insensitive.
 pub(super) fn keyword<T: Copy>(
     node: NodeId,
     table: &[(&'static str, T)],
@@ -62,7 +62,7 @@ pub(super) fn keyword<T: Copy>(
     meaning.map(|(_, meaning)| *meaning)
 }
 
-/// The schema of [`keyword`]: an editor offers the words, and any case of letters is taken.
+/// The schema of [`keyword()`]: editors propose the keywords, and any case is accepted.
 pub(super) fn keyword_schema<T>(table: &[(&'static str, T)]) -> Json {
     let any_case = |letter: char| match letter.is_ascii_alphabetic() {
         true => format!("[{}{}]", letter.to_ascii_uppercase(), letter),
@@ -73,5 +73,6 @@ pub(super) fn keyword_schema<T>(table: &[(&'static str, T)]) -> Json {
         .iter()
         .map(|keyword| keyword.chars().map(any_case).collect())
         .collect();
-    json!({ "anyOf": [{ "enum": keywords }, { "type": "string", "pattern": format!("^({})$", pattern.join("|")) }] })
+    let pattern = format!("^({})$", pattern.join("|"));
+    json!({ "anyOf": [{ "enum": keywords }, { "type": "string", "pattern": pattern }] })
 }

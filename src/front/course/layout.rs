@@ -1,14 +1,14 @@
-//! The text of a scene in the layout of the house.
+//! Formats the text of a scene.
 
 use super::syntax;
 use rtc_diag::Sink;
 use rtc_source::tree::yaml::{self, LayoutFault, Mistake};
 use rtc_source::{FileId, SourceMap};
 
-/// The text of a file as it is laid out. What is wrong with it is told only if there is no tree.
+/// The formatted text of a file. Syntax errors are reported only if there is no tree.
 ///
 /// # Errors
-/// If there is no tree, or no layout that says the same.
+/// If there is no tree, or no layout with the same meaning.
 pub fn lay_out(file: FileId, map: &SourceMap, sink: &mut Sink) -> Result<String, LayoutFault> {
     let mut found = Vec::new();
     let report = &mut |mistake: Mistake<'_>| found.push(syntax::finding(mistake));

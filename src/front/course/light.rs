@@ -1,4 +1,4 @@
-//! The lights: points and spheres, suns, and lamps as measured.
+//! The lights: points and spheres, suns, spots, and photometric lights.
 
 use super::assets::AssetTarget;
 use super::decode::{Context, Spanned};
@@ -13,45 +13,51 @@ use rtc_ir::{self as ir, EntityKind, Field, Photometry};
 use rtc_source::Span;
 
 record! {
-    /// A point or sphere that shines equally in all directions, without falloff; a sun, infinitely far away; or what falls
-    /// off with the square of the distance: a point or a spot with an `intensity`, or a lamp with a measured profile. A
-    /// scene with any but the first is shown by its paths.
+    /// A point or sphere that emits equally in all directions, without falloff; a directional light
+    /// (sun); or a light with inverse-square falloff: a point or a spot with an `intensity`, or a
+    /// light with a measured profile. A scene with any but the first is rendered by path tracing.
     struct Light, "light" {
-        /// What kind of light this is.
+        /// The type of the light.
         kind: Spanned<LightKind>, optional, keys!["type"];
-        /// Where the light stands.
+        /// The position of the light.
         position: Spanned<Point>, optional, &with_canonical(POSITION, "position"), json "position";
-        /// Its colour: red, green, blue; more than 1 is allowed. With a `file`, a factor of its candelas.
+        /// The colour: red, green, blue; values above 1 are allowed. With a `file`, a factor of its
+        /// candelas.
         color: Spanned<Color>, optional, keys!["color" "colour"], json "color";
-        /// The radius of the sphere that shines; 0 is a point. A larger one makes the edges of shadows soft.
+        /// The radius of the emitting sphere; 0 is a point. A larger radius makes soft shadows.
         radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["radius" "size"];
-        /// The direction from the scene to the sun; that in which a spot shines; with a `file`, that in which the lamp
-        /// points, its vertical angle 0.
+        /// The direction from the scene to a sun; the direction in which a spot points; with a
+        /// `file`, the direction of vertical angle 0.
         direction: Spanned<Vector>, optional, keys!["direction"];
-        /// The irradiance on a surface that faces the sun: red, green, blue, or one number for all. A white surface
-        /// then has the radiance irradiance/π.
+        /// The irradiance on a surface that faces the sun: red, green, blue, or one number for all.
+        /// A white diffuse surface then has the radiance irradiance/π.
         irradiance: Spanned<Channels>, optional, keys!["irradiance"];
-        /// The radiant intensity of a point or a spot, power per steradian: red, green, blue, or one number for all.
+        /// The radiant intensity of a point or a spot, power per steradian: red, green, blue, or
+        /// one number for all.
         intensity: Spanned<Channels>, optional, keys!["intensity"];
-        /// The distance in which a point or a spot with an `intensity` fades to nothing, by the falloff of
-        /// `KHR_lights_punctual`; without it, it never does.
+        /// The distance at which a point or a spot with an `intensity` fades to 0, by the falloff
+        /// of `KHR_lights_punctual`; unlimited by default.
         range: Spanned<Positive>, optional, keys!["range"];
-        /// The angle from its direction, in radians, within which a spot shines fully.
+        /// The angle from the direction of a spot, in radians, up to which it has its full
+        /// intensity.
         inner_angle: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["innerAngle"];
-        /// The angle from its direction, in radians, beyond which a spot is dark: more than `innerAngle`, at most π/2.
+        /// The angle from the direction of a spot, in radians, from which on it is dark: more than
+        /// `innerAngle`, at most π/2.
         outer_angle: Spanned<HalfAngle>, optional, keys!["outerAngle"];
-        /// The profile of the lamp: an IES file (LM-63) of type C with `TILT=NONE`.
+        /// The photometric profile: an IES file (LM-63) of type C with `TILT=NONE`.
         file: Spanned<FileName>, optional, keys!["file"];
-        /// The direction of the horizontal angle 0 of the profile; only its part across `direction` counts.
+        /// The direction of horizontal angle 0 of the profile; only its component perpendicular to
+        /// `direction` is used.
         horizontal: Spanned<Vector>, default(Vector([1.0, 0.0, 0.0])), keys!["horizontal"];
     }
     variants {
-        [position color] [direction irradiance] [position direction file] [position direction file color]
+        [position color] [direction irradiance] [position direction file]
+        [position direction file color]
         [position intensity] [position direction intensity outer_angle]
     }
 }
 
-/// A kind of light.
+/// The type of a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LightKind {
     Point,
@@ -81,7 +87,7 @@ impl Lowering {
         self.origin(EntityKind::Light, index, Field::Whole, light.span);
     }
 
-    /// The light that the keys make.
+    /// The light and its type, from the keys that are present.
     fn light_from_keys(&mut self, light: &Light) -> Option<(ir::Light, LightKind)> {
         let Light {
             position,
@@ -134,7 +140,7 @@ impl Lowering {
         }
     }
 
-    /// A lamp, dark until its file is there.
+    /// A photometric light, dark until its profile is loaded.
     fn photometric_light(
         &mut self,
         light: &Light,
@@ -189,14 +195,14 @@ fn point_or_spot(
     }
 }
 
-/// Warns of the keys that a light of this kind has no use for.
+/// Reports keys without effect on a light of this type.
 fn report_unused(light: &Light, actual: LightKind, is_physical: bool, context: &mut Context<'_>) {
     if let FieldOutcome::Read(kind) = light.kind
         && kind.value != actual
     {
         let message = "the `type` of the light has no effect: its other keys say otherwise";
         let hint = "a sun has `direction` and `irradiance`, a point `position` and `color` or \
-                    `intensity`, a spot `direction` and `outerAngle` too, a lamp `position`, \
+                    `intensity`, a spot `direction` and `outerAngle` too, a profile `position`, \
                     `direction` and `file`";
         no_effect(kind.span, message, hint, context);
     }
@@ -207,22 +213,22 @@ fn report_unused(light: &Light, actual: LightKind, is_physical: bool, context: &
     }
     if actual != LightKind::Ies {
         let message =
-            "`horizontal` has no effect on this light: only a profile has horizontal angles";
+            "`horizontal` has no effect on the light: only a profile has horizontal angles";
         no_effect(light.horizontal.span, message, "remove it", context);
     }
     if actual != LightKind::Spot {
-        let message = "`innerAngle` has no effect on this light: only a spot has angles";
+        let message = "`innerAngle` has no effect on the light: only a spot has angles";
         no_effect(light.inner_angle.span, message, "remove it", context);
     }
     let has_range = is_physical && matches!(actual, LightKind::Point | LightKind::Spot);
     if let (false, FieldOutcome::Read(range)) = (has_range, light.range) {
-        let message = "`range` has no effect on this light: only a point or a spot with an \
+        let message = "`range` has no effect on the light: only a point or a spot with an \
                        `intensity` has one";
         no_effect(range.span, message, "remove it", context);
     }
 }
 
-/// Warns of a key that changes nothing, if it is written.
+/// Reports a key without effect, if it is present.
 fn no_effect(span: Option<Span>, message: &str, hint: &str, context: &mut Context<'_>) {
     if let Some(span) = span {
         context.report(

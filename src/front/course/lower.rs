@@ -1,4 +1,4 @@
-//! Lowering: the declaration, piece by piece as it is decoded, to the IR, with the place of every
+//! Lowers the declaration to the IR, piece by piece as it is decoded, and records the span of every
 //! value.
 
 use super::assets::{PendingAsset, PendingMaterial};
@@ -19,11 +19,11 @@ use rtc_source::tree::{NodeContent, NodeId};
 use rtc_source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
 
-/// Reads a scene text and lowers it, but for the files it names. `None` if the text is no scene at
-/// all; every mistake is in the sink.
+/// Parses the text of a scene and lowers it, without loading the files that it names. `None` if the
+/// text is no scene; every mistake is reported.
 ///
-/// What can't be read is left out, and a camera that can't be read is replaced by a sound one, so
-/// that the proof can find the mistakes of the rest; the sink has an error for each.
+/// Invalid parts are omitted, and an invalid camera is replaced by a valid one, so that the
+/// validator can find the mistakes in the rest.
 pub fn lower(
     file: FileId,
     map: &SourceMap,
@@ -36,7 +36,7 @@ pub fn lower(
         NodeContent::Map => {}
         NodeContent::Word("" | "~" | "null" | "Null" | "NULL") => {
             sink.push(
-                Diagnostic::new(&codes::EMPTY_FILE, "this file holds no scene")
+                Diagnostic::new(&codes::EMPTY_FILE, "the file contains no scene")
                     .at(tree.span(tree.root()), "empty"),
             );
             return None;
@@ -45,7 +45,7 @@ pub fn lower(
             let hint = "it starts like `Camera:`, with a colon and a space after each key";
             sink.push(
                 Diagnostic::new(&codes::NOT_A_SCENE, "a scene is a map of keys and values")
-                    .at(tree.span(tree.root()), "this is not")
+                    .at(tree.span(tree.root()), "not a map")
                     .hint(hint),
             );
             return None;
@@ -56,26 +56,26 @@ pub fn lower(
     lowering.scene(&mut context);
     report_spellings(&mut context);
     record_case(&mut context);
-    // The places are sorted after the tree is gone: together they would be the peak of memory.
+    // The spans are sorted after the tree is freed, which lowers the peak of memory.
     drop(tree);
     Some(lowering.finish())
 }
 
-/// A scene as lowered from its text alone: the files it names are still to be brought.
+/// A scene as lowered from its text; its files are not loaded yet.
 #[derive(Clone, Debug)]
 pub struct UnfinishedScene {
     /// The scene, with an image of one pixel or an empty mesh for each file.
     pub lowered: Lowered,
     /// The files, each once.
     pub pending_assets: Vec<PendingAsset>,
-    /// What is to be done about the sizes of meshes.
+    /// The sizings of meshes, to be applied after loading.
     pub(super) sizings: Vec<Sizing>,
-    /// Where the material of each mesh comes from.
+    /// The source of each mesh's material.
     pub(super) pending_materials: Vec<PendingMaterial>,
 }
 
 impl UnfinishedScene {
-    /// A scene that waits for these files alone.
+    /// A scene with these pending files.
     #[must_use]
     pub fn new(lowered: Lowered, pending_assets: Vec<PendingAsset>) -> Self {
         Self {
@@ -87,24 +87,24 @@ impl UnfinishedScene {
     }
 }
 
-/// A scene in the making.
+/// The state of lowering one scene.
 pub(super) struct Lowering {
     pub(super) scene: ir::Scene,
-    /// The materials by their nodes: aliases may name them again.
+    /// The materials by their nodes, which aliases may repeat.
     pub(super) shared: BTreeMap<NodeId, MaterialId>,
-    /// The material of what has none, once there is such a thing.
+    /// The material of objects without one, once it is used.
     pub(super) grey: Option<MaterialId>,
-    /// The textures and meshes named so far.
+    /// The textures and meshes so far.
     pub(super) files: NamedFiles,
-    /// The materials that let light through.
+    /// The materials that transmit light.
     pub(super) glass: Vec<Glass>,
-    /// What is to be done about the sizes of meshes.
+    /// The sizings of meshes, to be applied after loading.
     pub(super) sizings: Vec<Sizing>,
-    /// Where the material of each mesh comes from.
+    /// The source of each mesh's material.
     pub(super) pending_materials: Vec<PendingMaterial>,
-    /// The tori whose radii are read by what is around them.
+    /// The tori whose radii are interpreted by the entities around them.
     pub(super) rims: Vec<AmbiguousTorus>,
-    /// Where it is written that an object has no size.
+    /// The spans of sizes of 0.
     pub(super) invisible: Vec<Span>,
     source_spans: SourceSpans,
 }
@@ -137,7 +137,7 @@ impl Lowering {
         }
     }
 
-    /// Remembers where a value was written; a default was written nowhere.
+    /// Records the span of a value; a default has none.
     pub(super) fn origin(
         &mut self,
         entity: EntityKind,
@@ -181,7 +181,7 @@ impl Lowering {
             .value
             .decode_each(context, "Objects", |context, object| {
                 if self.scene.surfaces.is_empty() {
-                    // ProgressiveFilm by doubling would move and hold many surfaces twice.
+                    // Growing the list by doubling would move the surfaces and double the memory.
                     self.scene.surfaces.reserve_exact(count);
                 }
                 self.object(&object.value, context);
@@ -189,7 +189,7 @@ impl Lowering {
         self.resolve_tori(context);
         self.report_invisible(context);
         if !self.scene.names.is_empty() {
-            // What has no name stands between those that have.
+            // Every surface has a name, if only an empty one.
             let count = self.scene.surfaces.len();
             self.scene.names.resize(count, String::new());
         }
@@ -199,7 +199,7 @@ impl Lowering {
         self.show_uv(&scene);
     }
 
-    /// Chooses between the two cameras.
+    /// Lowers one of the cameras and reports the others.
     fn choose_camera(&mut self, scene: &Scene, context: &mut Context<'_>) {
         let Scene {
             camera,
@@ -282,7 +282,7 @@ fn report_no_camera(context: &mut Context<'_>) {
     let cause = context.typo_for(&["Camera", "Eye"], 0);
     let cause = cause.filter(|cause| *cause != span);
     context.report(&codes::NO_CAMERA, span, message, |d| {
-        d.at(span, "this scene")
+        d.at(span, "the scene")
             .because(cause, "perhaps this is it")
             .hint("add `Camera:` with `eye`, `center`, `up` and `viewSize`; old files have `Eye:`")
     });
@@ -300,7 +300,7 @@ fn report_ignored_camera(word: &str, used: &str, span: Option<Span>, context: &m
     }
 }
 
-/// Says once which spellings of the file are not the canonical ones.
+/// Reports once which spellings are not canonical.
 fn report_spellings(context: &mut Context<'_>) {
     let spellings = std::mem::take(&mut context.spellings);
     let Some((_, _, first)) = spellings.first().copied() else {
@@ -321,7 +321,7 @@ fn report_spellings(context: &mut Context<'_>) {
     );
 }
 
-/// Says once that keys of the file are written in another case of letters.
+/// Reports once that keys differ in case from the declared ones.
 fn record_case(context: &mut Context<'_>) {
     let Some((written, canonical, span)) = context.other_case else {
         return;

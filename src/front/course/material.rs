@@ -1,4 +1,4 @@
-//! The materials.
+//! The Phong material, and the choice between it and the `standard` material.
 
 use super::decode::{Context, SharedValue, Spanned, Value};
 use super::glass::{Glass, glass_setting, make_opaque, report_index_without_weight};
@@ -18,55 +18,62 @@ use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {
-    /// What a surface is made of: Phong's model with mirror and refraction.
+    /// A material: Phong's reflection model with mirror reflection and refraction.
     struct PhongMaterial, "material" {
         /// The colour: red, green, blue.
         color: Spanned<Color>, optional, keys!["color" "colour"], json "color";
-        /// The file of a picture laid over the surface, which gives its colour; or `UV` for the colours (u, 0, v).
+        /// The image file of the colour; or `UV` for the texture coordinates as the colours (u, 0,
+        /// v).
         texture: Spanned<FileName>, optional, keys!["texture"], json "texture";
-        /// The file of a picture whose brightness is the height of the surface.
+        /// The image file of a bump map: its brightness is the height of the surface.
         bump: Spanned<FileName>, optional, keys!["bump"];
-        /// The file of a picture of normals: red to the right, green upwards, blue away from the surface.
+        /// The image file of a normal map: red to the right, green upwards, blue away from the
+        /// surface.
         normal_map: Spanned<FileName>, optional, keys!["normalMap"];
-        /// The file of a picture whose red multiplies `ks`.
+        /// The image file whose red channel multiplies `ks`.
         specular_map: Spanned<FileName>, optional, keys!["specularMap"];
         /// The weight of the ambient light.
         ka: Spanned<NonNegative>, required, keys!["ka" "ambient"], json "ka";
         /// The weight of the diffuse light.
         kd: Spanned<NonNegative>, required, keys!["kd" "diffuse"], json "kd";
-        /// The weight of the highlight and of the mirror image; 1 beside a `specularMap` that replaces it.
+        /// The weight of the highlight and of the mirror reflection; 1 beside a `specularMap` that
+        /// replaces it.
         ks: Spanned<NonNegative>, unless("specular_map"), keys!["ks" "specular"], json "ks";
-        /// The exponent of the highlight: the larger, the smaller and sharper.
-        n: Spanned<NonNegative>, required, keys!["n" "shininess" "exponent" "specularExponent"], json "n";
-        /// The weight of the light that passes through; 0 is opaque.
+        /// The exponent of the highlight; a larger one makes it smaller and sharper.
+        n: Spanned<NonNegative>, required,
+            keys!["n" "shininess" "exponent" "specularExponent"], json "n";
+        /// The weight of the transmitted light; 0 is opaque.
         kt: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["kt" "refract"];
         /// The index of refraction, for instance 1.5 for glass; 0 is opaque.
-        eta: Spanned<NonNegative>, default(NonNegative(1.0)), keys!["eta" "index" "nt" "ior" "refractiveIndex" "refractionIndex"], json "nt";
-        /// In some files what becomes of light: `refraction` is glass, a `kt` of 1 without `ka` and `kd`; `reflection`
-        /// and `default` mirror by `ks`, though in those files `default` does not.
+        eta: Spanned<NonNegative>, default(NonNegative(1.0)),
+            keys!["eta" "index" "nt" "ior" "refractiveIndex" "refractionIndex"], json "nt";
+        /// In some files the kind of material: `refraction` is glass, a `kt` of 1 without `ka` and
+        /// `kd`; `reflection` and `default` have a mirror reflection of weight `ks`, though in
+        /// those files `default` has none.
         kind: Spanned<Finish>, optional, keys!["type"];
-        /// In some files whether it is glass: a `kt` of 1 beside its own `ka` and `kd`, or none.
+        /// In some files whether it is glass: `true` is a `kt` of 1 besides its `ka` and `kd`,
+        /// `false` a `kt` of 0.
         is_transparent: Spanned<bool>, optional, keys!["isTransparent"], json "isTransparent";
-        /// How many rays sample a blurred mirror image; 1 is a sharp one.
+        /// The number of rays of a glossy reflection; 1 is a sharp mirror.
         glossy_samples: Spanned<Count>, default(Count(1)), keys!["glossySamples"];
     }
     variants { [color] [texture] [color texture] }
 }
 
-/// A material of either family.
+/// A material of either model.
 pub(super) enum Material {
     Phong(Box<PhongMaterial>),
     Standard(Box<StandardMaterial>),
 }
 
-/// Whether Phong's model has a key of this name, other than `type`, which others have too.
+/// Whether a Phong material has this key. `type` is excluded, because other records have it too.
 pub(super) fn is_material_key(key: &str) -> bool {
     let spellings = PhongMaterial::RECORD.fields.iter();
     let mut keys = spellings.flat_map(|field| field.spellings.iter().copied().flatten());
     key != KIND && keys.any(|known| *known == key)
 }
 
-/// The key that says of which.
+/// The key that selects the model.
 const KIND: &str = "type";
 
 impl Value for Material {
@@ -91,7 +98,7 @@ impl Value for Material {
     }
 }
 
-/// What becomes of light on a surface, as some files say it.
+/// The kind of a material in some files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Finish {
     Default,
@@ -107,7 +114,7 @@ impl Keyword for Finish {
     ];
 }
 
-/// The material of a mesh for which none was written.
+/// The material of a mesh without one.
 const GREY: ir::Phong = ir::Phong {
     color: [0.7; 3],
     ka: 0.2,
@@ -116,7 +123,8 @@ const GREY: ir::Phong = ir::Phong {
 };
 
 impl Lowering {
-    /// Lowers a material, once if aliases share it. `None` if it can't be, which is reported.
+    /// Lowers a material; one that aliases share becomes one material. `None` if it is invalid,
+    /// which is reported.
     pub(super) fn material(
         &mut self,
         material: &Spanned<SharedValue<Material>>,
@@ -215,7 +223,7 @@ impl Lowering {
         }
     }
 
-    /// Says that `type: default` mirrors here, where the picture shows that.
+    /// Reports that `type: default` acts as a mirror here, if the image shows it.
     fn report_mirror(&self, material: &PhongMaterial, context: &mut Context<'_>) {
         let FieldOutcome::Read(Spanned {
             value: Finish::Default,
@@ -293,7 +301,7 @@ impl Lowering {
         }
     }
 
-    /// The material of what has none.
+    /// The material of objects without one.
     pub(super) fn grey(&mut self) -> MaterialId {
         let id = self
             .grey
@@ -309,8 +317,8 @@ impl Lowering {
     }
 }
 
-/// A weight or an index of 0 means that nothing is refracted; what is negative is left for the
-/// proof to refuse.
+/// The weight and the index of refraction in the IR. A weight or an index of 0 means no refraction;
+/// the validator rejects negative ones.
 fn refraction(kt: f64, eta: f64) -> (f64, f64) {
     let weight = if eta == 0.0 { kt.min(0.0) } else { kt };
     let ratio = if eta == 0.0 || (kt == 0.0 && eta > 0.0) {
@@ -321,7 +329,7 @@ fn refraction(kt: f64, eta: f64) -> (f64, f64) {
     (weight, ratio)
 }
 
-/// The weight of the highlight, which a texture may replace.
+/// The weight of the highlight; 1 if only a texture gives it.
 fn specular(ks: &FieldOutcome<Spanned<NonNegative>>) -> Spanned<NonNegative> {
     ks.ok().unwrap_or(Spanned::unwritten(NonNegative(1.0)))
 }

@@ -1,7 +1,7 @@
-//! Numbers, and finite ones.
+//! The number types of the format.
 //!
-//! Their types name ranges for the schema. What the IR can hold is lowered, in range or not: the
-//! proof refuses it there, as it must for scenes that were never text.
+//! Each type names a range for the schema. The decoder rejects only what the IR cannot represent;
+//! the validator checks ranges, because a scene need not come from text.
 
 use super::core_schema::{ScalarNumber, is_not_finite_elsewhere, parse_number};
 use super::decode::{Context, Value, describe};
@@ -14,7 +14,7 @@ use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 use std::f64::consts::FRAC_PI_2;
 
-/// The number a word without quotes says, if it says one; nothing is reported.
+/// The number that an unquoted scalar spells, if any; reports nothing.
 pub(super) fn plain_number(node: NodeId, context: &Context<'_>) -> Option<f64> {
     match context.tree.shape(node) {
         NodeContent::Word(scalar) => match parse_number(scalar) {
@@ -25,12 +25,12 @@ pub(super) fn plain_number(node: NodeId, context: &Context<'_>) -> Option<f64> {
     }
 }
 
-/// Whether a word without quotes is a number, finite or not.
+/// Whether an unquoted scalar is a number, finite or not.
 pub(super) fn is_number(scalar: &str) -> bool {
     !matches!(parse_number(scalar), ScalarNumber::NoNumber)
 }
 
-/// A finite number; else the sink has an error.
+/// Reads a finite number; reports anything else.
 pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Option<f64> {
     let tree = context.tree;
     let (scalar, quoted) = match tree.shape(node) {
@@ -53,8 +53,11 @@ pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Opt
                 )
             };
             context.report(&codes::WRONG_TYPE, span, message, |d| {
-                d.at(span, "text, because of the quotes")
-                    .replace("remove the quotes", span, scalar)
+                d.at(span, "a string, because of the quotes").replace(
+                    "remove the quotes",
+                    span,
+                    scalar,
+                )
             });
             None
         }
@@ -72,13 +75,14 @@ fn not_finite(scalar: &str, span: Span, context: &mut Context<'_>) {
     let key = context.key;
     let message = || format!("`{}` is not finite: `{}`", clip(key.text), clip(scalar));
     context.report(&codes::NOT_FINITE, span, message, |d| {
-        d.at(span, "no number to compute with")
+        d.at(span, "not a finite number")
     });
 }
 
-/// A whole number up to `max`; one that is larger or negative is reported and becomes `min`.
+/// Reads an integer of at most `max`. An integer that is larger or negative is reported and
+/// replaced by `min`.
 ///
-/// What lies between 0 and `min` is lowered as it is.
+/// An integer from 0 to `min` is lowered as it is; the validator rejects it.
 pub(super) fn integer(min: u32, max: u32, node: NodeId, context: &mut Context<'_>) -> Option<u32> {
     let value = number(node, "a whole number", context)?;
     #[expect(
@@ -118,14 +122,14 @@ fn out_of_range(range: &str, node: NodeId, context: &mut Context<'_>) {
     });
 }
 
-/// Warns of an angle in degrees that is more likely in radians.
+/// Warns of an angle in degrees that is probably in radians.
 fn report_likely_radians(angle: f64, node: NodeId, context: &mut Context<'_>) {
     let degrees = (angle.to_degrees() * 100.0).round() / 100.0;
     let message = |key: &str| format!("`{}` is in degrees, and looks like radians", clip(key));
     report_other_unit(message, format!("{degrees}"), node, context);
 }
 
-/// Warns of an angle in radians that is more likely in degrees: more than a turn, and a multiple of
+/// Warns of an angle in radians that is probably in degrees: above one revolution and a multiple of
 /// 5.
 pub(super) fn radians(angle: f64, node: NodeId, context: &mut Context<'_>) -> f64 {
     if angle.abs() > std::f64::consts::TAU && angle % 5.0 == 0.0 {
@@ -148,13 +152,13 @@ fn report_other_unit(
         span,
         || message(key.text),
         |d| {
-            d.at(span, "taken as it is")
+            d.at(span, "used unchanged")
                 .guess("in the other unit", span, replacement)
         },
     );
 }
 
-/// The shortest JSON of a number: whole ones without a point.
+/// The shortest JSON of a number; integers have no decimal point.
 pub(super) fn json_number(value: f64) -> Json {
     #[expect(
         clippy::cast_possible_truncation,
@@ -167,7 +171,7 @@ pub(super) fn json_number(value: f64) -> Json {
     }
 }
 
-/// Declares a number in a range as a type of the format.
+/// Declares a type of the format: a number in a range.
 macro_rules! ranged {
     ($(#[doc = $doc:literal])+ $name:ident($inner:ty), $decode:expr, $schema:tt) => {
         $(#[doc = $doc])+
@@ -199,7 +203,7 @@ ranged! {
 }
 
 ranged! {
-    /// The angle of a view in degrees.
+    /// A field of view in degrees.
     FieldOfView(f64), |node, context| {
         let degrees = number(node, "a number", context)?;
         if degrees <= 0.0 || degrees >= 180.0 {
@@ -226,28 +230,30 @@ ranged! {
 
 ranged! {
     /// A number of at least 0.
-    NonNegative(f64), |node, context| number(node, "a number", context), { "type": "number", "minimum": 0 }
+    NonNegative(f64), |node, context| number(node, "a number", context),
+    { "type": "number", "minimum": 0 }
 }
 
 ranged! {
     /// A number above 0.
-    Positive(f64), |node, context| number(node, "a number", context), { "type": "number", "exclusiveMinimum": 0 }
+    Positive(f64), |node, context| number(node, "a number", context),
+    { "type": "number", "exclusiveMinimum": 0 }
 }
 
 ranged! {
-    /// A whole number of at least 0.
+    /// An integer of at least 0.
     Natural(u32), |node, context| integer(0, u32::MAX, node, context),
     { "type": "integer", "minimum": 0, "maximum": 4_294_967_295_u32 }
 }
 
 ranged! {
-    /// A whole number of at least 1.
+    /// An integer of at least 1.
     Count(u32), |node, context| integer(1, u32::MAX, node, context),
     { "type": "integer", "minimum": 1, "maximum": 4_294_967_295_u32 }
 }
 
 ranged! {
-    /// An angle in radians of at most a quarter turn.
+    /// An angle in radians of at most π/2.
     HalfAngle(f64), |node, context| {
         number(node, "a number", context).map(|angle| radians(angle, node, context))
     }, { "type": "number", "exclusiveMinimum": 0, "maximum": FRAC_PI_2, "x-unit": "radians" }
@@ -266,10 +272,11 @@ ranged! {
     }, { "type": "number", "minimum": -64, "maximum": 64, "x-unit": "stops" }
 }
 
-/// The largest side of an image.
+/// The largest width or height of an image.
 const MAX_SIDE: u32 = 65_535;
 
 ranged! {
-    /// A side of an image in pixels.
-    PixelCount(u32), |node, context| integer(1, MAX_SIDE, node, context), { "type": "integer", "minimum": 1, "maximum": MAX_SIDE, "x-unit": "pixels" }
+    /// The width or height of an image in pixels.
+    PixelCount(u32), |node, context| integer(1, MAX_SIDE, node, context),
+    { "type": "integer", "minimum": 1, "maximum": MAX_SIDE, "x-unit": "pixels" }
 }

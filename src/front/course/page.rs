@@ -1,5 +1,5 @@
-//! The page of documentation on the format, made from the declarations: every key, its other
-//! spellings, its type, its default and its meaning.
+//! The documentation of the format as Markdown, generated from the declarations: every key with its
+//! other spellings, type, default and meaning.
 
 use super::camera::Camera;
 use super::environment::Environment;
@@ -19,15 +19,18 @@ use std::fmt::Write as _;
 const HEAD: &str = "\
 # The scene format
 
-A scene is a YAML file. This page is made from the declarations that the decoder and the schema are made of.
+A scene is a YAML file. This page is generated from the declarations of the format, as the decoder
+and the schema are.
 
-Every key has one canonical spelling, and often others that are met in files; all are read. A key of more than one word
-stands for several keys that are given together. Keys that are not on this page are ignored with a warning, and are
-errors with `--strict`; only `comment` may stand in every map and means nothing. A list of one item is read as that item,
-and keys in any case of letters unless `--strict` is on. A scene may be JSON, which is YAML too: the third column says which keys the course had in the years of JSON, and the programs written for them. Lengths are in scene units; points, directions and colours are lists of three numbers.
+Every key has one canonical spelling, and often others that occur in files; all of them are read.
+Several keys in one cell are given together. Keys that are not on this page are ignored with a
+warning, and are errors with `--strict`; only `comment` is allowed in every map and has no meaning.
+A list of one item is read as that item. Keys are case-insensitive unless `--strict` is on. A scene
+may be JSON, which is YAML too: the third column has the keys of the course's JSON files. Lengths
+are in scene units; points, directions and colours are lists of three numbers.
 ";
 
-const INFALLIBLE: &str = "a string takes all that is written to it";
+const INFALLIBLE: &str = "writing to a string does not fail";
 
 /// The page, in Markdown.
 #[must_use]
@@ -53,7 +56,7 @@ pub fn page() -> String {
         if let [_, others @ ..] = names
             && !others.is_empty()
         {
-            writeln!(page, "\nOther words for this type: {}.", code(others)).expect(INFALLIBLE);
+            writeln!(page, "\nOther names of this type: {}.", code(others)).expect(INFALLIBLE);
         }
     }
     page
@@ -62,7 +65,8 @@ pub fn page() -> String {
 fn section(title: &str, record: &Record, page: &mut String) {
     writeln!(page, "\n## {title}\n\n{}\n", record.doc.trim()).expect(INFALLIBLE);
     page.push_str(
-        "| key | other spellings | in JSON files | type | default | meaning |\n| --- | --- | --- | --- | --- | --- |\n",
+        "| key | other spellings | in JSON files | type | default | meaning |\n\
+         | --- | --- | --- | --- | --- | --- |\n",
     );
     for FieldDeclaration {
         name,
@@ -132,7 +136,7 @@ fn code(names: &[&str]) -> String {
         .join(" ")
 }
 
-/// What a schema takes, in words.
+/// A short description of the values that a schema accepts.
 fn kind(schema: &Json) -> String {
     if let Some(variants) = schema["anyOf"].as_array() {
         let current = variants
@@ -154,11 +158,11 @@ fn kind(schema: &Json) -> String {
     match schema["type"].as_str() {
         Some("array") => list(schema),
         Some("object") => "map".to_owned(),
-        Some("integer") => format!("whole number{}", range(schema)),
+        Some("integer") => format!("integer{}", range(schema)),
         Some("number") => format!("number{}", range(schema)),
         Some("boolean") => "`true` or `false`".to_owned(),
-        Some("string") => "text".to_owned(),
-        Some(_) | None => "word".to_owned(),
+        Some("string") => "string".to_owned(),
+        Some(_) | None => "scalar".to_owned(),
     }
 }
 
@@ -179,7 +183,7 @@ fn range(schema: &Json) -> String {
             .as_f64()
             .map(|bound| (bound, format!(" {sign} {}", schema[key])))
     };
-    // Bounds that only keep arithmetic finite are not worth a word.
+    // Bounds that only keep arithmetic finite are omitted.
     let stated = |bound: Option<(f64, String)>| {
         bound
             .filter(|(bound, _)| bound.abs() < 1e9)

@@ -1,4 +1,4 @@
-//! The paths of light: how they are followed, and when.
+//! The settings of path tracing, and the decision whether a scene is path traced.
 
 use super::assets::AssetTarget;
 use super::decode::Spanned;
@@ -9,19 +9,20 @@ use super::settings::{Mode, Scene};
 use rtc_ir as ir;
 
 record! {
-    /// How the light along all paths is followed.
+    /// The settings of path tracing.
     struct Paths, "path parameters" {
-        /// How many paths each ray of `SuperSampling` follows. Without `PathParameters` each is one path; without both a
-        /// pixel has 64.
+        /// The number of paths for each ray of `SuperSampling`. Without `PathParameters` it is 1;
+        /// without both a pixel has 64 paths.
         samples: Spanned<Count>, default(Count(64)), keys!["samples"];
-        /// Whether rough surfaces keep the light that bounces between their facets.
+        /// Whether light that bounces several times between the microfacets of a rough surface is
+        /// kept (energy compensation).
         multiple_scattering: Spanned<bool>, default(true), keys!["multipleScattering"];
     }
 }
 
 impl Lowering {
-    /// Has paths traced if the file says so, or holds what only paths show; after the lights and
-    /// the objects.
+    /// Selects path tracing if the file asks for it, or if the scene has anything that only path
+    /// tracing renders. Call it after the lights and the objects.
     pub(super) fn resolve_mode(&mut self, scene: &Scene) {
         let Scene {
             mode,

@@ -1,5 +1,5 @@
-//! Maps read field by field, in the order of a record's declaration; what was left unread and what
-//! is missing is reported.
+//! Reads the maps of the file field by field, in the order of the declaration of the record, and
+//! reports keys that are unknown or missing.
 
 use super::decode::{Context, MapEntry, ValueKey, describe};
 use super::material::is_material_key;
@@ -12,31 +12,31 @@ use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use std::collections::BTreeSet;
 
-/// So many findings get a suggestion.
+/// The number of findings after which no more suggestions are computed.
 const MAX_SUGGESTIONS: usize = 100;
 
-/// The longest row of any field.
+/// The largest number of keys in one spelling of a field.
 const MAX_ROW: usize = 6;
 
-/// A key that every map may have, for people to read; it has no meaning.
+/// The key of a comment. Every map may have it; it has no meaning.
 pub(super) const COMMENT: &str = "comment";
 
-/// The key of what an object is made of.
+/// The key of the material of an object.
 const MATERIAL: &str = "material";
 
 /// Reads one map, field by field in the order of the declaration.
 pub(super) struct MapReader {
     record: &'static Record,
-    /// The row of keys under which each field so far was there, if it was.
+    /// The spelling in which each field read so far was written, if it was.
     rows: Vec<Option<&'static [&'static str]>>,
-    /// Where the map's entries start among those of the context.
+    /// The index of the map's first entry in the entries of the context.
     first_entry: usize,
-    /// Stands for the map in findings.
+    /// The span that stands for the map in findings.
     head: Span,
 }
 
 impl MapReader {
-    /// Opens a map; anything else is reported.
+    /// Starts to read a map; reports a node of any other kind.
     pub(super) fn open(
         record: &'static Record,
         node: NodeId,
@@ -59,7 +59,7 @@ impl MapReader {
         })
     }
 
-    /// The next field of the declaration.
+    /// Reads the next field of the declaration.
     pub(super) fn next<S: Slot>(&mut self, context: &mut Context<'_>) -> FieldOutcome<S> {
         let field = &self.record.fields[self.rows.len()];
         let found = self.spelling(field, context);
@@ -80,7 +80,8 @@ impl MapReader {
         S::take(&found[..spelling.len()], context).map_or(FieldOutcome::Broken, FieldOutcome::Read)
     }
 
-    /// The first row of the field whose keys are all there and not yet used, and where.
+    /// The first spelling of the field whose keys are all present and unused, with the indices of
+    /// their entries.
     fn spelling(
         &self,
         field: &FieldDeclaration,
@@ -104,8 +105,8 @@ impl MapReader {
         })
     }
 
-    /// Reports what was left unread and what is missing. False if the map has none of the forms it
-    /// may have.
+    /// Reports keys that were not read and keys that are missing. Returns false if the map has none
+    /// of the variants of the record.
     pub(super) fn close(self, context: &mut Context<'_>) -> bool {
         let (mut partial, typos) = (0_u64, context.typos.len());
         for at in self.first_entry..context.entries.len() {
@@ -138,7 +139,7 @@ impl MapReader {
             let cause = context.typo_for(&missing, typos);
             missing_keys(self.record.name, self.head, &missing, cause, context);
         }
-        // Which form was meant is unclear while a group is incomplete, which was reported.
+        // While a group of keys is incomplete, which was reported, the intended variant is unknown.
         partial != 0
             || variant::check(
                 self.record,
@@ -149,8 +150,8 @@ impl MapReader {
             )
     }
 
-    /// Reports a key nobody used. The bit of the field it is a part of, if that field is
-    /// incomplete.
+    /// Reports a key that no field read. If the key belongs to an incomplete group of a field,
+    /// returns the bit of that field.
     fn report_unread(&self, entry: MapEntry<'_>, context: &mut Context<'_>) -> u64 {
         let Record {
             name: record_name,
@@ -164,8 +165,8 @@ impl MapReader {
                 .iter()
                 .any(|spelling| spelling.contains(&entry.key))
         };
-        // Another of the same key was used: a duplicate, which is reported already, or hidden by
-        // what merges it.
+        // The same key was read elsewhere in the map: a duplicate, which was reported, or a merged
+        // key that a key of the map itself overrides.
         if self
             .rows
             .iter()
@@ -180,14 +181,9 @@ impl MapReader {
             .enumerate()
             .find(|(at, field)| has(*at) && part_of(field));
         if let Some((_, field)) = used {
-            let message = || {
-                format!(
-                    "`{}` says again what another key of the {record_name} says",
-                    entry.key
-                )
-            };
+            let message = || format!("`{}` repeats another key of the {record_name}", entry.key);
             context.report(&codes::CONFLICTING_KEYS, span, message, |d| {
-                d.at(span, "one too many").hint(format!(
+                d.at(span, "redundant").hint(format!(
                     "the {record_name} takes {} once",
                     quoted_list(field.spellings[0].iter().copied())
                 ))
@@ -218,7 +214,7 @@ impl MapReader {
         0
     }
 
-    /// Reports a key of which nothing is known, with the one that was probably meant.
+    /// Reports an unknown key, with the key that was probably intended.
     fn report_unknown(&self, entry: MapEntry<'_>, context: &mut Context<'_>) {
         let Record {
             name: record_name,
@@ -226,7 +222,8 @@ impl MapReader {
             ..
         } = self.record;
         let span = context.tree.span(entry.key_node);
-        // Advice costs a comparison with every key: who made so many mistakes gets no more of it.
+        // A suggestion costs a comparison with every key, so it is made only for the first
+        // findings.
         let advise = context.findings() < MAX_SUGGESTIONS;
         let fields = fields.iter().enumerate();
         let unused = fields.filter(|(at, _)| advise && self.rows[*at].is_none());
@@ -244,13 +241,13 @@ impl MapReader {
         unknown_key(record_name, entry, context, |d| match better {
             Some((suggestion, better)) => proposed(d, entry.key, suggestion, span, better),
             None if entry.key.starts_with(|c: char| c.is_ascii_digit()) => d.hint(
-                "a comma begins the next key: decimals stand behind a point, lists in `[` and `]`",
+                "a comma starts the next key: decimals follow a point, lists are in `[` and `]`",
             ),
             None => d,
         });
     }
 
-    /// What is known of a key that the record has not: how it is written here, and as which key.
+    /// A hint for a key of another program or another record, and the key to use here.
     fn advice(&self, key: &str) -> Option<(String, Option<&'static str>)> {
         let Record {
             name: record_name,
@@ -265,8 +262,8 @@ impl MapReader {
         foreign_key_advice(record_name, key).map(|advice| (advice.to_owned(), None))
     }
 
-    /// Of the groups with this key, by the index of the field, the one of which the fewest keys are
-    /// missing, and those.
+    /// Of all groups with this key, the one with the fewest missing keys: the index of its field
+    /// and these keys.
     fn nearest_group(
         &self,
         key: &str,
@@ -292,8 +289,8 @@ impl MapReader {
     }
 }
 
-/// The keys of a field that are worth proposing: other names of one or two letters are like too
-/// much.
+/// The keys of a field that a suggestion may name. Other spellings of one or two letters are
+/// omitted, since they resemble too many words.
 fn proposable(field: &FieldDeclaration) -> impl Iterator<Item = &'static str> {
     let rows = field.spellings.iter().enumerate();
     rows.flat_map(|(at, spelling)| {
@@ -302,7 +299,7 @@ fn proposable(field: &FieldDeclaration) -> impl Iterator<Item = &'static str> {
     })
 }
 
-/// Reports keys that have to be there.
+/// Reports required keys that are missing.
 pub(super) fn missing_keys(
     record_name: &str,
     head: Span,
@@ -317,12 +314,13 @@ pub(super) fn missing_keys(
         )
     };
     context.report(&codes::MISSING_KEY, head, message, |d| {
-        d.at(head, format!("this {record_name}"))
+        d.at(head, format!("the {record_name}"))
             .because(cause, "perhaps this is it")
     });
 }
 
-/// Proposes a key: with the letters and digits of the one that is written, it is the same key.
+/// Adds the suggested key to a finding. If it has the same letters and digits as the written key,
+/// the fix is certain.
 fn proposed(d: Diagnostic, key: &str, suggestion: &str, span: Span, better: String) -> Diagnostic {
     let hint = format!("did you mean `{suggestion}`?");
     match same_letters(key, suggestion) {
@@ -331,7 +329,7 @@ fn proposed(d: Diagnostic, key: &str, suggestion: &str, span: Span, better: Stri
     }
 }
 
-/// Reports a key that a record has not, with what `advise` adds.
+/// Reports a key that the record does not have, with the hint that `advise` adds.
 fn unknown_key(
     record_name: &str,
     entry: MapEntry<'_>,
@@ -348,8 +346,7 @@ fn unknown_key(
     );
 }
 
-/// Takes keys of no meaning for those that differ from them in the case of letters alone, unless
-/// the map has these as well.
+/// Replaces unknown keys by known ones that differ only in case, unless the map has these as well.
 fn fold_case(record: &'static Record, first_entry: usize, context: &mut Context<'_>) {
     let keys = || {
         record
@@ -375,11 +372,13 @@ fn fold_case(record: &'static Record, first_entry: usize, context: &mut Context<
     }
 }
 
-/// Adds the entries of a map to those of the context, its own first, then those it merges.
+/// Adds the entries of a map to those of the context: the entries of the map itself, then the
+/// merged ones.
 fn collect_entries(map: NodeId, context: &mut Context<'_>) {
     let tree = context.tree;
     let mut open_maps = vec![map];
-    // Merging a map again changes nothing; without this, merges of merges would grow without bound.
+    // Merging a map twice changes nothing. Without this set, merges of merges would grow without
+    // bound.
     let mut seen = BTreeSet::new();
     while let Some(map) = open_maps.pop() {
         if !context.step(map) {
@@ -422,7 +421,7 @@ fn collect_entries(map: NodeId, context: &mut Context<'_>) {
     }
 }
 
-/// The value of a key of a map, the map's own or a merged one.
+/// The value of a key of a map or of the maps that it merges.
 pub(super) fn look_up(key: &str, map: NodeId, context: &mut Context<'_>) -> Option<NodeId> {
     if let Some(value) = context.tree.get(map, key) {
         return Some(value);

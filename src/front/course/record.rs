@@ -1,52 +1,54 @@
-//! Records: each is declared once with [`record!`], and the declaration is its type, its decoder
-//! and its schema.
+//! Records: the maps of the format. [`record!`] declares each one once; the declaration is its
+//! type, its decoder and its schema.
 //!
-//! A field is one value or a group of values that stand under a row of keys; it may have several
-//! rows, the canonical one first, and says which of them the course's JSON files have. Every key of
-//! a map is either used by one field or reported.
+//! A field holds one value, or a group of values that are written with several keys. A field may
+//! have several spellings, the canonical one first; the declaration marks those of the course's
+//! JSON files. Every key of a map is either read by one field or reported.
 
 use super::decode::{Context, MapEntry, Spanned, Value, ValueKey};
 use super::schema::Definitions;
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
-/// Rows of keys, the canonical one first; all rows of a field have the same length.
+/// The spellings of a field, the canonical one first. Each is a group of keys; all groups of a
+/// field have the same length.
 pub(super) type Spellings = &'static [&'static [&'static str]];
 
-/// Whether a key must be there.
+/// Whether a field is required.
 pub(super) enum Need {
     Required,
     Optional,
-    /// Required, unless the field of this name is there.
+    /// Required, unless the field of this name is present.
     Unless(&'static str),
-    /// The value that stands in, as the schema shows it.
+    /// Optional with this default, as the schema shows it.
     Default(fn() -> Json),
 }
 
-/// What a declaration says about one field.
+/// The declaration of a field.
 pub(super) struct FieldDeclaration {
     pub(super) name: &'static str,
     pub(super) doc: &'static str,
     pub(super) spellings: Spellings,
-    /// The rows that the JSON files of the course have, by their first keys.
+    /// The spellings in the JSON files of the course, by their first keys.
     pub(super) json: &'static [&'static str],
     pub(super) need: Need,
-    /// The schema of each value of the group.
+    /// The schema of each value of the field.
     pub(super) schema: fn(&mut Definitions) -> Json,
 }
 
-/// What a declaration says about a record.
+/// The declaration of a record.
 pub(super) struct Record {
     pub(super) name: &'static str,
     pub(super) doc: &'static str,
     pub(super) fields: &'static [FieldDeclaration],
-    /// Sets of fields of which exactly one must be there; empty if any will do.
+    /// The variants of the record: sets of fields, of which exactly one must be present. Empty if
+    /// any fields may be combined.
     pub(super) variants: &'static [&'static [&'static str]],
-    /// Whether the lowering sees to the forms, because it knows a better message or a repair.
+    /// Whether the lowering checks the variants, because it has a better message or a repair.
     pub(super) variants_are_lowered: bool,
 }
 
-/// Rows of one key each: spellings of the same key, the canonical one first.
+/// Spellings of one key, the canonical one first.
 macro_rules! keys {
     ($($key:literal)+) => { &[$(&[$key]),+] };
 }
@@ -58,7 +60,8 @@ macro_rules! record {
         struct $name:ident, $record_name:literal {
             $(
                 $(#[doc = $field_doc:literal])+
-                $field:ident: $type:ty, $need:ident $(($default:expr))?, $spellings:expr $(, json $json:literal)*;
+                $field:ident: $type:ty, $need:ident $(($default:expr))?, $spellings:expr
+                    $(, json $json:literal)*;
             )+
         }
         $(variants { $([$($member:ident)+])+ })?
@@ -71,7 +74,8 @@ macro_rules! record {
 
         impl $name {
             /// The declaration.
-            pub(in crate::course) const RECORD: $crate::course::record::Record = $crate::course::record::Record {
+            pub(in crate::course) const RECORD: $crate::course::record::Record =
+                $crate::course::record::Record {
                 name: $record_name,
                 doc: concat!($($doc),+),
                 fields: &[$($crate::course::record::FieldDeclaration {
@@ -82,7 +86,10 @@ macro_rules! record {
                     need: record!(@need $need $type $(, $default)?),
                     schema: <$type as $crate::course::record::Slot>::schema,
                 }),+],
-                variants: &[$($(&[$(stringify!($member)),+]),+)? $($(&[$(stringify!($lowered)),+]),+)?],
+                variants: &[
+                    $($(&[$(stringify!($member)),+]),+)?
+                    $($(&[$(stringify!($lowered)),+]),+)?
+                ],
                 variants_are_lowered: !<[&str]>::is_empty(&[$($($(stringify!($lowered)),+),+)?]),
             };
         }
@@ -92,7 +99,8 @@ macro_rules! record {
                 node: rtc_source::tree::NodeId,
                 context: &mut $crate::course::decode::Context<'_>,
             ) -> Option<Self> {
-                let mut reader = $crate::course::reader::MapReader::open(&Self::RECORD, node, context)?;
+                let mut reader =
+                    $crate::course::reader::MapReader::open(&Self::RECORD, node, context)?;
                 $(let $field = reader.next::<$type>(context);)+
                 reader.close(context).then_some(())?;
                 Some(Self { $($field: record!(@value $need $field $(, $default)?)),+ })
@@ -122,14 +130,14 @@ macro_rules! record {
 
 pub(super) use {keys, record};
 
-/// What became of a field.
+/// The result of reading a field.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum FieldOutcome<T> {
-    /// It is not there.
+    /// The field is not present.
     Absent,
-    /// It is there but can't be read; the sink has an error.
+    /// The field is present but can't be read, which was reported.
     Broken,
-    /// It was read.
+    /// The field was read.
     Read(T),
 }
 
@@ -158,10 +166,10 @@ impl<T> FieldOutcome<T> {
     }
 }
 
-/// What a field holds: one value, or a group of them.
+/// The content of a field: one value, or a group of values.
 pub(super) trait Slot: Sized {
-    /// Reads the values of the entries at the places given; `None` if one can't be read, and then
-    /// the sink has an error.
+    /// Reads the values of the entries of these indices. `None` if one of them can't be read, which
+    /// is reported.
     fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self>;
 
     /// The schema of each value.
@@ -206,7 +214,7 @@ impl<T: Value> Slot for Spanned<T> {
 
 impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
     fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self> {
-        // Collected first, so that a mistake in one value does not hide those in the others.
+        // Collected first, so that a mistake in one value does not hide those in others.
         let read: Vec<_> = entries
             .chunks(1)
             .map(|entry| Spanned::take(entry, context))
@@ -220,7 +228,7 @@ impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
     }
 }
 
-/// The item of a list of one, as some files wrap their values; any other node itself.
+/// The item of a list of one item, as some files write single values; any other node unchanged.
 fn only_item(node: NodeId, context: &mut Context<'_>) -> NodeId {
     let tree = context.tree;
     if !tree.is_list(node) {
@@ -236,11 +244,12 @@ fn only_item(node: NodeId, context: &mut Context<'_>) -> NodeId {
     }
 }
 
-/// The schema of a value, or of a list of it alone.
+/// The schema of a value or of a list of that one value.
 fn one_or_only(schema: Json, is_list: bool) -> Json {
     if is_list {
         return schema;
     }
-    let only = json!({ "type": "array", "items": schema, "minItems": 1, "maxItems": 1, "deprecated": true });
+    let mut only = json!({ "type": "array", "items": schema, "minItems": 1, "maxItems": 1 });
+    only["deprecated"] = json!(true);
     json!({ "anyOf": [schema, only] })
 }

@@ -1,5 +1,4 @@
-//! How things are turned: by angles about the axes, about an axis, by quaternions; and rotations
-//! that `--lenient` may leave out.
+//! Rotations: by angles about the axes, by an axis and an angle, and by quaternions; and matrices.
 
 use super::decode::{Context, Spanned, Value};
 use super::number::{Degrees, number, plain_number};
@@ -14,7 +13,7 @@ use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
-/// How something is turned: a quaternion (x, y, z, w) of any length.
+/// A rotation as a quaternion (x, y, z, w) of any length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quaternion(pub(super) [f64; 4]);
 
@@ -34,7 +33,7 @@ impl Value for Quaternion {
     }
 }
 
-/// Declares vectors that stand one after another in one list, as a type of the format.
+/// Declares a type of the format: several vectors in one list of numbers.
 macro_rules! matrix {
     ($(#[doc = $doc:literal])+ $name:ident, $count:literal, $columns:literal, $what:literal) => {
         $(#[doc = $doc])+
@@ -74,7 +73,7 @@ matrix! {
     PlaneRows, 6, 2, "a list of six numbers"
 }
 
-/// A rotation; none where `--lenient` leaves out one that is written in an unknown way.
+/// A rotation; `None` if `--lenient` ignores one in an unknown notation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rotation<T>(pub(super) Option<T>);
 
@@ -92,11 +91,11 @@ impl<T: Value> Value for Rotation<T> {
             return T::decode(node, context).map(|rotation| Self(Some(rotation)));
         }
         let (key, span) = (context.key, tree.span(node));
-        let message = || format!("`{}` is written in an unknown way", clip(key.text));
+        let message = || format!("`{}` has an unknown notation", clip(key.text));
         context.report(&codes::NO_EFFECT, span, message, |d| {
-            d.at(span, "left out: nothing is turned")
+            d.at(span, "ignored: no rotation")
                 .severity(Severity::Warning)
-                .hint("here it is a list of three numbers")
+                .hint("write a list of three numbers")
         });
         Some(Self(None))
     }
@@ -110,16 +109,16 @@ impl<T: Value> Value for Rotation<T> {
     }
 }
 
-/// The keys by which an object is turned: angles about x, y and z; or an axis and an angle.
+/// The keys of an object's rotation: angles about x, y and z; or an axis and an angle.
 pub(super) struct RotationKeys<'o> {
-    /// Beside an angle the axis.
+    /// The angles; beside an angle the axis.
     pub(super) rotation: &'o FieldOutcome<Spanned<Rotation<Angles>>>,
     pub(super) axis: &'o FieldOutcome<Spanned<Vector>>,
     pub(super) angle: &'o FieldOutcome<Spanned<Degrees>>,
 }
 
 impl RotationKeys<'_> {
-    /// Where one of the keys stands, if there is any.
+    /// The span of one of the keys, if there is any.
     pub(super) fn span(&self) -> Option<Span> {
         let Self {
             rotation,
@@ -133,7 +132,7 @@ impl RotationKeys<'_> {
             .or(angle.read().and_then(|angle| angle.span))
     }
 
-    /// Where the axes come to; what turns nothing is told. `None` if a key can't be read.
+    /// The rotated axes. Reports keys without effect. `None` if a key can't be read.
     pub(super) fn axes(&self, context: &mut Context<'_>) -> Option<[Vec3; 3]> {
         let Self {
             rotation,
@@ -147,13 +146,16 @@ impl RotationKeys<'_> {
         match (axis.read(), angle.read(), angles) {
             (Some(axis), Some(angle), _) => {
                 let other = rotation.read().and_then(|rotation| rotation.span);
-                report_no_rotation(other, "it is turned once: by `axis` and `angle`", context);
+                report_no_rotation(
+                    other,
+                    "`rotation` has no effect beside `axis` and `angle`",
+                    context,
+                );
                 Some(rotated_about(axis.value.0, angle.value.0))
             }
             (None, Some(angle), Some(Angles(axis))) => Some(rotated_about(axis, angle.value.0)),
             (axis, angle, angles) => {
-                let lower_standalone_mesh =
-                    "an `axis` turns by an `angle`, and an `angle` about an `axis`";
+                let lower_standalone_mesh = "`axis` and `angle` have an effect only together";
                 report_no_rotation(
                     axis.and_then(|axis| axis.span),
                     lower_standalone_mesh,
@@ -180,13 +182,12 @@ fn report_no_rotation(span: Option<Span>, message: &str, context: &mut Context<'
             &codes::NO_EFFECT,
             span,
             || message.to_owned(),
-            |d| d.at(span, "this turns nothing").severity(Severity::Warning),
+            |d| d.at(span, "no effect").severity(Severity::Warning),
         );
     }
 }
 
-/// The transform that scales along the axes, takes them to where they come to, and moves the
-/// origin.
+/// The transform that scales along the object's axes, maps them to `axes`, and translates.
 pub(super) fn world_from_object(
     axes: [Vec3; 3],
     scale: [f64; 3],

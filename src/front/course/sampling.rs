@@ -1,4 +1,4 @@
-//! The rays of a pixel: how many there are along each of its sides, and where they lie.
+//! Supersampling: the number and the positions of the rays of a pixel.
 
 use super::decode::{Context, Spanned, Value};
 use super::keyword::Keyword;
@@ -12,12 +12,12 @@ use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 record! {
-    /// How many rays a pixel takes, and where they lie.
+    /// The number and the positions of the rays of a pixel.
     struct SamplingMap, "`SuperSampling` map" {
-        /// How many rays a pixel takes along each of its sides.
+        /// The number of rays along each side of a pixel.
         factor: Spanned<Count>, required, keys!["factor"];
-        /// Where in its cell of the pixel each ray lies: `grid` in the middle, `jitter` anywhere, `random` anywhere in the
-        /// pixel.
+        /// The position of each ray: `grid` in the middle of its cell of the pixel, `jitter`
+        /// anywhere in its cell, `random` anywhere in the pixel.
         pattern: Spanned<ir::Pattern>, default(ir::Pattern::Grid), keys!["pattern"];
     }
 }
@@ -30,20 +30,20 @@ impl Keyword for ir::Pattern {
     ];
 }
 
-/// The rays along the side of a pixel of `AntiAlias: true`.
+/// The number of rays along the side of a pixel for `AntiAlias: true`.
 const DEFAULT_FACTOR: u32 = 2;
 
-/// The number of rays along the side of a pixel, as a map or bare; or a truth value.
+/// The number of rays along the side of a pixel: a number, a map or a boolean.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SuperSampling {
     pub(super) factor: Count,
-    /// Where the factor stands, in a map or bare.
+    /// The span of the factor.
     pub(super) factor_span: Option<Span>,
     pub(super) pattern: ir::Pattern,
 }
 
 impl SuperSampling {
-    /// One ray in the middle.
+    /// One ray in the middle of the pixel.
     pub(super) const ONE: Self = Self {
         factor: Count(1),
         factor_span: None,
@@ -91,14 +91,14 @@ impl Value for SuperSampling {
     }
 }
 
-/// Whether a word says yes or no, in YAML 1.2 or before.
+/// Whether a scalar is a boolean of YAML 1.2 or 1.1.
 fn is_boolean_word(scalar: &str) -> bool {
     ["true", "false", "on", "off", "yes", "no"]
         .iter()
         .any(|boolean| boolean.eq_ignore_ascii_case(scalar))
 }
 
-/// The rays of a file that only turns supersampling on or off.
+/// The number of rays in a file that only switches supersampling on or off.
 fn factor_of_switch(boolean: bool, node: NodeId, context: &mut Context<'_>) -> SuperSampling {
     if !boolean {
         return SuperSampling::ONE;

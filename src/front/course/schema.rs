@@ -1,7 +1,7 @@
-//! The JSON Schema of the format, made from the declarations.
+//! The JSON Schema of the format, generated from the declarations.
 //!
-//! It takes exactly what the decoder takes under `--strict`: unknown keys, and `Eye` beside
-//! `Camera`, are refused.
+//! It accepts exactly what the decoder accepts with `--strict`: it rejects unknown keys, and `Eye`
+//! beside `Camera`.
 
 use super::decode::Value;
 use super::reader::COMMENT;
@@ -9,7 +9,7 @@ use super::record::{FieldDeclaration, Need, Record};
 use super::settings::Scene;
 use serde_json::{Map, Value as Json, json};
 
-/// The schemas of the records met so far, by their words.
+/// The schemas of the records so far, by their names.
 #[derive(Default)]
 pub(super) struct Definitions {
     made: Map<String, Json>,
@@ -28,7 +28,7 @@ pub fn schema() -> Json {
     })
 }
 
-/// A reference to the schema of a record, which is made when first met.
+/// A reference to the schema of a record. The schema is generated at the first reference.
 pub(super) fn record(record: &Record, definitions: &mut Definitions) -> Json {
     let name = record.name.replace('`', "").replace(' ', "-");
     if !definitions.made.contains_key(&name) {
@@ -39,10 +39,13 @@ pub(super) fn record(record: &Record, definitions: &mut Definitions) -> Json {
     json!({ "$ref": format!("#/$defs/{name}") })
 }
 
-/// The schema of a value whose key `tag` says which of `kinds` it is.
+/// The schema of a map whose key `tag` selects one of `kinds`.
 pub(super) fn tagged(tag: &str, doc: &str, kinds: &[(&str, Json)]) -> Json {
     let names: Vec<_> = kinds.iter().map(|(name, _)| *name).collect();
-    let choose = |(name, schema): &(&str, Json)| json!({ "if": { "properties": { tag: { "const": name } }, "required": [tag] }, "then": schema });
+    let choose = |(name, schema): &(&str, Json)| {
+        let is_kind = json!({ "properties": { tag: { "const": name } }, "required": [tag] });
+        json!({ "if": is_kind, "then": schema })
+    };
     json!({
         "type": "object",
         "properties": { tag: { "description": doc, "enum": names } },
@@ -103,7 +106,7 @@ fn body(record: &Record, definitions: &mut Definitions) -> Json {
     body
 }
 
-/// One property for each key; the keys that are not canonical say which is.
+/// Adds one property for each key. The description of other spellings names the canonical one.
 fn field_properties(
     field: &FieldDeclaration,
     definitions: &mut Definitions,
@@ -128,8 +131,8 @@ fn field_properties(
                 format!("{doc} Better written `{meant}`.")
             };
             property.insert("description".to_owned(), json!(doc));
-            // Editors write keys with a default when they complete an object: one key for each
-            // field.
+            // Editors insert keys with a default when they complete an object, so only one key of
+            // each field has it.
             match field.need {
                 Need::Default(default) if is_canonical => {
                     drop(property.insert("default".to_owned(), default()))
@@ -158,8 +161,8 @@ fn absent(field: &FieldDeclaration) -> Json {
     json!({ "properties": forbid(keys(field)) })
 }
 
-/// Exactly one row of the field, and no key of its other rows; of single keys no more than one is
-/// there if exactly one is.
+/// Exactly one spelling of the field, and no key of its other spellings. If all spellings are
+/// single keys, `oneOf` alone ensures that.
 fn one_row(field: &FieldDeclaration) -> Json {
     let is_group = field.spellings.iter().any(|row| row.len() > 1);
     let spellings = field.spellings.iter().map(|row| {
@@ -177,7 +180,7 @@ fn one_row(field: &FieldDeclaration) -> Json {
     }
 }
 
-/// The fields of the form, and no key of the fields of the other forms.
+/// The fields of the variant, and no key of fields of other variants.
 fn one_variant(record: &Record, variant: &[&str]) -> Json {
     let members = || {
         record

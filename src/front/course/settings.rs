@@ -1,4 +1,4 @@
-//! The whole file, and of it the settings: what a pixel shows and how much work goes into it.
+//! The top-level map of the file, and the settings in it.
 
 use super::camera::Camera;
 use super::decode::{Context, LazyList, Spanned, Value};
@@ -23,63 +23,70 @@ use serde_json::{Value as Json, json};
 record! {
     /// A scene of the ray-tracing course.
     struct Scene, "scene" {
-        /// Where an editor finds the schema of this file; has no other meaning.
+        /// The schema of this file for editors; ignored.
         _schema: Spanned<AnyScalar>, optional, keys!["$schema"];
-        /// The camera of old files: it looks at the square from (0, 0, 0) to (400, 400, 0). Newer files have `Camera`.
+        /// The camera of old files: it looks at the square from (0, 0, 0) to (400, 400, 0). Newer
+        /// files have `Camera`.
         eye: Spanned<Point>, optional, keys!["Eye"], json "Eye";
-        /// The camera: where it stands, what it looks at, and the image it makes.
+        /// The camera: its position, its target, and its image.
         camera: Spanned<Camera>, optional, keys!["Camera"];
-        /// The camera as three keys: where it stands, what it looks at, and the upward direction, whose length is the size of
-        /// a pixel; the image has 400 × 400 pixels. Better written as a `Camera`.
+        /// The camera as three keys: its position, its target, and the up vector, whose length is
+        /// the size of a pixel; the image has 400 × 400 pixels. Better written as a `Camera`.
         look: [Spanned<Point>; 3], optional, &[&["CameraEye", "CameraLookPoint", "CameraUpVector"]];
-        /// What a pixel shows: `phong` the lit surface, `path` the light along all paths (the default with a light in
-        /// physical units, an `Environment`, a glTF asset or a `standard` material), `zbuffer` its distance, `normal` its direction, `gooch` a drawing, `texture` its
-        /// texture coordinates as the colours (u, 0, v).
+        /// The render mode: `phong`, Phong shading; `path`, path tracing (the default with a light
+        /// in physical units, an `Environment`, a glTF asset or a `standard` material); `zbuffer`,
+        /// distances; `normal`, normals; `gooch`, Gooch shading; `texture`, texture coordinates as
+        /// the colours (u, 0, v).
         mode: Spanned<Mode>, default(Mode::Phong), keys!["RenderMode" "renderMode" "rendermode"];
-        /// Whether surfaces hide lights from each other.
+        /// Whether surfaces cast shadows.
         shadows: Spanned<bool>, default(false), keys!["Shadows" "shadows" "shadow"], json "Shadows";
-        /// Whether lights with a radius make the edges of shadows soft: `Off` makes points of them. There are shadows only
-        /// with `Shadows`.
+        /// Whether lights with a radius cast soft shadows; `Off` sets their radius to 0. Only with
+        /// `Shadows` there are shadows.
         soft_shadows: Spanned<Switch>, optional, keys!["SoftShadows"];
-        /// How many mirror or refraction bounces follow the first hit.
+        /// The maximal number of reflections or refractions after the first hit.
         depth: Spanned<Natural>, default(Natural(0)), keys!["MaxRecursionDepth" "MaxIterations"],
             json "MaxRecursionDepth";
-        /// Whether there are mirror images: `false` is a `MaxRecursionDepth` of 0, `true` one of 2 unless it is written.
+        /// Whether there are mirror reflections: `false` is a `MaxRecursionDepth` of 0, `true` one
+        /// of 2 unless it is given.
         reflections: Spanned<bool>, optional, keys!["Reflections"];
-        /// How many rays a pixel takes along each of its sides.
+        /// The number of rays along each side of a pixel.
         sampling: Spanned<SuperSampling>, default(SuperSampling::ONE),
-            keys!["SuperSampling" "SuperSamplingFactor" "SuperSamplingRate" "AntiAliasing" "AntiAlias" "AA"],
+            keys!["SuperSampling" "SuperSamplingFactor" "SuperSamplingRate" "AntiAliasing"
+                "AntiAlias" "AA"],
             json "SuperSamplingFactor", json "AntiAliasing";
-        /// Width and height of the picture in pixels, beside an `Eye` or the three keys of a camera: the image begins at the
-        /// origin and has one unit a pixel. A `Camera` has its own size.
+        /// Width and height of the image in pixels, beside an `Eye` or the three keys of a camera:
+        /// the image begins at the origin and has pixels of size 1. A `Camera` has its own size.
         image_size: Spanned<ViewSize>, optional, keys!["ImageSize" "Resolution"], json "ImageSize";
-        /// Width over height of the picture; has no effect, because pixels are square and the size is given.
+        /// Width over height of the image; has no effect, because pixels are square and the size is
+        /// given.
         aspect_ratio: Spanned<Real>, optional, keys!["AspectRatio"];
-        /// How many points of each soft light are asked; without it 16 if there is one.
+        /// The number of samples of each light with a radius; 16 by default.
         light_samples: Spanned<Count>, optional, keys!["LightSamples"];
-        /// Whether `phong` shows a cartoon: N·L in the steps 0, 0.25, 0.3 and 1, highlights whole where R·V is at least 0.9,
-        /// dark outlines; on what is seen directly.
+        /// Whether `phong` uses toon shading: N·L in the steps 0, 0.25, 0.3 and 1, full highlights
+        /// where R·V is at least 0.9, dark outlines; only for directly visible surfaces.
         toon: Spanned<bool>, default(false), keys!["Toon"], json "Toon";
         /// How often the ambient term of `phong` is added: `perLight` for each light, times its
-        /// colour, `once` whatever lights there are. Without it `once` in a scene that is JSON,
-        /// `perLight` in YAML.
+        /// colour; `once`, independent of the lights. The default is `once` for a JSON scene and
+        /// `perLight` for YAML.
         ambient: Spanned<ir::Ambient>, optional, keys!["Ambient"], json "Ambient";
         /// The colours of `RenderMode: gooch`.
         gooch: Spanned<Gooch>, optional, keys!["GoochParameters"];
-        /// How the light along all paths is followed.
+        /// The settings of path tracing.
         paths: Spanned<Paths>, optional, keys!["PathParameters"];
-        /// How a PNG shows linear values: `none` as they are, `srgb` cut off at 1 and coded by sRGB, `agx` AgX,
-        /// `pbr-neutral` the PBR Neutral of Khronos; without it `srgb` where paths are traced, else `none`. An EXR holds
-        /// them as they are.
+        /// The tone map of a PNG: `none`, linear values; `srgb`, clamped to 1 and sRGB-encoded;
+        /// `agx`, AgX; `pbr-neutral`, Khronos PBR Neutral. The default is `srgb` for path tracing,
+        /// else `none`. An EXR has linear values.
         tone: Spanned<Tone>, optional, keys!["ToneMap"];
-        /// The exposure of a PNG in stops: each doubles the values before the tone map.
+        /// The exposure of a PNG in stops: each stop doubles the values before the tone map.
         exposure: Spanned<Stops>, default(Stops(0.0)), keys!["Exposure"];
-        /// What surrounds the scene.
+        /// The environment light.
         environment: Spanned<Environment>, optional, keys!["Environment"];
         /// The lights.
-        lights: Spanned<LazyList<Light>>, default(LazyList::<Light>::none()), keys!["Lights"], json "Lights";
-        /// What there is to see.
-        objects: Spanned<LazyList<Object>>, default(LazyList::<Object>::none()), keys!["Objects"], json "Objects";
+        lights: Spanned<LazyList<Light>>, default(LazyList::<Light>::none()),
+            keys!["Lights"], json "Lights";
+        /// The objects.
+        objects: Spanned<LazyList<Object>>, default(LazyList::<Object>::none()),
+            keys!["Objects"], json "Objects";
     }
     lowered_variants { [camera] [eye] [look] }
 }
@@ -91,9 +98,9 @@ record! {
         b: Spanned<Real>, default(Real(GOOCH.b)), keys!["b"];
         /// The yellow of the warm colour.
         y: Spanned<Real>, default(Real(GOOCH.y)), keys!["y"];
-        /// How much of the surface's colour the cool tone takes.
+        /// The fraction of the surface's colour in the cool colour.
         alpha: Spanned<Real>, default(Real(GOOCH.alpha)), keys!["alpha"];
-        /// How much of the surface's colour the warm tone takes.
+        /// The fraction of the surface's colour in the warm colour.
         beta: Spanned<Real>, default(Real(GOOCH.beta)), keys!["beta"];
     }
 }
@@ -105,7 +112,7 @@ const GOOCH: ir::Gooch = ir::Gooch {
     beta: 0.5,
 };
 
-/// What a pixel shows.
+/// The render modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Mode {
     Phong,
@@ -116,7 +123,7 @@ pub(super) enum Mode {
     Uv,
 }
 
-/// The words for the modes.
+/// The keywords of the render modes.
 const MODES: &[(&str, Mode)] = &[
     ("phong", Mode::Phong),
     ("zbuffer", Mode::Zbuffer),
@@ -128,7 +135,7 @@ const MODES: &[(&str, Mode)] = &[
     ("textureCoordinate", Mode::Uv),
 ];
 
-/// The modes as some files number them.
+/// The numbers of render modes in some files.
 const NUMBERED: &[(u8, Mode)] = &[
     (0, Mode::Phong),
     (1, Mode::Zbuffer),
@@ -168,10 +175,10 @@ impl Value for Mode {
     }
 }
 
-/// The bounces of `Reflections: true` where the file does not say how many.
+/// The recursion depth of `Reflections: true`.
 const DEFAULT_REFLECTIONS: u32 = 2;
 
-/// The points asked of each soft light where the file does not say how many.
+/// The default number of samples of a light with a radius.
 const SOFT_LIGHT_SAMPLES: u32 = 16;
 
 impl Lowering {
@@ -211,8 +218,8 @@ impl Lowering {
         );
     }
 
-    /// Makes points of soft lights if the file says so, and else asks enough points of each, unless
-    /// the file says how many; after the lights.
+    /// Applies `SoftShadows`, and sets the default number of light samples if there are soft
+    /// lights. Call it after the lights are lowered.
     pub(super) fn resolve_soft_lights(&mut self, scene: &Scene, context: &mut Context<'_>) {
         let points = || self.scene.lights.iter().filter_map(ir::Light::point);
         let soft = points().any(|light| light.radius > 0.0);
@@ -228,7 +235,7 @@ impl Lowering {
         }
     }
 
-    /// Makes points of soft lights; a negative radius is left for the proof to refuse.
+    /// Sets the radius of all lights to 0. The validator rejects a negative radius.
     fn remove_light_radii(&mut self) {
         for light in &mut self.scene.lights {
             if let ir::Light::Point(light) = light {
@@ -237,8 +244,8 @@ impl Lowering {
         }
     }
 
-    /// Shows the texture coordinates of all surfaces if the file says so: their colour by one light
-    /// of ambient light alone; after the lights and the objects.
+    /// Applies `RenderMode: texture`: the texture coordinates become the ambient colour of all
+    /// surfaces, under a single white light. Call it after the lights and the objects are lowered.
     pub(super) fn show_uv(&mut self, scene: &Scene) {
         if scene.mode.value != Mode::Uv {
             return;
@@ -275,7 +282,7 @@ impl Lowering {
             None
         };
         if let (true, Some(span)) = (mode != Mode::Gooch, given.and_then(|gooch| gooch.span)) {
-            let message = || "`GoochParameters` has no effect on this `RenderMode`".to_owned();
+            let message = || "`GoochParameters` has no effect on the `RenderMode`".to_owned();
             context.report(&codes::NO_EFFECT, span, message, |d| {
                 d.at(span, "only for `RenderMode: gooch`")
             });
@@ -304,7 +311,7 @@ impl Lowering {
     }
 }
 
-/// Says which settings do nothing in modes that show the first surface alone.
+/// Reports settings without effect in render modes that show only the first hit.
 fn report_unused(scene: &Scene, context: &mut Context<'_>) {
     let Scene {
         mode,
@@ -321,7 +328,7 @@ fn report_unused(scene: &Scene, context: &mut Context<'_>) {
     if let (Mode::Gooch, true, Some(span)) = (mode.value, shadows.value, shadows.span) {
         let message = || "`gooch` casts no shadows here".to_owned();
         context.report(&codes::TWO_READINGS, span, message, |d| {
-            d.at(span, "in some programs a shadow takes the highlight away")
+            d.at(span, "in some programs a shadow removes the highlight")
                 .also(mode.span, "the mode")
                 .hint("`RenderMode: phong` has shadows; `Shadows: false` says that none are meant")
         });
@@ -348,7 +355,7 @@ fn report_unused(scene: &Scene, context: &mut Context<'_>) {
         ),
     ] {
         if let (true, Some(span)) = (is_set, span) {
-            let message = || format!("this `RenderMode` has no {what}");
+            let message = || format!("the `RenderMode` has no {what}");
             context.report(&codes::NO_EFFECT, span, message, |d| {
                 d.at(span, "no effect").also(mode.span, "the mode")
             });
@@ -356,7 +363,7 @@ fn report_unused(scene: &Scene, context: &mut Context<'_>) {
     }
 }
 
-/// Says that a switch for soft shadows casts none by itself.
+/// Reports `SoftShadows` without `Shadows`.
 fn report_missing_shadows(
     switch: &Spanned<Switch>,
     shadows: &Spanned<bool>,
@@ -372,7 +379,7 @@ fn report_missing_shadows(
     }
 }
 
-/// The bounces, which some files only turn on or off.
+/// The maximal recursion depth, which some files only switch on or off.
 fn max_depth(scene: &Scene, context: &mut Context<'_>) -> u32 {
     let Scene {
         depth, reflections, ..

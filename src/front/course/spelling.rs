@@ -1,6 +1,6 @@
-//! Words as people write them: lists of them in messages, and words that differ in their signs.
+//! Helpers for messages: lists of names, and the comparison of spellings.
 
-/// Words in backticks, with commas and `and`.
+/// Names in backticks, joined by commas and `and`.
 pub(super) fn quoted_list<'w>(words: impl IntoIterator<Item = &'w str>) -> String {
     let quoted: Vec<_> = words.into_iter().map(|word| format!("`{word}`")).collect();
     match quoted.as_slice() {
@@ -10,8 +10,7 @@ pub(super) fn quoted_list<'w>(words: impl IntoIterator<Item = &'w str>) -> Strin
     }
 }
 
-/// Whether two texts have the same letters and digits, in any case of letters: what stands between
-/// them differs, and what they say does not.
+/// Whether two strings have the same letters and digits, ignoring case and all other characters.
 pub(super) fn same_letters(written: &str, suggestion: &str) -> bool {
     let core = |text: &str| -> Vec<char> {
         let letters = text.chars().filter(|c| c.is_alphanumeric());

@@ -1,4 +1,4 @@
-//! What was meant by a value of the wrong type: colours as the web writes them, units, fractions,
+//! Suggestions for values of the wrong type: named and hexadecimal colours, units, fractions,
 //! decimal commas, round brackets, missing dashes.
 
 use super::decode::ValueKey;
@@ -6,8 +6,8 @@ use super::expression;
 use rtc_math::shortest;
 use rtc_source::tree::{NodeContent, NodeId, Tree};
 
-/// A hint, and the text to put in place of the value of a key, if that is known; `what` are the words
-/// for what the value must be.
+/// A hint for a value of the wrong type, and the replacement if it is known. `what` describes the
+/// expected value.
 pub(super) fn suggest(
     tree: &Tree<'_>,
     key: ValueKey<'_>,
@@ -24,7 +24,7 @@ pub(super) fn suggest(
         }
         NodeContent::List if what == "a map" => {
             let hint = match tree.written(node).starts_with('[') {
-                true => "a map stands in braces: `{key: value}`",
+                true => "a map is written in braces: `{key: value}`",
                 false => "a map has a key before each value, and no dashes",
             };
             Some((hint.to_owned(), None))
@@ -47,7 +47,7 @@ pub(super) fn suggest(
             })
         }
         NodeContent::Word(text) | NodeContent::Text(text) if takes_triple => {
-            let hint = "a list stands in square brackets, with commas: `[1, 2, 3]`".to_owned();
+            let hint = "a list is written in square brackets, with commas: `[1, 2, 3]`".to_owned();
             if let Some(list) = as_list(text, 3) {
                 return Some((hint, Some(list)));
             }
@@ -60,7 +60,7 @@ pub(super) fn suggest(
         NodeContent::Word(text) | NodeContent::Text(text) if takes_pair => {
             let list = as_list(text, 2)?;
             Some((
-                "two numbers stand in square brackets".to_owned(),
+                "two numbers are written in square brackets".to_owned(),
                 Some(list),
             ))
         }
@@ -69,7 +69,7 @@ pub(super) fn suggest(
     }
 }
 
-/// So many numbers with anything but commas and square brackets about them, as a list.
+/// `count` numbers with any separators between them, as a YAML list.
 pub(super) fn as_list(text: &str, count: usize) -> Option<String> {
     let is_between = |c: char| c.is_whitespace() || ",;()[]{}x×".contains(c);
     let items: Vec<_> = text
@@ -83,7 +83,7 @@ pub(super) fn as_list(text: &str, count: usize) -> Option<String> {
     (items.len() == count && are_numbers).then(|| format!("[{}]", items.join(", ")))
 }
 
-/// The colours that people write by their names.
+/// Colour names.
 const NAMED_COLORS: &[(&str, &str)] = &[
     ("black", "[0, 0, 0]"),
     ("white", "[1, 1, 1]"),
@@ -98,7 +98,7 @@ const NAMED_COLORS: &[(&str, &str)] = &[
     ("grey", "[0.5, 0.5, 0.5]"),
 ];
 
-/// A name, `#rrggbb` or `#rgb` as three numbers from 0 to 1.
+/// A colour name, `#rrggbb` or `#rgb`, as three numbers from 0 to 1.
 fn color(text: &str) -> Option<String> {
     let named = NAMED_COLORS
         .iter()
@@ -121,12 +121,12 @@ fn color(text: &str) -> Option<String> {
     Some(format!("[{}, {}, {}]", item(r), item(g), item(b)))
 }
 
-/// How a material is used again that people call by a name.
+/// The hint for a material that is given by a name instead of a map.
 fn material_by_name(name: &str) -> String {
-    let call = "a material is a map; one that several objects have is marked";
+    let call = "a material is a map; mark a shared one";
     match color(name) {
         Some(color) => format!("a material is a map, with `color: {color}` among its keys"),
-        None => format!("{call} `&{name}` where it stands, and is `*{name}` at the others"),
+        None => format!("{call} `&{name}` and refer to it by `*{name}`"),
     }
 }
 
@@ -135,8 +135,8 @@ fn is_name(text: &str) -> bool {
     !text.is_empty() && text.len() <= 32 && text.chars().all(is_letter)
 }
 
-/// So many numbers, some of them with a decimal comma, as a list: what is followed by a space
-/// separates them; where nothing is, each comma between two of them does.
+/// `count` numbers, some with a decimal comma, as a YAML list. If the list has a comma followed by
+/// a space, only these commas separate numbers; otherwise every second comma does.
 pub(super) fn decimal_commas(text: &str, count: usize) -> Option<String> {
     const MAX_LENGTH: usize = 256;
     let inside = text.strip_prefix('[')?.strip_suffix(']')?.trim();
@@ -164,7 +164,8 @@ pub(super) fn decimal_commas(text: &str, count: usize) -> Option<String> {
     (numbers.len() == count).then(|| format!("[{}]", numbers.join(", ")))
 }
 
-/// A number with a decimal comma, a unit, an end as in a program, other signs, or as a calculation.
+/// The number in a text that has a decimal comma, a unit, a trailing `;` or `,`, a `//` comment,
+/// non-ASCII digits or signs, or an expression.
 fn number(text: &str) -> Option<(String, Option<String>)> {
     let read = |item: &str| {
         item.trim()
@@ -176,7 +177,7 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
     if plain != text && read(&plain).is_some() {
         let other = text.chars().find(|c| !c.is_ascii())?;
         let hint = format!(
-            "`{other}` is U+{:04X}, which only looks like a sign of numbers",
+            "`{other}` is U+{:04X}, which only looks like a character of numbers",
             u32::from(other)
         );
         return Some((hint, Some(plain)));
@@ -189,7 +190,7 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
     if let Some(before) = text.strip_suffix([';', ',']) {
         read(before)?;
         return Some((
-            "nothing follows a value".to_owned(),
+            "a value ends here".to_owned(),
             Some(before.trim().to_owned()),
         ));
     }
@@ -197,10 +198,10 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
         let is_decimal = !decimals.is_empty() && decimals.bytes().all(|byte| byte.is_ascii_digit());
         let point = format!("{integer}.{decimals}");
         read(&point).filter(|_| is_decimal)?;
-        return Some(("decimals stand behind a point".to_owned(), Some(point)));
+        return Some(("decimals follow a point".to_owned(), Some(point)));
     }
     if let Some(result) = expression::evaluate(&plain) {
-        let hint = "a number is written out: nothing is computed here".to_owned();
+        let hint = "expressions are not evaluated: write the result".to_owned();
         return Some((hint, Some(shortest(result))));
     }
     let number =
@@ -209,8 +210,8 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
     Some(("a number has no unit".to_owned(), Some(number.to_owned())))
 }
 
-/// The text with ASCII signs in place of those that look like them: minus signs and dashes, the
-/// wide forms of East Asia, and spaces.
+/// The text with look-alike characters replaced by ASCII: minus signs and dashes, full-width forms,
+/// and spaces.
 fn to_ascii(text: &str) -> String {
     let ascii = |c: char| match c {
         '\u{2010}'..='\u{2015}' | '\u{2212}' | '\u{fe58}' | '\u{fe63}' | '\u{207b}' => Some('-'),

@@ -1,10 +1,10 @@
-//! The one table of the keys that several records have, with all the names that people give them;
-//! and the keys of other programs that mean something like one of ours, but not surely the same.
+//! The spellings of the keys that several records share, and the keys of other programs whose
+//! meaning is similar but not surely the same.
 
-/// The keys under which one value stands, or a group of values.
+/// The keys of one value, or of a group of values.
 type KeyGroup = &'static [&'static str];
 
-/// A point that says where something is.
+/// The position of an object.
 pub(super) const POSITION: [KeyGroup; 8] = [
     &["position"],
     &["center"],
@@ -16,14 +16,14 @@ pub(super) const POSITION: [KeyGroup; 8] = [
     &["O"],
 ];
 
-/// A corner that says where something is.
+/// The corner of an object.
 pub(super) const CORNER: [KeyGroup; 5] =
     [&["position"], &["corner"], &["pos"], &["origin"], &["O"]];
 
 /// A radius.
 pub(super) const RADIUS: [KeyGroup; 4] = [&["radius"], &["r"], &["R"], &["rad"]];
 
-/// The direction at right angles to something flat, or along the axis of something round.
+/// The normal of a flat object, or the axis of a round one.
 pub(super) const AXIS: [KeyGroup; 6] = [
     &["direction"],
     &["axis"],
@@ -33,10 +33,10 @@ pub(super) const AXIS: [KeyGroup; 6] = [
     &["dir"],
 ];
 
-/// From the base of something round to its top.
+/// The height of a round object.
 pub(super) const HEIGHT: [KeyGroup; 3] = [&["height"], &["h"], &["length"]];
 
-/// The middles of both ends of something round, that of its base first.
+/// The centres of both ends of a round object, that of its base first.
 pub(super) const ENDS: [KeyGroup; 12] = [
     &["p1", "p2"],
     &["center1", "center2"],
@@ -69,20 +69,20 @@ pub(super) const FILE: [KeyGroup; 13] = [
     &["src"],
 ];
 
-/// How many times larger something is.
+/// A scale factor.
 pub(super) const SCALE: [KeyGroup; 4] =
     [&["scale"], &["scalefactor"], &["scaleFactor"], &["scaling"]];
 
-/// Angles by which something is turned about x, y and z.
+/// Rotation angles about x, y and z.
 pub(super) const ROTATION: [KeyGroup; 2] = [&["rotation"], &["rotate"]];
 
-/// What something is turned about.
+/// An axis of rotation.
 pub(super) const ROTATION_AXIS: [KeyGroup; 3] = [&["axis"], &["rotationAxis"], &["rotationVector"]];
 
-/// By how much something is turned about that.
+/// An angle of rotation.
 pub(super) const ROTATION_ANGLE: [KeyGroup; 2] = [&["angle"], &["rotationAngle"]];
 
-/// Where a camera stands.
+/// The position of a camera.
 pub(super) const EYE: [KeyGroup; 6] = [
     &["eye"],
     &["position"],
@@ -92,7 +92,7 @@ pub(super) const EYE: [KeyGroup; 6] = [
     &["location"],
 ];
 
-/// What a camera looks at.
+/// The target of a camera.
 pub(super) const TARGET: [KeyGroup; 6] = [
     &["center"],
     &["lookAt"],
@@ -102,14 +102,14 @@ pub(super) const TARGET: [KeyGroup; 6] = [
     &["look_at"],
 ];
 
-/// Width and height of the picture.
+/// The width and height of the image.
 pub(super) const IMAGE_SIZE: [KeyGroup; 4] =
     [&["viewSize"], &["resolution"], &["size"], &["imageSize"]];
 
-/// The rows of a table with that of one key in front: the canonical one of a record.
+/// The spellings of a table with the one of `key` first, as the canonical one.
 ///
 /// # Panics
-/// If the table has no such row, when it is compiled.
+/// At compile time, if the table has no such spelling.
 pub(super) const fn with_canonical<const N: usize>(
     mut rows: [KeyGroup; N],
     key: &str,
@@ -127,7 +127,7 @@ pub(super) const fn with_canonical<const N: usize>(
     rows
 }
 
-/// The rows of a table and one more.
+/// The spellings of a table and one more.
 pub(super) const fn with_last<const N: usize, const M: usize>(
     rows: [KeyGroup; N],
     last: KeyGroup,
@@ -150,9 +150,9 @@ const fn is_same(a: &str, b: &str) -> bool {
     at == a.len() && at == b.len()
 }
 
-/// Keys of a record that mean something like one of its own, and how that is written here.
+/// Keys of other programs with a meaning similar to a key of a record, and a hint for them.
 struct ForeignKeys {
-    /// What the record is called.
+    /// The name of the record.
     record: &'static str,
     keys: KeyGroup,
     advice: &'static str,
@@ -173,7 +173,7 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
             "screenDistance",
             "d",
         ],
-        advice: "the distance from the eye to an image is `focalDistance`, the size of its pixels `pixelSize`",
+        advice: "`focalDistance` is the distance of the image from the eye, `pixelSize` the size of pixels",
     },
     ForeignKeys {
         record: "camera",
@@ -206,7 +206,7 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
     ForeignKeys {
         record: "scene",
         keys: &["Materials", "Material", "Textures", "Colors"],
-        advice: "materials stand in their objects; one that several have is marked `&red` at the first and named `*red` at the others",
+        advice: "materials are written in their objects; mark a shared one `&red` and refer to it by `*red`",
     },
     ForeignKeys {
         record: "scene",
@@ -217,7 +217,7 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
             "SkyColor",
             "AmbientLight",
         ],
-        advice: "what no object hides is black; light from all around is an `Environment`, which paths show",
+        advice: "the background is black; an `Environment` is light from all directions",
     },
     ForeignKeys {
         record: "light",
@@ -254,8 +254,7 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
     },
 ];
 
-/// How a key that a record does not know is written here, if it means something like one of its
-/// own.
+/// The hint for a key of another program, if it is known.
 pub(super) fn foreign_key_advice(record: &str, key: &str) -> Option<&'static str> {
     let is_it = |entry: &&ForeignKeys| {
         entry.record == record
@@ -272,7 +271,7 @@ mod tests {
     use super::super::object::KINDS;
     use std::collections::BTreeSet;
 
-    /// A key of its own says one thing in a record: only in a group it may say another.
+    /// A single key belongs to one field; only in groups it may belong to another.
     #[test]
     fn no_key_names_two_fields() {
         for kind in KINDS {

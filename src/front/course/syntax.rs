@@ -1,37 +1,36 @@
-//! Mistakes in a YAML text as findings.
+//! Turns the syntax errors of the YAML parser into findings.
 
 use rtc_diag::{Code, Diagnostic, Severity, clip, codes};
 use rtc_source::Span;
 use rtc_source::tree::yaml::{MAX_DEPTH, Mistake, Separator};
 
-/// The finding about a mistake.
+/// The finding for a syntax error.
 pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
     match mistake {
         Mistake::Utf16 { span } => utf16(span),
         Mistake::NotUtf8 { byte, span } => not_utf8(byte, span),
         Mistake::Control { character, span } => control(character, span),
         Mistake::TooLong { span } => {
-            let message = "a word of more than a MiB";
-            diagnostic(&codes::TOO_LONG, message, span, "it starts here")
-                .hint("is this a scene file?")
+            let message = "a scalar is longer than 1 MiB";
+            diagnostic(&codes::TOO_LONG, message, span, "starts here").hint("is this a scene file?")
         }
         Mistake::Empty { span } => empty(span),
         Mistake::TwoDocuments { span } => {
             let message = "a second document starts in this file";
             diagnostic(&codes::TWO_DOCUMENTS, message, span, "the second document")
-                .hint("keep one scene a file, or remove the `---`")
+                .hint("keep one scene per file, or remove the `---`")
         }
         Mistake::Tag { span } => {
             let message = "a tag has no meaning in a scene";
             diagnostic(&codes::TAG, message, span, "read as if it had no tag")
         }
         Mistake::SelfAlias { span, anchor } => {
-            let message = "an alias refers to what it stands in";
-            diagnostic(&codes::SELF_ALIAS, message, span, "this would never end")
-                .also(anchor, "the anchor stands before this")
+            let message = "an alias refers to a node that contains it";
+            diagnostic(&codes::SELF_ALIAS, message, span, "expands without end")
+                .also(anchor, "the anchor of that node")
         }
         Mistake::TooDeep { span } => {
-            let message = format!("lists and maps lie more than {MAX_DEPTH} deep in each other");
+            let message = format!("lists and maps are nested more than {MAX_DEPTH} deep");
             diagnostic(&codes::NESTED_TOO_DEEP, message, span, "too deep here")
                 .hint("a scene needs a depth of 6")
         }
@@ -87,9 +86,9 @@ fn control(character: u32, span: Span) -> Diagnostic {
     .replace("remove it", span, "")
 }
 
-/// A file with nothing in it.
+/// The finding for an empty file.
 fn empty(span: Span) -> Diagnostic {
-    let message = "this file holds no scene";
+    let message = "the file contains no scene";
     diagnostic(&codes::EMPTY_FILE, message, span, "the end of the file")
         .hint("a scene has at least a `Camera`, `Lights` and `Objects`")
 }
@@ -104,7 +103,7 @@ fn diagnostic(
 }
 
 fn utf16(span: Span) -> Diagnostic {
-    let message = "this file is UTF-16, not UTF-8";
+    let message = "the file is UTF-16, not UTF-8";
     diagnostic(
         &codes::NOT_UTF8,
         message,
@@ -116,21 +115,21 @@ fn utf16(span: Span) -> Diagnostic {
 
 fn not_utf8(byte: u8, span: Span) -> Diagnostic {
     let message = format!(
-        "this file is not UTF-8: byte 0x{byte:02x} at offset {}",
+        "the file is not UTF-8: byte 0x{byte:02x} at offset {}",
         span.start
     );
     let hint = "save it as UTF-8; if it is Latin-1, convert it with `iconv -f LATIN1 -t UTF-8`";
     diagnostic(&codes::NOT_UTF8, message, span, "not UTF-8").hint(hint)
 }
 
-/// The next item of a list that nothing separates from the one before.
+/// The finding for a key that repeats because the separator between two list items is missing.
 fn new_item(key: &str, first: Span, second: Span, separator: Separator) -> Diagnostic {
     let what = match separator {
         Separator::Dash(_) => "a dash",
         Separator::Braces => "`}, {`",
     };
     let message = format!(
-        "the key `{}` stands here twice: {what} is missing before the second",
+        "the key `{}` occurs twice: {what} is missing before the second",
         clip(key)
     );
     let finding = diagnostic(
@@ -139,20 +138,20 @@ fn new_item(key: &str, first: Span, second: Span, separator: Separator) -> Diagn
         second,
         "the next item begins here",
     )
-    .also(first, "this item goes on until there");
+    .also(first, "the item before it");
     match separator {
         Separator::Dash(blanks) => {
             finding.guess("each item of a list begins with a dash", blanks, "- ")
         }
-        Separator::Braces => finding.hint("each item of a list stands in braces of its own"),
+        Separator::Braces => finding.hint("each item of a list has its own braces"),
     }
 }
 
 fn duplicate_key(key: &str, first: Span, second: Span, is_same: bool) -> Diagnostic {
     let key = clip(key);
     let message = match is_same {
-        true => format!("the key `{key}` stands here twice, with the same value"),
-        false => format!("the key `{key}` stands here twice"),
+        true => format!("the key `{key}` occurs twice, with the same value"),
+        false => format!("the key `{key}` occurs twice"),
     };
     let finding = diagnostic(&codes::DUPLICATE_KEY, message, second, "again")
         .also(first, "first")
@@ -170,7 +169,7 @@ fn unclosed(bracket: Span, runs_into: Option<Span>, comment: Option<Span>) -> Di
         bracket,
         "opened here",
     )
-    .also(runs_into, "what follows was taken to be inside")
+    .also(runs_into, "parsed as inside the bracket")
     .also(comment, "`#` starts a comment, up to the end of the line")
     .hint("close it with `]` or `}` after its last item")
 }

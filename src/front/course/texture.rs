@@ -1,4 +1,5 @@
-//! The textures, and the files that images and meshes are to come from: each is wanted once.
+//! The textures, images and meshes that a scene refers to by file names. A file that is named
+//! several times is one entity.
 
 use super::assets::{AssetTarget, PendingAsset};
 use super::decode::Spanned;
@@ -9,28 +10,28 @@ use rtc_ir::{
 };
 use std::collections::BTreeMap;
 
-/// The word that stands for the uv of the surface in place of a file.
+/// The keyword for the texture coordinates of the surface, in place of a file.
 const UV: &str = "UV";
 
 /// One white pixel.
 const WHITE_PIXEL: [u8; 3] = [255; 3];
 
-/// One black pixel: three floats of four bytes.
+/// One black pixel: three 32-bit floats.
 const BLACK_PIXEL: [u8; 12] = [0; 12];
 
-/// What a scene has named so far.
+/// The files that the scene has named so far.
 #[derive(Default)]
 pub(super) struct NamedFiles {
     textures: BTreeMap<String, TextureId>,
     meshes: BTreeMap<(String, Option<String>), MeshId>,
     uv: Option<TextureId>,
-    /// The images that `standard` materials look at, with their opacity.
+    /// The images with alpha, for the textures of `standard` materials.
     sampled: BTreeMap<String, ImageId>,
     pub(super) pending_assets: Vec<PendingAsset>,
 }
 
 impl NamedFiles {
-    /// The texture of that name, whose image has one pixel until its file is there.
+    /// The texture of a file. Its image has one white pixel until the file is loaded.
     pub(super) fn texture(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> TextureId {
         if file.value.0.eq_ignore_ascii_case(UV) {
             return self.uv(scene);
@@ -46,7 +47,8 @@ impl NamedFiles {
         id
     }
 
-    /// The texture of that name as glTF samples it, whose image has one pixel until its file is there.
+    /// The texture of a file with the sampling of glTF. Its image has one white pixel until the
+    /// file is loaded.
     pub(super) fn sampled(
         &mut self,
         scene: &mut Scene,
@@ -72,14 +74,14 @@ impl NamedFiles {
         }
     }
 
-    /// The texture of the uv of surfaces.
+    /// The texture whose colours are the texture coordinates.
     pub(super) fn uv(&mut self, scene: &mut Scene) -> TextureId {
         *self
             .uv
             .get_or_insert_with(|| add(&mut scene.textures, Texture::Uv, TextureId))
     }
 
-    /// The mesh of that name or a part of it, empty until its file is there.
+    /// The mesh of a file, or one part of it; empty until the file is loaded.
     pub(super) fn mesh(
         &mut self,
         scene: &mut Scene,
@@ -102,7 +104,7 @@ impl NamedFiles {
         id
     }
 
-    /// The image of an environment, of one dark pixel until its file is there.
+    /// The image of an environment: one black pixel until the file is loaded.
     pub(super) fn environment(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> ImageId {
         let (name, pixels) = (file.value.0.replace('\\', "/"), BLACK_PIXEL.to_vec().into());
         let image = Image {
@@ -117,7 +119,7 @@ impl NamedFiles {
         image
     }
 
-    /// A glTF asset in its place.
+    /// Adds a glTF asset that is placed by `world_from_object`.
     pub(super) fn gltf(&mut self, place: [[f64; 3]; 4], file: &Spanned<FileName>) {
         self.add_pending(AssetTarget::Gltf(place), file);
     }

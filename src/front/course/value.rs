@@ -1,4 +1,4 @@
-//! The other types of the format: vectors and colours, sizes, truth values, words.
+//! The other value types of the format: vectors, colours, booleans, switches and strings.
 
 use super::decode::{Context, Value, describe};
 use super::keyword::keyword_schema;
@@ -10,8 +10,8 @@ use rtc_diag::codes;
 use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
-/// Reads a list of exactly `N` items, each with `item`; mistakes in one do not hide those in the
-/// others.
+/// Reads a list of exactly `N` items, each with `item`. All items are read, so that one mistake
+/// does not hide another.
 pub(super) fn tuple<T, const N: usize>(
     node: NodeId,
     what: &str,
@@ -22,7 +22,7 @@ pub(super) fn tuple<T, const N: usize>(
     if !tree.is_list(node) {
         return context.expected(node, what);
     }
-    // An alias may bring us to a very long list very often: look no further than needed.
+    // Aliases can repeat a very long list many times, so count no further than needed.
     let count = tree.items(node).take(N + 1).count();
     if count != N {
         wrong_length(node, count, N, context);
@@ -37,7 +37,7 @@ pub(super) fn tuple<T, const N: usize>(
         .then(|| read.map(|value| value.expect("all were looked at")))
 }
 
-/// Reports a list that has `count` items and must have another number of them.
+/// Reports a list that has `count` items instead of `expected`.
 fn wrong_length(node: NodeId, count: usize, expected: usize, context: &mut Context<'_>) {
     let (tree, key) = (context.tree, context.key);
     let span = tree.span(node);
@@ -48,10 +48,8 @@ fn wrong_length(node: NodeId, count: usize, expected: usize, context: &mut Conte
     };
     let written = tree.written(node);
     let suggestion = match count > expected {
-        true => {
-            decimal_commas(written, expected).map(|list| ("decimals stand behind a point", list))
-        }
-        false => as_list(written, expected).map(|list| ("commas stand between them", list)),
+        true => decimal_commas(written, expected).map(|list| ("decimals follow a point", list)),
+        false => as_list(written, expected).map(|list| ("separate them by commas", list)),
     };
     let message = || {
         format!(
@@ -68,7 +66,7 @@ fn wrong_length(node: NodeId, count: usize, expected: usize, context: &mut Conte
     });
 }
 
-/// Declares three numbers as a type of the format.
+/// Declares a type of the format: a list of three numbers.
 macro_rules! triple {
     ($(#[doc = $doc:literal])+ $name:ident, $decode:expr, $item:tt) => {
         $(#[doc = $doc])+
@@ -100,7 +98,7 @@ triple! {
 }
 
 triple! {
-    /// A direction, with or without a length that matters.
+    /// A direction; the key that takes it says whether its length matters.
     Vector, |node, context| number(node, "a list of three numbers", context),
     { "type": "number", "minimum": -1e60, "maximum": 1e60 }
 }
@@ -114,11 +112,12 @@ triple! {
 }
 
 triple! {
-    /// Red, green and blue, each at least 0; more than 1 is allowed.
-    Color, |node, context| number(node, "a list of three numbers", context), { "type": "number", "minimum": 0 }
+    /// Red, green and blue, each at least 0; values above 1 are allowed.
+    Color, |node, context| number(node, "a list of three numbers", context),
+    { "type": "number", "minimum": 0 }
 }
 
-/// Declares three numbers, or one that stands for all three, as a type of the format.
+/// Declares a type of the format: a list of three numbers, or one number for all three.
 macro_rules! spread {
     ($(#[doc = $doc:literal])+ $name:ident, $item:tt) => {
         $(#[doc = $doc])+
@@ -131,7 +130,10 @@ macro_rules! spread {
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
                 const WHAT: &str = "a number or a list of three numbers";
                 match context.tree.shape(node) {
-                    NodeContent::List => tuple(node, WHAT, context, |node, context| number(node, WHAT, context)).map(Self),
+                    NodeContent::List => {
+                        tuple(node, WHAT, context, |node, context| number(node, WHAT, context))
+                            .map(Self)
+                    }
                     NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::Map => {
                         number(node, WHAT, context).map(|number| Self([number; 3]))
                     }
@@ -140,7 +142,9 @@ macro_rules! spread {
 
             fn schema(_: &mut Definitions) -> Json {
                 let number = json!($item);
-                json!({ "anyOf": [number, { "type": "array", "items": number, "minItems": 3, "maxItems": 3 }] })
+                let mut list = json!({ "type": "array", "items": number });
+                (list["minItems"], list["maxItems"]) = (json!(3), json!(3));
+                json!({ "anyOf": [number, list] })
             }
 
             fn json(&self) -> Json {
@@ -151,16 +155,16 @@ macro_rules! spread {
 }
 
 spread! {
-    /// Red, green and blue, or grey, each at least 0.
+    /// Red, green and blue, or one number for grey; each at least 0.
     Channels, { "type": "number", "minimum": 0, "maximum": 1e60 }
 }
 
 spread! {
-    /// How many times larger along x, y and z, or in all directions.
+    /// A scale factor for each of x, y and z, or one factor for all.
     Scale, { "type": "number", "minimum": -1e60, "maximum": 1e60 }
 }
 
-/// A place in a texture.
+/// Texture coordinates (u, v).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Uv(pub(super) [f64; 2]);
 
@@ -180,7 +184,7 @@ impl Value for Uv {
     }
 }
 
-/// Truth values as some files number them.
+/// Booleans that some files write as numbers.
 const NUMBERED: &[(u8, &str, bool)] = &[(0, "false", false), (1, "true", true)];
 
 impl Value for bool {
@@ -219,9 +223,9 @@ impl Value for bool {
             )
         };
         let label = match context.tree.shape(node) {
-            NodeContent::Text(_) => "text, because of the quotes",
+            NodeContent::Text(_) => "a string, because of the quotes",
             NodeContent::Word(_) | NodeContent::List | NodeContent::Map => {
-                "no truth value in YAML 1.2"
+                "not a boolean in YAML 1.2"
             }
         };
         context.report(&codes::WRONG_TYPE, span, message, |d| {
@@ -249,11 +253,11 @@ impl Value for bool {
     }
 }
 
-/// Whether something is on: `On`, `Off`, or a truth value.
+/// A switch: `On`, `Off`, or a boolean.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Switch(pub(super) bool);
 
-/// The words of a switch.
+/// The keywords of a switch.
 const SWITCH_KEYWORDS: &[(&str, bool)] = &[("on", true), ("off", false)];
 
 impl Value for Switch {
@@ -278,7 +282,7 @@ impl Value for Switch {
     }
 }
 
-/// Text of any kind.
+/// Any scalar; its value is not used.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AnyScalar;
 
@@ -295,7 +299,7 @@ impl Value for AnyScalar {
     }
 }
 
-/// What people call something: any text.
+/// A name for people to read: any scalar.
 #[derive(Clone, Debug)]
 pub(super) struct DisplayName(pub(super) String);
 
@@ -312,7 +316,7 @@ impl Value for DisplayName {
     }
 }
 
-/// The name of a file, or of what stands for one.
+/// The name of a file, or a keyword in its place.
 #[derive(Clone, Debug)]
 pub(super) struct FileName(pub(super) String);
 
@@ -332,10 +336,10 @@ impl Value for FileName {
     }
 }
 
-/// What the schema calls names of files.
+/// The title of file names in the schema. Editors complete files for it.
 pub const FILE: &str = "file";
 
-/// Whether a plain word is text by the core schema: no number, no truth value, not nothing.
+/// Whether a plain scalar is a string by the core schema: no number, no boolean and not null.
 fn is_string(scalar: &str) -> bool {
     !is_number(scalar)
         && !matches!(

@@ -1,4 +1,4 @@
-//! The forms of a record: the sets of fields of which exactly one must be there.
+//! The variants of a record: sets of fields, of which exactly one must be present.
 
 use super::decode::Context;
 use super::record::{FieldDeclaration, Need, Record};
@@ -6,11 +6,11 @@ use super::spelling::quoted_list;
 use rtc_diag::{Severity, codes};
 use rtc_source::Span;
 
-/// The field that `--lenient` leaves out where a form has none.
+/// The field that `--lenient` ignores if it belongs to no variant.
 const ROTATION: &str = "rotation";
 
-/// Whether the fields that are there make up one of the forms of the record; if not, that is
-/// reported; `first_typo` is the index of the first slip in the map.
+/// Whether the fields that are present are one of the variants of the record; if not, that is
+/// reported. `first_typo` is the index of the first typo in the map.
 pub(super) fn check(
     record: &Record,
     head: Span,
@@ -28,7 +28,8 @@ pub(super) fn check(
     if variants.is_empty() || *variants_are_lowered {
         return true;
     }
-    // A required field that is missing was reported as such; one with a default is part of no form.
+    // A required field counts as present: if it is missing, that was reported. A field with a
+    // default belongs to no variant.
     let given = |at: usize, field: &FieldDeclaration| match field.need {
         Need::Required => true,
         Need::Optional | Need::Unless(_) => is_there(at),
@@ -40,7 +41,7 @@ pub(super) fn check(
         .iter()
         .enumerate()
         .filter(|(at, field)| given(*at, field) && in_variants(field));
-    // Nearly every record has one of its forms: the way there allocates nothing.
+    // Nearly every record has a valid variant, so this check does not allocate.
     let is_it = |variant: &&[&str]| {
         let within = given.clone().try_fold(0, |count, (_, field)| {
             variant.contains(&field.name).then_some(count + 1)
@@ -52,9 +53,9 @@ pub(super) fn check(
     }
     let given: Vec<_> = given.map(|(_, field)| field.name).collect();
     if context.options.lenient && is_only_turned(record, &given) {
-        let message = || format!("a {name} given in this way is not turned");
+        let message = || format!("the {name} has no `rotation` with these keys");
         context.report(&codes::NO_EFFECT, head, message, |d| {
-            d.at(head, "its `rotation` is left out")
+            d.at(head, "the `rotation` is ignored")
                 .severity(Severity::Warning)
         });
         return true;
@@ -63,7 +64,7 @@ pub(super) fn check(
     false
 }
 
-/// Whether what is given is one of the forms but for a rotation.
+/// Whether the present fields without the rotation are one of the variants.
 fn is_only_turned(record: &Record, given: &[&str]) -> bool {
     let rest = || given.iter().filter(|name| **name != ROTATION);
     let is_it = |variant: &&[&str]| {
@@ -72,7 +73,7 @@ fn is_only_turned(record: &Record, given: &[&str]) -> bool {
     record.variants.iter().any(is_it)
 }
 
-/// Reports that what is given is none of the forms.
+/// Reports that the present fields are not one of the variants.
 fn report(
     record: &Record,
     head: Span,
@@ -107,18 +108,18 @@ fn report(
         head,
         || message,
         |d| {
-            d.at(head, format!("this {name}"))
+            d.at(head, format!("the {name}"))
                 .because(cause, "perhaps this is it")
                 .hint(hint)
         },
     );
 }
 
-/// What each form that has all that is given and lacks the least has besides, in words.
+/// For each variant that contains all present fields and lacks the fewest: the missing keys.
 fn missing(record: &Record, given: &[&str]) -> Vec<String> {
     let has_all = |variant: &&&[&str]| given.iter().all(|name| variant.contains(name));
     let possible = record.variants.iter().filter(has_all);
-    // With nothing given the first form is worth recommending.
+    // Without any field only the first variant is recommended.
     let least = match given {
         [] => record.variants.first().map(|variant| variant.len()),
         _ => possible.clone().map(|variant| variant.len()).min(),
@@ -134,7 +135,7 @@ fn missing(record: &Record, given: &[&str]) -> Vec<String> {
         .collect()
 }
 
-/// The canonical keys of some fields, in words.
+/// The canonical keys of some fields, as a list for messages.
 fn keys(record: &Record, names: &[&str]) -> String {
     let fields = names
         .iter()

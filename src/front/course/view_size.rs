@@ -1,4 +1,4 @@
-//! The size of the picture in pixels, in the ways that files say it.
+//! The size of the image in pixels, in all notations.
 
 use super::decode::{Context, Spanned, Value};
 use super::lower::Lowering;
@@ -12,15 +12,16 @@ use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {
-    /// Width and height of the picture in pixels.
+    /// Width and height of the image in pixels.
     struct SizeMap, "size" {
         /// The width, the height.
-        sides: [Spanned<PixelCount>; 2], required, &[&["width", "height"], &["x", "y"], &["w", "h"]];
+        sides: [Spanned<PixelCount>; 2], required,
+            &[&["width", "height"], &["x", "y"], &["w", "h"]];
     }
 }
 
 record! {
-    /// The first of two maps that are the size of the picture.
+    /// The first of two maps with the size of the image.
     struct Width, "width" {
         /// The width in pixels.
         side: Spanned<PixelCount>, required, &[&["width"], &["x"], &["w"]];
@@ -28,15 +29,15 @@ record! {
 }
 
 record! {
-    /// The second of two maps that are the size of the picture.
+    /// The second of two maps with the size of the image.
     struct Height, "height" {
         /// The height in pixels.
         side: Spanned<PixelCount>, required, &[&["height"], &["y"], &["h"]];
     }
 }
 
-/// Width and height of the picture in pixels: a list of two, a map, or a list of maps; or one
-/// number, the side of a square.
+/// Width and height of the image in pixels: a list of two numbers, a map, a list of maps, or one
+/// number for a square.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ViewSize(pub(super) [u32; 2]);
 
@@ -92,7 +93,7 @@ impl Value for ViewSize {
     }
 }
 
-/// One number says both sides.
+/// One number for both sides.
 fn square_size(node: NodeId, context: &mut Context<'_>) -> Option<ViewSize> {
     PixelCount::decode(node, context).map(|side| ViewSize([side.0; 2]))
 }
@@ -106,7 +107,7 @@ fn size_of_map(
 }
 
 impl Lowering {
-    /// Says which of the sizes a file gives does not count; after the camera.
+    /// Reports sizes without effect. Call it after the camera is lowered.
     pub(super) fn report_unused_sizes(&self, scene: &Scene, context: &mut Context<'_>) {
         let Scene {
             camera,
@@ -131,7 +132,7 @@ impl Lowering {
             }
             let is_same = value.0 == [width, height];
             let message =
-                || format!("the `Camera` has the size of the picture: {width} × {height}");
+                || format!("the size of the image is that of the `Camera`: {width} × {height}");
             context.report(&codes::NO_EFFECT, *span, message, |d| {
                 d.at(*span, "no effect").severity(severity(is_same))
             });
@@ -154,10 +155,10 @@ impl Lowering {
     }
 }
 
-/// How far a ratio that was written may be from that of two whole numbers, relatively.
+/// The relative tolerance of an aspect ratio.
 const TOLERANCE: f64 = 0.01;
 
-/// What has no effect and says what is so anyway is only worth a note.
+/// A key without effect is only a note if its value agrees with the image.
 fn severity(is_same: bool) -> Severity {
     if is_same {
         Severity::Note

@@ -1,4 +1,4 @@
-//! The environments: pictures of light as the IR holds them.
+//! Loads the image of the environment.
 
 use super::{AssetLoader, MissingAssetPolicy, PendingAsset};
 use crate::pixels;
@@ -6,16 +6,16 @@ use rtc_image::is_radiance;
 use rtc_ir::{ImageId, Lowered};
 use rtc_source::FileKind;
 
-/// The largest file read, in bytes: every pixel allowed, in 32-bit floats.
+/// The largest file read, in bytes: the largest image in 32-bit floats.
 const MAX_BYTES: u64 = 1 << 29;
 
-/// Such files.
+/// The file formats of environments.
 pub(super) const KIND: FileKind = FileKind {
     extensions: &["hdr", "pic", "exr"],
     begins: is_radiance,
 };
 
-/// Brings the image of the environment; without its file there is none.
+/// Loads the image of the environment. If that fails, the scene has no environment.
 pub(super) fn load(
     id: ImageId,
     pending: &PendingAsset,

@@ -1,5 +1,5 @@
-//! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count,
-//! their lights do.
+//! Loads the glTF assets of a scene and places their surfaces and lights. Their cameras are
+//! ignored.
 
 use super::{AssetLoader, FileCache, MissingAssetPolicy, PendingAsset};
 use crate::{FrontOptions, gltf, over_limit};
@@ -12,7 +12,7 @@ use rtc_ir::{
 use rtc_math::Vec3;
 use rtc_source::{Budget, Exceeded, FileId, FileKind, Found, Resource};
 
-/// Such files.
+/// The file formats of assets.
 pub(super) const KIND: FileKind = FileKind {
     extensions: &["gltf", "glb"],
     begins: gltf::begins,
@@ -21,15 +21,16 @@ pub(super) const KIND: FileKind = FileKind {
 /// The largest asset read, in bytes.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// The assets brought so far: what is to be placed of them.
+/// The assets loaded so far.
 #[derive(Default)]
 pub(super) struct GltfAssets {
     cache: FileCache<ImportedAsset>,
-    /// The budget had no room for one of them: that is said once.
+    /// Whether the budget was exceeded, which is reported once.
     is_over: bool,
 }
 
-/// What is placed of an asset; it refers to what was added to the scene.
+/// An asset whose images, textures, meshes and materials are in the scene. Its surfaces and lights
+/// are added for each placement.
 struct ImportedAsset {
     surfaces: Vec<Surface>,
     names: Vec<String>,
@@ -37,7 +38,7 @@ struct ImportedAsset {
 }
 
 impl GltfAssets {
-    /// Brings an asset and places it; without its file, nothing shows of it.
+    /// Loads an asset and places it. If that fails, nothing is placed.
     pub(super) fn load(
         &mut self,
         place: [[f64; 3]; 4],
@@ -83,8 +84,8 @@ impl GltfAssets {
     }
 }
 
-/// Adds the bytes of an asset to the map, if they are one: a finding within would quote a file of
-/// another kind.
+/// Adds the bytes of an asset to the source map if they are one. Otherwise findings would quote a
+/// file of another kind.
 fn add_asset(
     found: &Found,
     bytes: Vec<u8>,
@@ -102,7 +103,8 @@ fn add_asset(
     None
 }
 
-/// How many images, textures, meshes and materials a scene had before an asset came.
+/// The number of images, textures, meshes and materials in the scene before an asset is added: the
+/// offsets of the asset's indices.
 struct IndexOffsets {
     images: u32,
     textures: u32,
@@ -121,7 +123,7 @@ impl IndexOffsets {
         }
     }
 
-    /// Keeps the places of what an asset is made of.
+    /// Records the spans of the asset's entities under their new indices.
     fn record(&self, asset: &Lowered, source_spans: &mut SourceSpans) {
         let Scene {
             images,
@@ -173,7 +175,7 @@ impl IndexOffsets {
     }
 }
 
-/// Adds what an asset is made of to a scene.
+/// Adds the images, textures, meshes and materials of an asset to a scene.
 fn add(asset: Lowered, lowered: &mut Lowered) -> ImportedAsset {
     let Lowered {
         scene,
@@ -201,7 +203,7 @@ fn add(asset: Lowered, lowered: &mut Lowered) -> ImportedAsset {
 }
 
 impl ImportedAsset {
-    /// Charges one more of it.
+    /// Charges the budget for one more placement.
     fn charge(&self, budget: &Budget) -> Result<(), Exceeded> {
         let names = self.names.iter().map(|name| name.len() as u64).sum::<u64>();
         let lights = size_of::<Light>() as u64 * self.lights.len() as u64;
@@ -210,7 +212,7 @@ impl ImportedAsset {
         budget.charge(Resource::Memory, surfaces * gltf::SURFACE + names + lights)
     }
 
-    /// Puts the asset into its place.
+    /// Adds the surfaces and lights of the asset, transformed by `world`.
     fn place(&self, world: DAffine3, pending: &PendingAsset, lowered: &mut Lowered) {
         let Lowered {
             scene,
@@ -245,7 +247,7 @@ impl ImportedAsset {
     }
 }
 
-/// A light moved and turned; its strength and its reach know no scale, as in the asset.
+/// A light transformed by `world`. As in glTF, its intensity and range are not scaled.
 fn placed(light: &Light, world: DAffine3) -> Light {
     let Light::Punctual(Punctual { emitter, intensity }) = light else {
         return light.clone();

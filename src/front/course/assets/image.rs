@@ -1,4 +1,4 @@
-//! The images: pixel files as the IR holds them, and bump maps that turn out to hold normals.
+//! Loads the images of textures, and turns bump maps that hold normals into normal maps.
 
 use super::{AssetLoader, AssetTarget, FileCache, MissingAssetPolicy, PendingAsset};
 use crate::pixels::{self, PixelFault};
@@ -11,12 +11,11 @@ use rtc_ir::{
 use rtc_source::Found;
 use std::collections::BTreeMap;
 
-/// The largest pixel file read, in bytes: as large as the largest picture with every pixel stored
-/// plainly.
+/// The largest file read, in bytes: the largest image, uncompressed.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// Brings one image, or the one that the same file became before, whatever it was called; `None`
-/// without a file.
+/// Loads an image. A file that was loaded before, under any name, gives the same image. `None` if
+/// it can't be loaded.
 pub(super) fn load(
     id: ImageId,
     pending: &PendingAsset,
@@ -43,8 +42,7 @@ pub(super) fn load(
     image.copied()
 }
 
-/// Has textures look at the images that came of those they wanted, and no material at a texture of
-/// which none came.
+/// Points textures to the loaded images, and removes textures of missing images from the materials.
 pub(super) fn resolve_images(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scene) {
     let mut missing = vec![false; scene.textures.len()];
     for (texture, missing) in scene.textures.iter_mut().zip(&mut missing) {
@@ -79,7 +77,7 @@ pub(super) fn resolve_images(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &
     }
 }
 
-/// What is done without the file.
+/// The policy for a missing image.
 fn policy(pending: &PendingAsset) -> MissingAssetPolicy {
     if let AssetTarget::Map(_) | AssetTarget::Mask(_) = pending.target {
         MissingAssetPolicy::Map
@@ -114,7 +112,7 @@ fn rejection(fault: &PixelFault, found: &Found, pending: &PendingAsset) -> Diagn
     pixels::rejection(fault, &what, "textures are PNG, JPEG or WebP").at(pending.span, "named here")
 }
 
-/// Makes normal maps of the bump maps that hold normals.
+/// Turns bump maps that hold normals into normal maps.
 pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
     let Scene {
         materials,
@@ -161,7 +159,7 @@ pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
     }
 }
 
-/// True if most pixels, taken as 2·rgb − 1, are directions that point out of the surface.
+/// Whether most pixels, decoded as 2·rgb − 1, are unit vectors that point out of the surface.
 pub(super) fn holds_normals(pixels: &[u8]) -> bool {
     let pixels = pixels.as_chunks::<3>().0;
     let is_normal = |pixel: &&[u8; 3]| {

@@ -1,5 +1,5 @@
-//! MeshFiles dressed by the materials that their files ask for: one surface becomes one for each
-//! material, where those count.
+//! Assigns the materials of MTL files to meshes. A surface whose mesh has several materials is
+//! split into one surface per material.
 
 use super::AssetLoader;
 use super::mesh::{MeshFile, MeshFiles};
@@ -13,39 +13,40 @@ use rtc_ir::{
 use rtc_source::{Exceeded, Resource, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Where the material of a mesh comes from.
+/// The source of a mesh's material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaterialSource {
-    /// From the scene.
+    /// The scene.
     Scene,
-    /// From its file; without any there it keeps its own, which is grey.
+    /// The MTL of the mesh file; grey if there is none.
     MtlOrGrey,
-    /// From its file, which is the scene; without any there it keeps its own.
+    /// The MTL of the mesh file, which is the input itself; the default material if there is none.
     AssetTarget,
-    /// From its file, as the scene asks for; without any there it keeps its own.
+    /// The MTL of the mesh file, as `materials: mtl` requests; the scene's material if there is
+    /// none.
     Mtl,
 }
 
-/// A mesh in want of a material.
+/// A mesh whose material has not been assigned yet.
 #[derive(Clone, Copy, Debug)]
 pub struct PendingMaterial {
-    /// The index of its surface, which has the material that counts where the file has none.
+    /// The index of its surface, which has the fallback material.
     pub surface: usize,
-    /// Where its material comes from.
+    /// The source of its material.
     pub source: MaterialSource,
-    /// Where the scene says so.
+    /// The span of the request in the scene.
     pub span: Option<Span>,
 }
 
-/// The materials of a mesh file, for each that its faces ask for, and the meshes of their faces once
-/// there are any.
+/// The material for each `usemtl` of a mesh file, and the meshes of their faces once the mesh is
+/// split.
 struct MeshMaterials {
     materials: Vec<Option<MaterialId>>,
     parts: Vec<MeshId>,
 }
 
-/// Dresses meshes whose files were brought; returns the materials, with the images that they wait
-/// for.
+/// Assigns materials to the meshes, whose files are loaded. Returns the materials with their
+/// pending images.
 pub(super) fn bind(
     pending_materials: &[PendingMaterial],
     meshes: &MeshFiles,
@@ -77,7 +78,7 @@ pub(super) fn bind(
     binder.cache
 }
 
-/// The mesh in its place that a surface is.
+/// The mesh instance of a surface.
 fn instance(scene: &Scene, surface: usize) -> Option<&Instance> {
     let surface = scene.surfaces.get(surface)?;
     if let Shape::Instance(instance) = &surface.shape {
@@ -89,11 +90,11 @@ fn instance(scene: &Scene, surface: usize) -> Option<&Instance> {
 
 struct MaterialBinder<'a, 'run> {
     meshes: &'a MeshFiles,
-    /// The meshes that are shown in one piece too.
+    /// The meshes that another surface shows unsplit.
     unsplit: BTreeSet<u32>,
     cache: MtlCache,
     mesh_materials: BTreeMap<usize, Option<MeshMaterials>>,
-    /// Whether a file has materials that can be found, of those of which that was asked.
+    /// Whether an MTL of a mesh file exists, for the files checked so far.
     has_library: BTreeMap<usize, bool>,
     lowered: &'a mut Lowered,
     loader: &'a mut AssetLoader<'run>,
@@ -153,7 +154,7 @@ impl MaterialBinder<'_, '_> {
         Ok(())
     }
 
-    /// Makes one surface a material of the one that is a whole mesh.
+    /// Splits a surface with an entire mesh into one surface per material.
     fn split(
         &mut self,
         pending: &PendingMaterial,
@@ -217,17 +218,17 @@ impl MaterialBinder<'_, '_> {
         Ok(())
     }
 
-    /// Says that nothing gives a mesh its material, where the scene leaves it to the file.
+    /// Reports a mesh without a material in its file, if the scene relies on the file.
     fn report_no_material(&mut self, pending: &PendingMaterial, grey: &str) {
         let finding = match pending.source {
             MaterialSource::Scene | MaterialSource::AssetTarget => return,
             MaterialSource::Mtl => {
-                let message = "the file of the mesh has no material for all its faces, so those have \
-                               that of the scene";
+                let message =
+                    "some faces have no material in the mesh file: they keep that of the scene";
                 Diagnostic::new(&codes::ASSUMED, message).at(pending.span, "not found there")
             }
             MaterialSource::MtlOrGrey => Diagnostic::new(&codes::ASSUMED, grey)
-                .at(pending.span, "this mesh")
+                .at(pending.span, "the mesh")
                 .hint(
                     "write `material: {color: [0.7, 0.7, 0.7], ka: 0.2, kd: 0.8, ks: 0, n: 1}`, \
                          or its own",
@@ -236,13 +237,13 @@ impl MaterialBinder<'_, '_> {
         self.loader.sink.push(finding);
     }
 
-    /// Says that the materials of a file are not shown.
+    /// Reports that the materials of a mesh file are unused.
     fn report_unused(&mut self, pending: &PendingMaterial, file: &MeshFile) {
         let materials = &file.material_use.materials;
         let count = materials.iter().filter(|named| !named.text.is_empty());
         let message = match count.count() {
             _ if file.texture.is_some() => {
-                "the picture of the mesh file is unused: the mesh has the material of the scene"
+                "the texture of the mesh file is unused: the mesh has the material of the scene"
                     .to_owned()
             }
             1 => "the material of its MTL is unused: the mesh has that of the scene".to_owned(),
@@ -250,7 +251,7 @@ impl MaterialBinder<'_, '_> {
                 format!("{count} materials of its MTL are unused: the mesh has that of the scene")
             }
         };
-        let note = Diagnostic::new(&codes::MTL_UNUSED, message).at(pending.span, "this mesh");
+        let note = Diagnostic::new(&codes::MTL_UNUSED, message).at(pending.span, "the mesh");
         self.loader
             .sink
             .push(note.hint("`materials: mtl` shows them"));

@@ -1,4 +1,4 @@
-//! The meshes: their files found and read, each once, and the parts of them that are wanted.
+//! Loads mesh files, each once, and extracts the parts that a scene uses.
 
 use super::text_file::TextKind;
 use super::{AssetLoader, FileCache, MissingAssetPolicy, PendingAsset};
@@ -10,13 +10,13 @@ use rtc_source::{Budget, Exceeded, FileId, FileKind, Found, Resource, Span};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Such files.
+/// The file formats of meshes.
 pub(super) const TEXT: TextKind = TextKind {
     entity: "mesh",
     is_not: "no OBJ, OFF, STL, PLY or XYZ",
     code: &codes::BAD_MESH_FILE,
     policy: MissingAssetPolicy::Object,
-    // Some two million triangles.
+    // About two million triangles.
     max_bytes: 1 << 28,
     file: FileKind {
         extensions: EXTENSIONS,
@@ -24,32 +24,32 @@ pub(super) const TEXT: TextKind = TextKind {
     },
 };
 
-/// The mesh files brought so far.
+/// The mesh files loaded so far.
 #[derive(Default)]
 pub(super) struct MeshFiles {
     cache: FileCache<usize>,
     pub(super) files: Vec<MeshFile>,
-    /// The file that each mesh wanted is of.
+    /// The file of each pending mesh.
     file_of: BTreeMap<u32, usize>,
 }
 
-/// What a mesh file holds.
+/// A loaded mesh file.
 pub(super) struct MeshFile {
-    /// All of it, without a name.
+    /// The entire mesh, without a name.
     full_mesh: Mesh,
-    /// The mesh of the scene that is all of it, if there is one.
+    /// The mesh of the scene that is the entire mesh, if there is one.
     pub(super) full_mesh_id: Option<MeshId>,
     pub(super) material_use: MaterialUse,
-    /// The picture of all its faces, where it names one itself.
+    /// The texture of all faces, if the file names one itself.
     pub(super) texture: Option<Named>,
     pub(super) file: FileId,
-    /// Its path from a folder that is searched.
+    /// Its path relative to the searched folder.
     pub(super) path: String,
 }
 
 impl MeshFiles {
-    /// Brings one mesh, or the one that the same file became before, whatever it was called;
-    /// without a file it stays empty, and nothing shows of it.
+    /// Loads a mesh. A file that was loaded before, under any name, gives the same mesh. If that
+    /// fails, the mesh stays empty.
     pub(super) fn load(
         &mut self,
         id: MeshId,
@@ -65,7 +65,7 @@ impl MeshFiles {
             let mesh_file = read_file(&found, pending, loader)?;
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
             if !mesh_file.full_mesh.colors.is_empty() && !is_traced {
-                let message = "the colours of its vertices show in traced paths alone";
+                let message = "only path tracing shows the colours of vertices";
                 let finding = Diagnostic::new(&codes::NOT_DRAWN, message);
                 loader
                     .sink
@@ -107,19 +107,19 @@ impl MeshFiles {
         }
     }
 
-    /// Adds a file that was read, of which a mesh of the scene is all.
+    /// Adds a parsed file whose entire mesh is the mesh `id` of the scene.
     pub(super) fn add(&mut self, id: MeshId, mut file: MeshFile) {
         file.full_mesh_id = Some(id);
         self.file_of.insert(id.0, self.files.len());
         self.files.push(file);
     }
 
-    /// The file that a mesh wanted is of; none if there is no sound one.
+    /// The file of a mesh; `None` if it could not be loaded.
     pub(super) fn of(&self, id: MeshId) -> Option<usize> {
         self.file_of.get(&id.0).copied()
     }
 
-    /// Has instances show the meshes that came of those they wanted.
+    /// Points instances to the loaded meshes.
     pub(super) fn resolve_instances(&self, scene: &mut Scene) {
         for surface in &mut scene.surfaces {
             if let Shape::Instance(instance) = &mut surface.shape {
@@ -136,7 +136,7 @@ impl MeshFiles {
     }
 }
 
-/// Puts what a mesh holds into one that keeps its name and part.
+/// Replaces the geometry of a mesh; its name and part stay.
 fn fill(target: &mut Mesh, mesh: Mesh) {
     let (name, part) = (std::mem::take(&mut target.name), target.part.take());
     *target = Mesh { name, part, ..mesh };
@@ -160,12 +160,12 @@ impl MeshFile {
         }
     }
 
-    /// All of it, without a name.
+    /// The entire mesh, without a name.
     pub(super) fn full_mesh(&self) -> Mesh {
         self.full_mesh.clone()
     }
 
-    /// The triangles whose faces ask for the material `name`, if there are any.
+    /// The triangles with the material `name`, if there are any.
     fn part(&self, name: &str, budget: &Budget) -> Result<Option<Mesh>, Exceeded> {
         let Some(at) = self.material_use.index_of(name) else {
             return Ok(None);
@@ -175,7 +175,7 @@ impl MeshFile {
         extract(&self.full_mesh, &ranges[at], &mut unused, budget).map(Some)
     }
 
-    /// Each material's triangles, as meshes of their own.
+    /// One mesh for the triangles of each material.
     pub(super) fn parts(&self, budget: &Budget) -> Result<Vec<Mesh>, Exceeded> {
         budget.has(Resource::Memory, 4 * self.full_mesh.positions.len() as u64)?;
         let mut unused = vec![UNASSIGNED; self.full_mesh.positions.len()];
@@ -193,11 +193,11 @@ impl MeshFile {
     }
 }
 
-/// The number of a vertex that a part does not have so far.
+/// The new index of a vertex that is not in the part so far.
 const UNASSIGNED: u32 = u32::MAX;
 
-/// Some triangles of a mesh, with the vertices that they use in the order of their first use;
-/// `new_indices` holds one [`UNASSIGNED`] for each vertex, before and after.
+/// Extracts triangles of a mesh, with their vertices in the order of first use. `new_indices` holds
+/// [`UNASSIGNED`] for every vertex, before and after.
 fn extract(
     mesh: &Mesh,
     ranges: &[Range<usize>],
@@ -210,7 +210,7 @@ fn extract(
             .flat_map(|range| &mesh.triangles[range.clone()])
     };
     let mut used = Vec::new();
-    // A corner is new at most once.
+    // Each corner adds at most one vertex.
     let corners = 3 * triangles().count().min(new_indices.len());
     budget.has(Resource::Memory, 8 * corners as u64)?;
     for corner in triangles().flatten() {
@@ -243,7 +243,7 @@ fn extract(
     Ok(part)
 }
 
-/// What is in a file, if it is a sound mesh.
+/// Reads and parses a mesh file.
 fn read_file(
     found: &Found,
     pending: &PendingAsset,
@@ -255,7 +255,7 @@ fn read_file(
     Some(MeshFile::new(parsed, file, path))
 }
 
-/// Says what of a file does not show; `named` is where a scene names it.
+/// Reports the elements of a file that are not drawn; `named` is where a scene names the file.
 pub(super) fn report_not_drawn(
     parsed: &Parsed,
     file: FileId,
@@ -263,7 +263,7 @@ pub(super) fn report_not_drawn(
     sink: &mut Sink,
 ) {
     if let Some((first, count)) = &parsed.not_drawn {
-        let message = format!("{} show: {}", count_of(*count), first.message);
+        let message = format!("{}: {}", count_of(*count), first.message);
         let finding = Diagnostic::new(&codes::NOT_DRAWN, message);
         let finding = finding.at(first.span(file), first.label.as_str());
         sink.push(finding.also(named, "the file is named here"));
@@ -272,8 +272,8 @@ pub(super) fn report_not_drawn(
 
 fn count_of(count: usize) -> String {
     if count == 1 {
-        "an element of this file does not".to_owned()
+        "an element of the file is not drawn".to_owned()
     } else {
-        format!("{count} elements of this file don't")
+        format!("{count} elements of the file are not drawn")
     }
 }

@@ -1,11 +1,10 @@
-//! What is told of a file that is not found.
+//! The finding about a file that is not found.
 
 use super::{Missing, PendingAsset};
 use rtc_diag::{Diagnostic, clip_path, codes};
 use std::path::PathBuf;
 
-/// The finding about a file that is not where it was looked for; `similar` is the name of one that
-/// is.
+/// The finding about a file that is not found; `similar` is the name of an existing one.
 pub(super) fn missing(
     pending: &PendingAsset,
     fault: &Missing,
@@ -14,10 +13,9 @@ pub(super) fn missing(
     let name = clip_path(&pending.path);
     match fault {
         Missing::NoFolder => {
-            let message =
-                format!("`{name}` can't be looked for: a scene from a stream has no folder");
+            let message = format!("`{name}` can't be found: a scene from a stream has no folder");
             Diagnostic::new(&codes::FILE_OUTSIDE, message)
-                .at(pending.span, "no folder to look in")
+                .at(pending.span, "no folder to search")
                 .hint("name the folder of its files by `--asset-root`")
         }
         Missing::Absent(searched) => {
@@ -39,10 +37,10 @@ pub(super) fn missing(
     }
 }
 
-/// What to do about a file that lies elsewhere.
+/// The hint for a file in another folder.
 const HINT: &str = "put the file beside the scene, or allow its folder by `--asset-root`";
 
-/// The places a file was looked for, the most telling ones if there are many.
+/// The paths where a file was searched, at most [`MAX_SHOWN`] of them.
 fn searched_paths(searched: &[PathBuf]) -> String {
     const MAX_SHOWN: usize = 6;
     let shown: Vec<String> = searched

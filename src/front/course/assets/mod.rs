@@ -1,7 +1,27 @@
-//! The files a scene names, brought into its IR: textures and meshes.
+//! Loads the files that a scene names: images, meshes, MTL libraries, environments, photometric
+//! profiles and glTF assets.
 //!
-//! Every fault has its place: in the scene for a file that can't be had, in the mesh file for what
-//! is wrong there. A lenient run goes on without the file and says what is missing.
+//! Lowering leaves a placeholder in the IR for each file and a [`PendingAsset`] with its path, its
+//! span and its [`AssetTarget`]. [`load`] works through them in these steps:
+//!
+//! 1. `AssetLoader` finds each file (near the scene, see `rtc_source::Search`) and reads it. A
+//!    file with several names is loaded once (`FileCache`).
+//! 2. The module of its format decodes it into the placeholder: `image`, `mesh`, `environment`,
+//!    `photometry` or `gltf`.
+//! 3. Instances and sizings are resolved, since they depend on the bounds of loaded meshes.
+//! 4. `material_binder` assigns MTL materials to meshes, and splits surfaces that have several.
+//! 5. The images of these materials are loaded, textures are pointed to them, and `mtl::bake`
+//!    makes the textures that combine several images.
+//!
+//! [`lower_standalone_mesh`] takes the same steps for a mesh file that is the input itself.
+//!
+//! What callers may rely on:
+//!
+//! * Every error has a span: in the scene for a file that cannot be read, in a text file for an
+//!   error in its content. Bytes of a file of another format are never quoted.
+//! * Without a file the scene stays valid. That is an error, or with `lenient` a warning which
+//!   states the consequence (`MissingAssetPolicy`). Files that only an MTL names are optional.
+//! * Memory is charged to the budget before it is allocated.
 
 mod environment;
 mod gltf;
@@ -28,42 +48,42 @@ use rtc_ir::{EntityKind, Field, ImageId, Lowered, MeshId, Photometry, ValuePath}
 use rtc_source::{FileId, FileKind, Found, Identity, Loader, Missing, Search, SourceMap, Span};
 use std::collections::BTreeMap;
 
-/// A file that a scene names, for a place in the IR that waits for it.
+/// A file that a scene names and that is not loaded yet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PendingAsset {
-    /// What the file is for.
+    /// The entity of the IR that the file is loaded into.
     pub target: AssetTarget,
-    /// Its path as the scene writes it.
+    /// The path as written in the scene.
     pub path: String,
-    /// Where the scene writes it.
+    /// The span of the path in the scene.
     pub span: Option<Span>,
 }
 
-/// The place in the IR that a file is for.
+/// The entity of the IR that a file is loaded into.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AssetTarget {
-    /// An image, of one pixel until its file is there.
+    /// An image without alpha; one pixel until the file is loaded.
     Image(ImageId),
-    /// An image with its opacity, of one pixel until its file is there.
+    /// An image with alpha; one pixel until the file is loaded.
     Sampled(ImageId),
-    /// A mesh, empty until its file is there.
+    /// A mesh; empty until the file is loaded.
     Mesh(MeshId),
-    /// The image of the environment, of one dark pixel until its file is there.
+    /// The image of the environment; one black pixel until the file is loaded.
     Environment(ImageId),
-    /// A glTF asset, placed by a transform as of an instance: nothing until its file is there.
+    /// A glTF asset with the transform of its placement; absent until the file is loaded.
     Gltf([[f64; 3]; 4]),
-    /// The profile of the lamp of this index, dark until its file is there.
+    /// The profile of the light with this index; dark until the file is loaded.
     Photometry(usize),
-    /// An image that a material of a mesh file names, of one pixel until its file is there.
+    /// An image without alpha that an MTL material names.
     Map(ImageId),
-    /// The same with its opacity.
+    /// An image with alpha that an MTL material names.
     Mask(ImageId),
-    /// The materials of a mesh.
+    /// The MTL library of a mesh.
     Materials,
 }
 
 impl AssetTarget {
-    /// The noun of the IR that the file becomes, if it is one.
+    /// The path of the image or mesh in the IR.
     pub(super) fn value_path(&self) -> Option<ValuePath> {
         match self {
             Self::Image(id)
@@ -78,10 +98,10 @@ impl AssetTarget {
     }
 }
 
-/// Reads each file wanted by a scene that was lowered from `scene`, and puts it in its place; then
-/// sees to the sizes and the materials of its meshes.
+/// Loads all pending files of a scene that was lowered from the file `scene`; then applies sizings
+/// and assigns materials to meshes.
 ///
-/// Mesh files come into the source map, so that findings can point into them.
+/// Mesh files are added to the source map, so that findings can point into them.
 pub fn load(
     draft: UnfinishedScene,
     scene: FileId,
@@ -112,13 +132,13 @@ pub fn load(
     lowered
 }
 
-/// What was brought so far.
+/// The state of loading the files of a scene.
 struct AssetImport<'run> {
     loader: AssetLoader<'run>,
     images: FileCache<ImageId>,
-    /// Those with their opacity.
+    /// The images with alpha.
     sampled: FileCache<ImageId>,
-    /// Which image came of each that was wanted.
+    /// The loaded image for each pending one.
     image_of: BTreeMap<u32, Option<ImageId>>,
     meshes: mesh::MeshFiles,
     assets: gltf::GltfAssets,
@@ -150,7 +170,7 @@ impl<'run> AssetImport<'run> {
         }
     }
 
-    /// Dresses the meshes, and has textures look at the images that came.
+    /// Assigns materials to the meshes, and points textures to the loaded images.
     fn finish(mut self, pending_materials: &[PendingMaterial], lowered: &mut Lowered) {
         let cache =
             material_binder::bind(pending_materials, &self.meshes, lowered, &mut self.loader);
@@ -161,7 +181,7 @@ impl<'run> AssetImport<'run> {
         lowered.source_spans.finish();
     }
 
-    /// Brings files.
+    /// Loads files.
     fn load_all(&mut self, pending_assets: Vec<PendingAsset>, lowered: &mut Lowered) {
         let loader = &mut self.loader;
         for pending in pending_assets {
@@ -182,15 +202,15 @@ impl<'run> AssetImport<'run> {
                 AssetTarget::Photometry(light) => {
                     photometry::load(light, &pending, lowered, &mut self.profiles, loader);
                 }
-                // Who wants materials reads them.
+                // The material binder reads libraries itself.
                 AssetTarget::Materials => {}
             }
         }
     }
 }
 
-/// What became of the files read so far, each read once, however it is named; `None` if it can't be
-/// used.
+/// A cache of loaded files by identity: each is loaded once, whatever its name. `None` if loading
+/// failed.
 struct FileCache<T>(BTreeMap<Identity, Option<T>>);
 
 impl<T> Default for FileCache<T> {
@@ -200,10 +220,10 @@ impl<T> Default for FileCache<T> {
 }
 
 impl<T> FileCache<T> {
-    /// What became of a file; `read` is called if that is not known.
+    /// The result of loading a file; calls `read` the first time.
     fn get_or_load(&mut self, found: &Found, read: impl FnOnce() -> Option<T>) -> Option<&T> {
         let Some(identity) = found.identity() else {
-            // It has gone meanwhile: to read it reports that.
+            // The file has been removed; reading it reports that.
             read();
             return None;
         };
@@ -211,30 +231,29 @@ impl<T> FileCache<T> {
     }
 }
 
-/// Finds files, reads them, and reports on them.
+/// Finds and reads files, and reports failures.
 struct AssetLoader<'run> {
     search: Search,
     options: &'run FrontOptions,
     loader: Loader,
     map: &'run mut SourceMap,
     sink: &'run mut Sink,
-    /// How many names were compared with ones that are not there.
+    /// The number of file names compared with missing ones.
     compared: usize,
 }
 
-/// The most names that are compared so: of many files that are not there the first are told of
-/// best.
+/// The limit of file names compared to find suggestions.
 const MAX_COMPARED: usize = 1 << 16;
 
-/// What a lenient run does without a file.
+/// What remains of the scene without a file.
 #[derive(Clone, Copy)]
 enum MissingAssetPolicy {
     Color,
     Environment,
     Light,
-    /// The picture of a material of a mesh file.
+    /// An image of an MTL material.
     Map,
-    /// The materials of a mesh file.
+    /// The MTL library of a mesh file.
     Materials,
     Object,
 }
@@ -245,19 +264,20 @@ impl MissingAssetPolicy {
             Self::Color | Self::Map => "the texture is left out",
             Self::Environment => "the environment is left out",
             Self::Light => "the light is dark",
-            Self::Materials => "the mesh goes without its materials",
+            Self::Materials => "its materials are left out",
             Self::Object => "the object is left out",
         }
     }
 
-    /// Whether a scene is worth showing without it, lenient or not: what it names does not ask for it.
+    /// Whether a missing file is only a warning without `--lenient` too, because another file names
+    /// it, not the scene.
     fn is_optional(self) -> bool {
         matches!(self, Self::Map | Self::Materials)
     }
 }
 
 impl AssetLoader<'_> {
-    /// The file, unless there is none: that is reported.
+    /// Finds a file; reports a missing one.
     fn find(&mut self, pending: &PendingAsset, policy: MissingAssetPolicy) -> Option<Found> {
         let extensions: &[&str] = match policy {
             MissingAssetPolicy::Object if !has_extension(&pending.path) => &["", ".obj", ".off"],
@@ -288,7 +308,7 @@ impl AssetLoader<'_> {
         None
     }
 
-    /// A file in the place of the one that is wanted, with a similar name or another extension.
+    /// The name of an existing file in the same folder, with a similar name or another extension.
     fn similar(&mut self, pending: &PendingAsset) -> Option<String> {
         if self.compared >= MAX_COMPARED {
             return None;
@@ -321,7 +341,8 @@ impl AssetLoader<'_> {
         }
     }
 
-    /// Reports a file that can't be used; lenient, as a warning with what is done instead.
+    /// Reports a file that can't be used; with `--lenient` as a warning that states the
+    /// consequence.
     fn reject(&mut self, mut finding: Diagnostic, policy: MissingAssetPolicy) {
         if self.options.lenient || policy.is_optional() {
             finding.message = format!("{}; {}", finding.message, policy.consequence());
@@ -346,7 +367,7 @@ impl AssetLoader<'_> {
     }
 }
 
-/// The kind of file that an asset is in.
+/// The file formats of an asset.
 fn kind_of(target: &AssetTarget) -> &'static FileKind {
     match target {
         AssetTarget::Image(_)
@@ -361,7 +382,7 @@ fn kind_of(target: &AssetTarget) -> &'static FileKind {
     }
 }
 
-/// True if the last component has a dot within: `cat.obj`, and `cat` has not.
+/// Whether the last component of a path has an extension.
 fn has_extension(path: &str) -> bool {
     let name = path.trim().rsplit(['/', '\\']).next().unwrap_or_default();
     name.trim_start_matches('.').contains('.')

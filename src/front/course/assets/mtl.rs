@@ -1,5 +1,12 @@
-//! The MTL files that an OBJ names, and their materials: as Phong's model says them, and where
-//! paths are traced as the material of glTF does.
+//! Loads the MTL files that an OBJ names.
+//!
+//! `crate::mesh::mtl` parses a library. [`MtlCache`] adds its materials to the scene, each once,
+//! and collects the images that they need. A material becomes a Phong material (`phong`), or a
+//! `standard` material if the scene is path traced (`standard`). Textures of a `standard` material
+//! that combine several images are baked after these are loaded ([`bake()`]).
+//!
+//! Missing libraries, images and materials are warnings: the mesh keeps the material of the scene,
+//! or is grey. Statements without effect are reported once per library, with their number.
 
 mod bake;
 mod cache;
@@ -20,7 +27,7 @@ use rtc_diag::{Diagnostic, Severity, codes};
 use rtc_ir::{Lowered, MaterialId, Mode};
 use rtc_source::{FileId, FileKind, Span};
 
-/// Such files.
+/// The file formats of MTL libraries.
 pub(super) const TEXT: TextKind = TextKind {
     entity: "material",
     is_not: "no MTL",
@@ -33,17 +40,16 @@ pub(super) const TEXT: TextKind = TextKind {
     },
 };
 
-/// A library with its file.
+/// A parsed MTL library and its file.
 struct LoadedLibrary {
     library: Library,
     file: FileId,
-    /// Its path from a folder that is searched.
+    /// Its path relative to the searched folder.
     path: String,
 }
 
 impl MeshFile {
-    /// The libraries that the file names and that can be found, with a word on those that can't, if
-    /// `tells`.
+    /// The libraries that the mesh file names and that exist.
     fn libraries<'a>(
         &'a self,
         loader: &'a AssetLoader<'_>,
@@ -61,14 +67,13 @@ impl MeshFile {
         named.filter(|(pending, _)| loader.search.find(&pending.path, &TEXT.file).is_ok())
     }
 
-    /// Whether it asks for materials of a file that is there.
+    /// Whether the mesh file has a texture or uses materials of an existing library.
     pub(super) fn has_library(&self, loader: &AssetLoader<'_>) -> bool {
         let names_any = || self.material_use.names_any();
         self.texture.is_some() || (names_any() && self.libraries(loader).next().is_some())
     }
 
-    /// The material of the scene for each material that the faces ask for; `None` if there is none
-    /// at all.
+    /// The material in the scene for each `usemtl` name; `None` if there is none at all.
     pub(super) fn materials(
         &self,
         cache: &mut MtlCache,
@@ -105,7 +110,7 @@ impl MeshFile {
             let finding = Diagnostic::new(&codes::BAD_MTL, message);
             loader
                 .sink
-                .push(finding.at(first.at.span(self.file), "faces go without it"));
+                .push(finding.at(first.at.span(self.file), "faces have no material"));
         }
         cache.report(loader.sink);
         self.report_mirrors(&libraries, lowered, loader);
@@ -146,7 +151,7 @@ impl MeshFile {
         libraries
     }
 
-    /// Says once that a highlight mirrors here, where its file says that it does not.
+    /// Reports once that `Ks` acts as a mirror here although `illum` asks for a highlight only.
     fn report_mirrors(
         &self,
         libraries: &[LoadedLibrary],
@@ -169,17 +174,17 @@ impl MeshFile {
             mirrors.next()
         };
         if let Some(span) = libraries.iter().find_map(place) {
-            let note = Diagnostic::new(&codes::TWO_READINGS, "the `Ks` of an MTL mirrors here");
+            let note = Diagnostic::new(&codes::TWO_READINGS, "the `Ks` of an MTL is a mirror too");
             let note = note.severity(Severity::Note);
             loader.sink.push(
-                note.at(span, "in some programs a highlight alone")
-                    .hint("the scene follows mirrors; `MaxRecursionDepth: 0` does not"),
+                note.at(span, "only a highlight in some programs")
+                    .hint("`MaxRecursionDepth: 0` turns mirrors off"),
             );
         }
     }
 }
 
-/// What is wrong with a file of materials.
+/// Reports the errors and unsupported statements of a library.
 fn report(library: &Library, file: FileId, loader: &mut AssetLoader<'_>) {
     let Library {
         materials: _,

@@ -1,4 +1,4 @@
-//! The profiles of lamps: IES files (LM-63, 1986 to 2019) of type C.
+//! Loads photometric profiles: IES files (LM-63, 1986 to 2019) of type C.
 
 use super::text_file::TextKind;
 use super::{AssetLoader, FileCache, MissingAssetPolicy, PendingAsset};
@@ -8,7 +8,7 @@ use rtc_diag::codes;
 use rtc_ir::{Emitter, Light, Lowered, Photometry, Punctual};
 use rtc_source::{Budget, FileKind, Resource};
 
-/// Such files.
+/// The file formats of profiles.
 pub(super) const TEXT: TextKind = TextKind {
     entity: "profile",
     is_not: "no IES profile",
@@ -21,7 +21,7 @@ pub(super) const TEXT: TextKind = TextKind {
     },
 };
 
-/// Brings the profile of a lamp, which is dark without its file.
+/// Loads the profile of a photometric light. If that fails, the light emits nothing.
 pub(super) fn load(
     light: usize,
     pending: &PendingAsset,
@@ -36,7 +36,7 @@ pub(super) fn load(
     let Some(profile) = cache.get_or_load(&found, read) else {
         return;
     };
-    // Each lamp has a profile of its own, in the scene and in its proof.
+    // Each light has its own copy of the profile, in the scene and in the validated scene.
     let memory = 16 * profile.candela.len() as u64;
     if let Err(fault) = loader.map.budget().charge(Resource::Memory, memory) {
         let what = format!("the profile `{}`", found.shown.display());
@@ -55,18 +55,18 @@ pub(super) fn load(
     }
 }
 
-/// Whether a file that begins so is a profile: a line of it says what is tilted.
+/// Whether the first bytes of a file are those of a profile: one line starts with `TILT=`.
 fn is_profile(head: &[u8]) -> bool {
     head.windows(TILT.len()).any(|word| word == TILT)
 }
 
-/// What opens the line before the numbers.
+/// The start of the line before the numbers.
 const TILT: &[u8] = b"TILT=";
 
-/// Reads a profile; its name is empty.
+/// Parses a profile; its name is empty.
 fn parse(bytes: &[u8], budget: &Budget) -> Result<Photometry, ParseFault> {
-    // A number of two bytes becomes one of eight, in a list that grows by doubling, of a quarter of
-    // the way around.
+    // A number of two bytes becomes one of eight, in a list that grows by doubling; the profile of
+    // a quadrant is unfolded to four.
     budget.charge(Resource::Memory, 32 * bytes.len() as u64)?;
     let mut numbers = NumberReader::open(bytes).map_err(fault)?;
     let photometry = numbers.photometry().map_err(fault)?;
@@ -77,12 +77,12 @@ fn fault(fault: WordFault) -> ParseFault {
     ParseFault::Faults(vec![fault])
 }
 
-/// The words after the line of the tilt.
+/// Reads the numbers after the `TILT=` line.
 struct NumberReader<'a> {
     lines: Lines<'a>,
-    /// Those of this line, the next one last.
+    /// The words of the current line in reverse order.
     words: Vec<Word<'a>>,
-    /// The last word taken.
+    /// The last word read.
     last: Word<'a>,
 }
 
@@ -110,7 +110,7 @@ impl<'a> NumberReader<'a> {
         Err(last.fault("the profile has no line `TILT=`", "the file ends here"))
     }
 
-    /// The next word; numbers stand between white space and commas, wherever lines end.
+    /// The next word. Words are separated by white space and commas; line ends have no meaning.
     fn word(&mut self) -> Result<Word<'a>, WordFault> {
         while self.words.is_empty() {
             let mut line = Vec::new();
@@ -131,7 +131,7 @@ impl<'a> NumberReader<'a> {
         self.word()?.number()
     }
 
-    /// A count of at least `least`, and where it stands.
+    /// Reads a count of at least `least`.
     fn count(&mut self, least: usize, entity: &str) -> Result<usize, WordFault> {
         let word = self.word()?;
         let count = usize::try_from(word.integer()?).ok();
@@ -141,7 +141,7 @@ impl<'a> NumberReader<'a> {
         })
     }
 
-    /// So many numbers. Nothing is allocated by the count.
+    /// Reads `count` numbers. Memory grows with the file, not with the count it claims.
     fn list(&mut self, count: usize) -> Result<Vec<f64>, WordFault> {
         let mut list = Vec::new();
         for _ in 0..count {
@@ -150,7 +150,7 @@ impl<'a> NumberReader<'a> {
         Ok(list)
     }
 
-    /// Angles in ascending order.
+    /// Reads angles in ascending order.
     fn angles(&mut self, count: usize) -> Result<Vec<f64>, WordFault> {
         let mut angles = Vec::new();
         for _ in 0..count {
@@ -164,7 +164,7 @@ impl<'a> NumberReader<'a> {
         Ok(angles)
     }
 
-    /// LM-63-2002, section 5: all from the number of lamps on.
+    /// Reads the numbers of LM-63-2002, section 5, from the number of lamps on.
     fn photometry(&mut self) -> Result<Photometry, WordFault> {
         let _lamps = self.number()?;
         let _lumens = self.number()?;
@@ -177,9 +177,9 @@ impl<'a> NumberReader<'a> {
                 .fault("the photometry is not of type C", "type 1 is C");
             return Err(fault);
         }
-        // Units, width, length and height of the lamp, which is a point here.
+        // Units, width, length and height of the lamp, which is rendered as a point.
         self.list(4)?;
-        // The factors of the ballast; the next number is one of them up to 1995, and 1 since.
+        // The ballast factor, and the ballast-lamp factor, which is 1 since 1995.
         factor *= self.number()?;
         factor *= self.number()?;
         let _watts = self.number()?;
@@ -193,7 +193,7 @@ impl<'a> NumberReader<'a> {
         Ok(symmetry.photometry(vertical, &horizontal, &profile))
     }
 
-    /// The intensities at one horizontal angle.
+    /// Reads the intensities at one horizontal angle.
     fn candela(&mut self, rows: usize, factor: f64) -> Result<Vec<f64>, WordFault> {
         let mut candela = Vec::new();
         for _ in 0..rows {
@@ -208,18 +208,19 @@ impl<'a> NumberReader<'a> {
     }
 }
 
-/// How far around the axis was measured; the rest is mirrored (LM-63-2002, section 5.14).
+/// The lateral symmetry of a profile: the measured range of horizontal angles, from which the rest
+/// is mirrored (LM-63-2002, section 5.14).
 #[derive(Clone, Copy)]
 enum Symmetry {
-    /// One plane stands for all.
+    /// Rotationally symmetric: one plane.
     All,
-    /// A quarter, from 0° to 90°.
+    /// Symmetric in each quadrant: 0° to 90°.
     Quarter,
-    /// A half, from 0° to 180°.
+    /// Bilaterally symmetric: 0° to 180°.
     Half,
-    /// A half, from 90° to 270°.
+    /// Bilaterally symmetric: 90° to 270°.
     OtherHalf,
-    /// From 0° to 360°.
+    /// Not symmetric: 0° to 360°.
     Whole,
 }
 
@@ -238,7 +239,7 @@ impl Symmetry {
         }
     }
 
-    /// The profile, unfolded to all around.
+    /// The profile, mirrored to all horizontal angles.
     fn photometry(self, vertical: Vec<f64>, angles: &[f64], profile: &[Vec<f64>]) -> Photometry {
         let columns = angles.iter().copied().zip(profile);
         let mut all: Vec<(f64, &Vec<f64>)> = match self {
@@ -258,7 +259,7 @@ impl Symmetry {
                 columns.chain(back).collect()
             }
             Self::OtherHalf => {
-                // 0° mirrors 180°.
+                // 0° is the mirror image of 180°.
                 let mirrored = columns
                     .clone()
                     .map(|(angle, values)| (540.0 - angle, values));
@@ -294,7 +295,8 @@ mod tests {
         parse(text.as_bytes(), &Budget::new(Limits::default()))
     }
 
-    /// A profile of two vertical angles, whose horizontal ones are measured so.
+    /// The horizontal angles and intensities of a profile with two vertical angles and these
+    /// measured horizontal ones.
     fn symmetry(angles: &[f64]) -> Vec<(f64, f64)> {
         let list = |values: &[f64]| {
             values

@@ -1,5 +1,6 @@
-//! A mesh file given by itself, as an asset without camera and lights: grey, or in the colours of its
-//! vertices or the materials that it asks for.
+//! A mesh file given as the input, without a scene. It becomes a scene like that of a glTF asset
+//! without camera and lights: grey, or with the colours of its vertices or the materials of its
+//! MTL.
 
 use super::AssetImport;
 use super::material_binder::{MaterialSource, PendingMaterial};
@@ -15,14 +16,13 @@ use rtc_ir::{
 use rtc_math::Vec3;
 use rtc_source::{FileId, Search, SourceMap, Span};
 
-/// How rough a mesh without a material is.
+/// The roughness of a mesh without a material.
 const ROUGHNESS: f64 = 0.6;
 
 /// The reflectance of a mesh without a material.
 const GREY: f64 = 0.7;
 
-/// Reads a mesh file and puts what it holds into a scene as of a glTF asset. `None` if it has
-/// errors; the sink says which.
+/// Reads a mesh file and makes a scene of it. `None` if the file has errors, which are reported.
 pub fn lower_standalone_mesh(
     file: FileId,
     options: &FrontOptions,
@@ -80,7 +80,7 @@ pub fn lower_standalone_mesh(
     Some(lowered)
 }
 
-/// The mesh in the file.
+/// Parses the mesh file.
 fn read(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::mesh::Parsed> {
     let bytes = map.bytes(file);
     if !is_mesh(bytes) {
@@ -93,7 +93,7 @@ fn read(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::mesh::P
         Ok(parsed) => return Some(parsed),
         Err(ParseFault::Limit(fault)) => {
             let what = format!("the mesh `{}`", map.name(file));
-            sink.push(over_limit(&what, &fault).at(Span::new(file, 0, 0), "this file"));
+            sink.push(over_limit(&what, &fault).at(Span::new(file, 0, 0), "the file"));
         }
         Err(ParseFault::Faults(faults)) => {
             for fault in faults {
@@ -105,7 +105,7 @@ fn read(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::mesh::P
     None
 }
 
-/// What a mesh is made of that says nothing about it.
+/// The material of a mesh without materials.
 fn plain(has_colors: bool) -> Standard {
     let base = if has_colors { 1.0 } else { GREY };
     Standard {

@@ -1,4 +1,4 @@
-//! Text files that a scene names: each fault has its place in the file.
+//! Text files that a scene names. Each error is reported at its position in the file.
 
 use super::{AssetLoader, MissingAssetPolicy, PendingAsset};
 use crate::over_limit;
@@ -8,22 +8,23 @@ use rtc_source::{Budget, FileId, FileKind, Found};
 
 /// A kind of text file.
 pub(super) struct TextKind {
-    /// What it holds.
+    /// The entity in the file.
     pub(super) entity: &'static str,
-    /// What is said of a file of another kind.
+    /// The message about a file of another format.
     pub(super) is_not: &'static str,
-    /// The code of its faults.
+    /// The code of its errors.
     pub(super) code: &'static Code,
-    /// What a lenient run does without the file.
+    /// The policy for a missing file.
     pub(super) policy: MissingAssetPolicy,
     /// The largest file read, in bytes.
     pub(super) max_bytes: u64,
-    /// How such a file is told from others.
+    /// The file format.
     pub(super) file: FileKind,
 }
 
 impl AssetLoader<'_> {
-    /// What is in a text file, and the file in the source map; `None` is reported.
+    /// Reads a text file, adds it to the source map and parses it. `None` if that fails, which is
+    /// reported.
     pub(super) fn read_text<T>(
         &mut self,
         found: &Found,
@@ -40,7 +41,7 @@ impl AssetLoader<'_> {
                 self.reject(finding, kind.policy);
             }
             Err(ParseFault::Faults(faults)) => {
-                // Lenient, what the file is for is left out once.
+                // With `--lenient` the entity is left out once, so one finding is enough.
                 let count = if self.options.lenient {
                     1
                 } else {
@@ -65,7 +66,8 @@ impl AssetLoader<'_> {
     ) -> Option<FileId> {
         match self.loader.found(found, kind.max_bytes, self.map) {
             Ok(bytes) if (kind.file.begins)(&bytes) => Some(self.map.add_found(found, bytes)),
-            // A finding within would quote a file that is none of the scene's business.
+            // Other formats are not added to the source map: a finding would quote a file that is
+            // unrelated to the scene.
             Ok(bytes) => {
                 let name = found.shown.display();
                 let message = match bytes.is_empty() {

@@ -1,75 +1,115 @@
-//! The cone.
+//! The cone and the paraboloid: round shapes with one cap and a top; and the keys of a base and an
+//! axis, which the cylinder has too.
 
 use super::Lower;
-use super::axis_keys::AxisKeys;
-use crate::course::decode::{Context, SharedValue, Spanned};
+use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive};
-use crate::course::record::{keys, record};
+use crate::course::record::{FieldOutcome, keys, record};
 use crate::course::synonym::{AXIS, ENDS, HEIGHT, POSITION, RADIUS, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_ir as ir;
+use rtc_math::{Vec3, unit};
 
-record! {
-    /// A cone with a cap at its base.
-    struct Cone, "cone" {
-        /// What kind of object this is.
-        kind: Spanned<AnyScalar>, required, keys!["type"];
-        /// The centre of the base.
-        position: Spanned<Point>, optional, &with_canonical(POSITION, "position");
-        /// From the centre of the base to the apex; its length is the height.
-        up: Spanned<Vector>, optional, keys!["up"];
-        /// The direction from the base to the apex, of any length but 0.
-        direction: Spanned<Vector>, optional, &with_canonical(AXIS, "direction");
-        /// From the base to the apex, above 0.
-        height: Spanned<Positive>, optional, &HEIGHT;
-        /// The centre of the base, and the apex.
-        ends: [Spanned<Point>; 2], optional, &ENDS;
-        /// The radius of the base; nothing shows at 0.
-        radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
-        /// What it is made of.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
-    }
-    variants { [position up] [position direction height] [ends] }
+/// The values of the keys of a base and an axis.
+pub(super) struct AxisKeys<'o> {
+    pub(super) position: &'o FieldOutcome<Spanned<Point>>,
+    pub(super) up: &'o FieldOutcome<Spanned<Vector>>,
+    pub(super) direction: &'o FieldOutcome<Spanned<Vector>>,
+    pub(super) height: &'o FieldOutcome<Spanned<Positive>>,
+    pub(super) ends: &'o FieldOutcome<[Spanned<Point>; 2]>,
 }
 
-impl Lower for Cone {
-    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
-        let Cone {
-            kind,
+impl AxisKeys<'_> {
+    /// The centre of the base and the vector from it to the top.
+    pub(super) fn base_and_up(&self) -> Option<(Numbers, Numbers)> {
+        let Self {
             position,
             up,
             direction,
             height,
             ends,
-            radius,
-            material,
-            shadow,
         } = self;
-        let axis_keys = AxisKeys {
-            position,
-            up,
-            direction,
-            height,
-            ends,
-        };
-        let props = lowering.surface_props(kind, material, shadow, context);
-        let (Some(props), Some((base, up))) = (props, axis_keys.base_and_up()) else {
-            return;
-        };
-        let shape = ir::Cone {
-            base: base.value,
-            up: up.value,
-            radius: radius.value.0,
-        };
-        let value_spans = [
-            ("base", base.span),
-            ("up", up.span),
-            ("radius", radius.span),
-        ];
-        lowering.add_surface(&props, ir::Shape::Cone(shape), &value_spans);
+        match (position, up, direction, height, ends) {
+            (.., FieldOutcome::Read([base, top])) => {
+                let up = Vec3::from_array(top.value.0) - Vec3::from_array(base.value.0);
+                Some((base.map(|point| point.0), top.map(|_| up.to_array())))
+            }
+            (FieldOutcome::Read(base), FieldOutcome::Read(up), ..) => {
+                Some((base.map(|point| point.0), up.map(|vector| vector.0)))
+            }
+            (
+                FieldOutcome::Read(base),
+                _,
+                FieldOutcome::Read(direction),
+                FieldOutcome::Read(height),
+                _,
+            ) => {
+                // The validator rejects a direction of length 0.
+                let along = unit(Vec3::from_array(direction.value.0)).unwrap_or(Vec3::ZERO);
+                let up = (along * height.value.0).to_array();
+                Some((base.map(|point| point.0), direction.map(|_| up)))
+            }
+            _ => None,
+        }
     }
+}
+
+/// Declares a round record with one cap and a top: the cone and the paraboloid.
+macro_rules! round_record {
+    ($(#[doc = $doc:literal])+ $name:ident, $word:literal) => {
+        record! {
+            $(#[doc = $doc])+
+            struct $name, $word {
+                /// The type of the object.
+                kind: Spanned<AnyScalar>, required, keys!["type"];
+                /// The centre of the base.
+                position: Spanned<Point>, optional, &with_canonical(POSITION, "position");
+                /// From the centre of the base to the top; its length is the height.
+                up: Spanned<Vector>, optional, keys!["up"];
+                /// The direction from the base to the top, of any length but 0.
+                direction: Spanned<Vector>, optional, &with_canonical(AXIS, "direction");
+                /// From the base to the top, above 0.
+                height: Spanned<Positive>, optional, &HEIGHT;
+                /// The centre of the base, and the top.
+                ends: [Spanned<Point>; 2], optional, &ENDS;
+                /// The radius of the base; 0 is invisible.
+                radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
+                /// The material.
+                material: Spanned<SharedValue<Material>>, required, keys!["material"];
+                /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores
+                /// `false`.
+                shadow: Spanned<bool>, default(true), keys!["shadow"];
+            }
+            variants { [position up] [position direction height] [ends] }
+        }
+
+        impl Lower for $name {
+            fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+                let Self { kind, position, up, direction, height, ends, radius, material, shadow } =
+                    self;
+                let axis_keys = AxisKeys { position, up, direction, height, ends };
+                let props = lowering.surface_props(kind, material, shadow, context);
+                let (Some(props), Some((base, up))) = (props, axis_keys.base_and_up()) else {
+                    return;
+                };
+                let (shape, value_spans) = (
+                    ir::$name { base: base.value, up: up.value, radius: radius.value.0 },
+                    [("base", base.span), ("up", up.span), ("radius", radius.span)],
+                );
+                lowering.add_surface(&props, ir::Shape::$name(shape), &value_spans);
+            }
+        }
+    };
+}
+
+round_record! {
+    /// A cone with a cap at its base.
+    Cone, "cone"
+}
+
+round_record! {
+    /// A paraboloid with a cap at its base.
+    Paraboloid, "paraboloid"
 }

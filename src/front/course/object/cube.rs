@@ -1,4 +1,4 @@
-//! The cube of some files, and what it shares with other solids that are turned or have a depth.
+//! The cube of some files, and the third edge of a box.
 
 use super::{Lower, report_negative};
 use crate::course::decode::{Context, SharedValue, Spanned, Value};
@@ -16,32 +16,33 @@ use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {
-    /// A cube, turned or not. Better written as a `box`.
+    /// A cube, with or without a rotation. Better written as a `box`.
     struct Cube, "cube" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"];
         /// The centre.
         position: Spanned<Point>, required, &with_canonical(POSITION, "position");
-        /// The length of a side; nothing shows at 0.
+        /// The length of an edge; 0 is invisible.
         length: Spanned<NonNegative>, required, keys!["length" "side" "size" "edge"];
-        /// The angles in radians by which it is turned about its centre: first about x, then y,
-        /// then z; beside `angle` the axis.
+        /// The rotation about its centre by angles in radians: first about x, then y, then z;
+        /// beside `angle` the axis of rotation.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
-        /// The axis through its centre that it is turned about by `angle`.
+        /// The axis of a rotation about its centre by `angle`.
         axis: Spanned<Vector>, optional, &ROTATION_AXIS;
-        /// By how many degrees it is turned about its axis.
+        /// The angle of rotation about the axis, in degrees.
         angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
-        /// What it is turned about.
+        /// The axis of rotation.
         euler_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
-        /// By how much, in radians.
+        /// The angle of rotation, in radians.
         euler_angle: Spanned<Real>, optional, keys!["eulerAngle"];
-        /// What it is made of.
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
     variants {
-        [position] [position euler_axis euler_angle] [position rotation] [position rotation angle] [position axis angle]
+        [position] [position euler_axis euler_angle] [position rotation] [position rotation angle]
+        [position axis angle]
     }
 }
 
@@ -89,7 +90,7 @@ impl Lower for Cube {
     }
 }
 
-/// The third edge of a box: an edge as it is, or a length.
+/// The third edge of a box: a vector or a length.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::course) enum ThirdEdge {
     Edge([f64; 3]),
@@ -97,9 +98,9 @@ pub(in crate::course) enum ThirdEdge {
 }
 
 impl ThirdEdge {
-    /// The edge, beside the two others.
+    /// The vector of the edge, from the two other edges.
     pub(super) fn edge(self, up: Vec3, side: Vec3) -> Vec3 {
-        // Powers of two are taken out of both, so that no product leaves the range of f64.
+        // Both are scaled by powers of two, so that no product leaves the range of f64.
         let [up, side] =
             [up, side].map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
         match self {
@@ -132,8 +133,7 @@ impl Value for ThirdEdge {
     }
 }
 
-/// Where the axes come to, turned by an angle in radians about an axis; as they are if it has no
-/// direction.
+/// The axes rotated by an angle in radians about an axis; unchanged if the axis is zero.
 pub(in crate::course) fn axes_rotated_about(axis: Vec3, angle: f64) -> [Vec3; 3] {
     let turns = [sin(angle), cos(angle)];
     unit(axis).map_or(Vec3::AXES, |axis| {

@@ -1,7 +1,7 @@
 //! The cylinder.
 
 use super::Lower;
-use super::axis_keys::AxisKeys;
+use super::cone::AxisKeys;
 use super::cube::axes_rotated_about;
 use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
 use crate::course::lower::Lowering;
@@ -14,11 +14,11 @@ use rtc_ir as ir;
 use rtc_math::{Vec3, length};
 
 record! {
-    /// A cylinder with two caps: the centre of its base, a direction and a height; or the centres
-    /// of both caps; or the centre of its base and the way to the top; or, as some files say it,
-    /// its middle, a height, and how the x axis is turned to its own.
+    /// A cylinder with two caps. It is given by the centre of its base, a direction and a height;
+    /// by the centres of both caps; by the centre of its base and the vector to the top; or, in
+    /// some files, by its middle, a height, and the rotation from the x axis to its axis.
     struct Cylinder, "cylinder" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
         /// The centre of the base; beside `eulerAxis` the middle of the cylinder.
         position: Spanned<Point>, optional, &with_canonical(POSITION, "position"), json "origin";
@@ -28,20 +28,22 @@ record! {
         height: Spanned<Positive>, optional, &HEIGHT, json "height";
         /// From the base to the top; its length is the height.
         up: Spanned<Vector>, optional, keys!["up"];
-        /// What the x axis is turned about to be the axis of the cylinder.
+        /// The axis of the rotation from the x axis to the axis of the cylinder.
         euler_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
-        /// By how much, in radians.
+        /// The angle of that rotation, in radians.
         euler_angle: Spanned<Real>, optional, keys!["eulerAngle"];
         /// The centre of a cap.
         ends: [Spanned<Point>; 2], optional, &ENDS, json "p1";
-        /// The radius; nothing shows at 0.
+        /// The radius; 0 is invisible.
         radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius"), json "radius";
-        /// What it is made of.
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
-    variants { [position direction height] [ends] [position up] [position height euler_axis euler_angle] }
+    variants {
+        [position direction height] [ends] [position up] [position height euler_axis euler_angle]
+    }
 }
 
 impl Lower for Cylinder {

@@ -11,19 +11,19 @@ use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_ir as ir;
 
 record! {
-    /// A disc, seen from both sides.
+    /// A two-sided disc.
     struct Disc, "circle" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"];
         /// The centre.
         center: Spanned<Point>, required, &with_canonical(POSITION, "center");
-        /// The direction at right angles to it, of any length but 0.
+        /// The normal, of any length but 0.
         normal: Spanned<Vector>, required, &with_canonical(AXIS, "normal");
-        /// The radius; nothing shows at 0.
+        /// The radius; 0 is invisible.
         radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
-        /// What it is made of.
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
 }

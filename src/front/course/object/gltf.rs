@@ -1,4 +1,4 @@
-//! The glTF assets: a file, and its place in the scene.
+//! A glTF asset and its placement.
 
 use super::Lower;
 use crate::course::decode::{Context, Spanned};
@@ -12,22 +12,23 @@ use crate::course::synonym::{
 use crate::course::value::{Angles, AnyScalar, FileName, Point, Scale, Vector};
 
 record! {
-    /// A glTF asset, with its own materials and lights; its cameras do not count. A scene with one is shown by its paths.
+    /// A glTF asset with its materials and lights; its cameras are ignored. A scene with an asset
+    /// is rendered by path tracing.
     struct Gltf, "glTF asset" {
-        /// What kind of object this is.
+        /// The type of the object.
         _kind: Spanned<AnyScalar>, required, keys!["type"];
-        /// The file, .gltf or .glb, beside the scene file or in a folder below it.
+        /// The file, .gltf or .glb, in the folder of the scene file or below it.
         file: Spanned<FileName>, required, &FILE;
-        /// Where the origin of the asset comes to.
+        /// The position of the asset's origin.
         position: Spanned<Point>, default(Point([0.0; 3])), &with_canonical(POSITION, "position");
-        /// How many times larger it is than in its file, in all directions or along its x, y and z.
+        /// The scale factor, or one factor for each of x, y and z.
         scale: Spanned<Scale>, default(Scale([1.0; 3])), &SCALE;
-        /// The angles in radians by which it is turned about its origin: first about x, then y,
-        /// then z; beside `angle` the axis.
+        /// The rotation about its origin by angles in radians: first about x, then y, then z;
+        /// beside `angle` the axis of rotation.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
-        /// The axis that it is turned about by `angle`.
+        /// The axis of a rotation by `angle`.
         axis: Spanned<Vector>, optional, &ROTATION_AXIS;
-        /// By how many degrees it is turned about its axis.
+        /// The angle of rotation about the axis, in degrees.
         angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
     }
 }

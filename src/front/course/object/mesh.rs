@@ -1,4 +1,4 @@
-//! The meshes: triangles from a file, world_from_object.
+//! A mesh file and its placement.
 
 use super::Lower;
 use super::sizing::Sizing;
@@ -25,54 +25,58 @@ use serde_json::{Value as Json, json};
 record! {
     /// A mesh from an OBJ, OFF, STL or PLY file, or points from an XYZ file.
     struct Mesh, "mesh" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
-        /// The file, beside the scene file or in a folder below it.
+        /// The file, in the folder of the scene file or below it.
         file: Spanned<FileName>, required, &FILE,
             json "filename", json "object";
-        /// Where the origin of the file's coordinates comes to; beside `fit`, where the middle of the mesh does.
-        position: Spanned<Point>, default(Point([0.0; 3])), &with_canonical(POSITION, "position"), json "position";
-        /// How many times larger it is than in its file, in all directions or along x, y and z.
+        /// The position of the origin of the file's coordinates; beside `fit` the position of the
+        /// middle of the mesh.
+        position: Spanned<Point>, default(Point([0.0; 3])),
+            &with_canonical(POSITION, "position"), json "position";
+        /// The scale factor, or one factor for each of x, y and z.
         scale: Spanned<Scale>, optional, &SCALE, json "scale";
-        /// The angles in radians by which it is turned about its origin: first about x, then y,
-        /// then z; beside `angle` the axis.
+        /// The rotation about its origin by angles in radians: first about x, then y, then z;
+        /// beside `angle` the axis of rotation.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION, json "rotation";
-        /// The axis that it is turned about by `angle`.
+        /// The axis of a rotation by `angle`.
         axis: Spanned<Vector>, optional, &ROTATION_AXIS;
-        /// By how many degrees it is turned about its axis.
+        /// The angle of rotation about the axis, in degrees.
         angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
-        /// Twelve numbers in place of `position` and `scale`: where x, y and z of the file's coordinates point, each with the
-        /// length that a unit has, and where their origin comes to.
+        /// Twelve numbers in place of `position` and `scale`: the columns of the transform, that is
+        /// the images of the x, y and z axis and of the origin.
         transform: Spanned<AffineColumns>, optional, keys!["transform"];
-        /// A factor as `scale`, unless the mesh would hide the view or hold the eye in its box: then 1.5 times what `fit`
-        /// says, with a warning. Better written `scale` or `fit`.
+        /// A factor as `scale`, unless the mesh would fill the view or its box contain the eye:
+        /// then 1.5 times the value of `fit`, with a warning. Better written `scale` or `fit`.
         size: Spanned<Real>, optional, keys!["size"];
-        /// Half the longest side of the mesh in the scene, however large it is in its file; above 0.
+        /// Half the longest side of the mesh in the scene, whatever its size in the file; above 0.
         fit: Spanned<Radius>, optional, keys!["fit" "radius"];
-        /// What it is made of. If nothing is said, the materials that an OBJ asks for count, and grey where there are none.
+        /// The material. Without it the materials of the OBJ are used, or grey if there are none.
         material: Spanned<SharedValue<Material>>, optional, keys!["material"], json "material";
-        /// `mtl`: the materials of the MTL file that an OBJ names count before `material`. `Kd` is the `color`, with a `kd` of
-        /// 1, `map_Kd` the `texture`, with the largest channel of `Kd` as `kd` if it is above 0; `ka` is the mean of `Ka`, at
-        /// most 0.2; `ks` is the mean of `Ks`, 0 under `illum` 0 and 1, `map_Ks` the `specularMap`, `Ns` the `n`, `map_Bump` the
-        /// `bump`, `norm` the `normalMap`. What `d` or `Tr` lets through is `kt`, and less of `ka` and `kd`; `Ni` is the `eta`
-        /// under `illum` 4, 6, 7 and 9, which are clear without `d` and `Tr`. Where paths are
-        /// traced they become the `standard` material, which shows `Ke`, `Tf`, `Pr`, `Pm`, `Ps`,
-        /// `Pc`, `Pcr`, `aniso`, `map_d`, `map_Ke`, `map_Pr`, `map_Pm` and how maps lie, too.
+        /// `mtl`: the materials of the MTL file that an OBJ names take precedence over `material`.
+        /// `Kd` is the `color`, with a `kd` of 1; `map_Kd` is the `texture`, with the largest
+        /// channel of `Kd` as `kd` if it is above 0. `ka` is the mean of `Ka`, at most 0.2. `ks` is
+        /// the mean of `Ks`, or 0 under `illum` 0 and 1; `map_Ks` is the `specularMap`, `Ns` the
+        /// `n`, `map_Bump` the `bump`, `norm` the `normalMap`. The transparency of `d` or `Tr` is
+        /// `kt`, and reduces `ka` and `kd`. `Ni` is the `eta` under `illum` 4, 6, 7 and 9, which
+        /// are clear without `d` and `Tr`. In path tracing the materials become `standard`
+        /// materials, which also use `Ke`, `Tf`, `Pr`, `Pm`, `Ps`, `Pc`, `Pcr`, `aniso`, `map_d`,
+        /// `map_Ke`, `map_Pr`, `map_Pm` and the placement of maps.
         materials: Spanned<LibraryKind>, optional, keys!["materials"];
-        /// Of an OBJ: the faces alone that ask for the material of this name by `usemtl`; empty for those that ask for none.
+        /// Of an OBJ: only the faces with the `usemtl` of this name; empty for faces without one.
         part: Spanned<PartName>, optional, keys!["part"];
-        /// What people call it.
+        /// A name for people to read.
         label: Spanned<DisplayName>, optional, keys!["label"];
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
     variants { [file] [file scale] [file size] [file fit] [file transform] }
 }
 
-/// Where materials come from.
+/// The values of `materials`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::course) enum LibraryKind {
-    /// The file of materials that a mesh file names.
+    /// The MTL file that the mesh file names.
     Mtl,
 }
 
@@ -149,7 +153,7 @@ impl Lower for Mesh {
 }
 
 impl Mesh {
-    /// The transform of the surface of this index, and what is still to be done about its size.
+    /// The transform of surface `index`, and the sizing that remains until the file is loaded.
     fn transform(
         &self,
         index: usize,
@@ -201,21 +205,21 @@ impl Mesh {
     }
 }
 
-/// Says that a mesh that has a transform is at no other place.
+/// Reports a key that `transform` overrides.
 fn report_key_without_effect(span: Option<Span>, key: &str, context: &mut Context<'_>) {
     let Some(span) = span else { return };
     let message = || format!("`{key}` has no effect beside `transform`");
     context.report(&codes::NO_EFFECT, span, message, |d| {
         d.at(span, "ignored")
             .severity(Severity::Warning)
-            .hint("the numbers of `transform` say where the mesh stands and how it is turned")
+            .hint("`transform` gives the position and the rotation")
     });
 }
 
-/// The way to the transform of an instance in the IR.
+/// The path of an instance's transform in the IR.
 pub(super) const TRANSFORM: &str = "worldFromObject";
 
-/// Where the material of a mesh comes from.
+/// The source of a mesh's material.
 fn pending_material(
     surface: usize,
     object: Option<Span>,
@@ -236,7 +240,7 @@ fn pending_material(
 
 fn report_axis_without_effect(radius: &Spanned<Radius>, context: &mut Context<'_>) {
     if let Some(span) = radius.value.axis.and_then(|axis| axis.span) {
-        let message = || "a mesh is not turned about an axis".to_owned();
+        let message = || "the axis of a `fit` has no effect".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {
             d.at(span, "ignored").severity(Severity::Warning)
         });

@@ -1,13 +1,26 @@
-//! The objects, told apart by their `type`: the table of types, and what all of them share.
+//! The objects of the course: one record per `type`, in the file that is named after it.
+//!
+//! The macro `kinds!` lists all types with their names; [`Object`], [`KINDS`], the decoder and the
+//! schema come from this list. Each record implements `Lower`, which adds surfaces to the scene:
+//! first `Lowering::surface_props` lowers what all surfaces of an object share (material, shadow
+//! flag, span), then `Lowering::add_surface` adds each surface with the spans of its values.
+//!
+//! * `sphere`, `plane`, `triangle`, `quad`, `disc`, `cylinder`, `cone` (with the paraboloid)
+//!   and `torus` become the shape of the same name in the IR. `cone` has the keys of a base and
+//!   an axis, which cylinders share.
+//! * `solid` (box, tetrahedron, prism) and `cube` become triangles.
+//! * `mesh` becomes an instance of a mesh that is loaded later; `sizing` scales it after that.
+//! * `gltf` becomes a pending asset only.
+//!
+//! Objects of size 0 are omitted with one finding each. An object with an invalid material, or
+//! with keys of no variant, is omitted after these have been reported.
 
-mod axis_keys;
 mod cone;
 pub(super) mod cube;
 mod cylinder;
 mod disc;
 mod gltf;
 mod mesh;
-mod paraboloid;
 mod plane;
 mod quad;
 pub(super) mod sizing;
@@ -33,7 +46,7 @@ use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use serde_json::Value as Json;
 
-/// A type of object: the words for it, the canonical one first, and its declaration.
+/// A type of object: its names, the canonical one first, and its declaration.
 pub(super) struct ObjectKind {
     pub(super) names: &'static [&'static str],
     pub(super) record: &'static Record,
@@ -41,14 +54,14 @@ pub(super) struct ObjectKind {
     schema: fn(&mut Definitions) -> Json,
 }
 
-/// What an object becomes in the IR.
+/// Lowers an object to surfaces of the IR.
 trait Lower {
-    /// Lowers an object; one without a sound material or form is left out, and the sink has an
-    /// error.
+    /// Lowers an object. An object without a valid material or variant is omitted, which is
+    /// reported.
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>);
 }
 
-/// Declares the types of objects: the file and the record, and the words for it.
+/// Declares the types of objects: the module, the record and the names.
 macro_rules! kinds {
     ($($file:ident $record:ident $($name:literal)+;)+) => {
         /// An object of any type.
@@ -56,7 +69,7 @@ macro_rules! kinds {
             $($record($file::$record)),+
         }
 
-        /// The types there are.
+        /// All types of objects.
         pub(super) const KINDS: &[ObjectKind] = &[$(ObjectKind {
             names: &[$($name),+],
             record: &$file::$record::RECORD,
@@ -65,8 +78,8 @@ macro_rules! kinds {
         }),+];
 
         impl Lowering {
-            /// Lowers an object; one without a sound material or form is left out, and the sink has
-            /// an error.
+            /// Lowers an object. An object without a valid material or variant is omitted, which is
+            /// reported.
             pub(super) fn object(&mut self, object: &Object, context: &mut Context<'_>) {
                 match object {
                     $(Object::$record(record) => record.lower(self, context),)+
@@ -84,7 +97,7 @@ kinds! {
     disc Disc "circle" "disc" "disk";
     cylinder Cylinder "cylinder";
     cone Cone "cone";
-    paraboloid Paraboloid "paraboloid";
+    cone Paraboloid "paraboloid";
     torus Torus "torus";
     solid Cuboid "box";
     solid Tetrahedron "tetrahedron";
@@ -146,7 +159,7 @@ impl Value for Object {
     }
 }
 
-/// Reports an object whose type stands as a key, `- sphere:`, if it is one.
+/// Reports an object whose type is written as a key, as in `- sphere:`.
 fn is_named_by_key(node: NodeId, context: &mut Context<'_>) -> bool {
     let tree = context.tree;
     let is_kind = |name: &str| KINDS.iter().any(|kind| kind.names.contains(&name));
@@ -157,7 +170,7 @@ fn is_named_by_key(node: NodeId, context: &mut Context<'_>) -> bool {
         return false;
     };
     let span = tree.span(key);
-    let message = || format!("an object says what it is by `type: {name}`");
+    let message = || format!("the type of an object is written `type: {name}`");
     let is_alone = tree.text(value) == Some("") && tree.rest_of_line(span).starts_with(':');
     let colon = Span {
         end: span.end + 1,
@@ -187,9 +200,9 @@ fn report_unknown_type(name: &str, node: NodeId, context: &mut Context<'_>) {
         |d| {
             let d = match lenient {
                 true => d
-                    .at(span, "this object is left out")
+                    .at(span, "the object is left out")
                     .severity(Severity::Warning),
-                false => d.at(span, "this object would be missing"),
+                false => d.at(span, "no such type"),
             };
             match meant {
                 Some((meant, better)) => d.guess(format!("did you mean `{meant}`?"), span, better),
@@ -205,7 +218,7 @@ fn report_unknown_type(name: &str, node: NodeId, context: &mut Context<'_>) {
     );
 }
 
-/// What the surfaces of an object have in common.
+/// The properties that all surfaces of an object share.
 pub(super) struct SurfaceProps {
     object_span: Option<Span>,
     material: MaterialId,
@@ -214,7 +227,7 @@ pub(super) struct SurfaceProps {
 }
 
 impl Lowering {
-    /// Lowers the material of an object. `None` if it has no sound one, which is reported.
+    /// Lowers the properties of an object. `None` if its material is invalid, which is reported.
     pub(super) fn surface_props(
         &mut self,
         kind: &Spanned<AnyScalar>,
@@ -231,7 +244,7 @@ impl Lowering {
         })
     }
 
-    /// Clothes an object for which no material was written.
+    /// The properties of an object without a material: grey.
     pub(super) fn grey_surface_props(
         &mut self,
         kind: &Spanned<AnyScalar>,
@@ -245,8 +258,8 @@ impl Lowering {
         }
     }
 
-    /// Adds a surface of an object; `value_spans` are the ways to its values in the IR, and where those
-    /// were written.
+    /// Adds a surface of an object. `value_spans` are the paths of its values in the IR, with their
+    /// spans.
     pub(super) fn add_surface(
         &mut self,
         props: &SurfaceProps,
@@ -278,12 +291,12 @@ impl Lowering {
         self.origin(EntityKind::Surface, index, Field::Material, span);
     }
 
-    /// Remembers what has no size, where that is written: it is left out.
+    /// Omits an object of size 0 and records its span.
     fn invisible(&mut self, span: Option<Span>) {
         self.invisible.extend(span);
     }
 
-    /// Tells of what has no size.
+    /// Reports the objects of size 0.
     pub(super) fn report_invisible(&mut self, context: &mut Context<'_>) {
         for span in std::mem::take(&mut self.invisible) {
             let message = || "an object of size 0 is invisible".to_owned();
@@ -294,7 +307,7 @@ impl Lowering {
         }
     }
 
-    /// Calls the last surface by a name.
+    /// Names the last surface.
     fn set_name(&mut self, name: &str) {
         let names = &mut self.scene.names;
         names.resize(self.scene.surfaces.len(), String::new());
@@ -305,7 +318,7 @@ impl Lowering {
     }
 }
 
-/// The way to the value of a shape that is 0 and leaves nothing to see of it.
+/// The path of the value that makes a shape invisible because it is 0.
 fn zero_size_field(shape: &ir::Shape) -> Option<&'static str> {
     let (path, size) = match shape {
         ir::Shape::Sphere(ir::Sphere { radius, .. })
@@ -322,7 +335,8 @@ fn zero_size_field(shape: &ir::Shape) -> Option<&'static str> {
     (size == 0.0).then_some(path)
 }
 
-/// Reports a negative length of what becomes flat faces; of others the proof says so.
+/// Reports a negative length of an object that becomes triangles or a quad; the validator reports
+/// those of other shapes.
 fn report_negative(length: &Spanned<NonNegative>, name: &str, context: &mut Context<'_>) {
     if let Some(span) = length.span {
         let shown = shortest(length.value.0);

@@ -1,4 +1,4 @@
-//! The planes: infinite ones, and the bounded ones of some files.
+//! Infinite planes, and the bounded planes of some files.
 
 use super::quad::EDGES;
 use super::triangle::CORNERS;
@@ -16,53 +16,54 @@ use rtc_ir as ir;
 use rtc_math::{Vec3, length, shortest, unit, unit_scale};
 
 record! {
-    /// An infinite plane: a point and a normal, a normal and a distance from the origin, three points, a point and two
-    /// directions, or the four numbers of its equation.
+    /// An infinite plane, given by a point and a normal, a normal and a distance from the origin,
+    /// three points, a point and two directions, or the four numbers of its equation.
     struct Plane, "plane" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
-        /// The numbers of the equation a·x + b·y + c·z + d = 0 of its points. In some programs the sign of `d` is the other.
+        /// The coefficients of the equation a·x + b·y + c·z + d = 0. Some programs use the opposite
+        /// sign of `d`.
         equation: [Spanned<Real>; 4], optional, &[&["a", "b", "c", "d"]], json "a";
         /// One of three points of the plane.
         corners: [Spanned<Point>; 3], optional, CORNERS, json "A";
         /// A point of the plane.
         position: Spanned<Point>, optional, &with_last::<_, 9>(POSITION, &["a"]), json "position";
-        /// The direction at right angles to the plane, of any length but 0.
+        /// The normal, of any length but 0.
         normal: Spanned<Vector>, optional, &with_canonical(AXIS, "normal"), json "normal";
         /// The distance from the origin, along the normal.
         distance: Spanned<Real>, optional, keys!["distance" "d"];
         /// A direction in the plane.
         edges: [Spanned<Vector>; 2], optional, EDGES;
-        /// What it is made of.
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
     variants { [position normal] [normal distance] [corners] [position edges] [equation] }
 }
 
 record! {
-    /// A plane with bounds, as some files write it: a square with sides along the axes, or a disc. Better written `quad`
+    /// A bounded plane: a square with sides along the axes, or a disc. Better written as a `quad`
     /// or `circle`.
     struct BoundedPlane, "bounded plane" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"];
-        /// Whether it is a square, `quad`, or a disc, `circle`.
+        /// The outline: `quad` for a square, `circle` for a disc.
         outline: Spanned<Outline>, required, keys!["typ"];
         /// The centre.
         center: Spanned<Point>, required, &with_canonical(POSITION, "center");
-        /// The direction at right angles to it; that of a square is along an axis.
+        /// The normal; that of a square is along an axis.
         normal: Spanned<Vector>, required, &with_canonical(AXIS, "normal");
-        /// The radius, or half the side of the square; nothing shows at 0.
+        /// The radius, or half the side of the square; 0 is invisible.
         radius: Spanned<NonNegative>, required, &with_canonical(RADIUS, "radius");
-        /// What it is made of.
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
 }
 
-/// What bounds a bounded plane.
+/// The outline of a bounded plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::course) enum Outline {
     Square,
@@ -135,7 +136,7 @@ impl Lower for BoundedPlane {
     }
 }
 
-/// A square with sides along the axes; `None` if its normal is not along one.
+/// The corners of a square with sides along the axes; `None` if its normal is not along an axis.
 fn square_corners(center: [f64; 3], normal: [f64; 3], half: f64) -> Option<[[f64; 3]; 4]> {
     let center = Vec3::from_array(center);
     let (u, v) = match normal.map(|component| component != 0.0) {
@@ -162,7 +163,7 @@ fn report_oblique(normal: &Spanned<Vector>, context: &mut Context<'_>) {
     });
 }
 
-/// A plane by the one form it is given in.
+/// The point and the normal of a plane, from the variant that is given.
 fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
     let Plane {
         kind: _,
@@ -205,7 +206,7 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
 /// A point and the normal of the plane a·x + b·y + c·z + d = 0.
 fn plane_of_equation([a, b, c, d]: &[Spanned<Real>; 4]) -> (Numbers, Numbers) {
     let normal = Vec3::new(a.value.0, b.value.0, c.value.0);
-    // A normal of length 0 is left for the proof to refuse.
+    // The validator rejects a normal of length 0.
     let point = unit(normal).map_or(Vec3::ZERO, |n| n * (-d.value.0 / length(normal)));
     let ends = a.span.zip(c.span).map(|(first, last)| first.to(last));
     (
@@ -220,7 +221,7 @@ fn plane_of_equation([a, b, c, d]: &[Spanned<Real>; 4]) -> (Numbers, Numbers) {
     )
 }
 
-/// Says which sign the last number of an equation has.
+/// Reports the sign convention of the last coefficient.
 fn report_sign(plane: &Plane, context: &mut Context<'_>) {
     let FieldOutcome::Read([.., d]) = &plane.equation else {
         return;
@@ -251,8 +252,8 @@ fn plane_of_points(corners: &[Spanned<Point>; 3]) -> (Numbers, Numbers) {
     )
 }
 
-/// The direction at right angles to two, in a right-handed way; zero if they are in line. Powers of
-/// two are taken out of both, so that no product leaves the range of f64.
+/// The cross product of two directions, up to a positive factor. Both are scaled by powers of two,
+/// so that no product leaves the range of f64.
 fn cross(first: Vec3, second: Vec3) -> [f64; 3] {
     let [first, second] =
         [first, second].map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
@@ -260,7 +261,7 @@ fn cross(first: Vec3, second: Vec3) -> [f64; 3] {
 }
 
 fn plane_at_distance(normal: &Spanned<Vector>, distance: &Spanned<Real>) -> (Numbers, Numbers) {
-    // A normal of length 0 is left for the proof to refuse.
+    // The validator rejects a normal of length 0.
     let direction = unit(Vec3::from_array(normal.value.0)).unwrap_or(Vec3::ZERO);
     (
         distance.map(|distance| (direction * distance.0).to_array()),

@@ -13,7 +13,7 @@ use rtc_diag::codes;
 use rtc_ir as ir;
 use rtc_math::{Vec3, unit};
 
-/// How people name four corners.
+/// The spellings of four corners.
 pub(in crate::course) const FOUR_CORNERS: Spellings = &[
     &["v0", "v1", "v2", "v3"],
     &["v1", "v2", "v3", "v4"],
@@ -28,27 +28,28 @@ pub(in crate::course) const FOUR_CORNERS: Spellings = &[
     &["position1", "position2", "position3", "position4"],
 ];
 
-/// How people name the two edges from a corner: upward, and to the side.
+/// The spellings of the two edges from a corner: upward, and to the side.
 pub(in crate::course) const EDGES: Spellings = &[&["up", "side"], &["edge1", "edge2"]];
 
 record! {
-    /// A quadrilateral, seen from both sides: four corners in order around it, or one corner and the two edges from it.
-    /// Where edges cross there is a warning, and `--lenient` mends it.
+    /// A two-sided quadrilateral: four corners in order around it, or one corner and its two edges.
+    /// Crossing edges are reported, and `--lenient` repairs them.
     struct Quad, "quad" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
-        /// One of four corners, in order around it; a texture has its lower left at the first and its lower right at the second.
+        /// One of four corners, in order around it. The first is the lower left of a texture, the
+        /// second the lower right.
         corners: [Spanned<Point>; 4], optional, FOUR_CORNERS, json "vertex0", json "A", json "p0";
         /// The corner at the lower left of a texture.
         position: Spanned<Point>, optional, &CORNER;
-        /// An edge from that corner: `up` is the left one of a texture, `side` the lower one.
+        /// An edge from that corner: `up` is the left edge of a texture, `side` the lower one.
         edges: [Spanned<Vector>; 2], optional, EDGES;
-        /// Of four corners out of a plane: whether they span a curved patch, or two triangles that
-        /// meet from the first to the third. Programs do either.
+        /// Whether four corners that are not coplanar span a curved patch, or two triangles that
+        /// share the diagonal from the first to the third. Programs do either.
         curved: Spanned<bool>, optional, keys!["curved"];
-        /// What it is made of.
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
     variants { [corners] [position edges] }
@@ -77,7 +78,8 @@ impl Lower for Quad {
 }
 
 impl Lowering {
-    /// Puts two triangles in the place of a quad, which meet from its first corner to its third.
+    /// Adds two triangles in place of a quad, which share the diagonal from its first corner to its
+    /// third.
     fn add_two_triangles(&mut self, props: &SurfaceProps, corners: &[Numbers; 4]) {
         for at in [[0, 1, 2], [0, 2, 3]] {
             let triangle = ir::Triangle {
@@ -90,13 +92,15 @@ impl Lowering {
     }
 }
 
-/// Whether four corners out of a plane span a curved patch; where nothing says so, that is told.
+/// Whether four corners that are not coplanar span a curved patch. Reports it if the file does not
+/// say.
 fn is_curved(quad: &Quad, corners: &[Numbers; 4], context: &mut Context<'_>) -> bool {
     if let FieldOutcome::Read(curved) = quad.curved {
         return curved.value;
     }
     if let Some(span) = corners[3].span {
-        let message = || "the corners of this quad lie in no plane: it is two triangles".to_owned();
+        let message =
+            || "the corners of the quad are not coplanar: it becomes two triangles".to_owned();
         context.report(&codes::TWO_READINGS, span, message, |d| {
             d.at(span, "a curved patch in some programs").hint(
                 "`curved: true` spans a patch, `curved: false` says that two triangles are meant",
@@ -106,7 +110,7 @@ fn is_curved(quad: &Quad, corners: &[Numbers; 4], context: &mut Context<'_>) -> 
     false
 }
 
-/// The corners in order around it.
+/// The corners in order around the quad.
 fn corners(quad: &Quad) -> Option<[Numbers; 4]> {
     let Quad {
         kind: _,
@@ -136,13 +140,14 @@ fn corners(quad: &Quad) -> Option<[Numbers; 4]> {
     }
 }
 
-/// The two corners, by their indices, that have to change places so that the edges of a flat quad
-/// do not cross; `None` if they do not cross or the quad is not flat.
+/// The indices of the two corners to swap so that the edges of a flat quad do not cross; `None` if
+/// they do not cross or the quad is not flat.
 ///
-/// Where two opposite edges cross, the quad turns left at the two ends of one of the others, and
-/// right at the two ends of the other one.
+/// If two opposite edges cross, the quad turns left at both ends of one of the other edges, and
+/// right at both ends of the last one.
 fn corners_to_swap(corners: &[Vec3; 4]) -> Option<[usize; 2]> {
-    /// The least sine between two edges that makes a turn, and the greatest one of a flat quad.
+    /// The smallest sine between two edges that counts as a turn, and the largest deviation of a
+    /// flat quad.
     const LEAST: f64 = 1e-6;
     let edge = |from: usize, to: usize| unit(corners[to % 4] - corners[from % 4]);
     let mut turns = [Vec3::ZERO; 4];
@@ -160,7 +165,7 @@ fn corners_to_swap(corners: &[Vec3; 4]) -> Option<[usize; 2]> {
     }
 }
 
-/// Reports edges that cross; lenient, the corners change places.
+/// Reports crossing edges; with `--lenient` swaps the corners.
 fn report_crossed(corners: &mut [Numbers; 4], [a, b]: [usize; 2], context: &mut Context<'_>) {
     const WHICH: [&str; 4] = ["first", "second", "third", "fourth"];
     let (first, second) = (corners[a].span, corners[b].span);
@@ -169,7 +174,7 @@ fn report_crossed(corners: &mut [Numbers; 4], [a, b]: [usize; 2], context: &mut 
         corners.swap(a, b);
     }
     let Some(span) = first else { return };
-    let message = || "the edges of this quad cross".to_owned();
+    let message = || "the edges of the quad cross".to_owned();
     context.report(&codes::CROSSED_QUAD, span, message, |d| {
         let d = d.at(span, format!("the {} corner", WHICH[a]));
         let d = d.also(second, format!("the {} corner", WHICH[b]));
@@ -187,7 +192,7 @@ fn report_crossed(corners: &mut [Numbers; 4], [a, b]: [usize; 2], context: &mut 
 mod tests {
     use super::*;
 
-    /// What is found in the unit square with its corners in this order, far off and turned.
+    /// The corners to swap in a large, rotated square with this order of corners.
     fn found(order: [usize; 4]) -> Option<[usize; 2]> {
         let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         corners_to_swap(&order.map(|k| {

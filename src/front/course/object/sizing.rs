@@ -1,4 +1,4 @@
-//! The sizes of meshes that depend on what is in their files.
+//! Sizes of meshes that depend on the bounds of the mesh in its file.
 
 use super::mesh::TRANSFORM;
 use rtc_diag::{Diagnostic, Severity, Sink, codes};
@@ -6,17 +6,16 @@ use rtc_ir::{self as ir, EntityKind, Field, Lowered, ValuePath};
 use rtc_math::{Vec3, shortest};
 use rtc_source::Span;
 
-/// What is done about the size of a mesh once its file is there.
+/// A change of the size of a mesh instance, applied after its file is loaded.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::course) enum Sizing {
-    /// The mesh gets the size that the transform of the surface says.
+    /// Scale the mesh to the size in the transform of this surface.
     Fit(usize),
-    /// The surface stays as it is, unless it hides the view; the factor by which it is larger than
-    /// in its file.
+    /// Keep this surface, which is scaled by this factor, unless it fills the view.
     Check(usize, f64),
 }
 
-/// Sees to the size of a mesh, now that its file is there.
+/// Applies the sizing of a mesh instance; its mesh is loaded.
 pub(in crate::course) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
     let (surface, factor_of) = match sizing {
         Sizing::Fit(surface) => (surface, None),
@@ -60,10 +59,10 @@ pub(in crate::course) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut
     fit(instance, [low, high]);
 }
 
-/// A `size` of so many is a `fit` of 1, where it is no factor.
+/// The `size` that equals a `fit` of 1, if it is not a factor.
 const SIZE_PER_FIT: f64 = 1.5;
 
-/// The box along the axes around a box that is placed.
+/// The axis-aligned bounding box of a transformed box.
 fn placed_box(place: [[f64; 3]; 4], ends: [Vec3; 2]) -> [Vec3; 2] {
     let [x, y, z, origin] = place.map(Vec3::from_array);
     let corners = (0..8_usize).map(|index| {
@@ -74,8 +73,8 @@ fn placed_box(place: [[f64; 3]; 4], ends: [Vec3; 2]) -> [Vec3; 2] {
     corners.fold(first, |[low, high], p| [low.min(p), high.max(p)])
 }
 
-/// Whether the eye is in a box, or the box is all that it sees. A box is convex, so that it fills
-/// the picture if it does so at its corners.
+/// Whether the eye is in a box, or the box fills the view. A box is convex, so it fills the view if
+/// all corners of the image see it.
 fn hides_view([a, b]: [Vec3; 2], camera: &ir::Camera) -> bool {
     let ir::Camera {
         eye,
@@ -120,8 +119,8 @@ fn report_size_as_fit(size: f64, half: f64, span: Option<Span>) -> Diagnostic {
         ))
 }
 
-/// Makes a mesh of these bounds fill the size it is to have: the transform of the instance has that
-/// size and where its middle is to be.
+/// Scales a mesh of these bounds to the size in the transform of the instance, and moves its middle
+/// to the position there.
 fn fit(instance: &mut ir::Instance, [low, high]: [Vec3; 2]) {
     let half = ((high - low) / 2.0).max_element();
     if half > 0.0 {

@@ -1,5 +1,4 @@
-//! The solids with flat faces: box, tetrahedron and prism. They are lowered to the triangles they
-//! are bounded by.
+//! The polyhedra: box, tetrahedron and prism. They are lowered to triangles.
 
 use super::Lower;
 use super::cube::ThirdEdge;
@@ -20,38 +19,41 @@ use rtc_math::{Vec3, cos, shortest, sin, unit_scale};
 use rtc_source::Span;
 
 record! {
-    /// A box: two opposite corners; or its centre and its lengths along x, y and z, turned or not; or a corner and the
-    /// three edges from it.
+    /// A box, given by two opposite corners; by its centre and its lengths along x, y and z, with
+    /// or without a rotation; or by a corner and its three edges.
     struct Cuboid, "box" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"];
-        /// One of two opposite corners of a box with sides along the axes.
+        /// One of two opposite corners of an axis-aligned box.
         extremes: [Spanned<Point>; 2], optional, &[
-            &["min", "max"], &["minimum", "maximum"], &["corner1", "corner2"], &["p1", "p2"], &["p0", "p1"],
+            &["min", "max"], &["minimum", "maximum"], &["corner1", "corner2"], &["p1", "p2"],
+            &["p0", "p1"],
             &["point1", "point2"], &["v0", "v1"], &["lower", "upper"], &["from", "to"],
         ];
         /// The centre beside `dimension`; a corner beside `up`, `side` and `depth`.
         position: Spanned<Point>, optional, &with_canonical(POSITION, "position");
-        /// The lengths along x, y and z, before it is turned, or one for all.
-        dimension: Spanned<Scale>, optional, keys!["dimension" "dimensions" "size" "extent" "extents"];
-        /// The angles in radians by which it is turned about its centre: first about x, then y,
-        /// then z; beside `angle` the axis.
+        /// The lengths along x, y and z before the rotation, or one length for all.
+        dimension: Spanned<Scale>, optional,
+            keys!["dimension" "dimensions" "size" "extent" "extents"];
+        /// The rotation about its centre by angles in radians: first about x, then y, then z;
+        /// beside `angle` the axis of rotation.
         rotation: Spanned<Rotation<Angles>>, optional, &ROTATION;
-        /// The axis through its centre that it is turned about by `angle`.
+        /// The axis of a rotation about its centre by `angle`.
         axis: Spanned<Vector>, optional, &ROTATION_AXIS;
-        /// By how many degrees it is turned about its axis.
+        /// The angle of rotation about the axis, in degrees.
         angle: Spanned<Degrees>, optional, &ROTATION_ANGLE;
         /// An edge from the corner `position`.
         edges: [Spanned<Vector>; 2], optional, &[&["up", "side"]];
-        /// The third edge; or its length alone, at right angles to the others, along `up` × `side`.
+        /// The third edge; or only its length, for an edge along `up` × `side`.
         depth: Spanned<ThirdEdge>, optional, keys!["depth"];
-        /// What it is made of.
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
     variants {
-        [extremes] [position dimension] [position dimension rotation] [position dimension rotation angle]
+        [extremes] [position dimension] [position dimension rotation]
+        [position dimension rotation angle]
         [position dimension axis angle] [position edges depth]
     }
 }
@@ -59,21 +61,21 @@ record! {
 record! {
     /// A tetrahedron.
     struct Tetrahedron, "tetrahedron" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"];
         /// A corner.
         corners: [Spanned<Point>; 4], required, FOUR_CORNERS;
-        /// What it is made of.
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
 }
 
 record! {
-    /// A prism over a triangle: its base and the way to its top, or the corners of both.
+    /// A triangular prism, given by its base and the vector to its top, or by the corners of both.
     struct Prism, "prism" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"];
         /// A corner of the base.
         corners: [Spanned<Point>; 3], optional, CORNERS;
@@ -82,19 +84,19 @@ record! {
         /// A corner of the base, and those of the top in the same order.
         ends: [Spanned<Point>; 6], optional,
             &[&["t1point1", "t1point2", "t1point3", "t2point1", "t2point2", "t2point3"]];
-        /// What it is made of.
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
     variants { [corners up] [ends] }
 }
 
-/// A face by the indices of its corners, with the outside on the left of its edges; one of four
-/// corners begins at the lower left of its texture.
+/// The indices of the corners of a face, counter-clockwise as seen from outside. The first of four
+/// corners is the lower left of its texture.
 type Face = &'static [usize];
 
-/// The corner of a box with index i lies at the far end of the edges whose bits i has.
+/// Bit k of a corner's index says at which end of edge k the corner lies.
 const BOX: &[Face] = &[
     &[0, 4, 6, 2],
     &[5, 1, 3, 7],
@@ -197,7 +199,7 @@ impl Lower for Prism {
 }
 
 impl Lowering {
-    /// Lowers a box by its corners.
+    /// Adds the faces of a box with these corners.
     pub(super) fn add_box(
         &mut self,
         props: &SurfaceProps,
@@ -214,7 +216,7 @@ impl Lowering {
         self.add_polyhedron(props, &add_polyhedron, span, context);
     }
 
-    /// Lowers the faces of a solid, each with the outside where its corners run counter-clockwise.
+    /// Adds the faces of a polyhedron as triangles, counter-clockwise as seen from outside.
     fn add_polyhedron(
         &mut self,
         props: &SurfaceProps,
@@ -222,7 +224,7 @@ impl Lowering {
         span: Option<Span>,
         context: &mut Context<'_>,
     ) {
-        // Only the sign counts, and that of tiny edges must not vanish.
+        // Only the sign of the volume is used. Edges are scaled so that it does not underflow.
         let [x, y, z] = add_polyhedron
             .edges
             .map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
@@ -256,10 +258,11 @@ impl Lowering {
     }
 }
 
-/// The uv of the corners of a face with four.
+/// The texture coordinates of the corners of a face with four corners.
 pub(super) const UNIT_SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 
-/// Corners and faces, and three edges that span the volume.
+/// The corners and faces of a polyhedron, and three edges whose triple product has the sign of its
+/// volume.
 struct Polyhedron<'c> {
     name: &'static str,
     corners: &'c [Vec3],
@@ -271,7 +274,7 @@ fn report_flat(name: &str, span: Span, context: &mut Context<'_>) {
     context.report(
         &codes::FLAT_SOLID,
         span,
-        || format!("this {name} has no volume"),
+        || format!("the {name} has no volume"),
         |d| {
             d.at(span, "flat")
                 .hint("a flat shape is written as a `quad` or `triangle`")
@@ -279,7 +282,7 @@ fn report_flat(name: &str, span: Span, context: &mut Context<'_>) {
     );
 }
 
-/// Says which way a box goes whose depth is a length alone.
+/// Reports the assumed direction of a depth that is only a length.
 fn report_assumed_depth(
     depth: &FieldOutcome<Spanned<ThirdEdge>>,
     edge: Vec3,
@@ -301,7 +304,7 @@ fn report_assumed_depth(
     }
 }
 
-/// The corners of a box, and where its size was written.
+/// The corners of a box, and the span of its size.
 fn box_corners(add_box: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8], Option<Span>)> {
     let Cuboid {
         kind: _,
@@ -346,7 +349,7 @@ fn box_corners(add_box: &Cuboid, context: &mut Context<'_>) -> Option<([Vec3; 8]
     }
 }
 
-/// The corners of a box around its centre, with these lengths along axes that are turned.
+/// The corners of a box from its centre, its lengths and its axes.
 pub(super) fn box_around(center: Vec3, size: [f64; 3], axes: [Vec3; 3]) -> [Vec3; 8] {
     let half = |index: usize, axis: usize| match (index >> axis) & 1 {
         1 => size[axis] / 2.0,
@@ -357,13 +360,13 @@ pub(super) fn box_around(center: Vec3, size: [f64; 3], axes: [Vec3; 3]) -> [Vec3
     })
 }
 
-/// The corners of a box with three edges from one of them.
+/// The corners of a box from one corner and its three edges.
 fn box_from_edges(from: Vec3, edges: [Vec3; 3]) -> [Vec3; 8] {
     let along = |index: usize| (0..3).filter(move |axis| (index >> axis) & 1 == 1);
     std::array::from_fn(|index| from + along(index).map(|axis| edges[axis]).sum::<Vec3>())
 }
 
-/// Where the axes come to, turned by angles in radians about x, then y, then z.
+/// The axes rotated by angles in radians about x, then y, then z.
 pub(in crate::course) fn euler_axes(angles: [f64; 3]) -> [Vec3; 3] {
     let [(cx, sx), (cy, sy), (cz, sz)] = angles.map(|angle| (cos(angle), sin(angle)));
     Vec3::AXES.map(|Vec3 { x, y, z }| {

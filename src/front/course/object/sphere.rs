@@ -1,4 +1,4 @@
-//! The sphere, and the turn of its texture.
+//! The sphere and the rotation of its texture.
 
 use super::Lower;
 use crate::course::decode::{Context, SharedValue, Spanned, Value};
@@ -20,28 +20,29 @@ use serde_json::{Value as Json, json};
 record! {
     /// A sphere.
     struct Sphere, "sphere" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
         /// The centre.
         position: Spanned<Point>, required, &with_canonical(POSITION, "position"), json "position";
-        /// The radius, at 0 of which nothing shows; or a list of the radius and the axis that its
-        /// texture is turned about.
+        /// The radius, 0 being invisible; or a list of the radius and the axis of rotation of the
+        /// texture.
         radius: Spanned<Radius>, required, &with_canonical(RADIUS, "radius"), json "radius";
-        /// By how many degrees the texture is turned about its axis.
+        /// The angle of rotation of the texture about its axis, in degrees.
         angle: Spanned<Degrees>, default(Degrees(0.0)), keys!["angle"], json "angle";
-        /// The axis that the texture is turned about: its poles lie on it.
+        /// The axis through the poles of the texture, about which it is rotated.
         axis: Spanned<Rotation<Vector>>, optional, keys!["axis" "rotation" "rotationVector"],
             json "rotation", json "rotationVector";
-        /// How the texture is turned, in place of an axis and an angle: a quaternion (x, y, z, w) of any length but 0.
+        /// The rotation of the texture as a quaternion (x, y, z, w) of any length but 0, in place
+        /// of an axis and an angle.
         quaternion: Spanned<Quaternion>, optional, keys!["quaternion"];
-        /// What it is made of.
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
 }
 
-/// A radius, with or without the axis of a texture.
+/// A radius, with or without the axis of the texture.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::course) struct Radius {
     pub(in crate::course) length: f64,
@@ -75,7 +76,8 @@ impl Value for Radius {
     fn schema(definitions: &mut Definitions) -> Json {
         let length = NonNegative::schema(definitions);
         let pair = json!([length, Vector::schema(definitions)]);
-        json!({ "anyOf": [length, { "type": "array", "prefixItems": pair, "minItems": 2, "maxItems": 2 }] })
+        let list = json!({ "type": "array", "prefixItems": pair, "minItems": 2, "maxItems": 2 });
+        json!({ "anyOf": [length, list] })
     }
 
     fn json(&self) -> Json {
@@ -117,8 +119,7 @@ impl Lower for Sphere {
     }
 }
 
-/// The axis of the texture: +z unless there is another with a direction. What has no effect is
-/// noted.
+/// The axis of the texture: +z unless a non-zero axis is given. Reports an axis without effect.
 fn texture_axis(
     radius: &Spanned<Radius>,
     axis: &FieldOutcome<Spanned<Rotation<Vector>>>,
@@ -150,7 +151,7 @@ fn texture_axis(
             inner.iter().for_each(|inner| {
                 no_effect(
                     inner,
-                    "the axis beside the radius counts for nothing: `axis` does",
+                    "the axis beside the radius has no effect beside `axis`",
                 )
             });
             axis
@@ -161,15 +162,15 @@ fn texture_axis(
     unit(Vec3::from_array(chosen.value.0)).unwrap_or_else(|| {
         no_effect(
             chosen,
-            "the axis has no direction, so the texture is turned about [0, 0, 1]",
+            "the axis has no direction, so the texture is rotated about [0, 0, 1]",
         );
         Vec3::Z
     })
 }
 
-/// The rows of the rotation to directions of a texture that a quaternion q turns, v ↦ q·v·q*; none
-/// for the identity. With q = (s·n, w) it turns about n by an angle of cosine w² − s² and sine
-/// 2·w·s.
+/// The rows of the rotation from directions of the world to those of the texture, for the rotation
+/// v ↦ q·v·q* of the texture by a quaternion q; `None` for the identity. q = (s·n, w) rotates about
+/// n by the angle with cosine w² − s² and sine 2·w·s.
 fn texture_rotation(Quaternion(parts): Quaternion) -> Option<[[f64; 3]; 3]> {
     let largest = parts
         .iter()
@@ -178,13 +179,13 @@ fn texture_rotation(Quaternion(parts): Quaternion) -> Option<[[f64; 3]; 3]> {
     let axis = unit(Vec3::new(x, y, z))?;
     let s = axis.dot(Vec3::new(x, y, z));
     let turns = [2.0 * w * s, w * w - s * s].map(|part| part / (w * w + s * s));
-    // By an axis and an angle, so that these say it again to the last bit.
+    // Through an axis and an angle, so that writing these gives the same bits again.
     let rows = Vec3::AXES.map(|v| turned_about(v, axis, turns).to_array());
     let (pole, angle) = axis_and_angle(rows);
     turned_to_z(unit(pole)?, angle)
 }
 
-/// Says that a quaternion counts alone, and that one of length 0 turns nothing.
+/// Reports a rotation that a quaternion overrides, and a quaternion of length 0.
 fn report_two_rotations(
     other: Option<Span>,
     quaternion: &Spanned<Quaternion>,
@@ -200,9 +201,9 @@ fn report_two_rotations(
             );
         }
     };
-    no_effect(other, "a texture is turned once: the `quaternion` counts");
+    no_effect(other, "an axis or angle has no effect beside `quaternion`");
     if quaternion.value.0 == [0.0; 4] {
-        no_effect(quaternion.span, "a quaternion of length 0 turns nothing");
+        no_effect(quaternion.span, "a quaternion of length 0 is no rotation");
     }
 }
 
@@ -213,7 +214,7 @@ mod tests {
     #[test]
     fn a_quaternion_turns_the_texture_as_it_turns_a_vector() {
         let half = std::f64::consts::FRAC_PI_4;
-        // A quarter turn about z takes x to y, at any length of the quaternion.
+        // A rotation by 90° about z maps x to y, for any length of the quaternion.
         for length in [1.0, -3.0, 1e200] {
             let parts = [0.0, 0.0, libm::sin(half) * length, libm::cos(half) * length];
             let [x, y, z] = texture_rotation(Quaternion(parts))

@@ -15,26 +15,29 @@ use rtc_math::{Vec3, shortest, unit};
 record! {
     /// A torus.
     struct Torus, "torus" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
         /// The centre.
         position: Spanned<Point>, required, &with_canonical(POSITION, "position"), json "position";
-        /// From the centre to the middle of the tube, and the radius of the tube: `radius` and
-        /// `alpha`.
+        /// The major and the minor radius: `radius` and `alpha`.
         radii: [Spanned<NonNegative>; 2], optional, &[&["R", "r"], &["radius", "r"]];
-        /// From the centre to the middle of the tube, above 0.
-        radius: Spanned<Positive>, optional, keys!["radius" "r" "R" "rad" "majorRadius" "major" "ringRadius"];
-        /// The radius of the tube; nothing shows at 0.
-        alpha: Spanned<NonNegative>, optional, keys!["alpha" "minorRadius" "minor" "tubeRadius" "tube"];
-        /// The radii of the hole and of the whole torus; or, where that would hold more of the eye,
-        /// the lights and the other objects, those of the tube and of the ring that it goes along,
-        /// which are `alpha` and `radius`.
-        rims: [Spanned<Positive>; 2], optional, &[&["innerRadius", "outerRadius"]], json "innerRadius";
+        /// The major radius, from the centre to the middle of the tube; above 0.
+        radius: Spanned<Positive>, optional,
+            keys!["radius" "r" "R" "rad" "majorRadius" "major" "ringRadius"];
+        /// The minor radius, that of the tube; 0 is invisible.
+        alpha: Spanned<NonNegative>, optional,
+            keys!["alpha" "minorRadius" "minor" "tubeRadius" "tube"];
+        /// The radii of the hole and of the outer rim. If that torus would contain more of the eye,
+        /// the lights and the other objects, they are taken as the minor and the major radius:
+        /// `alpha` and `radius`.
+        rims: [Spanned<Positive>; 2], optional,
+            &[&["innerRadius", "outerRadius"]], json "innerRadius";
         /// The direction of the axis, of any length but 0.
-        direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])), &with_canonical(AXIS, "direction");
-        /// What it is made of.
+        direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])),
+            &with_canonical(AXIS, "direction");
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
     variants { [radius alpha] [radii] [rims] }
@@ -94,23 +97,23 @@ impl Lower for Torus {
     }
 }
 
-/// A torus with two radii that programs read in two ways.
+/// A torus with an inner and an outer radius, which programs interpret in two ways.
 pub(in crate::course) struct AmbiguousTorus {
     surface: usize,
     radii: [Spanned<Positive>; 2],
 }
 
-/// The radii of the ring and of the tube, from those of the hole and of the whole.
+/// The major and the minor radius, from the radii of the hole and of the outer rim.
 fn major_and_minor(inner: f64, outer: f64) -> [f64; 2] {
     [f64::midpoint(inner, outer), (outer - inner) / 2.0]
 }
 
-/// So many other surfaces are looked at for what a torus would hold.
+/// The number of other surfaces that are tested for being inside a torus.
 const MAX_OTHERS: usize = 64;
 
 impl Lowering {
-    /// Chooses between the two readings of each torus that has them, now that all else is there:
-    /// that by which it holds less of what is to be seen.
+    /// Chooses between the two interpretations of each ambiguous torus: the one that contains fewer
+    /// points of other entities. Call it after all of these are lowered.
     pub(in crate::course) fn resolve_tori(&mut self, context: &mut Context<'_>) {
         for AmbiguousTorus {
             surface,
@@ -141,14 +144,14 @@ impl Lowering {
         }
     }
 
-    /// The eye, the lights, and the corners of boxes around some of the surfaces but one.
+    /// The eye, the lights, and the corners of the bounding boxes of other surfaces.
     fn points_outside(&self, surface: usize) -> Vec<Vec3> {
         let lights = self.scene.lights.iter().filter_map(ir::Light::point);
         let lights = lights.map(|light| light.position).take(MAX_OTHERS);
         let eye = [self.scene.camera.eye];
         let mut points: Vec<_> = lights.chain(eye).map(Vec3::from_array).collect();
         let others = self.scene.surfaces.iter().enumerate();
-        // Of meshes the files are not there yet.
+        // Mesh files are not loaded yet.
         let others = others
             .filter(|(at, other)| *at != surface && !matches!(other.shape, ir::Shape::Instance(_)));
         for (_, other) in others.take(MAX_OTHERS) {
@@ -170,7 +173,7 @@ fn contains(torus: &ir::Torus, point: Vec3) -> bool {
     Vec3::new(off - torus.major, above, 0.0).length() < torus.minor
 }
 
-/// Says how two radii are read that programs read in two ways.
+/// Reports how an ambiguous torus is interpreted.
 fn report_two_radii(
     inner: &Spanned<Positive>,
     outer: &Spanned<Positive>,
@@ -180,15 +183,16 @@ fn report_two_radii(
     let Some(span) = inner.span else { return };
     let (of, [first, second], hint) = match is_tube {
         false => (
-            "the hole and of the whole",
-            ["the hole", "the whole"],
+            "the hole and of the outer rim",
+            ["the hole", "the outer rim"],
             "in some programs they are those of the tube and of the ring: here `alpha` and `radius`"
                 .to_owned(),
         ),
         true => {
             let [major, minor] = major_and_minor(inner.value.0, outer.value.0).map(shortest);
             let hint = format!(
-                "as a hole and a whole, `radius: {major}` and `alpha: {minor}`, the torus would hold other objects"
+                "as radii of the hole and the outer rim, `radius: {major}` and `alpha: {minor}`, \
+                 the torus would contain other objects"
             );
             ("the tube and of the ring", ["the tube", "the ring"], hint)
         }

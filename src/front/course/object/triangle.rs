@@ -8,7 +8,7 @@ use crate::course::record::{FieldOutcome, Spellings, keys, record};
 use crate::course::value::{AnyScalar, Point, Uv};
 use rtc_ir as ir;
 
-/// How people name three corners.
+/// The spellings of three corners.
 pub(in crate::course) const CORNERS: Spellings = &[
     &["v0", "v1", "v2"],
     &["v1", "v2", "v3"],
@@ -24,23 +24,25 @@ pub(in crate::course) const CORNERS: Spellings = &[
 ];
 
 record! {
-    /// A triangle, seen from both sides.
+    /// A two-sided triangle.
     struct Triangle, "triangle" {
-        /// What kind of object this is.
+        /// The type of the object.
         kind: Spanned<AnyScalar>, required, keys!["type"], json "type";
         /// A corner.
         corners: [Spanned<Point>; 3], required, CORNERS, json "vertex0", json "A", json "p0";
-        /// The place of a corner in the texture: (0, 0) is its lower left, (1, 1) its upper right.
-        uvs: [Spanned<Uv>; 3], optional, &[&["uv0", "uv1", "uv2"], &["uv1", "uv2", "uv3"], &["UV1", "UV2", "UV3"]],
+        /// The texture coordinates of a corner: (0, 0) is the lower left of the texture, (1, 1) the
+        /// upper right.
+        uvs: [Spanned<Uv>; 3], optional,
+            &[&["uv0", "uv1", "uv2"], &["uv1", "uv2", "uv3"], &["UV1", "UV2", "UV3"]],
             json "UV1";
-        /// What it is made of.
+        /// The material.
         material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
-        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
 }
 
-/// The places of the corners, from where they were written.
+/// The paths of the corners in the IR.
 pub(in crate::course) const VERTICES: [&str; 3] = ["vertices/0", "vertices/1", "vertices/2"];
 
 impl Lower for Triangle {

@@ -1,6 +1,14 @@
-//! The `standard` material: that of glTF, from the table of its parameters.
+//! The `standard` material: the material of glTF, from the table of its parameters.
 //!
-//! A key is the name of a row in camel case; the kind of the row says what is written there.
+//! `rtc_tables::parameters!` lists the parameters with their kinds and defaults. The macros here
+//! turn each row into a field of the record [`StandardMaterial`]: the key is the name of the row in
+//! camel case, the kind of the row selects the type of the value (`written!`), its default
+//! (`need!`) and its lowering (`lowered!`). A parameter that is added to the table is decoded,
+//! documented and lowered without a change here.
+//!
+//! `texture` has the record of a texture, with the placement and sampling of glTF; `value` has the
+//! value types that only this material uses. All keys are optional except `type: standard`; the
+//! validator checks the ranges. Images are added to the pending assets.
 
 mod texture;
 mod value;
@@ -21,10 +29,10 @@ use serde_json::Value as Json;
 use texture::MapOrFile;
 use value::{AlphaMode, Fraction, FractionColor, Range, Refraction, RefractionOrNone, Rgba};
 
-/// The word that says that a material is one.
+/// The value of `type` that selects this material.
 pub(super) const KEYWORD: &str = "standard";
 
-/// How a parameter of a kind of the table is written.
+/// The type of the format for each kind of parameter.
 macro_rules! written {
     (fraction) => {
         Fraction
@@ -70,7 +78,7 @@ macro_rules! written {
     };
 }
 
-/// What stands in for a parameter of a kind that is not written.
+/// The default for each kind of parameter.
 macro_rules! need {
     (map, $default:expr) => {
         Need::Optional
@@ -89,7 +97,7 @@ macro_rules! need {
     };
 }
 
-/// The parameter of the IR that a written one of a kind is.
+/// The value in the IR for each kind of parameter.
 macro_rules! lowered {
     (map, $written:expr, $lowering:expr) => {
         Some($lowering.texture_map(&$written.value.0))
@@ -108,7 +116,7 @@ macro_rules! lowered {
     };
 }
 
-/// The record, from the table of the parameters.
+/// The record, generated from the table of parameters.
 macro_rules! material {
     ($(
         $(#[doc = $about:literal])*
@@ -124,9 +132,9 @@ macro_rules! material {
             /// The declaration.
             pub(in crate::course) const RECORD: Record = Record {
                 name: "standard material",
-                doc: " What a surface is made of: the material of glTF 2.0 and of its extensions \
-                      `KHR_materials_*`. Colours are linear, of light rather than of a display; a texture multiplies \
-                      the number or colour beside it, in the channels that glTF gives it.",
+                doc: " A material: that of glTF 2.0 and of its extensions `KHR_materials_*`. \
+                      Colours are linear; a texture multiplies the number or colour beside it, in the \
+                      channels that glTF specifies.",
                 fields: &[
                     FieldDeclaration {
                         name: "kind",
@@ -138,7 +146,7 @@ macro_rules! material {
                     },
                     FieldDeclaration {
                         name: "name",
-                        doc: " What people call it.",
+                        doc: " A name for people to read.",
                         spellings: &[&["name"]],
                         json: &[],
                         need: Need::Optional,
@@ -157,7 +165,7 @@ macro_rules! material {
                 variants_are_lowered: false,
             };
 
-            /// What it is in the IR; its textures are wanted.
+            /// Lowers the material; its textures are added to the pending assets.
             fn lowered(&self, lowering: &mut Lowering) -> ir::Standard {
                 let mut standard = ir::Standard::default();
                 if let FieldOutcome::Read(name) = &self.name {

@@ -1,4 +1,4 @@
-//! The textures of a `standard` material: pictures, as glTF lays them on a surface and looks them up.
+//! The textures of a `standard` material: images with the placement and sampling of glTF.
 
 use super::super::decode::{Context, Spanned, Value};
 use super::super::keyword::{keyword, keyword_schema};
@@ -14,19 +14,20 @@ use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 record! {
-    /// A texture: a picture, and how it lies on the surface. v = 0 is its top row. The name of the file alone will do.
+    /// A texture: an image and its placement on the surface. v = 0 is the top row. A file name
+    /// alone is a texture too.
     struct TextureMap, "texture" {
-        /// The file of the picture: PNG, JPEG or WebP; its opacity is kept.
+        /// The image file: PNG, JPEG or WebP; its alpha channel is used.
         file: Spanned<FileName>, required, keys!["file"];
-        /// Which set of texture coordinates of the mesh, 0 or 1.
+        /// The set of texture coordinates of the mesh, 0 or 1.
         set: Spanned<SetIndex>, default(SetIndex(0)), keys!["set"];
-        /// What lies beyond the picture along u and v, one word for both or a list of two: `repeat` it again, `mirror` it
-        /// again, mirrored, `clamp` the texel at its edge.
+        /// The wrap mode beyond the image along u and v, one keyword for both or a list of two:
+        /// `repeat` the image, `mirror` it, or `clamp` to the texels of its edge.
         wrap: Spanned<WrapModes>, default(WrapModes([Wrap::Repeat; 2])), keys!["wrap"];
-        /// How texels blend: `linear` the four nearest, `nearest` the nearest alone.
+        /// The filter: `linear` blends the four nearest texels, `nearest` uses the nearest one.
         filter: Spanned<Filter>, default(Filter::Linear), keys!["filter"];
-        /// Six numbers: the rows (a, b, c) of the map from the coordinates of the surface to those of the picture, each
-        /// a·u + b·v + c.
+        /// Six numbers: the rows (a, b, c) of the map from texture coordinates of the surface to
+        /// those of the image, each a·u + b·v + c.
         transform: Spanned<PlaneRows>, optional, keys!["transform"];
     }
 }
@@ -55,11 +56,11 @@ impl Value for MapOrFile {
     }
 }
 
-/// What lies beyond a picture along u and v.
+/// The wrap modes along u and v.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::course) struct WrapModes([Wrap; 2]);
 
-/// The words for it.
+/// The keywords of wrap modes.
 const WRAPS: &[(&str, Wrap)] = &[
     ("repeat", Wrap::Repeat),
     ("mirror", Wrap::Mirror),
@@ -79,7 +80,8 @@ impl Value for WrapModes {
 
     fn schema(_: &mut Definitions) -> Json {
         let keyword = keyword_schema(WRAPS);
-        json!({ "anyOf": [keyword, { "type": "array", "items": keyword, "minItems": 2, "maxItems": 2 }] })
+        let pair = json!({ "type": "array", "items": keyword, "minItems": 2, "maxItems": 2 });
+        json!({ "anyOf": [keyword, pair] })
     }
 
     fn json(&self) -> Json {
@@ -94,7 +96,7 @@ impl Keyword for Filter {
 }
 
 impl Lowering {
-    /// Lowers a texture: its file is wanted.
+    /// Lowers a texture; its file is added to the pending assets.
     pub(super) fn texture_map(&mut self, map: &TextureMap) -> ir::Map {
         let TextureMap {
             file,

@@ -1,4 +1,4 @@
-//! What parameters of a `standard` material are written as: parts of a integer, pairs, the alpha mode.
+//! The value types of a `standard` material: fractions, ranges, alpha modes.
 
 use super::super::decode::{Context, Spanned, Value};
 use super::super::keyword::{keyword, keyword_schema};
@@ -11,8 +11,9 @@ use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 ranged! {
-    /// The number of a set of texture coordinates.
-    SetIndex(u32), |node, context| integer(0, 1, node, context), { "type": "integer", "minimum": 0, "maximum": 1 }
+    /// The index of a set of texture coordinates.
+    SetIndex(u32), |node, context| integer(0, 1, node, context),
+    { "type": "integer", "minimum": 0, "maximum": 1 }
 }
 
 ranged! {
@@ -23,16 +24,17 @@ ranged! {
 
 ranged! {
     /// An index of refraction.
-    Refraction(f64), |node, context| number(node, "a number", context), { "type": "number", "minimum": 1 }
+    Refraction(f64), |node, context| number(node, "a number", context),
+    { "type": "number", "minimum": 1 }
 }
 
 ranged! {
-    /// An index of refraction, or 0 for a surface that mirrors all light.
+    /// An index of refraction, or 0 for a surface that reflects all light.
     RefractionOrNone(f64), |node, context| number(node, "a number", context),
     { "anyOf": [{ "const": 0 }, { "type": "number", "minimum": 1 }] }
 }
 
-/// Declares a few numbers in a range as a type of the format.
+/// Declares a type of the format: a few numbers in a range.
 macro_rules! numbers {
     ($(#[doc = $doc:literal])+ $name:ident, $count:literal, $what:literal, $item:tt) => {
         $(#[doc = $doc])+
@@ -69,16 +71,16 @@ numbers! {
 }
 
 numbers! {
-    /// Red, green, blue and another channel, each from 0 to 1.
+    /// Red, green, blue and a fourth channel, each from 0 to 1.
     Rgba, 4, "a list of four numbers", { "type": "number", "minimum": 0, "maximum": 1 }
 }
 
 numbers! {
-    /// The least and the greatest, each at least 0.
+    /// A minimum and a maximum, each at least 0.
     Range, 2, "a list of two numbers", { "type": "number", "minimum": 0 }
 }
 
-/// Lets defaults of the table be shown as they are written.
+/// Converts defaults of the table to types of the format, for the schema.
 macro_rules! from_number {
     ($($name:ident)+) => {
         $(impl From<f64> for $name {
@@ -97,7 +99,7 @@ impl From<[f64; 3]> for Color {
     }
 }
 
-/// How much of the background a surface covers.
+/// The alpha mode of a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AlphaMode(pub(super) Alpha);
 
@@ -107,7 +109,7 @@ impl From<Alpha> for AlphaMode {
     }
 }
 
-/// The words for alpha modes; `mask` has the cutoff of glTF.
+/// The keywords of alpha modes; `mask` has the default cutoff of glTF.
 const ALPHA_MODES: &[(&str, Alpha)] = &[
     ("opaque", Alpha::Opaque),
     ("mask", Alpha::Mask(0.5)),
@@ -115,7 +117,8 @@ const ALPHA_MODES: &[(&str, Alpha)] = &[
 ];
 
 record! {
-    /// A surface that covers all where its alpha is at least the cutoff, and nothing elsewhere.
+    /// An alpha mask: the surface is opaque if its alpha is at least the cutoff, and invisible
+    /// otherwise.
     struct Mask, "alpha mask" {
         /// The cutoff.
         mask: Spanned<NonNegative>, required, keys!["mask"];

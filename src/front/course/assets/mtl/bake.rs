@@ -1,5 +1,5 @@
-//! Maps of glTF's material that are made of several pictures of an MTL, or of another kind of
-//! picture: a colour with its opacity, roughness beside metal, normals of heights.
+//! Bakes textures of `standard` materials that combine several MTL maps or convert one: colour with
+//! opacity, roughness with metallic, normals from heights.
 
 use super::super::AssetLoader;
 use super::super::image::holds_normals;
@@ -13,7 +13,7 @@ use rtc_ir::{
 use rtc_source::{Resource, Span};
 use std::collections::BTreeMap;
 
-/// A map to be made once its pictures are there.
+/// A texture to bake once its images are loaded.
 pub(in super::super) struct Bake {
     pub(super) material: MaterialId,
     pub(super) baked: BakedMap,
@@ -21,27 +21,27 @@ pub(in super::super) struct Bake {
     pub(super) span: Span,
 }
 
-/// What it is made of.
+/// The sources of a baked texture.
 pub(super) enum BakedMap {
-    /// The colour, and how much it hides.
+    /// Colour and opacity.
     Opacity {
         color: Option<ImageId>,
         mask: ImageId,
     },
-    /// How rough, and how much metal.
+    /// Roughness and metallic.
     MetalRough {
         rough: Option<ImageId>,
         metal: Option<ImageId>,
     },
-    /// How high, and how high white is above black, as a share of the width of a texel.
+    /// Heights, and the height of white above black in texel widths.
     Normals { heights: ImageId, height: f64 },
 }
 
-/// A picture, looked up by the pixels of another size.
+/// An image that is sampled by the pixels of an image of another size.
 struct ScaledImage<'a>(&'a Image);
 
 impl ScaledImage<'_> {
-    /// The pixel in which that of a picture of a size lies, with its opacity.
+    /// The RGBA pixel that contains pixel (x, y) of an image of the given size.
     fn pixel(&self, [x, y]: [u32; 2], [width, height]: [u32; 2]) -> [u8; 4] {
         let scaled =
             |at: u32, length: u32, size: u32| u64::from(at) * u64::from(length) / u64::from(size);
@@ -68,8 +68,8 @@ impl ScaledImage<'_> {
     }
 }
 
-/// Makes the maps. `image_of` says which image came of each that was wanted; where none did, there
-/// is no map.
+/// Bakes the textures. `image_of` maps pending images to loaded ones; without its images a texture
+/// is left out.
 pub(in super::super) fn bake(
     bakes: Vec<Bake>,
     image_of: &BTreeMap<u32, Option<ImageId>>,
@@ -77,7 +77,7 @@ pub(in super::super) fn bake(
     loader: &mut AssetLoader<'_>,
 ) {
     let loaded = |image: ImageId| image_of.get(&image.0).copied().flatten();
-    // One map for all materials that name the same pictures.
+    // Materials with the same images share a texture.
     let mut known: BTreeMap<String, ImageId> = BTreeMap::new();
     for bake in bakes {
         let scene = &mut lowered.scene;
@@ -153,7 +153,7 @@ fn report_normals(scene: &Scene, image: ImageId, span: Span, loader: &mut AssetL
 }
 
 impl BakedMap {
-    /// What two of the same pictures have in common.
+    /// The cache key: equal for equal sources.
     fn key(&self) -> String {
         match self {
             Self::Opacity { color, mask } => format!("opacity {color:?} {mask:?}"),
@@ -162,7 +162,7 @@ impl BakedMap {
         }
     }
 
-    /// The map that it becomes.
+    /// The texture slot of the material that it fills.
     fn slot<'m>(&self, material: &'m mut Standard) -> &'m mut Option<Map> {
         match self {
             Self::Opacity { .. } => &mut material.base_color_map,
@@ -181,7 +181,7 @@ impl BakedMap {
         }
     }
 
-    /// As large as the larger one.
+    /// The larger width and the larger height of the sources.
     fn size(&self, scene: &Scene) -> [u32; 2] {
         let sources = self.sources(scene).into_iter().flatten();
         sources.fold([1; 2], |[width, height], source| {
@@ -250,7 +250,7 @@ impl BakedMap {
     }
 }
 
-/// A direction as a normal map codes it.
+/// Encodes a direction as a pixel of a normal map.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

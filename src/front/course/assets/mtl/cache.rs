@@ -1,4 +1,4 @@
-//! The materials of mesh files as they come into the scene, and the images that they wait for.
+//! The MTL materials added to the scene, and the images that they need.
 
 use super::super::mesh::MeshFile;
 use super::super::{AssetTarget, PendingAsset};
@@ -14,21 +14,21 @@ use rtc_ir::{
 use rtc_source::Span;
 use std::collections::BTreeMap;
 
-/// The materials brought so far, and the images that they wait for.
+/// The MTL materials added so far, with their pending images.
 #[derive(Default)]
 pub(in super::super) struct MtlCache {
     pub(in super::super) pending_assets: Vec<PendingAsset>,
-    /// What is made of images once they are there.
+    /// The textures to bake once the images are loaded.
     pub(in super::super) bakes: Vec<Bake>,
     images: BTreeMap<(String, bool), ImageId>,
     textures: BTreeMap<(u32, Option<bool>), TextureId>,
-    /// What of materials does not show: the first, why, and how many.
+    /// Statements without effect: the span of the first, the reason, and their number.
     unsupported: Option<(Span, String, usize)>,
-    /// Where `Tr 1` stands.
+    /// The span of a `Tr 1`.
     transparency: Option<Span>,
 }
 
-/// A picture that a material names, and where.
+/// A map statement of a material, with its resolved path.
 pub(super) struct MapReference<'a> {
     pub(super) path: String,
     pub(super) map: &'a MtlMap,
@@ -36,7 +36,7 @@ pub(super) struct MapReference<'a> {
 }
 
 impl LoadedLibrary {
-    /// A map of one of its materials.
+    /// Resolves a map statement of one of its materials.
     pub(super) fn map<'a>(&self, map: &'a Said<MtlMap>) -> MapReference<'a> {
         MapReference {
             path: sibling_path(&self.path, &map.value.file),
@@ -100,10 +100,7 @@ impl MtlCache {
         lowered: &mut Lowered,
     ) -> Phong {
         for (at, what) in beyond_phong(material) {
-            self.add_unsupported(
-                at.span(loaded.file),
-                format!("{what} in traced paths alone"),
-            );
+            self.add_unsupported(at.span(loaded.file), format!("{what} only in path tracing"));
         }
         let mut phong = phong::phong(material);
         let mut texture = |map: &Option<Said<MtlMap>>| {
@@ -121,7 +118,7 @@ impl MtlCache {
         phong
     }
 
-    /// Adds a material of one picture, as a mesh file names it that has no other materials.
+    /// Adds a material with one texture, for a mesh file that names a texture but no material.
     pub(super) fn add_textured(
         &mut self,
         mesh: &MeshFile,
@@ -150,12 +147,12 @@ impl MtlCache {
         self.add(&loaded, &material, lowered)
     }
 
-    /// Something of a material does not show.
+    /// Records a statement without effect.
     pub(super) fn add_unsupported(&mut self, span: Span, why: String) {
         self.unsupported.get_or_insert((span, why, 0)).2 += 1;
     }
 
-    /// Tells what of the materials does not show, or was read in one of two ways.
+    /// Reports statements without effect, and those that programs read in two ways.
     pub(super) fn report(&mut self, sink: &mut Sink) {
         if let Some((span, why, count)) = self.unsupported.take() {
             let message = match count {
@@ -167,13 +164,13 @@ impl MtlCache {
         if let Some(span) = self.transparency.take() {
             let message = "`Tr 1` is read as opaque";
             let note = Diagnostic::new(&codes::TWO_READINGS, message).severity(Severity::Note);
-            let note = note.at(span, "in some programs nothing of it is seen");
+            let note = note.at(span, "invisible in some programs");
             sink.push(note.hint("`d 1` is opaque and `d 0` invisible in all"));
         }
     }
 
-    /// The image that a map names, of one white pixel until its file is there, with its opacity or
-    /// without.
+    /// The image of a map statement, with or without alpha; one white pixel until the file is
+    /// loaded.
     pub(super) fn image(
         &mut self,
         map: &MapReference<'_>,
@@ -203,8 +200,8 @@ impl MtlCache {
         image
     }
 
-    /// The texture of an image: as the course lays it, or as glTF does with what lies beyond its
-    /// edge.
+    /// The texture of an image: with the sampling of the course, or with that of glTF and the given
+    /// wrap mode.
     pub(super) fn texture(
         &mut self,
         image: ImageId,
@@ -226,7 +223,7 @@ impl MtlCache {
         })
     }
 
-    /// A map of the material of glTF, as the MTL lays it.
+    /// A texture slot of a `standard` material, placed as the MTL says.
     pub(super) fn placement(
         &mut self,
         map: &MapReference<'_>,
@@ -242,7 +239,7 @@ impl MtlCache {
     }
 }
 
-/// How a picture lies on a surface.
+/// The placement of an image on a surface.
 pub(super) struct MapPlacement {
     pub(super) wrap: Wrap,
     pub(super) texture_from_surface: [[f64; 3]; 2],
@@ -257,13 +254,13 @@ impl MapPlacement {
             } else {
                 Wrap::Repeat
             },
-            // The first row of the picture is its top.
+            // The first row of an image is its top.
             texture_from_surface: [[u, 0.0, right], [0.0, -v, 1.0 - up]],
         }
     }
 }
 
-/// What of a material Phong's model has no words for, and what is said of it.
+/// The statements of a material that Phong's model cannot express.
 fn beyond_phong(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
     let m = material;
     let number = |said: &Option<Said<f64>>| said.as_ref().map(|said| said.at);
@@ -297,7 +294,8 @@ fn beyond_phong(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
         .collect()
 }
 
-/// The path of a file named in the one at `path`; of a path from a root or a drive the last part.
+/// The path of a file that the file at `path` names. Of an absolute path only the last component is
+/// used.
 pub(super) fn sibling_path(path: &str, name: &str) -> String {
     let name = name.replace('\\', "/");
     let is_absolute = name.starts_with('/') || name.as_bytes().get(1) == Some(&b':');
@@ -311,7 +309,7 @@ pub(super) fn sibling_path(path: &str, name: &str) -> String {
     }
 }
 
-/// An index of the scene.
+/// An index of the IR.
 fn id(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX)
 }

@@ -1,19 +1,19 @@
-//! A material of an MTL in Phong's model.
+//! Converts an MTL material to Phong's model.
 
 use crate::mesh::mtl::MtlMaterial;
 use rtc_ir::Phong;
 
-/// The part of the light that a surface scatters as ambient light, at most: programs write a `Ka`
-/// of 1 and mean an ambient light that scenes of the course don't have.
+/// The largest ambient weight. Programs write a `Ka` of 1 for an ambient light that scenes of the
+/// course don't have.
 const MAX_AMBIENT: f64 = 0.2;
 
-/// The diffuse reflectance of a material that says none.
+/// The default diffuse reflectance.
 pub(super) const DIFFUSE: f64 = 0.8;
 
-/// The exponent of a material that says none.
+/// The default exponent of the highlight.
 const EXPONENT: f64 = 10.0;
 
-/// The mean of three channels, of grey to the last bit.
+/// The mean of three channels; exact for grey.
 fn mean([r, g, b]: [f64; 3]) -> f64 {
     if r == g && g == b {
         r
@@ -29,14 +29,14 @@ pub(super) fn weight(material: &MtlMaterial) -> f64 {
     specular.map_or(0.0, |specular| mean(specular.value))
 }
 
-/// Whether light goes through by refraction.
+/// Whether the material refracts light.
 pub(super) fn is_glass(material: &MtlMaterial) -> bool {
     let model = material.model.as_ref();
     model.is_some_and(|model| matches!(model.value, 4 | 6 | 7 | 9))
 }
 
-/// How much a material hides what is behind it, 0 to 1. `Tr 1` is read as all: programs that write
-/// it for what can't be seen at all are the fewer.
+/// The opacity of a material, 0 to 1. `Tr 1` is read as opaque, which is what most programs mean by
+/// it.
 pub(super) fn opacity(material: &MtlMaterial) -> f64 {
     let clear = if is_glass(material) { 0.0 } else { 1.0 };
     let said = material.opacity.as_ref();
@@ -44,13 +44,13 @@ pub(super) fn opacity(material: &MtlMaterial) -> f64 {
     said.map_or(clear, |opacity| opacity.value)
 }
 
-/// The numbers of a material in Phong's model; its maps aside.
+/// Converts a material without its textures.
 pub(super) fn phong(material: &MtlMaterial) -> Phong {
     let diffuse = material.diffuse.as_ref().map(|diffuse| diffuse.value);
     let largest = diffuse.map_or(1.0, |[r, g, b]| r.max(g).max(b));
     let color = diffuse.unwrap_or([DIFFUSE; 3]);
     let kd = match material.color_map {
-        // A map of something black would be as good as none.
+        // A black `Kd` would make the texture invisible.
         Some(_) if largest > 0.0 => largest,
         _ => 1.0,
     };

@@ -1,4 +1,4 @@
-//! A material of an MTL as glTF's says it, for traced paths.
+//! Converts an MTL material to the `standard` material, for path tracing.
 
 use super::bake::{Bake, BakedMap};
 use super::cache::{MapPlacement, MtlCache};
@@ -10,33 +10,35 @@ use rtc_ir::{Alpha, ImageId, Lowered, MaterialId, Standard};
 use rtc_tables::{PhongTerms, fit_phong};
 use std::f64::consts::TAU;
 
-/// The index of refraction of a material that says none.
+/// The default index of refraction.
 const IOR: f64 = 1.5;
-/// How rough a sheen is, of which an MTL says nothing.
+/// The roughness of the sheen, which an MTL does not specify.
 const SHEEN: f64 = 0.5;
 
-/// What of a material does not show along paths, and why; ambient light is no part of them.
+/// The statements of a material that have no effect in path tracing, and why. Ambient terms are not
+/// reported: path tracing has none.
 pub(super) fn unsupported(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
     let m = material;
     let filter = m.filter.as_ref().filter(|filter| filter.value != [1.0; 3]);
     let filter = filter.filter(|_| !is_glass(m));
-    let filter = filter.map(|said| (said.at, "`Tf` is of what refracts (`illum` 4, 6, 7, 9)"));
+    let filter = filter.map(|said| (said.at, "`Tf` needs refraction (`illum` 4, 6, 7, 9)"));
     let bump = m.bump.as_ref().filter(|_| m.normal_map.is_some());
-    let bump = bump.map(|said| (said.at, "`norm` bends the same normals as `map_Bump`"));
+    let bump = bump.map(|said| (said.at, "`norm` replaces `map_Bump`"));
     let clear = m
         .opacity
         .as_ref()
         .filter(|_| opacity(m) == 0.0 && !is_glass(m));
-    let clear = clear.map(|said| (said.at, "nothing is seen of a material of this opacity"));
+    let clear = clear.map(|said| (said.at, "a material of this opacity is invisible"));
     let parts = [filter, bump, clear].into_iter().flatten();
     parts.map(|(at, what)| (at, what.to_owned())).collect()
 }
 
-/// The material without its maps.
+/// Converts a material without its textures.
 ///
-/// The diffuse colour is the base, without one a mirror a metal; the exponent of the highlight is
-/// the roughness as it is of Phong's model elsewhere, and `Ks` its strength, of which programs
-/// write a half where they mean that of an index of 1.5. What refracts has the colour of `Tf`.
+/// The diffuse colour is the base colour; a mirror without one becomes a metal. The exponent of the
+/// highlight becomes the roughness by the fit that is used for Phong materials. `Ks` is the
+/// strength of the highlight: programs write 0.5 for an index of 1.5. A refractive material has the
+/// colour of `Tf`.
 pub(super) fn standard(material: &MtlMaterial) -> Standard {
     let m = material;
     let color = phong::phong(m);
@@ -95,13 +97,13 @@ pub(super) fn standard(material: &MtlMaterial) -> Standard {
     with_layers(base, m)
 }
 
-/// Whether its base is said in physical words.
+/// Whether it has metallic or roughness statements.
 fn is_physical(m: &MtlMaterial) -> bool {
     let numbers = m.roughness.is_some() || m.metallic.is_some();
     numbers || m.roughness_map.is_some() || m.metallic_map.is_some()
 }
 
-/// A material with its light and what lies over its base.
+/// Adds emission, clearcoat, sheen and anisotropy to a material.
 fn with_layers(base: Standard, m: &MtlMaterial) -> Standard {
     let value = |said: &Option<Said<f64>>| said.as_ref().map_or(0.0, |said| said.value);
     let emissive = m.emissive.as_ref().map_or([0.0; 3], |said| said.value);
@@ -119,7 +121,7 @@ fn with_layers(base: Standard, m: &MtlMaterial) -> Standard {
     }
 }
 
-/// The base colour: that of the mirror image of a metal, else the diffuse one.
+/// The base colour: `Ks` for a metal, else `Kd`.
 fn base(m: &MtlMaterial, is_mirror: bool) -> [f64; 3] {
     let color = match is_mirror {
         true => m.specular.as_ref(),
@@ -127,7 +129,7 @@ fn base(m: &MtlMaterial, is_mirror: bool) -> [f64; 3] {
     };
     let color = color.map_or([phong::DIFFUSE; 3], |said| said.value);
     let is_black = color == [0.0; 3];
-    // A map of something black would be as good as none.
+    // A black factor would make the texture invisible.
     let color = if is_black && m.color_map.is_some() {
         [1.0; 3]
     } else {
@@ -137,7 +139,7 @@ fn base(m: &MtlMaterial, is_mirror: bool) -> [f64; 3] {
 }
 
 impl MtlCache {
-    /// The material with its maps, those that are made of several pictures to be baked.
+    /// Adds the textures of a material; those that combine several images are scheduled for baking.
     pub(super) fn with_maps(
         &mut self,
         mut made: Standard,
