@@ -154,9 +154,9 @@ const HEAD: usize = 4096;
 pub fn foreign(name: &str, bytes: &[u8]) -> Option<Diagnostic> {
     let head = &bytes[..bytes.len().min(HEAD)];
     let found = FOREIGN.iter().find(|(_, begins, _)| begins(head));
-    let known = found.map(|(is, _, hint)| (*is, *hint));
-    let (is, hint) = known.or_else(|| xml(head))?;
-    let message = format!("`{}` is {is}, and no scene", clip_path(name));
+    let known = found.map(|(format, _, hint)| (*format, *hint));
+    let (format, hint) = known.or_else(|| xml(head))?;
+    let message = format!("`{}` is {format}, and no scene", clip_path(name));
     Some(Diagnostic::new(&codes::NOT_A_SCENE, message).hint(hint))
 }
 
@@ -167,7 +167,7 @@ fn text(head: &[u8]) -> &[u8] {
 }
 
 fn contains(head: &[u8], part: &[u8]) -> bool {
-    head.windows(part.len()).any(|own| own == part)
+    head.windows(part.len()).any(|window| window == part)
 }
 
 fn is_html(head: &[u8]) -> bool {
@@ -191,14 +191,14 @@ fn xml(head: &[u8]) -> Option<(&'static str, &'static str)> {
         } else {
             b">"
         };
-        let at = rest.windows(end.len()).position(|own| own == end)?;
+        let at = rest.windows(end.len()).position(|window| window == end)?;
         rest = rest[at + end.len()..].trim_ascii_start();
     }
     let name = rest.strip_prefix(b"<")?;
     let is_end = |byte: &u8| !byte.is_ascii_alphanumeric() && !b":_-.".contains(byte);
     let name = &name[..name.iter().position(is_end).unwrap_or(name.len())];
     let known = XML.iter().find(|(root, ..)| root.as_bytes() == name);
-    let known = known.map(|(_, is, hint)| (*is, *hint));
+    let known = known.map(|(_, format, hint)| (*format, *hint));
     known.or_else(|| is_declared.then_some(("a document of XML", EXPORT)))
 }
 
@@ -314,7 +314,7 @@ fn is_pov(head: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    fn told(bytes: &[u8]) -> String {
+    fn message(bytes: &[u8]) -> String {
         foreign("x", bytes).map_or_else(String::new, |finding| finding.message)
     }
 
@@ -328,7 +328,7 @@ mod tests {
             head.extend(name.bytes());
             head
         };
-        for (bytes, is) in [
+        for (bytes, format) in [
             (&b"\x89PNG\r\n\x1a\n"[..], "a PNG picture"),
             (b"\n <!DOCTYPE HTML>\n<p>", "a page of HTML"),
             (
@@ -369,7 +369,7 @@ mod tests {
             (&zip("scene.usdc"), "a USDZ package"),
             (&zip("scene.yaml"), "an archive"),
         ] {
-            assert_eq!(told(bytes), format!("`x` is {is}, and no scene"));
+            assert_eq!(message(bytes), format!("`x` is {format}, and no scene"));
         }
     }
 
@@ -390,8 +390,8 @@ mod tests {
             "BM: 1\nEye: 2",
             "",
         ] {
-            assert_eq!(told(scene.as_bytes()), "", "{scene}");
+            assert_eq!(message(scene.as_bytes()), "", "{scene}");
         }
-        assert_eq!(told(b"glTF\x02\0\0\0"), "");
+        assert_eq!(message(b"glTF\x02\0\0\0"), "");
     }
 }

@@ -152,37 +152,41 @@ pub(crate) fn thin_glyphs(
     source: &Mesh,
     ends: &[[u32; 2]],
     world: DAffine3,
-    solid: &Glyph,
+    glyph: &Glyph,
 ) -> Option<(Mesh, Column<3>, DAffine3)> {
-    let place = |vertex: u32| {
-        let own = Vec3::from_array(source.positions.at(vertex as usize));
-        world.transform_point3(own)
+    let position = |vertex: u32| {
+        let point = Vec3::from_array(source.positions.at(vertex as usize));
+        world.transform_point3(point)
     };
     // Normals are transformed by the inverse transpose.
-    let turned = world.matrix3.inverse().transpose();
+    let normal_matrix = world.matrix3.inverse().transpose();
     let normal = |vertex: u32| {
         let has_normals = !source.normals.is_empty();
-        let own = has_normals.then(|| Vec3::from_array(source.normals.at(vertex as usize)));
-        own.and_then(|own| unit(turned * own))
+        let point = has_normals.then(|| Vec3::from_array(source.normals.at(vertex as usize)));
+        point.and_then(|point| unit(normal_matrix * point))
     };
     let (mut vertices, mut offsets, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
     for ends in ends {
-        let frame = frame(ends.map(place), normal(ends[0]));
+        let frame = frame(ends.map(position), normal(ends[0]));
         let first = u32::try_from(vertices.len()).unwrap_or(u32::MAX);
-        for (end, offset) in solid.corners {
+        for (end, offset) in glyph.corners {
             vertices.push(ends[*end]);
             offsets.push((frame * Vec3::from_array(*offset)).to_array());
         }
-        let own = solid.triangles.iter();
-        triangles.extend(own.map(|corners| corners.map(|corner| first + corner)));
+        let point = glyph.triangles.iter();
+        triangles.extend(point.map(|corners| corners.map(|corner| first + corner)));
     }
-    let anchor = place(*vertices.first()?);
+    let anchor = position(*vertices.first()?);
     let mut mesh = Mesh {
         tangents: Column::default(),
         ..source.clone()
     };
     pick(&mut mesh, &vertices);
-    mesh.positions = Column::rounded(vertices.iter().map(|at| (place(*at) - anchor).to_array()));
+    mesh.positions = Column::rounded(
+        vertices
+            .iter()
+            .map(|at| (position(*at) - anchor).to_array()),
+    );
     if !mesh.normals.is_empty() {
         let normals = vertices.iter().map(|at| normal(*at).unwrap_or(Vec3::Z));
         mesh.normals = Column::rounded(normals.map(|normal| normal.to_array()));
@@ -240,27 +244,27 @@ mod tests {
             (&TRIANGLE, [Vec3::ONE; 2]),
             (&RIBBON, [Vec3::ZERO, Vec3::Y]),
         ];
-        for (solid, ends) in cases {
+        for (glyph, ends) in cases {
             let frame = frame(ends, Some(normal));
             let corner = |at: u32| {
-                let (end, offset) = solid.corners[at as usize];
+                let (end, offset) = glyph.corners[at as usize];
                 ends[end] + frame * Vec3::from_array(offset)
             };
-            for triangle in solid.triangles {
+            for triangle in glyph.triangles {
                 let [a, b, c] = triangle.map(corner);
-                let own = (b - a).cross(c - a).normalize();
-                assert!((own - normal).length() < 1e-12, "{own}");
+                let point = (b - a).cross(c - a).normalize();
+                assert!((point - normal).length() < 1e-12, "{point}");
             }
         }
     }
 
     /// The volume by the divergence theorem; for a prism of height 1 the contribution of its sides.
-    fn volume(solid: &Glyph) -> f64 {
+    fn volume(glyph: &Glyph) -> f64 {
         let corner = |at: u32| {
-            let (end, offset) = solid.corners[at as usize];
+            let (end, offset) = glyph.corners[at as usize];
             Vec3::from_array(offset) + Vec3::Z * if end == 1 { 1.0 } else { 0.0 }
         };
-        let parts = solid.triangles.iter().map(|triangle| {
+        let parts = glyph.triangles.iter().map(|triangle| {
             let [a, b, c] = triangle.map(corner);
             a.dot(b.cross(c)) / 6.0
         });

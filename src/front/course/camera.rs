@@ -107,6 +107,7 @@ impl Lowering {
             aperture_radius,
             aperture_samples,
         } = &camera.value;
+        // The size of the image, from either variant.
         let view_size = match (view_size, sides) {
             (FieldOutcome::Read(size), _) => *size,
             (_, FieldOutcome::Read([width, height])) => {
@@ -115,8 +116,10 @@ impl Lowering {
             _ => return,
         };
         report_pixel_size_without_effect(&camera.value, context);
+        // The field of view and the vectors between pixels.
         let fov = fov(&camera.value, &up, context);
         let basis = basis(&camera.value, &center, &up, context);
+        // The spans of the values.
         for (field, span) in [
             (Field::Whole, camera.span),
             (Field::Eye, eye.span),
@@ -137,6 +140,7 @@ impl Lowering {
             self.origin(ir::EntityKind::Camera, 0, field, span);
         }
         let Some((right, up)) = basis else { return };
+        // The camera of the IR.
         self.scene.camera = ir::Camera {
             eye: eye.value.0,
             center: center.value.0,
@@ -277,6 +281,7 @@ fn basis(
         FieldOutcome::Broken => return None,
         FieldOutcome::Absent => {}
     }
+    // Without `right` the basis follows from the view direction and `up`.
     let [from, to, mut upward] = [eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
     if camera.has_fov() {
         upward = unit(upward).unwrap_or(Vec3::ZERO);

@@ -96,7 +96,7 @@ pub(super) fn is_not_finite_elsewhere(scalar: &str) -> bool {
     let unsigned = scalar.trim_start_matches(['-', '+']);
     KEYWORDS
         .iter()
-        .any(|own| own.eq_ignore_ascii_case(unsigned))
+        .any(|keyword| keyword.eq_ignore_ascii_case(unsigned))
 }
 
 #[cfg(test)]

@@ -2,9 +2,8 @@
 
 use super::decode::{Context, Spanned};
 use super::lower::Lowering;
-use super::object::solid::euler_axes;
 use super::record::{FieldOutcome, keys, record};
-use super::rotation::RotationRows;
+use super::rotation::{RotationRows, euler_axes};
 use super::value::{Channels, FileName, Vector};
 use rtc_diag::{Severity, codes};
 use rtc_ir::{self as ir, EntityKind, Field};

@@ -78,12 +78,12 @@ impl Keyword for LightKind {
 impl Lowering {
     /// Lowers a light.
     pub(super) fn light(&mut self, light: &Spanned<Light>, context: &mut Context<'_>) {
-        let Some((made, actual)) = self.light_from_keys(&light.value) else {
+        let Some((light_ir, kind)) = self.light_from_keys(&light.value) else {
             return;
         };
-        report_unused(&light.value, actual, made.point().is_none(), context);
+        report_unused(&light.value, kind, light_ir.point().is_none(), context);
         let index = self.scene.lights.len();
-        self.scene.lights.push(made);
+        self.scene.lights.push(light_ir);
         self.origin(EntityKind::Light, index, Field::Whole, light.span);
     }
 
@@ -98,6 +98,7 @@ impl Lowering {
             intensity,
             ..
         } = light;
+        // The keys that are present select the type.
         match (position, color, direction, irradiance, file, intensity) {
             (
                 FieldOutcome::Read(position),
@@ -196,31 +197,31 @@ fn point_or_spot(
 }
 
 /// Reports keys without effect on a light of this type.
-fn report_unused(light: &Light, actual: LightKind, is_physical: bool, context: &mut Context<'_>) {
-    if let FieldOutcome::Read(kind) = light.kind
-        && kind.value != actual
+fn report_unused(light: &Light, kind: LightKind, is_physical: bool, context: &mut Context<'_>) {
+    if let FieldOutcome::Read(declared) = light.kind
+        && declared.value != kind
     {
         let message = "the `type` of the light has no effect: its other keys say otherwise";
         let hint = "a sun has `direction` and `irradiance`, a point `position` and `color` or \
                     `intensity`, a spot `direction` and `outerAngle` too, a profile `position`, \
                     `direction` and `file`";
-        no_effect(kind.span, message, hint, context);
+        no_effect(declared.span, message, hint, context);
     }
-    if actual != LightKind::Point || is_physical {
+    if kind != LightKind::Point || is_physical {
         let message =
             "the `radius` of the light has no effect: only a point with a `color` has one";
         no_effect(light.radius.span, message, "remove it", context);
     }
-    if actual != LightKind::Ies {
+    if kind != LightKind::Ies {
         let message =
             "`horizontal` has no effect on the light: only a profile has horizontal angles";
         no_effect(light.horizontal.span, message, "remove it", context);
     }
-    if actual != LightKind::Spot {
+    if kind != LightKind::Spot {
         let message = "`innerAngle` has no effect on the light: only a spot has angles";
         no_effect(light.inner_angle.span, message, "remove it", context);
     }
-    let has_range = is_physical && matches!(actual, LightKind::Point | LightKind::Spot);
+    let has_range = is_physical && matches!(kind, LightKind::Point | LightKind::Spot);
     if let (false, FieldOutcome::Read(range)) = (has_range, light.range) {
         let message = "`range` has no effect on the light: only a point or a spot with an \
                        `intensity` has one";

@@ -158,6 +158,7 @@ impl Lowering {
         let Some(scene) = Scene::decode(root, context) else {
             return;
         };
+        // Camera and settings.
         self.choose_camera(&scene, context);
         self.report_unused_sizes(&scene, context);
         self.settings(&scene, context);
@@ -175,6 +176,7 @@ impl Lowering {
             self.origin(EntityKind::Light, 0, Field::Whole, Some(path));
         }
         self.resolve_soft_lights(&scene, context);
+        // Objects.
         let count = scene.objects.value.len(context);
         scene
             .objects
@@ -186,6 +188,7 @@ impl Lowering {
                 }
                 self.object(&object.value, context);
             });
+        // Decisions that need all entities.
         self.resolve_tori(context);
         self.report_invisible(context);
         if !self.scene.names.is_empty() {
@@ -288,14 +291,14 @@ fn report_no_camera(context: &mut Context<'_>) {
     });
 }
 
-fn report_ignored_camera(word: &str, used: &str, span: Option<Span>, context: &mut Context<'_>) {
+fn report_ignored_camera(ignored: &str, used: &str, span: Option<Span>, context: &mut Context<'_>) {
     let severity = context.unknown_key_severity();
     if let Some(span) = span {
-        let message = || format!("the scene has both `{used}` and `{word}`");
+        let message = || format!("the scene has both `{used}` and `{ignored}`");
         context.report(&codes::TWO_CAMERAS, span, message, |d| {
             d.at(span, format!("ignored: `{used}` is used"))
                 .severity(severity)
-                .hint(format!("remove `{word}`"))
+                .hint(format!("remove `{ignored}`"))
         });
     }
 }

@@ -83,9 +83,9 @@ impl Value for Material {
         let keyword = kind.and_then(|kind| context.tree.text(kind));
         if keyword.is_some_and(|keyword| keyword.eq_ignore_ascii_case(standard::KEYWORD)) {
             return StandardMaterial::decode(node, context)
-                .map(|own| Self::Standard(Box::new(own)));
+                .map(|material| Self::Standard(Box::new(material)));
         }
-        PhongMaterial::decode(node, context).map(|own| Self::Phong(Box::new(own)))
+        PhongMaterial::decode(node, context).map(|material| Self::Phong(Box::new(material)))
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
@@ -137,8 +137,8 @@ impl Lowering {
         let id = match value.as_ref()? {
             Material::Phong(phong) => self.phong_material(phong, material.span, context)?,
             Material::Standard(standard) => {
-                let own = self.standard(standard);
-                let id = self.add_material(own);
+                let lowered = self.standard(standard);
+                let id = self.add_material(lowered);
                 self.origin(
                     EntityKind::Material,
                     id.0 as usize,
@@ -155,7 +155,7 @@ impl Lowering {
     fn phong_material(
         &mut self,
         value: &PhongMaterial,
-        whole: Option<Span>,
+        span: Option<Span>,
         context: &mut Context<'_>,
     ) -> Option<MaterialId> {
         let color = match (&value.color, &value.texture) {
@@ -182,7 +182,7 @@ impl Lowering {
         if let (true, Some(span)) = (lets_through, glass) {
             self.glass.push(Glass { id, span, is_clear });
         }
-        self.material_origins(id, value, whole, color.span);
+        self.material_origins(id, value, span, color.span);
         Some(id)
     }
 
@@ -257,7 +257,7 @@ impl Lowering {
         &mut self,
         id: MaterialId,
         material: &PhongMaterial,
-        whole: Option<Span>,
+        span: Option<Span>,
         color: Option<Span>,
     ) {
         let PhongMaterial {
@@ -277,7 +277,7 @@ impl Lowering {
             glossy_samples,
         } = material;
         for (field, span) in [
-            (Field::Whole, whole),
+            (Field::Whole, span),
             (Field::Color, color),
             (Field::Ka, ka.span),
             (Field::Kd, kd.span),

@@ -33,6 +33,7 @@ pub(super) fn is_number(scalar: &str) -> bool {
 /// Reads a finite number; reports anything else.
 pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Option<f64> {
     let tree = context.tree;
+    // A number is an unquoted scalar.
     let (scalar, quoted) = match tree.shape(node) {
         NodeContent::Word(scalar) => (scalar, false),
         NodeContent::Text(text) => (text, true),

@@ -77,6 +77,7 @@ fn section(title: &str, record: &Record, page: &mut String) {
         schema,
     } in record.fields
     {
+        // The spellings.
         let (canonical, others) = spellings.split_first().expect("a field has a row of keys");
         let others: Vec<_> = others.iter().map(|row| code(row)).collect();
         let in_json = json.iter().map(|first| {
@@ -85,6 +86,7 @@ fn section(title: &str, record: &Record, page: &mut String) {
         });
         let in_json = in_json.collect::<Vec<_>>().join("; ");
         let in_variant = record.variants.iter().any(|variant| variant.contains(name));
+        // The default.
         let default = match need {
             Need::Required => "required".to_owned(),
             Need::Unless(other) => {
@@ -104,6 +106,7 @@ fn section(title: &str, record: &Record, page: &mut String) {
         )
         .expect(INFALLIBLE);
     }
+    // The variants.
     if record.variants.len() > 1 {
         let keys = |name: &&str| {
             record
@@ -131,7 +134,7 @@ fn section(title: &str, record: &Record, page: &mut String) {
 fn code(names: &[&str]) -> String {
     names
         .iter()
-        .map(|word| format!("`{word}`"))
+        .map(|name| format!("`{name}`"))
         .collect::<Vec<_>>()
         .join(" ")
 }
@@ -148,7 +151,7 @@ fn kind(schema: &Json) -> String {
         return names
             .iter()
             .filter_map(Json::as_str)
-            .map(|word| format!("`{word}`"))
+            .map(|name| format!("`{name}`"))
             .collect::<Vec<_>>()
             .join(", ");
     }

@@ -31,6 +31,7 @@ impl Lowering {
             reflections,
             ..
         } = scene;
+        // Only path tracing renders these entities.
         let is_physical = self.scene.environment.is_some()
             || self
                 .scene
@@ -50,6 +51,7 @@ impl Lowering {
         if mode.value != Mode::Path && (mode.span.is_some() || !is_physical) {
             return;
         }
+        // The samples per pixel.
         let rays = sampling
             .value
             .factor
@@ -72,6 +74,7 @@ impl Lowering {
                 ir::PathSettings { samples, ..usual }
             }
         });
+        // The default depth of path tracing.
         if depth.span.is_none() && reflections.is_absent() {
             settings.max_depth = ir::PathSettings::DEPTH;
         }

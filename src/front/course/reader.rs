@@ -116,6 +116,7 @@ impl MapReader {
             }
         }
         context.entries.truncate(self.first_entry);
+        // Missing keys.
         let has = |name: &str| {
             let at = self
                 .record
@@ -190,6 +191,7 @@ impl MapReader {
             });
             return 0;
         }
+        // A key of an incomplete group.
         if let Some((at, absent)) = self.nearest_group(entry.key, context) {
             let message = || {
                 format!(
@@ -203,6 +205,7 @@ impl MapReader {
             });
             return 1 << at;
         }
+        // A key of another record or program, or an unknown one.
         let Some((advice, suggestion)) = self.advice(entry.key) else {
             self.report_unknown(entry, context);
             return 0;

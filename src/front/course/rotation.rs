@@ -2,13 +2,11 @@
 
 use super::decode::{Context, Spanned, Value};
 use super::number::{Degrees, number, plain_number};
-use super::object::cube::axes_rotated_about;
-use super::object::solid::euler_axes;
 use super::record::FieldOutcome;
 use super::schema::Definitions;
 use super::value::{Angles, Vector, tuple};
 use rtc_diag::{Severity, clip, codes};
-use rtc_math::Vec3;
+use rtc_math::{Vec3, cos, sin, turned_about, unit};
 use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
@@ -142,6 +140,7 @@ impl RotationKeys<'_> {
         if rotation.is_broken() || axis.is_broken() || angle.is_broken() {
             return None;
         }
+        // An axis and an angle override angles; each of them alone has no effect.
         let angles = rotation.read().and_then(|rotation| rotation.value.0);
         match (axis.read(), angle.read(), angles) {
             (Some(axis), Some(angle), _) => {
@@ -196,4 +195,35 @@ pub(super) fn world_from_object(
     let [x, y, z] = axes;
     let [x, y, z] = [x * scale[0], y * scale[1], z * scale[2]].map(|axis| axis.to_array());
     [x, y, z, position]
+}
+
+/// The axes rotated by an angle in radians about an axis; unchanged if the axis is zero.
+pub(super) fn axes_rotated_about(axis: Vec3, angle: f64) -> [Vec3; 3] {
+    let sin_cos = [sin(angle), cos(angle)];
+    unit(axis).map_or(Vec3::AXES, |axis| {
+        Vec3::AXES.map(|v| turned_about(v, axis, sin_cos))
+    })
+}
+
+/// The axes rotated by angles in radians about x, then y, then z.
+pub(super) fn euler_axes(angles: [f64; 3]) -> [Vec3; 3] {
+    let [(cx, sx), (cy, sy), (cz, sz)] = angles.map(|angle| (cos(angle), sin(angle)));
+    Vec3::AXES.map(|Vec3 { x, y, z }| {
+        let (y, z) = (y * cx - z * sx, y * sx + z * cx);
+        let (x, z) = (x * cy + z * sy, z * cy - x * sy);
+        Vec3::new(x * cz - y * sz, x * sz + y * cz, z)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quarter_turn_about_z_takes_x_to_y() {
+        let [x, y, z] = axes_rotated_about(Vec3::Z * 3.0, std::f64::consts::FRAC_PI_2);
+        let is_near = |a: Vec3, b: Vec3| (a - b).length() < 1e-15;
+        assert!(is_near(x, Vec3::Y) && is_near(y, Vec3::NEG_X) && is_near(z, Vec3::Z));
+        assert_eq!(axes_rotated_about(Vec3::ZERO, 1.0), Vec3::AXES);
+    }
 }

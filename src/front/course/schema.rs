@@ -12,7 +12,7 @@ use serde_json::{Map, Value as Json, json};
 /// The schemas of the records so far, by their names.
 #[derive(Default)]
 pub(super) struct Definitions {
-    made: Map<String, Json>,
+    schemas: Map<String, Json>,
 }
 
 /// The JSON Schema (2020-12) of the format.
@@ -24,17 +24,17 @@ pub fn schema() -> Json {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "rtc scene",
         "$ref": root["$ref"],
-        "$defs": definitions.made,
+        "$defs": definitions.schemas,
     })
 }
 
 /// A reference to the schema of a record. The schema is generated at the first reference.
 pub(super) fn record(record: &Record, definitions: &mut Definitions) -> Json {
     let name = record.name.replace('`', "").replace(' ', "-");
-    if !definitions.made.contains_key(&name) {
-        definitions.made.insert(name.clone(), Json::Null);
-        let body = body(record, definitions);
-        definitions.made.insert(name.clone(), body);
+    if !definitions.schemas.contains_key(&name) {
+        definitions.schemas.insert(name.clone(), Json::Null);
+        let record_schema = record_schema(record, definitions);
+        definitions.schemas.insert(name.clone(), record_schema);
     }
     json!({ "$ref": format!("#/$defs/{name}") })
 }
@@ -54,7 +54,8 @@ pub(super) fn tagged(tag: &str, doc: &str, kinds: &[(&str, Json)]) -> Json {
     })
 }
 
-fn body(record: &Record, definitions: &mut Definitions) -> Json {
+fn record_schema(record: &Record, definitions: &mut Definitions) -> Json {
+    // The properties.
     let mut properties = Map::new();
     for field in record.fields {
         field_properties(field, definitions, &mut properties);
@@ -84,6 +85,7 @@ fn body(record: &Record, definitions: &mut Definitions) -> Json {
             }
         }
     }
+    // The variants.
     if !record.variants.is_empty() {
         let variants: Vec<_> = record
             .variants
@@ -92,7 +94,7 @@ fn body(record: &Record, definitions: &mut Definitions) -> Json {
             .collect();
         rules.push(json!({ "oneOf": variants }));
     }
-    let mut body = json!({
+    let mut record_schema = json!({
         "description": record.doc.trim(),
         "type": "object",
         "properties": properties,
@@ -100,10 +102,10 @@ fn body(record: &Record, definitions: &mut Definitions) -> Json {
     });
     for (key, list) in [("required", json!(required)), ("allOf", json!(rules))] {
         if list.as_array().is_some_and(|list| !list.is_empty()) {
-            body[key] = list;
+            record_schema[key] = list;
         }
     }
-    body
+    record_schema
 }
 
 /// Adds one property for each key. The description of other spellings names the canonical one.
@@ -188,14 +190,16 @@ fn one_variant(record: &Record, variant: &[&str]) -> Json {
             .iter()
             .filter(|field| variant.contains(&field.name))
     };
-    let own: Vec<_> = members().flat_map(keys).collect();
+    let variant_keys: Vec<_> = members().flat_map(keys).collect();
     let others = record.fields.iter().filter(|field| {
         record
             .variants
             .iter()
             .any(|variant| variant.contains(&field.name))
     });
-    let others = others.flat_map(keys).filter(|key| !own.contains(key));
+    let others = others
+        .flat_map(keys)
+        .filter(|key| !variant_keys.contains(key));
     let rules: Vec<_> = members().map(one_row).collect();
     json!({ "allOf": rules, "properties": forbid(others) })
 }

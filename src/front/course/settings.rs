@@ -145,10 +145,10 @@ const NUMBERED: &[(u8, Mode)] = &[
 
 impl Value for Mode {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        let given = plain_number(node, context);
+        let parameters = plain_number(node, context);
         let numbered = NUMBERED
             .iter()
-            .find(|(number, _)| given == Some(f64::from(*number)));
+            .find(|(number, _)| parameters == Some(f64::from(*number)));
         numbered
             .map(|(_, mode)| *mode)
             .or_else(|| keyword(node, MODES, context))
@@ -276,12 +276,12 @@ impl Lowering {
         gooch: &FieldOutcome<Spanned<Gooch>>,
         context: &mut Context<'_>,
     ) -> ir::Mode {
-        let given = if let FieldOutcome::Read(gooch) = gooch {
+        let parameters = if let FieldOutcome::Read(gooch) = gooch {
             Some(gooch)
         } else {
             None
         };
-        if let (true, Some(span)) = (mode != Mode::Gooch, given.and_then(|gooch| gooch.span)) {
+        if let (true, Some(span)) = (mode != Mode::Gooch, parameters.and_then(|gooch| gooch.span)) {
             let message = || "`GoochParameters` has no effect on the `RenderMode`".to_owned();
             context.report(&codes::NO_EFFECT, span, message, |d| {
                 d.at(span, "only for `RenderMode: gooch`")
@@ -292,7 +292,9 @@ impl Lowering {
             Mode::Zbuffer => ir::Mode::Zbuffer,
             Mode::Normal => ir::Mode::Normal,
             Mode::Path => ir::Mode::Path(ir::PathSettings::default()),
-            Mode::Gooch => ir::Mode::Gooch(given.map_or(GOOCH, |gooch| self.gooch(&gooch.value))),
+            Mode::Gooch => {
+                ir::Mode::Gooch(parameters.map_or(GOOCH, |gooch| self.gooch(&gooch.value)))
+            }
         }
     }
 
@@ -325,6 +327,7 @@ fn report_unused(scene: &Scene, context: &mut Context<'_>) {
         Mode::Phong | Mode::Path => return,
         Mode::Zbuffer | Mode::Normal | Mode::Gooch | Mode::Uv => {}
     }
+    // Gooch shading: programs differ about shadows.
     if let (Mode::Gooch, true, Some(span)) = (mode.value, shadows.value, shadows.span) {
         let message = || "`gooch` casts no shadows here".to_owned();
         context.report(&codes::TWO_READINGS, span, message, |d| {
@@ -333,6 +336,7 @@ fn report_unused(scene: &Scene, context: &mut Context<'_>) {
                 .hint("`RenderMode: phong` has shadows; `Shadows: false` says that none are meant")
         });
     }
+    // The other settings.
     let reflections = reflections.ok();
     let rays = sampling.value.factor.0;
     for (is_set, span, what) in [

@@ -38,8 +38,8 @@ pub(super) fn suggest(
             Some(("an empty list is written `[]`".to_owned(), None))
         }
         NodeContent::Word("") => {
-            let rest = tree.rest_of_line(key.span?).trim_start_matches(':').trim();
-            let comment = rest.starts_with('#').then_some(rest)?;
+            let line = tree.rest_of_line(key.span?).trim_start_matches(':').trim();
+            let comment = line.starts_with('#').then_some(line)?;
             let hint = "`#` starts a comment".to_owned();
             Some(match color(comment).filter(|_| takes_triple) {
                 Some(color) => (format!("{hint}; as numbers the colour is `{color}`"), None),
@@ -173,20 +173,23 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
             .ok()
             .filter(|number| number.is_finite())
     };
-    let plain = to_ascii(text);
-    if plain != text && read(&plain).is_some() {
+    // Look-alike characters.
+    let ascii = to_ascii(text);
+    if ascii != text && read(&ascii).is_some() {
         let other = text.chars().find(|c| !c.is_ascii())?;
         let hint = format!(
             "`{other}` is U+{:04X}, which only looks like a character of numbers",
             u32::from(other)
         );
-        return Some((hint, Some(plain)));
+        return Some((hint, Some(ascii)));
     }
+    // A comment of another language.
     if let Some((before, comment)) = text.split_once("//") {
         read(before)?;
         let text = format!("{} #{comment}", before.trim());
         return Some(("`#` starts a comment".to_owned(), Some(text)));
     }
+    // Trailing punctuation.
     if let Some(before) = text.strip_suffix([';', ',']) {
         read(before)?;
         return Some((
@@ -194,19 +197,21 @@ fn number(text: &str) -> Option<(String, Option<String>)> {
             Some(before.trim().to_owned()),
         ));
     }
+    // A decimal comma.
     if let Some((integer, decimals)) = text.split_once(',') {
         let is_decimal = !decimals.is_empty() && decimals.bytes().all(|byte| byte.is_ascii_digit());
         let point = format!("{integer}.{decimals}");
         read(&point).filter(|_| is_decimal)?;
         return Some(("decimals follow a point".to_owned(), Some(point)));
     }
-    if let Some(result) = expression::evaluate(&plain) {
+    // An expression.
+    if let Some(result) = expression::evaluate(&ascii) {
         let hint = "expressions are not evaluated: write the result".to_owned();
         return Some((hint, Some(shortest(result))));
     }
     let number =
-        plain.trim_end_matches(|c: char| c.is_alphabetic() || matches!(c, '°' | '%' | ' '));
-    read(number).filter(|_| number.len() < plain.len())?;
+        ascii.trim_end_matches(|c: char| c.is_alphabetic() || matches!(c, '°' | '%' | ' '));
+    read(number).filter(|_| number.len() < ascii.len())?;
     Some(("a number has no unit".to_owned(), Some(number.to_owned())))
 }
 
@@ -220,8 +225,8 @@ fn to_ascii(text: &str) -> String {
         c if c.is_whitespace() => Some(' '),
         c => Some(c),
     };
-    let plain: String = text.chars().filter_map(ascii).collect();
-    plain.trim().to_owned()
+    let ascii: String = text.chars().filter_map(ascii).collect();
+    ascii.trim().to_owned()
 }
 
 #[cfg(test)]

@@ -120,8 +120,8 @@ impl NamedFiles {
     }
 
     /// Adds a glTF asset that is placed by `world_from_object`.
-    pub(super) fn gltf(&mut self, place: [[f64; 3]; 4], file: &Spanned<FileName>) {
-        self.add_pending(AssetTarget::Gltf(place), file);
+    pub(super) fn gltf(&mut self, world_from_object: [[f64; 3]; 4], file: &Spanned<FileName>) {
+        self.add_pending(AssetTarget::Gltf(world_from_object), file);
     }
 
     pub(super) fn add_pending(&mut self, target: AssetTarget, file: &Spanned<FileName>) {

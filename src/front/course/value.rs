@@ -189,10 +189,11 @@ const NUMBERED: &[(u8, &str, bool)] = &[(0, "false", false), (1, "true", true)];
 
 impl Value for bool {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        let given = plain_number(node, context);
+        // A number in place of a boolean.
+        let value = plain_number(node, context);
         if let Some((_, scalar, boolean)) = NUMBERED
             .iter()
-            .find(|(number, ..)| given == Some(f64::from(*number)))
+            .find(|(number, ..)| value == Some(f64::from(*number)))
         {
             context.record_spelling(
                 if *boolean { "1" } else { "0" },
@@ -209,6 +210,7 @@ impl Value for bool {
             (NodeContent::Word(_), "false" | "False" | "FALSE") => return Some(false),
             _ => {}
         }
+        // A boolean of YAML 1.1, or one in quotes.
         let suggestion = match text.to_ascii_lowercase().as_str() {
             "true" | "yes" | "y" | "on" => "true",
             "false" | "no" | "n" | "off" => "false",

@@ -30,20 +30,20 @@ pub(super) fn check(
     }
     // A required field counts as present: if it is missing, that was reported. A field with a
     // default belongs to no variant.
-    let given = |at: usize, field: &FieldDeclaration| match field.need {
+    let present = |at: usize, field: &FieldDeclaration| match field.need {
         Need::Required => true,
         Need::Optional | Need::Unless(_) => is_there(at),
         Need::Default(_) => false,
     };
     let in_variants =
         |field: &FieldDeclaration| variants.iter().any(|variant| variant.contains(&field.name));
-    let given = fields
+    let present = fields
         .iter()
         .enumerate()
-        .filter(|(at, field)| given(*at, field) && in_variants(field));
+        .filter(|(at, field)| present(*at, field) && in_variants(field));
     // Nearly every record has a valid variant, so this check does not allocate.
     let is_it = |variant: &&[&str]| {
-        let within = given.clone().try_fold(0, |count, (_, field)| {
+        let within = present.clone().try_fold(0, |count, (_, field)| {
             variant.contains(&field.name).then_some(count + 1)
         });
         within == Some(variant.len())
@@ -51,8 +51,8 @@ pub(super) fn check(
     if variants.iter().any(is_it) {
         return true;
     }
-    let given: Vec<_> = given.map(|(_, field)| field.name).collect();
-    if context.options.lenient && is_only_turned(record, &given) {
+    let present: Vec<_> = present.map(|(_, field)| field.name).collect();
+    if context.options.lenient && is_only_turned(record, &present) {
         let message = || format!("the {name} has no `rotation` with these keys");
         context.report(&codes::NO_EFFECT, head, message, |d| {
             d.at(head, "the `rotation` is ignored")
@@ -60,13 +60,13 @@ pub(super) fn check(
         });
         return true;
     }
-    report(record, head, &given, first_typo, context);
+    report(record, head, &present, first_typo, context);
     false
 }
 
 /// Whether the present fields without the rotation are one of the variants.
-fn is_only_turned(record: &Record, given: &[&str]) -> bool {
-    let rest = || given.iter().filter(|name| **name != ROTATION);
+fn is_only_turned(record: &Record, present: &[&str]) -> bool {
+    let rest = || present.iter().filter(|name| **name != ROTATION);
     let is_it = |variant: &&[&str]| {
         rest().count() == variant.len() && rest().all(|name| variant.contains(name))
     };
@@ -77,12 +77,12 @@ fn is_only_turned(record: &Record, given: &[&str]) -> bool {
 fn report(
     record: &Record,
     head: Span,
-    given: &[&str],
+    present: &[&str],
     first_typo: usize,
     context: &mut Context<'_>,
 ) {
     let Record { name, variants, .. } = record;
-    let missing = missing(record, given);
+    let missing = missing(record, present);
     let (code, message) = match missing.as_slice() {
         [] => (
             &codes::CONFLICTING_KEYS,
@@ -116,22 +116,22 @@ fn report(
 }
 
 /// For each variant that contains all present fields and lacks the fewest: the missing keys.
-fn missing(record: &Record, given: &[&str]) -> Vec<String> {
-    let has_all = |variant: &&&[&str]| given.iter().all(|name| variant.contains(name));
+fn missing(record: &Record, present: &[&str]) -> Vec<String> {
+    let has_all = |variant: &&&[&str]| present.iter().all(|name| variant.contains(name));
     let possible = record.variants.iter().filter(has_all);
     // Without any field only the first variant is recommended.
-    let least = match given {
+    let min_len = match present {
         [] => record.variants.first().map(|variant| variant.len()),
         _ => possible.clone().map(|variant| variant.len()).min(),
     };
-    let nearest = possible.filter(|variant| Some(variant.len()) == least);
+    let nearest = possible.filter(|variant| Some(variant.len()) == min_len);
     let missing = nearest.map(|variant| {
-        let lacks = |name: &&str| !given.contains(name);
+        let lacks = |name: &&str| !present.contains(name);
         let missing: Vec<_> = variant.iter().copied().filter(lacks).collect();
         keys(record, &missing)
     });
     missing
-        .take(if given.is_empty() { 1 } else { usize::MAX })
+        .take(if present.is_empty() { 1 } else { usize::MAX })
         .collect()
 }
 

@@ -115,6 +115,7 @@ impl Lowering {
             aspect_ratio,
             ..
         } = scene;
+        // A size beside a `Camera`.
         let [width, height] = self.scene.camera.size;
         if let (
             FieldOutcome::Read(_),

@@ -22,6 +22,7 @@ pub(super) fn load(
     lowered: &mut Lowered,
     loader: &mut AssetLoader<'_>,
 ) {
+    // Find, read and decode the file.
     let found = loader.find(pending, MissingAssetPolicy::Environment);
     let image = found.and_then(
         |found| match loader.loader.found(&found, MAX_BYTES, loader.map) {
@@ -46,8 +47,9 @@ pub(super) fn load(
             }
         },
     );
+    // Replace the placeholder.
     match (image, lowered.scene.images.get_mut(id.0 as usize)) {
-        (Some(image), Some(place)) => *place = image,
+        (Some(image), Some(slot)) => *slot = image,
         (_, _) => lowered.scene.environment = None,
     }
 }

@@ -41,7 +41,7 @@ impl GltfAssets {
     /// Loads an asset and places it. If that fails, nothing is placed.
     pub(super) fn load(
         &mut self,
-        place: [[f64; 3]; 4],
+        transform: [[f64; 3]; 4],
         pending: &PendingAsset,
         lowered: &mut Lowered,
         loader: &mut AssetLoader<'_>,
@@ -52,6 +52,7 @@ impl GltfAssets {
         let Some(found) = loader.find(pending, MissingAssetPolicy::Object) else {
             return;
         };
+        // Load the asset the first time.
         let asset = self.cache.get_or_load(&found, || {
             let bytes = loader.loader.found(&found, MAX_BYTES, loader.map);
             let bytes = bytes.map_err(|error| {
@@ -72,8 +73,9 @@ impl GltfAssets {
             Some(add(asset, lowered))
         });
         let Some(asset) = asset else { return };
+        // Place it if the budget allows.
         match asset.charge(loader.map.budget()) {
-            Ok(()) => asset.place(DAffine3::from_cols_array_2d(&place), pending, lowered),
+            Ok(()) => asset.transform(DAffine3::from_cols_array_2d(&transform), pending, lowered),
             Err(fault) => {
                 self.is_over = true;
                 loader
@@ -139,9 +141,9 @@ impl IndexOffsets {
             (EntityKind::Material, self.materials, materials.len()),
         ] {
             for index in 0..count {
-                let place = ValuePath::new(entity, offsets as usize + index, Field::Whole);
-                let own = ValuePath::new(entity, index, Field::Whole);
-                source_spans.record(place, asset.source_spans.span(own));
+                let transform = ValuePath::new(entity, offsets as usize + index, Field::Whole);
+                let source = ValuePath::new(entity, index, Field::Whole);
+                source_spans.record(transform, asset.source_spans.span(source));
             }
         }
     }
@@ -183,22 +185,22 @@ fn add(asset: Lowered, lowered: &mut Lowered) -> ImportedAsset {
     } = lowered;
     let offsets = IndexOffsets::of(scene);
     offsets.record(&asset, source_spans);
-    let own = asset.scene;
-    let textures = own.textures.into_iter();
-    let materials = own.materials.into_iter();
-    let surfaces = own.surfaces.into_iter();
-    scene.images.extend(own.images);
+    let source = asset.scene;
+    let textures = source.textures.into_iter();
+    let materials = source.materials.into_iter();
+    let surfaces = source.surfaces.into_iter();
+    scene.images.extend(source.images);
     scene
         .textures
-        .extend(textures.map(|own| offsets.texture(own)));
-    scene.meshes.extend(own.meshes);
+        .extend(textures.map(|source| offsets.texture(source)));
+    scene.meshes.extend(source.meshes);
     scene
         .materials
-        .extend(materials.map(|own| offsets.material(own)));
+        .extend(materials.map(|source| offsets.material(source)));
     ImportedAsset {
-        surfaces: surfaces.map(|own| offsets.surface(own)).collect(),
-        names: own.names,
-        lights: own.lights,
+        surfaces: surfaces.map(|source| offsets.surface(source)).collect(),
+        names: source.names,
+        lights: source.lights,
     }
 }
 
@@ -213,7 +215,7 @@ impl ImportedAsset {
     }
 
     /// Adds the surfaces and lights of the asset, transformed by `world`.
-    fn place(&self, world: DAffine3, pending: &PendingAsset, lowered: &mut Lowered) {
+    fn transform(&self, world: DAffine3, pending: &PendingAsset, lowered: &mut Lowered) {
         let Lowered {
             scene,
             source_spans,
@@ -228,8 +230,8 @@ impl ImportedAsset {
         for surface in &self.surfaces {
             let mut surface = surface.clone();
             if let Shape::Instance(instance) = &mut surface.shape {
-                let own = DAffine3::from_cols_array_2d(&instance.world_from_object);
-                instance.world_from_object = (world * own).to_cols_array_2d();
+                let source = DAffine3::from_cols_array_2d(&instance.world_from_object);
+                instance.world_from_object = (world * source).to_cols_array_2d();
             }
             source_spans.record(
                 ValuePath::new(EntityKind::Surface, scene.surfaces.len(), Field::Whole),
@@ -253,13 +255,13 @@ fn placed(light: &Light, world: DAffine3) -> Light {
         return light.clone();
     };
     let mut emitter = emitter.clone();
-    let place = |point| world.transform_point3(Vec3::from_array(point)).to_array();
+    let transform = |point| world.transform_point3(Vec3::from_array(point)).to_array();
     let rotation_keys = |direction| {
         world
             .transform_vector3(Vec3::from_array(direction))
             .to_array()
     };
-    emitter.transform(place, rotation_keys, 1.0);
+    emitter.transform(transform, rotation_keys, 1.0);
     Light::Punctual(Punctual {
         emitter,
         intensity: *intensity,

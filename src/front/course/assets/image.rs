@@ -120,11 +120,12 @@ pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
         images,
         ..
     } = &mut lowered.scene;
+    // Each image is examined once, whatever the number of its materials.
     let image = |texture: TextureId| match textures.get(texture.0 as usize) {
         Some(Texture::Image(image)) => Some(*image),
         Some(Texture::Uv | Texture::Sampled(_)) | None => None,
     };
-    let mut known: Vec<Option<bool>> = vec![None; images.len()];
+    let mut is_normal_map: Vec<Option<bool>> = vec![None; images.len()];
     for (index, material) in materials.iter_mut().enumerate() {
         let Some(phong) = material.phong_mut() else {
             continue;
@@ -139,7 +140,8 @@ pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
         else {
             continue;
         };
-        if *known[image].get_or_insert_with(|| holds_normals(&images[image].pixels)) {
+        // Replace the bump map by a normal map.
+        if *is_normal_map[image].get_or_insert_with(|| holds_normals(&images[image].pixels)) {
             phong.normal_map = Some(texture);
             phong.bump = None;
             let message = format!(

@@ -110,6 +110,7 @@ impl MaterialBinder<'_, '_> {
             self.report_no_material(pending, "the mesh has no `material`, so it is grey");
             return Ok(());
         };
+        // With a material in the scene only report unused materials.
         let file = &self.meshes.files[at];
         let is_whole = file.full_mesh_id == Some(mesh);
         if pending.source == MaterialSource::Scene {
@@ -127,6 +128,7 @@ impl MaterialBinder<'_, '_> {
             loader,
             ..
         } = self;
+        // Add the materials of the file to the scene the first time.
         let mesh_materials = mesh_materials.entry(at).or_insert_with(|| {
             let materials = file.materials(cache, lowered, loader)?;
             Some(MeshMaterials {
@@ -137,14 +139,15 @@ impl MaterialBinder<'_, '_> {
         let materials = mesh_materials
             .as_ref()
             .map(|mesh_materials| &*mesh_materials.materials);
+        // Choose the material of the surface, or split it.
         let material = match materials {
             None => None,
             Some([material]) if is_whole => *material,
             Some(_) if is_whole => return self.split(pending, mesh, at),
             Some(materials) => {
                 let part = lowered.scene.meshes[mesh.0 as usize].part.as_deref();
-                let surface_part = part.and_then(|part| file.material_use.index_of(part));
-                surface_part.and_then(|surface_part| materials[surface_part])
+                let part_surface = part.and_then(|part| file.material_use.index_of(part));
+                part_surface.and_then(|part_surface| materials[part_surface])
             }
         };
         match material {
@@ -169,6 +172,7 @@ impl MaterialBinder<'_, '_> {
             scene,
             source_spans,
         } = &mut *self.lowered;
+        // Split the mesh the first time; its first part replaces it.
         if mesh_materials.parts.is_empty() {
             let path = |mesh: usize| ValuePath::new(EntityKind::Mesh, mesh, Field::Whole);
             let (mesh_index, span) = (mesh.0 as usize, source_spans.span(path(mesh.0 as usize)));
@@ -188,24 +192,26 @@ impl MaterialBinder<'_, '_> {
                 }
             }
         }
+        // Charge the surfaces that are added.
         let more = mesh_materials.parts.len().saturating_sub(1) as u64;
         budget.charge(Resource::Surfaces, more)?;
         budget.charge(Resource::Memory, more * gltf::SURFACE)?;
         let surface = scene.surfaces[pending.surface].clone();
         let path = |surface| ValuePath::new(EntityKind::Surface, surface, Field::Whole);
         let span = source_spans.span(path(pending.surface));
+        // Add one surface per part; the first replaces the surface.
         let parts = mesh_materials.parts.iter().zip(&mesh_materials.materials);
         for (first, (part, material)) in parts.enumerate() {
-            let mut surface_part = surface.clone();
-            if let Shape::Instance(instance) = &mut surface_part.shape {
+            let mut part_surface = surface.clone();
+            if let Shape::Instance(instance) = &mut part_surface.shape {
                 instance.mesh = *part;
             }
-            surface_part.material = material.unwrap_or(surface_part.material);
+            part_surface.material = material.unwrap_or(part_surface.material);
             if first == 0 {
-                scene.surfaces[pending.surface] = surface_part;
+                scene.surfaces[pending.surface] = part_surface;
             } else {
                 source_spans.record(path(scene.surfaces.len()), span);
-                scene.surfaces.push(surface_part);
+                scene.surfaces.push(part_surface);
             }
         }
         if !scene.names.is_empty() {

@@ -61,6 +61,7 @@ impl MeshFiles {
             return;
         };
         let files = &mut self.files;
+        // Read the file the first time.
         let at = self.cache.get_or_load(&found, || {
             let mesh_file = read_file(&found, pending, loader)?;
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
@@ -79,6 +80,7 @@ impl MeshFiles {
         let Some(target) = lowered.scene.meshes.get_mut(id.0 as usize) else {
             return;
         };
+        // Fill the placeholder with the entire mesh or a part of it.
         let mesh_file = &mut files[at];
         match &target.part {
             None if mesh_file.full_mesh_id.is_some() => {}
@@ -213,6 +215,7 @@ fn extract(
     // Each corner adds at most one vertex.
     let corners = 3 * triangles().count().min(new_indices.len());
     budget.has(Resource::Memory, 8 * corners as u64)?;
+    // Number the vertices in the order of first use.
     for corner in triangles().flatten() {
         let new_index = &mut new_indices[*corner as usize];
         if *new_index == UNASSIGNED {
@@ -220,6 +223,7 @@ fn extract(
             used.push(*corner);
         }
     }
+    // Charge the budget.
     let column = |is_empty: bool, bytes: u64| if is_empty { 0 } else { bytes };
     let vertex = 24
         + column(mesh.uvs.is_empty(), 16)
@@ -228,6 +232,7 @@ fn extract(
     budget.charge(Resource::Vertices, used.len() as u64)?;
     let memory = vertex * used.len() as u64 + 12 * triangles().count() as u64;
     budget.charge(Resource::Memory, memory)?;
+    // Copy the vertices and renumber the triangles.
     let part = Mesh {
         positions: mesh.positions.pick(&used),
         normals: mesh.normals.pick(&used),
@@ -238,6 +243,7 @@ fn extract(
             .collect(),
         ..Mesh::default()
     };
+    // Reset the indices for the next part.
     used.iter()
         .for_each(|corner| new_indices[*corner as usize] = UNASSIGNED);
     Ok(part)

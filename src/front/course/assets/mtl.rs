@@ -86,21 +86,25 @@ impl MeshFile {
         if !self.material_use.names_any() {
             return None;
         }
+        // Load the libraries.
         let libraries = self.read(loader);
         if libraries.is_empty() {
             return None;
         }
+        // Add the materials that the faces use.
         let mut materials = Vec::with_capacity(self.material_use.materials.len());
         let mut unknown: Option<(&Named, usize)> = None;
         for named in &self.material_use.materials {
-            let place = libraries
+            let definition = libraries
                 .iter()
                 .find_map(|loaded| Some((loaded, loaded.library.materials.get(&named.text)?)));
-            if place.is_none() && !named.text.is_empty() {
+            if definition.is_none() && !named.text.is_empty() {
                 unknown.get_or_insert((named, 0)).1 += 1;
             }
-            materials.push(place.map(|(loaded, material)| cache.add(loaded, material, lowered)));
+            materials
+                .push(definition.map(|(loaded, material)| cache.add(loaded, material, lowered)));
         }
+        // Report undefined materials.
         if let Some((first, count)) = unknown {
             let more = match count {
                 1 => String::new(),
@@ -162,7 +166,7 @@ impl MeshFile {
         if settings.max_depth == 0 || settings.mode != Mode::Phong {
             return;
         }
-        let place = |loaded: &LoadedLibrary| -> Option<Span> {
+        let definition = |loaded: &LoadedLibrary| -> Option<Span> {
             let is_used = |named: &&Named| loaded.library.materials.contains_key(&named.text);
             let used = self.material_use.materials.iter().filter(is_used);
             let mut mirrors = used.filter_map(|named| {
@@ -173,7 +177,7 @@ impl MeshFile {
             });
             mirrors.next()
         };
-        if let Some(span) = libraries.iter().find_map(place) {
+        if let Some(span) = libraries.iter().find_map(definition) {
             let note = Diagnostic::new(&codes::TWO_READINGS, "the `Ks` of an MTL is a mirror too");
             let note = note.severity(Severity::Note);
             loader.sink.push(

@@ -131,13 +131,13 @@ impl<'a> NumberReader<'a> {
         self.word()?.number()
     }
 
-    /// Reads a count of at least `least`.
-    fn count(&mut self, least: usize, entity: &str) -> Result<usize, WordFault> {
+    /// Reads a count of at least `min`.
+    fn count(&mut self, min: usize, entity: &str) -> Result<usize, WordFault> {
         let word = self.word()?;
         let count = usize::try_from(word.integer()?).ok();
-        count.filter(|count| *count >= least).ok_or_else(|| {
+        count.filter(|count| *count >= min).ok_or_else(|| {
             let message = format!("there can't be {} {entity}", word.text());
-            word.fault(message, format!("at least {least}"))
+            word.fault(message, format!("at least {min}"))
         })
     }
 

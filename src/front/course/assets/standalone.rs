@@ -29,20 +29,21 @@ pub fn lower_standalone_mesh(
     map: &mut SourceMap,
     sink: &mut Sink,
 ) -> Option<Lowered> {
-    let parsed = read(file, map, sink)?;
+    let parsed = parse_file(file, map, sink)?;
     let name = map.name(file).rsplit(['/', '\\']).next();
     let name = name.unwrap_or_default().to_owned();
     let has_colors = !parsed.mesh.colors.is_empty();
     mesh::report_not_drawn(&parsed, file, None, sink);
-    let own = MeshFile::new(parsed, file, name.clone());
+    let mesh_file = MeshFile::new(parsed, file, name.clone());
+    // A scene with one instance of the mesh, seen by a default camera.
     let mut scene = gltf::empty();
     scene.meshes.push(Mesh {
         name,
-        ..own.full_mesh()
+        ..mesh_file.full_mesh()
     });
     scene
         .materials
-        .push(Material::Standard(Box::new(plain(has_colors))));
+        .push(Material::Standard(Box::new(default_material(has_colors))));
     let [x, y, z] = Vec3::AXES.map(|axis| axis.to_array());
     scene.surfaces.push(Surface {
         shape: Shape::Instance(Instance {
@@ -55,6 +56,7 @@ pub fn lower_standalone_mesh(
     if let Some(ball) = scene.ball() {
         scene.camera = gltf::looking_at(ball);
     }
+    // The span of all entities is the start of the file.
     let mut source_spans = SourceSpans::default();
     for entity in [EntityKind::Mesh, EntityKind::Surface] {
         source_spans.record(
@@ -66,11 +68,12 @@ pub fn lower_standalone_mesh(
         scene,
         source_spans,
     };
+    // Load the materials of the mesh.
     let folder = map.folder(file);
     let search = Search::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
     let mut import = AssetImport::new(search, options, map, sink);
-    import.meshes.add(MeshId(0), own);
+    import.meshes.add(MeshId(0), mesh_file);
     let pending = PendingMaterial {
         surface: 0,
         source: MaterialSource::AssetTarget,
@@ -81,7 +84,7 @@ pub fn lower_standalone_mesh(
 }
 
 /// Parses the mesh file.
-fn read(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::mesh::Parsed> {
+fn parse_file(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::mesh::Parsed> {
     let bytes = map.bytes(file);
     if !is_mesh(bytes) {
         let message = format!("`{}` is {}", map.name(file), mesh::TEXT.is_not);
@@ -106,7 +109,7 @@ fn read(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::mesh::P
 }
 
 /// The material of a mesh without materials.
-fn plain(has_colors: bool) -> Standard {
+fn default_material(has_colors: bool) -> Standard {
     let base = if has_colors { 1.0 } else { GREY };
     Standard {
         base_color: [base, base, base, 1.0],

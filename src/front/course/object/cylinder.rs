@@ -2,12 +2,13 @@
 
 use super::Lower;
 use super::cone::AxisKeys;
-use super::cube::axes_rotated_about;
+
 use crate::course::decode::{Context, Numbers, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{NonNegative, Positive, Real};
 use crate::course::record::{FieldOutcome, keys, record};
+use crate::course::rotation::axes_rotated_about;
 use crate::course::synonym::{AXIS, ENDS, HEIGHT, POSITION, RADIUS, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_ir as ir;

@@ -50,8 +50,8 @@ impl Lower for Gltf {
             angle,
         };
         if let Some(axes) = rotation_keys.axes(context) {
-            let place = world_from_object(axes, scale.value.0, position.value.0);
-            lowering.files.gltf(place, file);
+            let transform = world_from_object(axes, scale.value.0, position.value.0);
+            lowering.files.gltf(transform, file);
         }
     }
 }

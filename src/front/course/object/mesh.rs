@@ -120,6 +120,7 @@ impl Lower for Mesh {
             FieldOutcome::Absent => Some(lowering.grey_surface_props(kind, shadow)),
             FieldOutcome::Broken => None,
         };
+        // The transform and the sizing.
         let index = lowering.scene.surfaces.len();
         let (Some((transform, sizing)), Some(props)) = (self.transform(index, context), props)
         else {
@@ -135,11 +136,13 @@ impl Lower for Mesh {
             lowering.invisible(transform.span);
             return;
         }
+        // The pending mesh, its material and its sizing.
         let mesh = lowering.files.mesh(&mut lowering.scene, file, part);
         lowering
             .pending_materials
             .push(pending_material(index, kind.span, material, materials));
         lowering.sizings.extend(sizing);
+        // The instance.
         let shape = ir::Instance {
             mesh,
             world_from_object: transform.value.0,
@@ -175,6 +178,7 @@ impl Mesh {
             axis,
             angle,
         };
+        // `transform` overrides all other keys; else one of `scale`, `size` and `fit` gives the size.
         let (scale, sizing) = match (transform, scale, size, fit) {
             (FieldOutcome::Read(transform), ..) => {
                 report_key_without_effect(position.span, "position", context);
@@ -198,6 +202,7 @@ impl Mesh {
             ) => (position.map(|_| [1.0; 3]), None),
             _ => return None,
         };
+        // Compose scale, rotation and translation.
         let axes = rotation_keys.axes(context)?;
         let transform =
             |scale: &[f64; 3]| AffineColumns(world_from_object(axes, *scale, position.value.0));

@@ -16,7 +16,7 @@
 //! with keys of no variant, is omitted after these have been reported.
 
 mod cone;
-pub(super) mod cube;
+mod cube;
 mod cylinder;
 mod disc;
 mod gltf;
@@ -24,7 +24,7 @@ mod mesh;
 mod plane;
 mod quad;
 pub(super) mod sizing;
-pub(super) mod solid;
+mod solid;
 mod sphere;
 pub(super) mod torus;
 mod triangle;
@@ -113,6 +113,7 @@ impl Value for Object {
         if !context.tree.is_map(node) {
             return context.expected(node, "a map");
         }
+        // The key `type` selects the record.
         let Some(kind) = look_up("type", node, context) else {
             let tree = context.tree;
             let is_typo = |key: &NodeId| {

@@ -150,14 +150,14 @@ fn corners_to_swap(corners: &[Vec3; 4]) -> Option<[usize; 2]> {
     /// flat quad.
     const LEAST: f64 = 1e-6;
     let edge = |from: usize, to: usize| unit(corners[to % 4] - corners[from % 4]);
-    let mut turns = [Vec3::ZERO; 4];
-    for (at, cross) in turns.iter_mut().enumerate() {
+    let mut crosses = [Vec3::ZERO; 4];
+    for (at, cross) in crosses.iter_mut().enumerate() {
         *cross = edge(at + 3, at)?.cross(edge(at, at + 1)?);
     }
-    let normal = unit(turns[0])?;
+    let normal = unit(crosses[0])?;
     let is_flat = edge(2, 3)?.dot(normal).abs() < LEAST && edge(1, 2)?.dot(normal).abs() < LEAST;
-    let turns_left = turns.map(|cross| cross.dot(normal) > 0.0);
-    let is_bent = turns.iter().all(|cross| cross.length() > LEAST);
+    let turns_left = crosses.map(|cross| cross.dot(normal) > 0.0);
+    let is_bent = crosses.iter().all(|cross| cross.length() > LEAST);
     match turns_left {
         [true, true, false, false] if is_flat && is_bent => Some([2, 3]),
         [true, false, false, true] if is_flat && is_bent => Some([1, 2]),

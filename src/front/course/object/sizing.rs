@@ -17,6 +17,7 @@ pub(in crate::course) enum Sizing {
 
 /// Applies the sizing of a mesh instance; its mesh is loaded.
 pub(in crate::course) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
+    // The instance and the bounds of its mesh.
     let (surface, factor_of) = match sizing {
         Sizing::Fit(surface) => (surface, None),
         Sizing::Check(surface, size) => (surface, Some(size)),
@@ -37,14 +38,15 @@ pub(in crate::course) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut
     };
     let corners = mesh.positions.iter().map(Vec3::from_array);
     let bounds = corners.map(|p| (p, p));
-    let Some((low, high)) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
+    let Some((min, max)) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
         return;
     };
+    // A factor is kept unless the mesh would fill the view.
     if let Some(size) = factor_of {
-        let place = Field::of_shape(ir::ShapeKind::Instance, TRANSFORM);
-        let span = source_spans.span(ValuePath::new(EntityKind::Surface, surface, place));
+        let transform = Field::of_shape(ir::ShapeKind::Instance, TRANSFORM);
+        let span = source_spans.span(ValuePath::new(EntityKind::Surface, surface, transform));
         if !hides_view(
-            placed_box(instance.world_from_object, [low, high]),
+            placed_box(instance.world_from_object, [min, max]),
             &scene.camera,
         ) {
             sink.push(report_size_as_factor(size, span));
@@ -56,21 +58,22 @@ pub(in crate::course) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut
         let [x, y, z] = axes.map(|axis| (Vec3::from_array(axis) / SIZE_PER_FIT).to_array());
         instance.world_from_object = [x, y, z, position];
     }
-    fit(instance, [low, high]);
+    // Scale and move the mesh.
+    fit(instance, [min, max]);
 }
 
 /// The `size` that equals a `fit` of 1, if it is not a factor.
 const SIZE_PER_FIT: f64 = 1.5;
 
 /// The axis-aligned bounding box of a transformed box.
-fn placed_box(place: [[f64; 3]; 4], ends: [Vec3; 2]) -> [Vec3; 2] {
-    let [x, y, z, origin] = place.map(Vec3::from_array);
+fn placed_box(transform: [[f64; 3]; 4], ends: [Vec3; 2]) -> [Vec3; 2] {
+    let [x, y, z, origin] = transform.map(Vec3::from_array);
     let corners = (0..8_usize).map(|index| {
         let of = |axis: usize| ends[(index >> axis) & 1][axis];
         origin + x * of(0) + y * of(1) + z * of(2)
     });
     let first = [Vec3::INFINITY, Vec3::NEG_INFINITY];
-    corners.fold(first, |[low, high], p| [low.min(p), high.max(p)])
+    corners.fold(first, |[min, max], p| [min.min(p), max.max(p)])
 }
 
 /// Whether the eye is in a box, or the box fills the view. A box is convex, so it fills the view if
@@ -85,14 +88,14 @@ fn hides_view([a, b]: [Vec3; 2], camera: &ir::Camera) -> bool {
         ..
     } = camera;
     let [eye, center, right, up] = [eye, center, right, up].map(|v| Vec3::from_array(*v));
-    let (low, high) = (a.min(b), a.max(b));
+    let (min, max) = (a.min(b), a.max(b));
     let [x, y] = size.map(|side| f64::from(side) / 2.0);
     let corners = [[-x, -y], [x, -y], [-x, y], [x, y]];
-    let is_inside = eye.clamp(low, high) == eye;
+    let is_inside = eye.clamp(min, max) == eye;
     is_inside
         || corners.iter().all(|[x, y]| {
             let direction = center + right * *x + up * *y - eye;
-            let (to_low, to_high) = ((low - eye) / direction, (high - eye) / direction);
+            let (to_low, to_high) = ((min - eye) / direction, (max - eye) / direction);
             let (enter, leave) = (to_low.min(to_high), to_low.max(to_high));
             leave.min_element() >= enter.max_element().max(0.0)
         })
@@ -121,12 +124,12 @@ fn report_size_as_fit(size: f64, half: f64, span: Option<Span>) -> Diagnostic {
 
 /// Scales a mesh of these bounds to the size in the transform of the instance, and moves its middle
 /// to the position there.
-fn fit(instance: &mut ir::Instance, [low, high]: [Vec3; 2]) {
-    let half = ((high - low) / 2.0).max_element();
+fn fit(instance: &mut ir::Instance, [min, max]: [Vec3; 2]) {
+    let half = ((max - min) / 2.0).max_element();
     if half > 0.0 {
         let [x, y, z, middle] = instance.world_from_object.map(Vec3::from_array);
         let axes = [x, y, z].map(|axis| axis / half);
-        let center = (low + high) / 2.0;
+        let center = (min + max) / 2.0;
         let origin = middle - (axes[0] * center.x + axes[1] * center.y + axes[2] * center.z);
         instance.world_from_object =
             [axes[0], axes[1], axes[2], origin].map(|column| column.to_array());

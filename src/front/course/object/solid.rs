@@ -1,22 +1,24 @@
 //! The polyhedra: box, tetrahedron and prism. They are lowered to triangles.
 
 use super::Lower;
-use super::cube::ThirdEdge;
 use super::quad::FOUR_CORNERS;
 use super::triangle::{CORNERS, VERTICES};
-use crate::course::decode::{Context, SharedValue, Spanned};
+use crate::course::decode::{Context, SharedValue, Spanned, Value};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
-use crate::course::number::Degrees;
+use crate::course::number::{Degrees, Real, json_number};
 use crate::course::object::SurfaceProps;
 use crate::course::record::{FieldOutcome, keys, record};
 use crate::course::rotation::{Rotation, RotationKeys};
+use crate::course::schema::Definitions;
 use crate::course::synonym::{POSITION, ROTATION, ROTATION_ANGLE, ROTATION_AXIS, with_canonical};
 use crate::course::value::{Angles, AnyScalar, Point, Scale, Vector};
 use rtc_diag::codes;
 use rtc_ir as ir;
-use rtc_math::{Vec3, cos, shortest, sin, unit_scale};
+use rtc_math::{Vec3, shortest, unit, unit_scale};
 use rtc_source::Span;
+use rtc_source::tree::NodeId;
+use serde_json::{Value as Json, json};
 
 record! {
     /// A box, given by two opposite corners; by its centre and its lengths along x, y and z, with
@@ -114,6 +116,49 @@ const PRISM: &[Face] = &[
     &[2, 0, 3, 5],
 ];
 
+/// The third edge of a box: a vector or a length.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::course) enum ThirdEdge {
+    Edge([f64; 3]),
+    Length(f64),
+}
+
+impl ThirdEdge {
+    /// The vector of the edge, from the two other edges.
+    fn edge(self, up: Vec3, side: Vec3) -> Vec3 {
+        // Both are scaled by powers of two, so that no product leaves the range of f64.
+        let [up, side] =
+            [up, side].map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
+        match self {
+            Self::Edge(edge) => Vec3::from_array(edge),
+            Self::Length(length) => unit(up.cross(side)).map_or(Vec3::ZERO, |n| n * length),
+        }
+    }
+}
+
+impl Value for ThirdEdge {
+    const IS_LIST: bool = true;
+
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        if context.tree.is_list(node) {
+            Vector::decode(node, context).map(|edge| Self::Edge(edge.0))
+        } else {
+            Real::decode(node, context).map(|length| Self::Length(length.0))
+        }
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        json!({ "anyOf": [Vector::schema(definitions), Real::schema(definitions)] })
+    }
+
+    fn json(&self) -> Json {
+        match self {
+            Self::Edge(edge) => edge.map(json_number).to_vec().into(),
+            Self::Length(length) => json_number(*length),
+        }
+    }
+}
+
 impl Lower for Cuboid {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let props = lowering.surface_props(&self.kind, &self.material, &self.shadow, context);
@@ -169,6 +214,7 @@ impl Lower for Prism {
         let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
             return;
         };
+        // The six corners, from either variant.
         let (span, corners, up) = match (corners, up, ends) {
             (FieldOutcome::Read(corners), FieldOutcome::Read(up), _) => {
                 let [a, b, c] = corners.map(|corner| Vec3::from_array(corner.value.0));
@@ -238,6 +284,7 @@ impl Lowering {
                 .for_each(|span| report_flat(add_polyhedron.name, span, context));
             return;
         }
+        // A fan of triangles for each face, reversed if the volume is negative.
         let value_spans = VERTICES.map(|field| (field, span));
         for face in add_polyhedron.faces {
             for k in 1..face.len() - 1 {
@@ -366,12 +413,18 @@ fn box_from_edges(from: Vec3, edges: [Vec3; 3]) -> [Vec3; 8] {
     std::array::from_fn(|index| from + along(index).map(|axis| edges[axis]).sum::<Vec3>())
 }
 
-/// The axes rotated by angles in radians about x, then y, then z.
-pub(in crate::course) fn euler_axes(angles: [f64; 3]) -> [Vec3; 3] {
-    let [(cx, sx), (cy, sy), (cz, sz)] = angles.map(|angle| (cos(angle), sin(angle)));
-    Vec3::AXES.map(|Vec3 { x, y, z }| {
-        let (y, z) = (y * cx - z * sx, y * sx + z * cx);
-        let (x, z) = (x * cy + z * sy, z * cy - x * sy);
-        Vec3::new(x * cz - y * sz, x * sz + y * cz, z)
-    })
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_depth_is_an_edge_or_at_right_angles_to_the_others() {
+        let (up, side) = (Vec3::Y * 2.0, Vec3::X * 5.0);
+        assert_eq!(ThirdEdge::Length(3.0).edge(up, side), Vec3::Z * -3.0);
+        assert_eq!(
+            ThirdEdge::Edge([1.0, 2.0, 3.0]).edge(up, side),
+            Vec3::new(1.0, 2.0, 3.0)
+        );
+        assert_eq!(ThirdEdge::Length(3.0).edge(up, up), Vec3::ZERO);
+    }
 }

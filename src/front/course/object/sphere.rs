@@ -125,6 +125,7 @@ fn texture_axis(
     axis: &FieldOutcome<Spanned<Rotation<Vector>>>,
     context: &mut Context<'_>,
 ) -> Vec3 {
+    // An ignored rotation counts as absent.
     let axis = match axis {
         FieldOutcome::Read(Spanned {
             value: Rotation(Some(axis)),
@@ -146,6 +147,7 @@ fn texture_axis(
             );
         });
     };
+    // `axis` overrides the axis beside the radius.
     let chosen = match (&axis, &radius.value.axis) {
         (FieldOutcome::Read(axis), inner) => {
             inner.iter().for_each(|inner| {
@@ -174,13 +176,13 @@ fn texture_axis(
 fn texture_rotation(Quaternion(parts): Quaternion) -> Option<[[f64; 3]; 3]> {
     let largest = parts
         .iter()
-        .fold(0.0_f64, |most, part| most.max(part.abs()));
+        .fold(0.0_f64, |largest, part| largest.max(part.abs()));
     let [x, y, z, w] = parts.map(|part| part / largest);
     let axis = unit(Vec3::new(x, y, z))?;
     let s = axis.dot(Vec3::new(x, y, z));
-    let turns = [2.0 * w * s, w * w - s * s].map(|part| part / (w * w + s * s));
+    let sin_cos = [2.0 * w * s, w * w - s * s].map(|part| part / (w * w + s * s));
     // Through an axis and an angle, so that writing these gives the same bits again.
-    let rows = Vec3::AXES.map(|v| turned_about(v, axis, turns).to_array());
+    let rows = Vec3::AXES.map(|v| turned_about(v, axis, sin_cos).to_array());
     let (pole, angle) = axis_and_angle(rows);
     turned_to_z(unit(pole)?, angle)
 }

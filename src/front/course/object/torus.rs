@@ -56,6 +56,7 @@ impl Lower for Torus {
             material,
             shadow,
         } = self;
+        // The major and the minor radius, from one variant.
         let (radius, alpha) = match (radius, alpha, radii, rims) {
             (FieldOutcome::Read(radius), FieldOutcome::Read(alpha), ..) => {
                 (radius.map(|radius| radius.0), alpha.map(|alpha| alpha.0))
@@ -86,6 +87,7 @@ impl Lower for Torus {
         let Some(props) = lowering.surface_props(kind, material, shadow, context) else {
             return;
         };
+        // Inner and outer radii are interpreted when all objects are known.
         let surface = lowering.scene.surfaces.len();
         lowering.add_surface(&props, ir::Shape::Torus(shape), &value_spans);
         if let (FieldOutcome::Read(radii), true) = (rims, lowering.scene.surfaces.len() > surface) {

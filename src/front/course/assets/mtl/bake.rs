@@ -62,7 +62,7 @@ impl ScaledImage<'_> {
         [self.0.width, self.0.height]
     }
 
-    fn has_opacity(&self) -> bool {
+    fn has_alpha(&self) -> bool {
         let pixels = self.0.pixels.as_chunks::<4>().0;
         self.0.kind == Pixels::Rgba8 && pixels.iter().any(|[.., alpha]| *alpha < u8::MAX)
     }
@@ -81,6 +81,7 @@ pub(in super::super) fn bake(
     let mut known: BTreeMap<String, ImageId> = BTreeMap::new();
     for bake in bakes {
         let scene = &mut lowered.scene;
+        // Resolve the images; skip the texture without them.
         let baked = match bake.baked {
             BakedMap::Opacity { color, mask } => loaded(mask).map(|mask| BakedMap::Opacity {
                 color: color.and_then(loaded),
@@ -95,6 +96,7 @@ pub(in super::super) fn bake(
             }
         };
         let Some(baked) = baked else { continue };
+        // Bake the image, or reuse an equal one.
         let key = baked.key();
         let image = match (known.get(&key), &baked) {
             (Some(image), _) => *image,
@@ -121,6 +123,7 @@ pub(in super::super) fn bake(
             }
         };
         known.insert(key, image);
+        // Add the texture to the material.
         let texture = TextureId(u32::try_from(scene.textures.len()).unwrap_or(u32::MAX));
         scene.textures.push(Texture::Sampled(Sampled {
             image,
@@ -196,6 +199,7 @@ impl BakedMap {
     }
 
     fn image(&self, scene: &Scene) -> Option<Image> {
+        // Sample all sources at one size.
         let size = self.size(scene);
         let sources = self.sources(scene);
         let name = sources.iter().flatten().next()?.0.name.clone();
@@ -205,8 +209,9 @@ impl BakedMap {
                 .as_ref()
                 .map_or([u8::MAX; 4], |image| image.pixel(position, size))
         };
-        let mask_has_alpha = second.as_ref().is_some_and(ScaledImage::has_opacity);
+        let mask_has_alpha = second.as_ref().is_some_and(ScaledImage::has_alpha);
         let positions = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+        // Combine the channels.
         let (kind, pixels): (Pixels, Vec<u8>) = match self {
             Self::Opacity { .. } => {
                 let pixel = |position| {
@@ -257,6 +262,9 @@ impl BakedMap {
     reason = "from 0 to 255"
 )]
 fn coded(direction: [f64; 3]) -> [u8; 3] {
-    let square: f64 = direction.iter().map(|part| part * part).sum();
-    direction.map(|part| ((part / square.sqrt() + 1.0) * 127.5).round() as u8)
+    let square: f64 = direction
+        .iter()
+        .map(|component| component * component)
+        .sum();
+    direction.map(|component| ((component / square.sqrt() + 1.0) * 127.5).round() as u8)
 }

@@ -59,7 +59,7 @@ impl MtlCache {
             self.transparency = self.transparency.or(at.map(|at| at.span(loaded.file)));
         }
         let index = lowered.scene.materials.len();
-        let made = match lowered.scene.settings.mode {
+        let material_ir = match lowered.scene.settings.mode {
             Mode::Path(_) => self.standard(loaded, material, id(index), lowered),
             Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
                 Material::Phong(self.phong(loaded, material, lowered))
@@ -69,7 +69,7 @@ impl MtlCache {
             scene,
             source_spans,
         } = lowered;
-        scene.materials.push(made);
+        scene.materials.push(material_ir);
         let bump = material.bump.as_ref().map(|bump| bump.at);
         for (field, at) in [(Field::Whole, Some(material.at)), (Field::Bump, bump)] {
             let span = at.map(|at| at.span(loaded.file));
@@ -88,9 +88,9 @@ impl MtlCache {
         for (at, what) in standard::unsupported(material) {
             self.add_unsupported(at.span(loaded.file), what);
         }
-        let made = standard::standard(material);
-        let made = self.with_maps(made, loaded, material, MaterialId(index), lowered);
-        Material::Standard(Box::new(made))
+        let material_ir = standard::standard(material);
+        let material_ir = self.with_maps(material_ir, loaded, material, MaterialId(index), lowered);
+        Material::Standard(Box::new(material_ir))
     }
 
     fn phong(
@@ -263,14 +263,19 @@ impl MapPlacement {
 /// The statements of a material that Phong's model cannot express.
 fn beyond_phong(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
     let m = material;
-    let number = |said: &Option<Said<f64>>| said.as_ref().map(|said| said.at);
-    let map = |said: &Option<Said<MtlMap>>| said.as_ref().map(|said| said.at);
-    let color = |said: &Option<Said<[f64; 3]>>, nothing: f64| {
-        let said = said.as_ref();
-        let said = said.filter(|said| said.value.iter().any(|channel| *channel != nothing));
-        said.map(|said| said.at)
+    let number = |statement: &Option<Said<f64>>| statement.as_ref().map(|statement| statement.at);
+    let map = |statement: &Option<Said<MtlMap>>| statement.as_ref().map(|statement| statement.at);
+    let color = |statement: &Option<Said<[f64; 3]>>, nothing: f64| {
+        let statement = statement.as_ref();
+        let statement =
+            statement.filter(|statement| statement.value.iter().any(|channel| *channel != nothing));
+        statement.map(|statement| statement.at)
     };
-    let placed = |said: &Option<Said<MtlMap>>| said.as_ref().and_then(|said| said.value.placed);
+    let placement = |statement: &Option<Said<MtlMap>>| {
+        statement
+            .as_ref()
+            .and_then(|statement| statement.value.placed)
+    };
     let parts = [
         ("`Ke` shows", color(&m.emissive, 0.0)),
         ("`Tf` shows", color(&m.filter, 1.0)),
@@ -285,12 +290,13 @@ fn beyond_phong(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
         ("`map_Ke` shows", map(&m.emissive_map)),
         ("`map_Pr` shows", map(&m.roughness_map)),
         ("`map_Pm` shows", map(&m.metallic_map)),
-        ("options of `map_Kd` show", placed(&m.color_map)),
-        ("options of `map_Ks` show", placed(&m.specular_map)),
-        ("options of `norm` show", placed(&m.normal_map)),
+        ("options of `map_Kd` show", placement(&m.color_map)),
+        ("options of `map_Ks` show", placement(&m.specular_map)),
+        ("options of `norm` show", placement(&m.normal_map)),
     ];
-    let said = parts.into_iter();
-    said.filter_map(|(what, at)| Some((at?, what.to_owned())))
+    let statement = parts.into_iter();
+    statement
+        .filter_map(|(what, at)| Some((at?, what.to_owned())))
         .collect()
 }
 

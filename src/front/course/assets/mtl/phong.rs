@@ -38,10 +38,10 @@ pub(super) fn is_glass(material: &MtlMaterial) -> bool {
 /// The opacity of a material, 0 to 1. `Tr 1` is read as opaque, which is what most programs mean by
 /// it.
 pub(super) fn opacity(material: &MtlMaterial) -> f64 {
-    let clear = if is_glass(material) { 0.0 } else { 1.0 };
-    let said = material.opacity.as_ref();
-    let said = said.filter(|_| !material.is_transparency_1 || is_glass(material));
-    said.map_or(clear, |opacity| opacity.value)
+    let default_opacity = if is_glass(material) { 0.0 } else { 1.0 };
+    let opacity = material.opacity.as_ref();
+    let opacity = opacity.filter(|_| !material.is_transparency_1 || is_glass(material));
+    opacity.map_or(default_opacity, |opacity| opacity.value)
 }
 
 /// Converts a material without its textures.

@@ -21,16 +21,18 @@ pub(super) fn unsupported(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
     let m = material;
     let filter = m.filter.as_ref().filter(|filter| filter.value != [1.0; 3]);
     let filter = filter.filter(|_| !is_glass(m));
-    let filter = filter.map(|said| (said.at, "`Tf` needs refraction (`illum` 4, 6, 7, 9)"));
+    let filter =
+        filter.map(|statement| (statement.at, "`Tf` needs refraction (`illum` 4, 6, 7, 9)"));
     let bump = m.bump.as_ref().filter(|_| m.normal_map.is_some());
-    let bump = bump.map(|said| (said.at, "`norm` replaces `map_Bump`"));
-    let clear = m
+    let bump = bump.map(|statement| (statement.at, "`norm` replaces `map_Bump`"));
+    let invisible = m
         .opacity
         .as_ref()
         .filter(|_| opacity(m) == 0.0 && !is_glass(m));
-    let clear = clear.map(|said| (said.at, "a material of this opacity is invisible"));
-    let parts = [filter, bump, clear].into_iter().flatten();
-    parts.map(|(at, what)| (at, what.to_owned())).collect()
+    let invisible =
+        invisible.map(|statement| (statement.at, "a material of this opacity is invisible"));
+    let parts = [filter, bump, invisible].into_iter().flatten();
+    parts.map(|(at, reason)| (at, reason.to_owned())).collect()
 }
 
 /// Converts a material without its textures.
@@ -43,6 +45,7 @@ pub(super) fn standard(material: &MtlMaterial) -> Standard {
     let m = material;
     let color = phong::phong(m);
     let is_pbr = is_physical(m);
+    // Fit roughness and metallic to Phong's model.
     let fit = fit_phong(&PhongTerms {
         color: color.color,
         kd: if opacity(m) > 0.0 {
@@ -55,6 +58,7 @@ pub(super) fn standard(material: &MtlMaterial) -> Standard {
         kt: 0.0,
         eta: color.eta,
     });
+    // The base colour is that of `Tf` for glass.
     let glass = is_glass(m) && opacity(m) < 1.0;
     let fraction = |channel: f64| channel.clamp(0.0, 1.0);
     let [r, g, b] = match (glass, &m.filter) {
@@ -62,10 +66,11 @@ pub(super) fn standard(material: &MtlMaterial) -> Standard {
         (true, None) => [1.0; 3],
         (false, _) => base(m, fit.metallic > 0.0),
     };
-    let value = |said: &Option<Said<f64>>| said.as_ref().map(|said| said.value);
+    let value = |statement: &Option<Said<f64>>| statement.as_ref().map(|statement| statement.value);
     let ior = value(&m.index).filter(|index| *index > 1.0).unwrap_or(IOR);
     let alpha = if glass { 1.0 } else { opacity(m) };
     let is_mapped = |map: &Option<Said<MtlMap>>| map.is_some();
+    // Explicit PBR statements take precedence over the fit.
     let base = Standard {
         base_color: [r, g, b, alpha],
         metallic: match value(&m.metallic) {
@@ -105,8 +110,12 @@ fn is_physical(m: &MtlMaterial) -> bool {
 
 /// Adds emission, clearcoat, sheen and anisotropy to a material.
 fn with_layers(base: Standard, m: &MtlMaterial) -> Standard {
-    let value = |said: &Option<Said<f64>>| said.as_ref().map_or(0.0, |said| said.value);
-    let emissive = m.emissive.as_ref().map_or([0.0; 3], |said| said.value);
+    let value =
+        |statement: &Option<Said<f64>>| statement.as_ref().map_or(0.0, |statement| statement.value);
+    let emissive = m
+        .emissive
+        .as_ref()
+        .map_or([0.0; 3], |statement| statement.value);
     let is_mapped = emissive == [0.0; 3] && m.emissive_map.is_some();
     let sheen = value(&m.sheen);
     Standard {
@@ -127,7 +136,7 @@ fn base(m: &MtlMaterial, is_mirror: bool) -> [f64; 3] {
         true => m.specular.as_ref(),
         false => m.diffuse.as_ref(),
     };
-    let color = color.map_or([phong::DIFFUSE; 3], |said| said.value);
+    let color = color.map_or([phong::DIFFUSE; 3], |statement| statement.value);
     let is_black = color == [0.0; 3];
     // A black factor would make the texture invisible.
     let color = if is_black && m.color_map.is_some() {
@@ -142,12 +151,13 @@ impl MtlCache {
     /// Adds the textures of a material; those that combine several images are scheduled for baking.
     pub(super) fn with_maps(
         &mut self,
-        mut made: Standard,
+        mut standard: Standard,
         loaded: &LoadedLibrary,
         m: &MtlMaterial,
         material: MaterialId,
         lowered: &mut Lowered,
     ) -> Standard {
+        // Add the images.
         let mut image = |map: &Option<Said<MtlMap>>, has_opacity: bool| -> Option<ImageId> {
             Some(self.image(&loaded.map(map.as_ref()?), has_opacity, lowered))
         };
@@ -156,13 +166,15 @@ impl MtlCache {
         let [rough, metal] = [&m.roughness_map, &m.metallic_map].map(|map| image(map, false));
         let heights = image(&m.bump, false).filter(|_| m.normal_map.is_none());
         let direct = [&m.specular_map, &m.normal_map, &m.emissive_map].map(|map| image(map, false));
+        // Textures of one image.
         let mut placement = |map: &Option<Said<MtlMap>>, image: Option<ImageId>| {
             Some(self.placement(&loaded.map(map.as_ref()?), image?, lowered))
         };
-        made.base_color_map = placement(&m.color_map, color);
-        made.specular_color_map = placement(&m.specular_map, direct[0]);
-        made.normal_map = placement(&m.normal_map, direct[1]);
-        made.emissive_map = placement(&m.emissive_map, direct[2]);
+        standard.base_color_map = placement(&m.color_map, color);
+        standard.specular_color_map = placement(&m.specular_map, direct[0]);
+        standard.normal_map = placement(&m.normal_map, direct[1]);
+        standard.emissive_map = placement(&m.emissive_map, direct[2]);
+        // Textures that combine several images.
         let mut bake = |map: &Option<Said<MtlMap>>, baked: BakedMap| {
             let Some(map) = map else { return };
             self.bakes.push(Bake {
@@ -188,6 +200,6 @@ impl MtlCache {
             let height = m.bump.as_ref().map_or(1.0, |map| map.value.height);
             bake(&m.bump, BakedMap::Normals { heights, height });
         }
-        made
+        standard
     }
 }
