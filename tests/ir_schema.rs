@@ -11,7 +11,7 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise and reads what it checks"
 )]
-use rtc::internals::codec::{self, Form};
+use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::VERSION;
 use rtc::internals::source::SourceMap;
@@ -36,8 +36,8 @@ fn frozen() -> Value {
 fn decoded(document: &Value) -> Option<Value> {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("mutant", document.to_string().into_bytes());
-    let scene = codec::decode(Form::Text, file, &map, &mut sink)?;
-    serde_json::from_slice(&codec::encode(Form::Text, &scene).unwrap()).unwrap()
+    let scene = codec::decode(Encoding::Json, file, &map, &mut sink)?;
+    serde_json::from_slice(&codec::encode(Encoding::Json, &scene).unwrap()).unwrap()
 }
 
 /// True if both trees have the same maps, lists and leaves, whatever the leaves are.

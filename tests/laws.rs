@@ -11,7 +11,7 @@ use crate::repo::{files, root};
 use crate::scene_laws::{
     is_the_same_in_any_order, is_the_same_laid_out, makes_the_same_picture_times, powers,
 };
-use rtc::internals::codec::{self, Form};
+use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Lowered, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Input, Options};
@@ -26,16 +26,16 @@ fn the_ir_in_any_form_makes_the_same_picture() {
     for path in paths() {
         let scene = small(&path);
         let picture = bits(&film(&scene, &WHOLE, 0));
-        for form in [Form::Text, Form::Binary] {
+        for encoding in [Encoding::Json, Encoding::Binary] {
             let (mut map, mut sink) = (SourceMap::default(), Sink::default());
-            let file = map.add("scene", codec::encode(form, &scene).unwrap());
+            let file = map.add("scene", codec::encode(encoding, &scene).unwrap());
             let decoded = pipeline::load(file, &mut map, &Options::default(), &mut sink)
                 .unwrap()
                 .scene;
-            assert_eq!(decoded, scene, "{form:?} of {}", path.display());
+            assert_eq!(decoded, scene, "{encoding:?} of {}", path.display());
             assert!(
                 bits(&film(&decoded, &WHOLE, 0)) == picture,
-                "{form:?} of {}",
+                "{encoding:?} of {}",
                 path.display()
             );
         }

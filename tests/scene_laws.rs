@@ -3,7 +3,7 @@
 
 use crate::scale::scaled;
 use crate::small::{WHOLE, bits, film, small};
-use rtc::internals::codec::{self, Form};
+use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{self, Lowered, Scene, SourceSpans};
 use rtc::internals::math::ldexp;
@@ -49,7 +49,7 @@ pub(crate) fn is_the_same_laid_out(path: &Path) {
     assert_eq!(again.as_ref(), Ok(&text), "{}", path.display());
     let encoded = |mut input: Input| {
         let loaded = input.load()?;
-        Some(codec::encode(Form::Binary, &loaded.lowered.scene).unwrap())
+        Some(codec::encode(Encoding::Binary, &loaded.lowered.scene).unwrap())
     };
     let is_same = encoded(Input::file(path, options())) == encoded(edited(&text));
     assert!(is_same, "{}", path.display());

@@ -2,7 +2,7 @@
 
 use super::patterns::{Pattern, grains, grid, quad};
 use super::scenes::{lowered, scene};
-use rtc::internals::codec::{self, Form};
+use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::Scene;
 use rtc::internals::source::SourceMap;
@@ -219,7 +219,8 @@ fn balls(roughness: f64, radius: f64, light: f64) -> Scene {
         );
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("paths.json", text.into_bytes());
-    codec::decode(Form::Text, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+    codec::decode(Encoding::Json, file, &map, &mut sink)
+        .unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
 /// Paths: a room with a ball of rough glass under a lamp without size, which paths from the walls

@@ -9,7 +9,7 @@ use super::output::{self, Companions, Output};
 use super::report::PlanReport;
 use super::simd;
 use super::talk::Talk;
-use rtc_codec::{self as codec, Form};
+use rtc_codec::{self as codec, Encoding};
 use rtc_emit as emit;
 use rtc_emit::course::WrittenScene;
 use rtc_image::{BackgroundFill, FileFormat};
@@ -44,13 +44,13 @@ fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure>
         return Ok(());
     };
     let scene = &proven.lowered.scene;
-    let form = match emit {
-        Emit::Ir | Emit::Yaml => Form::Text,
-        Emit::IrBin => Form::Binary,
+    let encoding = match emit {
+        Emit::Ir | Emit::Yaml => Encoding::Json,
+        Emit::IrBin => Encoding::Binary,
         Emit::Glb | Emit::Gltf => return write_gltf(args, emit, target, &proven, (input, talk)),
         Emit::Mitsuba | Emit::Pov => return write_twin(emit, target, &proven, (input, talk)),
     };
-    let encoded = codec::prepare(form, scene);
+    let encoded = codec::prepare(encoding, scene);
     let encoded = encoded.map_err(|codec::NotFinite| cannot(&input, "a number is not finite"))?;
     let interrupt = Interrupt::listen()?;
     Output::open(target, &input)?.commit_by(&|out| encoded.write(out), &interrupt)

@@ -63,7 +63,7 @@ fn content(scene: &Scene) -> Value {
     let mut materials: BTreeMap<&str, usize> = BTreeMap::new();
     let mut triangles = 0;
     for surface in &scene.surfaces {
-        *shapes.entry(surface.shape.kind().word()).or_default() += 1;
+        *shapes.entry(surface.shape.kind().name()).or_default() += 1;
         triangles += triangles_of(&surface.shape, &scene.meshes);
     }
     for light in &scene.lights {

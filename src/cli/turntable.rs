@@ -54,7 +54,7 @@ impl Turntable {
             |up| unit(Vec3::from_array(up)).unwrap_or(Vec3::Y),
         );
         let middle = scene
-            .ball()
+            .bounding_sphere()
             .map_or(Vec3::from_array(camera.center), |ball| ball.center);
         Self {
             camera,

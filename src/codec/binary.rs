@@ -1,12 +1,13 @@
-//! The binary form, `.rtir`: 8 bytes magic, container version and header length (u32 each), a
-//! CRC-32 of all that and of the header, the header in JSON, then sections.
+//! The binary encoding, `.rtir`: 8 bytes of magic, container version and header length (u32 each),
+//! a CRC-32 of these and of the header, the header as JSON, then sections.
 //!
-//! The header holds the scene's small parts, the tables its lists are made of, and which sections
-//! are the columns of a mesh or the pixels of an image. A change of any bit is found, and nothing
-//! is allocated that the length of the file does not warrant. Files are read whole, not mapped:
-//! that takes 40 ms for a million triangles, and a mapped file may shrink under its reader.
+//! The header holds the small parts of the scene, the tables of its lists, and the indices of the
+//! sections that hold mesh columns and image pixels. Any changed bit is detected, and decoding
+//! allocates memory in proportion to the length of the file only. Files are read, not
+//! memory-mapped: reading takes 40 ms for a million triangles, and a mapped file could be truncated
+//! by another process.
 
-use super::columns::{self, Stock, Table};
+use super::columns::{self, SectionReader, Table};
 use super::section::{self, ALIGNMENT, SectionEntry, SectionWriter};
 use super::{
     CHECKSUMS_COUNT, Decoded, NotFinite, image, mesh, newer, span, tree, typed, wrong_shape,
@@ -18,20 +19,20 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::io::{self, Write};
 
-/// A byte with the eighth bit set, a name, CR LF, the old end-of-file character, LF: whatever takes
-/// the file for text changes one of them.
+/// A byte with its high bit set, a name, CR LF, the DOS end-of-file character, LF: any conversion
+/// as text changes one of them.
 const MAGIC: [u8; 8] = *b"\x89RTI\r\n\x1a\n";
 
-/// The beginnings of a magic that was taken for Latin-1 or for broken UTF-8 and written again.
+/// The first bytes of a magic that was decoded as Latin-1 or as broken UTF-8 and encoded again.
 const RECODED: [&[u8]; 2] = [b"\xc2\x89RTI", b"\xef\xbf\xbdRTI"];
 
-/// The version of the container; that of the IR within is in the header.
+/// The version of the container; the IR version is in the header.
 const CONTAINER_VERSION: u32 = 1;
 
-/// Where the header starts. The bytes before it mean the same in every version.
+/// The offset of the header. The bytes before it have the same meaning in every version.
 const PREAMBLE: usize = 20;
 
-/// The one list that may be long and is made of small parts: it is typed part by part.
+/// The only list that can be long and has small items; its items are decoded one by one.
 const SURFACES: &str = "surfaces";
 
 #[derive(Serialize, Deserialize)]
@@ -50,15 +51,15 @@ struct Header {
     sections: Vec<SectionEntry>,
 }
 
-/// The part of the header that every version has.
+/// The fields of the header that every version has.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct Head {
     ir_version: u32,
 }
 
-/// True if the bytes begin with the magic, or with what a mishap leaves of it.
-pub(super) fn looks_like(bytes: &[u8]) -> bool {
+/// Whether the bytes begin with the magic or a damaged magic.
+pub(super) fn has_magic(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(MAGIC.len())];
     let same = start
         .iter()
@@ -69,7 +70,7 @@ pub(super) fn looks_like(bytes: &[u8]) -> bool {
     begun || same >= MAGIC.len() / 2 || RECODED.iter().any(|recoded| bytes.starts_with(recoded))
 }
 
-/// A scene as a container, its columns still where the scene has them.
+/// A container that borrows the columns of its scene.
 pub(super) struct ContainerDraft<'s> {
     /// Preamble, header and padding.
     head: Vec<u8>,
@@ -83,7 +84,7 @@ impl ContainerDraft<'_> {
     }
 }
 
-/// Encodes a scene, to be shown so.
+/// Encodes a scene with these display settings.
 pub(super) fn encode<'s>(
     scene: &'s Scene,
     display: &Display,
@@ -145,7 +146,7 @@ pub(super) fn encode<'s>(
     })
 }
 
-/// All that stands before the first section.
+/// Everything before the first section.
 fn head(header: &Header) -> Vec<u8> {
     let header = serde_json::to_vec(header)
         .expect("the header is made of maps with string keys, lists and numbers");
@@ -160,7 +161,7 @@ fn head(header: &Header) -> Vec<u8> {
     head
 }
 
-/// The CRC-32 of what stands before the checksum and of the header behind it.
+/// The CRC-32 of the bytes before the checksum and of the header after it.
 fn checksum(before: &[u8], header: &[u8]) -> u32 {
     let mut crc = crc32fast::Hasher::new();
     crc.update(before);
@@ -174,34 +175,34 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
     let end = container.check_preamble()?;
     let header = container.header(end)?;
     let sections = section::open(&container, end, &header.sections)?;
-    let mut stock = Stock::new(&sections, &container);
+    let mut reader = SectionReader::new(&sections, &container);
     let images = header
         .images
         .iter()
-        .map(|stored| stored.load(&mut stock))
+        .map(|stored| stored.load(&mut reader))
         .collect::<Option<Vec<_>>>();
     let meshes = header
         .meshes
         .iter()
-        .map(|stored| stored.load(&mut stock))
+        .map(|stored| stored.load(&mut reader))
         .collect::<Option<Vec<_>>>();
-    let malformed = |message| container.fault(&codes::MALFORMED, message, PREAMBLE, end);
+    let malformed = |message| container.error_at(&codes::MALFORMED, message, PREAMBLE, end);
     let (Some(images), Some(meshes)) = (images, meshes) else {
         return Err(malformed(
             "an image or a mesh has no sections of the kind it says".to_owned(),
         ));
     };
-    let place = span(file, PREAMBLE, end);
+    let span = span(file, PREAMBLE, end);
     let (mut tree, mut surfaces) = (header.scene, Vec::new());
     for table in &header.tables {
         let mut entities = Vec::new();
         if header.ir_version == VERSION && table.key == SURFACES {
-            columns::unpack(table, &mut stock, &container, |entity| {
-                surfaces.push(surface(entity, place)?);
+            columns::unpack(table, &mut reader, &container, |entity| {
+                surfaces.push(surface(entity, span)?);
                 Ok(())
             })?;
         } else {
-            columns::unpack(table, &mut stock, &container, |entity| {
+            columns::unpack(table, &mut reader, &container, |entity| {
                 entities.push(entity);
                 Ok(())
             })?;
@@ -216,26 +217,25 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
             )));
         }
     }
-    let mut scene = typed(header.ir_version, Value::Object(tree), place)?;
+    let mut scene = typed(header.ir_version, Value::Object(tree), span)?;
     scene.images.extend(images);
     scene.meshes.extend(meshes);
     scene.surfaces.extend(surfaces);
     Ok(scene)
 }
 
-fn surface(tree: Value, place: Span) -> Decoded<Surface> {
-    serde_json::from_value(tree).map_err(|error| wrong_shape(&error.to_string(), place))
+fn surface(tree: Value, span: Span) -> Decoded<Surface> {
+    serde_json::from_value(tree).map_err(|error| wrong_shape(&error.to_string(), span))
 }
 
-/// A file of the binary form, of whose bytes nothing is known yet.
+/// A binary file; nothing is known about its bytes.
 pub(super) struct Container<'a> {
     file: FileId,
     pub(super) bytes: &'a [u8],
 }
 
 impl Container<'_> {
-    /// Checks magic, length, checksum and version, in this order, and returns where the header
-    /// ends.
+    /// Checks magic, length, checksum and version, in this order. Returns the end of the header.
     fn check_preamble(&self) -> Decoded<usize> {
         let differs = self
             .bytes
@@ -248,7 +248,7 @@ impl Container<'_> {
         let Some(preamble) = self.bytes.first_chunk::<PREAMBLE>() else {
             return Err(self.truncated(PREAMBLE, "the preamble"));
         };
-        let word = |at: usize| {
+        let read_u32 = |at: usize| {
             u32::from_le_bytes([
                 preamble[at],
                 preamble[at + 1],
@@ -256,14 +256,14 @@ impl Container<'_> {
                 preamble[at + 3],
             ])
         };
-        let (version, length, expected) = (word(8), word(12), word(16));
+        let (version, length, expected) = (read_u32(8), read_u32(12), read_u32(16));
         let end = PREAMBLE.saturating_add(length as usize);
         let Some(header) = self.bytes.get(PREAMBLE..end) else {
             return Err(self.truncated(end, "the header"));
         };
         if CHECKSUMS_COUNT && checksum(&preamble[..16], header) != expected {
             let message = format!("the checksum of the header, bytes 0 to {end}, is wrong");
-            return Err(self.fault(&codes::DAMAGED, message, 0, end));
+            return Err(self.error_at(&codes::DAMAGED, message, 0, end));
         }
         if version > CONTAINER_VERSION {
             return Err(newer(
@@ -279,7 +279,7 @@ impl Container<'_> {
     fn header(&self, end: usize) -> Decoded<Header> {
         let text = &self.bytes[PREAMBLE..end];
         let malformed = |error: serde_json::Error| {
-            self.fault(
+            self.error_at(
                 &codes::MALFORMED,
                 format!("the header, bytes {PREAMBLE} to {end}: {error}"),
                 PREAMBLE,
@@ -300,7 +300,7 @@ impl Container<'_> {
 
     fn wrong_magic(&self, at: usize) -> Box<Diagnostic> {
         let message = format!("the byte at offset {at} is not that of a binary IR file");
-        let fault = self.fault(&codes::WRONG_MAGIC, message, at, at + 1);
+        let error = self.error_at(&codes::WRONG_MAGIC, message, at, at + 1);
         let recoded = RECODED
             .iter()
             .any(|recoded| self.bytes.starts_with(recoded));
@@ -314,18 +314,18 @@ impl Container<'_> {
             [0x09, ..] => "the eighth bit of every byte was cut off; copy the file as binary",
             _ => "copy the file again, or compile the scene again",
         };
-        Box::new(fault.hint(hint))
+        Box::new(error.hint(hint))
     }
 
-    /// The file ends before `end`, where `what` ends.
+    /// The error for a file that ends before `end`, the end of `what`.
     pub(super) fn truncated(&self, end: usize, what: &str) -> Box<Diagnostic> {
         let length = self.bytes.len();
         let message = format!("the file ends at byte {length}, but {what} goes on to byte {end}");
-        self.fault(&codes::TRUNCATED, message, length, length)
+        self.error_at(&codes::TRUNCATED, message, length, length)
     }
 
-    /// A fault at bytes `start..end`.
-    pub(super) fn fault(
+    /// An error at bytes `start..end`.
+    pub(super) fn error_at(
         &self,
         code: &'static Code,
         message: String,
@@ -333,7 +333,7 @@ impl Container<'_> {
         end: usize,
     ) -> Box<Diagnostic> {
         let length = self.bytes.len();
-        let place = span(self.file, start.min(length), end.min(length));
-        Box::new(Diagnostic::new(code, message).at(place, format!("at byte {start}")))
+        let span = span(self.file, start.min(length), end.min(length));
+        Box::new(Diagnostic::new(code, message).at(span, format!("at byte {start}")))
     }
 }

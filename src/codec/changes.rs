@@ -1,5 +1,5 @@
-//! What differs between two scenes, value by value, each by its path in the IR as `rtc schema ir` has it.
-//! Of vertices and pixels their number and hash are compared.
+//! The differences between two scenes, value by value, each with its path in the IR as in `rtc
+//! schema ir`. Vertices and pixels are compared by count and hash.
 
 use super::{NotFinite, tree};
 use rtc_ir::{Column, Image, Mesh, Scene};
@@ -11,17 +11,17 @@ use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 /// A value that differs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// Where, as `materials[2].phong.kd`; the number is that in the new scene, of what is gone that in the
-    /// old one.
+    /// The path, for example `materials[2].phong.kd`. Its index is that in the new scene, or in the
+    /// old scene for a removed value.
     pub path: String,
-    /// The value in the new scene; none if it is gone.
+    /// The value in the new scene; `None` if it was removed.
     pub new: Option<Value>,
-    /// The value in the old scene; none if it is added.
+    /// The value in the old scene; `None` if it was added.
     pub old: Option<Value>,
 }
 
-/// What differs in a new scene from an old one, in the order of the IR. Of lists, items that are equal are
-/// paired, as many as can be in order, and between these one after another.
+/// The differences of a new scene from an old one, in the order of the IR. Lists are aligned by a
+/// longest common subsequence of equal items; the items between are paired in order.
 ///
 /// # Errors
 /// If a number is not finite.
@@ -33,26 +33,26 @@ pub fn changes(new: &Scene, old: &Scene) -> Result<Vec<Change>, NotFinite> {
     Ok(found)
 }
 
-/// Lets the surfaces of an old scene name their materials by the places that these have in a new one, so
-/// that one more material is one difference.
+/// Renumbers the materials of the old scene as in the new one, so that an inserted material is one
+/// difference.
 fn rename_materials(new: &Value, old: &mut Value) {
     let [a, b] =
         [new, &*old].map(|scene| scene["materials"].as_array().map_or(&[][..], Vec::as_slice));
     let pairs = pairs(a, b).into_iter();
-    let places: BTreeMap<u64, usize> = pairs
+    let indices: BTreeMap<u64, usize> = pairs
         .filter_map(|(at, from)| Some((from? as u64, at?)))
         .collect();
     for surface in old["surfaces"].as_array_mut().into_iter().flatten() {
-        let place = surface["material"]
+        let index = surface["material"]
             .as_u64()
-            .and_then(|from| places.get(&from));
-        if let Some(place) = place {
-            surface["material"] = (*place).into();
+            .and_then(|from| indices.get(&from));
+        if let Some(index) = index {
+            surface["material"] = (*index).into();
         }
     }
 }
 
-/// A scene as a tree of values, its vertices and pixels told by number and hash.
+/// A scene as a JSON tree, with count and hash for vertices and pixels.
 fn document(scene: &Scene) -> Result<Value, NotFinite> {
     let Scene {
         camera,
@@ -93,7 +93,7 @@ fn image(image: &Image) -> Value {
         kind,
         pixels,
     } = image;
-    let pixels = told(pixels.len(), xxh3_64(pixels));
+    let pixels = summary(pixels.len(), xxh3_64(pixels));
     json!({ "name": name, "width": width, "height": height, "kind": kind, "pixels": pixels })
 }
 
@@ -123,7 +123,7 @@ fn mesh(mesh: &Mesh) -> Value {
         "secondUvs": column(second_uvs),
         "tangents": column(tangents),
         "colors": column(colors),
-        "triangles": told(triangles.len(), hash.digest()),
+        "triangles": summary(triangles.len(), hash.digest()),
     })
 }
 
@@ -131,11 +131,11 @@ fn column<const N: usize>(column: &Column<N>) -> String {
     let mut hash = Xxh3Default::default();
     let numbers = column.iter().flatten();
     numbers.for_each(|number| hash.update(&number.to_le_bytes()));
-    told(column.len(), hash.digest())
+    summary(column.len(), hash.digest())
 }
 
-/// So many values of one hash.
-fn told(count: usize, hash: u64) -> String {
+/// A count and a hash as a string.
+fn summary(count: usize, hash: u64) -> String {
     match count {
         0 => "none".to_owned(),
         count => format!("{count}, xxh3:{hash:016x}"),
@@ -161,7 +161,7 @@ fn change(path: &str, new: Option<&Value>, old: Option<&Value>) -> Change {
     }
 }
 
-/// Whether it is numbers, which are told as one value.
+/// Whether the list holds numbers only, which are compared as one value.
 fn is_vector(list: &[Value]) -> bool {
     list.iter().all(Value::is_number)
 }
@@ -195,8 +195,8 @@ fn lists(path: &str, new: &[Value], old: &[Value], found: &mut Vec<Change>) {
     }
 }
 
-/// Which item of a new list is which of an old one: those that are equal, as many as can be in order, and
-/// between these one after another; what is left is new or gone.
+/// Pairs the items of two lists: those of a longest common subsequence, and the items between in
+/// order. An item without a partner was added or removed.
 fn pairs(new: &[Value], old: &[Value]) -> Vec<(Option<usize>, Option<usize>)> {
     let same = |pair: &(&Value, &Value)| pair.0 == pair.1;
     let start = new.iter().zip(old).take_while(same).count();
@@ -221,15 +221,15 @@ fn pairs(new: &[Value], old: &[Value]) -> Vec<(Option<usize>, Option<usize>)> {
     pairs
 }
 
-/// The places of a longest common subsequence of two lists, in order; none of lists too long for it.
+/// The index pairs of a longest common subsequence, in order; empty if the lists are too long.
 fn common(a: &[Value], b: &[Value]) -> Vec<(usize, usize)> {
-    /// So many pairs of items are compared at most.
+    /// The maximum number of item comparisons.
     const MOST: usize = 1 << 22;
     if a.len().saturating_mul(b.len()) > MOST {
         return Vec::new();
     }
     let width = b.len() + 1;
-    // The length of the longest one from each place on.
+    // The length of a longest common subsequence of each pair of suffixes.
     let mut longest = vec![0_u32; (a.len() + 1) * width];
     for i in (0..a.len()).rev() {
         for j in (0..b.len()).rev() {
@@ -241,10 +241,10 @@ fn common(a: &[Value], b: &[Value]) -> Vec<(usize, usize)> {
             };
         }
     }
-    let (mut i, mut j, mut places) = (0, 0, Vec::new());
+    let (mut i, mut j, mut indices) = (0, 0, Vec::new());
     while i < a.len() && j < b.len() {
         if a[i] == b[j] {
-            places.push((i, j));
+            indices.push((i, j));
             (i, j) = (i + 1, j + 1);
         } else if longest[(i + 1) * width + j] >= longest[i * width + j + 1] {
             i += 1;
@@ -252,7 +252,7 @@ fn common(a: &[Value], b: &[Value]) -> Vec<(usize, usize)> {
             j += 1;
         }
     }
-    places
+    indices
 }
 
 #[cfg(test)]
@@ -262,8 +262,8 @@ mod tests {
     fn paths(new: &Value, old: &Value) -> Vec<String> {
         let mut found = Vec::new();
         compare("", new, old, &mut found);
-        let told = |value: &Option<Value>| value.as_ref().map_or("-".into(), Value::to_string);
-        let line = |c: &Change| format!("{} {} {}", c.path, told(&c.new), told(&c.old));
+        let summary = |value: &Option<Value>| value.as_ref().map_or("-".into(), Value::to_string);
+        let line = |c: &Change| format!("{} {} {}", c.path, summary(&c.new), summary(&c.old));
         found.iter().map(line).collect()
     }
 

@@ -1,9 +1,9 @@
-//! Lists of entities as tables of numbers: entities that differ only in their numbers share a kind,
-//! and a kind is its tree with a null for each number, each long list of numbers and each long
-//! text.
+//! Lists of entities as tables of numbers. Entities that differ only in their numbers share a
+//! template: their JSON tree with null for each number, each long list of numbers and each long
+//! string.
 //!
-//! No entity of the IR is named here: the tables describe themselves, so a file of an older version
-//! yields the tree of that version. Integers stay integers and floats keep every bit.
+//! No entity of the IR is named here. The tables describe themselves, so a file of an older version
+//! decodes to the tree of that version. Integers stay integers and floats keep every bit.
 
 use super::binary::Container;
 use super::run::{self, Run};
@@ -20,78 +20,78 @@ use std::collections::BTreeMap;
 pub(super) struct Table {
     /// Its key in the scene.
     pub(super) key: String,
-    /// The section with the kind of each entity, in order.
+    /// The section with the template index of each entity, in order.
     order: usize,
-    kinds: Vec<EntityShape>,
+    kinds: Vec<EntityTemplate>,
 }
 
-/// Entities that differ only in their numbers.
+/// A template: entities that differ only in their numbers.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct EntityShape {
-    /// The entity with a null for each number, long list or long text.
+struct EntityTemplate {
+    /// The entity with null for each number, long list or long string.
     entity: Value,
-    /// What each null stands for, in order.
+    /// What each null replaces, in order.
     numbers: Vec<Slot>,
-    /// The section with the floats, a record for each entity of this kind.
+    /// The section of the floats, one record per entity.
     floats: usize,
-    /// The section with the integers, likewise.
+    /// The section of the integers, one record per entity.
     integers: usize,
-    /// Long lists and texts, entity by entity.
+    /// The long lists and strings, entity by entity.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     runs: Vec<Run>,
 }
 
-/// What a null stands for.
+/// What a null replaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 enum Slot {
     F64,
     U32,
-    /// A long list or text, in a section of its own.
+    /// A long list or string, in a section of its own.
     Run,
 }
 
-/// What was taken out of the entities of one kind.
+/// The numbers, lists and strings extracted from the entities of one template.
 #[derive(Default)]
-struct Taken {
+struct ExtractedNumbers {
     slots: Vec<Slot>,
     floats: Vec<u8>,
     integers: Vec<u8>,
     runs: Vec<Run>,
 }
 
-/// Moves the numbers of `entities` into sections of `body`; only one entity at a time is a tree.
+/// Moves the numbers of `entities` into sections of `body`. Only one entity at a time is a tree.
 pub(super) fn pack<T: Serialize>(
     key: &str,
     entities: &[T],
     body: &mut SectionWriter<'_>,
 ) -> Result<Table, NotFinite> {
     let mut found: BTreeMap<String, u32> = BTreeMap::new();
-    let mut kinds: Vec<(Value, Taken)> = Vec::new();
+    let mut kinds: Vec<(Value, ExtractedNumbers)> = Vec::new();
     let mut order = Vec::new();
     for entity in entities {
         let mut entity = tree(entity)?;
-        let mut taken = Taken::default();
-        take(&mut entity, &mut taken, body);
-        let name = format!("{entity}{:?}", taken.slots);
+        let mut extracted = ExtractedNumbers::default();
+        extract(&mut entity, &mut extracted, body);
+        let name = format!("{entity}{:?}", extracted.slots);
         let next = u32::try_from(found.len())
             .expect("kinds are fewer than entities, whose indices are u32");
         let index = *found.entry(name).or_insert(next);
         order.extend(index.to_le_bytes());
         match kinds.get_mut(index as usize) {
-            None => kinds.push((entity, taken)),
+            None => kinds.push((entity, extracted)),
             Some((_, earlier)) => {
-                earlier.floats.extend(taken.floats);
-                earlier.integers.extend(taken.integers);
-                earlier.runs.extend(taken.runs);
+                earlier.floats.extend(extracted.floats);
+                earlier.integers.extend(extracted.integers);
+                earlier.runs.extend(extracted.runs);
             }
         }
     }
     let order = body.push(ElementType::U32, 1, Content::Bytes(order.into()));
     let kinds = kinds
         .into_iter()
-        .map(|(entity, taken)| store(entity, taken, body))
+        .map(|(entity, extracted)| store(entity, extracted, body))
         .collect();
     Ok(Table {
         key: key.to_owned(),
@@ -100,13 +100,17 @@ pub(super) fn pack<T: Serialize>(
     })
 }
 
-fn store(entity: Value, taken: Taken, body: &mut SectionWriter<'_>) -> EntityShape {
-    let Taken {
+fn store(
+    entity: Value,
+    extracted: ExtractedNumbers,
+    body: &mut SectionWriter<'_>,
+) -> EntityTemplate {
+    let ExtractedNumbers {
         slots: numbers,
         floats,
         integers,
         runs,
-    } = taken;
+    } = extracted;
     let floats = body.push(
         ElementType::F64,
         count(&numbers, Slot::F64),
@@ -117,7 +121,7 @@ fn store(entity: Value, taken: Taken, body: &mut SectionWriter<'_>) -> EntitySha
         count(&numbers, Slot::U32),
         Content::Bytes(integers.into()),
     );
-    EntityShape {
+    EntityTemplate {
         entity,
         numbers,
         floats,
@@ -130,28 +134,30 @@ fn count(numbers: &[Slot], slot: Slot) -> usize {
     numbers.iter().filter(|kind| **kind == slot).count()
 }
 
-/// Replaces each number, long list and long text of the tree by a null. Integers beyond u32 stay:
+/// Replaces each number, long list and long string of the tree by null. Integers beyond u32 stay:
 /// the IR has none.
-fn take(tree: &mut Value, taken: &mut Taken, body: &mut SectionWriter<'_>) {
+fn extract(tree: &mut Value, extracted: &mut ExtractedNumbers, body: &mut SectionWriter<'_>) {
     if let Some(run) = run::store(tree, body) {
-        taken.runs.push(run);
-        taken.slots.push(Slot::Run);
+        extracted.runs.push(run);
+        extracted.slots.push(Slot::Run);
         *tree = Value::Null;
         return;
     }
     match tree {
         Value::Null | Value::Bool(_) | Value::String(_) => {}
-        Value::Array(items) => items.iter_mut().for_each(|item| take(item, taken, body)),
+        Value::Array(items) => items
+            .iter_mut()
+            .for_each(|item| extract(item, extracted, body)),
         Value::Object(members) => members
             .values_mut()
-            .for_each(|member| take(member, taken, body)),
+            .for_each(|member| extract(member, extracted, body)),
         Value::Number(number) => {
             if let Some(integer) = run::as_u32(number) {
-                taken.integers.extend(integer.to_le_bytes());
-                taken.slots.push(Slot::U32);
+                extracted.integers.extend(integer.to_le_bytes());
+                extracted.slots.push(Slot::U32);
             } else if let Some(float) = number.as_f64().filter(|_| number.is_f64()) {
-                taken.floats.extend(float.to_le_bytes());
-                taken.slots.push(Slot::F64);
+                extracted.floats.extend(float.to_le_bytes());
+                extracted.slots.push(Slot::F64);
             } else {
                 return;
             }
@@ -160,17 +166,17 @@ fn take(tree: &mut Value, taken: &mut Taken, body: &mut SectionWriter<'_>) {
     }
 }
 
-/// The sections of a file, and how much more may be made of them: memory stays within a constant
-/// times its length.
-pub(super) struct Stock<'a> {
+/// Hands out the sections of a file and limits the memory made from them to a constant times the
+/// length of the file.
+pub(super) struct SectionReader<'a> {
     sections: &'a [Section<'a>],
-    /// Which sections a run, a column or an image was made of: no two may be made of one.
+    /// Which sections were handed out: each may be used once.
     spent: Vec<bool>,
-    /// How many bytes of text the kinds may still repeat.
+    /// The bytes of template text that may still be repeated.
     text: usize,
 }
 
-impl<'a> Stock<'a> {
+impl<'a> SectionReader<'a> {
     pub(super) fn new(sections: &'a [Section<'a>], file: &Container<'_>) -> Self {
         Self {
             sections,
@@ -179,13 +185,13 @@ impl<'a> Stock<'a> {
         }
     }
 
-    /// The section, unless something else was made of it before.
+    /// The section, unless it was handed out before.
     pub(super) fn take(&mut self, section: usize) -> Option<&'a Section<'a>> {
         let spent = self.spent.get_mut(section)?;
         (!std::mem::replace(spent, true)).then(|| &self.sections[section])
     }
 
-    /// True for runs that are sound and of sections that nothing else is made of.
+    /// Takes the sections of these runs; false if a run is invalid or its section was taken before.
     fn spend(&mut self, runs: &[Run]) -> bool {
         runs.iter().all(|run| {
             self.take(run.section)
@@ -194,22 +200,22 @@ impl<'a> Stock<'a> {
     }
 }
 
-/// Hands on each entity of the list a table was packed from.
+/// Decodes a table; calls `take` with each entity in order.
 pub(super) fn unpack(
     table: &Table,
-    stock: &mut Stock<'_>,
+    reader: &mut SectionReader<'_>,
     file: &Container,
     mut take: impl FnMut(Value) -> Decoded<()>,
 ) -> Decoded<()> {
     let malformed = |what: &str| {
-        file.fault(
+        file.error_at(
             &codes::MALFORMED,
             format!("table `{}` {what}", table.key.escape_debug()),
             0,
             file.bytes.len(),
         )
     };
-    let order = stock
+    let order = reader
         .sections
         .get(table.order)
         .filter(|order| order.holds(ElementType::U32, 1, order.len()));
@@ -224,12 +230,12 @@ pub(super) fn unpack(
     let mut sources = Vec::new();
     for (kind, records) in table.kinds.iter().zip(records) {
         let size = records.saturating_mul(kind.entity.to_string().len());
-        let left = stock.text.checked_sub(size);
-        stock.text = left
+        let remaining = reader.text.checked_sub(size);
+        reader.text = remaining
             .ok_or_else(|| malformed("repeats more text than the file can have been made from"))?;
         let source = kind
-            .source(stock.sections, records)
-            .filter(|_| stock.spend(&kind.runs));
+            .source(reader.sections, records)
+            .filter(|_| reader.spend(&kind.runs));
         sources.push(
             source
                 .ok_or_else(|| malformed("has sections of another length or kind than it says"))?,
@@ -242,7 +248,7 @@ pub(super) fn unpack(
     })
 }
 
-/// Where what the nulls of one kind stand for is read from.
+/// Iterates over the values that replace the nulls of one template.
 struct NullSource<'a> {
     slots: std::iter::Cycle<std::slice::Iter<'a, Slot>>,
     floats: &'a Section<'a>,
@@ -253,8 +259,8 @@ struct NullSource<'a> {
     sections: &'a [Section<'a>],
 }
 
-impl EntityShape {
-    /// The source of this kind's numbers, if the sections hold `records` records of them.
+impl EntityTemplate {
+    /// The values of this template, if the sections hold `records` records of them.
     fn source<'a>(&'a self, sections: &'a [Section<'a>], records: usize) -> Option<NullSource<'a>> {
         let Self {
             entity,
@@ -294,7 +300,7 @@ fn nulls(tree: &Value) -> usize {
     }
 }
 
-/// Replaces each null by what it stands for.
+/// Replaces each null by its value.
 fn put(tree: &mut Value, source: &mut NullSource) {
     match tree {
         Value::Bool(_) | Value::String(_) | Value::Number(_) => {}

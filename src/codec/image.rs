@@ -1,13 +1,12 @@
-//! The images of a container: their pixels are a section, written from the scene and read into it
-//! without a detour.
+//! Images in a container: the pixels are a section, copied directly from and to the scene.
 
-use super::columns::Stock;
+use super::columns::SectionReader;
 use super::section::{Content, ElementType, SectionWriter};
 use rtc_ir::{Image, Pixels};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// An image, with the section of its pixels in place of them.
+/// An image with the index of its pixel section.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct StoredImage {
@@ -39,8 +38,8 @@ pub(super) fn store<'s>(image: &'s Image, body: &mut SectionWriter<'s>) -> Store
 }
 
 impl StoredImage {
-    /// The image; none if its section is not there, is of another kind, or was taken before.
-    pub(super) fn load(&self, stock: &mut Stock<'_>) -> Option<Image> {
+    /// The image; `None` if its section is missing, of another type, or was taken before.
+    pub(super) fn load(&self, reader: &mut SectionReader<'_>) -> Option<Image> {
         let Self {
             name,
             width,
@@ -48,7 +47,7 @@ impl StoredImage {
             kind,
             pixels,
         } = self;
-        let pixels = stock.take(*pixels)?.octets()?.to_vec().into();
+        let pixels = reader.take(*pixels)?.octets()?.to_vec().into();
         Some(Image {
             name: name.clone(),
             width: *width,

@@ -1,9 +1,25 @@
-//! The IR as bytes: a compact JSON text and a binary container with checksums, both with a version.
+//! Encodes and decodes the IR: compact JSON and a binary container with checksums, both versioned.
 //!
-//! Every older version decodes; newer or corrupt bytes are one clear error with its place. Both
-//! forms hold the same tree of JSON values, so a step of `upgrade.rs` is written once and serves
-//! both; only the columns of meshes and the pixels of images go from the scene to a container and
-//! back as they are.
+//! # Overview
+//! - [`detect_format`] finds the [`Encoding`] of a file from its first bytes.
+//! - [`decode`] turns bytes into a `Scene`. The scene still has to be validated.
+//! - [`encode`] and [`prepare`] turn a scene into bytes; the same scene always gives the same
+//!   bytes. [`hash()`] is the hash of these bytes.
+//! - [`changes()`] lists the differences between two scenes, and [`schema()`] is the JSON Schema of
+//!   the JSON encoding.
+//!
+//! # How decoding works
+//! Both encodings hold the same tree of JSON values: detect the version, decode the tree, upgrade
+//! it step by step to the current version (`upgrade`), and deserialise it. So an upgrade step is
+//! written once for both encodings. Only mesh columns and image pixels bypass the tree: they are
+//! copied between the scene and sections of the container (`section`, `mesh`, `image`). `columns`
+//! packs lists of similar entities into tables of numbers.
+//!
+//! # Guarantees
+//! - Every older version decodes; newer versions and corrupt bytes are errors with a position.
+//! - Of a damaged container the first error is reported, because later bytes can't be trusted. Of a
+//!   JSON document all errors are reported (`faults`).
+//! - Memory use is bounded by a constant times the file length.
 
 mod binary;
 mod changes;
@@ -29,76 +45,76 @@ use serde::Serialize;
 use serde_json::Value;
 use std::io::{self, Write};
 
-/// The two forms the IR is stored in.
+/// The two encodings of the IR.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// JSON, one entity a line.
-    Text,
-    /// The container, `.rtir`.
+pub enum Encoding {
+    /// JSON, one entity per line.
+    Json,
+    /// The binary container, `.rtir`.
     Binary,
 }
 
-/// The form of the bytes, if they look like the IR at all; a container with a damaged beginning
-/// still does.
+/// The encoding of the bytes; `None` if they are not IR. A container with a damaged magic is still
+/// detected.
 #[must_use]
-pub fn recognise(bytes: &[u8]) -> Option<Form> {
-    if binary::looks_like(bytes) {
-        Some(Form::Binary)
-    } else if text::looks_like(bytes) {
-        Some(Form::Text)
+pub fn detect_format(bytes: &[u8]) -> Option<Encoding> {
+    if binary::has_magic(bytes) {
+        Some(Encoding::Binary)
+    } else if text::has_magic(bytes) {
+        Some(Encoding::Json)
     } else {
         None
     }
 }
 
-/// Decodes a scene; what is wrong goes to the sink. The scene still has to be validated.
-pub fn decode(form: Form, file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Scene> {
-    let scene = match form {
-        Form::Text => text::decode(file, map.bytes(file), map.budget()),
-        Form::Binary => binary::decode(file, map.bytes(file)).map_err(|fault| vec![*fault]),
+/// Decodes a scene and reports errors to the sink. The scene still has to be validated.
+pub fn decode(encoding: Encoding, file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Scene> {
+    let scene = match encoding {
+        Encoding::Json => text::decode(file, map.bytes(file), map.budget()),
+        Encoding::Binary => binary::decode(file, map.bytes(file)).map_err(|fault| vec![*fault]),
     };
     scene
         .map_err(|faults| faults.into_iter().for_each(|fault| sink.push(fault)))
         .ok()
 }
 
-/// A scene that can't be stored: it holds a number that is not finite.
+/// A scene that can't be encoded because a number is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotFinite;
 
-/// A scene encoded, and not yet written.
+/// An encoded scene that has not been written yet.
 pub struct Encoded<'s>(Writing<'s>);
 
 enum Writing<'s> {
-    Text(Vec<u8>),
+    Json(Vec<u8>),
     Binary(binary::ContainerDraft<'s>),
 }
 
 impl Encoded<'_> {
-    /// Writes the file, a part at a time: columns and pixels are never in memory twice.
+    /// Writes the file in pieces: columns and pixels are not copied in memory.
     ///
     /// # Errors
     /// Those of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         match &self.0 {
-            Writing::Text(text) => out.write_all(text),
+            Writing::Json(text) => out.write_all(text),
             Writing::Binary(draft) => draft.write(out),
         }
     }
 }
 
-/// Encodes a scene. The same scene gives the same bytes, always.
+/// Encodes a scene. The same scene always gives the same bytes.
 ///
 /// # Errors
-/// If a number is not finite: JSON has no word for it.
-pub fn prepare(form: Form, scene: &Scene) -> Result<Encoded<'_>, NotFinite> {
-    Ok(Encoded(match form {
-        Form::Text => {
+/// If a number is not finite: JSON has no syntax for it.
+pub fn prepare(encoding: Encoding, scene: &Scene) -> Result<Encoded<'_>, NotFinite> {
+    Ok(Encoded(match encoding {
+        Encoding::Json => {
             let mut text = Vec::new();
             print::document(scene, &mut text)?;
-            Writing::Text(text)
+            Writing::Json(text)
         }
-        Form::Binary => Writing::Binary(binary::encode(scene, &scene.display)?),
+        Encoding::Binary => Writing::Binary(binary::encode(scene, &scene.display)?),
     }))
 }
 
@@ -106,16 +122,16 @@ pub fn prepare(form: Form, scene: &Scene) -> Result<Encoded<'_>, NotFinite> {
 ///
 /// # Errors
 /// As [`prepare`].
-pub fn encode(form: Form, scene: &Scene) -> Result<Vec<u8>, NotFinite> {
+pub fn encode(encoding: Encoding, scene: &Scene) -> Result<Vec<u8>, NotFinite> {
     let mut bytes = Vec::new();
-    prepare(form, scene)?
+    prepare(encoding, scene)?
         .write(&mut bytes)
         .expect("memory takes all there is to write");
     Ok(bytes)
 }
 
-/// The hash of the container of a scene, XXH3 of 128 bits, as if nothing were said of how its values are
-/// shown; the bytes are never all in memory.
+/// The 128-bit XXH3 hash of the binary encoding of a scene with default display settings. The bytes
+/// are hashed in pieces.
 ///
 /// # Errors
 /// As [`prepare`].
@@ -126,7 +142,7 @@ pub fn hash(scene: &Scene) -> Result<u128, NotFinite> {
     Ok(hash.0.digest128())
 }
 
-/// A part of a scene as a tree.
+/// A part of a scene as a JSON tree.
 fn tree(part: &impl Serialize) -> Result<Value, NotFinite> {
     let tree = serde_json::to_value(part)
         .expect("a scene is structs, lists and numbers, which JSON holds");
@@ -137,7 +153,7 @@ fn tree(part: &impl Serialize) -> Result<Value, NotFinite> {
     }
 }
 
-/// `serde_json` makes a null of a number that is not finite, and the IR has no other nulls.
+/// `serde_json` writes null for a number that is not finite, and the IR has no other nulls.
 fn has_null(tree: &Value) -> bool {
     match tree {
         Value::Null => true,
@@ -147,11 +163,11 @@ fn has_null(tree: &Value) -> bool {
     }
 }
 
-/// Checksums are looked at, except by a fuzzer: it can't guess one, and would never see what stands
-/// behind.
+/// Whether checksums are verified. A fuzzer can't guess a checksum and would never reach the code
+/// behind it.
 const CHECKSUMS_COUNT: bool = !cfg!(fuzzing);
 
-/// What decoding ends with: the first fault ends it, since nothing after it can be trusted.
+/// The result of decoding. The first error ends it, because nothing after it can be trusted.
 type Decoded<T> = Result<T, Box<Diagnostic>>;
 
 fn newer(version: u32, what: &str, newest: u32, span: Span) -> Box<Diagnostic> {
@@ -166,20 +182,20 @@ fn newer(version: u32, what: &str, newest: u32, span: Span) -> Box<Diagnostic> {
     )
 }
 
-/// A span of a file below 4 GiB; larger offsets are cut off.
+/// A span; offsets of 4 GiB and more are clamped.
 fn span(file: FileId, start: usize, end: usize) -> Span {
     let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
     Span::new(file, offset(start), offset(end))
 }
 
-/// The scene a tree of version `version` stands for.
-fn typed(version: u32, tree: Value, place: Span) -> Decoded<Scene> {
+/// The scene that a tree of version `version` encodes.
+fn typed(version: u32, tree: Value, span: Span) -> Decoded<Scene> {
     debug_assert!(version <= VERSION, "newer versions are refused before");
     serde_json::from_value(upgrade::to_current(version, tree))
-        .map_err(|error| wrong_shape(&error.to_string(), place))
+        .map_err(|error| wrong_shape(&error.to_string(), span))
 }
 
-fn wrong_shape(what: &str, place: Span) -> Box<Diagnostic> {
+fn wrong_shape(what: &str, span: Span) -> Box<Diagnostic> {
     let message = format!("this is not the shape of a scene: {}", clip_words(what));
-    Box::new(Diagnostic::new(&codes::WRONG_SHAPE, message).at(place, "found here"))
+    Box::new(Diagnostic::new(&codes::WRONG_SHAPE, message).at(span, "found here"))
 }

@@ -1,18 +1,19 @@
-//! Where a decoder stopped in a JSON text: the bytes of the culprit and its JSON pointer.
+//! Finds the bytes and the JSON pointer where a decoder stopped.
 //!
-//! Runs only when something is wrong with a text that is JSON, so its tree holds the culprit.
+//! Used only for a document that is JSON but not a scene, so its tree holds the node.
 
 use rtc_source::tree::{NodeId, Tree};
 
-/// The culprit: its bytes and its JSON pointer, empty for the whole document.
+/// The node at which decoding stopped: its bytes and its JSON pointer, empty for the whole
+/// document.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Culprit {
+pub(super) struct ErrorNode {
     pub(super) start: usize,
     pub(super) end: usize,
     pub(super) pointer: String,
 }
 
-/// The byte offset behind `column` bytes of `line`, counted from 1 as `serde_json` does.
+/// The byte offset after `column` bytes of `line`, counted from 1 as `serde_json` does.
 pub(super) fn offset(text: &str, line: usize, column: usize) -> usize {
     let start = match line {
         0 | 1 => 0,
@@ -24,9 +25,9 @@ pub(super) fn offset(text: &str, line: usize, column: usize) -> usize {
     (start + column).min(text.len())
 }
 
-/// The value or key that ends at `read`, or else the first character of what starts there. Without
-/// a tree, that character, of the whole document.
-pub(super) fn culprit(tree: Option<&Tree<'_>>, text: &str, read: usize) -> Culprit {
+/// The value or key that ends at `read`, or else the first character of the node that starts there.
+/// Without a tree: that character, with the pointer of the whole document.
+pub(super) fn error_node(tree: Option<&Tree<'_>>, text: &str, read: usize) -> ErrorNode {
     let before = text.get(..read).unwrap_or(text);
     let after = text.get(read..).unwrap_or_default();
     let end = before.trim_end().len();
@@ -38,21 +39,19 @@ pub(super) fn culprit(tree: Option<&Tree<'_>>, text: &str, read: usize) -> Culpr
                 .find(|at| is(tree.place(*at).0, tree.place(*at).1))
         })
     };
-    if let Some((at, tree)) = find(&|_, own| own == end).zip(tree) {
+    if let Some((at, tree)) = find(&|_, e| e == end).zip(tree) {
         let (start, end) = tree.place(at);
-        return Culprit {
+        return ErrorNode {
             start,
             end,
             pointer: pointer(at),
         };
     }
-    let width = text.get(start..).and_then(|rest| rest.chars().next());
-    Culprit {
+    let width = text.get(start..).and_then(|tail| tail.chars().next());
+    ErrorNode {
         start,
         end: start + width.map_or(0, char::len_utf8),
-        pointer: find(&|own, _| own == start)
-            .map(pointer)
-            .unwrap_or_default(),
+        pointer: find(&|s, _| s == start).map(pointer).unwrap_or_default(),
     }
 }
 
@@ -69,10 +68,12 @@ mod tests {
         let tree = json::parse(file, 5, text).unwrap();
         let found = |read: &str| {
             let read = text.find(read).unwrap() + read.len();
-            let culprit = culprit(Some(&tree), text, read);
+            let error_node = error_node(Some(&tree), text, read);
             (
-                text.get(culprit.start..culprit.end).unwrap().to_owned(),
-                culprit.pointer,
+                text.get(error_node.start..error_node.end)
+                    .unwrap()
+                    .to_owned(),
+                error_node.pointer,
             )
         };
         let pair = |text: &str, pointer: &str| (text.to_owned(), pointer.to_owned());

@@ -1,12 +1,11 @@
-//! The meshes of a container: each column is a section, written from the scene and read into it
-//! without a detour.
+//! Meshes in a container: each column is a section, copied directly from and to the scene.
 
-use super::columns::Stock;
+use super::columns::SectionReader;
 use super::section::{Content, ElementType, Section, SectionWriter};
 use rtc_ir::{Column, Mesh};
 use serde::{Deserialize, Serialize};
 
-/// A mesh, with the section of each column in place of its numbers; none where the column is empty.
+/// A mesh with the section index of each column; absent for an empty column.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct StoredMesh {
@@ -50,11 +49,7 @@ pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut SectionWriter<'s>) -> StoredM
         second_uvs: put(second_uvs, body),
         tangents: put(tangents, body),
         colors: put(colors, body),
-        triangles: body.push(
-            ElementType::U32,
-            3,
-            Content::Whole(triangles.as_flattened()),
-        ),
+        triangles: body.push(ElementType::U32, 3, Content::U32(triangles.as_flattened())),
     }
 }
 
@@ -62,27 +57,27 @@ fn put<'s, const N: usize>(column: &'s Column<N>, body: &mut SectionWriter<'s>) 
     match column {
         _ if column.is_empty() => None,
         Column::Single(vectors) => {
-            Some(body.push(ElementType::F32, N, Content::Single(vectors.as_flattened())))
+            Some(body.push(ElementType::F32, N, Content::F32(vectors.as_flattened())))
         }
         Column::Double(vectors) => {
-            Some(body.push(ElementType::F64, N, Content::Double(vectors.as_flattened())))
+            Some(body.push(ElementType::F64, N, Content::F64(vectors.as_flattened())))
         }
     }
 }
 
 impl StoredMesh {
-    /// The mesh; none if a section is not there, is of another kind, or was taken before.
-    pub(super) fn load(&self, stock: &mut Stock<'_>) -> Option<Mesh> {
-        let triangles = stock.take(self.triangles)?;
+    /// The mesh; `None` if a section is missing, of another type, or was taken before.
+    pub(super) fn load(&self, reader: &mut SectionReader<'_>) -> Option<Mesh> {
+        let triangles = reader.take(self.triangles)?;
         Some(Mesh {
             name: self.name.clone(),
             part: self.part.clone(),
-            positions: column(self.positions, stock)?,
-            normals: column(self.normals, stock)?,
-            uvs: column(self.uvs, stock)?,
-            second_uvs: column(self.second_uvs, stock)?,
-            tangents: column(self.tangents, stock)?,
-            colors: column(self.colors, stock)?,
+            positions: column(self.positions, reader)?,
+            normals: column(self.normals, reader)?,
+            uvs: column(self.uvs, reader)?,
+            second_uvs: column(self.second_uvs, reader)?,
+            tangents: column(self.tangents, reader)?,
+            colors: column(self.colors, reader)?,
             triangles: triangles
                 .vectors(ElementType::U32, u32::from_le_bytes)?
                 .into(),
@@ -90,11 +85,14 @@ impl StoredMesh {
     }
 }
 
-fn column<const N: usize>(section: Option<usize>, stock: &mut Stock<'_>) -> Option<Column<N>> {
+fn column<const N: usize>(
+    section: Option<usize>,
+    reader: &mut SectionReader<'_>,
+) -> Option<Column<N>> {
     let Some(section) = section else {
         return Some(Column::default());
     };
-    let section: &Section<'_> = stock.take(section)?;
+    let section: &Section<'_> = reader.take(section)?;
     let single = || {
         section
             .vectors(ElementType::F32, f32::from_le_bytes)

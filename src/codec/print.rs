@@ -1,6 +1,7 @@
-//! The text form's layout: two levels are broken into lines, all below them stays on one line.
+//! The layout of the JSON encoding: the two outer levels are broken into lines, deeper levels stay
+//! on one line.
 //!
-//! So an entity is a line, a setting is a line, and a change to one is a change of one line.
+//! So each entity and each setting is one line, and a change of one is a change of one line.
 
 use super::NotFinite;
 use rtc_ir::{Scene, VERSION};
@@ -9,7 +10,7 @@ use serde_json::Serializer;
 use serde_json::ser::Formatter;
 use std::io::{self, ErrorKind, Write};
 
-/// Levels that are broken into lines.
+/// The number of outer levels that are broken into lines.
 const BROKEN: usize = 2;
 
 /// The document of a scene.
@@ -21,11 +22,10 @@ struct Document<'s> {
     scene: &'s Scene,
 }
 
-/// Writes the text of a scene, with `irVersion` first and a line end at the end, to what takes all
-/// there is to write.
+/// Writes a scene as JSON, `irVersion` first, ending with a newline. `out` must not fail.
 pub(super) fn document(scene: &Scene, out: &mut impl Write) -> Result<(), NotFinite> {
     let mut serializer = Serializer::with_formatter(&mut *out, Layout::default());
-    // Only the layout can fail, at numbers that are not finite.
+    // Only the layout can fail: it rejects numbers that are not finite.
     Document {
         ir_version: VERSION,
         scene,
@@ -39,9 +39,9 @@ pub(super) fn document(scene: &Scene, out: &mut impl Write) -> Result<(), NotFin
 
 #[derive(Default)]
 struct Layout {
-    /// How many lists and maps are open.
+    /// The nesting depth.
     level: usize,
-    /// The innermost one has an item.
+    /// Whether the innermost list or map has an item.
     filled: bool,
 }
 
@@ -75,7 +75,7 @@ impl Layout {
 }
 
 impl Formatter for Layout {
-    /// `serde_json` makes a null of a number that is not finite, and the IR has no other nulls.
+    /// `serde_json` writes null for a number that is not finite, and the IR has no other nulls.
     fn write_null<W: ?Sized + Write>(&mut self, _out: &mut W) -> io::Result<()> {
         Err(ErrorKind::InvalidData.into())
     }

@@ -1,20 +1,20 @@
-//! Long lists of numbers and long texts, each in a section of its own; in older files the pixels of
-//! images, and the corners of meshes.
+//! Long lists of numbers and long strings, each in its own section; in older files also the pixels
+//! of images and the vertices of meshes.
 //!
-//! Which they are is seen from the values alone; no entity of the IR is named here.
+//! They are found by their values alone; no entity of the IR is named here.
 
 use super::section::{Content, ElementType, Section, SectionWriter};
 use serde::{Deserialize, Serialize};
 use serde_json::{Number, Value};
 
-/// Lists of more elements than this have a section of their own.
+/// Longer lists get their own section.
 const LONG_LIST: usize = 32;
 
-/// Texts of more bytes than this have a section of their own.
+/// Longer strings, in bytes, get their own section.
 const LONG_TEXT: usize = 256;
 
-/// A section that is one value: a text, a list of numbers, or a list of lists of as many numbers as
-/// a record has.
+/// A section that is one value: a string, a list of numbers, or a list of lists with one record
+/// each.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Run {
@@ -23,7 +23,7 @@ pub(super) struct Run {
     nested: bool,
 }
 
-/// Puts the value into a section if it is long and regular.
+/// Puts the value into a section if it is long and uniform.
 pub(super) fn store(value: &Value, body: &mut SectionWriter<'_>) -> Option<Run> {
     match value {
         Value::String(text) if text.len() > LONG_TEXT => {
@@ -50,8 +50,8 @@ pub(super) fn store(value: &Value, body: &mut SectionWriter<'_>) -> Option<Run> 
     }
 }
 
-/// The bytes of all numbers, if each item is one, or a list of `stride` of them, and all are of one
-/// element.
+/// The bytes of all numbers, if each item is a number, or a list of `stride` numbers, and all have
+/// one type.
 fn numbers(items: &[Value], stride: Option<usize>) -> Option<(ElementType, Vec<u8>)> {
     let mut flat = Vec::with_capacity(items.len());
     for item in items {
@@ -99,7 +99,7 @@ fn as_number(value: &Value) -> Option<&Number> {
     }
 }
 
-/// The number, if it is an integer of 32 bits and not a float.
+/// The number, if it is an integer of 32 bits.
 pub(super) fn as_u32(number: &Number) -> Option<u32> {
     number
         .as_u64()
@@ -122,10 +122,10 @@ pub(super) fn number(section: &Section<'_>, at: usize) -> Value {
 }
 
 impl Run {
-    /// True if the section holds what this run says.
+    /// Whether the section holds a valid value of this run.
     pub(super) fn is_sound(&self, section: &Section<'_>) -> bool {
         match section.element {
-            ElementType::U8 => !self.nested && section.stride == 1 && section.text().is_some(),
+            ElementType::U8 => !self.nested && section.stride == 1 && section.as_str().is_some(),
             ElementType::F32 => false,
             ElementType::F64 | ElementType::U32 => {
                 section.stride > 0 && (self.nested || section.stride == 1)
@@ -133,9 +133,9 @@ impl Run {
         }
     }
 
-    /// The value, of a section that is sound for it.
+    /// The value of a section for which [`Run::is_sound`] holds.
     pub(super) fn value(&self, section: &Section<'_>) -> Value {
-        if let Some(text) = section.text() {
+        if let Some(text) = section.as_str() {
             return Value::from(text);
         }
         let numbers =

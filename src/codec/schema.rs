@@ -1,9 +1,9 @@
-//! The JSON Schema of the text form, from the same types the decoder fills.
+//! The JSON Schema of the JSON encoding, generated from the types that the decoder fills.
 
 use rtc_ir::{Scene, VERSION};
 use serde_json::{Map, Value, json};
 
-/// The JSON Schema (2020-12) of the text form.
+/// The JSON Schema (2020-12) of the JSON encoding.
 #[must_use]
 pub fn schema() -> Value {
     let mut schema = schemars::schema_for!(Scene).to_value();
@@ -37,7 +37,7 @@ fn put_first(root: &mut Map<String, Value>, key: &str, (name, value): (String, V
     }
 }
 
-/// Names the range of integers instead of their Rust type, and drops formats no editor knows.
+/// Replaces Rust integer formats by ranges, and drops formats that editors don't know.
 fn tidy(schema: &mut Value) {
     match schema {
         Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
@@ -59,7 +59,7 @@ fn tidy(schema: &mut Value) {
     }
 }
 
-/// Writes a whole minimum without a fraction.
+/// Writes a minimum of 0.0 as 0.
 fn whole_number(members: &mut Map<String, Value>) {
     if let Some(minimum) = members.get_mut("minimum")
         && minimum.as_f64() == Some(0.0)

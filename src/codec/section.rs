@@ -1,9 +1,9 @@
-//! Sections: runs of little-endian numbers or of text, each aligned to 64 bytes and guarded by a
-//! hash, with a table of them all.
+//! Sections: arrays of little-endian numbers or of bytes, each aligned to 64 bytes and hashed, with
+//! a table of contents.
 //!
-//! There is one layout: in the order of the table, each at the next aligned byte, zeros between,
-//! nothing behind the last. So every bit of the file is in the header, in a section or a known
-//! zero, and a change of any is found.
+//! The layout is fixed: sections in the order of the table, each at the next aligned offset, zeros
+//! between, nothing after the last. So every bit of the file is in the header, in a section or a
+//! known zero, and any change is detected.
 
 use super::binary::Container;
 use super::{CHECKSUMS_COUNT, Decoded};
@@ -13,17 +13,17 @@ use std::borrow::Cow;
 use std::io::{self, Write};
 use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 
-/// Sections start at multiples of this many bytes from the start of the file.
+/// The alignment of sections, in bytes from the start of the file.
 pub(super) const ALIGNMENT: usize = 64;
 
-/// What a section is a run of.
+/// The element type of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) enum ElementType {
     F32,
     F64,
     U32,
-    /// Bytes, of text or of pixels.
+    /// Bytes of a string or of pixels.
     U8,
 }
 
@@ -37,7 +37,7 @@ impl ElementType {
     }
 }
 
-/// One row of the table.
+/// An entry of the table of contents.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SectionEntry {
@@ -46,18 +46,18 @@ pub(super) struct SectionEntry {
     /// In bytes.
     length: u64,
     element: ElementType,
-    /// Elements of one record.
+    /// Elements per record.
     stride: usize,
-    /// The hash as 16 hexadecimal digits: JSON numbers lose bits in many readers.
+    /// The hash as 16 hexadecimal digits: many readers lose bits of JSON numbers.
     xxh3: String,
 }
 
-/// What a section is written from.
+/// The data of a section to be written.
 pub(super) enum Content<'s> {
     Bytes(Cow<'s, [u8]>),
-    Single(&'s [f32]),
-    Double(&'s [f64]),
-    Whole(&'s [u32]),
+    F32(&'s [f32]),
+    F64(&'s [f64]),
+    U32(&'s [u32]),
 }
 
 impl Content<'_> {
@@ -65,23 +65,23 @@ impl Content<'_> {
     fn length(&self) -> usize {
         match self {
             Self::Bytes(bytes) => bytes.len(),
-            Self::Single(numbers) => size_of_val(*numbers),
-            Self::Double(numbers) => size_of_val(*numbers),
-            Self::Whole(numbers) => size_of_val(*numbers),
+            Self::F32(numbers) => size_of_val(*numbers),
+            Self::F64(numbers) => size_of_val(*numbers),
+            Self::U32(numbers) => size_of_val(*numbers),
         }
     }
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         match self {
             Self::Bytes(bytes) => out.write_all(bytes),
-            Self::Single(numbers) => write_numbers(numbers, f32::to_le_bytes, out),
-            Self::Double(numbers) => write_numbers(numbers, f64::to_le_bytes, out),
-            Self::Whole(numbers) => write_numbers(numbers, u32::to_le_bytes, out),
+            Self::F32(numbers) => write_numbers(numbers, f32::to_le_bytes, out),
+            Self::F64(numbers) => write_numbers(numbers, f64::to_le_bytes, out),
+            Self::U32(numbers) => write_numbers(numbers, u32::to_le_bytes, out),
         }
     }
 }
 
-/// Writes numbers piece by piece, so that their bytes are never all in memory.
+/// Writes numbers in chunks, so that their bytes are never all in memory.
 fn write_numbers<T: Copy, const B: usize>(
     numbers: &[T],
     to_bytes: impl Fn(T) -> [u8; B],
@@ -120,7 +120,7 @@ impl<'s> SectionWriter<'s> {
         let (offset, length) = (self.length.next_multiple_of(ALIGNMENT), content.length());
         self.length = offset + length;
         self.contents.push(content);
-        let (offset, length, xxh3) = (offset as u64, length as u64, spelt(hash.0.digest()));
+        let (offset, length, xxh3) = (offset as u64, length as u64, hex(hash.0.digest()));
         self.entries.push(SectionEntry {
             offset,
             length,
@@ -131,8 +131,7 @@ impl<'s> SectionWriter<'s> {
         self.entries.len() - 1
     }
 
-    /// Writes the sections in turn, each at the next aligned byte; the first one's place is
-    /// aligned.
+    /// Writes the sections, each at the next aligned offset. `out` must be aligned at the start.
     pub(super) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut end = 0_usize;
         for content in &self.contents {
@@ -145,7 +144,7 @@ impl<'s> SectionWriter<'s> {
     }
 }
 
-/// Takes bytes for their hash alone.
+/// A writer that only hashes.
 #[derive(Default)]
 pub(super) struct Hash(pub(super) Xxh3Default);
 
@@ -160,16 +159,16 @@ impl Write for Hash {
     }
 }
 
-/// A hash as the table spells it.
-fn spelt(hash: u64) -> String {
+/// A hash as hexadecimal digits.
+fn hex(hash: u64) -> String {
     format!("{hash:016x}")
 }
 
-/// A section whose place, hash and numbers are checked.
+/// A section whose position, hash and numbers are checked.
 pub(super) struct Section<'a> {
     bytes: &'a [u8],
     pub(super) element: ElementType,
-    /// Elements of one record.
+    /// Elements per record.
     pub(super) stride: usize,
 }
 
@@ -195,14 +194,14 @@ impl Section<'_> {
         (self.element == ElementType::U8 && self.stride == 1).then_some(self.bytes)
     }
 
-    /// The text of a section of [`ElementType::U8`], if it is UTF-8.
-    pub(super) fn text(&self) -> Option<&str> {
+    /// The string of a section of [`ElementType::U8`], if it is UTF-8.
+    pub(super) fn as_str(&self) -> Option<&str> {
         self.octets()
             .and_then(|bytes| std::str::from_utf8(bytes).ok())
     }
 
-    /// All of a section of records of `N` numbers of the element given, whose bytes `number` reads;
-    /// none of another.
+    /// A section as vectors of `N` numbers of type `element`, each decoded by `number`; `None` if
+    /// the section has another type or stride.
     pub(super) fn vectors<T: Copy + Default, const N: usize, const B: usize>(
         &self,
         element: ElementType,
@@ -220,7 +219,7 @@ impl Section<'_> {
         Some(vectors)
     }
 
-    /// Where the first float that is not finite stands, in bytes from the start of the section.
+    /// The offset of the first float that is not finite, in bytes from the start of the section.
     fn not_finite(&self) -> Option<usize> {
         let position = match self.element {
             ElementType::F32 => first(self.bytes, |bytes| f32::from_le_bytes(bytes).is_finite()),
@@ -230,20 +229,20 @@ impl Section<'_> {
         position.map(|index| index * self.element.bytes())
     }
 
-    /// True if it is `records` records of `stride` elements.
+    /// Whether the section consists of `records` records of `stride` elements.
     pub(super) fn holds(&self, element: ElementType, stride: usize, records: usize) -> bool {
         self.element == element
             && self.stride == stride
             && Some(self.len()) == stride.checked_mul(records)
     }
 
-    /// The count of elements.
+    /// The number of elements.
     pub(super) fn len(&self) -> usize {
         self.bytes.len() / self.element.bytes()
     }
 }
 
-/// Checks all there is behind the header, which ends at `end`.
+/// Checks everything after the header, which ends at `end`.
 pub(super) fn open<'a>(
     file: &Container<'a>,
     mut end: usize,
@@ -271,7 +270,7 @@ pub(super) fn open<'a>(
             "{} bytes follow the last section, which ends at byte {end}",
             file.bytes.len() - end
         );
-        return Err(file.fault(&codes::MALFORMED, message, end, file.bytes.len()));
+        return Err(file.error_at(&codes::MALFORMED, message, end, file.bytes.len()));
     }
     Ok(sections)
 }
@@ -285,7 +284,7 @@ fn padding(file: &Container, start: usize, end: usize) -> Decoded<()> {
         Some(skip) => {
             let at = start + skip;
             let message = format!("the padding at byte {at} is not zero, so the file is damaged");
-            Err(file.fault(&codes::DAMAGED, message, at, at + 1))
+            Err(file.error_at(&codes::DAMAGED, message, at, at + 1))
         }
     }
 }
@@ -305,24 +304,24 @@ fn bytes_of<'a>(
         xxh3,
     } = entry;
     let record = stride.checked_mul(element.bytes()).unwrap_or(usize::MAX) as u64;
-    let whole = if record == 0 {
+    let is_integral = if record == 0 {
         *length == 0
     } else {
         length.is_multiple_of(record)
     };
-    if *offset != (start - body) as u64 || !whole {
+    if *offset != (start - body) as u64 || !is_integral {
         let message = format!(
             "section {index} should start at byte {start} and hold whole records of {record} bytes"
         );
-        return Err(file.fault(&codes::MALFORMED, message, start, start));
+        return Err(file.error_at(&codes::MALFORMED, message, start, start));
     }
     let end = usize::try_from(*length).map_or(usize::MAX, |length| start.saturating_add(length));
     let Some(bytes) = file.bytes.get(start..end) else {
         return Err(file.truncated(end, &format!("section {index}")));
     };
-    if CHECKSUMS_COUNT && spelt(xxh3_64(bytes)) != *xxh3 {
+    if CHECKSUMS_COUNT && hex(xxh3_64(bytes)) != *xxh3 {
         let message = format!("the hash of section {index}, bytes {start} to {end}, is wrong");
-        return Err(file.fault(&codes::DAMAGED, message, start, end));
+        return Err(file.error_at(&codes::DAMAGED, message, start, end));
     }
     Ok(bytes)
 }
@@ -333,7 +332,7 @@ fn numbers(file: &Container, index: usize, section: &Section, start: usize) -> D
         Some(at) => {
             let byte = start + at;
             let message = format!("the number at byte {byte}, in section {index}, is not finite");
-            Err(file.fault(
+            Err(file.error_at(
                 &codes::MALFORMED,
                 message,
                 byte,
@@ -343,7 +342,7 @@ fn numbers(file: &Container, index: usize, section: &Section, start: usize) -> D
     }
 }
 
-/// The index of the first number, of `B` bytes, that is not sound.
+/// The index of the first number of `B` bytes that is invalid.
 fn first<const B: usize>(bytes: &[u8], sound: impl Fn([u8; B]) -> bool) -> Option<usize> {
     bytes
         .as_chunks()

@@ -1,8 +1,8 @@
-//! The text form read back: the version first, then the tree of that version, every fault with its
-//! span and pointer.
+//! Decodes the JSON encoding: first the version, then the tree of that version. Every error has a
+//! span and a JSON pointer.
 //!
-//! Memory and depth are bounded by the text: numbers too large, keys twice and deep nesting are
-//! located errors.
+//! Memory and depth are bounded by the length of the text. Numbers out of range, duplicate keys and
+//! deep nesting are errors with a position.
 
 use super::{Decoded, faults, locate, newer, span, typed, wrong_shape};
 use rtc_diag::{Diagnostic, codes};
@@ -19,7 +19,7 @@ use serde_json::error::Category;
 
 const BOM: &str = "\u{feff}";
 
-/// What every version has.
+/// The field that every version has.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct Head {
@@ -87,8 +87,8 @@ impl From<Document> for Scene {
     }
 }
 
-/// True if the bytes open a JSON object whose first key is `irVersion`.
-pub(super) fn looks_like(bytes: &[u8]) -> bool {
+/// Whether the bytes start a JSON object whose first key is `irVersion`.
+pub(super) fn has_magic(bytes: &[u8]) -> bool {
     let bytes = bytes
         .strip_prefix(BOM.as_bytes())
         .unwrap_or(bytes)
@@ -97,10 +97,10 @@ pub(super) fn looks_like(bytes: &[u8]) -> bool {
     key.is_some_and(|key| key.starts_with(b"\"irVersion\""))
 }
 
-/// Decodes the text.
+/// Decodes a JSON document.
 ///
 /// # Errors
-/// All faults that can be told apart, at least one.
+/// All errors that can be distinguished, at least one.
 pub(super) fn decode(
     file: FileId,
     bytes: &[u8],
@@ -110,19 +110,19 @@ pub(super) fn decode(
         std::str::from_utf8(bytes).map_err(|error| vec![*not_utf8(file, error.valid_up_to())])?;
     let (base, text) = text
         .strip_prefix(BOM)
-        .map_or((0, text), |rest| (BOM.len(), rest));
+        .map_or((0, text), |text| (BOM.len(), text));
     let source = TextSlice { file, base, text };
     scene(&source, bytes.len()).map_err(|stop| match stop {
-        Stop::Said(fault) => vec![*fault],
+        Stop::Reported(fault) => vec![*fault],
         Stop::Json(error) => source.faults(&error, budget),
     })
 }
 
 /// Why decoding ended.
 enum Stop {
-    /// What is to be said of it, and nothing else.
-    Said(Box<Diagnostic>),
-    /// The text is no document of the current version.
+    /// The only error to report.
+    Reported(Box<Diagnostic>),
+    /// The text is not a document of the current version.
     Json(serde_json::Error),
 }
 
@@ -130,18 +130,18 @@ fn scene(source: &TextSlice<'_>, end: usize) -> Result<Scene, Stop> {
     let TextSlice { file, text, .. } = *source;
     let Head { ir_version } = serde_json::from_str(text).map_err(Stop::Json)?;
     if ir_version > VERSION {
-        let (start, end) = source.version_place();
-        let place = span(file, start, end);
-        Err(Stop::Said(newer(ir_version, "IR", VERSION, place)))
+        let (start, end) = source.version_range();
+        let span = span(file, start, end);
+        Err(Stop::Reported(newer(ir_version, "IR", VERSION, span)))
     } else if ir_version == VERSION {
         let document: Document = serde_json::from_str(text).map_err(Stop::Json)?;
         Ok(document.into())
     } else {
-        older(source, ir_version, end).map_err(Stop::Said)
+        older(source, ir_version, end).map_err(Stop::Reported)
     }
 }
 
-/// The scene that a document of an older version stands for.
+/// The scene that a document of an older version encodes.
 fn older(source: &TextSlice<'_>, version: u32, end: usize) -> Decoded<Scene> {
     let TextSlice { file, base, text } = *source;
     let tree = serde_json::from_str::<Value>(text);
@@ -156,55 +156,55 @@ fn not_utf8(file: FileId, at: usize) -> Box<Diagnostic> {
     Box::new(Diagnostic::new(&codes::NOT_UTF8, message).at(span(file, at, at + 1), "not UTF-8"))
 }
 
-/// A text that begins `base` bytes into its file.
+/// A text that starts `base` bytes into its file.
 struct TextSlice<'a> {
     file: FileId,
     base: usize,
     text: &'a str,
 }
 
-/// What is said of a text that is not JSON.
+/// The message for a text that is not JSON.
 const NOT_JSON: &str = "the text is not JSON";
 
-/// Bytes that each node of a tree may take while the tree grows.
+/// The bytes that a tree may need per node while it grows.
 const NODE: u64 = 48;
 
 impl<'a> TextSlice<'a> {
-    /// The fault that `serde_json` stopped at.
+    /// The error at which `serde_json` stopped.
     fn fault(&self, error: &serde_json::Error, tree: Option<&Tree<'_>>) -> Diagnostic {
         let full = error.to_string();
         let what = full
             .rsplit_once(" at line ")
             .map_or(full.as_str(), |(what, _)| what);
         let read = locate::offset(self.text, error.line(), error.column());
-        let place = |start, end| span(self.file, self.base + start, self.base + end);
+        let span = |start, end| span(self.file, self.base + start, self.base + end);
         match error.classify() {
             Category::Data => {
-                let locate::Culprit {
+                let locate::ErrorNode {
                     start,
                     end,
                     pointer,
-                } = locate::culprit(tree, self.text, read);
-                wrong_shape(what, place(start, end)).pointer(pointer)
+                } = locate::error_node(tree, self.text, read);
+                wrong_shape(what, span(start, end)).pointer(pointer)
             }
             Category::Eof => not_json(
                 "the text ends too early",
                 what,
-                place(self.text.len(), self.text.len()),
+                span(self.text.len(), self.text.len()),
             ),
             Category::Syntax | Category::Io => {
                 let start = self.text.floor_char_boundary(read.saturating_sub(1));
                 not_json(
                     NOT_JSON,
                     what,
-                    place(start, self.text.ceil_char_boundary(read)),
+                    span(start, self.text.ceil_char_boundary(read)),
                 )
             }
         }
     }
 
-    /// The tree of the text, and whether it is JSON to its end: after a fault nothing is in the tree.
-    /// None if there is no memory for one.
+    /// The tree of the text, and whether the text is valid JSON; after a syntax error the tree
+    /// ends. `None` if it needs too much memory.
     fn tree(&self, budget: &Budget) -> Option<(Tree<'a>, bool)> {
         let begins_node = |byte: &u8| matches!(*byte, b',' | b':' | b'[' | b'{');
         let nodes = 1 + self.text.bytes().filter(begins_node).count() as u64;
@@ -217,14 +217,14 @@ impl<'a> TextSlice<'a> {
         Some((tree, fault.is_none()))
     }
 
-    /// The fault that `serde_json` stopped at, and all others.
+    /// The error at which `serde_json` stopped, and all others.
     fn faults(&self, first: &serde_json::Error, budget: &Budget) -> Vec<Diagnostic> {
         let Some((tree, is_json)) = self.tree(budget) else {
             return vec![self.fault(first, None)];
         };
         let first_fault = self.fault(first, Some(&tree));
         if !is_json {
-            // The version is looked at before the text is read to its end.
+            // The version is read before the rest of the text.
             let error = serde_json::from_str::<IgnoredAny>(self.text).err();
             let error = error.filter(|_| first.is_data());
             let second = error.map(|error| self.fault(&error, None));
@@ -254,9 +254,8 @@ impl<'a> TextSlice<'a> {
         faults
     }
 
-    /// The bytes of the value of `irVersion`, where it is the first key; else where the text
-    /// starts.
-    fn version_place(&self) -> (usize, usize) {
+    /// The bytes of the value of `irVersion` if it is the first key; else the start of the text.
+    fn version_range(&self) -> (usize, usize) {
         let key = "\"irVersion\"";
         let after = self.text.find(key).map_or(0, |at| at + key.len());
         let bytes = self.text.as_bytes();
@@ -272,20 +271,20 @@ impl<'a> TextSlice<'a> {
     }
 }
 
-/// Whether a fault is the one that `serde_json` stopped at. Where it stopped for what it takes for a
-/// fault of JSON, as a list that is too long, that lies within.
+/// Whether an error is the one at which `serde_json` stopped. What `serde_json` reports as a syntax
+/// error (such as a list that is too long) may lie inside the span of the error.
 fn covers(fault: &Diagnostic, first: &Diagnostic, is_data: bool) -> bool {
-    let place = |fault: &Diagnostic| fault.primary.as_ref().map(|label| label.span);
-    let Some((own, first)) = place(fault).zip(place(first)) else {
+    let span = |fault: &Diagnostic| fault.primary.as_ref().map(|label| label.span);
+    let Some((found, first)) = span(fault).zip(span(first)) else {
         return false;
     };
     if is_data {
-        own == first
+        found == first
     } else {
-        own.start <= first.start && first.end <= own.end
+        found.start <= first.start && first.end <= found.end
     }
 }
 
-fn not_json(how: &str, what: &str, place: rtc_source::Span) -> Diagnostic {
-    Diagnostic::new(&codes::NOT_JSON, format!("{how}: {what}")).at(place, "here")
+fn not_json(how: &str, what: &str, span: rtc_source::Span) -> Diagnostic {
+    Diagnostic::new(&codes::NOT_JSON, format!("{how}: {what}")).at(span, "here")
 }

@@ -15,7 +15,7 @@ pub(super) fn side(around: BoundingSphere) -> f64 {
 pub(super) fn around(scene: &Scene) -> BoundingSphere {
     let eye = Vec3::from_array(scene.camera.eye);
     let gaze = Vec3::from_array(scene.camera.center) - eye;
-    let ball = scene.ball().unwrap_or(BoundingSphere {
+    let ball = scene.bounding_sphere().unwrap_or(BoundingSphere {
         center: eye,
         radius: gaze.length(),
     });

@@ -57,7 +57,7 @@ pub(super) fn word(shape: &Shape) -> &'static str {
     if shape.kind() == ShapeKind::Quad {
         return "bilinear patch";
     }
-    shape.kind().word()
+    shape.kind().name()
 }
 
 /// What is told of several parts of one thing, as words in a row.

@@ -1,64 +1,64 @@
-//! Where a scene is: a ball around all of it that has an end. Its middle is what cameras without a
-//! target look at.
+//! Bounds of a scene: a sphere around every finite shape. Cameras without a target look at its
+//! centre.
 
 use super::{Column, Scene, Shape};
 use rtc_math::Vec3;
 
-/// A ball.
+/// A bounding sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundingSphere {
-    /// The middle.
+    /// The centre, in world coordinates.
     pub center: Vec3,
     /// The radius, above 0.
     pub radius: f64,
 }
 
 impl Scene {
-    /// A ball around all shapes but planes: its middle is that of the box around them. `None` if
-    /// there is nothing that has an end, and an extent.
+    /// A sphere around all shapes except planes, centred in their bounding box. `None` if there is
+    /// no finite shape, or if all of them are one point.
     #[must_use]
-    pub fn ball(&self) -> Option<BoundingSphere> {
+    pub fn bounding_sphere(&self) -> Option<BoundingSphere> {
         let boxes = self.mesh_boxes();
-        let each = |visit: &mut dyn FnMut(Vec3)| {
+        let for_each_corner = |visit: &mut dyn FnMut(Vec3)| {
             for surface in &self.surfaces {
                 surface.shape.corners_around(&boxes, visit);
             }
         };
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        each(&mut |corner| (low, high) = (low.min(corner), high.max(corner)));
+        for_each_corner(&mut |corner| (low, high) = (low.min(corner), high.max(corner)));
         let center = low + (high - low) / 2.0;
         let mut square = 0.0_f64;
-        each(&mut |corner| square = square.max(corner.distance_squared(center)));
-        let ball = BoundingSphere {
+        for_each_corner(&mut |corner| square = square.max(corner.distance_squared(center)));
+        let sphere = BoundingSphere {
             center,
             radius: square.sqrt(),
         };
-        (center.is_finite() && ball.radius.is_finite() && ball.radius > 0.0).then_some(ball)
+        (center.is_finite() && sphere.radius.is_finite() && sphere.radius > 0.0).then_some(sphere)
     }
 }
 
 impl Scene {
-    /// The boxes around the meshes, each by its least and greatest corner.
+    /// The bounding box of each mesh in object coordinates, as its minimum and maximum corner.
     #[must_use]
     pub fn mesh_boxes(&self) -> Vec<[Vec3; 2]> {
         let meshes = self.meshes.iter();
-        meshes.map(|mesh| around(&mesh.positions)).collect()
+        meshes.map(|mesh| bounding_box(&mesh.positions)).collect()
     }
 }
 
 impl Shape {
-    /// Visits the corners of boxes around the shape; none if it has no end. `meshes` are the boxes
-    /// around the meshes of the scene.
+    /// Visits the corners of boxes that contain the shape; visits none if the shape is infinite.
+    /// `meshes` holds the bounding box of each mesh of the scene.
     pub fn corners_around(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3)) {
-        self.bounded().cubes(meshes, &mut |center, half| {
+        self.bounded().visit_bounds(meshes, &mut |center, half| {
             let corners = box_corners([center - half, center + half]);
             corners.into_iter().for_each(&mut *visit);
         });
     }
 }
 
-/// The box around some points, empty if there are none.
-fn around(points: &Column<3>) -> [Vec3; 2] {
+/// The bounding box of points; empty (minimum above maximum) if there are none.
+fn bounding_box(points: &Column<3>) -> [Vec3; 2] {
     let points = || points.iter().map(Vec3::from_array);
     [
         points().fold(Vec3::INFINITY, Vec3::min),
@@ -66,7 +66,7 @@ fn around(points: &Column<3>) -> [Vec3; 2] {
     ]
 }
 
-/// The corners of a box.
+/// The eight corners of a box.
 pub(super) fn box_corners([low, high]: [Vec3; 2]) -> [Vec3; 8] {
     std::array::from_fn(|corner| {
         let pick = |bit: usize| {

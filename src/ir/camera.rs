@@ -1,4 +1,4 @@
-//! The camera: an eye, an image plane, and a lens.
+//! The camera: eye, image plane and lens.
 
 use arbitrary::Arbitrary;
 use rtc_math::{Vec3, atan2, cos, length, sin, turned_about, unit, unit_scale};
@@ -6,39 +6,40 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// A camera with any frustum, sheared ones included.
+/// A camera with any frustum, including sheared ones.
 ///
 /// Sub-sample (i, j) of pixel (x, y), y downwards, looks from the eye through
 /// `center + (x + (i+½)/factor − width/2)·right + (height/2 − y − (j+½)/factor)·up`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Camera {
-    /// Where rays start.
+    /// The origin of the rays.
     pub eye: [f64; 3],
-    /// The middle of the image, a point in the plane of focus.
+    /// The centre of the image, a point of the plane of focus.
     pub center: [f64; 3],
-    /// The step from a pixel to its right neighbour in the image plane.
+    /// The vector from a pixel to its right neighbour in the image plane.
     pub right: [f64; 3],
-    /// The step from a pixel to its upper neighbour; at a right angle to `right`.
+    /// The vector from a pixel to its upper neighbour; perpendicular to `right`.
     pub up: [f64; 3],
     /// Width and height of the image in pixels.
     #[schemars(inner(range(min = 1)))]
     pub size: [u32; 2],
     /// The aperture.
     pub lens: Lens,
-    /// How the rays run.
+    /// The projection.
     #[serde(default, skip_serializing_if = "Projection::is_perspective")]
     pub projection: Projection,
 }
 
 impl Camera {
-    /// The size of a pixel at a distance, if `height` of them span the angle `yfov` (radians).
+    /// The size of a pixel in scene units at `distance`, where `height` pixels span the angle
+    /// `yfov` (radians).
     #[must_use]
     pub fn pixel(yfov: f64, distance: f64, height: u32) -> f64 {
         2.0 * sin(yfov / 2.0) / cos(yfov / 2.0) * distance / f64::from(height)
     }
 
-    /// The axis of the world that is nearest to the upward direction.
+    /// The world axis, with sign, that is closest to the up direction.
     #[must_use]
     pub fn upright(&self) -> Vec3 {
         let up = Vec3::from_array(self.up);
@@ -53,8 +54,8 @@ impl Camera {
         if up.dot(axis) < 0.0 { -axis } else { axis }
     }
 
-    /// The same camera after a turn by `angle` (radians) about an axis, a unit vector, through a
-    /// point.
+    /// The camera rotated by `angle` (radians) about the line through `through` along the unit
+    /// vector `axis`.
     #[must_use]
     pub fn turned(&self, angle: f64, axis: Vec3, through: Vec3) -> Self {
         let turn = |v: Vec3| turned_about(v, axis, [sin(angle), cos(angle)]);
@@ -80,7 +81,7 @@ impl Camera {
         }
     }
 
-    /// The distance from the eye to the plane of the image.
+    /// The distance from the eye to the image plane.
     #[must_use]
     pub fn distance(&self) -> f64 {
         let [eye, center, right, up] =
@@ -92,8 +93,8 @@ impl Camera {
             .abs()
     }
 
-    /// From places in the world to places before the camera, which looks along -z, y up, in rows that
-    /// a row vector is multiplied by; none if its steps have no direction.
+    /// The matrix from world to camera coordinates (the camera looks along −z, y is up), row-major
+    /// and for row vectors; `None` if `right` or `up` has no direction.
     #[must_use]
     pub fn world_to_camera(&self) -> Option<[f32; 16]> {
         let [eye, center, right, up] =
@@ -107,8 +108,8 @@ impl Camera {
         };
         let axes = [x, y, z];
         let row = |k: usize| axes.map(|axis| axis[k]);
-        let place = axes.map(|axis| -axis.dot(eye));
-        let rows = [row(0), row(1), row(2), place];
+        let translation = axes.map(|axis| -axis.dot(eye));
+        let rows = [row(0), row(1), row(2), translation];
         let entry = |at: usize| match at % 4 {
             3 => f64::from(u8::from(at == 15)),
             column => rows[at / 4][column],
@@ -120,8 +121,7 @@ impl Camera {
         Some(std::array::from_fn(|at| entry(at) as f32))
     }
 
-    /// The angle from bottom to top, in radians, above 0 and below π; none where rays run side by
-    /// side.
+    /// The vertical field of view in radians, in (0, π); `None` for an orthographic camera.
     #[must_use]
     pub fn yfov(&self) -> Option<f64> {
         let half = length(Vec3::from_array(self.up)) * f64::from(self.size[1]) / 2.0;
@@ -129,8 +129,8 @@ impl Camera {
         (self.projection == Projection::Perspective && angle > 0.0 && angle < PI).then_some(angle)
     }
 
-    /// Gives the picture another size in pixels. It shows at least what it showed before: where its
-    /// shape is another one there is more at two sides.
+    /// Changes the image size in pixels. The new image shows at least what the old one showed; if
+    /// the aspect ratio differs, it shows more at two sides.
     pub fn fit(&mut self, size: [u32; 2]) {
         let ratio = |side: usize| f64::from(self.size[side]) / f64::from(size[side]);
         let ratio = ratio(0).max(ratio(1));
@@ -138,7 +138,7 @@ impl Camera {
         (self.right, self.up, self.size) = (scaled(self.right), scaled(self.up), size);
     }
 
-    /// Opens to an angle from bottom to top, in radians, in its place.
+    /// Sets the vertical field of view, in radians, without moving the camera.
     pub fn open(&mut self, yfov: f64) {
         let [_, height] = self.size;
         let scale = Self::pixel(yfov, self.distance(), height) / length(Vec3::from_array(self.up));
@@ -148,17 +148,17 @@ impl Camera {
     }
 }
 
-/// How the rays of a camera run.
+/// The projection of a camera.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
 )]
 #[serde(rename_all = "camelCase")]
 pub enum Projection {
-    /// From the eye.
+    /// Rays start at the eye.
     #[default]
     Perspective,
-    /// Side by side: through each point of the image, in the direction from the eye to its middle,
-    /// from as far before.
+    /// Parallel rays: each passes through its point of the image in the direction from the eye to
+    /// the image centre, and starts at the distance of the eye before the image.
     Orthographic,
 }
 
@@ -172,14 +172,14 @@ impl Projection {
     }
 }
 
-/// A thin lens; radius 0 or one sample is a pinhole.
+/// A thin lens; with radius 0 or one sample it is a pinhole.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Lens {
     /// The radius of the aperture in scene units, at least 0.
     #[schemars(range(min = 0.0))]
     pub radius: f64,
-    /// How many points of the aperture each sub-sample takes, at least 1.
+    /// Aperture samples of each sub-sample, at least 1.
     #[schemars(range(min = 1))]
     pub samples: u32,
 }

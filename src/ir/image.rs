@@ -1,4 +1,4 @@
-//! The images: pixels, as textures look them up.
+//! Images: the pixels that textures sample.
 
 use super::Scene;
 use arbitrary::Arbitrary;
@@ -11,11 +11,11 @@ use serde::{Deserialize, Serialize};
 #[serde(transparent)]
 pub struct ImageId(pub u32);
 
-/// A picture.
+/// An image.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Image {
-    /// What its file was called, as the scene names it; empty if it has no name.
+    /// The name of its file as the scene writes it; empty if there is none.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
     /// Width in pixels, at least 1.
@@ -24,7 +24,7 @@ pub struct Image {
     /// Height in pixels, at least 1.
     #[schemars(range(min = 1))]
     pub height: u32,
-    /// What a pixel is made of.
+    /// The pixel format.
     #[serde(default, skip_serializing_if = "Pixels::is_rgb8")]
     pub kind: Pixels,
     /// The pixels in rows from the top, as Base64 with padding (RFC 4648, §4).
@@ -34,14 +34,14 @@ pub struct Image {
 }
 
 impl Scene {
-    /// Adds an image.
+    /// Adds an image and returns its index.
     pub fn add_image(&mut self, image: Image) -> ImageId {
         self.images.push(image);
         ImageId(u32::try_from(self.images.len() - 1).unwrap_or(u32::MAX))
     }
 }
 
-/// What a pixel is made of.
+/// The format of a pixel.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
 )]
@@ -57,7 +57,7 @@ pub enum Pixels {
 }
 
 impl Pixels {
-    /// Bytes of one pixel.
+    /// Bytes per pixel.
     #[must_use]
     pub fn bytes(self) -> usize {
         match self {
@@ -76,7 +76,7 @@ impl Pixels {
     }
 }
 
-/// Bytes as a text with padding.
+/// Bytes as a Base64 string with padding.
 mod base64_text {
     use super::Shared;
     use base64::Engine as _;
@@ -93,12 +93,12 @@ mod base64_text {
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(
         deserializer: D,
     ) -> Result<Shared<u8>, D::Error> {
-        deserializer.deserialize_str(Text)
+        deserializer.deserialize_str(Base64Visitor)
     }
 
-    struct Text;
+    struct Base64Visitor;
 
-    impl Visitor<'_> for Text {
+    impl Visitor<'_> for Base64Visitor {
         type Value = Shared<u8>;
 
         fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -109,7 +109,7 @@ mod base64_text {
             let bytes = STANDARD.decode(text);
             bytes
                 .map(Shared::from)
-                .map_err(|fault| E::custom(format_args!("this is not Base64: {fault}")))
+                .map_err(|error| E::custom(format_args!("this is not Base64: {error}")))
         }
     }
 }

@@ -1,9 +1,33 @@
-//! The intermediate representation: a scene with names gone, defaults filled and units resolved.
+//! The intermediate representation (IR): a scene whose names, defaults and units are resolved.
 //!
-//! It holds numbers as stored, in or out of range: the room `valid` proves them. It knows neither
-//! YAML nor glTF, nor the renderer. Lengths are in scene units, colours are linear display values
-//! per channel (red, green, blue), where 1 is the full byte. Surfaces refer to materials by index;
-//! where each value was written is kept beside the scene, in [`SourceSpans`], and is not part of it.
+//! Every front end lowers its format to a [`Scene`]; passes change it, `valid` checks it, and
+//! `plan` and `render` read it. A scene is data only: it knows neither YAML nor glTF, nor the
+//! renderer.
+//!
+//! # Types
+//! - [`Scene`] holds one [`Camera`], [`Settings`], a [`Display`], at most one [`Environment`], and
+//!   lists of [`Light`], [`Image`], [`Texture`], [`Mesh`], [`Material`] and [`Surface`].
+//! - A [`Surface`] is a [`Shape`] with a [`MaterialId`]. A [`Material`] refers to textures by
+//!   [`TextureId`], a [`Texture`] to its image by [`ImageId`], an [`Instance`] to its mesh by
+//!   [`MeshId`].
+//! - A [`ValuePath`] addresses one value of a scene: [`EntityKind`], index, [`Field`].
+//! - [`SourceSpans`] maps value paths to the source spans of the values. It is stored beside the
+//!   scene, is never serialised, and is empty for a scene that was not read from text.
+//! - [`Lowered`] is a scene together with its source spans: what front ends and decoders return.
+//!
+//! # Guarantees
+//! A scene by itself guarantees nothing: an index may be out of range and a number may be infinite
+//! or negative. `valid::validate` checks all of that and returns a `ValidScene`.
+//!
+//! # Units
+//! Lengths are in scene units and angles in radians, except the angles of [`Photometry`], which are
+//! in degrees. Colours are linear RGB where 1 is the largest value of a display. The lights and
+//! materials of the course use display values; [`Punctual`], [`Environment`] and [`Standard`] use
+//! physical units and Rec. 709 primaries.
+//!
+//! # Serialisation
+//! All types derive `Serialize` and `Deserialize`; field names are the keys of the IR document
+//! (`schema/ir.md`). `codec` adds the [`VERSION`] and the two encodings.
 
 mod bounds;
 mod camera;
@@ -38,18 +62,18 @@ use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The version of the representation that this build writes. It reads this one and every older one.
+/// The version of the IR that this build writes. It reads this version and all older ones.
 ///
-/// A closed version is never changed: what is added is a new one (`schema/ir.md`).
+/// A published version never changes; an addition makes a new version (`schema/ir.md`).
 pub const VERSION: u32 = 5;
 
-/// One scene: what the camera sees, by which rules, and all there is to see.
+/// One scene: camera, settings, lights, and everything that can be hit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Scene {
-    /// Where rays start and which way they go.
+    /// The camera.
     pub camera: Camera,
-    /// By which rules the picture is made.
+    /// The integrator and its sampling parameters.
     pub settings: Settings,
     /// The lights, in the order in which their terms are summed.
     pub lights: Vec<Light>,
@@ -64,21 +88,21 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// The materials, referred to by index.
     pub materials: Vec<Material>,
-    /// The surfaces; at equal distance the earlier one is seen.
+    /// The surfaces; of two hits at equal distance the earlier surface wins.
     pub surfaces: Vec<Surface>,
-    /// The name of each surface, empty where it has none; no list if none has one.
+    /// The name of each surface, empty if it has none; the list is absent if no surface has a name.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub names: Vec<String>,
-    /// What surrounds it.
+    /// The environment light, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<Environment>,
-    /// How its values are shown.
+    /// How values are displayed.
     #[serde(default, skip_serializing_if = "Display::is_plain")]
     pub display: Display,
 }
 
 impl Scene {
-    /// A scene of nothing.
+    /// An empty scene.
     #[must_use]
     pub fn new(camera: Camera, settings: Settings) -> Self {
         Self {
@@ -96,7 +120,7 @@ impl Scene {
         }
     }
 
-    /// Whether no light changes what its surfaces show: all are unlit, and there are some.
+    /// Whether every material is unlit, so that no light matters; false for an empty scene.
     #[must_use]
     pub fn is_unlit(&self) -> bool {
         let material = |surface: &Surface| self.materials.get(surface.material.0 as usize);
@@ -105,11 +129,10 @@ impl Scene {
     }
 }
 
-/// A scene as a front end or a decoder leaves it: not yet proven, with the places of its values
-/// beside it.
+/// A scene that a front end or a decoder produced: not yet validated, with its source spans.
 #[derive(Clone, Debug)]
 pub struct Lowered {
-    /// The scene; entities that failed are left out, and the sink has an error for each.
+    /// The scene. Entities that failed are left out, and the sink has an error for each.
     pub scene: Scene,
     /// Where its values were written.
     pub source_spans: SourceSpans,

@@ -1,4 +1,4 @@
-//! The lights.
+//! Light sources.
 
 use arbitrary::Arbitrary;
 use rtc_math::{Vec3, unit};
@@ -10,14 +10,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub enum Light {
-    /// A point or sphere that shines equally in all directions, without falloff.
+    /// A point or sphere that emits equally in all directions, without falloff.
     Point(PointLight),
     /// A light in physical units.
     Punctual(Punctual),
 }
 
 impl Light {
-    /// Whether it has any intensity.
+    /// Whether any channel of its intensity is above 0.
     #[must_use]
     pub fn shines(&self) -> bool {
         let intensity = match self {
@@ -27,7 +27,7 @@ impl Light {
         intensity.iter().any(|channel| *channel > 0.0)
     }
 
-    /// The light, if it is one of the course.
+    /// The light, if it is a point light of the course.
     #[must_use]
     pub fn point(&self) -> Option<&PointLight> {
         match self {
@@ -41,80 +41,81 @@ impl Light {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Punctual {
-    /// How and from where it shines.
+    /// The emitter: its kind, position and direction.
     pub emitter: Emitter,
-    /// Linear Rec. 709: of a sun the irradiance on a surface that faces it, of a measured lamp a
-    /// factor of its intensity, of the others the radiant intensity (power per steradian); each
-    /// channel at least 0.
+    /// Linear Rec. 709, each channel at least 0: the irradiance on a surface that faces a sun, a
+    /// factor of a lamp's measured intensity, or else the radiant intensity (power per steradian).
     #[schemars(inner(range(min = 0.0)))]
     pub intensity: [f64; 3],
 }
 
-/// How a light without extent shines.
+/// The kind, position and direction of a light without extent.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub enum Emitter {
-    /// From infinitely far away.
+    /// A directional light, infinitely far away.
     Sun {
-        /// The direction from the scene to it, of any length but 0.
+        /// The direction from the scene to the sun, of any length but 0.
         direction: [f64; 3],
     },
-    /// From a point into all directions.
+    /// A point that emits in all directions.
     #[serde(rename_all = "camelCase")]
     Point {
-        /// Where it stands.
+        /// The position.
         position: [f64; 3],
-        /// Beyond this distance it is dark, by the falloff of `KHR_lights_punctual`; none for
-        /// infinite.
+        /// The distance beyond which it emits nothing, with the falloff of `KHR_lights_punctual`;
+        /// absent for infinite.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         range: Option<f64>,
     },
-    /// From a point into a cone.
+    /// A point that emits into a cone.
     #[serde(rename_all = "camelCase")]
     Spot {
-        /// Where it stands.
+        /// The position.
         position: [f64; 3],
-        /// Where it shines, of any length but 0.
+        /// The axis of the cone, of any length but 0.
         direction: [f64; 3],
-        /// Within this angle from the direction it shines fully, in radians.
+        /// The angle from the axis within which the intensity is full, in radians.
         inner_angle: f64,
-        /// Beyond this angle it is dark, in radians, at most π/2.
+        /// The angle from the axis beyond which it emits nothing, in radians, at most π/2.
         outer_angle: f64,
-        /// As of a point.
+        /// As for a point.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         range: Option<f64>,
     },
-    /// From a point, as measured: the intensity is a factor of the candelas.
+    /// A photometric light (IES profile): its intensity is a factor of the measured candelas.
     Lamp {
-        /// Where it stands.
+        /// The position.
         position: [f64; 3],
-        /// Its axis, where the vertical angle is 0; of any length but 0.
+        /// The axis, where the vertical angle is 0; of any length but 0.
         direction: [f64; 3],
-        /// The direction of the horizontal angle 0; only its part across the axis counts.
+        /// The direction of horizontal angle 0; only its component perpendicular to the axis
+        /// counts.
         horizontal: [f64; 3],
-        /// What was measured.
+        /// The measured intensities.
         photometry: Box<Photometry>,
     },
 }
 
-/// The intensity of a lamp, measured around its axis (type C of LM-63-2002), in between linear in
-/// both angles.
+/// The measured intensity of a lamp around its axis (type C of LM-63-2002), interpolated linearly
+/// in both angles.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Photometry {
     /// The name of its file.
     pub name: String,
-    /// Angles from the axis in degrees, ascending within 0 to 180; beyond them it is dark.
+    /// Angles from the axis in degrees, ascending within 0 to 180; the intensity is 0 outside them.
     pub vertical: Vec<f64>,
-    /// Angles about the axis in degrees, ascending from 0 to 360; or 0 alone, for a lamp that is the
-    /// same all around. Against the axis they are seen to run counterclockwise.
+    /// Angles about the axis in degrees, ascending from 0 to 360; or only 0, for a lamp that is
+    /// rotationally symmetric. They run counterclockwise as seen against the axis.
     pub horizontal: Vec<f64>,
-    /// The intensity at all vertical angles of each horizontal one, at least 0.
+    /// The intensity in candela, at least 0: all vertical angles of the first horizontal angle,
+    /// then of the next.
     pub candela: Vec<f64>,
 }
 
 impl Photometry {
-    /// That of a lamp without light.
+    /// A profile of zero intensity.
     #[must_use]
     pub fn dark(name: String) -> Self {
         Self {
@@ -126,24 +127,24 @@ impl Photometry {
     }
 }
 
-/// How an emitter is written in a scene of the course.
+/// How a scene of the course spells an emitter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spelling<'a> {
-    /// Its `type`.
+    /// The value of its key `type`.
     pub kind: &'static str,
     /// The keys of its points and directions, with their values.
     pub triples: Vec<(&'static str, [f64; 3])>,
     /// The keys of its numbers, with their values.
     pub numbers: Vec<(&'static str, f64)>,
-    /// The file of its profile.
+    /// The file of its IES profile.
     pub file: Option<&'a str>,
     /// The key of the intensity.
     pub intensity: &'static str,
 }
 
-/// The table of emitters: what all stages ask of one.
+/// Properties of emitters, as all stages use them.
 impl Emitter {
-    /// Where it stands, unless it is infinitely far away.
+    /// The position; `None` for a sun.
     #[must_use]
     pub fn position(&self) -> Option<[f64; 3]> {
         match self {
@@ -154,7 +155,7 @@ impl Emitter {
         }
     }
 
-    /// The direction to a sun, else that in which it shines.
+    /// The direction to a sun, or else the axis; `None` for a point.
     #[must_use]
     pub fn direction(&self) -> Option<[f64; 3]> {
         match self {
@@ -165,7 +166,7 @@ impl Emitter {
         }
     }
 
-    /// Beyond this distance it is dark.
+    /// The distance beyond which it emits nothing.
     #[must_use]
     pub fn range(&self) -> Option<f64> {
         match self {
@@ -174,10 +175,10 @@ impl Emitter {
         }
     }
 
-    /// How its intensity depends on the direction.
+    /// The angular distribution of the intensity.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// A message, if an angle, direction or profile is invalid.
     pub fn profile(&self) -> Result<Profile, String> {
         match self {
             Self::Sun { .. } | Self::Point { .. } => Ok(Profile::Uniform),
@@ -208,17 +209,18 @@ impl Emitter {
         }
     }
 
-    /// Moves its position, turns its directions, and multiplies its range.
+    /// Maps its position by `point`, its directions by `rotate`, and multiplies its range by
+    /// `scale`.
     pub fn transform(
         &mut self,
-        place: impl Fn([f64; 3]) -> [f64; 3],
-        mut turn: impl FnMut([f64; 3]) -> [f64; 3],
+        point: impl Fn([f64; 3]) -> [f64; 3],
+        mut rotate: impl FnMut([f64; 3]) -> [f64; 3],
         scale: f64,
     ) {
         match self {
-            Self::Sun { direction } => *direction = turn(*direction),
+            Self::Sun { direction } => *direction = rotate(*direction),
             Self::Point { position, range } => {
-                *position = place(*position);
+                *position = point(*position);
                 *range = range.map(|range| range * scale);
             }
             Self::Spot {
@@ -228,8 +230,8 @@ impl Emitter {
                 outer_angle: _,
                 range,
             } => {
-                *position = place(*position);
-                *direction = turn(*direction);
+                *position = point(*position);
+                *direction = rotate(*direction);
                 *range = range.map(|range| range * scale);
             }
             Self::Lamp {
@@ -238,14 +240,14 @@ impl Emitter {
                 horizontal,
                 photometry: _,
             } => {
-                *position = place(*position);
-                *direction = turn(*direction);
-                *horizontal = turn(*horizontal);
+                *position = point(*position);
+                *direction = rotate(*direction);
+                *horizontal = rotate(*horizontal);
             }
         }
     }
 
-    /// How a scene of the course writes it.
+    /// How a scene of the course writes this emitter.
     #[must_use]
     pub fn spelling(&self) -> Spelling<'_> {
         let range = self.range().map(|range| ("range", range));
@@ -305,17 +307,17 @@ fn axis(direction: [f64; 3]) -> Result<Vec3, String> {
     unit(Vec3::from_array(direction)).ok_or_else(|| "a light shines in no direction".to_owned())
 }
 
-/// A point light, or with a radius the sphere around it: then shadows have soft edges. It is no
-/// surface, so no ray sees or hits it.
+/// A point light; with a radius it is a spherical light and casts soft shadows. It is not a
+/// surface, so no ray hits it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct PointLight {
-    /// Where it stands.
+    /// The position.
     pub position: [f64; 3],
-    /// Its colour, each channel at least 0; more than 1 is allowed.
+    /// The intensity, linear RGB, each channel at least 0; values above 1 are allowed.
     #[schemars(inner(range(min = 0.0)))]
     pub color: [f64; 3],
-    /// Its radius, at least 0; 0 is a point.
+    /// The radius, at least 0; 0 is a point.
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(range(min = 0.0))]
     pub radius: f64,

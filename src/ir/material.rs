@@ -1,4 +1,4 @@
-//! The materials.
+//! Materials.
 
 use super::{Standard, TextureId};
 use arbitrary::Arbitrary;
@@ -10,18 +10,18 @@ use serde::{Deserialize, Serialize};
 #[serde(transparent)]
 pub struct MaterialId(pub u32);
 
-/// A material of any family.
+/// A material of either model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub enum Material {
-    /// Phong's model with mirror and refraction.
+    /// The Phong model with reflection and refraction.
     Phong(Phong),
-    /// The material of glTF.
+    /// The metallic-roughness material of glTF.
     Standard(Box<Standard>),
 }
 
 impl Material {
-    /// The material, if it is Phong's.
+    /// The material, if it is a Phong material.
     #[must_use]
     pub fn phong(&self) -> Option<&Phong> {
         match self {
@@ -30,7 +30,7 @@ impl Material {
         }
     }
 
-    /// The material to change, if it is Phong's.
+    /// The Phong material, mutably.
     pub fn phong_mut(&mut self) -> Option<&mut Phong> {
         match self {
             Self::Phong(phong) => Some(phong),
@@ -39,12 +39,12 @@ impl Material {
     }
 }
 
-/// Phong's model: `I = Σ_l c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)^n)] + ks·I(mirror) +
-/// kt·I(refracted)`; with [`super::Ambient::Once`] the term ka·C stands before the sum.
+/// The Phong model: `I = Σ_l c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)^n)] + ks·I(mirror)
+/// + kt·I(refracted)`; with [`super::Ambient::Once`] the term ka·C stands before the sum.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Phong {
-    /// C, the colour of the surface, each channel at least 0.
+    /// C, the colour of the surface, linear RGB, each channel at least 0.
     #[schemars(inner(range(min = 0.0)))]
     pub color: [f64; 3],
     /// The weight of the ambient term, at least 0.
@@ -53,7 +53,7 @@ pub struct Phong {
     /// The weight of the diffuse term, at least 0.
     #[schemars(range(min = 0.0))]
     pub kd: f64,
-    /// The weight of the highlight and of the mirror ray, at least 0.
+    /// The weight of the highlight and of the reflected ray, at least 0.
     #[schemars(range(min = 0.0))]
     pub ks: f64,
     /// The exponent of the highlight and of the glossy lobe, at least 0.
@@ -62,29 +62,29 @@ pub struct Phong {
     /// The weight of the refracted ray, at least 0; 0 is opaque.
     #[schemars(range(min = 0.0))]
     pub kt: f64,
-    /// The index of refraction of the inside over that of the outside, above 0.
+    /// The relative index of refraction, inside over outside, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub eta: f64,
-    /// How many rays sample the glossy lobe, at least 1; 1 is the mirror.
+    /// The number of rays that sample the glossy lobe, at least 1; with 1 the reflection is a
+    /// perfect mirror.
     #[schemars(range(min = 1))]
     pub glossy_samples: u32,
-    /// The texture that gives C in place of `color`.
+    /// The texture that replaces `color` as C.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub color_map: Option<TextureId>,
     /// The texture whose red channel multiplies ks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub specular_map: Option<TextureId>,
-    /// The texture that gives the shading normal in the frame of the surface: (2·rgb − 1), blue
-    /// along the normal.
+    /// The normal map, in the tangent space of the surface: (2·rgb − 1), blue along the normal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal_map: Option<TextureId>,
-    /// The texture whose brightness is the height of the surface.
+    /// The bump map: the brightness of a texture is the height of the surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bump: Option<Bump>,
 }
 
 impl Phong {
-    /// White, matt and opaque, without ambient light.
+    /// A white, opaque, purely diffuse material.
     pub const MATT: Self = Self {
         color: [1.0; 3],
         ka: 0.0,
@@ -107,6 +107,6 @@ impl Phong {
 pub struct Bump {
     /// The texture; the mean of its channels is the height.
     pub texture: TextureId,
-    /// The height of white above black, as a share of the width of a texel.
+    /// The height of white above black, as a fraction of the width of a texel.
     pub height: f64,
 }

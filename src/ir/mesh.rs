@@ -1,4 +1,4 @@
-//! The meshes: triangles that share corners.
+//! Triangle meshes with shared vertices.
 
 use arbitrary::Arbitrary;
 use rtc_math::{Column, Shared};
@@ -10,42 +10,42 @@ use serde::{Deserialize, Serialize};
 #[serde(transparent)]
 pub struct MeshId(pub u32);
 
-/// Triangles over one list of corners, in object coordinates.
+/// Triangles over one list of vertices, in object coordinates.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Mesh {
-    /// What its file was called, as the scene names it; empty if it has no name.
+    /// The name of its file as the scene writes it; empty if there is none.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// The material of its file whose triangles it holds, by its name there, empty for those that have
-    /// none; absent if it holds all of the file.
+    /// The name of the material in its file whose triangles this mesh holds, empty for triangles
+    /// without a material; absent if the mesh holds the whole file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<String>,
-    /// Where the corners are.
+    /// The position of each vertex.
     pub positions: Column<3>,
-    /// The shading normal at each corner, of any length; empty for flat shading.
+    /// The shading normal at each vertex, of any length; empty for flat shading.
     #[serde(default, skip_serializing_if = "Column::is_empty")]
     pub normals: Column<3>,
-    /// The texture coordinates at each corner; empty if there are none.
+    /// The texture coordinates at each vertex; empty if there are none.
     #[serde(default, skip_serializing_if = "Column::is_empty")]
     pub uvs: Column<2>,
     /// The second set of texture coordinates; empty if there is none.
     #[serde(default, skip_serializing_if = "Column::is_empty")]
     pub second_uvs: Column<2>,
-    /// The direction of growing u at each corner, and ±1 for that of growing v: `w·(normal ×
-    /// tangent)`; empty if none.
+    /// The tangent at each vertex (the direction of increasing u), and ±1 for the bitangent
+    /// `w·(normal × tangent)`; empty if there are none.
     #[serde(default, skip_serializing_if = "Column::is_empty")]
     pub tangents: Column<4>,
-    /// The colour at each corner, linear, with alpha: it multiplies that of the material; empty if
-    /// none.
+    /// The linear RGBA colour at each vertex, which multiplies that of the material; empty if there
+    /// are none.
     #[serde(default, skip_serializing_if = "Column::is_empty")]
     pub colors: Column<4>,
-    /// The corners of each triangle; its normal is (v1 − v0) × (v2 − v0).
+    /// The vertex indices of each triangle; its normal is (v1 − v0) × (v2 − v0).
     pub triangles: Shared<[u32; 3]>,
 }
 
 impl Mesh {
-    /// Whether all numbers of the vertices are finite.
+    /// Whether all numbers of all vertices are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         fn all<const N: usize>(column: &Column<N>) -> bool {

@@ -1,4 +1,4 @@
-//! Where each value of a scene was written: kept beside the scene, never serialised.
+//! Source spans of the values of a scene. They are stored beside the scene and never serialised.
 
 use super::ShapeKind;
 use rtc_source::Span;
@@ -23,12 +23,12 @@ pub enum EntityKind {
     Material,
     /// A surface.
     Surface,
-    /// What surrounds the scene.
+    /// The environment light.
     Environment,
 }
 
 impl EntityKind {
-    /// All kinds, in their order.
+    /// All kinds, in declaration order.
     const ALL: [Self; Self::Environment as usize + 1] = [
         Self::Camera,
         Self::Settings,
@@ -42,7 +42,7 @@ impl EntityKind {
     ];
 }
 
-/// A value of an entity, or all of it.
+/// A value of an entity, or the entity itself ([`Field::Whole`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "each names the field of the IR it stands for")]
 pub enum Field {
@@ -76,12 +76,12 @@ pub enum Field {
     SpecularMap,
     NormalMap,
     Bump,
-    /// A value of a shape: its place among those of its row in the table of shapes.
+    /// A value of a shape: its index in the shape's row of the table of shapes.
     Shape(ShapeKind, u8),
     Material,
 }
 
-/// The address of a value in a scene; prints as a JSON pointer into the text form.
+/// The path to a value in a scene; displayed as a JSON pointer into the JSON encoding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ValuePath {
     /// The kind of entity.
@@ -93,20 +93,20 @@ pub struct ValuePath {
 }
 
 impl Field {
-    /// The value of a shape to which this way leads in the IR, as `radius` or `vertices/0`.
+    /// The value of a shape at this path in the IR, for example `radius` or `vertices/0`.
     ///
     /// # Panics
-    /// If the row of the shape has no such value.
+    /// If the shape has no such value.
     #[must_use]
-    pub fn of_shape(kind: ShapeKind, way: &str) -> Self {
-        let at = kind.values().iter().position(|known| *known == way);
+    pub fn of_shape(kind: ShapeKind, path: &str) -> Self {
+        let at = kind.values().iter().position(|known| *known == path);
         let at = at.and_then(|at| u8::try_from(at).ok());
         Self::Shape(kind, at.expect("the row of the shape has this value"))
     }
 }
 
 impl ValuePath {
-    /// The address of `field` in entity `index` of kind `entity`.
+    /// The path to `field` of entity `index` of kind `entity`.
     #[must_use]
     pub fn new(entity: EntityKind, index: usize, field: Field) -> Self {
         Self {
@@ -132,8 +132,8 @@ impl fmt::Display for ValuePath {
             EntityKind::Environment => f.write_str("/environment"),
         }?;
         if let Field::Shape(kind, value) = self.field {
-            let way = kind.values()[usize::from(value)];
-            return write!(f, "/shape/{}/{way}", kind.word());
+            let path = kind.values()[usize::from(value)];
+            return write!(f, "/shape/{}/{path}", kind.name());
         }
         f.write_str(pointer_tail(self.entity, self.field))
     }
@@ -176,10 +176,10 @@ fn pointer_tail(entity: EntityKind, field: Field) -> &'static str {
     }
 }
 
-/// The places of a scene and the spans they were written at; empty for a scene that was never text.
+/// A table from value paths to source spans; empty for a scene that was not read from text.
 ///
-/// Each kind of entity has its own list: a front end meets the entities of a kind in order, but the
-/// kinds in turns, and so there is mostly nothing to sort.
+/// Each kind of entity has its own list. A front end visits the entities of one kind in order but
+/// mixes the kinds, so the lists are mostly sorted already.
 #[derive(Clone, Debug, Default)]
 pub struct SourceSpans {
     lists: [List; EntityKind::ALL.len()],
@@ -201,13 +201,13 @@ impl List {
 }
 
 impl SourceSpans {
-    /// Remembers where the value at `place` was written; without a span nothing happens.
-    pub fn record(&mut self, place: ValuePath, span: impl Into<Option<Span>>) {
+    /// Records the span of the value at `path`; does nothing if there is no span.
+    pub fn record(&mut self, path: ValuePath, span: impl Into<Option<Span>>) {
         let ValuePath {
             entity,
             index,
             field,
-        } = place;
+        } = path;
         if let Some(span) = span.into() {
             let list = &mut self.lists[entity as usize];
             list.unsorted |= list
@@ -218,12 +218,12 @@ impl SourceSpans {
         }
     }
 
-    /// Forgets where the entities of a kind were written: they were replaced.
+    /// Removes the spans of all entities of a kind, because they were replaced.
     pub fn forget(&mut self, entity: EntityKind) {
         self.lists[entity as usize] = List::default();
     }
 
-    /// Brings the places into order; call it after the last `record`.
+    /// Sorts the table; call it after the last `record`.
     pub fn finish(&mut self) {
         for list in self.lists.iter_mut().filter(|list| list.unsorted) {
             list.spans.sort_by_key(|(index, field, _)| (*index, *field));
@@ -231,11 +231,14 @@ impl SourceSpans {
         }
     }
 
-    /// The places whose values were written at this span.
-    pub fn places(&self, span: Span) -> impl Iterator<Item = ValuePath> {
-        let nouns = EntityKind::ALL.into_iter().zip(&self.lists);
-        nouns.flat_map(move |(entity, list)| {
-            let spans = list.spans.iter().filter(move |(_, _, own)| *own == span);
+    /// The paths of the values that were written at this span.
+    pub fn paths(&self, span: Span) -> impl Iterator<Item = ValuePath> {
+        let kinds = EntityKind::ALL.into_iter().zip(&self.lists);
+        kinds.flat_map(move |(entity, list)| {
+            let spans = list
+                .spans
+                .iter()
+                .filter(move |(_, _, recorded)| *recorded == span);
             spans.map(move |(index, field, _)| ValuePath {
                 entity,
                 index: *index,
@@ -244,14 +247,14 @@ impl SourceSpans {
         })
     }
 
-    /// The span the value was written at; a value that was a default has that of its entity.
+    /// The span of a value. A value that was filled by default has the span of its entity.
     #[must_use]
-    pub fn span(&self, place: ValuePath) -> Option<Span> {
+    pub fn span(&self, path: ValuePath) -> Option<Span> {
         let ValuePath {
             entity,
             index,
             field,
-        } = place;
+        } = path;
         let list = &self.lists[entity as usize];
         list.find(index, field)
             .or_else(|| list.find(index, Field::Whole))
@@ -267,7 +270,7 @@ mod tests {
         let file = rtc_source::SourceMap::default().add("x", Vec::new());
         let mut source_spans = SourceSpans::default();
         let [center, radius] =
-            ["center", "radius"].map(|way| Field::of_shape(ShapeKind::Sphere, way));
+            ["center", "radius"].map(|path| Field::of_shape(ShapeKind::Sphere, path));
         source_spans.record(
             ValuePath::new(EntityKind::Surface, 3, radius),
             Span::new(file, 5, 6),

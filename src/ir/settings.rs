@@ -1,49 +1,49 @@
-//! The settings: what a pixel shows and how much work goes into it.
+//! Settings: the integrator and its sampling parameters.
 
 use super::standard::is_default;
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// By which rules the picture is made.
+/// The integrator and its sampling parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Settings {
-    /// What a pixel shows.
+    /// The integrator.
     pub mode: Mode,
-    /// Whether surfaces hide lights from each other.
+    /// Whether surfaces cast shadows.
     pub shadows: bool,
-    /// How many mirror or refraction bounces follow the first hit.
+    /// The maximum number of reflections or refractions after the first hit.
     pub max_depth: u32,
     /// Sub-samples along each side of a pixel, at least 1.
     #[schemars(range(min = 1))]
     pub supersampling: u32,
-    /// Where in its cell each sub-sample lies.
+    /// The position of each sub-sample in its cell.
     #[serde(default, skip_serializing_if = "Pattern::is_grid")]
     pub pattern: Pattern,
-    /// How many points of each soft light are asked, at least 1; 1 asks its centre.
+    /// Samples per soft light, at least 1; with 1 the sample is its centre.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     #[schemars(range(min = 1))]
     pub light_samples: u32,
-    /// Whether Phong's terms of the first hit fall in steps, and what the viewer grazes is dark, as
-    /// in a cartoon; of no meaning in other modes.
+    /// Toon shading: the Phong terms of the first hit are quantised and silhouettes are black;
+    /// without effect in other modes.
     #[serde(default, skip_serializing_if = "is_default")]
     pub toon: bool,
-    /// How often Phong's ambient term is added.
+    /// How often the ambient term of the Phong model is added.
     #[serde(default, skip_serializing_if = "is_default")]
     pub ambient: Ambient,
 }
 
-/// How often Phong's ambient term, ka·C, is added at a point.
+/// How often the ambient term of the Phong model, ka·C, is added at a point.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
 )]
 #[serde(rename_all = "camelCase")]
 pub enum Ambient {
-    /// Once for each light, times the colour of the light.
+    /// Once per light, multiplied by the colour of the light.
     #[default]
     PerLight,
-    /// Once, whatever lights there are.
+    /// Once, independent of the number of lights.
     Once,
 }
 
@@ -59,18 +59,18 @@ fn is_one(count: &u32) -> bool {
     *count == 1
 }
 
-/// Where in its cell of the pixel each sub-sample lies.
+/// The position of each sub-sample in its cell of the pixel.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
 )]
 #[serde(rename_all = "camelCase")]
 pub enum Pattern {
-    /// In the middle.
+    /// At the centre of the cell.
     #[default]
     Grid,
-    /// Anywhere in its cell, seeded by pixel and sample.
+    /// Uniformly in the cell (stratified), seeded by pixel and sample.
     Jitter,
-    /// Anywhere in the pixel, seeded by pixel and sample.
+    /// Uniformly in the pixel, seeded by pixel and sample.
     Random,
 }
 
@@ -84,11 +84,11 @@ impl Pattern {
     }
 }
 
-/// What a pixel shows.
+/// The integrator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub enum Mode {
-    /// Phong's model with shadows, mirrors and refraction.
+    /// Whitted ray tracing with the Phong model: shadows, reflection and refraction.
     Phong,
     /// The distance of the first hit: near is white, far is black.
     Zbuffer,
@@ -96,29 +96,29 @@ pub enum Mode {
     Normal,
     /// Gooch's cool-to-warm shading.
     Gooch(Gooch),
-    /// The light that arrives along all paths, from the materials and lights in physical units.
+    /// Path tracing with physical materials and lights.
     Path(PathSettings),
 }
 
-/// How paths are traced.
+/// Parameters of path tracing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 #[schemars(rename = "Path")]
 pub struct PathSettings {
-    /// Paths a pixel, at least 1.
+    /// Paths per pixel, at least 1.
     #[schemars(range(min = 1))]
     pub samples: u32,
-    /// Whether rough surfaces keep the light that bounces between their facets.
+    /// Whether rough surfaces keep the light that is scattered several times between microfacets.
     pub multiple_scattering: bool,
 }
 
 impl PathSettings {
-    /// Bounces of a path, where nobody says how many.
+    /// The default number of bounces of a path.
     pub const DEPTH: u32 = 16;
 }
 
 impl Default for PathSettings {
-    /// What is good for a look.
+    /// The defaults: 64 paths per pixel, with multiple scattering.
     fn default() -> Self {
         Self {
             samples: 64,
@@ -135,8 +135,8 @@ pub struct Gooch {
     pub b: f64,
     /// The yellow of the warm colour.
     pub y: f64,
-    /// How much of the surface's colour the cool tone takes.
+    /// The weight of the surface colour in the cool tone.
     pub alpha: f64,
-    /// How much of the surface's colour the warm tone takes.
+    /// The weight of the surface colour in the warm tone.
     pub beta: f64,
 }

@@ -1,7 +1,8 @@
-//! What each kind of shape is made of.
+//! Shapes.
 //!
-//! A shape is one row of `rtc_tables::shapes!`; every stage makes its enums and its dispatch of the rows.
-//! What a stage has to say of one shape alone stands in the file of that shape, or in one `impl`.
+//! Each shape is one row of `rtc_tables::shapes!`; every stage generates its enums and its dispatch
+//! from these rows. Code that concerns one shape only is in the file of that shape, or in one
+//! `impl`.
 
 use super::bounds::box_corners;
 use super::standard::is_default;
@@ -14,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 /// Declares the shapes of the IR.
 macro_rules! declare {
-    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+    ($($(#[$doc:meta])* $Name:ident $key:ident $Store:ident $how:ident $values:tt)*) => {
         /// A shape of any kind, in world coordinates.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
         #[serde(rename_all = "camelCase", deny_unknown_fields)]
@@ -22,21 +23,21 @@ macro_rules! declare {
             $($(#[$doc])* $Name($Name),)*
         }
 
-        /// Which shape.
+        /// The kind of a shape.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum ShapeKind {
             $($(#[$doc])* $Name,)*
         }
 
         impl ShapeKind {
-            /// Its word in the IR.
-            pub fn word(self) -> &'static str {
+            /// Its key in the IR.
+            pub fn name(self) -> &'static str {
                 match self {
-                    $(Self::$Name => stringify!($word),)*
+                    $(Self::$Name => stringify!($key),)*
                 }
             }
 
-            /// The ways to its values in the IR.
+            /// The paths of its values in the IR, relative to the shape.
             pub(super) fn values(self) -> &'static [&'static str] {
                 match self {
                     $(Self::$Name => values!($how $values),)*
@@ -45,7 +46,7 @@ macro_rules! declare {
         }
 
         impl Shape {
-            /// Which shape it is.
+            /// The kind of the shape.
             #[must_use]
             pub fn kind(&self) -> ShapeKind {
                 match self {
@@ -53,7 +54,7 @@ macro_rules! declare {
                 }
             }
 
-            /// What tells where it is.
+            /// The shape as something with bounds.
             pub(super) fn bounded(&self) -> &dyn Bounded {
                 match self {
                     $(Self::$Name(shape) => shape,)*
@@ -63,33 +64,33 @@ macro_rules! declare {
     };
 }
 
-/// The ways to the values of a row.
+/// The paths to the values of a row.
 macro_rules! values {
-    (own { $($value:literal)* }) => { &[$($value),*] };
-    (ruled { $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)* }) => {
+    (custom { $($value:literal)* }) => { &[$($value),*] };
+    (derived { $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)* }) => {
         &[$(stringify!($value)),*]
     };
 }
 
 rtc_tables::shapes!(declare);
 
-/// A shape whose place can be asked.
+/// A shape with bounds.
 pub(super) trait Bounded {
-    /// Visits cubes, by centre and half side, whose hull holds the shape; none if it has no end.
-    /// `meshes` are the boxes around the meshes of the scene.
-    fn cubes(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64));
+    /// Visits cubes, each by centre and half side, whose convex hull contains the shape; visits
+    /// none if the shape is infinite. `meshes` holds the bounding box of each mesh of the scene.
+    fn visit_bounds(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64));
 }
 
 /// A shape with a material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Surface {
-    /// Its form and place.
+    /// The geometry, in world coordinates.
     pub shape: Shape,
-    /// What it is made of.
+    /// Its material.
     pub material: MaterialId,
-    /// Whether lights shine through it as if it were not there, though it is seen and may itself be
-    /// shadowed. Traced paths don't know of this: there it casts shadows as every surface does.
+    /// Whether the surface blocks no light. It stays visible and can receive shadows. Path tracing
+    /// ignores this flag: there every surface casts a shadow.
     #[serde(default, skip_serializing_if = "is_default")]
     pub casts_no_shadow: bool,
 }
@@ -103,15 +104,15 @@ pub struct Sphere {
     /// Its radius, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: f64,
-    /// The rows of the rotation that takes directions of the world to those of the texture, whose
-    /// poles are ±z; none for the identity. u = φ/2π with φ = atan2(y, x) in [0, 2π), v = 1 −
-    /// θ/π with θ = acos(z).
+    /// The rows of the rotation from world directions to those of the texture, whose poles are ±z;
+    /// absent for the identity. u = φ/2π with φ = atan2(y, x) in [0, 2π), v = 1 − θ/π with θ =
+    /// acos(z).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture_from_world: Option<[[f64; 3]; 3]>,
 }
 
 impl Bounded for Sphere {
-    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+    fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             center,
             radius,
@@ -132,7 +133,7 @@ pub struct Plane {
 }
 
 impl Bounded for Plane {
-    fn cubes(&self, _: &[[Vec3; 2]], _: &mut dyn FnMut(Vec3, f64)) {
+    fn visit_bounds(&self, _: &[[Vec3; 2]], _: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             center: _,
             normal: _,
@@ -140,7 +141,7 @@ impl Bounded for Plane {
     }
 }
 
-/// A triangle, seen from both sides.
+/// A two-sided triangle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Triangle {
@@ -152,7 +153,7 @@ pub struct Triangle {
 }
 
 impl Bounded for Triangle {
-    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+    fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self { vertices, uvs: _ } = self;
         vertices
             .iter()
@@ -160,8 +161,7 @@ impl Bounded for Triangle {
     }
 }
 
-/// A quadrilateral, seen from both sides: flat if its corners are in a plane, else the bilinear
-/// patch between them.
+/// A two-sided quadrilateral: flat if its corners are coplanar, else a bilinear patch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Quad {
@@ -170,8 +170,8 @@ pub struct Quad {
 }
 
 impl Quad {
-    /// Whether its corners lie so far out of one plane that a patch between them is seen to be
-    /// bent: by more than a thousandth of its longest side or diagonal.
+    /// Whether the corners are visibly not coplanar: the height of their tetrahedron exceeds a
+    /// thousandth of the longest side or diagonal.
     #[must_use]
     pub fn is_bent(&self) -> bool {
         const SEEN: f64 = 1e-3;
@@ -191,7 +191,7 @@ impl Quad {
 }
 
 impl Bounded for Quad {
-    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+    fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self { vertices } = self;
         vertices
             .iter()
@@ -199,7 +199,7 @@ impl Bounded for Quad {
     }
 }
 
-/// A disc, seen from both sides.
+/// A two-sided disc.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Disc {
@@ -213,7 +213,7 @@ pub struct Disc {
 }
 
 impl Bounded for Disc {
-    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+    fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             center,
             normal: _,
@@ -231,7 +231,7 @@ pub struct Cylinder {
     pub base: [f64; 3],
     /// The direction from the base to the top, of any length but 0.
     pub axis: [f64; 3],
-    /// From base to top, above 0.
+    /// The distance from base to top, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub height: f64,
     /// Its radius, above 0.
@@ -240,7 +240,7 @@ pub struct Cylinder {
 }
 
 impl Bounded for Cylinder {
-    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+    fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             base,
             axis,
@@ -260,7 +260,7 @@ impl Bounded for Cylinder {
 pub struct Cone {
     /// The centre of its base.
     pub base: [f64; 3],
-    /// From the centre of the base to the apex.
+    /// The vector from the centre of the base to the apex.
     pub up: [f64; 3],
     /// The radius of the base, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -268,7 +268,7 @@ pub struct Cone {
 }
 
 impl Bounded for Cone {
-    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+    fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self { base, up, radius } = self;
         let base = Vec3::from_array(*base);
         visit(base, *radius);
@@ -282,7 +282,7 @@ impl Bounded for Cone {
 pub struct Paraboloid {
     /// The centre of its base.
     pub base: [f64; 3],
-    /// From the centre of the base to the vertex.
+    /// The vector from the centre of the base to the vertex.
     pub up: [f64; 3],
     /// The radius of the base, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -290,8 +290,9 @@ pub struct Paraboloid {
 }
 
 impl Bounded for Paraboloid {
-    /// Its profile lies between the rim, and the vertex and half the radius beside it.
-    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+    /// The profile lies in the convex hull of the base circle and a disc of half the radius at the
+    /// vertex.
+    fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self { base, up, radius } = self;
         let base = Vec3::from_array(*base);
         visit(base, *radius);
@@ -307,7 +308,7 @@ pub struct Torus {
     pub center: [f64; 3],
     /// The direction of its axis, of any length but 0.
     pub axis: [f64; 3],
-    /// From the centre to the middle of the tube, above 0.
+    /// The distance from the centre to the middle of the tube, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub major: f64,
     /// The radius of the tube, above 0.
@@ -316,7 +317,7 @@ pub struct Torus {
 }
 
 impl Bounded for Torus {
-    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+    fn visit_bounds(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             center,
             axis: _,
@@ -327,29 +328,29 @@ impl Bounded for Torus {
     }
 }
 
-/// A mesh, placed in the world.
+/// A mesh placed in the world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Instance {
-    /// Which mesh.
+    /// The mesh.
     pub mesh: MeshId,
-    /// The columns of the affine map from object to world: the images of the three axes, and the
-    /// origin's.
+    /// The columns of the affine map from object to world coordinates: the images of the three
+    /// axes, then of the origin.
     pub world_from_object: [[f64; 3]; 4],
 }
 
 impl Bounded for Instance {
-    fn cubes(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+    fn visit_bounds(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
         let Self {
             mesh,
             world_from_object,
         } = self;
-        let around = meshes.get(mesh.0 as usize);
-        let Some(around) = around.filter(|[low, _]| low.is_finite()) else {
+        let bounds = meshes.get(mesh.0 as usize);
+        let Some(bounds) = bounds.filter(|[low, _]| low.is_finite()) else {
             return;
         };
         let world = DAffine3::from_cols_array_2d(world_from_object);
-        let placed = box_corners(*around).map(|corner| world.transform_point3(corner));
+        let placed = box_corners(*bounds).map(|corner| world.transform_point3(corner));
         placed.into_iter().for_each(|corner| visit(corner, 0.0));
     }
 }

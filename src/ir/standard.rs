@@ -6,36 +6,36 @@ use rtc_tables::{map_of, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A texture, and the map from the coordinates of a surface to its own.
+/// A texture with an affine map from surface to texture coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Map {
     /// The texture.
     pub texture: TextureId,
-    /// Which set of texture coordinates, 0 or 1.
+    /// The set of texture coordinates, 0 or 1.
     #[serde(default, skip_serializing_if = "is_default")]
     #[schemars(range(max = 1))]
     pub set: u32,
-    /// The rows of the affine map from the coordinates of the surface to those of the texture,
-    /// `(a, b, c)` for `a·u + b·v + c`; none for the identity.
+    /// The rows of the affine map from surface to texture coordinates, `(a, b, c)` for `a·u + b·v +
+    /// c`; absent for the identity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture_from_surface: Option<[[f64; 3]; 2]>,
 }
 
-/// The alpha mode: how much of the background a surface covers.
+/// The alpha mode: how a surface covers what is behind it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub enum Alpha {
-    /// All of it.
+    /// Fully.
     #[default]
     Opaque,
-    /// All where alpha is at least the cutoff, nothing elsewhere.
+    /// Fully where alpha is at least the cutoff, not at all elsewhere.
     Mask(f64),
-    /// The fraction alpha.
+    /// By the fraction alpha.
     Blend,
 }
 
-/// The type of a parameter of a kind of the table.
+/// The Rust type of a parameter of each kind of the table.
 macro_rules! stored {
     (fraction) => { f64 };
     (number) => { f64 };
@@ -53,7 +53,7 @@ macro_rules! stored {
     (map) => { Option<Map> };
 }
 
-/// The map that a parameter of a kind holds, to be changed.
+/// The texture map of a parameter, mutably; `None` for other kinds.
 macro_rules! map_mut_of {
     (map, $map:expr) => {
         $map.as_mut()
@@ -63,7 +63,7 @@ macro_rules! map_mut_of {
     };
 }
 
-/// Leaves out the map that a parameter of a kind holds, if its texture is missing.
+/// Removes the texture map of a parameter if its texture is missing.
 macro_rules! forget_map {
     (map, $map:expr, $is_missing:ident) => {
         $map.take_if(|map| $is_missing(&map.texture))
@@ -71,19 +71,19 @@ macro_rules! forget_map {
     ($kind:ident, $value:expr, $is_missing:ident) => {};
 }
 
-/// The material, from the table of its parameters.
+/// Declares the material from the table of its parameters.
 macro_rules! material {
     ($(
         $(#[doc = $about:literal])*
         $field:ident: $kind:ident = $default:expr, $omitted:literal;
     )*) => {
-        /// The material of glTF 2.0, appendix B, and of the `KHR_materials_*` extensions, by whose
-        /// names the fields go; a map multiplies its factor, in the channels the specification
-        /// gives it.
+        /// The material of glTF 2.0, appendix B, and of the `KHR_materials_*` extensions, with
+        /// their names for the fields. A map multiplies its factor, in the channels that the
+        /// specification names.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
         #[serde(rename_all = "camelCase", deny_unknown_fields, default)]
         pub struct Standard {
-            /// What people call it.
+            /// Its name in the source file.
             #[serde(skip_serializing_if = "String::is_empty")]
             pub name: String,
             $(
@@ -94,17 +94,17 @@ macro_rules! material {
         }
 
         impl Standard {
-            /// Every map it has.
+            /// All texture maps.
             pub fn maps(&self) -> impl Iterator<Item = &Map> {
                 [$(map_of!($kind, &self.$field)),*].into_iter().flatten()
             }
 
-            /// The same, to be changed.
+            /// All texture maps, mutably.
             pub fn maps_mut(&mut self) -> impl Iterator<Item = &mut Map> {
                 [$(map_mut_of!($kind, self.$field)),*].into_iter().flatten()
             }
 
-            /// Leaves out the maps whose textures are said to be missing.
+            /// Removes the maps whose textures are missing.
             pub fn forget_maps(&mut self, is_missing: impl Fn(&TextureId) -> bool) {
                 $(forget_map!($kind, self.$field, is_missing);)*
             }
@@ -121,19 +121,19 @@ macro_rules! material {
 
 parameters!(material);
 
-/// Of what an IR text always holds.
+/// The `skip_serializing_if` of what is always written.
 fn never<T>(_: &T) -> bool {
     false
 }
 
-/// Whether a value is the default of its type, so that it need not be written.
+/// Whether a value is the default of its type and need not be written.
 pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-/// A number, or several.
+/// One or more numbers.
 trait Numbers {
-    /// Whether all are the number given, bit for bit.
+    /// Whether all of them equal `number`, bit for bit.
     fn are(&self, number: f64) -> bool;
 }
 
@@ -145,7 +145,7 @@ impl Numbers for f64 {
 
 impl Numbers for [f64; 3] {
     fn are(&self, number: f64) -> bool {
-        self.iter().all(|own| own.are(number))
+        self.iter().all(|component| component.are(number))
     }
 }
 

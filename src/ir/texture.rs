@@ -1,4 +1,4 @@
-//! The textures: what a point of a surface looks up by its uv.
+//! Textures: functions of the texture coordinates of a surface point.
 
 use super::ImageId;
 use arbitrary::Arbitrary;
@@ -14,52 +14,52 @@ pub struct TextureId(pub u32);
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub enum Texture {
-    /// The colour (u, 0, v): shows how uv lies on a surface.
+    /// The colour (u, 0, v), which shows the parametrisation of a surface.
     Uv,
-    /// An image over the unit square, v = 1 at its top row, repeated beyond; bilinear with the
-    /// outer texels at the very edges: u = 0 is the middle of the first column, u = 1 that of
+    /// An image over the unit square, v = 1 at its top row, repeated outside; bilinear, with the
+    /// outermost texel centres on the edges: u = 0 is the centre of the first column, u = 1 that of
     /// the last.
     Image(ImageId),
-    /// An image as glTF samples it: v = 0 at its top row, texel middles half a texel inside.
+    /// An image as glTF samples it: v = 0 at its top row, texel centres half a texel inside.
     Sampled(Sampled),
 }
 
-/// An image with the way it is sampled.
+/// An image with its sampler.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Sampled {
     /// The image.
     pub image: ImageId,
-    /// What lies beyond the unit square, along u and v.
+    /// How the image continues outside the unit square, along u and v.
     pub wrap: [Wrap; 2],
-    /// How texels blend.
+    /// How texels are interpolated.
     pub filter: Filter,
 }
 
-/// What lies beyond the unit square.
+/// How an image continues outside the unit square.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
 )]
 #[serde(rename_all = "camelCase")]
 pub enum Wrap {
-    /// The image again.
+    /// It repeats.
     #[default]
     Repeat,
-    /// The image again, mirrored at each edge.
+    /// It repeats, mirrored at each edge.
     Mirror,
-    /// The texel at the edge.
+    /// With the texels of the edge.
     Clamp,
 }
 
-/// How texels blend.
+/// How texels are interpolated.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
 )]
 #[serde(rename_all = "camelCase")]
 pub enum Filter {
-    /// The four nearest by their nearness.
+    /// Bilinearly, between the four nearest.
     #[default]
     Linear,
-    /// The nearest alone.
+    /// By the nearest texel.
     Nearest,
 }

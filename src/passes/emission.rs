@@ -59,7 +59,10 @@ fn emissive_brightness(scene: &Scene) -> f64 {
     let emissive_surfaces: Vec<_> = emissive_surfaces
         .filter(|(_, emission)| *emission > 0.0)
         .collect();
-    let Some(ball) = scene.ball().filter(|_| !emissive_surfaces.is_empty()) else {
+    let Some(ball) = scene
+        .bounding_sphere()
+        .filter(|_| !emissive_surfaces.is_empty())
+    else {
         return 0.0;
     };
     let power: f64 = emissive_surfaces

@@ -59,7 +59,9 @@ impl Framing {
     /// the picture in one direction, in the middle. A scene of planes alone, or of nothing, keeps
     /// its camera.
     pub fn apply(&self, scene: &mut Scene) {
-        let Some(ball) = scene.ball() else { return };
+        let Some(ball) = scene.bounding_sphere() else {
+            return;
+        };
         let axes = self.orbit.axes();
         let size = self.size.unwrap_or(SIZE);
         let half = self.yfov.unwrap_or(DEFAULT_YFOV_DEGREES.to_radians()) / 2.0;

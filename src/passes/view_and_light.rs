@@ -237,7 +237,7 @@ impl View {
     fn look_at(&self, scene: &mut Scene) -> Result<(), BasisFault> {
         let middle = self
             .eye
-            .and_then(|_| scene.ball())
+            .and_then(|_| scene.bounding_sphere())
             .map_or(scene.camera.center, |ball| ball.center.to_array());
         let camera = &mut scene.camera;
         let eye = Vec3::from_array(self.eye.unwrap_or(camera.eye));
@@ -342,7 +342,7 @@ fn replace_physical_lights(scene: &mut Scene) {
     if scene.lights.iter().all(|light| light.point().is_some()) {
         return;
     }
-    let ball = scene.ball().unwrap_or(BoundingSphere {
+    let ball = scene.bounding_sphere().unwrap_or(BoundingSphere {
         center: Vec3::ZERO,
         radius: 1.0,
     });

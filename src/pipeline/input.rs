@@ -175,7 +175,7 @@ impl Input {
         let Some(own) = self.file.filter(|_| !self.is_asset()) else {
             return false;
         };
-        let is_ir = codec::recognise(self.map.bytes(own)).is_some();
+        let is_ir = codec::detect_format(self.map.bytes(own)).is_some();
         let is_asset = |file| gltf::recognise(self.map.name(file), self.map.bytes(file));
         let of_asset = |entity, count| {
             let places = (0..count).map(move |index| ValuePath::new(entity, index, Field::Whole));
@@ -314,7 +314,7 @@ impl Input {
     pub fn asset(&self) -> Option<gltf::AssetSummary> {
         let file = self.file?;
         let is_asset = gltf::recognise(self.map.name(file), self.map.bytes(file))
-            && codec::recognise(self.map.bytes(file)).is_none();
+            && codec::detect_format(self.map.bytes(file)).is_none();
         is_asset.then(|| gltf::summary(file, &self.map))?
     }
 

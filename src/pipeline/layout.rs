@@ -34,7 +34,7 @@ impl SourceKind {
     #[must_use]
     pub fn of(name: &str, bytes: &[u8]) -> Self {
         let is_asset = || gltf::recognise(name, bytes) || mesh::recognise(name, bytes);
-        match codec::recognise(bytes) {
+        match codec::detect_format(bytes) {
             Some(_) => Self::Ir,
             None if is_asset() => Self::Other,
             None => Self::Scene,

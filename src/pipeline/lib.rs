@@ -85,10 +85,10 @@ pub fn load(
         sink.push(finding);
         return None;
     }
-    match codec::recognise(map.bytes(file)) {
-        Some(form) => {
+    match codec::detect_format(map.bytes(file)) {
+        Some(encoding) => {
             refuse_choices(&options.front, false, sink);
-            let scene = codec::decode(form, file, map, sink)?;
+            let scene = codec::decode(encoding, file, map, sink)?;
             map.release(file, 0);
             Some(Lowered {
                 scene,

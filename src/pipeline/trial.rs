@@ -5,7 +5,7 @@
 
 use super::{FixFilter, Input, Options, PicturePart, load, render, validate};
 use arbitrary::{Arbitrary, Unstructured};
-use rtc_codec::{self as codec, Form};
+use rtc_codec::{self as codec, Encoding};
 use rtc_color::Tone;
 use rtc_diag::{self as diag, Format, Printer, Severity, Sink};
 use rtc_emit as emit;
@@ -163,9 +163,9 @@ fn has_grown(mut part: PicturePart) {
 /// If there is neither a scene nor an error, or a scene is another one after encoding and decoding.
 pub fn decode(bytes: &[u8]) {
     let (map, file) = source(bytes);
-    for form in [Form::Text, Form::Binary] {
+    for encoding in [Encoding::Json, Encoding::Binary] {
         let mut sink = Sink::default();
-        let scene = codec::decode(form, file, &map, &mut sink);
+        let scene = codec::decode(encoding, file, &map, &mut sink);
         assert_eq!(
             scene.is_none(),
             sink.has_errors(),
@@ -338,17 +338,18 @@ fn source(bytes: &[u8]) -> (SourceMap, FileId) {
 }
 
 fn round_trips(scene: &Scene) {
-    for form in [Form::Text, Form::Binary] {
-        let bytes = codec::encode(form, scene).expect("a scene that was read holds finite numbers");
+    for encoding in [Encoding::Json, Encoding::Binary] {
+        let bytes =
+            codec::encode(encoding, scene).expect("a scene that was read holds finite numbers");
         assert_eq!(
-            codec::recognise(&bytes),
-            Some(form),
+            codec::detect_format(&bytes),
+            Some(encoding),
             "what was encoded is recognised"
         );
         let (map, file) = source(&bytes);
         let mut sink = Sink::default();
-        let back = codec::decode(form, file, &map, &mut sink);
-        assert_eq!(back.as_ref(), Some(scene), "{form:?}: {sink:?}");
+        let back = codec::decode(encoding, file, &map, &mut sink);
+        assert_eq!(back.as_ref(), Some(scene), "{encoding:?}: {sink:?}");
     }
 }
 

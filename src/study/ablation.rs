@@ -183,7 +183,7 @@ fn objects(scene: &Scene) -> Vec<SceneObject> {
 
 fn display_name(name: &str, surface: &Surface, index: usize) -> String {
     match name {
-        "" => format!("{} {}", surface.shape.kind().word(), index + 1),
+        "" => format!("{} {}", surface.shape.kind().name(), index + 1),
         name => format!("`{name}`"),
     }
 }

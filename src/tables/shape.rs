@@ -2,37 +2,37 @@
 
 /// Calls a macro with the table of shapes; all stages list them in its order.
 ///
-/// A row holds the type, its word in the IR, how enums store it, and its values in one of two ways:
-/// - `ruled { "type" value: rule "key" "words"; … }`: each value follows a rule, by which it is
-///   proven, prepared and written. The rules are `point`; `direction`, of any length but 0; `step`,
+/// A row holds the type, its key in the IR, how enums store it, and its values in one of two ways:
+/// - `derived { "type" value: rule "key" "words"; … }`: a rule says how each value is
+///   validated, prepared and written. The rules are `point`; `direction`, of any length but 0; `step`,
 ///   a direction with a length; `length`, above 0. The type and the keys are what `emit` writes,
 ///   the words name the value in a finding.
-/// - `own { "value" … }`: the ways to the values in the IR; each stage has an `impl` for the shape.
+/// - `custom { "value" … }`: the paths to the values in the IR; each stage has an `impl` for the shape.
 #[macro_export]
 macro_rules! shapes {
     ($stage:ident) => {
         $stage! {
             /// A sphere.
-            Sphere sphere Inline own { "center" "radius" }
+            Sphere sphere Inline custom { "center" "radius" }
             /// An infinite plane.
-            Plane plane Inline ruled {
+            Plane plane Inline derived {
                 "plane"
                 center: point "position";
                 normal: direction "normal" "normal of a plane";
             }
             /// A triangle.
-            Triangle triangle Inline own { "vertices/0" "vertices/1" "vertices/2" }
+            Triangle triangle Inline custom { "vertices/0" "vertices/1" "vertices/2" }
             /// A quadrilateral.
-            Quad quad Box own { "vertices/0" "vertices/1" "vertices/2" "vertices/3" }
+            Quad quad Box custom { "vertices/0" "vertices/1" "vertices/2" "vertices/3" }
             /// A disc.
-            Disc disc Inline ruled {
+            Disc disc Inline derived {
                 "circle"
                 center: point "center";
                 normal: direction "normal" "normal of a disc";
                 radius: length "radius" "radius";
             }
             /// A cylinder with two caps.
-            Cylinder cylinder Inline ruled {
+            Cylinder cylinder Inline derived {
                 "cylinder"
                 base: point "position";
                 axis: direction "direction" "axis of a cylinder";
@@ -40,21 +40,21 @@ macro_rules! shapes {
                 radius: length "radius" "radius";
             }
             /// A cone with a cap at its base.
-            Cone cone Inline ruled {
+            Cone cone Inline derived {
                 "cone"
                 base: point "position";
                 up: step "up" "height of a cone";
                 radius: length "radius" "radius";
             }
             /// A paraboloid with a cap at its base.
-            Paraboloid paraboloid Inline ruled {
+            Paraboloid paraboloid Inline derived {
                 "paraboloid"
                 base: point "position";
                 up: step "up" "height of a paraboloid";
                 radius: length "radius" "radius";
             }
             /// A torus.
-            Torus torus Inline ruled {
+            Torus torus Inline derived {
                 "torus"
                 center: point "position";
                 axis: direction "direction" "axis of a torus";
@@ -62,7 +62,7 @@ macro_rules! shapes {
                 minor: length "alpha" "radius of the tube";
             }
             /// A mesh, placed.
-            Instance instance Box own { "mesh" "worldFromObject" }
+            Instance instance Box custom { "mesh" "worldFromObject" }
         }
     };
 }

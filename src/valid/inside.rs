@@ -49,7 +49,7 @@ impl<'s> Solids<'s> {
                 (Shape::Triangle(_) | Shape::Quad(_), 2..) => Some("solid"),
                 (Shape::Instance(_), _) => Some("mesh"),
                 (Shape::Triangle(_) | Shape::Quad(_) | Shape::Plane(_) | Shape::Disc(_), _) => None,
-                _ => Some(shape.kind().word()),
+                _ => Some(shape.kind().name()),
             };
             start = surfaces.end;
             solids.extend(name.map(|name| Solid { surfaces, name }));

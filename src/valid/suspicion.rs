@@ -101,7 +101,7 @@ fn tiny_picture(scene: &ir::Scene, check: &mut Check<'_>) {
     // An `Eye` has no `up` of its own.
     let whole = check.span(place(EntityKind::Camera, 0, Field::Whole));
     let span = check.span(up).filter(|span| Some(*span) != whole);
-    let (Some(span), Some(ball)) = (span, scene.ball()) else {
+    let (Some(span), Some(ball)) = (span, scene.bounding_sphere()) else {
         return;
     };
     let camera = &scene.camera;

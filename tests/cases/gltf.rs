@@ -125,7 +125,7 @@ fn is_the_torus_to_the_bit(scene: &Scene) {
 fn is_the_pirate(scene: &Scene) {
     let triangles: usize = scene.meshes.iter().map(|mesh| mesh.triangles.len()).sum();
     assert_eq!(triangles, 5010);
-    let ball = scene.ball().unwrap();
+    let ball = scene.bounding_sphere().unwrap();
     assert!(ball.radius.is_finite() && ball.radius > 0.0, "{ball:?}");
 }
 

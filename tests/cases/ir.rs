@@ -2,7 +2,7 @@
 //! approved; and laws that hold for each of them.
 use crate::suite::{files, name, root, trial};
 use libtest_mimic::Trial;
-use rtc::internals::codec::{self, Form};
+use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::Scene;
 use rtc::internals::pipeline::{self, Options};
@@ -74,7 +74,7 @@ fn scene_of(path: &Path) -> Scene {
 }
 
 fn is_as_approved(name: &str, path: &Path) {
-    let text = String::from_utf8(codec::encode(Form::Text, &scene_of(path)).unwrap()).unwrap();
+    let text = String::from_utf8(codec::encode(Encoding::Json, &scene_of(path)).unwrap()).unwrap();
     insta::with_settings!({ snapshot_path => "../ir/snapshots", prepend_module_to_snapshot => false }, {
         insta::assert_snapshot!(name, text);
     });
@@ -82,15 +82,15 @@ fn is_as_approved(name: &str, path: &Path) {
 
 fn is_the_same_after_both_forms(name: &str, path: &Path) {
     let expected = scene_of(path);
-    for form in [Form::Text, Form::Binary] {
-        let found = scene(name, codec::encode(form, &expected).unwrap());
-        assert_eq!(found, expected, "{form:?}");
+    for encoding in [Encoding::Json, Encoding::Binary] {
+        let found = scene(name, codec::encode(encoding, &expected).unwrap());
+        assert_eq!(found, expected, "{encoding:?}");
     }
 }
 
 fn meets_the_schema(_: &str, path: &Path) {
     let schema = jsonschema::validator_for(&codec::schema()).unwrap();
-    let text = codec::encode(Form::Text, &scene_of(path)).unwrap();
+    let text = codec::encode(Encoding::Json, &scene_of(path)).unwrap();
     assert!(schema.is_valid(&serde_json::from_slice(&text).unwrap()));
 }
 

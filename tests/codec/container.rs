@@ -5,7 +5,7 @@ use super::*;
 #[test]
 fn every_flipped_bit_of_a_container_is_found() {
     for scene in [small(), large()] {
-        flip_every_bit(&codec::encode(Form::Binary, &scene).unwrap());
+        flip_every_bit(&codec::encode(Encoding::Binary, &scene).unwrap());
     }
 }
 
@@ -13,8 +13,12 @@ fn flip_every_bit(file: &[u8]) {
     for bit in 0..8 * file.len() {
         let mut bytes = file.to_vec();
         bytes[bit / 8] ^= 1 << (bit % 8);
-        assert_eq!(codec::recognise(&bytes), Some(Form::Binary), "bit {bit}");
-        let (id, _, _) = fault(Form::Binary, &bytes);
+        assert_eq!(
+            codec::detect_format(&bytes),
+            Some(Encoding::Binary),
+            "bit {bit}"
+        );
+        let (id, _, _) = fault(Encoding::Binary, &bytes);
         let expected = match bit / 8 {
             0..8 => &["IR004"][..],
             12..16 => &["IR005", "IR006"],
@@ -26,26 +30,26 @@ fn flip_every_bit(file: &[u8]) {
 
 #[test]
 fn every_truncation_of_a_container_is_found() {
-    let file = codec::encode(Form::Binary, &large()).unwrap();
+    let file = codec::encode(Encoding::Binary, &large()).unwrap();
     for length in 1..file.len() {
         assert_eq!(
-            codec::recognise(&file[..length]),
-            Some(Form::Binary),
+            codec::detect_format(&file[..length]),
+            Some(Encoding::Binary),
             "length {length}"
         );
         assert_eq!(
-            fault(Form::Binary, &file[..length]).0,
+            fault(Encoding::Binary, &file[..length]).0,
             "IR005",
             "length {length}"
         );
     }
     let longer = [file.as_slice(), &[0]].concat();
-    assert_eq!(fault(Form::Binary, &longer).0, "IR007");
+    assert_eq!(fault(Encoding::Binary, &longer).0, "IR007");
 }
 
 #[test]
 fn a_container_copied_as_text_is_recognised_and_says_so() {
-    let file = codec::encode(Form::Binary, &small()).unwrap();
+    let file = codec::encode(Encoding::Binary, &small()).unwrap();
     let lines: Vec<u8> = file.iter().copied().filter(|byte| *byte != b'\r').collect();
     let seven_bits: Vec<u8> = file.iter().map(|byte| byte & 0x7f).collect();
     let latin1: String = file.iter().copied().map(char::from).collect();
@@ -57,8 +61,12 @@ fn a_container_copied_as_text_is_recognised_and_says_so() {
         (lossy.into(), "UTF-8"),
     ];
     for (bytes, word) in spoilt {
-        assert_eq!(codec::recognise(&bytes), Some(Form::Binary), "{word}");
-        let (finding, _) = *decode(Form::Binary, &bytes).unwrap_err();
+        assert_eq!(
+            codec::detect_format(&bytes),
+            Some(Encoding::Binary),
+            "{word}"
+        );
+        let (finding, _) = *decode(Encoding::Binary, &bytes).unwrap_err();
         assert!(
             finding.code.id == "IR004" && finding.hints[0].text.contains(word),
             "{finding:?}"
@@ -68,8 +76,8 @@ fn a_container_copied_as_text_is_recognised_and_says_so() {
 
 #[test]
 fn parts_that_do_not_fit_together_are_refused() {
-    let file = codec::encode(Form::Binary, &small()).unwrap();
-    assert!(decode(Form::Binary, &with_header(&file, |header| header)).is_ok());
+    let file = codec::encode(Encoding::Binary, &small()).unwrap();
+    assert!(decode(Encoding::Binary, &with_header(&file, |header| header)).is_ok());
     let cases = [
         (r#""order":0"#, r#""order":99"#, "IR007"),
         (r#""order":0"#, r#""order":1"#, "IR007"),
@@ -91,7 +99,7 @@ fn parts_that_do_not_fit_together_are_refused() {
             assert!(header.contains(old), "{old} is not in {header}");
             header.replacen(old, new, 1)
         });
-        assert_eq!(fault(Form::Binary, &bad).0, expected, "{new}");
+        assert_eq!(fault(Encoding::Binary, &bad).0, expected, "{new}");
     }
 }
 
@@ -100,12 +108,12 @@ fn parts_that_do_not_fit_together_are_refused() {
 fn a_table_that_would_grow_beyond_its_file_is_refused() {
     let mut scene = small();
     scene.surfaces = vec![scene.surfaces[0].clone(); 2_000];
-    let file = codec::encode(Form::Binary, &scene).unwrap();
+    let file = codec::encode(Encoding::Binary, &scene).unwrap();
     let (old, long) = ("\"radius\":null", "x".repeat(30_000));
     let bomb = with_header(&file, |header| {
         header.replacen(old, &format!("\"name\":\"{long}\",{old}"), 1)
     });
-    let (finding, _) = decode(Form::Binary, &bomb)
+    let (finding, _) = decode(Encoding::Binary, &bomb)
         .map_err(|fault| *fault)
         .unwrap_err();
     assert!(

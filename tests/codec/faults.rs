@@ -1,7 +1,7 @@
 //! All faults of an IR text are found at once, each with its pointer and its words.
 
 use super::small;
-use rtc::internals::codec::{self, Form};
+use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::{Diagnostic, Sink};
 use rtc::internals::source::SourceMap;
 
@@ -9,7 +9,7 @@ use rtc::internals::source::SourceMap;
 fn all_faults(text: &str) -> Vec<(&'static str, String, String)> {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("faults.json", text.as_bytes().to_vec());
-    assert!(codec::decode(Form::Text, file, &map, &mut sink).is_none());
+    assert!(codec::decode(Encoding::Json, file, &map, &mut sink).is_none());
     let words = |finding: &Diagnostic| {
         let what = finding.message.split_once(": ").unwrap().1;
         (
@@ -52,7 +52,7 @@ fn every_fault_of_a_text_is_a_finding() {
 
 #[test]
 fn two_faults_of_one_entity_are_two_findings() {
-    let file = String::from_utf8(codec::encode(Form::Text, &small()).unwrap()).unwrap();
+    let file = String::from_utf8(codec::encode(Encoding::Json, &small()).unwrap()).unwrap();
     let change = |pairs: &[(&str, &str)]| {
         pairs.iter().fold(file.clone(), |text, (old, new)| {
             assert!(text.contains(old), "{old} is not in {text}");
@@ -129,7 +129,7 @@ fn faults_of_the_version_and_of_json_are_two_findings() {
 
 #[test]
 fn numbers_out_of_range_are_told_each() {
-    let file = String::from_utf8(codec::encode(Form::Text, &small()).unwrap()).unwrap();
+    let file = String::from_utf8(codec::encode(Encoding::Json, &small()).unwrap()).unwrap();
     let text =
         file.replacen("59.9", "1e400", 1)
             .replacen("\"maxDepth\": 2", "\"maxDepth\": 1e999", 1);

@@ -13,7 +13,7 @@ mod sections;
 mod versions;
 
 use proptest::prelude::*;
-use rtc::internals::codec::{self, Form};
+use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::{Diagnostic, Sink};
 use rtc::internals::ir::{Column, Display, ImageId, Pixels, Scene, Shape, Texture};
 use rtc::internals::source::SourceMap;
@@ -28,10 +28,10 @@ fn frozen(name: &str) -> PathBuf {
 }
 
 /// The scene or the first finding, and the text the finding points at.
-fn decode(form: Form, bytes: &[u8]) -> Result<Scene, Box<(Diagnostic, String)>> {
+fn decode(encoding: Encoding, bytes: &[u8]) -> Result<Scene, Box<(Diagnostic, String)>> {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("test", bytes.to_vec());
-    let scene = codec::decode(form, file, &map, &mut sink);
+    let scene = codec::decode(encoding, file, &map, &mut sink);
     assert_eq!(
         scene.is_none(),
         sink.has_errors(),
@@ -53,8 +53,8 @@ fn decode(form: Form, bytes: &[u8]) -> Result<Scene, Box<(Diagnostic, String)>> 
 }
 
 /// The code, the text pointed at, and the pointer of the finding.
-fn fault(form: Form, bytes: &[u8]) -> (&'static str, String, String) {
-    let (finding, place) = *decode(form, bytes).unwrap_err();
+fn fault(encoding: Encoding, bytes: &[u8]) -> (&'static str, String, String) {
+    let (finding, place) = *decode(encoding, bytes).unwrap_err();
     (finding.code.id, place, finding.pointer.unwrap_or_default())
 }
 
@@ -77,23 +77,23 @@ proptest! {
 
     #[test]
     fn both_forms_give_the_scene_back_to_the_bit(scene in scene()) {
-        for form in [Form::Text, Form::Binary] {
-            let bytes = codec::encode(form, &scene).unwrap();
-            prop_assert_eq!(codec::recognise(&bytes), Some(form));
-            let back = decode(form, &bytes).unwrap();
+        for encoding in [Encoding::Json, Encoding::Binary] {
+            let bytes = codec::encode(encoding, &scene).unwrap();
+            prop_assert_eq!(codec::detect_format(&bytes), Some(encoding));
+            let back = decode(encoding, &bytes).unwrap();
             // Debug tells −0.0 from 0.0, which `==` does not.
             prop_assert_eq!(format!("{:?}", &scene), format!("{:?}", &back));
-            prop_assert_eq!(codec::encode(form, &back).unwrap(), bytes);
+            prop_assert_eq!(codec::encode(encoding, &back).unwrap(), bytes);
         }
         let plain = Scene { display: Display::default(), ..scene.clone() };
-        let container = codec::encode(Form::Binary, &plain).unwrap();
+        let container = codec::encode(Encoding::Binary, &plain).unwrap();
         prop_assert_eq!(codec::hash(&scene), Ok(xxh3_128(&container)));
     }
 
     #[test]
-    fn arbitrary_bytes_are_a_scene_or_one_located_error(bytes: Vec<u8>, form in prop::bool::ANY) {
-        let form = if form { Form::Text } else { Form::Binary };
-        prop_assert!(decode(form, &bytes).is_err());
+    fn arbitrary_bytes_are_a_scene_or_one_located_error(bytes: Vec<u8>, encoding in prop::bool::ANY) {
+        let encoding = if encoding { Encoding::Json } else { Encoding::Binary };
+        prop_assert!(decode(encoding, &bytes).is_err());
     }
 
     #[test]
@@ -101,17 +101,25 @@ proptest! {
         let mut bytes = std::fs::read(frozen("v1/scene.json")).unwrap();
         let at = at % bytes.len();
         bytes[at] = with;
-        let _ = decode(Form::Text, &bytes);
+        let _ = decode(Encoding::Json, &bytes);
     }
 }
 
 fn small() -> Scene {
-    decode(Form::Text, &std::fs::read(frozen("v1/scene.json")).unwrap()).unwrap()
+    decode(
+        Encoding::Json,
+        &std::fs::read(frozen("v1/scene.json")).unwrap(),
+    )
+    .unwrap()
 }
 
 /// A scene with an image and a mesh, both long.
 fn large() -> Scene {
-    decode(Form::Text, &std::fs::read(frozen("v2/scene.json")).unwrap()).unwrap()
+    decode(
+        Encoding::Json,
+        &std::fs::read(frozen("v2/scene.json")).unwrap(),
+    )
+    .unwrap()
 }
 
 #[test]
@@ -120,18 +128,18 @@ fn a_number_that_is_not_finite_is_not_stored() {
         let mut scene = small();
         scene.camera.eye[1] = bad;
         assert!(
-            codec::encode(Form::Text, &scene).is_err()
-                && codec::encode(Form::Binary, &scene).is_err()
+            codec::encode(Encoding::Json, &scene).is_err()
+                && codec::encode(Encoding::Binary, &scene).is_err()
         );
     }
 }
 
 #[test]
 fn every_truncation_of_a_text_is_found() {
-    let file = codec::encode(Form::Text, &small()).unwrap();
+    let file = codec::encode(Encoding::Json, &small()).unwrap();
     for length in 0..file.len() - 2 {
         assert_eq!(
-            fault(Form::Text, &file[..length]).0,
+            fault(Encoding::Json, &file[..length]).0,
             "IR002",
             "length {length}"
         );
@@ -209,20 +217,20 @@ const FAULTS: &[[&str; 5]] = &[
 
 #[test]
 fn faults_of_a_text_are_located() {
-    let file = String::from_utf8(codec::encode(Form::Text, &small()).unwrap()).unwrap();
+    let file = String::from_utf8(codec::encode(Encoding::Json, &small()).unwrap()).unwrap();
     for [old, new, code, place, pointer] in FAULTS {
         assert!(file.contains(old), "{old} is not in {file}");
         let bad = format!("\u{feff}{}", file.replacen(old, new, 1));
         let expected = (*code, (*place).to_owned(), (*pointer).to_owned());
-        assert_eq!(fault(Form::Text, bad.as_bytes()), expected, "{new}");
+        assert_eq!(fault(Encoding::Json, bad.as_bytes()), expected, "{new}");
     }
 }
 
 #[test]
 fn pixels_that_are_no_base64_are_located() {
-    let file = String::from_utf8(codec::encode(Form::Text, &large()).unwrap()).unwrap();
+    let file = String::from_utf8(codec::encode(Encoding::Json, &large()).unwrap()).unwrap();
     let bad = file.replacen("\"pixels\": \"", "\"pixels\": \"?", 1);
-    let (finding, _) = *decode(Form::Text, bad.as_bytes()).unwrap_err();
+    let (finding, _) = *decode(Encoding::Json, bad.as_bytes()).unwrap_err();
     assert_eq!(
         (finding.code.id, finding.pointer.unwrap().as_str()),
         ("IR003", "/images/0/pixels")
@@ -252,10 +260,10 @@ fn hostile_texts_are_errors() {
         "[]",
         "{\"irVersion\": 1e400}",
     ] {
-        assert!(decode(Form::Text, text.as_bytes()).is_err());
+        assert!(decode(Encoding::Json, text.as_bytes()).is_err());
     }
     assert_eq!(
-        fault(Form::Text, b"{\"irVersion\": 1, \"a\": \"\xff\"}").0,
+        fault(Encoding::Json, b"{\"irVersion\": 1, \"a\": \"\xff\"}").0,
         "SY001"
     );
 }
@@ -270,12 +278,12 @@ fn a_course_scene_is_not_taken_for_the_ir() {
         "",
         "\u{feff}{",
     ] {
-        assert_eq!(codec::recognise(text.as_bytes()), None, "{text}");
+        assert_eq!(codec::detect_format(text.as_bytes()), None, "{text}");
     }
     for text in ["{\"irVersion\":1}", "\u{feff} \n{ \"irVersion\" : 1 }"] {
         assert_eq!(
-            codec::recognise(text.as_bytes()),
-            Some(Form::Text),
+            codec::detect_format(text.as_bytes()),
+            Some(Encoding::Json),
             "{text}"
         );
     }

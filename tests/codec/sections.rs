@@ -1,7 +1,7 @@
 //! Sections of a container: what is in them, and that none is believed that lies.
 
 use super::{decode, fault, frozen, large, with_header};
-use rtc::internals::codec::{self, Form};
+use rtc::internals::codec::{self, Encoding};
 use rtc::internals::ir::{Column, Scene};
 
 /// In files of version 2 every long list and text is a section, whatever it belongs to.
@@ -20,7 +20,7 @@ fn long_lists_and_texts_of_older_files_have_sections_of_their_own() {
             assert!(header.contains(old), "{old} is not in {header}");
             header.replacen(old, new, 1)
         });
-        assert_eq!(fault(Form::Binary, &bad).0, "IR007", "{new}");
+        assert_eq!(fault(Encoding::Binary, &bad).0, "IR007", "{new}");
     }
 }
 
@@ -28,12 +28,12 @@ fn long_lists_and_texts_of_older_files_have_sections_of_their_own() {
 fn the_header_does_not_grow_with_what_is_in_sections() {
     let mut scene = large();
     let header = |file: &[u8]| u32::from_le_bytes(file[12..16].try_into().unwrap());
-    let before = header(&codec::encode(Form::Binary, &scene).unwrap());
+    let before = header(&codec::encode(Encoding::Binary, &scene).unwrap());
     scene.meshes[0].positions = vec![[0.5; 3]; 10_000].into();
     scene.images[0].pixels = vec![7; 30_000].into();
-    let file = codec::encode(Form::Binary, &scene).unwrap();
+    let file = codec::encode(Encoding::Binary, &scene).unwrap();
     assert!(header(&file) < before + 100);
-    assert_eq!(decode(Form::Binary, &file).unwrap(), scene);
+    assert_eq!(decode(Encoding::Binary, &file).unwrap(), scene);
 }
 
 /// The number behind the first of these words in the header of a container.
@@ -79,8 +79,8 @@ fn with_section(file: &[u8], section: usize, edit: impl Fn(&mut [u8])) -> Vec<u8
 #[test]
 fn columns_of_meshes_are_sections_in_the_precision_of_the_scene() {
     let scene = meshed();
-    let file = codec::encode(Form::Binary, &scene).unwrap();
-    let back = decode(Form::Binary, &file).unwrap();
+    let file = codec::encode(Encoding::Binary, &scene).unwrap();
+    let back = decode(Encoding::Binary, &file).unwrap();
     assert_eq!(format!("{back:?}"), format!("{scene:?}"));
     assert!(
         matches!(&back.meshes[0].normals, Column::Single(_))
@@ -103,7 +103,7 @@ fn columns_of_meshes_are_sections_in_the_precision_of_the_scene() {
     for (key, old, new) in cases {
         let (old, new) = (format!("\"{key}\":{old}"), format!("\"{key}\":{new}"));
         let bad = with_header(&file, |header| header.replacen(&old, &new, 1));
-        assert_eq!(fault(Form::Binary, &bad).0, "IR007", "{new}");
+        assert_eq!(fault(Encoding::Binary, &bad).0, "IR007", "{new}");
     }
     for (section, at, number) in [
         (positions, 8, 0x7ff_u16),
@@ -115,7 +115,7 @@ fn columns_of_meshes_are_sections_in_the_precision_of_the_scene() {
         let bad = with_section(&file, section, |bytes| {
             bytes[at + size - 2..at + size].copy_from_slice(&number)
         });
-        let (finding, place) = *decode(Form::Binary, &bad).unwrap_err();
+        let (finding, place) = *decode(Encoding::Binary, &bad).unwrap_err();
         assert!(
             finding.code.id == "IR007" && finding.message.contains("is not finite"),
             "{finding:?}"
@@ -130,7 +130,7 @@ fn columns_of_meshes_are_sections_in_the_precision_of_the_scene() {
 /// Sections that are elsewhere, longer, shorter or in other units than the file has room for.
 #[test]
 fn sections_that_lie_are_refused() {
-    let file = codec::encode(Form::Binary, &meshed()).unwrap();
+    let file = codec::encode(Encoding::Binary, &meshed()).unwrap();
     let last =
         |key: &str, header: &str| header.rfind(&format!("\"{key}\":")).unwrap() + key.len() + 3;
     let cases = [
@@ -151,6 +151,6 @@ fn sections_that_lie_are_refused() {
             header.replace_range(start..end, value);
             header
         });
-        assert_eq!(fault(Form::Binary, &bad).0, expected, "{key} {value}");
+        assert_eq!(fault(Encoding::Binary, &bad).0, expected, "{key} {value}");
     }
 }

@@ -10,14 +10,18 @@ fn frozen_files_decode() {
     let text = small();
     assert_eq!(
         decode(
-            Form::Binary,
+            Encoding::Binary,
             &std::fs::read(frozen("v1/scene.rtir")).unwrap()
         )
         .unwrap(),
         text
     );
     assert_eq!(
-        decode(Form::Text, &std::fs::read(frozen("v0/scene.json")).unwrap()).unwrap(),
+        decode(
+            Encoding::Json,
+            &std::fs::read(frozen("v0/scene.json")).unwrap()
+        )
+        .unwrap(),
         text
     );
     let Shape::Sphere(sphere) = &text.surfaces[0].shape else {
@@ -34,7 +38,7 @@ fn frozen_files_decode() {
     let text = large();
     assert_eq!(
         decode(
-            Form::Binary,
+            Encoding::Binary,
             &std::fs::read(frozen("v2/scene.rtir")).unwrap()
         )
         .unwrap(),
@@ -59,12 +63,12 @@ fn frozen_files_decode() {
 fn frozen_files_of_version_3_decode() {
     let [course, path] = ["course", "path"].map(|name| {
         let text = decode(
-            Form::Text,
+            Encoding::Json,
             &std::fs::read(frozen(&format!("v3/{name}.json"))).unwrap(),
         )
         .unwrap();
         let binary = decode(
-            Form::Binary,
+            Encoding::Binary,
             &std::fs::read(frozen(&format!("v3/{name}.rtir"))).unwrap(),
         )
         .unwrap();
@@ -116,8 +120,12 @@ fn frozen_files_of_version_3_decode() {
 fn frozen_files_of_version_4_decode() {
     let [course, path] = ["course", "path"].map(|name| {
         let read = |extension| std::fs::read(frozen(&format!("v4/{name}.{extension}"))).unwrap();
-        let text = decode(Form::Text, &read("json")).unwrap();
-        assert_eq!(decode(Form::Binary, &read("rtir")).unwrap(), text, "{name}");
+        let text = decode(Encoding::Json, &read("json")).unwrap();
+        assert_eq!(
+            decode(Encoding::Binary, &read("rtir")).unwrap(),
+            text,
+            "{name}"
+        );
         text
     });
     assert!(course.settings.toon && course.surfaces[0].casts_no_shadow);
@@ -169,14 +177,14 @@ fn older_files_are_the_same_scene_in_the_current_version() {
         "v5/scene.rtir",
     ];
     for name in names {
-        let form = if name.ends_with(".rtir") {
-            Form::Binary
+        let encoding = if name.ends_with(".rtir") {
+            Encoding::Binary
         } else {
-            Form::Text
+            Encoding::Json
         };
-        let old = decode(form, &std::fs::read(frozen(name)).unwrap()).unwrap();
-        for form in [Form::Text, Form::Binary] {
-            let bytes = codec::encode(form, &old).unwrap();
+        let old = decode(encoding, &std::fs::read(frozen(name)).unwrap()).unwrap();
+        for encoding in [Encoding::Json, Encoding::Binary] {
+            let bytes = codec::encode(encoding, &old).unwrap();
             let version = [&b"\"irVersion\": 5"[..], b"\"irVersion\":5"];
             let start = &bytes[..64];
             assert!(
@@ -186,9 +194,9 @@ fn older_files_are_the_same_scene_in_the_current_version() {
                 "{name}"
             );
             assert_eq!(
-                format!("{:?}", decode(form, &bytes).unwrap()),
+                format!("{:?}", decode(encoding, &bytes).unwrap()),
                 format!("{old:?}"),
-                "{name}, {form:?}"
+                "{name}, {encoding:?}"
             );
         }
     }
@@ -197,16 +205,16 @@ fn older_files_are_the_same_scene_in_the_current_version() {
 #[test]
 fn newer_files_say_so_where_the_version_stands() {
     let text = "{\"irVersion\": 7, \"spectra\": []}";
-    let (finding, place) = *decode(Form::Text, text.as_bytes()).unwrap_err();
+    let (finding, place) = *decode(Encoding::Json, text.as_bytes()).unwrap_err();
     assert_eq!((finding.code.id, place.as_str()), ("IR001", "7"));
     assert_eq!(
         finding.message,
         "IR version 7 is newer than 5, the newest this rtc reads"
     );
-    let mut file = codec::encode(Form::Binary, &small()).unwrap();
+    let mut file = codec::encode(Encoding::Binary, &small()).unwrap();
     file[8] = 2;
     let file = with_header(&file, |header| header);
-    let (finding, _) = *decode(Form::Binary, &file).unwrap_err();
+    let (finding, _) = *decode(Encoding::Binary, &file).unwrap_err();
     assert_eq!(
         finding.message,
         "container version 2 is newer than 1, the newest this rtc reads"
@@ -218,7 +226,10 @@ fn newer_files_say_so_where_the_version_stands() {
 #[test]
 fn frozen_files_of_version_5_decode() {
     let read = |name| std::fs::read(frozen(name)).unwrap();
-    let text = decode(Form::Text, &read("v5/scene.json")).unwrap();
-    assert_eq!(decode(Form::Binary, &read("v5/scene.rtir")).unwrap(), text);
+    let text = decode(Encoding::Json, &read("v5/scene.json")).unwrap();
+    assert_eq!(
+        decode(Encoding::Binary, &read("v5/scene.rtir")).unwrap(),
+        text
+    );
     assert_eq!(text.settings.ambient, Ambient::Once);
 }

@@ -55,7 +55,7 @@ fn scene(changes: &[(&str, &str)]) -> Scene {
 fn decoded(text: String) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("scene", text.into_bytes());
-    codec::decode(codec::Form::Text, file, &map, &mut sink)
+    codec::decode(codec::Encoding::Json, file, &map, &mut sink)
         .unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 

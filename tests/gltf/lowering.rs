@@ -2,7 +2,7 @@
 //! however it is stored.
 
 use super::make;
-use rtc::internals::codec::{self, Form};
+use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::{Diagnostic, Severity, Sink};
 use rtc::internals::front;
 use rtc::internals::ir::{
@@ -37,7 +37,7 @@ fn lower(bytes: Vec<u8>, front: front::FrontOptions) -> Scene {
 }
 
 fn text(scene: &Scene) -> String {
-    String::from_utf8(codec::encode(Form::Text, scene).unwrap()).unwrap()
+    String::from_utf8(codec::encode(Encoding::Json, scene).unwrap()).unwrap()
 }
 
 #[test]
@@ -330,13 +330,13 @@ fn assets_make_the_same_picture_from_either_form_of_the_ir() {
             expected.iter().any(|pixel| *pixel != expected[0]),
             "something shows"
         );
-        for form in [Form::Text, Form::Binary] {
+        for encoding in [Encoding::Json, Encoding::Binary] {
             let back = lower(
-                codec::encode(form, &scene).unwrap(),
+                codec::encode(encoding, &scene).unwrap(),
                 front::FrontOptions::default(),
             );
-            assert_eq!(format!("{back:?}"), format!("{scene:?}"), "{form:?}");
-            assert!(picture(back) == expected, "{form:?}");
+            assert_eq!(format!("{back:?}"), format!("{scene:?}"), "{encoding:?}");
+            assert!(picture(back) == expected, "{encoding:?}");
         }
     }
     assert!(
@@ -350,7 +350,7 @@ fn assets_make_the_same_picture_from_either_form_of_the_ir() {
 fn a_camera_that_is_not_there_sees_all_of_it() {
     let scene = lower(make::texture(), front::FrontOptions::default());
     let [eye, up] = [scene.camera.eye, scene.camera.up].map(Vec3::from_array);
-    let ball = scene.ball().unwrap();
+    let ball = scene.bounding_sphere().unwrap();
     let half = (up.length() * f64::from(scene.camera.size[1]) / 2.0).atan();
     assert!((half.to_degrees() - 17.5).abs() < 1e-9, "{half}");
     assert!(((ball.radius / eye.distance(ball.center)).asin() - half).abs() < 1e-9);

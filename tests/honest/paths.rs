@@ -3,7 +3,7 @@
 
 use super::on;
 use super::scenes::{error, references, render};
-use rtc::internals::codec::{self, Form};
+use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::Scene;
 use rtc::internals::source::SourceMap;
@@ -12,7 +12,8 @@ use rtc::internals::source::SourceMap;
 pub(super) fn balls() -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("paths.json", include_bytes!("paths.json").to_vec());
-    codec::decode(Form::Text, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+    codec::decode(Encoding::Json, file, &map, &mut sink)
+        .unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
 #[test]

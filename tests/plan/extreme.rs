@@ -4,7 +4,7 @@
 
 use super::dice::Dice;
 use super::{bits, film, proven};
-use rtc::internals::codec::{self, Form};
+use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Light, Lowered, Material, Phong, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Options};
@@ -22,10 +22,10 @@ fn is_sound(scene: &Scene) -> bool {
     pipeline::validate(&lowered, &Options::default(), &mut Sink::default()).is_some()
 }
 
-fn decoded(form: Form, scene: &Scene) -> Scene {
+fn decoded(encoding: Encoding, scene: &Scene) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
-    let file = map.add("scene", codec::encode(form, scene).unwrap());
-    codec::decode(form, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+    let file = map.add("scene", codec::encode(encoding, scene).unwrap());
+    codec::decode(encoding, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
 /// The first law that a sound scene breaks.
@@ -81,11 +81,13 @@ fn broken(scene: &Scene) -> Option<String> {
     if bits(&alone) != wanted || alone.counts != pruned.counts {
         return Some("one thread makes another picture than two".to_owned());
     }
-    let other = [Form::Text, Form::Binary].into_iter().find(|form| {
-        let other = decoded(*form, scene);
-        other != *scene || bits(&film(&proven(&other), Rules::ALL, Values::Linear)) != wanted
-    });
-    other.map(|form| format!("the IR as {form:?} is another scene"))
+    let other = [Encoding::Json, Encoding::Binary]
+        .into_iter()
+        .find(|encoding| {
+            let other = decoded(*encoding, scene);
+            other != *scene || bits(&film(&proven(&other), Rules::ALL, Values::Linear)) != wanted
+        });
+    other.map(|encoding| format!("the IR as {encoding:?} is another scene"))
 }
 
 /// A scene that breaks a law with as little in it as the cuts here leave.
@@ -164,7 +166,7 @@ fn laws_hold_for_scenes_of_all_kinds() {
         "{refused} of {scenes} scenes are refused"
     );
     let shown = first
-        .map(|scene| codec::encode(Form::Text, &smallest(scene)).unwrap())
+        .map(|scene| codec::encode(Encoding::Json, &smallest(scene)).unwrap())
         .unwrap_or_default();
     assert!(
         faults.is_empty(),

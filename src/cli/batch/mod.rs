@@ -14,7 +14,7 @@ use super::render::{refuse_layers, set_stage, wanted};
 use super::talk::{self, Talk};
 use frames::Frames;
 use jobs::FarmJob;
-use rtc_codec::{self as codec, Form};
+use rtc_codec::{self as codec, Encoding};
 use rtc_pipeline::{Input, NewFolder, Observer, RenderSubject, hash};
 use rtc_study::Goal;
 use std::ffi::OsStr;
@@ -36,7 +36,7 @@ pub(super) fn run(args: &Farm) -> Result<(), Failure> {
         let written = subject.and_then(|subject| {
             let scene = &subject.proven.lowered.scene;
             hashes.push(hash(scene));
-            let written = codec::prepare(Form::Binary, scene)
+            let written = codec::prepare(Encoding::Binary, scene)
                 .map_err(|codec::NotFinite| io::Error::other("a number is not finite"))
                 .and_then(|scene| folder.put(&name, &|out| scene.write(out), &interrupt));
             written.map_err(|error| stopped_or(args, &error, &interrupt))

@@ -28,7 +28,7 @@ pub(super) fn value(
         .chain(key)
         .map(|node| tree.span(node));
     let spans = spans.map(|own| Span::new(file, own.start, own.end));
-    let places = spans.flat_map(|span| lowered.source_spans.places(span));
+    let places = spans.flat_map(|span| lowered.source_spans.paths(span));
     let mut values = places.filter_map(|place| of(&lowered.scene, place));
     let found = plain(values.next()?);
     let written = tree.written(target);

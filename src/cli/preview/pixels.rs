@@ -67,7 +67,7 @@ impl PixelTable {
 fn surface(index: usize, proven: &Proven, input: &Input) -> [String; 2] {
     let scene = &proven.lowered.scene;
     let name = scene.names.get(index).filter(|name| !name.is_empty());
-    let shape = scene.surfaces.get(index).map(|own| own.shape.kind().word());
+    let shape = scene.surfaces.get(index).map(|own| own.shape.kind().name());
     let place = ValuePath::new(EntityKind::Surface, index, Field::Whole);
     let span = proven.lowered.source_spans.span(place);
     let line = span.map(|span| input.line(span));

@@ -1,5 +1,5 @@
-//! Lists, maps and variants, handed out piece by piece. Missing pieces get a placeholder; surplus
-//! pieces are reported and skipped.
+//! Access to lists, maps and enum variants. A missing value gets a placeholder; a surplus value is
+//! reported and skipped.
 
 use super::error::Error;
 use super::reader::NodeReader;
@@ -15,9 +15,8 @@ use serde::de::{
 pub(super) struct Items<'n, 't> {
     notes: &'n Notes<'t>,
     items: std::vec::IntoIter<NodeId>,
-    /// How many are still to be handed out, whether they are there or not; as many as there are
-    /// without.
-    left: Option<usize>,
+    /// The number of items still expected, present or not; `None` for the items that are present.
+    remaining: Option<usize>,
 }
 
 impl<'n, 't> Items<'n, 't> {
@@ -25,7 +24,7 @@ impl<'n, 't> Items<'n, 't> {
         Self {
             notes,
             items: items.into_iter(),
-            left: length,
+            remaining: length,
         }
     }
 }
@@ -38,19 +37,19 @@ impl<'de> SeqAccess<'de> for Items<'_, '_> {
         seed: S,
     ) -> Result<Option<S::Value>, Error> {
         let item = self.items.next();
-        let is_wanted = match &mut self.left {
+        let is_expected = match &mut self.remaining {
             None => item.is_some(),
             Some(0) => false,
-            Some(left) => {
-                *left -= 1;
+            Some(remaining) => {
+                *remaining -= 1;
                 true
             }
         };
-        if !is_wanted {
+        if !is_expected {
             return Ok(None);
         }
-        let stand_in = || NodeReader::stand_in(self.notes);
-        let reader = item.map_or_else(stand_in, |item| NodeReader::new(self.notes, item));
+        let placeholder = || NodeReader::placeholder(self.notes);
+        let reader = item.map_or_else(placeholder, |item| NodeReader::new(self.notes, item));
         seed.deserialize(reader).map(Some)
     }
 }
@@ -60,19 +59,19 @@ pub(super) struct Members<'n, 't> {
     notes: &'n Notes<'t>,
     map: Option<NodeId>,
     pairs: std::vec::IntoIter<(NodeId, NodeId)>,
-    /// The fields there are; without, keys of any kind are handed out.
+    /// The fields of the struct; `None` to accept any key.
     fields: Option<Fields>,
-    /// Fields that must be there and were not yet.
+    /// Required fields that were not seen yet.
     absent: Vec<&'static str>,
     seen: Vec<&'n str>,
-    /// A key means nothing: it may be one of those that are missing.
+    /// A key is unknown: it may be a misspelling of a missing one.
     has_unknown: bool,
     /// The value after the last key.
     value: Option<NodeId>,
 }
 
 impl<'n, 't> Members<'n, 't> {
-    /// The members of a map as the fields of a struct; without a map, stand-ins.
+    /// The members of a map as the fields of a struct; placeholders if there is no map.
     pub(super) fn of(notes: &'n Notes<'t>, map: Option<NodeId>, fields: Fields) -> Self {
         let pairs: Vec<_> = map.map_or_else(Vec::new, |map| notes.tree.pairs(map).collect());
         Self {
@@ -87,7 +86,7 @@ impl<'n, 't> Members<'n, 't> {
         }
     }
 
-    /// The members of a map as they are.
+    /// All members of a map.
     pub(super) fn any(notes: &'n Notes<'t>, map: NodeId) -> Self {
         Self {
             fields: None,
@@ -96,13 +95,13 @@ impl<'n, 't> Members<'n, 't> {
         }
     }
 
-    /// The next key that means something.
+    /// The next known key.
     fn next_key(&mut self) -> Option<&'n str> {
         for (key, value) in self.pairs.by_ref() {
             let text = self.notes.tree.text(key).unwrap_or_default();
             let fault = match self.fields {
                 Some(fields) if !fields.contains(&text) => Error::unknown_field(text, fields),
-                // Which field it is does not matter for the words.
+                // Which duplicate field it is does not change the message.
                 Some(_) if self.seen.contains(&text) => {
                     Error::custom(format_args!("duplicate field `{text}`"))
                 }
@@ -139,35 +138,35 @@ impl<'de> MapAccess<'de> for Members<'_, '_> {
     }
 
     fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Error> {
-        let stand_in = || NodeReader::stand_in(self.notes);
+        let placeholder = || NodeReader::placeholder(self.notes);
         seed.deserialize(
             self.value
-                .map_or_else(stand_in, |value| NodeReader::new(self.notes, value)),
+                .map_or_else(placeholder, |value| NodeReader::new(self.notes, value)),
         )
     }
 }
 
-/// A variant of an enum and what it holds.
+/// An enum variant and its content.
 pub(super) struct Variant<'n, 't> {
     name: &'n str,
     content: NodeReader<'n, 't>,
-    /// The name stands alone, where this is.
+    /// The node, if the variant is a name without content.
     bare: Option<NodeReader<'n, 't>>,
 }
 
 impl<'n, 't> Variant<'n, 't> {
-    /// The variant at a node; the first one if the node is not a variant.
+    /// The variant at a node; the first variant if the node is none.
     pub(super) fn of(at: NodeReader<'n, 't>, variants: Fields, expected: &dyn Expected) -> Self {
         let (notes, tree) = (at.notes, at.notes.tree);
         let first = Self {
             name: variants.first().copied().unwrap_or_default(),
-            content: NodeReader::stand_in(notes),
+            content: NodeReader::placeholder(notes),
             bare: None,
         };
         let Some(node) = at.at else { return first };
         let kind = tree.kind(node);
         let mut pairs = tree.pairs(node);
-        let (name, own) = match (kind, pairs.next(), pairs.next()) {
+        let (name, variant) = match (kind, pairs.next(), pairs.next()) {
             (NodeKind::Text, ..) => {
                 let bare = Some(at);
                 (node, Self { bare, ..first })
@@ -187,7 +186,10 @@ impl<'n, 't> Variant<'n, 't> {
         };
         let text = tree.text(name).unwrap_or_default();
         if variants.contains(&text) {
-            return Self { name: text, ..own };
+            return Self {
+                name: text,
+                ..variant
+            };
         }
         notes.note(
             name,
@@ -195,13 +197,13 @@ impl<'n, 't> Variant<'n, 't> {
             Error::unknown_variant(text, variants).what,
         );
         Self {
-            content: NodeReader::stand_in(notes),
+            content: NodeReader::placeholder(notes),
             bare: None,
-            ..own
+            ..variant
         }
     }
 
-    /// Notes that the name alone is not enough.
+    /// Reports that a variant without content needs one.
     fn need(&self, what: &str) {
         if let Some(bare) = self.bare {
             bare.note(Error::invalid_type(Unexpected::UnitVariant, &what));

@@ -1,36 +1,36 @@
-//! Why a value can't be decoded, in the words of `serde_json`.
+//! Decoding errors, with the wording of `serde_json`.
 
 use super::Fields;
 use rtc_source::tree::NodeId;
 use serde::de::{self, Expected, Unexpected};
 use std::fmt::{self, Display, Formatter};
 
-/// Why a value can't be decoded.
+/// A decoding error.
 #[derive(Debug)]
 pub(super) struct Error {
-    /// What is wrong.
+    /// The message.
     pub(super) what: String,
-    /// Where, once that is known.
+    /// The node, if known.
     pub(super) at: Option<NodeId>,
-    /// The field that is missing, and those of its struct, once these are known.
+    /// The missing field and the fields of its struct, if known.
     pub(super) missing: Option<(Fields, &'static str)>,
 }
 
 impl Error {
-    /// The error, which came of a node unless it is known to have come of another.
+    /// Sets the node, unless it is already set.
     pub(super) fn at(self, node: Option<NodeId>) -> Self {
         Self {
             at: self.at.or(node),
-            // What has no fields of its own is no struct, and is refused as a whole.
+            // A type without fields is not a struct; it is rejected as a whole.
             missing: self.missing.filter(|(fields, _)| !fields.is_empty()),
             ..self
         }
     }
 
-    /// The error, which came of a struct with these fields unless it came of another.
+    /// Sets the fields of the struct, unless they are already set.
     pub(super) fn of(mut self, fields: Fields) -> Self {
-        if let Some((own, _)) = self.missing.as_mut().filter(|(own, _)| own.is_empty()) {
-            *own = fields;
+        if let Some((known, _)) = self.missing.as_mut().filter(|(known, _)| known.is_empty()) {
+            *known = fields;
         }
         self
     }
@@ -75,7 +75,7 @@ impl de::Error for Error {
     }
 }
 
-/// What was found, as `serde_json` calls it.
+/// The value that was found, as `serde_json` names it.
 struct Json<'a>(Unexpected<'a>);
 
 impl Display for Json<'_> {

@@ -1,7 +1,8 @@
-//! All faults of an IR text that is JSON: the document is decoded from its tree, and where a value
-//! is wrong, that is noted and a stand-in takes its place, so that decoding goes on.
+//! Finds all errors of a JSON document that is not a valid scene. The document is decoded from its
+//! tree; each wrong value is recorded and replaced by a placeholder, so that decoding continues.
 //!
-//! The words are those of `serde_json`, which decodes texts without faults and says the first one.
+//! Messages have the wording of `serde_json`, which decodes valid documents and stops at the first
+//! error of others.
 
 mod access;
 mod error;
@@ -15,31 +16,31 @@ use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// No more faults than this are noted.
+/// The maximum number of errors that are recorded.
 const MAX_FAULTS: usize = 10_000;
 
-/// The document is decoded this often at most: faults that no stand-in can take the place of at once
-/// cost one more time each.
+/// The maximum number of decoding runs: an error that no placeholder can replace costs one more
+/// run.
 const MAX_RUNS: usize = 64;
 
-/// A fault of a text.
+/// An error of a JSON document.
 #[derive(Debug)]
 pub(super) struct TextFault {
-    /// The bytes that are wrong.
+    /// The wrong bytes.
     pub(super) span: Span,
-    /// The way to them, a JSON pointer; none for what `serde_json` takes for a fault of JSON.
+    /// Their JSON pointer; `None` for what `serde_json` reports as a syntax error.
     pub(super) pointer: Option<String>,
     /// What is wrong.
     pub(super) what: String,
 }
 
-/// All that is wrong with a tree as a `T`.
+/// All errors of decoding a tree as a `T`.
 pub(super) fn all<T: DeserializeOwned>(tree: &Tree<'_>) -> Vec<TextFault> {
     let mut notes = Notes::new(tree);
-    notes.learn::<T>();
+    notes.find_required::<T>();
     for _ in 0..MAX_RUNS {
         match T::deserialize(NodeReader::new(&notes, tree.root())) {
-            Err(error) if notes.mend(&error) => {}
+            Err(error) if notes.repair(&error) => {}
             Ok(_) | Err(_) => break,
         }
     }
@@ -63,27 +64,27 @@ fn fault(tree: &Tree<'_>, at: NodeId, what: String, part: FaultPart) -> TextFaul
     }
 }
 
-/// What is wrong of a node.
+/// Which part of a node is wrong.
 #[derive(Clone, Copy, PartialEq)]
 enum FaultPart {
     /// All of it.
     Whole,
-    /// The bracket that opens it: something else than a list or map should be here.
+    /// The opening bracket: a list or map is not allowed here.
     Bracket,
-    /// The last digit of a number that a 64-bit float can't hold.
+    /// The last digit of a number that is out of the range of f64.
     LastDigit,
 }
 
-/// The fields of a struct: they name it.
+/// The fields of a struct, which identify it.
 type Fields = &'static [&'static str];
 
-/// What was noted so far.
+/// The state of error collection.
 struct Notes<'t> {
     tree: &'t Tree<'t>,
     found: RefCell<BTreeMap<(NodeId, String), FaultPart>>,
-    /// Nodes that can't be read, and are stood in for.
-    refused: BTreeSet<NodeId>,
-    /// The fields that must be there, as far as is known.
+    /// Nodes that can't be decoded and are replaced by placeholders.
+    rejected: BTreeSet<NodeId>,
+    /// The required fields of each struct, as far as known.
     required: BTreeMap<Fields, Vec<&'static str>>,
 }
 
@@ -92,15 +93,15 @@ impl<'t> Notes<'t> {
         Self {
             tree,
             found: RefCell::default(),
-            refused: BTreeSet::new(),
+            rejected: BTreeSet::new(),
             required: BTreeMap::new(),
         }
     }
 
-    /// Learns which fields must be there from a document in which nothing is.
-    fn learn<T: DeserializeOwned>(&mut self) {
+    /// Finds the required fields by decoding an empty document.
+    fn find_required<T: DeserializeOwned>(&mut self) {
         loop {
-            let missing = T::deserialize(NodeReader::stand_in(self)).err();
+            let missing = T::deserialize(NodeReader::placeholder(self)).err();
             let missing = missing.and_then(|error| error.missing);
             if !missing.is_some_and(|(fields, name)| self.require(fields, name)) {
                 return;
@@ -108,7 +109,7 @@ impl<'t> Notes<'t> {
         }
     }
 
-    /// Takes in that a field must be there. False if that was known.
+    /// Records a required field. False if it was known.
     fn require(&mut self, fields: Fields, name: &'static str) -> bool {
         let known = self.required.entry(fields).or_default();
         let is_new = !known.contains(&name);
@@ -120,17 +121,17 @@ impl<'t> Notes<'t> {
         self.required.get(fields).map_or(&[], Vec::as_slice)
     }
 
-    /// Sees to it that the next run passes an error. False if nothing helps.
-    fn mend(&mut self, error: &Error) -> bool {
+    /// Makes the next run pass an error. False if that is impossible.
+    fn repair(&mut self, error: &Error) -> bool {
         if let Some((fields, name)) = error.missing {
             return self.require(fields, name);
         }
         let Some(at) = error.at else { return false };
         self.note(at, FaultPart::Whole, error.what.clone());
-        self.refused.insert(at)
+        self.rejected.insert(at)
     }
 
-    /// Notes a fault, once.
+    /// Records an error, once.
     fn note(&self, at: NodeId, part: FaultPart, what: String) {
         let mut found = self.found.borrow_mut();
         if found.len() < MAX_FAULTS {

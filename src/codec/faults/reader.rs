@@ -1,5 +1,4 @@
-//! Values decoded from the nodes of a tree: each type that is asked for gets a value, a stand-in if
-//! the node has none.
+//! Decodes values from the nodes of a tree; a wrong node yields a placeholder.
 
 use super::access::{Items, Members, Variant};
 use super::error::Error;
@@ -7,14 +6,14 @@ use super::{FaultPart, Fields, Notes};
 use rtc_source::tree::{NodeId, NodeKind};
 use serde::de::{Deserializer, Error as _, Expected, Unexpected, Visitor};
 
-/// Decodes one node, or stands in for one that is not there.
+/// Decodes a node, or yields a placeholder if there is none.
 #[derive(Clone, Copy)]
 pub(super) struct NodeReader<'n, 't> {
     pub(super) notes: &'n Notes<'t>,
     pub(super) at: Option<NodeId>,
 }
 
-/// A number of JSON, as `serde_json` takes it.
+/// A JSON number, as `serde_json` classifies it.
 #[derive(Clone, Copy)]
 enum Number {
     Unsigned(u64),
@@ -24,14 +23,14 @@ enum Number {
 
 impl Number {
     fn of(written: &str) -> Self {
-        let is_whole = written
+        let is_integer = written
             .bytes()
             .all(|byte| byte == b'-' || byte.is_ascii_digit());
-        let unsigned = written.parse().ok().filter(|_| is_whole);
+        let unsigned = written.parse().ok().filter(|_| is_integer);
         let signed = written
             .parse()
             .ok()
-            .filter(|number| is_whole && *number != 0);
+            .filter(|number| is_integer && *number != 0);
         match (unsigned, signed) {
             (Some(number), _) => Self::Unsigned(number),
             (None, Some(number)) => Self::Signed(number),
@@ -70,14 +69,14 @@ impl Number {
 }
 
 impl<'n, 't> NodeReader<'n, 't> {
-    /// Decodes a node, unless it is one to stand in for.
+    /// Decodes a node, unless it is to be replaced by a placeholder.
     pub(super) fn new(notes: &'n Notes<'t>, at: NodeId) -> Self {
-        let at = (!notes.refused.contains(&at)).then_some(at);
+        let at = (!notes.rejected.contains(&at)).then_some(at);
         Self { notes, at }
     }
 
-    /// Stands in for a value.
-    pub(super) fn stand_in(notes: &'n Notes<'t>) -> Self {
+    /// Yields a placeholder.
+    pub(super) fn placeholder(notes: &'n Notes<'t>) -> Self {
         Self { notes, at: None }
     }
 
@@ -85,7 +84,7 @@ impl<'n, 't> NodeReader<'n, 't> {
         self.at.map(|at| self.notes.tree.kind(at))
     }
 
-    /// The number of the node; 0 for one that is out of range, which is noted.
+    /// The number of the node. A number out of range is reported and becomes 0.
     fn number(self) -> Option<Number> {
         let at = self.at.filter(|_| self.kind() == Some(NodeKind::Number))?;
         let number = Number::of(self.notes.tree.written(at));
@@ -101,7 +100,7 @@ impl<'n, 't> NodeReader<'n, 't> {
         self.at.and_then(|at| self.notes.tree.text(at))
     }
 
-    /// Notes that the node is of another type than expected.
+    /// Reports that the node does not have the expected type.
     pub(super) fn wrong_type(self, expected: &dyn Expected) {
         let Some((at, kind)) = self.at.zip(self.kind()) else {
             return;
@@ -109,13 +108,13 @@ impl<'n, 't> NodeReader<'n, 't> {
         let (found, part) = match kind {
             NodeKind::Null => (Unexpected::Unit, FaultPart::Whole),
             NodeKind::Bool => {
-                let truth = self.notes.tree.boolean(at).unwrap_or_default();
-                (Unexpected::Bool(truth), FaultPart::Whole)
+                let boolean = self.notes.tree.boolean(at).unwrap_or_default();
+                (Unexpected::Bool(boolean), FaultPart::Whole)
             }
             NodeKind::Number => {
                 let number = Number::of(self.notes.tree.written(at));
                 if number.is_out_of_range() {
-                    // That is said instead.
+                    // The range error is reported instead.
                     self.number();
                     return;
                 }
@@ -132,15 +131,15 @@ impl<'n, 't> NodeReader<'n, 't> {
         self.notes.note(at, part, error.what);
     }
 
-    /// Notes an error at the node as a whole.
+    /// Reports an error for the whole node.
     pub(super) fn note(self, error: Error) {
         if let Some(at) = self.at {
             self.notes.note(at, FaultPart::Whole, error.what);
         }
     }
 
-    /// A whole number from `least` to `most`.
-    fn whole<'de, V: Visitor<'de>>(
+    /// An integer from `least` to `most`.
+    fn integer<'de, V: Visitor<'de>>(
         self,
         visitor: V,
         (least, most): (i128, i128),
@@ -163,7 +162,7 @@ impl<'n, 't> NodeReader<'n, 't> {
         visitor.visit_f64(0.0)
     }
 
-    /// The fields of a struct as a list, which `serde_json` takes as well.
+    /// A struct as a list of its fields, which `serde_json` accepts as well.
     fn positional<'de, V: Visitor<'de>>(
         self,
         length: usize,
@@ -200,11 +199,11 @@ impl<'n, 't> NodeReader<'n, 't> {
     }
 }
 
-/// Types of whole numbers, with what asks for them.
-macro_rules! whole {
+/// Deserializer methods of the integer types.
+macro_rules! integer {
     ($($method:ident $type:ident)+) => {
         $(fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-            self.whole(visitor, (i128::from($type::MIN), i128::from($type::MAX)))
+            self.integer(visitor, (i128::from($type::MIN), i128::from($type::MAX)))
         })+
     };
 }
@@ -212,7 +211,7 @@ macro_rules! whole {
 impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
     type Error = Error;
 
-    whole! {
+    integer! {
         deserialize_u8 u8 deserialize_u16 u16 deserialize_u32 u32 deserialize_u64 u64
         deserialize_i8 i8 deserialize_i16 i16 deserialize_i32 i32 deserialize_i64 i64
     }
@@ -220,7 +219,7 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         let tree = self.notes.tree;
         let Some((at, kind)) = self.at.zip(self.kind()) else {
-            // What takes anything takes nothing in a list, as columns do.
+            // Types that accept anything, such as columns, accept an empty list.
             return visitor.visit_seq(Items::new(self.notes, Vec::new(), None));
         };
         let value: Result<V::Value, Error> = match kind {
@@ -237,11 +236,11 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
     }
 
     fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        let truth = self.at.and_then(|at| self.notes.tree.boolean(at));
-        if truth.is_none() {
+        let boolean = self.at.and_then(|at| self.notes.tree.boolean(at));
+        if boolean.is_none() {
             self.wrong_type(&visitor);
         }
-        visitor.visit_bool(truth.unwrap_or_default())
+        visitor.visit_bool(boolean.unwrap_or_default())
     }
 
     fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {

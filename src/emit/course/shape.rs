@@ -28,8 +28,8 @@ macro_rules! emit {
 
 /// Writes a shape by the keys of its row.
 macro_rules! by_keys {
-    ($Name:ident own $values:tt) => {};
-    ($Name:ident ruled {
+    ($Name:ident custom $values:tt) => {};
+    ($Name:ident derived {
         $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
     }) => {
         impl Emit for ir::$Name {

@@ -84,7 +84,7 @@ impl GltfWriter<'_> {
 
     fn orthographic(&self, [xmag, ymag]: [f64; 2], distance: f64) -> document::Projection {
         let eye = Vec3::from_array(self.scene.camera.eye);
-        let far = self.scene.ball().map_or(distance, |ball| {
+        let far = self.scene.bounding_sphere().map_or(distance, |ball| {
             ball.center.distance(eye) + ball.radius + distance
         });
         document::Projection::Orthographic {

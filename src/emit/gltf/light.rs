@@ -28,7 +28,9 @@ impl GltfWriter<'_> {
         if scene.lights.is_empty() {
             return;
         }
-        let middle = scene.ball().map_or(Vec3::ZERO, |ball| ball.center);
+        let middle = scene
+            .bounding_sphere()
+            .map_or(Vec3::ZERO, |ball| ball.center);
         for (index, light) in scene.lights.iter().enumerate() {
             let place = ValuePath::new(EntityKind::Light, index, Field::Whole);
             let lamp = match light {

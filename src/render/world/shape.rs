@@ -80,8 +80,8 @@ macro_rules! prepare {
 
 /// Prepares a shape of the values of its row, in their order.
 macro_rules! by_values {
-    ($Name:ident own $values:tt) => {};
-    ($Name:ident ruled {
+    ($Name:ident custom $values:tt) => {};
+    ($Name:ident derived {
         $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
     }) => {
         impl Proven for valid::$Name {

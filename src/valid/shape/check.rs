@@ -121,8 +121,8 @@ macro_rules! validate {
 
 /// Proves a shape by the rules of its row. All its values are looked at, whatever is wrong.
 macro_rules! by_rule {
-    ($Name:ident own $values:tt) => {};
-    ($Name:ident ruled {
+    ($Name:ident custom $values:tt) => {};
+    ($Name:ident derived {
         $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
     }) => {
         impl Prove for ir::$Name {

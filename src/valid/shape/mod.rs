@@ -24,7 +24,7 @@ pub struct Surface {
 /// What an enum holds of a shape that is small.
 type Inline<T> = T;
 
-/// Declares the proven shapes: those whose values are `ruled` in full, of the others the variant.
+/// Declares the proven shapes: those whose values are `derived` in full, of the others the variant.
 macro_rules! declare {
     ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
         /// A shape of any kind.
@@ -39,8 +39,8 @@ macro_rules! declare {
 
 /// Declares a proven shape.
 macro_rules! proven {
-    ($(#[$doc:meta])* $Name:ident own $values:tt) => {};
-    ($(#[$doc:meta])* $Name:ident ruled {
+    ($(#[$doc:meta])* $Name:ident custom $values:tt) => {};
+    ($(#[$doc:meta])* $Name:ident derived {
         $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
     }) => {
         $(#[$doc])*

@@ -157,7 +157,7 @@ impl Maker<'_> {
             | ShapeKind::Paraboloid
             | ShapeKind::Torus => format!(
                 "glTF has no {}: what is written is a mesh {}",
-                kind.word(),
+                kind.name(),
                 self.fineness.words()
             ),
         };

@@ -53,7 +53,7 @@ pub fn lower_standalone_mesh(
         material: MaterialId(0),
         casts_no_shadow: false,
     });
-    if let Some(ball) = scene.ball() {
+    if let Some(ball) = scene.bounding_sphere() {
         scene.camera = gltf::looking_at(ball);
     }
     // The span of all entities is the start of the file.

@@ -55,7 +55,7 @@ impl Lowering<'_, '_, '_> {
                         self.report,
                     );
                 }
-                let ball = self.scene.ball().unwrap_or(BoundingSphere {
+                let ball = self.scene.bounding_sphere().unwrap_or(BoundingSphere {
                     center: Vec3::ZERO,
                     radius: 1.0,
                 });

@@ -97,7 +97,7 @@ impl Strokes {
             center: Vec3::ZERO,
             radius: 1.0,
         };
-        let radius = radius(scene.ball().unwrap_or(one));
+        let radius = radius(scene.bounding_sphere().unwrap_or(one));
         for (id, offsets) in &self.made {
             let Some(mesh) = scene.meshes.get_mut(id.0 as usize) else {
                 continue;
