@@ -1,4 +1,4 @@
-//! Whether a scene brings light: a light, an environment, or surfaces that glow enough.
+//! Whether a scene has light: a light, an environment, or sufficiently bright emissive surfaces.
 
 use super::SceneKind;
 use glam::DAffine3;
@@ -7,17 +7,17 @@ use rtc_ir::{Image, Light, Material, Pixels, Scene, Shape, Surface, Texture};
 use rtc_math::Vec3;
 use std::f64::consts::TAU;
 
-/// Surfaces that glow less than this light nothing: a white surface would look black, a twentieth
-/// of what it reflects.
+/// The minimum brightness that emissive surfaces give a white surface: below it, the surface would
+/// look black.
 const MIN_BRIGHTNESS: f64 = 0.05;
 
-/// Whether the scene brings light: a light, an environment (a dark one is meant so), or surfaces
-/// that glow; those of an asset only if they glow enough, those of a scene text are meant so.
+/// Whether the scene has light: a light, an environment (also a black one), or emissive surfaces;
+/// those of an asset count only if they are bright enough.
 ///
-/// Surfaces of radiance L and area A inside a ball of radius R send about π·L·A over it, so a white
-/// surface in it would show about L·A/(4·π·R²). If that is less than [`MIN_BRIGHTNESS`], they are labels,
-/// lamps on a dashboard or eyes: they light nothing, and the studio is wanted. Unlit materials
-/// light nothing at all.
+/// Surfaces of radiance L and area A inside a sphere of radius R emit a power of about π·L·A, so a
+/// white surface on it has a radiance of about L·A/(4·π·R²). Below [`MIN_BRIGHTNESS`] they are
+/// labels, dashboard lamps or eyes: they illuminate nothing, and the scene needs the studio. Unlit
+/// materials do not emit light.
 pub(super) fn has_light(scene: &Scene, kind: SceneKind) -> bool {
     let is_emissive = || match kind {
         SceneKind::Text => emissive_surfaces(scene).contains(&true),
@@ -26,7 +26,7 @@ pub(super) fn has_light(scene: &Scene, kind: SceneKind) -> bool {
     scene.environment.is_some() || scene.lights.iter().any(Light::shines) || is_emissive()
 }
 
-/// Of each surface, whether it glows.
+/// For each surface, whether it is emissive.
 #[must_use]
 pub fn emissive_surfaces(scene: &Scene) -> Vec<bool> {
     let materials = scene.materials.iter();
@@ -39,7 +39,7 @@ pub fn emissive_surfaces(scene: &Scene) -> Vec<bool> {
         .collect()
 }
 
-/// What the surfaces that glow would make a white surface show, by the strongest channel.
+/// The radiance of a white surface in the light of the emissive surfaces, by the strongest channel.
 fn emissive_brightness(scene: &Scene) -> f64 {
     let emissions: Vec<f64> = scene
         .materials
@@ -72,7 +72,7 @@ fn emissive_brightness(scene: &Scene) -> f64 {
     power / (2.0 * TAU * ball.radius * ball.radius)
 }
 
-/// The mean radiance of a material that glows, by the strongest channel.
+/// The mean emitted radiance of a material, by the strongest channel.
 fn emission(scene: &Scene, material: &Material) -> f64 {
     let Material::Standard(standard) = material else {
         return 0.0;
@@ -96,7 +96,7 @@ fn emission(scene: &Scene, material: &Material) -> f64 {
     factor * image.map_or(1.0, brightness)
 }
 
-/// The area of a surface that can glow; others than triangles are not asked.
+/// The area of a surface; 0 for other shapes than triangles, quads and meshes.
 fn area(scene: &Scene, shape: &Shape) -> f64 {
     let triangle = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).length() / 2.0;
     if let Shape::Triangle(shape) = shape {
@@ -123,7 +123,7 @@ fn area(scene: &Scene, shape: &Shape) -> f64 {
     }
 }
 
-/// The mean of an image that codes light in sRGB, by the strongest channel of each pixel.
+/// The mean linear value of an sRGB image, by the strongest channel of each pixel.
 fn brightness(image: &Image) -> f64 {
     let size = image.kind.bytes();
     let bytes: &[u8] = &image.pixels;

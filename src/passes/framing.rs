@@ -1,31 +1,30 @@
-//! Framing: a camera that shows all of a scene, as large as it fits.
+//! Framing: a camera that shows the whole scene as large as possible.
 
 use glam::DAffine3;
 use rtc_ir::{Alpha, Camera, Lens, Material, Mesh, Projection, Scene, Shape, Surface};
 use rtc_math::{Vec3, acos, atan2, cos, sin};
 use std::f64::consts::FRAC_PI_2;
 
-/// So much of the picture the subject spans, in the direction in which it fills more of it.
+/// The fraction of the picture that the subject spans, in the direction in which it is larger.
 const SUBJECT_FRACTION: f64 = 0.85;
-/// The opening where the scene has no camera of its own, in degrees from bottom to top, and the
-/// sides of its picture.
+/// The vertical field of view in degrees and the picture size, for a scene without a camera.
 const DEFAULT_YFOV_DEGREES: f64 = 35.0;
 const SIZE: [u32; 2] = [512; 2];
-/// A ground is thinner than this part of its width, and at least so many times as wide as what
-/// stands on it.
+/// A surface is a ground if its height is at most this fraction of its width, and if it is at least
+/// this many times as wide as the rest of the scene.
 const MAX_FLATNESS: f64 = 0.02;
 const MIN_GROUND_RATIO: f64 = 2.0;
-/// Beyond so many triangles in all, each mesh counts as the box around it.
+/// With more triangles than this, each mesh is replaced by its bounding box.
 const MAX_TRIANGLES: usize = 1 << 22;
 
-/// From where a scene is seen, in radians.
+/// A viewing direction in spherical coordinates, in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
-    /// Around the upward axis: 0 is the front (+z), a quarter turn the right (+x).
+    /// The angle about the upward axis: 0 is the front (+z), π/2 the right (+x).
     pub azimuth: f64,
-    /// Above the horizon, −π/2 to π/2.
+    /// The angle above the horizon, −π/2 to π/2.
     pub elevation: f64,
-    /// By how much the camera is turned about its view, clockwise as one looks through it.
+    /// The roll of the camera about its view direction, clockwise as seen through the camera.
     pub roll: f64,
 }
 
@@ -41,23 +40,23 @@ impl Default for Orbit {
     }
 }
 
-/// How all of a scene is shown.
+/// The parameters of framing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Framing {
-    /// From where.
+    /// The viewing direction.
     pub orbit: Orbit,
-    /// The angle from bottom to top in radians, above 0 and below π; usual without.
+    /// The vertical field of view in radians, above 0 and below π; by default 35°.
     pub yfov: Option<f64>,
-    /// Width and height of the picture in pixels; square without.
+    /// Width and height of the picture in pixels; by default 512 × 512.
     pub size: Option<[u32; 2]>,
-    /// The surface that is the ground of the studio, which takes no part.
+    /// The index of the studio's ground surface, which is not part of the subject.
     pub ground: Option<usize>,
 }
 
 impl Framing {
-    /// Puts a camera into a scene so that its subject, what is no ground under it, fills 85 % of
-    /// the picture in one direction, in the middle. A scene of planes alone, or of nothing, keeps
-    /// its camera.
+    /// Sets the camera of a scene so that its subject, without a ground under it, is centred and
+    /// spans 85 % of the picture in one direction. A scene without bounded surfaces keeps its
+    /// camera.
     pub fn apply(&self, scene: &mut Scene) {
         let Some(ball) = scene.bounding_sphere() else {
             return;
@@ -74,7 +73,7 @@ impl Framing {
             return;
         };
         let [x, y, z] = axes;
-        // The picture stands in the middle of the depth of the subject.
+        // Place the image plane in the middle of the subject's depth.
         let distance = eye.dot(z) - depth;
         let step = |axis: Vec3, tangent: f64, count: u32| {
             (axis * (2.0 * tangent * distance / f64::from(count))).to_array()
@@ -94,7 +93,7 @@ impl Framing {
     }
 }
 
-/// The box around the subject of a scene; `None` if it stands on a ground of its own, or is nothing.
+/// The bounding box of the subject of a scene; `None` if the scene has a ground or nothing bounded.
 pub(super) fn standing_bounds(scene: &Scene) -> Option<[Vec3; 2]> {
     let subject = Subject::of(scene, None);
     let mut bounds = EMPTY;
@@ -103,7 +102,7 @@ pub(super) fn standing_bounds(scene: &Scene) -> Option<[Vec3; 2]> {
 }
 
 impl Orbit {
-    /// The axes of the camera: to the right, up, and from the scene to the eye.
+    /// The camera axes: right, up, and from the scene to the eye.
     fn axes(&self) -> [Vec3; 3] {
         let Self {
             azimuth,
@@ -115,22 +114,22 @@ impl Orbit {
         let z = ahead * cos(elevation) + Vec3::Y * sin(elevation);
         let x = Vec3::new(cos(azimuth), 0.0, -sin(azimuth));
         let y = z.cross(x);
-        // Turn the camera about its view.
+        // Roll the camera about its view direction.
         let (sine, cosine) = (sin(roll), cos(roll));
         [x * cosine - y * sine, y * cosine + x * sine, z]
     }
 }
 
-/// The place of an eye from which all points lie within two angles to both sides.
+/// Finds the eye position from which all points are within the field of view.
 ///
-/// A point at (a, b, c) along the axes is seen within the tangent t from (e, f, g) if
+/// A point at (a, b, c) along the axes is within the tangent t of an eye at (e, f, g) if
 /// |a − e| ≤ t·(g − c): four half spaces, of which the outermost ones decide.
 struct Fit {
     axes: [Vec3; 3],
     tangents: [f64; 2],
-    /// To each side of x and y the largest ±a + t·c.
+    /// For both directions of x and y, the largest ±a + t·c.
     bounds: [[f64; 2]; 2],
-    /// The least and the greatest c.
+    /// The minimum and the maximum of c.
     depth: [f64; 2],
 }
 
@@ -153,8 +152,8 @@ impl Fit {
         self.depth = [self.depth[0].min(z), self.depth[1].max(z)];
     }
 
-    /// The nearest such eye, from which the points are in the middle, and the middle of their depth
-    /// along the third axis; `None` without points, and for one alone.
+    /// The nearest eye position that centres the points, and the middle of their depth along the
+    /// third axis; `None` for fewer than two distinct points.
     fn eye(&self) -> Option<(Vec3, f64)> {
         let far = |k: usize| (self.bounds[k][0] + self.bounds[k][1]) / (2.0 * self.tangents[k]);
         let aside = |k: usize| (self.bounds[k][0] - self.bounds[k][1]) / 2.0;
@@ -166,20 +165,20 @@ impl Fit {
     }
 }
 
-/// What a picture is of.
+/// The surfaces that a picture shows.
 struct Subject<'scene> {
     scene: &'scene Scene,
     surfaces: Vec<&'scene Surface>,
-    /// The boxes around the meshes.
+    /// The bounding boxes of the meshes.
     boxes: Vec<[Vec3; 2]>,
-    /// The vertices of each mesh that triangles use; none where each mesh counts as the box around it.
+    /// The used vertices of each mesh; `None` if meshes are replaced by their bounding boxes.
     vertices: Option<Vec<Vec<u32>>>,
-    /// Whether surfaces are left out because others stand on them.
+    /// Whether ground surfaces were removed.
     has_ground: bool,
 }
 
 impl<'scene> Subject<'scene> {
-    /// All surfaces that show, but for that of this index and those that others stand on.
+    /// All visible surfaces, without the surface `ground` and without grounds of the scene.
     fn of(scene: &'scene Scene, ground: Option<usize>) -> Self {
         let is_visible = |surface: &&Surface| {
             let material = scene.materials.get(surface.material.0 as usize);
@@ -208,7 +207,7 @@ impl<'scene> Subject<'scene> {
         subject
     }
 
-    /// Leaves out the surfaces that others stand on.
+    /// Removes the surfaces that are a ground under the others.
     fn remove_ground(&mut self) {
         let boxes: Vec<_> = self
             .surfaces
@@ -228,7 +227,7 @@ impl<'scene> Subject<'scene> {
         self.has_ground = self.surfaces.len() < count;
     }
 
-    /// The box around a surface.
+    /// The bounding box of a surface.
     fn bounds(&self, surface: &Surface) -> [Vec3; 2] {
         let mut bounds = EMPTY;
         self.each_corner(surface, &mut |corner| {
@@ -243,8 +242,8 @@ impl<'scene> Subject<'scene> {
         }
     }
 
-    /// Visits the corners of a surface; of one without any those of a box around it, of one without
-    /// an end none.
+    /// Visits the vertices of a surface; without vertices, the corners of its bounding box; none
+    /// for an unbounded surface.
     fn each_corner(&self, surface: &Surface, visit: &mut dyn FnMut(Vec3)) {
         let in_world = self.vertices.as_ref().zip(mesh(self.scene, surface));
         let Some((vertices, (mesh, index, world))) = in_world else {
@@ -257,7 +256,7 @@ impl<'scene> Subject<'scene> {
     }
 }
 
-/// The vertices of a mesh that triangles use, of those that there are.
+/// The valid vertex indices that the triangles of a mesh use.
 fn used_vertices(mesh: &Mesh) -> Vec<u32> {
     let mut is_used = vec![false; mesh.positions.len()];
     for corner in mesh.triangles.iter().flatten() {
@@ -270,10 +269,10 @@ fn used_vertices(mesh: &Mesh) -> Vec<u32> {
         .collect()
 }
 
-/// A box around nothing.
+/// The empty bounding box.
 const EMPTY: [Vec3; 2] = [Vec3::INFINITY, Vec3::NEG_INFINITY];
 
-/// The mesh of a surface, its index, and its place, if it is one.
+/// The mesh of a surface, its index and its transform, if the surface is a mesh instance.
 fn mesh<'scene>(
     scene: &'scene Scene,
     surface: &Surface,
@@ -289,7 +288,7 @@ fn mesh<'scene>(
     ))
 }
 
-/// Whether nothing shows of a material.
+/// Whether a material is fully transparent.
 fn is_invisible(material: &Material) -> bool {
     let Material::Standard(standard) = material else {
         return false;
@@ -301,13 +300,13 @@ fn is_invisible(material: &Material) -> bool {
     }
 }
 
-/// Whether a box lies flat.
+/// Whether a box is flat and horizontal.
 fn is_flat([low, high]: [Vec3; 2]) -> bool {
     let extent = high - low;
     extent.y <= MAX_FLATNESS * extent.x.min(extent.z) && extent.x.min(extent.z) > 0.0
 }
 
-/// Whether a flat box is a ground under others: below their middle, and much wider.
+/// Whether a flat box is the ground of others: below their middle, and much wider.
 fn is_ground_of([low, high]: [Vec3; 2], [from, to]: [Vec3; 2]) -> bool {
     let (candidates, others) = (high - low, to - from);
     let widest = others.x.max(others.z);

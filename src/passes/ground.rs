@@ -1,5 +1,5 @@
-//! The ground that an asset stands on in the studio: a grey disc that catches its shadow and fades
-//! out to all sides.
+//! The ground of an asset in the studio: a grey disc that receives its shadow and fades out towards
+//! its edge.
 
 use super::studio::smooth;
 use rtc_ir::{
@@ -8,25 +8,24 @@ use rtc_ir::{
 use rtc_math::{Vec3, cos, sin};
 use std::f64::consts::TAU;
 
-/// Its radius, and that within which it hides all behind it, in half diagonals of what stands on
-/// it.
+/// Its radius, and the radius within which it is opaque, in half diagonals of the subject.
 const RADIUS: f64 = 4.0;
 const SOLID: f64 = 1.0;
-/// What it reflects: in the studio it is about as bright as the floor of the room.
+/// Its reflectance: in the studio it is about as bright as the lower half of the room.
 const GREY: f64 = 0.15;
-/// It lies lower than what stands on it by this part of the half diagonal, so that no face is in
-/// its plane.
+/// Its distance below the subject, as a fraction of the half diagonal, so that no face lies in its
+/// plane.
 const GAP: f64 = 1e-3;
-/// Its rings of triangles, and the corners of a ring.
+/// The number of its rings of triangles, and of the vertices of a ring.
 const RINGS: u32 = 12;
 const CORNERS: u32 = 48;
 
-/// Lays the ground under a box, if that has an extent; the index of its surface. It is seen from
-/// above alone.
+/// Adds the ground under a box, if that has an extent; returns the index of its surface. It is
+/// visible from above only.
 pub(super) fn add_ground(scene: &mut Scene, [low, high]: [Vec3; 2]) -> Option<usize> {
     let middle = low + (high - low) / 2.0;
     let half = Vec3::new(high.x - low.x, 0.0, high.z - low.z).length() / 2.0;
-    // What stands upright without any depth has a shadow as long as it is high.
+    // A subject without depth may have a shadow as long as it is high.
     let half = half.max((high.y - low.y) / 2.0);
     if !(middle.is_finite() && half > 0.0) {
         return None;
@@ -61,7 +60,7 @@ pub(super) fn add_ground(scene: &mut Scene, [low, high]: [Vec3; 2]) -> Option<us
     Some(scene.surfaces.len() - 1)
 }
 
-/// A disc of radius 1 around the origin that faces +y; its alpha falls to 0 at its edge.
+/// A disc of radius 1 around the origin that faces +y; its alpha decreases to 0 at its edge.
 fn disc() -> Mesh {
     let ring = |ring: u32| {
         let radius = f64::from(ring) / f64::from(RINGS);
@@ -93,8 +92,8 @@ fn disc() -> Mesh {
     }
 }
 
-/// How much the ground hides at a part of its radius: all in the middle, nothing at the edge, with
-/// the smoothstep between.
+/// The alpha of the ground at a fraction of its radius: 1 in the middle, 0 at the edge, a
+/// smoothstep between.
 fn alpha(radius: f64) -> f64 {
     smooth((1.0 - radius) / (1.0 - SOLID / RADIUS))
 }

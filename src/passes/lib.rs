@@ -1,5 +1,18 @@
-//! Passes: a scene in, the same scene changed out, before it is proven. What one run asks for that
-//! the scene does not say itself: other settings, another view, other light, the studio, a ground.
+//! Passes: transformations of the IR before validation. Each takes a scene and changes it as one run
+//! requests; the result is a scene like any other.
+//!
+//! - [`Overrides`]: numbers that replace those of the scene: picture size, sample counts, depth.
+//! - [`set`]: one setting, by its name in the text form of the IR.
+//! - [`ViewAndLight`]: camera, integrator, environment and lights of one run. It applies, in this
+//!   order: the view ([`Framing`] or an explicit camera), the lights, the environment, the
+//!   integrator, the studio, and the ground.
+//! - [`Framing`]: a camera that shows the whole scene from an [`Orbit`] direction.
+//! - [`studio`](fill): an environment map for scenes without light, and the ground under an asset.
+//! - [`emissive_surfaces`]: which surfaces emit light.
+//!
+//! Passes know neither files nor the command line, and they do not validate: scenes may still have
+//! invalid indices or numbers, so every access is checked. A pass that replaces lights or the camera
+//! also removes their source spans, so that later findings do not point at replaced values.
 
 mod emission;
 mod framing;

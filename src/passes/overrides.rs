@@ -1,29 +1,28 @@
-//! Settings for one occasion: values that replace those of a scene before it is proven.
+//! Overrides of settings: values that replace those of a scene before it is validated.
 
 use rtc_ir::{Material, Mode, Scene};
 
 /// Values that replace those of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Overrides {
-    /// Width and height in pixels. The picture keeps its height in the scene, so pixels shrink or
-    /// grow.
+    /// Width and height in pixels. The image plane keeps its height, so the pixel size changes.
     pub size: Option<[u32; 2]>,
     /// Sub-samples along each side of a pixel.
     pub supersampling: Option<u32>,
-    /// Points of the lens each sub-sample takes.
+    /// Lens samples per sub-sample.
     pub aperture_samples: Option<u32>,
-    /// Points of each soft light.
+    /// Samples of each area light.
     pub light_samples: Option<u32>,
-    /// Rays of each glossy lobe; what is a mirror stays one.
+    /// Rays of each glossy lobe; perfect reflections stay.
     pub glossy_samples: Option<u32>,
     /// Bounces after the first hit.
     pub depth: Option<u32>,
-    /// Paths a pixel, where paths are traced.
+    /// Paths per pixel, for path tracing.
     pub spp: Option<u32>,
 }
 
 impl Overrides {
-    /// These, and the others where these say nothing.
+    /// These overrides, and `others` where these have no value.
     #[must_use]
     pub fn or(self, others: Self) -> Self {
         Self {
@@ -37,7 +36,7 @@ impl Overrides {
         }
     }
 
-    /// Writes the values given into `scene`.
+    /// Writes the given values into `scene`.
     pub fn apply(&self, scene: &mut Scene) {
         let Self {
             size,

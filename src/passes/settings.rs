@@ -1,4 +1,4 @@
-//! One setting replaced, by the name that the text form of the IR gives it.
+//! Sets one setting by the name that it has in the text form of the IR.
 
 use rtc_diag::{clip, clip_words};
 use rtc_ir::Settings;
@@ -15,11 +15,11 @@ const NAMES: [&str; 8] = [
     "ambient",
 ];
 
-/// Replaces one value, by the name that the text form gives it: a field of the settings, or of the
-/// parameters of their mode. What is no JSON is a word.
+/// Replaces one value, by its name in the text form: a field of the settings, or of the parameters
+/// of the mode. A value that is not JSON is a string.
 ///
 /// # Errors
-/// If there is no field of this name, or the value is none for it; in words.
+/// A message if there is no field of this name, or if the value is invalid.
 pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), String> {
     let wrong = |fault: serde_json::Error| {
         format!(
@@ -28,8 +28,10 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
             clip_words(&fault.to_string())
         )
     };
+    // Convert the settings to JSON, and the value: not JSON means a string.
     let mut json = serde_json::to_value(&*settings).map_err(wrong)?;
     let value = serde_json::from_str(value).unwrap_or_else(|_| value.into());
+    // Collect the parameter names of the mode.
     let parameters = json["mode"]
         .as_object()
         .and_then(|mode| mode.values().next()?.as_object());
@@ -37,6 +39,7 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
         .into_iter()
         .flat_map(|fields| fields.keys().cloned())
         .collect();
+    // Replace the field, or the parameter of the mode.
     if NAMES.contains(&name) {
         json[name] = value;
     } else if parameters.iter().any(|parameter| parameter == name) {
@@ -57,6 +60,7 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
             clip(name)
         ));
     }
+    // Convert back, which checks the value.
     *settings = serde_json::from_value(json).map_err(wrong)?;
     Ok(())
 }

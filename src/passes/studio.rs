@@ -1,27 +1,26 @@
-//! The studio: light for what brings none. Three soft boxes in a dim room, as a picture of all
-//! directions.
+//! The studio: light for scenes without light. An environment map of three softboxes in a dim room.
 //!
-//! In units in which a white diffuse surface shows its irradiance over π: 0.12 from below, 0.75
-//! from the front (+z), 1.2 at most, from above; so a white of 0.8 is nowhere blown. The mean
-//! radiance is 0.57.
+//! The radiance of a white diffuse surface is 0.12 if it faces down, 0.75 if it faces the front
+//! (+z), and at most 1.2, if it faces up; so a reflectance of 0.8 is never overexposed. The mean
+//! radiance of the studio is 0.57.
 
 use rtc_ir::{Environment, Image, Pixels, Scene};
 use rtc_math::{Vec3, acos, atan2, cos, pow, sin};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Width and height of the picture of the studio: a pixel spans less than 6°, half of the edge of a
-/// soft box.
+/// The size of the environment map: a pixel spans less than 6°, about half of the soft edge of a
+/// softbox.
 const SIZE: [u32; 2] = [64, 32];
 /// The radiance of the room, above and below.
 const ROOM: [f64; 2] = [0.3, 0.12];
-/// Over so many degrees light becomes dark, at the horizon and at the edge of a soft box.
+/// The width of the transition at the horizon and at the edge of a softbox, in degrees.
 const HORIZON: f64 = 30.0;
 const EDGE: f64 = 10.0;
-/// How bright it is beside other light.
+/// The brightness of the studio as a fill light.
 const FILL: f64 = 0.5;
 
-/// A soft box: the azimuth (from +z towards +x) and elevation of its middle, half its width and
-/// height, in degrees; its radiance.
+/// A softbox: the azimuth (from +z towards +x) and elevation of its centre, half its width and
+/// height, in degrees, and its radiance.
 struct SoftBox {
     middle: [f64; 2],
     half: [f64; 2],
@@ -63,7 +62,7 @@ pub(super) fn smooth(x: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// The radiance of the studio from a direction, a unit vector.
+/// The radiance of the studio in a direction (a unit vector).
 fn radiance(direction: Vec3) -> f64 {
     let azimuth = atan2(direction.x, direction.z).to_degrees();
     let elevation = (FRAC_PI_2 - acos(direction.y.clamp(-1.0, 1.0))).to_degrees();
@@ -74,7 +73,7 @@ fn radiance(direction: Vec3) -> f64 {
         .sum::<f64>()
 }
 
-/// The direction to the middle of the key light, a unit vector.
+/// The direction to the centre of the key light (a unit vector).
 pub(super) fn key_light_direction() -> Vec3 {
     let [azimuth, elevation] = BOXES[0].middle.map(f64::to_radians);
     Vec3::new(
@@ -84,7 +83,7 @@ pub(super) fn key_light_direction() -> Vec3 {
     )
 }
 
-/// The direction of a pixel of the picture: its middle towards −z, +y up.
+/// The direction of a pixel of the environment map: the centre of the map is −z, +y is up.
 fn direction(x: u32, y: u32) -> Vec3 {
     let longitude = ((f64::from(x) + 0.5) / f64::from(SIZE[0]) - 0.5) * TAU;
     let colatitude = (f64::from(y) + 0.5) / f64::from(SIZE[1]) * PI;
@@ -95,7 +94,7 @@ fn direction(x: u32, y: u32) -> Vec3 {
     )
 }
 
-/// The picture of the studio.
+/// The environment map of the studio.
 fn picture() -> Image {
     let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| direction(x, y)));
     #[expect(
@@ -114,7 +113,7 @@ fn picture() -> Image {
     }
 }
 
-/// Puts a scene into the studio, whose light is multiplied by a factor.
+/// Sets the studio as the environment of a scene, scaled by a factor.
 pub(super) fn install(scene: &mut Scene, factor: f64) {
     let image = scene.add_image(picture());
     scene.environment = Some(Environment {
@@ -124,8 +123,7 @@ pub(super) fn install(scene: &mut Scene, factor: f64) {
     });
 }
 
-/// Lets the studio fill in beside the light of a scene: dimmed, as a picture shows it whose exposure
-/// is so many stops.
+/// Sets the studio as a fill light for a picture with an exposure of `stops`.
 pub fn fill(scene: &mut Scene, stops: f64) {
     install(scene, FILL * pow(2.0, -stops));
 }
@@ -134,7 +132,7 @@ pub fn fill(scene: &mut Scene, stops: f64) {
 mod tests {
     use super::*;
 
-    /// What a white diffuse surface of this normal shows in the studio.
+    /// The radiance of a white diffuse surface with this normal in the studio.
     fn reflected_radiance(normal: Vec3) -> f64 {
         let [width, height] = SIZE.map(f64::from);
         let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (y, direction(x, y))));

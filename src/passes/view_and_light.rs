@@ -1,5 +1,5 @@
-//! What is said about view and light on one occasion: it replaces the camera, the lights and the
-//! surroundings of a scene before it is proven. Nothing else of the scene changes.
+//! View and light of one run: they replace the camera, the lights and the environment of a scene
+//! before it is validated. Nothing else of the scene changes.
 
 use super::framing::{Framing, Orbit};
 use super::{emission, framing, ground, studio};
@@ -10,126 +10,126 @@ use rtc_ir::{
 use rtc_math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
 use std::f64::consts::PI;
 
-/// The view and the light; what is not given stays as it is in the scene.
+/// View and light; a value that is not given stays as in the scene.
 #[derive(Clone, Debug, Default)]
 pub struct ViewAndLight {
-    /// From where the scene is seen.
+    /// The view.
     pub view: View,
-    /// By which integrator.
+    /// The integrator.
     pub integrator: Option<IntegratorChoice>,
     /// What surrounds it.
     pub environment: Option<EnvironmentOverride>,
-    /// The suns that are added.
+    /// Directional lights to add.
     pub suns: Vec<Sun>,
-    /// The lights of the scene are left out.
+    /// Whether the lights of the scene are removed.
     pub without_lights: bool,
-    /// It is turned around, so its view is not framed.
+    /// Whether the scene is rendered as a turntable, so its view is not framed.
     pub all_around: bool,
-    /// Whether it stands in the studio.
+    /// Whether the scene is placed in the studio.
     pub studio: StudioChoice,
-    /// Whether a ground is laid under it; if not said, under an asset without a camera of its own
-    /// that stands in the studio.
+    /// Whether a ground is added; by default, for an asset without a camera in the studio.
     pub ground: Option<bool>,
 }
 
-/// What a scene was read from.
+/// The kind of source of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SceneKind {
-    /// A text that says how it is seen and lit.
+    /// A scene text, with view and light.
     Text,
     /// An asset with a camera.
     Asset,
-    /// An asset without one.
+    /// An asset without a camera.
     BareAsset,
 }
 
-/// Whether a scene whose paths are traced stands in the studio.
+/// Whether a path-traced scene is placed in the studio.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StudioChoice {
-    /// If it brings no light; dimmed if what it brings shows little of it.
+    /// If it has no light; as a dimmed fill light if its own light shows little of it.
     #[default]
     Auto,
-    /// Yes, whatever surrounds it otherwise.
+    /// Yes, whatever its environment is.
     On,
     /// No.
     Off,
-    /// Yes, dimmed, if nothing else surrounds it.
+    /// As a dimmed fill light, if it has no other environment.
     Fill,
 }
 
-/// Whether the studio is to fill in, dimmed, beside the light of a scene.
+/// Whether the studio is added as a dimmed fill light to the light of a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FillLight {
     /// No.
     #[default]
     Never,
-    /// If its own light shows little of it.
+    /// If the light of the scene shows little of it.
     IfDim,
     /// Yes.
     Always,
 }
 
-/// A view; what is not given is that of the camera of the scene, whose picture keeps its size.
+/// A view; a value that is not given is that of the scene's camera. The picture keeps its size.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct View {
-    /// Where the camera stands.
+    /// The position of the camera.
     pub eye: Option<[f64; 3]>,
-    /// What is in the middle of the picture; beside a given eye, the middle of the scene.
+    /// The point in the centre of the picture; by default, with a given eye, the centre of the
+    /// scene.
     pub center: Option<[f64; 3]>,
-    /// The upward direction; the axis of the world that is nearest to that of the camera.
+    /// The upward direction; by default, the world axis nearest to that of the camera.
     pub up: Option<[f64; 3]>,
-    /// The angle that the picture spans from bottom to top, in radians, above 0 and below π.
+    /// The vertical field of view in radians, above 0 and below π.
     pub yfov: Option<f64>,
-    /// From where all of the scene is seen, as large as it fits.
+    /// The viewing direction from which the whole scene is framed.
     pub orbit: Option<Orbit>,
 }
 
-/// By which rules light is followed.
+/// The integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IntegratorChoice {
-    /// Whitted's: direct light of lights without extent, mirrors and refraction.
+    /// Whitted ray tracing: direct light, perfect reflection and refraction.
     Whitted,
-    /// All paths.
+    /// Path tracing.
     Path,
 }
 
-/// What surrounds the scene.
+/// The environment light.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EnvironmentOverride {
-    /// The same radiance from every direction.
+    /// A constant radiance in all directions.
     Color([f64; 3]),
-    /// A picture of all directions, of linear floats.
+    /// An environment map with linear float pixels.
     Picture(Image),
 }
 
-/// A light from infinitely far away.
+/// A directional light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sun {
-    /// The direction from the scene to it, of any length but 0.
+    /// The direction from the scene to the light, not of length 0.
     pub direction: [f64; 3],
-    /// The irradiance on a surface that faces it.
+    /// The irradiance on a surface that faces the light.
     pub irradiance: [f64; 3],
 }
 
-/// What became of a scene.
+/// The result of [`ViewAndLight::apply`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AppliedViewAndLight {
-    /// It had no light, and was put into the studio.
+    /// Whether it had no light and was placed in the studio.
     pub lacks_light: bool,
-    /// Whether the studio is still to fill in.
+    /// Whether the studio is still to be added as a fill light.
     pub fill: FillLight,
-    /// How its view was found, if it was.
+    /// The framing of its view, if it was framed.
     pub framing: Option<Framing>,
 }
 
-/// Distance of a sun, in scene radii, for integrators that need a position.
+/// The distance of a directional light, in scene radii, for integrators that need a position.
 const SUN_DISTANCE: f64 = 1e4;
 
 impl ViewAndLight {
-    /// Puts view and light into a scene.
+    /// Applies view and light to a scene.
     ///
     /// # Errors
-    /// If the view has no direction, or no upward one.
+    /// If the view has no direction, or no upward direction.
     pub fn apply(
         &self,
         lowered: &mut Lowered,
@@ -163,7 +163,7 @@ impl ViewAndLight {
         match self.integrator {
             Some(IntegratorChoice::Path) => use_path_integrator(scene),
             Some(IntegratorChoice::Whitted) => use_whitted_integrator(scene),
-            // As of a scene text: what has a sun or a sky is shown by its paths.
+            // As for a scene text: a directional light or an environment needs path tracing.
             None if adds_light && scene.settings.mode == Mode::Phong => use_path_integrator(scene),
             None => {}
         }
@@ -188,8 +188,8 @@ impl ViewAndLight {
         })
     }
 
-    /// Puts a scene whose paths are traced into the studio, if it is to stand there; whether it was
-    /// dark, and whether the studio is still to fill in.
+    /// Places a path-traced scene in the studio, if requested; returns whether it had no light, and
+    /// whether the studio is still to be added as a fill light.
     fn apply_studio(&self, scene: &mut Scene, kind: SceneKind) -> (bool, FillLight) {
         if !matches!(scene.settings.mode, Mode::Path(_)) {
             return (false, FillLight::Never);
@@ -209,7 +209,7 @@ impl ViewAndLight {
 }
 
 impl View {
-    /// How a view is found: of a scene without a camera, or from where one is asked for.
+    /// The framing of the view, for a scene without a camera or a given viewing direction.
     fn framing(&self, camera: &Camera, has_camera: bool) -> Option<Framing> {
         let has_position = self.eye.is_some() || self.center.is_some() || self.up.is_some();
         if has_position || (has_camera && self.orbit.is_none()) {
@@ -242,13 +242,13 @@ impl View {
         let camera = &mut scene.camera;
         let eye = Vec3::from_array(self.eye.unwrap_or(camera.eye));
         let center = Vec3::from_array(self.center.unwrap_or(middle));
-        // A picture of the same angle is larger the farther it is; side by side, rays make it as
-        // large everywhere.
+        // A perspective picture of the same angle scales with its distance; an orthographic one
+        // does not.
         let scale = match camera.projection {
             Projection::Perspective => eye.distance(center) / camera.distance(),
             Projection::Orthographic => 1.0,
         };
-        // A lens that is asked for makes the picture of its own size.
+        // A given field of view determines the picture size.
         let pixel = if self.yfov.is_some() {
             1.0
         } else {
@@ -298,7 +298,7 @@ impl EnvironmentOverride {
     }
 }
 
-/// Has all paths traced, if they are not.
+/// Switches to path tracing.
 fn use_path_integrator(scene: &mut Scene) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
         scene.settings.mode = Mode::Path(PathSettings::default());
@@ -307,8 +307,8 @@ fn use_path_integrator(scene: &mut Scene) {
     }
 }
 
-/// Has Whitted's integrator draw what was made for paths; with a light from the left and above if
-/// there is none.
+/// Switches from path tracing to the Whitted integrator; adds a light from the upper left if there
+/// is none.
 fn use_whitted_integrator(scene: &mut Scene) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
         return;
@@ -323,7 +323,7 @@ fn use_whitted_integrator(scene: &mut Scene) {
     }
 }
 
-/// Adds a light. As of a scene text: what has a physical light is shown by its paths.
+/// Adds a light. As for a scene text, a physical light needs path tracing.
 pub fn add_light(scene: &mut Scene, light: Light) {
     if light.point().is_none() && scene.settings.mode == Mode::Phong {
         use_path_integrator(scene);
@@ -331,13 +331,13 @@ pub fn add_light(scene: &mut Scene, light: Light) {
     scene.lights.push(light);
 }
 
-/// Takes the lights away, and where they were written.
+/// Removes the lights and their source spans.
 pub fn remove_lights(lowered: &mut Lowered) {
     lowered.scene.lights.clear();
     lowered.source_spans.forget(EntityKind::Light);
 }
 
-/// Puts lights of the course in place of physical ones, which Whitted's integrator does not see.
+/// Replaces physical lights, which the Whitted integrator does not support, by course lights.
 fn replace_physical_lights(scene: &mut Scene) {
     if scene.lights.iter().all(|light| light.point().is_some()) {
         return;
@@ -353,7 +353,8 @@ fn replace_physical_lights(scene: &mut Scene) {
     }
 }
 
-/// The light without falloff that gives the middle of the scene as much as a physical one.
+/// The point light without falloff that gives the centre of the scene the same irradiance as a
+/// physical light.
 fn as_point(light: &Punctual, ball: BoundingSphere) -> PointLight {
     let (position, irradiance) = if let Some(position) = light.emitter.position() {
         let square = Vec3::from_array(position).distance_squared(ball.center);
@@ -364,7 +365,8 @@ fn as_point(light: &Punctual, ball: BoundingSphere) -> PointLight {
         let position = ball.center + direction * (SUN_DISTANCE * ball.radius);
         (position.to_array(), 1.0)
     };
-    // A white surface that faces the light shows its colour here, its irradiance over π there.
+    // A white surface that faces the light has the light's colour with a course light, and
+    // irradiance over π with a physical one.
     PointLight {
         position,
         color: light.intensity.map(|channel| channel * irradiance / PI),

@@ -1,13 +1,13 @@
-//! The effects of a picture, and the verdict on each.
+//! The effects of a picture, and the status of each.
 
 use super::layer::Layer;
 use super::rules::Rule;
 use rtc_ir::ValuePath;
 
-/// The effects, each with its name, as in the books; layers have names of their own.
+/// The effects with their names; layers take their names from the table of layers.
 macro_rules! effects {
     ($($effect:ident $name:literal,)*) => {
-        /// A part of the simulation that a scene may do without.
+        /// A part of light transport or of the camera model that a scene may not need.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         #[expect(missing_docs, reason = "each is named as in the books")]
         pub enum Effect {
@@ -15,17 +15,17 @@ macro_rules! effects {
             Layer(Layer),
         }
 
-        /// The place of each effect but the layers, which come after.
+        /// The index of each effect; the layers follow after the others.
         enum Index {
             $($effect,)*
             Layers,
         }
 
         impl Effect {
-            /// How many effects there are.
+            /// The number of effects.
             pub const COUNT: usize = Index::Layers as usize + Layer::ALL.len();
 
-            /// The place of the effect among all.
+            /// The index of the effect.
             #[must_use]
             #[inline]
             pub const fn index(self) -> usize {
@@ -35,7 +35,7 @@ macro_rules! effects {
                 }
             }
 
-            /// The name, as in the books.
+            /// The name.
             #[must_use]
             pub fn name(self) -> &'static str {
                 match self {
@@ -78,7 +78,7 @@ effects! {
 }
 
 impl Effect {
-    /// The effects that pictures of the course alone may have.
+    /// The effects that only the Whitted integrator has.
     pub const OF_THE_COURSE: [Self; 6] = [
         Self::DepthBuffer,
         Self::NormalBuffer,
@@ -89,11 +89,11 @@ impl Effect {
     ];
 }
 
-/// The effects of traced paths, with the layers of the table.
+/// The effects of path tracing, with the layers of the table.
 macro_rules! of_paths {
     ($($(#[doc = $about:literal])* $layer:ident = $slot:ident { $($row:tt)* })*) => {
         impl Effect {
-            /// The effects that traced paths may have.
+            /// The effects that path tracing may have.
             pub const OF_PATHS: [Self; 21 + Layer::ALL.len()] = [
                 Self::Surfaces,
                 Self::Environment,
@@ -125,7 +125,7 @@ macro_rules! of_paths {
 rtc_tables::layers!(of_paths);
 
 impl State {
-    /// The state in a word.
+    /// The state as one word.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -141,13 +141,13 @@ impl State {
 pub enum State {
     /// The picture needs it.
     Needed,
-    /// The scene asks for it, and a rule proves that it adds nothing.
+    /// The scene requires it, but a rule proves that its contribution is zero.
     Pruned,
-    /// The scene does not ask for it.
+    /// The scene does not require it.
     Absent,
 }
 
-/// The verdict on one effect, of the whole scene or of one light, material or surface.
+/// The status of one effect, for the whole scene or for one light, material or surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EffectStatus {
     /// The effect.
@@ -156,10 +156,10 @@ pub struct EffectStatus {
     pub of: Option<ValuePath>,
     /// The state.
     pub state: State,
-    /// The rule that left it out.
+    /// The rule that removed it.
     pub rule: Option<Rule>,
     /// The reason in plain words: one line, lower case, no full stop.
     pub reason: String,
-    /// The values that decided.
+    /// The scene values that decide it.
     pub facts: Vec<ValuePath>,
 }

@@ -1,11 +1,11 @@
-//! The features of integrators: sets known at compile time, so that the code for absent effects is
-//! compiled away.
+//! Feature sets of the integrators. They are compile-time constants, so that the code of unused
+//! effects is not compiled in.
 
-/// What sets of features have in common.
+/// The operations that both feature sets share.
 macro_rules! set {
     ($name:ident) => {
         impl $name {
-            /// The set with those of another.
+            /// The union of two sets.
             #[must_use]
             pub const fn with(self, other: Self) -> Self {
                 Self(self.0 | other.0)
@@ -23,30 +23,31 @@ macro_rules! set {
 set!(Features);
 set!(PathFeatures);
 
-/// A set of features of an integrator.
+/// A set of features of the Whitted integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Features(pub u32);
 
 impl Features {
-    /// The first hit only.
+    /// First hit only.
     pub const NONE: Self = Self(0);
     /// Several samples per pixel, or several points of the lens.
     pub const CAMERA: Self = Self(1);
-    /// Colour, ks and normal looked up on the surface.
+    /// Texture lookups for colour, ks and normal.
     pub const MAPS: Self = Self(1 << 1);
-    /// The diffuse term of lights.
+    /// Diffuse term.
     pub const LIGHT: Self = Self(1 << 2);
-    /// The highlights of lights.
+    /// Specular highlights.
     pub const HIGHLIGHT: Self = Self(1 << 3);
-    /// Gooch's shading, and cartoons.
+    /// Gooch and cartoon shading.
     pub const GOOCH: Self = Self(1 << 4);
     /// Shadow rays.
     pub const SHADOW: Self = Self(1 << 5);
-    /// Mirrored and refracted rays.
+    /// Reflected and refracted rays.
     pub const BOUNCE: Self = Self(1 << 6);
-    /// Soft lights and glossy lobes.
+    /// Sampling of area lights and glossy lobes.
     pub const SAMPLED: Self = Self(1 << 7);
-    /// The work that rules leave out at hits, unless the plan has the rule.
+    /// Work that the rules of [`Rules::AT_HITS`](super::Rules::AT_HITS) skip, for plans without
+    /// these rules.
     pub const NAIVE: Self = Self(1 << 8);
     /// All of them.
     pub const EVERYTHING: Self = Self((1 << 9) - 1);
@@ -63,11 +64,11 @@ impl Features {
 pub struct PathFeatures(pub u32);
 
 impl PathFeatures {
-    /// Diffuse surfaces alone, without sampling of lights.
+    /// Diffuse surfaces only, without light sampling.
     pub const NONE: Self = Self(0);
-    /// Alpha: surfaces that a ray passes at random, or by a mask.
+    /// Alpha blending (stochastic) and alpha masks.
     pub const ALPHA: Self = Self(1);
-    /// Lights are sampled.
+    /// Next-event estimation: lights are sampled.
     pub const NEE: Self = Self(1 << 1);
     /// Shadow rays.
     pub const SHADOWS: Self = Self(1 << 2);

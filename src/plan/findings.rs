@@ -1,4 +1,5 @@
-//! The facts of a scene of the course before any rule, and the findings of the rules.
+//! Facts about a scene before any rule is applied, and the findings of the rules, for the Whitted
+//! integrator.
 
 use super::light::LightFindings;
 use super::rules::{Rule, Rules};
@@ -9,21 +10,21 @@ use super::{Features, facts, summary};
 use rtc_math::Vec3;
 use rtc_valid::{CourseLight, Mode, Pattern, Phong, Shape, Surface, ValidScene};
 
-/// The facts before any rule.
+/// Facts about a scene before any rule is applied.
 pub(super) struct Facts<'scene> {
     pub(super) scene: &'scene ValidScene,
     pub(super) rules: Rules,
-    /// The lights that the integrator sees.
+    /// The lights of the integrator.
     pub(super) sources: Vec<CourseLight>,
-    /// The materials as the integrator sees them.
+    /// The materials of the integrator.
     pub(super) materials: Vec<Phong>,
-    /// Per surface, its bounds.
+    /// The bounds of each surface.
     pub(super) surface_bounds: Vec<SurfaceBounds>,
-    /// Per surface, a summary of its material.
+    /// The summary of each surface's material.
     pub(super) summaries: Vec<MaterialSummary>,
-    /// Per texture, its value if it has only one.
+    /// The value of each constant texture.
     pub(super) constants: Vec<Option<Vec3>>,
-    /// Per mesh, whether no triangle has several shading normals.
+    /// For each mesh, whether the three normals of every triangle are equal.
     pub(super) has_flat_normals: Vec<bool>,
 }
 
@@ -65,7 +66,7 @@ impl<'scene> Facts<'scene> {
         Some(rule).filter(|rule| self.rules.contains(*rule))
     }
 
-    /// Whether no triangle of a surface has several shading normals.
+    /// Whether the three shading normals of every triangle of a surface are equal.
     pub(super) fn is_even(&self, surface: usize) -> bool {
         let shape = &self.scene.surfaces()[surface].shape;
         let Shape::Instance(instance) = shape else {
@@ -88,14 +89,14 @@ pub(super) fn is_pinhole(scene: &ValidScene) -> bool {
         || matches!(scene.settings().mode, Mode::Zbuffer)
 }
 
-/// The findings of the rules.
+/// What the rules found.
 pub(super) struct Findings<'scene> {
     pub(super) facts: Facts<'scene>,
     pub(super) visibility: Visibility,
     pub(super) lights: LightFindings,
-    /// Bounces planned.
+    /// The number of bounces in the plan.
     pub(super) max_depth: u32,
-    /// Bounces that the scene asks for.
+    /// The number of bounces that the scene requests.
     pub(super) requested: u32,
 }
 
@@ -104,12 +105,12 @@ impl Findings<'_> {
         &self.facts.scene.settings().mode
     }
 
-    /// The surfaces that are seen, directly or in a mirror.
+    /// The visible surfaces, directly or by reflection.
     pub(super) fn visible(&self) -> impl Iterator<Item = usize> {
         (0..self.facts.surface_bounds.len()).filter(|surface| self.visibility.visible[*surface])
     }
 
-    /// Whether any seen surface adds something.
+    /// Whether the material of any visible surface has a property.
     pub(super) fn any(&self, shows: impl Fn(&MaterialSummary) -> bool) -> bool {
         self.visible()
             .any(|surface| shows(&self.facts.summaries[surface]))
@@ -123,12 +124,12 @@ impl Findings<'_> {
         matches!(self.mode(), Mode::Phong)
     }
 
-    /// Whether a light adds more than its ambient term to a surface.
+    /// Whether a light contributes more than its ambient term to a surface.
     pub(super) fn is_illuminated(&self, summary: &MaterialSummary) -> bool {
         summary.is_illuminated() && self.lights.plans.iter().any(|light| light.direct)
     }
 
-    /// Whether the picture depends on the shading normal of a surface.
+    /// Whether the picture depends on the shading normals of a material.
     pub(super) fn shows_normal(&self, summary: &MaterialSummary) -> bool {
         match self.mode() {
             Mode::Zbuffer => false,
@@ -140,7 +141,7 @@ impl Findings<'_> {
         }
     }
 
-    /// Whether the picture depends on the colour texture of a surface.
+    /// Whether the picture depends on the colour texture of a material.
     pub(super) fn shows_color_map(&self, summary: &MaterialSummary) -> bool {
         let is_constant = summary
             .color_map
@@ -148,7 +149,7 @@ impl Findings<'_> {
         self.is_shaded() && !is_constant && (summary.ambient || summary.diffuse)
     }
 
-    /// Whether the picture depends on the ks texture of a surface.
+    /// Whether the picture depends on the ks texture of a material.
     pub(super) fn shows_specular_map(&self, summary: &MaterialSummary) -> bool {
         let is_constant = summary
             .specular_map
@@ -161,7 +162,7 @@ impl Findings<'_> {
         self.lights.shadow.is_some()
     }
 
-    /// Whether a light is sampled.
+    /// Whether an area light is sampled.
     pub(super) fn is_soft(&self) -> bool {
         let settings = self.facts.scene.settings();
         let lights = self.facts.sources.iter().zip(&self.lights.plans);
@@ -171,21 +172,22 @@ impl Findings<'_> {
         self.is_phong() && settings.light_samples.get() > 1 && soft > 0
     }
 
-    /// Whether a lobe is sampled.
+    /// Whether a glossy lobe is sampled.
     pub(super) fn is_glossy(&self) -> bool {
         self.max_depth > 0 && self.any(|summary| summary.glossy && summary.has_bounce())
     }
 
-    /// Whether a pixel has several rays, or rays that do not go through its centre.
+    /// Whether a pixel has several camera rays, or camera rays off its centre.
     pub(super) fn is_sampled(&self) -> bool {
         let settings = self.facts.scene.settings();
         let several = settings.supersampling.get() > 1 || settings.pattern != Pattern::Grid;
         several && !matches!(settings.mode, Mode::Zbuffer)
     }
 
-    /// The smallest set of features that makes the picture.
+    /// The smallest feature set that renders the picture.
     pub(super) fn features(&self) -> Features {
         let rules = self.facts.rules;
+        // Define when a material needs each feature.
         let bends = |summary: &MaterialSummary| {
             summary.has_shading_normals()
                 && (self.shows_normal(summary) || !rules.contains(Rule::NormalFlat))
@@ -199,6 +201,7 @@ impl Findings<'_> {
             |summary: &MaterialSummary| summary.is_specular && self.is_illuminated(summary);
         let illuminated = self.any(|summary| self.is_illuminated(summary))
             || !rules.contains(Rule::LightUnreached);
+        // Collect the needed features.
         let mut features = Features::NONE;
         let mut add = |feature, condition: bool| {
             features = if condition {

@@ -1,5 +1,5 @@
-//! The surfaces that no ray of any pixel meets, by their bounds: what is not among them may be
-//! hidden too, but what is among them is never seen.
+//! The surfaces that certainly no ray hits, found from their bounds. The set is conservative: other
+//! surfaces may be invisible, too.
 
 use super::findings::is_pinhole;
 use super::projection::{ScreenProjection, ScreenRect};
@@ -7,13 +7,13 @@ use super::surface_bounds::{Extent, SurfaceBounds, surface_bounds};
 use super::{Plan, Rules};
 use rtc_valid::{Material, Mode, Projection, ValidScene};
 
-/// The maximum number of pairs of a surface outside the picture and any other, for which shadows
-/// and mirrors are looked at.
+/// The maximum number of pairs of a surface outside the picture and any other surface for which
+/// shadows and reflections are tested.
 const MAX_PAIRS: usize = 20_000;
 
-/// The surfaces that no ray of any pixel meets, by their indices in the IR, in ascending order.
+/// The surfaces that certainly no ray hits, as IR indices in ascending order.
 ///
-/// Traced paths may meet anything, and for an orthographic camera nothing is proven.
+/// Path tracing may hit any surface, and nothing is proven for an orthographic camera.
 #[must_use]
 pub fn invisible_surfaces(scene: &ValidScene) -> Vec<usize> {
     let is_perspective = matches!(scene.camera().projection, Projection::Perspective);
@@ -42,7 +42,7 @@ pub fn invisible_surfaces(scene: &ValidScene) -> Vec<usize> {
     outside.into_iter().map(index).collect()
 }
 
-/// Whether rays start on surfaces: to lights, or into mirrors and glass.
+/// Whether rays start on surfaces: shadow, reflected or refracted rays.
 fn has_secondary_rays(scene: &ValidScene) -> bool {
     let settings = scene.settings();
     let bounces = |material: &Material| match material {

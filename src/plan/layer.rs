@@ -1,10 +1,10 @@
-//! The layers of the glTF material, as the rules see them: made from the table of layers.
+//! The layers of the glTF material as rules use them. They are generated from the table of layers.
 
 use rtc_math::Weight;
 use rtc_valid::{Map, Standard};
 use std::ops::Range;
 
-/// The layers, from their table.
+/// Generates [`Layer`] from the table of layers.
 macro_rules! kinds {
     ($(
         $(#[doc = $about:literal])*
@@ -25,18 +25,18 @@ macro_rules! kinds {
             /// All layers.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$layer),*];
 
-            /// The name, as in the books.
+            /// The name.
             #[must_use]
             pub fn name(self) -> &'static str {
                 match self { $(Self::$layer => $name,)* }
             }
 
-            /// Why a scene does not ask for it.
+            /// The reason for its absence.
             pub(super) fn absence(self) -> &'static str {
                 match self { $(Self::$layer => $absence,)* }
             }
 
-            /// Whether light goes through the surface by it.
+            /// Whether it transmits light through the surface.
             #[must_use]
             pub fn transmits(self) -> bool {
                 match self { $(Self::$layer => $transmits,)* }
@@ -48,17 +48,17 @@ macro_rules! kinds {
                 match self { $(Self::$layer => material.$weight.weighs(),)* }
             }
 
-            /// The map that multiplies its weight, and the channels that count.
+            /// The map that scales its weight, and the channels of the map that are used.
             pub(super) fn weight_map(self, material: &Standard) -> (Option<&Map>, Range<usize>) {
                 match self { $(Self::$layer => (material.$weight_map.as_ref(), $channels),)* }
             }
 
-            /// Takes it from a material.
+            /// Removes it from a material.
             pub(super) fn remove(self, material: &mut Standard) {
                 match self { $(Self::$layer => material.$weight = Weight::NOTHING,)* }
             }
 
-            /// Gives each of its maps, and whether that multiplies more than 0.
+            /// Visits each of its maps, with whether the map scales a nonzero factor.
             pub(super) fn each_map(
                 self,
                 material: &mut Standard,
@@ -75,7 +75,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// The maps of all layers that a material has.
+            /// The maps of all layers of a material.
             pub fn maps(material: &Standard) -> impl Iterator<Item = &Map> {
                 let maps = [$($((material.$weight.weighs(), &material.$map)),*),*];
                 maps.into_iter().filter_map(|(is_there, map)| map.as_ref().filter(|_| is_there))

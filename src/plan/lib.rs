@@ -1,11 +1,41 @@
-//! The work that the picture of a scene needs: a verdict with its reason for each effect, and the
-//! remaining work.
+//! The plan of a picture: which effects a scene needs, with a reason for each, and the smallest
+//! amount of work that renders the same picture.
 //!
-//! A plan changes no bit of the picture. A rule leaves out only what it proves to add exactly
-//! nothing: a term with a factor of 0 whose other factors are finite (validation bounds every
-//! number by 1e60, so each local term is), a ray that can meet nothing, a sample that equals its
-//! neighbour. Sums keep their order. Random numbers are keyed by pixel, sample and path, so leaving
-//! out one does not shift the others.
+//! # Data flow
+//!
+//! A [`ValidScene`] goes in, a [`Plan`] comes out; the renderer prepares its world from both.
+//!
+//! 1. Facts: the bounds of each surface ([`surface_bounds`]), its screen rectangle
+//!    ([`projection`]), summaries of its material, constant textures ([`findings::Facts`]).
+//! 2. Rules ([`Rule`], `rtc explain E-SPEC` prints one): each proves that some work contributes
+//!    exactly zero. For the Whitted integrator they are spread over [`visibility`] (which surfaces
+//!    rays can hit), [`light`] (which lights and shadow rays contribute) and [`pixel_classes`]
+//!    (which pixels are empty or uniform). For path tracing they are the items of [`path::rules`],
+//!    applied to a builder until nothing changes.
+//! 3. Features ([`Features`], [`PathFeatures`]): the smallest set of compile-time features of the
+//!    integrator that the remaining work needs.
+//! 4. Status ([`EffectStatus`]): for each [`Effect`], whether it is needed, pruned or absent, the
+//!    reason, the rule, and the scene values that decide. `rtc compile --explain` prints them, and
+//!    `rtc render --verify-effects` checks at every pixel that the removed work contributes nothing.
+//!
+//! # Guarantees
+//!
+//! A plan does not change a bit of the picture. A rule removes only work that provably contributes
+//! exactly zero: a term with a factor of 0 whose other factors are finite (validation bounds every
+//! number by 1e60, so each local term is), a ray that cannot hit anything, a sample that equals its
+//! neighbour. The order of summation does not change. Random numbers are keyed by pixel, sample and
+//! path, so removing one sample does not shift the others. The only exception is [`Rule::Cut`], which
+//! is off by default.
+//!
+//! All geometric proofs are conservative: they hold with a margin far above the rounding error of
+//! rays ([`margin`]). They hold for the robust arithmetic and for perspective cameras; for others,
+//! only the rules of [`Rules::AT_HITS`] are used.
+//!
+//! # Other functions
+//!
+//! [`loss`] estimates whether another arithmetic would be visibly less precise,
+//! [`invisible_surfaces`] lists the surfaces that no ray can hit, and [`facts`] converts lights and
+//! materials to the models of each integrator.
 
 mod effect;
 pub mod facts;
@@ -45,7 +75,7 @@ use serde::{Deserialize, Serialize};
 use summary::MaterialSummary;
 use visibility::Visibility;
 
-/// The maximum number of pairs of surfaces or lights that a plan tests for visibility.
+/// The maximum number of surface–surface or surface–light pairs that a plan tests for visibility.
 const MAX_PAIRS: usize = 500_000;
 
 /// The arithmetic of ray intersection. Shading is always in f64.
@@ -55,14 +85,14 @@ pub enum Arithmetic {
     /// f64 with bounds on its errors.
     #[default]
     Robust,
-    /// The formulas of textbooks in f64, with a fixed threshold.
+    /// Textbook formulas in f64, with a fixed epsilon.
     Plain,
     /// The same formulas in f32.
     F32,
 }
 
 impl Arithmetic {
-    /// All of them, the robust one first.
+    /// All arithmetics, the robust one first.
     pub const ALL: [Self; 3] = [Self::Robust, Self::Plain, Self::F32];
 
     /// The name.
@@ -76,22 +106,22 @@ impl Arithmetic {
     }
 }
 
-/// The remaining terms of a light.
+/// The terms of a light that remain in the plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LightPlan {
-    /// Whether it adds anything.
+    /// Whether any term remains.
     pub is_used: bool,
-    /// Whether it adds more than its ambient term.
+    /// Whether more than its ambient term remains.
     pub direct: bool,
-    /// Per surface of the scene, whether something may stand between it and the light.
+    /// For each surface of the scene, whether it may be in shadow.
     pub shadowed: Vec<bool>,
-    /// Per surface of the scene, which surfaces may: a bit for each. Empty where there are more than
-    /// 64, of which all may.
+    /// For each surface of the scene, the bit set of its possible occluders. Empty if the scene has
+    /// more than 64 surfaces: then any surface may occlude.
     pub occluders: Vec<u64>,
 }
 
 impl LightPlan {
-    /// Whether a surface may hide the light from another one.
+    /// Whether one surface may occlude the light from another.
     #[must_use]
     pub fn may_occlude(&self, occluder: usize, receiver: usize) -> bool {
         let bits = self.occluders.get(receiver);
@@ -99,41 +129,42 @@ impl LightPlan {
     }
 }
 
-/// The work that a picture needs.
+/// The plan of a picture: the work that remains after all rules.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The arithmetic of ray intersection.
     pub arithmetic: Arithmetic,
-    /// The rules that were allowed.
+    /// The rules that may be applied.
     pub rules: Rules,
     /// The features that the integrator needs.
     pub features: Features,
-    /// The shapes that rays may meet.
+    /// The shapes that rays may hit.
     pub shapes: Shapes,
-    /// Per light of the scene.
+    /// The plan of each light of the scene.
     pub lights: Vec<LightPlan>,
-    /// Per surface of the scene, whether a ray may meet it.
+    /// For each surface of the scene, whether a ray may hit it.
     pub surfaces: Vec<bool>,
-    /// Per texture of the scene, its value if it has only one.
+    /// The value of each constant texture of the scene.
     pub constants: Vec<Option<Vec3>>,
-    /// Bounces after the first hit that may add something.
+    /// The number of bounces after the first hit that may contribute.
     pub max_depth: u32,
-    /// The class of each pixel.
+    /// The classes of the pixels.
     pub pixel_classes: PixelClasses,
-    /// The plan of paths, where paths are traced.
+    /// The plan of the path integrator, if it is used.
     pub paths: Option<PathPlan>,
-    /// The verdict on each effect.
+    /// The status of each effect.
     pub statuses: Vec<EffectStatus>,
 }
 
 impl Plan {
-    /// Plans the picture with the rules given.
+    /// Plans a picture with the given rules.
     #[must_use]
     pub fn new(scene: &ValidScene, rules: Rules) -> Self {
         let settings = scene.settings();
         if let Mode::Path(path) = settings.mode {
             return Self::of_paths(scene, path, rules);
         }
+        // Gather the facts, and project the bounds of all surfaces.
         let rules = rules_for_camera(scene, rules);
         let facts = Facts::new(scene, rules);
         let projection = ScreenProjection::new(scene.camera(), facts.is_pinhole());
@@ -147,6 +178,7 @@ impl Plan {
         } else {
             0
         };
+        // Find the surfaces that rays can hit, and the lights that contribute to them.
         let anywhere = vec![ScreenRect::Unknown; screen_rects.len()];
         let seen = if rules.contains(Rule::Cull) {
             &screen_rects
@@ -155,12 +187,14 @@ impl Plan {
         };
         let visibility = Visibility::new(&facts, &projection, seen, requested);
         let lights = LightFindings::new(&facts, &visibility);
+        // Bound the number of bounces.
         let needed = if rules.contains(Rule::MirrorKs) {
             visibility.depth
         } else {
             requested
         };
         let max_depth = visibility::truncated_depth(&facts, needed, rules);
+        // Remove the surfaces that no ray can hit.
         let is_kept = |surface: usize| {
             visibility.visible[surface] || lights.occludes[surface] || !rules.contains(Rule::Cull)
         };
@@ -172,6 +206,7 @@ impl Plan {
             max_depth,
             requested,
         };
+        // Classify the pixels.
         let pixel_classes = PixelClasses::new(&findings, &projection, &screen_rects);
         Self {
             arithmetic: Arithmetic::Robust,
@@ -188,7 +223,7 @@ impl Plan {
         }
     }
 
-    /// Plans traced paths.
+    /// Plans path tracing.
     fn of_paths(scene: &ValidScene, path: PathSettings, rules: Rules) -> Self {
         let Planned {
             plan,
@@ -211,8 +246,8 @@ impl Plan {
         }
     }
 
-    /// Plans the picture by an arithmetic, with those of the given rules that hold for it: proofs
-    /// about shapes hold for the robust one alone.
+    /// Plans a picture for an arithmetic. Only the rules that hold for this arithmetic are used:
+    /// proofs about shapes hold only for the robust one.
     #[must_use]
     pub fn with_arithmetic(arithmetic: Arithmetic, scene: &ValidScene, rules: Rules) -> Self {
         let rules = match arithmetic {
@@ -225,7 +260,7 @@ impl Plan {
         }
     }
 
-    /// The rule that left out an effect, of the whole scene or else of some entity.
+    /// The rule that removed an effect, from the whole scene or from a single entity.
     #[must_use]
     pub fn rule_of(&self, effect: Effect) -> Option<Rule> {
         let mut statuses = self
@@ -235,7 +270,7 @@ impl Plan {
         statuses.find_map(|status| status.rule)
     }
 
-    /// Whether the picture needs an effect, of whatever entity.
+    /// Whether the picture needs an effect, for the whole scene or any entity.
     #[must_use]
     pub fn needs(&self, effect: Effect) -> bool {
         self.statuses
@@ -244,7 +279,7 @@ impl Plan {
     }
 }
 
-/// The rules whose proofs hold for a camera: most assume that all rays start at the eye.
+/// The rules that hold for a camera: most proofs assume that all camera rays start at the eye.
 fn rules_for_camera(scene: &ValidScene, rules: Rules) -> Rules {
     match scene.camera().projection {
         Projection::Orthographic => rules.intersection(Rules::AT_HITS),

@@ -1,4 +1,4 @@
-//! The terms of each light, and the possible occluders between it and each surface.
+//! The remaining terms of each light, and the possible occluders between each light and surface.
 
 use super::margin::{MARGIN, Margins, OrientedPlane, Sides};
 use super::rules::Rule;
@@ -8,19 +8,19 @@ use super::{Facts, LightPlan, MAX_PAIRS};
 use rtc_math::{Bounds, Vec3};
 use rtc_valid::{Ambient, CourseLight, Mode};
 
-/// What is left of the lights.
+/// What the rules found about lights and shadows.
 pub(super) struct LightFindings {
     /// Per light.
     pub(super) plans: Vec<LightPlan>,
-    /// Per light, the rule that left out its direct terms.
+    /// For each light, the rule that removed its direct terms.
     pub(super) rules: Vec<Option<Rule>>,
-    /// Per surface, whether it may cast a shadow.
+    /// For each surface, whether it may cast a shadow.
     pub(super) occludes: Vec<bool>,
-    /// A light, and a surface that may hide it from another.
+    /// One possible shadow, as an example.
     pub(super) shadow: Option<Shadow>,
-    /// Whether all omitted shadow rays start on surfaces that are alone.
+    /// Whether the scene has one shadow caster, which is also the only receiver.
     pub(super) single_surface: bool,
-    /// Whether there were too many lights and surfaces to test all pairs.
+    /// Whether there are too many lights and surfaces to test all pairs.
     pub(super) capped: bool,
 }
 
@@ -54,8 +54,9 @@ impl LightFindings {
         all
     }
 
-    /// Finds possible occluders for each light and each surface it may light.
+    /// Finds the possible occluders for each light and each surface that it may illuminate.
     fn find_shadows(&mut self, facts: &Facts<'_>, visibility: &Visibility) {
+        // List the receivers, the lights and the occluders.
         let count = facts.surface_bounds.len();
         let receives = |surface: &usize| {
             visibility.visible[*surface] && facts.summaries[*surface].is_illuminated()
@@ -68,6 +69,7 @@ impl LightFindings {
         let (Some(light), Some(receiver)) = (lights.first(), receivers.first()) else {
             return;
         };
+        // Give up if there are too many combinations: every occluder may cast a shadow.
         let pairs = receivers.len().saturating_mul(lights.len());
         if let (true, Some(occluder)) = (
             pairs.saturating_mul(occluders.len()) > MAX_PAIRS,
@@ -84,6 +86,7 @@ impl LightFindings {
             });
             return;
         }
+        // Test all combinations.
         self.single_surface = occluders.len() == 1 && receivers == occluders;
         for light in lights {
             let source = &facts.sources[light];
@@ -103,7 +106,7 @@ impl LightFindings {
         }
     }
 
-    /// Whether anything may hide a light from a surface. Records the occluder.
+    /// Whether anything may occlude a light from a surface. Records the occluders.
     fn find_occluders(&mut self, facts: &Facts<'_>, visibility: &Visibility, pair: &Pair) -> bool {
         let Pair {
             light,
@@ -138,26 +141,26 @@ impl LightFindings {
     }
 }
 
-/// A light and a surface that it may light.
+/// A light and a surface that it may illuminate.
 struct Pair {
     light: usize,
     source: Bounds,
     receiver: usize,
 }
 
-/// The box of all points of a light.
+/// The bounding box of a light.
 fn extent(light: &CourseLight) -> Bounds {
     Bounds::about(light.position, Vec3::splat(light.radius.get()))
 }
 
 impl Facts<'_> {
-    /// The surfaces that shadow rays may meet.
+    /// The surfaces that cast shadows.
     pub(super) fn occluders(&self) -> impl Iterator<Item = usize> {
         let surfaces = self.scene.surfaces();
         (0..surfaces.len()).filter(|surface| surfaces[*surface].casts_shadow)
     }
 
-    /// The remaining terms of a light, and the rule that removed the others.
+    /// The remaining terms of a light, and the rule that removed its direct terms.
     fn light(&self, light: &CourseLight, visibility: &Visibility) -> (LightPlan, Option<Rule>) {
         let surfaces =
             || (0..self.surface_bounds.len()).filter(|surface| visibility.visible[*surface]);
@@ -180,6 +183,7 @@ impl Facts<'_> {
             }
             Mode::Phong => None,
         };
+        // Keep the light if its ambient term is still needed.
         let ambient = self.scene.settings().ambient == Ambient::PerLight
             && surfaces().any(|surface| self.summaries[surface].ambient);
         let is_used = match rule {
@@ -201,10 +205,11 @@ impl Facts<'_> {
         )
     }
 
-    /// Whether a light adds no direct term to a surface: its terms are 0, or the light is behind it.
+    /// Whether a light adds no direct term to a surface: the coefficients are 0, or the light is
+    /// behind the surface.
     ///
-    /// The light and all viewpoints are off the plane of the surface by [`super::margin::MARGIN`] of
-    /// all coordinates, so N·L < −2⁻³³, far beyond its rounding.
+    /// The light and all viewpoints have a distance of [`MARGIN`] times the coordinates from the
+    /// plane of the surface, so N·L < −2⁻³³, far beyond its rounding error.
     pub(super) fn adds_no_direct(
         &self,
         surface: usize,
@@ -227,7 +232,7 @@ impl Facts<'_> {
         !summary.is_illuminated() || behind()
     }
 
-    /// Whether a surface certainly does not hide a light with N·L > 0 from itself.
+    /// Whether a surface certainly does not shadow itself where N·L > 0.
     fn cannot_self_shadow(&self, surface: usize, seen_from: Sides, light: &Bounds) -> bool {
         let (bounds, summary) = (&self.surface_bounds[surface], &self.summaries[surface]);
         let spares = match bounds.class {
@@ -242,11 +247,11 @@ impl Facts<'_> {
         spares && self.rules.contains(Rule::ShadowConvex)
     }
 
-    /// Whether shadow rays from a surface need not ask a caster, given whether it may cast a shadow
-    /// there.
+    /// Whether shadow rays from a surface need not be tested against an occluder, given whether it
+    /// may cast a shadow there.
     ///
-    /// Of itself only a ball and a plane along an axis are not asked: the rounding of a triangle's
-    /// own plane may hide a light from it where the light grazes it.
+    /// Only a sphere and an axis-aligned plane skip the test against themselves: at grazing angles,
+    /// rounding of a triangle's plane may let the triangle occlude itself.
     fn is_clear(&self, may_cast: bool, occluder: usize, receiver: usize, light: &Bounds) -> bool {
         let (bounds, other) = (
             &self.surface_bounds[receiver],
@@ -289,7 +294,7 @@ impl SurfaceBounds {
     }
 }
 
-/// A bounding ball; `None` if there is none.
+/// A bounding sphere (centre, radius), or `None` if there is none.
 #[derive(Clone, Copy)]
 struct SphereBound(Option<(Vec3, f64)>);
 
@@ -301,7 +306,7 @@ impl SphereBound {
         }
     }
 
-    /// The ball in a cube.
+    /// The inscribed sphere of a cube.
     fn around(cube: &Bounds) -> Self {
         Self(Some((
             cube.min * 0.5 + cube.max * 0.5,
@@ -309,11 +314,11 @@ impl SphereBound {
         )))
     }
 
-    /// Whether a segment from this ball to `end` may meet `other`.
+    /// Whether a segment from this sphere to `end` may hit `other`.
     ///
-    /// At the fraction τ of the way all segments are in a ball of radius `r + τ·(ρ − r)` around
-    /// `c + τ·(l − c)`. It meets the other where
-    /// `Q(τ) = |c + τ·(l − c) − o|² − (R + r + τ·(ρ − r))² ≤ 0`.
+    /// At the parameter τ all segments are in the sphere of radius `r + τ·(ρ − r)` around `c + τ·(l
+    /// − c)`. It intersects the other sphere where `Q(τ) = |c + τ·(l − c) − o|² − (R + r + τ·(ρ −
+    /// r))² ≤ 0`.
     fn segment_may_hit(self, end: &Self, other: &Self) -> bool {
         let (Some((c, r)), Some((l, rho)), Some((o, big))) = (self.0, end.0, other.0) else {
             return true;
@@ -326,20 +331,20 @@ impl SphereBound {
         let start = f.dot(f) - sum * sum;
         let value = |tau: f64| (square * tau + 2.0 * linear) * tau + start;
         let slack = MARGIN * size * size;
-        // Where Q is not convex, its minimum is at an end.
+        // Where Q is not convex, its minimum is at an end of the interval.
         let min = (-linear / square).clamp(0.0, 1.0);
         [0.0, min, 1.0].into_iter().any(|tau| value(tau) <= slack)
     }
 }
 
-/// Whether the normals of two planes lie along one axis, exactly: the planes are parallel however
-/// far they reach.
+/// Whether the normals of two planes are exactly parallel to the same axis, so that the unbounded
+/// planes are exactly parallel.
 fn are_axis_parallel(first: &OrientedPlane, second: &OrientedPlane) -> bool {
     let is_axis = |normal: Vec3| Vec3::AXES.contains(&normal.abs());
     is_axis(first.normal) && first.normal.abs() == second.normal.abs()
 }
 
-/// Whether two boxes lie on the same side of a plane.
+/// Whether two boxes are on the same side of a plane.
 fn are_on_one_side(plane: &OrientedPlane, first: &Bounds, second: &Bounds) -> bool {
     let side = plane.sides(first);
     side != Sides::BOTH && side == plane.sides(second)
@@ -368,15 +373,15 @@ mod tests {
     fn what_touches_the_way_between_equal_balls_is_off_it_by_room() {
         let (start, end) = (ball(0.0, 0.0, 1.0), ball(10.0, 0.0, 1.0));
         let is_clear = |gap: f64| !start.segment_may_hit(&end, &ball(5.0, 3.0 + gap, 2.0));
-        // All coordinates and radii sum up to 22: eightfold, and its square over twice the distance
-        // of 3.
+        // The sum of coordinates and radii is 22: eight times that, and its square over twice the
+        // distance of 3.
         has_margin((8.0 * 22.0 + 22.0 * 22.0 / 6.0) * MARGIN, is_clear);
     }
 
     #[test]
     fn the_way_between_unequal_balls_is_a_cone() {
         let (small, large) = (ball(0.0, 0.0, 0.5), ball(10.0, 0.0, 2.0));
-        // The cone's sine is 0.15, its cosine √0.9775; half-way it is 1.25 wide.
+        // The sine of the cone is 0.15, its cosine √0.9775; its radius half-way is 1.25.
         let touching = (1.0 + 1.25) / 0.9775_f64.sqrt();
         for (start, end) in [(small, large), (large, small)] {
             let is_clear = |height: f64| !start.segment_may_hit(&end, &ball(5.0, height, 1.0));

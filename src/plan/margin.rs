@@ -1,22 +1,24 @@
-//! Boxes with margins for rounding: all statements of the rules about positions hold with a margin.
+//! Tests on boxes and planes with a margin for rounding errors: every statement of a rule about
+//! positions holds with this margin.
 //!
-//! Hits are accurate to about 10² units of rounding of the coordinates. The rules use [`MARGIN`],
-//! 2²¹ units, so that boxes they find disjoint are disjoint for rays, too.
+//! Hits are accurate to about 10² ulps of the coordinates. The rules use [`MARGIN`], 2²¹ ulps, so
+//! that boxes that a rule finds disjoint are disjoint for rays, too.
 
 use rtc_math::{Bounds, Vec3};
 
-/// The margin, as a fraction of the coordinates it is for: 2⁻³².
+/// The margin, as a fraction of the coordinates: 2⁻³².
 pub(crate) const MARGIN: f64 = 1.0 / 4_294_967_296.0;
 
-/// What the rules ask of boxes, with margins.
+/// Tests on boxes with a margin.
 pub(crate) trait Margins {
-    /// Whether the two certainly have no common point.
+    /// Whether two boxes are certainly disjoint.
     fn is_disjoint_from(&self, other: &Self) -> bool;
 
-    /// Whether a segment from this box to `end` may meet `other`, all with margins.
+    /// Whether a segment from this box to `end` may hit `other`.
     ///
-    /// At the fraction τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face
-    /// of `other` bounds τ by a linear inequality; if no τ satisfies all of them, no segment meets it.
+    /// At the parameter τ all segments are in the box `(1 − τ)·self + τ·end`. Each face of `other`
+    /// bounds τ by a linear inequality (a slab test); if no τ satisfies all of them, no segment
+    /// hits it.
     fn segment_may_hit(&self, end: &Self, other: &Self) -> bool;
 }
 
@@ -30,7 +32,7 @@ impl Margins for Bounds {
     }
 
     fn segment_may_hit(&self, end: &Self, other: &Self) -> bool {
-        /// Far above the rounding of the bounds on τ, which are at most 1.
+        /// A bound far above the rounding error of the bounds on τ, which are at most 1.
         const SLACK: f64 = MARGIN;
         let near = MARGIN * (self.reach() + other.reach());
         let (start, end) = (
@@ -63,14 +65,14 @@ impl Margins for Bounds {
     }
 }
 
-/// A plane, by a point of it and its unit normal.
+/// A plane with a point and its unit normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct OrientedPlane {
     pub(crate) point: Vec3,
     pub(crate) normal: Vec3,
 }
 
-/// The sides of a surface that are seen.
+/// The visible sides of a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Sides {
     /// The side of the normal: the outside of a closed shape.
@@ -109,7 +111,7 @@ impl Sides {
 }
 
 impl OrientedPlane {
-    /// The sides of the plane on which a box lies; both if that is uncertain.
+    /// The side of the plane on which a box lies; both if that is uncertain.
     pub(crate) fn sides(&self, aabb: &Bounds) -> Sides {
         let margin = 4.0 * MARGIN * (aabb.reach() + self.point.abs().max_element());
         let heights = aabb
@@ -131,7 +133,7 @@ impl OrientedPlane {
 pub(crate) mod tests {
     use super::*;
 
-    /// A statement that holds with the margin does not hold with a slightly smaller one.
+    /// Asserts that a statement holds with the margin but not with a slightly smaller one.
     pub(crate) fn has_margin(margin: f64, is_sure: impl Fn(f64) -> bool) {
         assert!(
             !is_sure((1.0 - 1e-5) * margin),
@@ -143,7 +145,7 @@ pub(crate) mod tests {
         );
     }
 
-    /// A box, by its corners.
+    /// A box with these corners.
     pub(crate) fn span(min: [f64; 3], max: [f64; 3]) -> Bounds {
         Bounds {
             min: Vec3::from_array(min),
@@ -203,7 +205,7 @@ pub(crate) mod tests {
         assert_eq!(plane.sides(&unit(0.0, 0.5, 0.0)), Sides::BOTH);
     }
 
-    /// The boxes of a test with permuted and mirrored axes.
+    /// The boxes of a test with permuted and reflected axes.
     fn turned(boxes: [Bounds; 3], axis: usize, mirror: bool) -> [Bounds; 3] {
         let turn = |v: Vec3| {
             [
@@ -221,7 +223,7 @@ pub(crate) mod tests {
         })
     }
 
-    /// Three boxes are disjoint from a certain gap on, in any arrangement.
+    /// Asserts that three boxes are disjoint from a certain gap on, in any arrangement.
     fn have_margin(
         margin: f64,
         boxes: impl Fn(f64) -> [Bounds; 3],
@@ -251,9 +253,9 @@ pub(crate) mod tests {
         );
         let boxes = |gap| [near, far, span([-7.0, 1.0 + gap, -7.0], [7.0, 2.0, 7.0])];
         let hides = |[start, end, other]: [Bounds; 3]| start.segment_may_hit(&end, &other);
-        // Of the start and the other: 3 and 7, twice, as both grow.
+        // The start has the size 3 and the other 7; twice, as both are expanded.
         have_margin(20.0 * MARGIN, boxes, |boxes| !hides(boxes));
-        // Of the end and the start, 3 and 10, and of the start and the other, 10 and 7.
+        // The end and the start have the sizes 3 and 10, the start and the other 10 and 7.
         have_margin(30.0 * MARGIN, boxes, |[start, end, other]| {
             !hides([end, start, other])
         });
@@ -275,7 +277,8 @@ pub(crate) mod tests {
                 span([0.5 + gap, -2.0, -1.0], [3.0, 0.5, 1.0]),
             ]
         };
-        // Of size 3, the other takes room thrice, the end once, the fraction of the way once.
+        // The other has the size 3 and takes the margin three times, the end once, the parameter τ
+        // once.
         have_margin(11.0 * MARGIN, boxes, |[start, end, other]| {
             !start.segment_may_hit(&end, &other)
         });

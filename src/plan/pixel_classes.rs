@@ -1,8 +1,8 @@
-//! The class of each pixel: it shows nothing, one flat surface of one value, or anything.
+//! The classes of pixels: empty, one flat surface of one value, or anything.
 //!
-//! The picture is divided into square cells, in a limited number. Each surface is counted in the
-//! cells that its rectangle overlaps. A cell without a rectangle shows nothing, whatever the order
-//! or shape of the surfaces.
+//! The picture is divided into a limited number of square cells. Each surface is counted in the
+//! cells that its screen rectangle overlaps (as differences at its corners; a 2-D prefix sum gives
+//! the counts). A cell with count 0 is empty.
 
 use super::margin::Sides;
 use super::projection::{PixelRect, ScreenProjection, ScreenRect};
@@ -15,7 +15,7 @@ use rtc_valid::{Mode, Shape};
 /// The maximum number of cells of a picture.
 const MAX_CELLS: u64 = 1 << 18;
 
-/// The margin in pixels between all samples and the edge of a surface that fills their pixel.
+/// The margin in pixels between the samples of a pixel and the edge of the surface that covers it.
 const MARGIN: f64 = 1.0;
 
 /// The class of a pixel, by the possible hits of its rays.
@@ -23,7 +23,7 @@ const MARGIN: f64 = 1.0;
 pub enum PixelClass {
     /// Nothing.
     Nothing,
-    /// All rays meet one flat surface of one value.
+    /// All rays hit one flat surface of one value.
     Uniform,
     /// Any surfaces.
     Anything,
@@ -32,14 +32,14 @@ pub enum PixelClass {
 /// The classes of the pixels of a picture.
 #[derive(Clone, Debug, Default)]
 pub struct PixelClasses {
-    /// Cells are 2 to this pixels wide.
+    /// The width of a cell is 2 to this power, in pixels.
     shift: u32,
-    /// Cells in a row; `None` if no pixel has a known class.
+    /// The number of cells in a row; 0 if no pixel has a known class.
     columns: usize,
     cells: Vec<CellContent>,
-    /// Convex polygons in the picture, each inside a surface of one value.
+    /// Convex polygons on the screen, each inside a surface of one value.
     polygons: Vec<Vec<[f64; 2]>>,
-    /// Whether pixels without surfaces may be left out.
+    /// Whether empty pixels may be skipped.
     skips_empty: bool,
 }
 
@@ -107,7 +107,7 @@ impl PixelClasses {
         }
     }
 
-    /// The fraction of the picture that certainly shows nothing, in [0, 1].
+    /// The fraction of the picture that is certainly empty, in [0, 1].
     #[must_use]
     pub fn empty_fraction(&self) -> f64 {
         let empty = self
@@ -122,7 +122,7 @@ impl PixelClasses {
         }
     }
 
-    /// Whether some pixels may show only one flat surface of one value.
+    /// Whether some pixels may have the class [`PixelClass::Uniform`].
     #[must_use]
     pub fn has_flat_pixels(&self) -> bool {
         self.cells
@@ -132,12 +132,12 @@ impl PixelClasses {
 }
 
 impl Findings<'_> {
-    /// Whether pixels of one value take fewer rays than others.
+    /// Whether uniform pixels take fewer rays than others.
     fn has_flat_pixels(&self) -> bool {
         self.facts.rules.contains(Rule::PixelFlat) && self.is_sampled() && self.facts.is_pinhole()
     }
 
-    /// The outline in the picture of a convex polygon inside a surface, if the surface is flat and
+    /// The screen-space outline of a convex polygon inside a surface, if the surface is flat and
     /// has one value.
     fn polygon(&self, surface: usize, projection: &ScreenProjection) -> Option<Vec<[f64; 2]>> {
         let ShapeClass::Planar(plane) = self.facts.surface_bounds[surface].class else {
@@ -146,13 +146,13 @@ impl Findings<'_> {
         let shape = &self.facts.scene.surfaces()[surface].shape;
         let summary = &self.facts.summaries[surface];
         let shows_one_value = match self.mode() {
-            // The two halves of a quad may differ in the last bit of their normals.
+            // The normals of the two triangles of a quad may differ in the last bit.
             Mode::Normal => {
                 !summary.has_shading_normals()
                     && !matches!(shape, Shape::Quad(_))
                     && self.visibility.sides[surface] != Sides::BOTH
             }
-            // The outlines of a cartoon lie within a surface.
+            // Cartoon outlines are drawn within a surface.
             Mode::Phong if self.facts.scene.settings().toon => false,
             Mode::Phong => {
                 let lights = self.facts.sources.iter().zip(&self.lights.plans);
@@ -181,7 +181,8 @@ impl Findings<'_> {
     }
 }
 
-/// Twice the area of the triangle from an edge to a point; above 0 if the point is to the left.
+/// Twice the signed area of the triangle of an edge and a point (the edge function); positive if
+/// the point is to the left.
 fn area([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
@@ -192,7 +193,8 @@ fn edges(polygon: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> {
     polygon.iter().zip(next).map(|(a, b)| [*a, *b])
 }
 
-/// The polygon with its corners turning left, unless it is not convex or too small to hold a pixel.
+/// The polygon with its interior to the left of each edge, or `None` if it is not convex or smaller
+/// than a pixel.
 fn convex(mut polygon: Vec<[f64; 2]>) -> Option<Vec<[f64; 2]>> {
     let whole = edges(&polygon)
         .map(|edge| area(edge, polygon[0]))
@@ -220,8 +222,8 @@ fn is_inside(polygon: &[[f64; 2]], [x, y]: [u32; 2]) -> bool {
     edges(polygon).all(|edge| corners.iter().all(|corner| area(edge, *corner) >= 0.0))
 }
 
-/// The number of surfaces in each cell and the sum of their marks, as differences from the cells
-/// before.
+/// The number of surfaces in each cell and the sum of their marks, stored as differences (a 2-D
+/// prefix sum restores them).
 struct CellGrid {
     shift: u32,
     columns: usize,

@@ -1,58 +1,60 @@
-//! The expected losses by the plain arithmetics in a scene: first-order estimates from its sizes
-//! and distances.
+//! The expected precision losses of the non-robust arithmetics in a scene: first-order estimates
+//! from sizes and distances.
 //!
-//! Estimates are for typical rays, which meet a surface near its middle. At outlines errors are
-//! larger.
+//! The estimates are for typical rays, which hit a surface near its middle. Errors are larger at
+//! silhouettes.
 
 use super::shape::shape_facts;
 use super::{Arithmetic, facts};
 use rtc_valid::{Mode, Phong, Surface, ValidScene};
 
-/// The plain arithmetics ignore hits nearer than this, in units of the world: they take them for
-/// the start of the ray.
+/// The epsilon of the non-robust arithmetics, in world units: hits nearer than this are ignored as
+/// self-intersections.
 pub const MIN_HIT_DISTANCE: f64 = 1e-5;
 
-/// The largest relative error of the points of a curved surface that is invisible in its shading in
+/// The largest relative error of hit points on a curved surface that does not change its shading in
 /// 8 bits.
 const VISIBLE: f64 = 1.0 / 512.0;
 
-/// The largest fraction of the size of a surface that may be skipped invisibly.
+/// The largest fraction of the size of a surface that may be skipped without visible effect.
 const SKIPPED: f64 = 1.0 / 100.0;
 
-/// The symptom of a loss.
+/// The visible symptom of a precision loss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symptom {
-    /// Rays that leave a surface meet it again: it shades or mirrors itself.
+    /// Self-intersection: rays that leave a surface hit it again, so it shadows or reflects itself.
     SelfHit,
-    /// The errors of the points of a curved surface make its shading wrong.
+    /// Errors of the hit points of a curved surface change its shading.
     Shape,
-    /// The surface is hardly larger than the skipped start of each ray.
+    /// The surface is not much larger than the epsilon that rays skip.
     Skipped,
 }
 
-/// The loss by an arithmetic.
+/// The precision loss of an arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss {
     /// The surface with the strongest symptom: an index into [`ValidScene::surfaces`].
     pub surface: usize,
     /// The symptom there.
     pub symptom: Symptom,
-    /// The error of the points of the surface, in units of the world.
+    /// The error of hit points on the surface, in world units.
     pub error: f64,
-    /// The ratio of the error to the largest invisible one.
+    /// The ratio of the error to the largest invisible error.
     pub excess: f64,
     /// The number of affected surfaces.
     pub surfaces: usize,
 }
 
-/// The loss of a scene by an arithmetic, if it is expected to be visible.
+/// The expected precision loss of a scene with an arithmetic, if it is visible.
 #[must_use]
 pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
+    // Choose the unit roundoff of the arithmetic.
     let unit = match arithmetic {
         Arithmetic::Robust => return None,
         Arithmetic::Plain => f64::EPSILON / 2.0,
         Arithmetic::F32 => f64::from(f32::EPSILON) / 2.0,
     };
+    // Find the worst symptom of each surface.
     let is_lit = scene.settings().shadows && !facts::light::course(scene.lights()).is_empty();
     let losses = scene
         .surfaces()
@@ -73,6 +75,7 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
                 surfaces: 1,
             })
         });
+    // Take the worst surface, and count all affected ones.
     losses.reduce(|worst, loss| {
         let surfaces = worst.surfaces + loss.surfaces;
         Loss {
@@ -98,20 +101,20 @@ fn sends_rays(scene: &ValidScene, surface: &Surface, is_lit: bool) -> bool {
     is_lit || settings.max_depth > 0 && (ks.get() > 0.0 || kt.get() > 0.0)
 }
 
-/// The sizes that decide the accuracy of hits on a surface.
+/// The sizes that determine the accuracy of hits on a surface.
 struct HitAccuracy {
-    /// The size of the coordinates at both ends of rays.
+    /// The largest coordinate at the eye or on the surface.
     coordinates: f64,
-    /// From the eye to the middle of the surface.
+    /// The distance from the eye to the middle of the surface.
     distance: f64,
     equation: EquationKind,
 }
 
-/// The type of equation of a surface, with the sizes that divide its error.
+/// The degree of the intersection equation of a surface, with the sizes that its error depends on.
 pub(super) enum EquationKind {
-    /// Flat: t is one quotient. The size, infinite for an unbounded one.
+    /// A plane: t is a quotient. The size of the surface, infinite if it is unbounded.
     Linear(f64),
-    /// A quadratic, of this radius.
+    /// A quadric of this radius.
     Quadratic(f64),
     /// The quartic of a torus.
     Quartic { major: f64, minor: f64 },
@@ -140,15 +143,15 @@ impl HitAccuracy {
         }
     }
 
-    /// The error of a point: the rounding of its coordinates, and that of the polynomial divided by
-    /// its slope at the root.
+    /// The error of a hit point: the rounding of its coordinates, plus the rounding of the
+    /// polynomial over its derivative at the root.
     fn error(&self, unit: f64) -> f64 {
         let distance = self.distance;
         let polynomial = match self.equation {
             EquationKind::Linear(_) => distance,
-            // The discriminant is known to u·d², and its root is about the radius.
+            // The error of the discriminant is u·d², and its square root is about the radius.
             EquationKind::Quadratic(radius) => distance * (distance / radius).max(1.0),
-            // The quartic is known to 16 u·d⁴, the sum of its terms' sizes; its slope is the
+            // The error of the quartic is 16 u·d⁴, from the sum of its terms; its derivative is the
             // product of the distances to the other roots.
             EquationKind::Quartic { major, minor } => {
                 let other = distance / (2.0 * (major + minor));
@@ -161,7 +164,7 @@ impl HitAccuracy {
         unit * (self.coordinates + polynomial)
     }
 
-    /// The ratio of a symptom to the largest invisible one.
+    /// The ratio of a symptom to the largest invisible symptom.
     fn excess(&self, symptom: Symptom, unit: f64, sends_rays: bool) -> f64 {
         match symptom {
             Symptom::SelfHit if sends_rays => self.error(unit) / MIN_HIT_DISTANCE,

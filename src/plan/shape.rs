@@ -1,5 +1,5 @@
-//! What the rules know of each shape: where it is, whether it is flat or convex, its texture
-//! coordinates, and the formula that rays meet it by.
+//! Facts about each shape: its bounds, its shape class, its texture coordinates, and its
+//! intersection equation.
 
 use super::margin::OrientedPlane;
 use super::path::Area;
@@ -13,19 +13,19 @@ use rtc_valid::{
     ValidScene,
 };
 
-/// What the rules ask of a shape.
+/// The facts that rules need about a shape.
 pub(super) trait ShapeFacts {
-    /// Its form and place; `meshes` are the boxes of the meshes.
+    /// The bounds; `meshes` has the bounding boxes of the meshes.
     fn bounds(&self, meshes: &[Bounds]) -> SurfaceBounds;
 
-    /// How thick a solid is, or how long the shortest side of a face; infinite where nothing rests
-    /// on it.
+    /// The thickness of a solid, or the length of the shortest side of a polygon; infinite where no
+    /// rule depends on it.
     fn thickness(&self) -> f64;
 
-    /// The formula that meets it, and a point in its middle or nearest to the eye.
+    /// The intersection equation, and a point in the middle or nearest to the eye.
     fn formula(&self, scene: &ValidScene) -> (Vec3, EquationKind);
 
-    /// Corners of a convex polygon within a flat shape, in order around it.
+    /// The vertices of a convex polygon within a flat shape, in order.
     fn polygon(&self, _normal: Vec3) -> Option<Vec<Vec3>> {
         None
     }
@@ -35,14 +35,13 @@ pub(super) trait ShapeFacts {
         false
     }
 
-    /// The bounds of its texture coordinates, for both sets; the unit square for a shape that has
-    /// them by its form.
+    /// The bounds of the texture coordinates for both sets; the unit square for a parametric shape.
     fn uv_areas(&self, scene: &ValidScene) -> [Option<Area>; 2] {
         [self.has_uv(scene).then_some(Area::UNIT), None]
     }
 }
 
-/// Finds the facts of a shape of any kind.
+/// Generates the dispatch over all shapes.
 macro_rules! facts {
     ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
         pub(super) fn shape_facts(shape: &Shape) -> &dyn ShapeFacts {
@@ -129,7 +128,7 @@ impl ShapeFacts for Triangle {
 }
 
 impl ShapeFacts for Quad {
-    /// The formulas of a patch have no known error bound, so it may be anywhere.
+    /// The intersection of a bilinear patch has no known error bound, so its extent is unbounded.
     fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
         let [a, b, c, d] = self.vertices;
         if !self.is_flat() {
@@ -182,7 +181,7 @@ impl ShapeFacts for Disc {
     }
 
     fn polygon(&self, normal: Vec3) -> Option<Vec<Vec3>> {
-        /// Corners of the polygon within a disc: it covers 97 % of it.
+        /// The vertices of the inscribed polygon: it covers 97 % of the disc.
         const COUNT: u64 = 16;
         let basis = Basis::around(normal);
         let corner = |k: u64| {
@@ -229,7 +228,7 @@ impl ShapeFacts for Paraboloid {
     fn bounds(&self, _: &[Bounds]) -> SurfaceBounds {
         let radius = self.radius.get();
         let rim = circle_bounds(self.base, self.up, radius, 0.0);
-        // The profile lies between the rim, and the vertex and half the radius beside it.
+        // The profile is within the hull of the rim and a circle of half the radius at the apex.
         let top = circle_bounds(self.base + self.up, self.up, 0.5 * radius, 0.0);
         SurfaceBounds::within(rim.union(top), ShapeClass::Convex)
     }
@@ -272,7 +271,7 @@ impl ShapeFacts for Instance {
         f64::INFINITY
     }
 
-    /// The first corner of the mesh, and how far that extends.
+    /// The first vertex of the mesh, and the largest distance of another vertex from it.
     fn formula(&self, scene: &ValidScene) -> (Vec3, EquationKind) {
         let [x, y, z, origin] = self.world_from_object;
         let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
@@ -296,7 +295,7 @@ impl ShapeFacts for Instance {
     }
 }
 
-/// The length of the shortest side of a face, by the largest component.
+/// The length of the shortest side of a polygon, in the maximum norm.
 fn shortest_side(corners: &[Vec3]) -> f64 {
     let sides = corners
         .iter()
@@ -305,7 +304,7 @@ fn shortest_side(corners: &[Vec3]) -> f64 {
     sides.fold(f64::INFINITY, f64::min)
 }
 
-/// The first corner of a face, and how far the others are from there.
+/// The first vertex of a polygon, and the largest distance of another vertex from it.
 fn linear_equation(corners: &[Vec3]) -> (Vec3, EquationKind) {
     let distances = corners[1..].iter().map(|c| c.distance(corners[0]));
     (

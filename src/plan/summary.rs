@@ -1,4 +1,4 @@
-//! Summaries of materials, with maps and constant textures considered.
+//! Summaries of Phong materials, with maps and constant textures taken into account.
 
 use super::shape::shape_facts;
 use rtc_math::Vec3;
@@ -13,15 +13,15 @@ pub(super) struct MaterialSummary {
     pub(super) diffuse: bool,
     /// ks is not 0 everywhere.
     pub(super) is_specular: bool,
-    /// The maximum of ks and kt together.
+    /// The maximum of ks + kt.
     pub(super) weight: f64,
-    /// The maximum of its terms for a light of colour 1.
+    /// The maximum of its direct terms for a light of colour 1.
     pub(super) max_direct: f64,
     /// kt is above 0.
     pub(super) refracts: bool,
-    /// It has several mirrored rays.
+    /// It has several reflected rays.
     pub(super) glossy: bool,
-    /// Its shading normals come from its mesh.
+    /// Its shading normals come from mesh vertices.
     pub(super) has_vertex_normals: bool,
     /// A map changes its shading normals.
     pub(super) has_normal_map: bool,
@@ -38,6 +38,7 @@ impl MaterialSummary {
         scene: &ValidScene,
         constants: &[Option<Vec3>],
     ) -> Self {
+        // Find the maps that the surface can use.
         let Phong {
             color,
             ka,
@@ -55,8 +56,10 @@ impl MaterialSummary {
             maps.and_then(|maps| maps.color),
             maps.and_then(|maps| maps.specular),
         );
+        // Fold constant textures into the factors.
         let color = color_map.map_or(Some(*color), |map| constants[map]);
         let scale = specular_map.map_or(Some(1.0), |map| constants[map].map(|value| value.x));
+        // Bound the terms.
         let most_ks = ks.get() * scale.unwrap_or_else(|| largest(scene, specular_map).x);
         let colored = color != Some(Vec3::ZERO);
         let is_specular = ks.get() > 0.0 && scale != Some(0.0);
@@ -80,17 +83,17 @@ impl MaterialSummary {
         }
     }
 
-    /// Whether a light adds more than its ambient term.
+    /// Whether a light contributes more than its ambient term.
     pub(super) fn is_illuminated(&self) -> bool {
         self.diffuse || self.is_specular
     }
 
-    /// Whether a mirrored or refracted ray has a weight above 0.
+    /// Whether a reflected or refracted ray has a nonzero weight.
     pub(super) fn has_bounce(&self) -> bool {
         self.is_specular || self.refracts
     }
 
-    /// Whether the shading normal may not be the geometric one.
+    /// Whether the shading normal may differ from the geometric one.
     pub(super) fn has_shading_normals(&self) -> bool {
         self.has_vertex_normals || self.has_normal_map
     }
@@ -108,7 +111,7 @@ fn has_normals(shape: &Shape, scene: &ValidScene) -> bool {
     matches!(shape, Shape::Instance(instance) if !scene.meshes()[instance.mesh].normals.is_empty())
 }
 
-/// The value of each texture whose texels are all equal.
+/// The value of each constant texture.
 pub(super) fn constants(scene: &ValidScene) -> Vec<Option<Vec3>> {
     let value = |texture: &Texture| match texture {
         Texture::Uv | Texture::Sampled(_) => None,
@@ -123,7 +126,7 @@ pub(super) fn constants(scene: &ValidScene) -> Vec<Option<Vec3>> {
     scene.textures().iter().map(value).collect()
 }
 
-/// Whether all corners of each triangle of a mesh have the same normal.
+/// Whether the three normals of every triangle of a mesh are equal.
 pub(super) fn is_even(mesh: &Mesh) -> bool {
     let same = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|corner| mesh.normal(corner));

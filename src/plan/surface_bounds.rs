@@ -1,4 +1,5 @@
-//! The bounds of surfaces for the rules: a bounding box, the plane of a flat one, convexity.
+//! Conservative bounds of surfaces: a bounding box or plane, and the shape class (planar, sphere,
+//! convex) that rules use.
 
 use super::margin::{MARGIN, Margins, OrientedPlane, Sides};
 use super::shape::shape_facts;
@@ -6,34 +7,34 @@ use rtc_math::{Bounds, Vec3, cross, unit};
 use rtc_valid::{Instance, Mesh, ValidScene};
 use std::sync::Arc;
 
-/// The bounds of a surface.
+/// The region that contains a surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Extent {
-    /// Inside a box.
+    /// An axis-aligned box.
     Within(Bounds),
-    /// In an unbounded plane.
+    /// An unbounded plane.
     Plane(OrientedPlane),
-    /// Anywhere its arithmetic may report a hit.
+    /// No bound is known: ray intersection may report a hit anywhere.
     Anywhere,
 }
 
-/// The shape and the bounds of a surface, as far as the rules use them.
+/// The extent of a surface and the shape class that rules use.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceBounds {
     pub(crate) extent: Extent,
     pub(crate) class: ShapeClass,
 }
 
-/// A shape with a property that rules use.
+/// The geometric properties of a shape that rules use.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum ShapeClass {
-    /// A bounded piece of a plane.
+    /// A bounded part of a plane.
     Planar(OrientedPlane),
-    /// A ball.
+    /// A sphere: centre and radius.
     Sphere(Vec3, f64),
     /// A convex solid.
     Convex,
-    /// Any other.
+    /// Any other shape.
     Other,
 }
 
@@ -45,8 +46,8 @@ impl SurfaceBounds {
         }
     }
 
-    /// Grows the body by the error of its points. If that is not small beside its thickness, its
-    /// shape says nothing of them.
+    /// Expands the bounds by the error of its points. If that error is not small against the
+    /// thickness, the shape class is no longer valid.
     fn grow(&mut self, error_bound: f64, thickness: f64) {
         const SMALL: f64 = 1.0 / 1024.0;
         if let Extent::Within(aabb) = &mut self.extent {
@@ -57,7 +58,7 @@ impl SurfaceBounds {
         }
     }
 
-    /// The box around it, if it has one.
+    /// The bounding box, if the surface is bounded.
     pub(crate) fn aabb(&self) -> Option<&Bounds> {
         match &self.extent {
             Extent::Within(aabb) => Some(aabb),
@@ -65,7 +66,7 @@ impl SurfaceBounds {
         }
     }
 
-    /// The sides of it that face a box, or anything.
+    /// The sides that are visible from a box; from anywhere without one.
     pub(crate) fn visible_sides(&self, from: Option<&Bounds>) -> Sides {
         let Some(from) = from else { return Sides::BOTH };
         match self.class {
@@ -77,7 +78,7 @@ impl SurfaceBounds {
         }
     }
 
-    /// Whether a convex solid certainly does not overlap a box.
+    /// Whether a convex solid is certainly disjoint from a box.
     pub(crate) fn is_disjoint_from(&self, other: &Bounds) -> bool {
         let Some(aabb) = self.aabb() else {
             return false;
@@ -93,8 +94,8 @@ impl SurfaceBounds {
     }
 }
 
-/// The bodies of all surfaces, grown by the rounding of rays: a ray starts at the eye or on another
-/// surface, and rounds by its coordinates.
+/// The bounds of all surfaces, expanded by the rounding error of rays: a ray starts at the eye or
+/// on another surface, and its error is proportional to those coordinates.
 pub(crate) fn surface_bounds(scene: &ValidScene) -> Vec<SurfaceBounds> {
     let extent = |mesh: &Arc<Mesh>| Bounds::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
@@ -114,9 +115,9 @@ pub(crate) fn surface_bounds(scene: &ValidScene) -> Vec<SurfaceBounds> {
     surface_bounds
 }
 
-/// The plane of a triangle, unless its corners are too nearly in line for a reliable normal.
+/// The plane of a triangle, unless the triangle is too thin for a reliable normal.
 pub(crate) fn triangle_plane([a, b, c]: [Vec3; 3]) -> ShapeClass {
-    /// The least sine between two edges: the normal is then right to within 2⁻³⁶.
+    /// The minimum sine between two edges: the error of the normal is then below 2⁻³⁶.
     const SLIVER: f64 = 1.0 / 65536.0;
     let normal = || {
         let (first, second) = (unit(b - a)?, unit(c - a)?);
@@ -128,7 +129,7 @@ pub(crate) fn triangle_plane([a, b, c]: [Vec3; 3]) -> ShapeClass {
     })
 }
 
-/// The box of a circle around an axis, with a tube around it.
+/// The bounding box of a circle about an axis, or of the torus with this tube radius.
 pub(crate) fn circle_bounds(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Bounds {
     let axis = unit(axis).unwrap_or(Vec3::ZERO);
     let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + MARGIN * (radius + tube);
@@ -138,8 +139,8 @@ pub(crate) fn circle_bounds(center: Vec3, axis: Vec3, radius: f64, tube: f64) ->
     )
 }
 
-/// The box of a mesh in the world. Rays are transformed to its own space and back: a flat transform
-/// has larger rounding errors.
+/// The world-space bounding box of a mesh instance. Rays are transformed to object space and back;
+/// the rounding error grows as the transform becomes singular.
 pub(crate) fn instance_bounds(instance: &Instance, mesh: &Bounds) -> Bounds {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
@@ -156,7 +157,7 @@ mod tests {
     use super::super::margin::tests::{has_margin, span};
     use super::*;
 
-    /// That a box is another with a margin, as exactly as its corners are rounded.
+    /// Asserts that a box is another one expanded by a margin, up to the rounding of its corners.
     fn is_grown(aabb: Bounds, from: Bounds, margin: f64) {
         let (low, high) = (from.min - aabb.min, aabb.max - from.max);
         let margins = [low.x, low.y, low.z, high.x, high.y, high.z];
@@ -195,7 +196,7 @@ mod tests {
             },
             &mesh,
         );
-        // 2, 3 and 4 + 5 times 6 at most, and 20; the axes span 0.6 of a cube.
+        // At most (2, 3 and 4 + 5) times 6, and 20; the determinant of the unit axes is 0.6.
         is_grown(
             found,
             span([5.0, -26.0, -22.0], [15.0, -5.0, 51.0]),
@@ -236,7 +237,7 @@ mod tests {
         has_margin(1.0 / 65536.0, |sine| {
             matches!(triangle_plane(corners(sine)), ShapeClass::Planar(_))
         });
-        // Of a sine of just 2⁻¹⁶.
+        // The sine is 2⁻¹⁶.
         let slim = [
             Vec3::ZERO,
             Vec3::X * 3.0,

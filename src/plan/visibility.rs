@@ -1,4 +1,5 @@
-//! Visibility: the surfaces seen by the camera and in mirrors, and the longest chain of mirrors.
+//! Visibility: the surfaces that camera rays and reflected rays may hit, and the longest chain of
+//! reflections.
 
 use super::margin::Sides;
 use super::projection::{ScreenProjection, ScreenRect};
@@ -7,26 +8,27 @@ use super::surface_bounds::{ShapeClass, SurfaceBounds};
 use super::{Facts, MAX_PAIRS};
 use rtc_valid::Ambient;
 
-/// The surfaces that rays may meet.
+/// The surfaces that rays may hit.
 pub(super) struct Visibility {
-    /// Per surface, whether a camera ray or a ray that bounced may meet it.
+    /// For each surface, whether a camera ray, a reflected or a refracted ray may hit it.
     pub(super) visible: Vec<bool>,
-    /// Per surface, from which sides.
+    /// For each surface, the visible sides.
     pub(super) sides: Vec<Sides>,
-    /// The bounces after the first hit that may add something.
+    /// The number of bounces after the first hit that may contribute.
     pub(super) depth: u32,
-    /// Whether there were too many mirrors and surfaces to test all pairs.
+    /// Whether there are too many reflective surfaces to test all pairs.
     pub(super) capped: bool,
 }
 
 impl Visibility {
-    /// The visibility of all surfaces, given their rectangles in the picture, with at most `depth` bounces.
+    /// The visibility of all surfaces, given their screen rectangles, with at most `depth` bounces.
     pub(super) fn new(
         facts: &Facts<'_>,
         projection: &ScreenProjection,
         screen_rects: &[ScreenRect],
         depth: u32,
     ) -> Self {
+        // Find the surfaces and sides that camera rays can hit.
         let lens = projection.lens();
         let visible = screen_rects
             .iter()
@@ -45,6 +47,7 @@ impl Visibility {
             .zip(&visible)
             .map(seen)
             .collect();
+        // Add those that reflected and refracted rays can hit.
         let visibility = Self {
             visible,
             sides,
@@ -58,12 +61,12 @@ impl Visibility {
         }
     }
 
-    /// Adds the surfaces seen in mirrors.
+    /// Adds the surfaces that are visible by reflection or refraction.
     ///
-    /// A least fixed point: a ray after k bounces meets a surface that a mirror met after k − 1
-    /// bounces shows, on a side from which that mirror is seen. By induction, no ray leaves the
-    /// set.
+    /// Computes a least fixed point: a ray after k bounces can only hit surfaces that are visible
+    /// from a surface hit after k − 1 bounces. By induction, no ray hits a surface outside the set.
     fn bounce(mut self, facts: &Facts<'_>, depth: u32) -> Self {
+        // Start with the visible reflective surfaces.
         let count = facts.surface_bounds.len();
         let has_bounce = facts
             .summaries
@@ -86,6 +89,7 @@ impl Visibility {
                 capped: true,
             };
         }
+        // Propagate visible sides until nothing changes.
         let mut targets = vec![Vec::new(); count];
         while let Some(mirror) = pending.pop() {
             targets[mirror] = facts.shown_by(mirror, self.sides[mirror]);
@@ -101,13 +105,14 @@ impl Visibility {
                 }
             }
         }
+        // Bound the depth by the longest chain of reflections.
         self.depth = longest_chain(&targets).map_or(depth, |chain| chain.min(depth));
         self
     }
 }
 
 impl Facts<'_> {
-    /// The surfaces that rays off a mirror seen from `sides` may meet.
+    /// The surfaces that rays from a reflective surface may hit, if its `sides` are visible.
     fn shown_by(&self, mirror: usize, sides: Sides) -> Vec<usize> {
         let (bounds, summary) = (&self.surface_bounds[mirror], &self.summaries[mirror]);
         let scatters = summary.refracts || (summary.glossy && summary.has_shading_normals());
@@ -148,7 +153,8 @@ impl Facts<'_> {
     }
 }
 
-/// The length of the longest path in the graph of mirrors; `None` if it has a cycle.
+/// The length of the longest path in the graph of reflections; `None` if it has a cycle
+/// (depth-first search).
 fn longest_chain(targets: &[Vec<usize>]) -> Option<u32> {
     #[derive(Clone, Copy, PartialEq)]
     enum Chain {
@@ -175,10 +181,10 @@ fn longest_chain(targets: &[Vec<usize>]) -> Option<u32> {
     })
 }
 
-/// The number of bounces after which the rest is below half a level of 8 bits, if there is one.
+/// The number of bounces after which the remaining contribution is below half a level of 8 bits.
 ///
-/// After D bounces a path adds at most `Σ_{i > D} kⁱ·L`, where k is the largest sum of weights of
-/// the rays from a point, and L the maximum of the direct terms of a point.
+/// After D bounces a path contributes at most `Σ_{i > D} kⁱ·L`, where k is the largest sum of the
+/// weights of the rays from a point, and L the largest direct term of a point.
 pub(super) fn truncated_depth(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
     if !rules.contains(Rule::Cut) {
         return depth;
@@ -193,7 +199,7 @@ pub(super) fn truncated_depth(facts: &Facts<'_>, depth: u32, rules: Rules) -> u3
         .iter()
         .map(|light| light.color.max_element())
         .sum::<f64>();
-    // An ambient term that is added once is as of a light of colour 1.
+    // An ambient term that is added once counts as that of a light of colour 1.
     let light = match facts.scene.settings().ambient {
         Ambient::PerLight => light,
         Ambient::Once => light.max(1.0),

@@ -1,29 +1,28 @@
-//! What of a scene may be left out to see what it costs: an effect, a light, an object, and what makes a
-//! material more than matt.
+//! Ablations of a scene: an effect, a light or an object is removed, or a material is made diffuse.
 
 use rtc_ir::{Light, Material, Mode, Phong, Scene, Shape, Standard, Surface};
 use rtc_math::Vec3;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// The most lights, objects and materials, each, that are left out.
+/// The maximum number of lights, of objects and of materials.
 const MAX_PER_KIND: usize = 8;
 
-/// What kind of thing is left out.
+/// The kind of an ablation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Ablation {
     /// An effect of the whole scene.
     Effect,
-    /// A light, or the surroundings.
+    /// A light, or the environment.
     Light,
-    /// An object: a surface, or those of one name that follow each other.
+    /// An object: a surface, or consecutive surfaces with the same name.
     Object,
-    /// A material: its surfaces are matt instead, in its colour.
+    /// A material: its surfaces become diffuse, in its colour.
     Material,
 }
 
-/// A scene without something.
+/// A scene after an ablation.
 pub(super) struct AblatedScene {
     pub(super) kind: Ablation,
     pub(super) name: String,
@@ -48,8 +47,8 @@ const EFFECTS: [EffectRemoval; 6] = [
     ("textures", |scene| phongs(scene).for_each(remove_maps)),
 ];
 
-/// All that is worth leaving out of a scene: effects first, then of each kind the first of those seen
-/// largest.
+/// All ablations that change a scene: effects first, then the other kinds in turn, those with the
+/// largest projected size first.
 pub(super) fn of(scene: &Scene) -> Vec<AblatedScene> {
     if !matches!(scene.settings.mode, Mode::Phong | Mode::Path(_)) {
         return Vec::new();
@@ -74,7 +73,7 @@ pub(super) fn of(scene: &Scene) -> Vec<AblatedScene> {
     all
 }
 
-/// A change to a scene that is made only when it is wanted.
+/// An ablation that is not applied yet.
 struct Candidate {
     kind: Ablation,
     name: String,
@@ -82,7 +81,7 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// The scene without it, if it is another.
+    /// The scene after the ablation, if it changes anything.
     fn ablated(&self, scene: &Scene) -> Option<AblatedScene> {
         let mut remove = scene.clone();
         (self.remove)(&mut remove);
@@ -126,7 +125,7 @@ fn remove_maps(phong: &mut Phong) {
     ) = (None, None, None, None);
 }
 
-/// The lights in the order of the scene, then what surrounds it.
+/// The environment, then the lights in scene order.
 fn lights(scene: &Scene) -> Vec<Candidate> {
     let light = |index: usize| Candidate {
         kind: Ablation::Light,
@@ -149,15 +148,15 @@ fn lights(scene: &Scene) -> Vec<Candidate> {
     surroundings.into_iter().chain(lights).collect()
 }
 
-/// Surfaces that are one object.
+/// Surfaces that form one object.
 struct SceneObject {
     surfaces: Range<usize>,
     name: String,
-    /// About how large it is as seen from the eye: its half diagonal over its distance.
+    /// Its approximate projected size: half its diagonal over its distance from the eye.
     extent: f64,
 }
 
-/// The objects, those seen largest first.
+/// The objects, those with the largest projected size first.
 fn objects(scene: &Scene) -> Vec<SceneObject> {
     let meshes = scene.mesh_boxes();
     let eye = Vec3::from_array(scene.camera.eye);
@@ -194,7 +193,7 @@ fn extent(shape: &Shape, meshes: &[[Vec3; 2]], eye: Vec3) -> f64 {
         (low, high) = (low.min(corner), high.max(corner));
     });
     if low.x > high.x {
-        // It has no end.
+        // It is unbounded.
         return f64::INFINITY;
     }
     let half = 0.5 * (high - low).length();
@@ -202,7 +201,7 @@ fn extent(shape: &Shape, meshes: &[[Vec3; 2]], eye: Vec3) -> f64 {
 }
 
 fn object_removal(scene: &Scene, object: &SceneObject) -> Candidate {
-    // Surfaces after the last name have none.
+    // Surfaces after the last name are unnamed.
     let surfaces = object.surfaces.clone();
     let end = surfaces.end.min(scene.names.len());
     let names = surfaces.start.min(end)..end;
@@ -216,7 +215,7 @@ fn object_removal(scene: &Scene, object: &SceneObject) -> Candidate {
     }
 }
 
-/// The materials, those of objects seen largest first.
+/// The materials, those of objects with the largest projected size first.
 fn materials(scene: &Scene, objects: &[SceneObject]) -> Vec<Candidate> {
     let mut order: Vec<usize> = Vec::new();
     for surface in objects.iter().flat_map(|object| object.surfaces.clone()) {
@@ -249,7 +248,7 @@ fn is_diffuse(material: &Material) -> bool {
     other == *material
 }
 
-/// Makes a material matt in its colour, without textures. What shows its colour as it is stays.
+/// Makes a material diffuse in its colour, without textures. An unlit material stays.
 fn make_diffuse(material: &mut Material) {
     match material {
         Material::Phong(phong) => {

@@ -1,4 +1,4 @@
-//! The advice that follows from a study, in plain words.
+//! The advice that follows from a study, as sentences.
 
 use super::metrics::Errors;
 use super::outcome::{MoreBounces, Row, Study};
@@ -10,7 +10,7 @@ use rtc_plan::Arithmetic;
 /// An invisible error, in grey levels.
 const ENOUGH: f64 = 0.5;
 
-/// What follows from a study: one sentence a line, the main advice first.
+/// The advice of a study: one sentence per line, the main advice first.
 #[must_use]
 pub fn advice(study: &Study) -> Vec<String> {
     let front = front(study);
@@ -28,13 +28,13 @@ pub fn advice(study: &Study) -> Vec<String> {
     lines
 }
 
-/// The rows of the front.
+/// The rows of the Pareto front.
 fn front(study: &Study) -> Vec<&Row> {
     let rows = study.rows.iter().filter(|row| row.front);
     rows.map(|row| stabilised(study, row)).collect()
 }
 
-/// The place of the row that is recommended: the first whose error is surely invisible, or the last.
+/// The index of the recommended row: the first whose error is certainly invisible, or the last.
 fn chosen(front: &[&Row]) -> Option<usize> {
     front
         .iter()
@@ -42,14 +42,14 @@ fn chosen(front: &[&Row]) -> Option<usize> {
         .or(front.len().checked_sub(1))
 }
 
-/// The row that is recommended: the cheapest of the front whose error is surely invisible.
+/// The recommended row: the cheapest on the Pareto front whose error is certainly invisible.
 #[must_use]
 pub fn recommended(study: &Study) -> Option<&Row> {
     let front = front(study);
     Some(front[chosen(&front)?])
 }
 
-/// The command that renders the scene in the setting that is recommended.
+/// The command that renders the scene in the recommended setting.
 pub(super) fn command(study: &Study) -> Option<String> {
     let row = recommended(study)?;
     let own = study.scene_row()?.setting;
@@ -66,8 +66,8 @@ pub(super) fn command(study: &Study) -> Option<String> {
     Some(format!("rtc render {name}{}", flags.collect::<String>()))
 }
 
-/// How many paths an error takes that an eye can hardly tell: by the error of the scene's own number,
-/// and the law by which it falls.
+/// The number of paths for an error that is barely visible, extrapolated by the power law from the
+/// error of the scene's number of paths.
 fn about_paths(study: &Study) -> Option<String> {
     let parameters = &mut study.parameters.iter();
     let paths = parameters
@@ -84,7 +84,7 @@ fn about_paths(study: &Study) -> Option<String> {
     })
 }
 
-/// The next greater number of two significant digits, at least 1.
+/// Rounds up to two significant digits, to at least 1.
 fn two_digits(value: f64) -> f64 {
     let mut unit = 1.0;
     while value > 100.0 * unit {
@@ -93,7 +93,7 @@ fn two_digits(value: f64) -> f64 {
     (value / unit).ceil().max(1.0) * unit
 }
 
-/// What more bounces would show, if that is visible.
+/// The effect of more bounces, if it is visible.
 fn about_more(bounces: &MoreBounces) -> Option<String> {
     let most = bounces.deeper.last()?;
     let (own, depth) = (bounces.own, most.depth);
@@ -106,8 +106,8 @@ fn about_more(bounces: &MoreBounces) -> Option<String> {
     })
 }
 
-/// The row, or the same row by the robust arithmetic if the row is not clearly cheaper: the
-/// difference may be noise of the few rounds.
+/// The row, or the same row with the robust arithmetic if the row is not clearly cheaper: the
+/// difference may be timing noise.
 fn stabilised<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
     /// A ratio that is certainly below 1.
     const CLEAR: f64 = 0.95;
@@ -127,7 +127,7 @@ fn stabilised<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
         .unwrap_or(row)
 }
 
-/// The row chosen, and the cost of better ones.
+/// The recommended row, and the cost of better ones.
 fn best(study: &Study, rows: &[&Row]) -> String {
     let (chosen, better) = (rows[0], &rows[1..]);
     let words = |row: &Row| row.setting.words(&study.used());
@@ -154,7 +154,7 @@ fn best(study: &Study, rows: &[&Row]) -> String {
 
 fn about_own(study: &Study, own: &Row, front: &[&Row]) -> String {
     let words = own.setting.words(&study.used());
-    // Its twin of the other arithmetic may be on the front in its place.
+    // The same setting with the other arithmetic may be on the front in its place.
     let is_on_front = own.front || front.iter().any(|row| row.setting == own.setting);
     if is_on_front {
         let bargain =
@@ -204,7 +204,8 @@ fn error(row: &Row) -> String {
     }
 }
 
-/// The interval of an error for the whole picture, where only a part was looked at: " (0.3 … 0.6)".
+/// The confidence interval of an error for the whole picture, if only tiles were rendered: " (0.3 …
+/// 0.6)".
 pub(super) fn interval(errors: &Errors) -> String {
     if errors.rmse_low == errors.rmse_high {
         return String::new();
@@ -216,7 +217,7 @@ pub(super) fn interval(errors: &Errors) -> String {
     )
 }
 
-/// A number with its significant digits.
+/// Formats a number with its significant digits.
 pub(super) fn digits(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),
@@ -228,7 +229,7 @@ pub(super) fn digits(value: f64) -> String {
     }
 }
 
-/// A duration in seconds, with a unit.
+/// Formats a duration in seconds, with a unit.
 pub(super) fn seconds(value: f64) -> String {
     match value {
         ..0.1 => format!("{} ms", digits(1000.0 * value)),

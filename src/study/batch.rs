@@ -1,22 +1,22 @@
-//! Stretches of work between two moments at which what is done can be saved.
+//! The batch size between two checkpoints.
 
 use std::time::Duration;
 
-/// How many shares of a picture are rendered at once: as many as take a part of the time between two
-/// saves.
+/// The number of shards of a picture that are rendered in one batch, adapted to a fraction of the
+/// time between two checkpoints.
 #[derive(Clone, Copy, Debug)]
 pub struct WorkBatch {
     shards: u32,
-    /// With fewer, threads would have no work.
+    /// With fewer shards, threads would be idle.
     least: u32,
     time: Duration,
 }
 
 impl WorkBatch {
-    /// Longer ones save no more work, and lose more of it.
+    /// The maximum duration of a batch: longer ones lose more work and gain nothing.
     const LONGEST: Duration = Duration::from_secs(10);
 
-    /// The first stretch of work for so many threads that is saved so often.
+    /// The first batch for a number of threads and a checkpoint interval.
     #[must_use]
     pub fn new(every: Duration, threads: usize) -> Self {
         let least = u32::try_from(2 * threads).unwrap_or(u32::MAX).max(1);
@@ -27,13 +27,13 @@ impl WorkBatch {
         }
     }
 
-    /// How many shares come next.
+    /// The number of shards of the next batch.
     #[must_use]
     pub fn shards(&self) -> u32 {
         self.shards
     }
 
-    /// So many shares took so long.
+    /// Adapts the size to the duration of the last batch.
     pub fn adapt(&mut self, shards: u32, took: Duration) {
         let ratio = self.time.as_secs_f64() / took.as_secs_f64().max(1e-6);
         let wanted = f64::from(shards) * ratio.clamp(0.25, 4.0);

@@ -1,6 +1,6 @@
-//! Renders timed against each other: in rounds, each in a new random order, so that a slow phase of
-//! the machine affects all. Times are processor times of one thread, so other load has little
-//! effect.
+//! A benchmark that compares the times of several cases: in rounds, each in a new random order, so
+//! that a slow phase of the machine affects all cases. Times are processor times of one thread, so
+//! other load has little effect.
 
 use super::runtime::Time;
 use super::setting::Setting;
@@ -10,48 +10,49 @@ use super::subject::{RenderedTiles, Stopped, Subject};
 use rtc_image::Image;
 use rtc_ir as ir;
 
-/// A runner.
+/// A case of a benchmark.
 pub(super) struct BenchmarkCase<'a> {
     pub(super) subject: Subject<'a>,
     pub(super) setting: Setting,
 }
 
-/// The result of a runner.
+/// The result of a case.
 pub(super) struct TimedRun {
     pub(super) rendered: RenderedTiles,
     /// Seconds for the whole picture.
     pub(super) seconds: Estimate,
-    /// Seconds over those of the first runner.
+    /// The seconds over those of the first case.
     pub(super) ratio: Estimate,
-    /// The mean square error of each render against the truth, if one was given.
+    /// The mean square error of each render against the reference, if one was given.
     pub(super) squares: Vec<f64>,
     /// Whether some of its renders were done before the study was interrupted.
     pub(super) is_resumed: bool,
 }
 
-/// The results of all runners.
+/// The results of all cases.
 pub(super) struct Benchmark {
     pub(super) runs: Vec<TimedRun>,
-    /// Wall time over processor time of all renders: above 1 others used the machine.
+    /// Wall time over processor time of all renders: above 1 the machine had other load.
     pub(super) wall_over_cpu: f64,
 }
 
 const FEWEST_ROUNDS: u64 = 3;
 const MOST_ROUNDS: u64 = 9;
 
-/// The maximum number of renders of a runner in a round. Renders of a few milliseconds are too short to
-/// time on a noisy machine.
+/// The maximum number of renders of a case in a round. A render of a few milliseconds is too short
+/// to be timed alone.
 const MOST_REPEATS: u64 = 8;
 
-/// Times all runners in at least three rounds, those that take few rays in more and several times
-/// in each, of about `budget` rays in all. With a truth, each render of a runner after the first has
-/// random numbers of its own.
+/// Times all cases in at least three rounds, with about `budget` rays in all. Cases with few rays
+/// run in more rounds, and several times in each. With a reference, each render of a case after the
+/// first has its own seeds.
 pub(super) fn benchmark(
     cases: &[BenchmarkCase<'_>],
     budget: u64,
     reference: Option<&[Image]>,
     rng: &mut Rng,
 ) -> Result<Benchmark, Stopped> {
+    // Run the cases in rounds, each in a new random order.
     let mut timings: Vec<_> = cases.iter().map(|_| Timings::default()).collect();
     for round in 0..MOST_ROUNDS {
         let mut order: Vec<_> = (0..cases.len())
@@ -68,17 +69,20 @@ pub(super) fn benchmark(
             timings[index].add(&cases[index], budget / cases.len() as u64, reference)?;
         }
     }
+    // Extrapolate the times of tiles to the whole picture.
     let mut overheads = Overheads::default();
     let wholes: Vec<Vec<Option<f64>>> = cases
         .iter()
         .zip(&timings)
         .map(|(case, timings)| overheads.whole_picture(case, &timings.times, rng))
         .collect();
+    // Compare wall time with processor time.
     let times = timings
         .iter()
         .flat_map(|timings| timings.times.iter().flatten());
     let total = |of: fn(&Time) -> f64| times.clone().map(of).sum::<f64>();
     let wall_over_cpu = total(|time| time.wall) / total(|time| time.cpu).max(1e-9);
+    // Summarise each case: median time and median ratio to the first case.
     let run = |(timings, seconds): (Timings, &Vec<Option<f64>>)| {
         let ratios: Vec<_> = seconds
             .iter()
@@ -101,8 +105,8 @@ pub(super) fn benchmark(
 }
 
 impl Subject<'_> {
-    /// What a render takes beside its rays, in rays, roughly: a triangle is as much work to prepare as a ray,
-    /// and so are many pixels of images, and some of a picture, which is as large if only tiles are rendered.
+    /// The approximate cost of preparing a render, in rays: a triangle costs as much as a ray, and
+    /// so do 512 texels of images or, if only tiles are rendered, 8 pixels of the picture.
     fn preparation_rays(&self) -> u64 {
         const PIXELS: u64 = 512;
         const SHOWN: u64 = 8;
@@ -122,14 +126,14 @@ impl Subject<'_> {
     }
 }
 
-/// What a runner has done so far.
+/// The timings of a case so far.
 struct Timings {
     rendered: Option<RenderedTiles>,
-    /// The times of each round; none where it rested.
+    /// The time of each round; `None` where the case did not run.
     times: Vec<Option<Time>>,
     squares: Vec<f64>,
     is_resumed: bool,
-    /// The rounds that it is to run, and its renders in each.
+    /// The rounds that it runs in, and its renders in each.
     rounds: u64,
     repeats: u64,
 }
@@ -148,7 +152,7 @@ impl Default for Timings {
 }
 
 impl Timings {
-    /// Runs once more; the first time says how often within the budget.
+    /// Runs a round; the first one decides how many follow within the budget.
     fn add(
         &mut self,
         case: &BenchmarkCase<'_>,
@@ -182,8 +186,8 @@ impl Timings {
     }
 }
 
-/// The seconds for preparing a scene and for skipping all pixels, of those that were timed: they hardly depend
-/// on the setting.
+/// A cache of the seconds for preparing a scene and for skipping all pixels; they do not depend
+/// much on the setting.
 #[derive(Default)]
 struct Overheads<'a> {
     cached: Vec<(BenchmarkCase<'a>, [f64; 2])>,
@@ -212,8 +216,8 @@ impl<'a> Overheads<'a> {
         overhead
     }
 
-    /// The time for the whole picture, from that of its part: preparing the scene takes the same for
-    /// both, and skipping the other pixels does not belong to a picture.
+    /// Extrapolates the times of tiles to the whole picture: preparation takes the same time for
+    /// both, and skipping pixels does not belong to a whole picture.
     fn whole_picture(
         &mut self,
         case: &BenchmarkCase<'a>,

@@ -1,5 +1,5 @@
-//! Rendering until the time is out: a crude picture first, then a whole one, then samples where they
-//! reduce the error most. A pass that the time cuts short leaves whole tiles.
+//! Rendering within a time budget: first a coarse picture, then a complete one, then samples where
+//! they reduce the error most. A pass that the time interrupts leaves complete tiles.
 
 use super::noise::{Bound, Noise};
 use super::progressive::ProgressiveRender;
@@ -13,27 +13,29 @@ use rtc_ir::Scene;
 use rtc_render::{AnyWorld, Step};
 use std::time::Duration;
 
-/// The sides of blocks of which one pixel is sampled, from the crudest picture to the whole one.
+/// The block sizes of the coarse passes: one pixel of each block is sampled. A size of 1 is the
+/// complete picture.
 const BLOCKS: [usize; 4] = [8, 4, 2, 1];
 
-/// A picture of which the time allowed no sample for some pixels.
+/// A coarse picture: the time was too short for a sample in each pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CoarsePicture {
-    /// In some blocks of so many pixels a side only one was sampled; all show its value.
+    /// The size of the largest blocks in which only one pixel was sampled; all pixels of a block
+    /// have its value.
     pub block: u32,
-    /// The time after which each pixel would have had a sample, about.
+    /// The estimated time after which each pixel would have a sample.
     pub complete_after: Duration,
 }
 
-/// How a pass ended.
+/// The end of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Pass {
     Done,
-    /// The time is out, or the rays are.
+    /// The time or the ray budget is used up.
     Interrupted,
 }
 
-/// A picture under way, and when it is to be ready.
+/// A render with a time budget.
 struct TimedRender<'run, 'watch> {
     world: &'run mut AnyWorld,
     watch: &'run Watch<'watch>,
@@ -41,8 +43,8 @@ struct TimedRender<'run, 'watch> {
     time: Duration,
 }
 
-/// As [`super::approach`], until a time is out; it is the clock's, so the picture depends on the machine.
-/// The crudest picture is made in any case.
+/// Like [`super::approach`], with a time budget in wall-clock time, so the picture depends on the
+/// machine. The coarsest pass is always completed.
 pub(super) fn render_within(
     world: &mut AnyWorld,
     scene: &Scene,
@@ -71,7 +73,8 @@ impl TimedRender<'_, '_> {
         (self.watch.elapsed)()
     }
 
-    /// Takes the samples wanted of all pixels; of those in whole tiles, if the time ends and counts.
+    /// Takes the requested samples of all pixels; if the pass is timed and the time ends, of
+    /// complete tiles only.
     fn pass(&mut self, is_timed: bool) -> Result<Pass, Stopped> {
         let (watch, time) = (self.watch, self.time);
         let is_late = || is_timed && (watch.elapsed)() > time;
@@ -83,8 +86,8 @@ impl TimedRender<'_, '_> {
         }
     }
 
-    /// One sample of each replicate for one pixel of ever smaller blocks. If the time ends before,
-    /// when all would have one.
+    /// Takes one sample per replicate for one pixel of each block, with decreasing block sizes. If
+    /// the time ends first, returns when the picture would be complete.
     fn coarse_pass(&mut self) -> Result<Option<Duration>, Stopped> {
         let (start, width) = (self.elapsed(), self.progressive.film.crop().width as usize);
         for block in BLOCKS {
@@ -96,7 +99,7 @@ impl TimedRender<'_, '_> {
             let is_coarsest = block == BLOCKS[0];
             let end = self.pass(!is_coarsest)?;
             if is_coarsest && end == Pass::Interrupted {
-                // Its rays ran out.
+                // The ray budget is used up.
                 return Err(Stopped);
             }
             let is_late = block > 1 && self.elapsed() > self.time;
@@ -114,9 +117,9 @@ impl TimedRender<'_, '_> {
         Ok(None)
     }
 
-    /// Finds the best number of points of soft lights, if that takes a small part of the time.
+    /// Finds the best number of light samples, if that takes a small fraction of the time.
     fn choose_lights(&mut self, scene: &Scene, order: &Order) -> Result<(), Stopped> {
-        /// The samples that the choice takes at the most, as of a light of one point.
+        /// The maximum number of samples for this search, at one light sample each.
         const SAMPLES: f64 = 1e5;
         const PART: f64 = 0.1;
         let passed = self.elapsed();
@@ -131,7 +134,7 @@ impl TimedRender<'_, '_> {
         Ok(())
     }
 
-    /// Ends the time for samples earlier, by what the picture takes after the last of them.
+    /// Reserves the time that the output of the picture takes after the last sample.
     fn reserve_output_time(&mut self, order: &Order) {
         let start = self.elapsed();
         let noise = Noise::of(&self.progressive.film, &order.undersampled(self.world));
@@ -141,15 +144,17 @@ impl TimedRender<'_, '_> {
         self.time = self.time.saturating_sub(took);
     }
 
-    /// Twice the samples for all pixels until each has as many as in a first round, then where they
-    /// help most, until the error or the end of the time is reached.
+    /// Doubles the samples of all pixels until each has those of a first round, then adds samples
+    /// where they reduce the error most, until the error or the time is reached.
     fn rounds(&mut self, scene: &Scene, order: &Order) -> Result<TargetResult, Stopped> {
+        // Set up the round sizes.
         let [first, pilot] = first_round(scene, order, self.world);
         let (start, before) = (self.elapsed(), self.progressive.film.samples());
         let undersampled = order.undersampled(self.world);
-        // Where the time alone ends the render, nobody looks at the error to end it.
+        // If only the time ends the render, no early stop biases the error bound.
         let tail = |rounds| order.goal.error.map_or(TAIL, |_| tail_of(rounds));
         let (mut shown, mut error) = (1, None);
+        // Refine until the error or the time is reached.
         loop {
             let wanted = if shown < first || self.progressive.wanted[0][1] == 0 {
                 shown = first.min(2 * shown);
@@ -180,8 +185,8 @@ impl TimedRender<'_, '_> {
         Ok(self.progressive.result(bound, order.values))
     }
 
-    /// The picture of which not all pixels have a sample: they show the nearest that has one, above and
-    /// to the left.
+    /// The coarse picture: pixels without a sample get the value of the sampled pixel of their
+    /// block, above and to the left.
     fn coarse(&self, order: &Order, complete_after: Duration) -> TargetResult {
         let film = &self.progressive.film;
         let width = film.crop().width as usize;

@@ -1,5 +1,5 @@
-//! Denoised pictures of a study: as `rtc render --denoise` makes them, the work of telling their errors
-//! included.
+//! Denoised pictures for a study, as `rtc render --denoise` makes them. Their cost includes the
+//! error estimate.
 
 use super::probe::probe;
 use super::target::{Goal, Order};
@@ -7,23 +7,26 @@ use rtc_color::Tone;
 use rtc_render::{AnyWorld, Crop, DenoisedFilm, Film, Job, OnPixel, Values};
 use rtc_valid::Mode;
 
-/// How [`Values::Display`] shows paths.
+/// The tone curve and exposure of [`Values::Display`] for path tracing.
 const DISPLAY: (Tone, f64) = (Tone::Srgb, 1.0);
 
-/// The picture of a world, denoised if that is asked for and paths are traced; `None` if `on_pixel` said
-/// stop. A denoised one is whole, whatever tiles the job asks for.
+/// Renders a world, and denoises the picture if that is requested and the mode is path tracing;
+/// `None` if `on_pixel` stopped it. A denoised picture is always complete, whatever tiles the job
+/// requests.
 pub(super) fn film(
     world: &AnyWorld,
     job: &Job,
     denoise: bool,
     on_pixel: &OnPixel<'_>,
 ) -> Option<Film> {
+    // Render without denoising if that is not requested or not path tracing.
     let paths = match &world.scene().settings().mode {
         Mode::Path(path) if denoise => path.samples.get(),
         Mode::Path(_) | Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
             return world.render(job, on_pixel);
         }
     };
+    // Render the whole picture in linear values, and denoise it.
     let camera = world.scene().camera();
     let order = Order {
         goal: Goal::default(),
@@ -44,8 +47,10 @@ pub(super) fn film(
         values: Values::Linear,
         ..*job
     };
+    // Estimate its error, which is part of the cost.
     let picture = world.denoised(paths, &whole, on_pixel, &|| ())?;
     let probed = probe(world, &order, &picture, paths, on_pixel)?;
+    // Convert to display values.
     let DenoisedFilm { mut film, .. } = picture;
     film.counts = film.counts.plus(probed.counts);
     let (tone, _) = DISPLAY;

@@ -1,4 +1,4 @@
-//! How far two pictures of one size are apart.
+//! The difference of two pictures of the same size.
 
 use super::flip::{PIXELS_PER_DEGREE, REACH, flip};
 use super::metrics::{LEVELS, relative};
@@ -9,33 +9,35 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Difference {
-    /// The root of the mean square difference of all channels of all pixels, in grey levels of 8 bits.
+    /// The root of the mean square difference of all channels of all pixels, in grey levels of 8
+    /// bits.
     pub rmse: f64,
     /// The largest difference of a channel, or of the opacity, in grey levels.
     pub max: f64,
-    /// The column and row of the first pixel with it; none if nothing differs.
+    /// The column and row of the first pixel with this difference; `None` if nothing differs.
     pub max_at: Option<[usize; 2]>,
-    /// The mean of `(x − r)²/(r² + 0.01)`, of the values of light where both pictures hold them.
+    /// The mean of `(x − r)²/(r² + 0.01)`, of linear values where both pictures have them.
     #[serde(rename = "relMse")]
     pub relative_mse: f64,
-    /// The mean of FLIP, from 0 to 1 (Andersson et al., "FLIP: A Difference Evaluator for Alternating
-    /// Images", 2020).
+    /// The mean of FLIP, from 0 to 1 (Andersson et al., "FLIP: A Difference Evaluator for
+    /// Alternating Images", 2020).
     pub flip: f64,
-    /// The fraction of pixels with a channel, or an opacity, off by more than so many grey levels.
+    /// The fraction of pixels with a channel, or an opacity, that differs by more than `levels`
+    /// grey levels.
     #[serde(rename = "share")]
     pub fraction: f64,
-    /// So many.
+    /// The threshold for `fraction`, in grey levels.
     pub levels: f64,
 }
 
 impl Difference {
-    /// The difference of pictures of one size.
+    /// The difference of two pictures of the same size.
     #[must_use]
     pub fn of(test: &ShownPicture, reference: &ShownPicture, levels: f64) -> Self {
         Self::compute(test, reference, levels, &mut |_, _| ())
     }
 
-    /// The same, and FLIP of each pixel, row by row.
+    /// The difference, and FLIP of each pixel, row by row.
     #[must_use]
     pub fn mapped(test: &ShownPicture, reference: &ShownPicture, levels: f64) -> (Self, Vec<f64>) {
         let mut flips = vec![0.0; test.pixels()];
@@ -45,7 +47,7 @@ impl Difference {
         (found, flips)
     }
 
-    /// Nothing differs.
+    /// No difference.
     #[must_use]
     pub fn none(levels: f64) -> Self {
         Self {
@@ -59,7 +61,7 @@ impl Difference {
         }
     }
 
-    /// The difference; `on_flip` takes that of each pixel where there is any.
+    /// Computes the difference; `on_flip` is called for each pixel of a tile that differs.
     fn compute(
         test: &ShownPicture,
         reference: &ShownPicture,
@@ -68,6 +70,7 @@ impl Difference {
     ) -> Self {
         let (mut found, mut square, mut over) = (Self::none(levels), 0.0, 0_u64);
         let width = test.size()[0] as usize;
+        // Sum the differences of all pixels.
         for index in 0..test.pixels() {
             let [shown, wanted] = [test, reference].map(|picture| picture.display(index));
             square += channel_pairs(shown, wanted)
@@ -79,16 +82,18 @@ impl Difference {
             let opacity = (test.opacity(index) - reference.opacity(index)).abs();
             let off = channel_pairs(shown, wanted).map(|(x, r)| (x - r).abs());
             let off = off.fold(opacity, f64::max) * LEVELS;
-            // What a file of 8 bits holds is no whole number of levels, by rounding.
+            // By rounding, values of an 8-bit file are not exact multiples of a grey level.
             over += u64::from(off > levels + 1e-9);
             if off > found.max {
                 (found.max, found.max_at) = (off, Some([index % width, index / width]));
             }
         }
+        // Normalise the sums.
         let count = test.pixels().max(1) as f64;
         found.rmse = (square / (3.0 * count)).sqrt() * LEVELS;
         found.relative_mse /= 3.0 * count;
         found.fraction = over as f64 / count;
+        // Add FLIP.
         let mut sum = 0.0;
         by_tiles(test, reference, &mut |index, flip| {
             sum += flip;
@@ -98,20 +103,20 @@ impl Difference {
         found
     }
 
-    /// Whether the pictures show the same.
+    /// Whether the pictures are equal.
     #[must_use]
     pub fn is_none(&self) -> bool {
         self.max_at.is_none() && self.relative_mse == 0.0
     }
 }
 
-/// The channels of two colours.
+/// The pairs of channels of two colours.
 fn channel_pairs(test: [f64; 3], reference: [f64; 3]) -> impl Iterator<Item = (f64, f64)> {
     test.into_iter().zip(reference)
 }
 
-/// FLIP of each pixel of the tiles that are not the same in both pictures. A tile is looked at with
-/// as much around it as the eye blurs together, so that it is as in the whole picture.
+/// FLIP of each pixel in the tiles that differ. Each tile is filtered with a border of the filter
+/// radius, so that the result equals that of the whole picture.
 fn by_tiles(test: &ShownPicture, reference: &ShownPicture, on_flip: &mut dyn FnMut(usize, f64)) {
     /// Pixels along each side.
     const TILE: u32 = 256;
@@ -138,7 +143,7 @@ fn by_tiles(test: &ShownPicture, reference: &ShownPicture, on_flip: &mut dyn FnM
     }
 }
 
-/// FLIP of each pixel as a picture: from black for no difference to white for the largest.
+/// FLIP of each pixel as a heat map: from black for no difference to white for the largest.
 #[must_use]
 pub fn heat_map([width, height]: [u32; 2], flips: &[f64]) -> Image {
     Image {
@@ -148,7 +153,7 @@ pub fn heat_map([width, height]: [u32; 2], flips: &[f64]) -> Image {
     }
 }
 
-/// A colour that grows brighter from 0 to 1.
+/// The heat-map colour of a value in [0, 1].
 fn heat_color(value: f64) -> [f64; 3] {
     const STOPS: [[f64; 3]; 5] = [
         [0.0, 0.0, 0.02],
@@ -231,7 +236,7 @@ mod tests {
             }
         };
         let (a, mut b) = (picture(1), picture(1));
-        // One tile differs along its border, and so its neighbours see it too.
+        // A difference at the border of a tile affects its neighbours, too.
         b.pixels[100 * 300 + 255] = [1.0, 0.0, 0.5];
         b.pixels[255 * 300 + 7] = [0.0, 1.0, 0.5];
         let whole = flip(&b, &a, PIXELS_PER_DEGREE);

@@ -1,5 +1,5 @@
-//! What each effect, light, object and material of a scene costs: the scene is rendered with and without
-//! it, with the same random numbers.
+//! The cost of each effect, light, object and material, by ablation: the scene is rendered with and
+//! without it, with the same random numbers.
 
 use super::ablation::{self, Ablation};
 use super::benchmark::{BenchmarkCase, benchmark};
@@ -13,48 +13,49 @@ use super::subject::{Stopped, Subject};
 use rtc_image::Image;
 use serde::{Deserialize, Serialize};
 
-/// A scene without one of its effects, lights, objects or materials.
+/// The measurements of one ablation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct EffectCost {
-    /// The kind of what is left out.
+    /// The kind of the removed feature.
     pub kind: Ablation,
-    /// The effect, or whatever is left out.
+    /// The name of the removed feature.
     pub effect: String,
-    /// The rays without it, of the part rendered.
+    /// The rays of the rendered part without it.
     pub rays: Rays,
-    /// The ratio of rays, without it to with it.
+    /// The ratio of rays: without it over with it.
     pub ray_ratio: f64,
-    /// The ratio of processor times, without it to with it.
+    /// The ratio of processor times: without it over with it.
     pub ratio: Estimate,
-    /// The ratio of noise, that of samples at random, without it to with it.
+    /// The ratio of sampling noise: without it over with it.
     pub noise_ratio: f64,
-    /// The difference of the picture without it beyond noise, in grey levels.
+    /// The difference of the picture without it, beyond noise, in grey levels.
     pub difference: f64,
 }
 
-/// Renders of each scene: on the clock, and two with independent samples.
+/// The renders of each scene: three timed ones, and two with independent samples.
 const RENDERS: u64 = 3 + 2;
 
-/// Fewer tiles say too little.
+/// The minimum number of tiles.
 const FEWEST: usize = 8;
 
-/// All that is worth leaving out of a scene, each with its cost, near a setting: as much as a budget of rays
-/// is enough for.
+/// The cost of each ablation of a scene, near a setting, as far as the ray budget allows.
 pub(super) fn costs(
     subject: &Subject<'_>,
     setting: Setting,
     budget: u64,
     rng: &mut Rng,
 ) -> Result<Vec<EffectCost>, Stopped> {
-    /// More paths tell no more of ratios.
+    /// More paths do not change the ratios.
     const PATHS: u32 = 4;
+    // List the ablations, as many as the budget allows.
     let setting = setting.with(Parameter::Paths, setting.paths.min(PATHS));
     let mut ablations = ablation::of(&subject.scene);
     let Some((subject, count)) = affordable(subject, setting, (budget, ablations.len()))? else {
         return Ok(Vec::new());
     };
     ablations.truncate(count);
+    // Time the scene and all ablations against each other.
     let mut cases = vec![case(subject.clone(), setting)];
     let mut names = Vec::new();
     for ablated in ablations {
@@ -62,6 +63,7 @@ pub(super) fn costs(
         cases.push(case(subject.with_scene(ablated.scene), setting));
     }
     let benchmark = benchmark(&cases, budget * 3 / RENDERS, None, rng)?;
+    // Measure noise and difference with two independent renders each.
     let pairs = cases.iter().map(SampledPair::of);
     let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
     let (with, all) = (
@@ -80,7 +82,7 @@ pub(super) fn costs(
             difference: pair.difference(with),
         }
     };
-    // An effect that changes neither picture nor work is absent.
+    // Drop effects that change neither the picture nor the work: they are absent.
     let costs = costs.map(cost);
     Ok(costs
         .filter(|cost| cost.difference > 0.0 || cost.ray_ratio != 1.0)
@@ -95,8 +97,7 @@ fn case(subject: Subject<'_>, setting: Setting) -> BenchmarkCase<'_> {
     }
 }
 
-/// The tiles that a budget is enough for, and how many things may be left out; none if it is not enough for
-/// one.
+/// The tiles and the number of ablations that a ray budget allows; `None` if it does not allow one.
 fn affordable<'a>(
     subject: &Subject<'a>,
     setting: Setting,
@@ -106,7 +107,7 @@ fn affordable<'a>(
     let rays = pilot.render(setting, independent(1))?.counts.rays();
     let of_tile = RENDERS as f64 * rays as f64 / pilot.count() as f64;
     let renders = budget as f64 / of_tile.max(1.0);
-    // The scene as it is takes one more.
+    // The unmodified scene takes one more.
     let count = (renders / pilot.count() as f64) as usize;
     if requested == 0 || count < 2 {
         return Ok(None);
@@ -116,7 +117,7 @@ fn affordable<'a>(
     Ok(Some((subject.keep(tiles as usize), count)))
 }
 
-/// A scene sampled twice, by seeds common to all.
+/// Two renders of a scene, with seeds that all scenes share.
 struct SampledPair([Vec<Image>; 2]);
 
 impl SampledPair {
@@ -133,7 +134,7 @@ impl SampledPair {
         }
     }
 
-    /// In grey levels, beyond noise.
+    /// The difference in grey levels, beyond noise.
     fn difference(&self, other: &Self) -> f64 {
         let pair = |which: usize| [self.0[which].as_slice(), &other.0[which]];
         mean_product(pair(0), pair(1)).max(0.0).sqrt() * LEVELS

@@ -1,10 +1,10 @@
-//! What a study has rendered so far, in its order: one that is interrupted goes on from there. Which settings are
-//! rendered depends on rays alone, so that the same study asks for the same renders again.
+//! The journal of a study: all its renders in order, from which an interrupted study resumes. Which
+//! settings are rendered depends only on ray counts, so the same study repeats the same renders.
 //!
-//! As bytes: magic, version and length of the header (u32 each), the header in JSON, which says what was
-//! studied; for each render its key (u64), six counts of rays (u64), how many pictures and numbers there are
-//! (u32 each), the pictures with width and height (u32) before their pixels, the numbers; and the xxh3 of
-//! all before. Numbers are little-endian.
+//! The file format: magic; version and header length (u32 each); the header in JSON, which
+//! identifies the study; for each render its key (u64), six ray counts (u64), the numbers of images
+//! and values (u32 each), the images, each with width and height (u32) before its pixels, and the
+//! values; the xxh3 of all that. Numbers are little-endian.
 
 use super::Effort;
 use super::outcome::About;
@@ -15,12 +15,12 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use xxhash_rust::xxh3::xxh3_64;
 
-/// What the bytes begin with.
+/// The magic bytes.
 const MAGIC: [u8; 8] = *b"rtc cost";
 
 const VERSION: u32 = 2;
 
-/// The study that renders are of.
+/// Identifies the study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 struct JournalHead {
@@ -29,8 +29,8 @@ struct JournalHead {
     seed: u64,
 }
 
-/// One render: what it showed, if that is still wanted, and the seconds it took, then the errors of its repeats; of a
-/// map of rays, those of each pixel instead.
+/// One render: its tiles, if they are still needed; its seconds followed by the errors of its
+/// repeats, or for a ray map, the rays of each pixel.
 #[derive(Clone)]
 pub(super) struct Entry {
     pub(super) key: u64,
@@ -38,16 +38,16 @@ pub(super) struct Entry {
     pub(super) seconds: Vec<f64>,
 }
 
-/// The renders of a study.
+/// The renders of a study, in order.
 pub struct Journal {
     head: JournalHead,
     entries: Vec<Entry>,
-    /// How many of them this run has asked for.
+    /// The number of entries that this run has replayed.
     next: usize,
 }
 
 impl Journal {
-    /// Of a study of which nothing was rendered.
+    /// A journal without renders.
     #[must_use]
     pub fn new(about: &About, effort: Effort, seed: u64) -> Self {
         let head = JournalHead {
@@ -62,18 +62,18 @@ impl Journal {
         }
     }
 
-    /// How many renders it holds.
+    /// The number of renders.
     #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "nobody asks")]
     pub fn len(&self) -> usize {
         self.entries.len()
     }
 
-    /// The next render, if it was done before.
+    /// The next render, if it is in the journal.
     pub(super) fn replay(&mut self, key: u64) -> Option<Entry> {
         let entry = self.entries.get(self.next);
         let Some(entry) = entry.filter(|entry| entry.key == key).cloned() else {
-            // Whatever follows is of another study.
+            // The following entries belong to another run: drop them.
             self.entries.truncate(self.next);
             return None;
         };
@@ -81,13 +81,13 @@ impl Journal {
         Some(entry)
     }
 
-    /// Takes down a render.
+    /// Records a render.
     pub(super) fn record(&mut self, entry: Entry) {
         self.entries.push(entry);
         self.next = self.entries.len();
     }
 
-    /// All renders as bytes.
+    /// The journal as bytes.
     #[must_use]
     pub fn save(&self) -> Vec<u8> {
         let head = serde_json::to_vec(&self.head).unwrap_or_default();
@@ -100,10 +100,10 @@ impl Journal {
         bytes
     }
 
-    /// Takes over the renders of such bytes. Without renders of its own.
+    /// Loads the renders from bytes into an empty journal.
     ///
     /// # Errors
-    /// If the bytes are of something else, of another study, of another version, or damaged.
+    /// If the bytes are not a journal, belong to another study or version, or are corrupt.
     pub fn load(mut self, bytes: &[u8]) -> Result<Self, String> {
         const SHORT: &str = "it is damaged: its end is missing";
         if !bytes.starts_with(&MAGIC) {
@@ -134,7 +134,7 @@ impl Journal {
 }
 
 impl JournalHead {
-    /// The first thing in which two studies differ, in words.
+    /// Describes the first difference of two studies.
     fn difference(&self, other: &Self) -> Option<String> {
         let (here, there) = (&other.about, &self.about);
         let pairs: [(&str, &dyn Display, &dyn Display); 5] = [
@@ -185,7 +185,7 @@ fn count(count: usize) -> [u8; 4] {
     u32::try_from(count).unwrap_or(u32::MAX).to_le_bytes()
 }
 
-/// Bytes that are still to be read; no memory is taken that they do not fill.
+/// A reader of the remaining bytes. It allocates no more memory than they fill.
 struct ByteReader<'a>(&'a [u8]);
 
 impl<'a> ByteReader<'a> {

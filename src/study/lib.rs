@@ -1,9 +1,42 @@
 //! The cost of accuracy: one scene in many settings, each with its error and its time, and the
-//! settings on the Pareto front.
+//! settings on the Pareto front (`rtc cost`); rendering to a target error or within a time budget
+//! (`rtc render --target-error`, `--time-budget`); comparison of pictures and scenes (`rtc diff`, `rtc cost` with a reference scene).
 //!
-//! A study renders its own reference and estimates the error of that reference. Its decisions
-//! depend on rays, never on time: the same study renders the same settings on every machine. All
-//! errors are in grey levels of 8 bits.
+//! # A study
+//!
+//! [`study`] runs these steps, each with a fraction of the ray budget ([`Effort`]):
+//!
+//! 1. [`subject`]: choose random tiles of the picture, as many as the budget allows.
+//! 2. [`reference`]: compare path depths; render a reference twice, which gives its own error.
+//! 3. [`sweep`]: vary each [`Parameter`] alone and fit a power law to its error; the [`Model`]
+//!    predicts the error and the rays of any [`Setting`].
+//! 4. [`precision`]: measure the error and time of each arithmetic.
+//! 5. [`pareto`], [`rows`]: choose candidates with the model, render and time them
+//!    ([`benchmark`]), measure their [`Errors`], and find the Pareto front.
+//! 6. [`effects`], [`ablation`]: remove effects, lights, objects and materials one at a time.
+//! 7. [`mod@advice`], [`maps`], [`report`]: derive advice and maps, and write reports.
+//!
+//! Decisions depend on ray counts, never on time: the same study renders the same settings on every
+//! machine, and an interrupted study resumes from its [`Journal`]. All errors are in grey levels of
+//! 8 bits, of display values.
+//!
+//! # Rendering to a goal
+//!
+//! [`approach`] refines a progressive film in rounds ([`target`], [`rounds`]) until a bound on its
+//! error ([`noise`], [`undersampled`]) meets the target, or until a time budget ends ([`budget`]).
+//! [`progressive`] and [`batch`] save and resume checkpoints. [`probe()`] bounds the error of a
+//! denoised picture.
+//!
+//! # Comparison
+//!
+//! [`Difference`] measures two pictures ([`metrics`], [`mod@flip`]); [`versus()`] compares two scenes
+//! with a statistical test ([`statistics`]).
+//!
+//! # Guarantees
+//!
+//! Nothing here prints or reads files: clocks, thread pools and the functions that save come in with
+//! the [`StudyRuntime`] or the [`Watch`]. A picture with only a target error is the same for any
+//! number of threads, and for a resumed render.
 
 mod ablation;
 mod advice;
@@ -78,27 +111,29 @@ use serde::{Deserialize, Serialize};
 use subject::Subject;
 use sweep::{Model, sweep};
 
-/// How much work a study may be: about so many rays of a scene of a few balls. Others are dearer.
+/// The ray budget of a study, in rays of a simple scene of a few spheres. Other scenes are weighted
+/// by [`ray_cost`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Effort(pub u64);
 
 impl Effort {
-    /// Seconds: at most 20 of one processor of 2025, for most scenes.
+    /// At most 20 seconds of one processor of 2025, for most scenes.
     pub const QUICK: Self = Self(60_000_000);
     /// At most a minute.
     pub const DEFAULT: Self = Self(180_000_000);
     /// Ten minutes and more.
     pub const THOROUGH: Self = Self(3_000_000_000);
 
-    /// The rays of a scene that are so much work.
+    /// The ray budget for a scene.
     fn rays(self, scene: &Scene) -> u64 {
         self.0 / ray_cost(scene)
     }
 }
 
-/// A ray of the scene in rays of a scene of a few balls, roughly: prices are rules of thumb from
-/// processor times, so that a study takes about as long whatever the scene is.
+/// The approximate cost of a ray of the scene, relative to a simple scene of a few spheres: rules
+/// of thumb from processor times, so that the duration of a study does not depend much on the
+/// scene.
 fn ray_cost(scene: &Scene) -> u64 {
     let is_torus = |surface: &Surface| matches!(surface.shape, Shape::Torus(_));
     if matches!(scene.settings.mode, Mode::Path(_)) {
@@ -110,7 +145,7 @@ fn ray_cost(scene: &Scene) -> u64 {
     }
 }
 
-/// The parts of the work, in hundredths.
+/// The shares of the ray budget, in percent.
 const FOR_DEPTH: u64 = 5;
 const FOR_REFERENCE: u64 = 36;
 const FOR_SWEEPS: u64 = 15;
@@ -118,13 +153,13 @@ const FOR_ROWS: u64 = 30;
 const FOR_EFFECTS: u64 = 10;
 const FOR_PRECISION: u64 = 4;
 
-/// The error of a reference is at most this fraction of the errors measured against it.
+/// The maximum error of a reference, as a fraction of an error that it resolves.
 const MAX_REFERENCE_ERROR: f64 = 0.2;
 
-/// Studies a proven scene.
+/// Studies a validated scene.
 ///
 /// # Errors
-/// If the observer said stop.
+/// If it was stopped.
 pub fn study(
     scene: &Scene,
     about: About,
@@ -132,10 +167,12 @@ pub fn study(
     seed: u64,
     runtime: &StudyRuntime<'_>,
 ) -> Result<Study, Stopped> {
+    // Choose the tiles; render the reference and fit the model.
     let scope = Scope::new(scene, effort);
     let subject = scope.subject_within_budget(&Subject::new(scene, seed, runtime))?;
     let mut context = scope.context(&subject)?;
     let mut rng = Rng::new(seed);
+    // Measure the cost of each arithmetic.
     let precision = precision::costs(
         &subject,
         scope.scene_setting,
@@ -145,6 +182,7 @@ pub fn study(
     if scope.used.contains(&Parameter::Precision) {
         context.model.learn_precision(precision::levels(&precision));
     }
+    // Measure the rows of the table and the ablations.
     let (rows, wall_over_cpu) = scope.rows(&subject, &context, &mut rng)?;
     let effects = effects::costs(
         &subject,
@@ -152,6 +190,7 @@ pub fn study(
         scope.hundredths(FOR_EFFECTS),
         &mut rng,
     )?;
+    // Collect the report.
     let (model, is_whole) = (&context.model, subject.is_whole());
     let parameter =
         |parameter| model.report(parameter, not_applicable_in(parameter, scene, is_whole));
@@ -174,23 +213,24 @@ pub fn study(
         areas: subject.areas(),
         mapped: Vec::new(),
     };
+    // Derive advice and maps from it.
     study.advice = advice::advice(&study);
     study.command = advice::command(&study);
     study.mapped = maps::count(&study, &subject)?;
     Ok(study)
 }
 
-/// The knobs of a scene, and the work that a study may take.
+/// The parameters of a scene, and the ray budget of the study.
 struct Scope {
     scene_setting: Setting,
     used: Vec<Parameter>,
-    /// The knobs that are numbers of samples.
+    /// The parameters that are sample counts.
     sampling: Vec<Parameter>,
-    /// The rays that the study may take.
+    /// The ray budget.
     rays: u64,
 }
 
-/// The reference and the model: the measures by which rows are judged and chosen.
+/// The reference, against which rows are measured, and the model, by which rows are chosen.
 struct Context {
     reference: Reference,
     depths: Option<Depths>,
@@ -220,7 +260,7 @@ impl Scope {
         self.rays / 100 * fraction
     }
 
-    /// The scene's own setting with all sampling knobs at one value.
+    /// The scene's setting with all sample counts set to one value.
     fn at(&self, value: u32) -> Setting {
         self.sampling
             .iter()
@@ -229,12 +269,12 @@ impl Scope {
             })
     }
 
-    /// The number of tiles that the budget allows, with a good reference and in the scene's own setting.
+    /// Selects the tiles that the budget allows, with a good reference and in the scene's setting.
     fn subject_within_budget<'a>(&self, subject: &Subject<'a>) -> Result<Subject<'a>, Stopped> {
-        /// The samples per pixel of a good reference.
+        /// The samples per pixel of a good reference, for a budget in rays.
         const GOOD: [f64; 2] = [1024.0, 4e8];
-        /// Fewer tiles do not represent a picture: of those that are afforded in the scene's own
-        /// setting, as many are taken at the cost of the reference.
+        /// Fewer tiles do not represent a picture: this many are used, if the scene's setting can
+        /// be afforded for them, even if the reference becomes worse.
         const ENOUGH: usize = 32;
         const FEWEST: usize = 4;
         if self.sampling.is_empty() {
@@ -260,7 +300,7 @@ impl Scope {
         })
     }
 
-    /// The sampling for comparing depths: doubled where bounces are sampled at random.
+    /// The seeds for comparing depths: two if bounces are sampled at random.
     fn seeds_of_depths(&self) -> Vec<Seeds> {
         let count = if self.used.contains(&Parameter::Paths) {
             2
@@ -271,6 +311,7 @@ impl Scope {
     }
 
     fn context(&self, subject: &Subject<'_>) -> Result<Context, Stopped> {
+        // Compare the path depths.
         let depths = match self.used.contains(&Parameter::Depth) {
             true => Some(reference::depths(
                 subject,
@@ -280,9 +321,11 @@ impl Scope {
             )?),
             false => None,
         };
+        // Render the reference.
         let start = self.at(4);
         let budget = self.hundredths(FOR_REFERENCE);
         let reference = reference::reference(subject, start, &self.sampling, budget)?;
+        // Vary each sampling parameter alone.
         let has_grid = self.used.contains(&Parameter::Supersampling);
         let base = if has_grid {
             start.with(Parameter::Supersampling, 2)
@@ -295,6 +338,7 @@ impl Scope {
             .iter()
             .map(|parameter| sweep(subject, &reference, (*parameter, base), fair));
         let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
+        // Fit the model.
         let base_rays = subject
             .render(base, reference::independent(5))?
             .counts

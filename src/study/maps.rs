@@ -1,5 +1,5 @@
-//! Maps of a picture: how many rays each pixel takes, and how far it is off, in the scene's own
-//! setting and in the recommended one.
+//! Maps of a picture: the rays and the error of each pixel, in the scene's setting and in the
+//! recommended one.
 
 use super::advice;
 use super::difference::heat_map;
@@ -9,29 +9,30 @@ use super::setting::Setting;
 use super::subject::{Stopped, Subject};
 use rtc_image::Image;
 
-/// The rays of each pixel of the whole picture in a setting, row by row; 0 where nothing was looked at.
+/// The rays of each pixel of the whole picture in a setting, row by row; 0 outside the rendered
+/// tiles.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct PixelRays {
     setting: Setting,
     rays: Vec<u64>,
 }
 
-/// A map of the whole picture, one pixel for each of its own.
+/// A map with the size of the whole picture.
 pub struct StudyMap {
-    /// The name of its file, without ending: as `rays-own`.
+    /// The file name without extension, for example `rays-own`.
     pub name: String,
-    /// What it shows, in words.
+    /// The caption.
     pub words: String,
     /// The unit of its values.
     pub unit: &'static str,
-    /// The value of the brightest colour; the darkest is 0, and colours between are linear. The same for
-    /// both settings, so that their maps compare.
+    /// The value of the brightest colour; the darkest is 0, and the scale is linear. Both settings
+    /// have the same scale.
     pub most: f64,
-    /// The picture: hatched grey where nothing was looked at.
+    /// The picture: hatched grey outside the rendered tiles.
     pub image: Image,
 }
 
-/// Counts the rays of each pixel in the settings that are mapped.
+/// Counts the rays of each pixel in the mapped settings.
 pub(super) fn count(study: &Study, subject: &Subject<'_>) -> Result<Vec<PixelRays>, Stopped> {
     let count = |(_, row): (_, &Row)| {
         let setting = row.setting;
@@ -41,7 +42,7 @@ pub(super) fn count(study: &Study, subject: &Subject<'_>) -> Result<Vec<PixelRay
     mapped(study).into_iter().map(count).collect()
 }
 
-/// The rows that are mapped, with what they are called.
+/// The mapped rows with their names.
 fn mapped(study: &Study) -> Vec<(&'static str, &Row)> {
     let own = study.scene_row().map(|row| ("own", row));
     let best = advice::recommended(study).filter(|row| !row.own);
@@ -50,7 +51,7 @@ fn mapped(study: &Study) -> Vec<(&'static str, &Row)> {
         .collect()
 }
 
-/// The maps of a study that was just made; none of one that was read.
+/// The maps of a study; empty if the study was read from a file.
 #[must_use]
 pub fn maps(study: &Study) -> Vec<StudyMap> {
     let rows = mapped(study);
@@ -86,8 +87,8 @@ pub fn maps(study: &Study) -> Vec<StudyMap> {
     maps
 }
 
-/// The error of each pixel of the picture, the root of the mean square of its channels in grey
-/// levels; 0 where nothing was looked at.
+/// The error of each pixel, the root mean square of its channels in grey levels; 0 outside the
+/// rendered tiles.
 fn errors(study: &Study, row: &Row) -> Vec<f64> {
     let [width, height] = study.part.size.map(|side| side as usize);
     let mut values = vec![0.0; width * height];
@@ -108,7 +109,7 @@ fn errors(study: &Study, row: &Row) -> Vec<f64> {
     values
 }
 
-/// Whether each pixel was looked at.
+/// Whether each pixel was rendered.
 fn seen(study: &Study) -> Vec<bool> {
     let [width, height] = study.part.size.map(|side| side as usize);
     let mut seen = vec![false; width * height];
@@ -121,7 +122,8 @@ fn seen(study: &Study) -> Vec<bool> {
     seen
 }
 
-/// The least of 1, 2, 5, 10 … and of their tenths that 99 % of the pixels of all maps stay below.
+/// The upper end of the scale: the smallest of 1, 2, 5, 10 …, or of their tenths and hundredths,
+/// that is not exceeded by 99 % of the pixels of all maps.
 fn upper_limit(study: &Study, maps: &[Vec<f64>]) -> f64 {
     const FRACTION: f64 = 0.99;
     let seen = seen(study);
@@ -143,7 +145,7 @@ fn upper_limit(study: &Study, maps: &[Vec<f64>]) -> f64 {
     }
 }
 
-/// Colours for values from 0 to `most`, hatched grey where nothing was looked at.
+/// The heat map of values from 0 to `most`, hatched grey outside the rendered tiles.
 fn image(study: &Study, values: &[f64], most: f64) -> Image {
     const HATCH: [f64; 2] = [0.35, 0.45];
     let shares: Vec<_> = values.iter().map(|value| value / most).collect();

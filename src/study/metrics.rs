@@ -15,13 +15,13 @@ pub const LEVELS: f64 = 255.0;
 pub struct Errors {
     /// The root of the mean square of all channels of all pixels, in grey levels.
     pub rmse: f64,
-    /// The lower end of the interval for the `rmse` of the whole picture, of which tiles were chosen
-    /// at random: with 95 % confidence, or less where a few tiles have most of the error. `rmse`
-    /// itself if the whole picture was rendered.
+    /// The lower end of the interval for the `rmse` of the whole picture, of which tiles were
+    /// chosen at random: with 95 % confidence, or less where a few tiles have most of the error.
+    /// `rmse` itself if the whole picture was rendered.
     pub rmse_low: f64,
     /// The upper end.
     pub rmse_high: f64,
-    /// The mean of `(x − r)²/(r² + 0.01)`, which weighs dark places more.
+    /// The mean of `(x − r)²/(r² + 0.01)`, which weights dark regions more.
     pub relative_mse: f64,
     /// The largest difference of a channel, in grey levels.
     pub max: f64,
@@ -34,8 +34,8 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// The errors of parts of a picture, together `fraction` of it. FLIP sees each part as a
-    /// picture of its own.
+    /// The errors of tiles that are a `fraction` of a picture. FLIP is computed for each tile
+    /// separately.
     #[must_use]
     pub fn of(test: &[Image], reference: &[Image], fraction: f64) -> Self {
         let pairs = || test.iter().zip(reference);

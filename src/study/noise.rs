@@ -1,4 +1,5 @@
-//! The noise of a growing film, the confidence of that estimate, and where more samples reduce it most.
+//! The noise of a progressive film, the confidence of its estimate, and the sample allocation that
+//! reduces it most.
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
@@ -10,27 +11,27 @@ use rtc_render::{ProgressiveFilm, Replicates};
 pub(super) struct Noise {
     /// The expected mean square error of a channel, for a white of 1.
     pub(super) square: f64,
-    /// The degrees of freedom of the error itself, and of `square`.
+    /// The degrees of freedom of the error, and of the estimate `square`.
     freedom: f64,
-    /// What no sample may have met.
+    /// The error of features that no sample may have hit.
     undersampled: UndersampledError,
 }
 
 impl Noise {
-    /// The noise of a film with samples everywhere, each of at most a value.
+    /// The noise of a film with samples in all pixels.
     pub(super) fn of(film: &ProgressiveFilm, undersampled: &Undersampled) -> Self {
         let (mut sum, mut squares) = (0.0, 0.0);
         for variance in film.pixels().map(Replicates::variance) {
             sum += variance;
             squares += variance * variance;
         }
-        // The mean square error and its estimate, each of k degrees of freedom, are as far apart
-        // as Fisher's F if their relative variances sum to 4/k (Satterthwaite, "An approximate
+        // The mean square error and its estimate, each of k degrees of freedom, are as far apart as
+        // Fisher's F if their relative variances sum to 4/k (Satterthwaite, "An approximate
         // distribution of estimates of variance components", Biometrics Bulletin 2 (1946)). Each
         // pixel adds its squared error and its estimate, both of the square 3v² in the mean, less
-        // 2v², if samples are normal; where what they meet is rare both have the same square, far
-        // above v². So twice the square of the estimate bounds what a pixel adds; three channels
-        // count as one, as if grey.
+        // 2v², if samples are normal; where features are rare both have the same square, far above
+        // v². So twice the square of the estimate bounds the contribution of a pixel; three
+        // channels count as one, as if grey.
         let freedom = if squares > 0.0 {
             2.0 * sum * sum / squares
         } else {
@@ -52,8 +53,9 @@ impl Noise {
         }
     }
 
-    /// The error that is exceeded with the probability `tail` by what samples met, and with 5 % by what
-    /// they did not. A target, in grey levels, says how much of that is too much.
+    /// The error bound: the sampled part exceeds it with probability `tail`, the unsampled part
+    /// with 5 %. The unsampled part is included only if it is small against the target, in grey
+    /// levels.
     pub(super) fn bound(&self, tail: f64, target: Option<f64>) -> Bound {
         let sampled = if self.square == 0.0 {
             0.0
@@ -73,7 +75,8 @@ impl Noise {
         }
     }
 
-    /// The mean square error, for a white of 1, that a target in grey levels leaves to what samples met.
+    /// The mean square error, for a white of 1, that a target in grey levels allows for the sampled
+    /// part.
     pub(super) fn remaining(&self, tail: f64, target: f64) -> f64 {
         let square = target * target / (LEVELS * LEVELS);
         let undersampled =
@@ -82,25 +85,25 @@ impl Noise {
     }
 }
 
-/// How far a picture is from the true one.
+/// A bound on the error of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bound {
     /// The root mean square error in grey levels.
     pub(super) error: f64,
-    /// Without a bound: how bright, in multiples of white, light may be that no sample met. The error is
-    /// that of what was met, then.
+    /// If there is no bound: the possible brightness, in multiples of white, of light that no
+    /// sample has hit. The error then covers only what samples hit.
     pub(super) undersampled: Option<f64>,
 }
 
 /// The maximum length of a replicate.
 const LONGEST: u32 = 1 << 24;
 
-/// The fraction of the mean deviation that is added to each: what the pilots have not met, the
-/// replicates still come to.
+/// The fraction of the mean deviation that is added to each pixel, so that features that the pilots
+/// missed still get samples.
 const MIN_DEVIATION: f64 = 0.125;
 
-/// The samples of a pilot are at most this fraction of those of the replicates of its pixel, or of
-/// all in the mean, after the next round.
+/// The maximum number of pilot samples, as a fraction of those of the pixel's replicates, or of the
+/// mean over all pixels, after the next round.
 const PILOT_FRACTION: f64 = 0.125;
 
 /// The allocation of samples to pixels.
@@ -110,12 +113,13 @@ pub(super) struct SampleAllocation {
     deviations: Vec<f64>,
     /// The mean of all deviations.
     mean: f64,
-    /// The ratio of the noise to that of independent samples: replicates are stratified.
+    /// The ratio of the noise to that of independent samples; it is below 1 because replicates are
+    /// stratified.
     gain: f64,
 }
 
 impl SampleAllocation {
-    /// The noise of a film with samples everywhere.
+    /// The allocation for a film with samples in all pixels.
     pub(super) fn of(film: &ProgressiveFilm, noise: &Noise) -> Self {
         let variances = smoothed(film);
         let pixels = variances.len().max(1) as f64;
@@ -136,16 +140,16 @@ impl SampleAllocation {
         }
     }
 
-    /// How many samples each replicate, and the pilot, of the pixels are to have so that the mean
-    /// square error becomes `square`.
+    /// The samples of each replicate and of the pilot of each pixel for a mean square error of
+    /// `square`.
     pub(super) fn wanted(&self, film: &ProgressiveFilm, square: f64) -> Vec<[u32; 2]> {
         let replicate: Vec<_> = (0..film.len())
             .map(|index| self.replicate(film, index, square))
             .collect();
         let mean =
             2.0 * replicate.iter().copied().map(f64::from).sum::<f64>() / replicate.len() as f64;
-        // A pixel of many samples has a long pilot, too: a short one that met something by luck
-        // would ask for ever more.
+        // A pixel with many samples gets a long pilot, too: a short one with an outlier would
+        // request ever more samples.
         let pilot = |replicate: u32, count: u32| {
             let samples = mean.max(2.0 * f64::from(replicate));
             let needs_more = self.mean == 0.0 || 2.0 * f64::from(count) <= PILOT_FRACTION * samples;
@@ -159,19 +163,19 @@ impl SampleAllocation {
             .collect()
     }
 
-    /// How many samples a replicate of pixel `index` is to have: the least work is samples in
-    /// proportion to the deviation (Neyman, Journal of the Royal Statistical Society 97 (1934)).
-    /// At most twice as many as there are; a power of two, of which replicates are stratified.
+    /// The samples of a replicate of pixel `index`: the work is minimal if samples are proportional
+    /// to the standard deviation (Neyman, Journal of the Royal Statistical Society 97 (1934)). At
+    /// most twice the current number; a power of two, for which replicates are stratified.
     fn replicate(&self, film: &ProgressiveFilm, index: usize, square: f64) -> u32 {
         let [count, _] = film.pixel(index).counts();
         let scale = self.gain * self.mean / (2.0 * square);
         let best = scale * (self.deviations[index] + MIN_DEVIATION * self.mean);
-        // Where no pilot has met what the replicates differ by, all go on.
+        // If the pilots missed what the replicates differ by, refine all pixels.
         doubled_if(count, self.mean == 0.0 || best >= 2.0 * f64::from(count))
     }
 }
 
-/// Twice as many samples, if there are too few.
+/// Doubles a count if more samples are needed.
 pub(super) fn doubled_if(count: u32, needs_more: bool) -> u32 {
     if needs_more && count < LONGEST {
         2 * count
@@ -180,9 +184,9 @@ pub(super) fn doubled_if(count: u32, needs_more: bool) -> u32 {
     }
 }
 
-/// The variance of single samples of each pixel: that of its pilot, and as long as it has few
-/// samples also that of its neighbours and of the whole picture, so that an edge missed by few
-/// samples is found.
+/// The variance of single samples of each pixel: that of its pilot, blended with those of its
+/// neighbours and of the whole picture while the pilot is short, so that an edge that few samples
+/// missed is found.
 fn smoothed(film: &ProgressiveFilm) -> Vec<f64> {
     /// The weights of the neighbours and of the whole picture, in samples.
     const NEAR: f64 = 2.0;

@@ -1,4 +1,4 @@
-//! The result of a study, to be printed, kept and read again.
+//! The result of a study, which can be printed, saved as JSON and read again.
 
 use super::maps::PixelRays;
 use super::metrics::Errors;
@@ -22,7 +22,7 @@ pub struct About {
     pub hash: String,
     /// The program and its version.
     pub software: String,
-    /// The processor, if it is known.
+    /// The processor, if known.
     pub processor: String,
     /// The number of cores available.
     pub cores: usize,
@@ -36,7 +36,7 @@ pub struct StudyArea {
     pub size: [u32; 2],
     /// The tiles rendered, or 0 for the whole picture.
     pub tiles: usize,
-    /// Pixels looked at.
+    /// The number of rendered pixels.
     pub pixels: u64,
     /// Their fraction of the picture.
     #[serde(rename = "share")]
@@ -49,16 +49,16 @@ pub struct StudyArea {
 pub struct ReferenceReport {
     /// Its setting, for each of its two halves.
     pub setting: Setting,
-    /// Its own error, in grey levels: half the difference of the halves.
+    /// The error of the reference, in grey levels: half the difference of its halves.
     pub floor: f64,
 }
 
-/// What more bounces than the scene's own would add to its picture. That is no error: the scene
-/// asks for its own depth, and all errors are against the picture of that depth.
+/// The effect of more bounces than the scene has. It is not an error: all errors are measured
+/// against a picture with the scene's depth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct MoreBounces {
-    /// The scene's own depth.
+    /// The depth of the scene.
     pub own: u32,
     /// How the search for deeper paths ended.
     pub end: DepthEnd,
@@ -66,29 +66,29 @@ pub struct MoreBounces {
     pub deeper: Vec<BounceCost>,
 }
 
-/// A depth greater than the scene's own.
+/// A depth greater than that of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct BounceCost {
     /// The depth.
     pub depth: u32,
-    /// The ratio of rays to those of the scene's own depth.
+    /// The ratio of rays to those of the scene's depth.
     pub ray_ratio: f64,
-    /// The difference of the picture from that of the scene's own depth, in grey levels.
+    /// The difference from the picture of the scene's depth, in grey levels.
     pub difference: f64,
 }
 
-/// A knob alone.
+/// The study of one parameter, with all others fixed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct ParameterReport {
-    /// The knob.
+    /// The parameter.
     #[serde(rename = "knob")]
     pub parameter: Parameter,
-    /// The reason to leave it alone in this scene, if there is one.
+    /// The reason why it does not apply to this scene, if it does not.
     #[serde(rename = "idle")]
     pub not_applicable: Option<String>,
-    /// Its values, with all other knobs as in the reference.
+    /// Its values, with all other parameters as in the reference.
     #[serde(rename = "rungs")]
     pub levels: Vec<Level>,
     /// The power law of its error in samples, if there is one.
@@ -98,18 +98,18 @@ pub struct ParameterReport {
 /// Rays by kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rays {
-    /// From the eye.
+    /// Camera rays.
     pub camera: u64,
-    /// To a light.
+    /// Shadow rays.
     pub shadow: u64,
-    /// Mirrored, glossy ones too.
+    /// Reflected rays, including glossy ones.
     pub mirror: u64,
-    /// Refracted.
+    /// Refracted rays.
     pub refracted: u64,
 }
 
 impl Rays {
-    /// All of them.
+    /// All variants.
     #[must_use]
     pub fn all(&self) -> u64 {
         self.camera + self.shadow + self.mirror + self.refracted
@@ -136,44 +136,45 @@ impl From<Counts> for Rays {
     }
 }
 
-/// A setting as measured.
+/// A measured setting.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Row {
     /// The setting.
     pub setting: Setting,
-    /// Whether it is that of the scene.
+    /// Whether it is the scene's setting.
     pub own: bool,
-    /// Whether it is on the front: it surely has less error than whatever is there and costs less.
+    /// Whether it is on the Pareto front: its error is certainly below that of all cheaper rows on
+    /// the front.
     pub front: bool,
-    /// The rays of the part rendered.
+    /// The rays of the rendered part.
     pub rays: Rays,
     /// Processor seconds for the whole picture.
     pub seconds: Estimate,
-    /// The ratio of its time to that of the scene's own setting.
+    /// The ratio of its time to that of the scene's setting.
     pub ratio: Estimate,
     /// Its errors.
     pub errors: Errors,
-    /// The error over renders by other random numbers.
+    /// The error over renders with other seeds.
     pub spread: ErrorSpread,
-    /// Whether the reference is accurate enough: if not, the errors are upper limits.
+    /// Whether the reference resolves the error; if not, the errors are upper bounds.
     #[serde(rename = "judged")]
     pub is_resolved: bool,
     /// Whether some of its seconds were measured before the study was interrupted.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub resumed: bool,
-    /// The `errors.rmse` that the model predicted; of a denoised row, that of the plain one.
+    /// The `errors.rmse` that the model predicted; for a denoised row, that without denoising.
     pub model: f64,
     /// The pixels.
     #[serde(skip)]
     pub(super) tiles: Vec<Image>,
 }
 
-/// What accuracy costs in a scene.
+/// The cost of accuracy in a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Study {
-    /// The form of this report: `rtc-cost/3`.
+    /// The schema of this report: `rtc-cost/3`.
     pub schema: String,
     /// The subject, and the machine.
     pub about: About,
@@ -185,12 +186,13 @@ pub struct Study {
     pub part: StudyArea,
     /// The reference for all errors.
     pub reference: ReferenceReport,
-    /// Each knob alone.
+    /// Each parameter alone.
     #[serde(rename = "knobs")]
     pub parameters: Vec<ParameterReport>,
-    /// What more bounces would add; none if depth changes nothing.
+    /// The effect of more bounces; `None` if the depth changes nothing.
     pub bounces: Option<MoreBounces>,
-    /// The measured settings in ascending order of cost: by seconds where those differ clearly, else by rays.
+    /// The measured settings in ascending order of cost: by seconds where these differ clearly,
+    /// otherwise by rays.
     pub rows: Vec<Row>,
     /// The cost of each effect.
     pub effects: Vec<EffectCost>,
@@ -198,15 +200,15 @@ pub struct Study {
     pub precision: Vec<PrecisionCost>,
     /// Wall time over processor time: above 1.2 the machine was busy.
     pub wall_over_cpu: f64,
-    /// The advice, in plain words.
+    /// The advice, as sentences.
     pub advice: Vec<String>,
-    /// The command that renders the setting that is recommended.
+    /// The command that renders the recommended setting.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
     /// The pixels of the reference.
     #[serde(skip)]
     pub(super) reference_tiles: Vec<Image>,
-    /// Where its pictures lie in the whole one.
+    /// The positions of the reference tiles in the picture.
     #[serde(skip)]
     pub(super) areas: Vec<Crop>,
     /// The rays of each pixel, for the maps.
@@ -215,7 +217,7 @@ pub struct Study {
 }
 
 impl Study {
-    /// The knobs that change something.
+    /// The parameters that apply.
     #[must_use]
     pub fn used(&self) -> Vec<Parameter> {
         self.parameters
@@ -225,7 +227,7 @@ impl Study {
             .collect()
     }
 
-    /// The row of the scene's own setting.
+    /// The row of the scene's setting.
     #[must_use]
     pub fn scene_row(&self) -> Option<&Row> {
         self.rows.iter().find(|row| row.own)

@@ -1,4 +1,4 @@
-//! The knobs of accuracy: numbers that trade work for error, and which of them a scene has.
+//! The accuracy parameters: numbers that trade work for error, and which of them apply to a scene.
 
 use super::setting::Setting;
 use rtc_ir::{Light, Material, Mode, Phong, Scene};
@@ -6,7 +6,7 @@ use rtc_plan::{Arithmetic, Effect, EffectStatus, Plan, Rules, State, loss};
 use rtc_valid::revalidate;
 use serde::{Deserialize, Serialize};
 
-/// A number that trades work for accuracy.
+/// A parameter that trades work for accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Parameter {
@@ -24,13 +24,13 @@ pub enum Parameter {
     Denoise,
     /// Bounces after the first hit.
     Depth,
-    /// The arithmetic by which rays meet shapes: its values number [`Arithmetic::ALL`] from the
-    /// least work up.
+    /// The arithmetic of ray intersection: its values number [`Arithmetic::ALL`] in ascending order
+    /// of work.
     Precision,
 }
 
 impl Parameter {
-    /// All of them.
+    /// All variants.
     pub const ALL: [Self; 8] = [
         Self::Supersampling,
         Self::Aperture,
@@ -57,7 +57,7 @@ impl Parameter {
         }
     }
 
-    /// The flag of `rtc render` that turns it.
+    /// The flag of `rtc render` that sets it.
     #[must_use]
     pub fn flag(self) -> &'static str {
         match self {
@@ -87,7 +87,7 @@ impl Parameter {
         }
     }
 
-    /// The words of `rtc render` for a value other than that of the scene.
+    /// The argument of `rtc render` that sets a value.
     #[must_use]
     pub fn argument(self, value: u32) -> String {
         match self.flag_value(value) {
@@ -96,13 +96,13 @@ impl Parameter {
         }
     }
 
-    /// What follows the flag for a value; nothing for a flag that stands alone.
+    /// The value after the flag; `None` for a flag without a value.
     #[must_use]
     pub fn flag_value(self, value: u32) -> Option<String> {
         (self != Self::Denoise).then(|| self.cell(value))
     }
 
-    /// A value in short form, as "4" or "plain".
+    /// A value in short form, for example "4" or "plain".
     #[must_use]
     pub fn cell(self, value: u32) -> String {
         if self == Self::Precision {
@@ -114,7 +114,7 @@ impl Parameter {
         }
     }
 
-    /// A value in words, as "4×4" or "16 aperture samples".
+    /// A value with its unit, for example "4×4" or "16 aperture samples".
     #[must_use]
     pub fn words(self, value: u32) -> String {
         match self {
@@ -136,7 +136,7 @@ impl Parameter {
         }
     }
 
-    /// The values to try, in ascending order of work. Depth ends at the depth of the scene.
+    /// The values to try, in ascending order of work.
     pub fn levels(self) -> impl Iterator<Item = u32> {
         const DEPTHS: u32 = MAX_DEPTH + 1;
         let (count, step): (u32, fn(u32) -> u32) = match self {
@@ -162,7 +162,7 @@ impl Parameter {
         !matches!(self, Self::Denoise | Self::Depth | Self::Precision)
     }
 
-    /// The work that a value asks for: samples, or bounces.
+    /// The work of a value: samples or bounces.
     #[must_use]
     pub fn samples(self, value: u32) -> f64 {
         match self {
@@ -175,10 +175,10 @@ impl Parameter {
     }
 }
 
-/// The deepest path a study follows.
+/// The maximum path length of a study.
 pub(super) const MAX_DEPTH: u32 = 64;
 
-/// The arithmetic of a value of the precision; the robust one of a value that is none.
+/// The arithmetic of a precision value; the robust one for an invalid value.
 #[must_use]
 pub fn arithmetic(value: u32) -> Arithmetic {
     Arithmetic::ALL
@@ -188,7 +188,7 @@ pub fn arithmetic(value: u32) -> Arithmetic {
         .unwrap_or_default()
 }
 
-/// The value of the precision that is an arithmetic.
+/// The precision value of an arithmetic.
 pub(super) fn precision_value(arithmetic: Arithmetic) -> u32 {
     (0..)
         .zip(Arithmetic::ALL.into_iter().rev())
@@ -196,13 +196,13 @@ pub(super) fn precision_value(arithmetic: Arithmetic) -> u32 {
         .map_or(0, |(value, _)| value)
 }
 
-/// Whether the plan expects no visible loss from an arithmetic.
+/// Whether no visible loss is expected from an arithmetic.
 pub(super) fn tolerates(scene: &Scene, arithmetic: Arithmetic) -> bool {
     loss(&revalidate(scene), arithmetic).is_none()
 }
 
-/// The reason to leave a knob alone in a scene, or `None`: the scene does not ask for its effect,
-/// or the plan prunes the effect at all values, or only one value is right.
+/// The reason why a parameter does not apply to a scene, or `None`: the scene does not require its
+/// effect, the plan prunes the effect at all values, or only one value is valid.
 #[must_use]
 pub fn not_applicable(parameter: Parameter, scene: &Scene) -> Option<String> {
     unused_reason(parameter, scene)
@@ -210,7 +210,7 @@ pub fn not_applicable(parameter: Parameter, scene: &Scene) -> Option<String> {
         .or_else(|| pruned_reason(parameter, scene))
 }
 
-/// The same in a study, which looks at the whole picture or at tiles of it.
+/// Like [`not_applicable`], in a study of the whole picture or of tiles.
 pub(super) fn not_applicable_in(
     parameter: Parameter,
     scene: &Scene,
@@ -221,7 +221,7 @@ pub(super) fn not_applicable_in(
     not_applicable(parameter, scene).or_else(|| is_cut.then(|| tiles.to_owned()))
 }
 
-/// The reason of the plan for pruning the effect of a knob, if it does.
+/// The reason why the plan prunes the effect of a parameter, if it does.
 fn pruned_reason(parameter: Parameter, scene: &Scene) -> Option<String> {
     let effect = match parameter {
         Parameter::Supersampling => Effect::Supersampling,

@@ -1,11 +1,12 @@
-//! The Pareto front: candidates by a greedy search on the model, and the front of those measured.
+//! The Pareto front of error and cost: candidates by a greedy search on the model, and the front of
+//! the measured rows.
 
 use super::parameter::Parameter;
 use super::setting::Setting;
 use super::sweep::Model;
 use rtc_math::ln;
 
-/// The least relative reduction of the error for a new row.
+/// A new row must reduce the error to this fraction or less.
 const WORTH: f64 = 0.99;
 
 /// Errors within a thousandth count as equal: rounding of hits at edges causes as much.
@@ -14,8 +15,9 @@ pub(super) const SAME: f64 = 1.001;
 /// Ray counts within this factor count as equal, unless the times differ clearly.
 const SAME_COST: f64 = 1.02;
 
-/// Settings in ascending order of work. Each raises the knob with the best reduction of error per
-/// work by the model, until the rays exceed `most_rays` or the error falls below `least_error`.
+/// Settings in ascending order of work. Each step raises the parameter with the best reduction of
+/// error per work in the model, until the rays exceed `most_rays` or the error falls below
+/// `least_error`.
 pub(super) fn candidates(
     model: &Model,
     min: Setting,
@@ -48,7 +50,7 @@ pub(super) fn candidates(
     }
 }
 
-/// The setting with the cheapest arithmetic that adds no error by the model; `None` if it has that
+/// The setting with the cheapest arithmetic that adds no error in the model; `None` if it has that
 /// arithmetic already.
 pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
     let mut others = model
@@ -72,14 +74,14 @@ impl Point {
         self.seconds[1] < other.seconds[0]
     }
 
-    /// Whether its cost cannot be told from that of a point before it.
+    /// Whether its cost is not distinguishable from that of an earlier point.
     fn costs_the_same(&self, before: &Self) -> bool {
         !before.is_clearly_cheaper(self) && self.rays as f64 <= SAME_COST * before.rays as f64
     }
 }
 
-/// The points in ascending order of cost, each with whether it is on the front: on the front a
-/// higher cost has a lower error. `is_better` says whether the first of two surely has.
+/// The points in ascending order of cost, each with whether it is on the front: on the front, error
+/// decreases with cost. `is_better(a, b)` says whether the error of `a` is certainly lower.
 pub(super) fn ranking(
     points: &[Point],
     is_better: impl Fn(usize, usize) -> bool,
@@ -99,7 +101,8 @@ pub(super) fn ranking(
         .collect()
 }
 
-/// The places of the points, no point before one that is clearly cheaper, and else by their rays.
+/// The indices of the points in ascending order of cost: no point comes before one that is clearly
+/// cheaper; ties are ordered by rays.
 fn by_cost(points: &[Point]) -> impl Iterator<Item = usize> {
     let mut left: Vec<_> = (0..points.len()).collect();
     std::iter::from_fn(move || {
@@ -125,8 +128,7 @@ mod tests {
         (Point { seconds, rays }, error)
     }
 
-    /// The places of the points from the cheapest up, those of the front as they are, all others
-    /// below 0.
+    /// The indices of the points in ascending order of cost, those off the front as −1 − index.
     fn ranked(rows: &[(Point, f64)]) -> Vec<isize> {
         let points: Vec<_> = rows.iter().map(|row| row.0).collect();
         ranking(&points, |a, b| SAME * rows[a].1 < rows[b].1)

@@ -1,4 +1,4 @@
-//! The cost of each arithmetic: the same samples of the same scene, by all three.
+//! The cost of each arithmetic: the same samples of the same scene with all three.
 
 use super::benchmark::{BenchmarkCase, TimedRun, benchmark};
 use super::metrics::Errors;
@@ -12,17 +12,17 @@ use super::sweep::Levels;
 use rtc_plan::Arithmetic;
 use serde::{Deserialize, Serialize};
 
-/// A scene rendered by one arithmetic.
+/// A scene rendered with one arithmetic.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct PrecisionCost {
     /// The arithmetic.
     pub arithmetic: Arithmetic,
-    /// Whether the plan expects no visible loss. Only then rows may use it.
+    /// Whether no visible loss is expected. Only then rows may use it.
     #[serde(rename = "borne")]
     pub is_tolerated: bool,
-    /// The rays of the part rendered: rules proven for the robust arithmetic alone do not apply to
-    /// the others.
+    /// The rays of the rendered part: rules that are proven only for the robust arithmetic do not
+    /// apply to the others.
     pub rays: Rays,
     /// Processor seconds over those of the robust one.
     pub ratio: Estimate,
@@ -46,7 +46,7 @@ impl PrecisionCost {
     }
 }
 
-/// More paths tell no more of arithmetics.
+/// More paths do not change the comparison.
 const PATHS: u32 = 16;
 
 /// The arithmetics, the robust one first, with the cost of each in a setting.
@@ -80,8 +80,8 @@ pub(super) fn costs(
         .collect())
 }
 
-/// The precision as a knob alone, over the arithmetics allowed in rows. Its error has no sampling
-/// noise.
+/// The precision as a parameter alone, over the arithmetics allowed in rows. Its error has no
+/// sampling noise.
 pub(super) fn levels(costs: &[PrecisionCost]) -> Levels {
     let level = |cost: &PrecisionCost| Level {
         value: precision_value(cost.arithmetic),

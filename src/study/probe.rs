@@ -1,9 +1,9 @@
-//! The error of a denoised picture: some of its pixels are sampled anew, independently of it.
+//! The error of a denoised picture, estimated from independent samples of some of its pixels.
 //!
-//! Halves of the samples don't tell it: parts of one stratified sequence are not independent, and a
-//! picture of half the samples is another one (decision 15). Two independent means of a pixel do,
-//! however a value came about: the product of its differences from both is its square error in the
-//! mean.
+//! Half buffers do not give it: parts of one stratified sequence are not independent, and a
+//! denoised picture of half the samples is another one (decision 15). Two independent means of a
+//! pixel give an unbiased estimate for any value: the expected product of its differences from both
+//! is its squared error.
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
@@ -12,44 +12,45 @@ use rtc_image::around;
 use rtc_math::{GAMMA, fraction, mix};
 use rtc_render::{AnyWorld, Counts, DenoisedFilm, Film, OnPixel, ProgressiveFilm};
 
-/// What was found of the error of a picture.
+/// The estimated error of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProbedError {
-    /// The root mean square error in grey levels: the best estimate, of what samples met.
+    /// The best estimate of the root mean square error in grey levels, of the sampled part.
     pub estimate: f64,
-    /// What it is at most in 90 % of all renders; of what samples met alone, if there is no bound.
+    /// The bound that holds in 90 % of all renders; if there is no bound, that of the sampled part.
     pub error: f64,
-    /// If there is no bound: how bright, in multiples of white, light may be that no sample met.
+    /// If there is no bound: the possible brightness, in multiples of white, of light that no
+    /// sample has hit.
     pub undersampled: Option<f64>,
-    /// The pixels that were sampled anew; one that was chosen twice counts twice.
+    /// The number of probes; a pixel that was chosen twice counts twice.
     pub probes: usize,
-    /// The samples that each of them took.
+    /// The samples of each probe.
     pub samples: u32,
-    /// The rays that took.
+    /// The rays of the probes.
     pub counts: Counts,
 }
 
-/// One probe for so many pixels. Each takes two means of as many samples as a pixel has, or the next
-/// power of two, so that is an eighth to a quarter of the work of the plain picture.
+/// The number of pixels per probe. A probe takes two means of as many samples as a pixel has,
+/// rounded up to a power of two, so the cost is an eighth to a quarter of that of the picture.
 const SPACING: usize = 16;
 
-/// The least probes of a picture of four times as many pixels, and of one of so many at all: with
-/// fewer a bound holds too seldom. And the most.
+/// The minimum number of probes for a picture of at least four times as many pixels, and for
+/// smaller pictures (with fewer probes the bound holds too rarely), and the maximum.
 const LEAST: usize = 1024;
 const FEWEST: usize = 256;
 const MOST: usize = 1 << 14;
 
-/// The most samples of a mean.
+/// The maximum number of samples of a mean.
 const LONGEST: u32 = 1 << 20;
 
-/// The share of probes that lie anywhere; the others lie where denoising changed much.
+/// The fraction of probes with uniform density; the others are placed where denoising changed much.
 const ANYWHERE: f64 = 0.5;
 
-/// The least degrees of freedom that are believed: fewer have no quantile.
+/// The minimum number of degrees of freedom: with fewer, the quantile is infinite.
 const FREEDOM: f64 = 8.0;
 
-/// The error of a denoised picture of so many samples a pixel; `None` if `on_pixel` said stop. The
-/// seed of the order is that of the probes.
+/// Estimates the error of a denoised picture with `samples` samples per pixel; `None` if `on_pixel`
+/// stopped it. The seed of the order is that of the probes.
 #[must_use]
 pub fn probe(
     world: &AnyWorld,
@@ -60,7 +61,7 @@ pub fn probe(
 ) -> Option<ProbedError> {
     let probabilities = probabilities(picture, order);
     let probes = Probes::spread(&probabilities, order.seed);
-    // Of a power of two, replicates are stratified.
+    // Replicates of a power of two are stratified.
     let length = samples.min(LONGEST).next_power_of_two();
     let mut film = ProgressiveFilm::new(order.crop, order.seed);
     (film.background, film.display) = (order.background, order.display);
@@ -83,8 +84,8 @@ pub fn probe(
     })
 }
 
-/// The share of the probes that each pixel is to have, in sum 1: even, and in proportion to the squares by
-/// which denoising changed what is displayed of 3 × 3 pixels, by noise or by mistake.
+/// The probability of each pixel to be probed: a mixture of uniform and of the squared change of
+/// the displayed value by denoising, summed over 3 × 3 pixels.
 fn probabilities(picture: &DenoisedFilm, order: &Order) -> Vec<f64> {
     let (tone, exposure) = order.display;
     let shown = |pixel: &[f64; 3]| tone.display(pixel.map(|value| value * exposure));
@@ -115,16 +116,16 @@ fn probabilities(picture: &DenoisedFilm, order: &Order) -> Vec<f64> {
     changed.into_iter().map(probability).collect()
 }
 
-/// Which pixels are sampled anew.
+/// The probed pixels.
 struct Probes {
-    /// How often each was chosen.
+    /// The number of probes of each pixel.
     hits: Vec<u32>,
     count: usize,
 }
 
 impl Probes {
-    /// Chooses pixels with probabilities in proportion to their shares: one at random in each of as many
-    /// stretches, of equal shares, of the pixels row by row.
+    /// Chooses pixels in proportion to their probabilities, by stratified sampling of the
+    /// cumulative distribution over the pixels in row order.
     fn spread(probabilities: &[f64], seed: u64) -> Self {
         let pixels = probabilities.len();
         let least = LEAST.min(pixels / 4).max(FEWEST.min(pixels));
@@ -143,7 +144,7 @@ impl Probes {
         Self { hits, count }
     }
 
-    /// What the probes of each pixel find.
+    /// The result of the probes of each pixel.
     fn found(
         &self,
         film: &ProgressiveFilm,
@@ -163,16 +164,16 @@ impl Probes {
     }
 }
 
-/// What the probes of a pixel find, all of them the same.
+/// The result of the probes of one pixel; all have the same value.
 struct ProbeResult {
-    /// Its square error over its share, of a picture of one pixel.
+    /// Its squared error, weighted by the inverse probability.
     square: f64,
     hits: f64,
 }
 
-/// The mean of what probes found, and what it is at most but for [`TAIL`]: as if it were χ² of as many
-/// degrees of freedom as its spread says, which squares of errors are nearer to than to a normal
-/// variable.
+/// The mean of the results, and its upper bound with confidence 1 − [`TAIL`]. The mean is treated
+/// as a χ² variable whose degrees of freedom match its variance: squared errors are closer to that
+/// than to a normal variable.
 fn mean_and_bound(found: &[ProbeResult]) -> (f64, f64) {
     let probes: f64 = found.iter().map(|one| one.hits).sum();
     let mean = found.iter().map(|one| one.square * one.hits).sum::<f64>() / probes;
@@ -180,10 +181,10 @@ fn mean_and_bound(found: &[ProbeResult]) -> (f64, f64) {
         let deviation = one.hits * (one.square - mean);
         deviation * deviation
     });
-    // Pixels are independent, probes of one pixel are not.
+    // Pixels are independent, but probes of the same pixel are not.
     let pixels = found.len() as f64;
     let variance = squares.sum::<f64>() / (probes * probes) * pixels / (pixels - 1.0).max(1.0);
-    // Probes of one pixel alone have no spread.
+    // Probes of a single pixel have no variance.
     let variance = if variance > 0.0 {
         variance
     } else {
@@ -204,7 +205,7 @@ mod tests {
         (rng.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30)
     }
 
-    /// Squares of errors as pictures have them: most are small, some are a hundred times as large.
+    /// A typical squared error: most are small, some are a hundred times as large.
     fn square(rng: &mut Rng) -> f64 {
         let size = if rng.below(20) == 0 { 100.0 } else { 1.0 };
         -size * rtc_math::ln(uniform(rng))
@@ -232,7 +233,7 @@ mod tests {
                 mean_and_bound(&found).1 >= truth
             });
             let held = held.count();
-            // 0.9 is promised; a bound that always holds would say nothing.
+            // The bound promises 0.9; one that always holds would be useless.
             assert!((360..=396).contains(&held), "{held} of 400 by {count}");
         }
     }

@@ -1,5 +1,5 @@
-//! A picture on its way to its goal, which can be saved between two stretches of a round and goes on from
-//! there to the same bytes: a round takes the samples that are missing, whoever took the others.
+//! Progressive refinement with checkpoints. A render that is resumed from a checkpoint gives the
+//! same bytes: a round takes the samples that are missing.
 
 use super::batch::WorkBatch;
 use super::noise::Bound;
@@ -7,35 +7,34 @@ use super::target::{Order, Samples, TargetResult};
 use rtc_render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
 use std::time::Duration;
 
-/// What is known of a picture that grows.
+/// The state of a progressive render.
 pub struct ProgressiveRender {
     pub(super) film: ProgressiveFilm,
-    /// How many samples each replicate, and the pilot, of the pixels is to have after the round under
-    /// way.
+    /// For each pixel, the samples of each replicate and of the pilot after the current round.
     pub(super) wanted: Vec<[u32; 2]>,
-    /// The rounds that are done.
+    /// The number of completed rounds.
     pub(super) rounds: u32,
-    /// Points of each soft light at a hit.
+    /// Samples of each area light at a hit.
     pub(super) light_samples: u32,
-    /// Whether those were asked for.
+    /// Whether that number was requested.
     pub(super) keeps_lights: bool,
 }
 
-/// How a growing picture is kept on its way.
+/// How a progressive render is saved and resumed.
 pub struct CheckpointSink<'a> {
-    /// What was kept before.
+    /// The checkpoint to resume from.
     pub resumed_from: Option<ProgressiveRender>,
     /// The time between two saves.
     pub every: Duration,
-    /// How many threads are to have work.
+    /// The number of threads.
     pub threads: usize,
     /// The time since the start.
     pub elapsed: &'a (dyn Fn() -> Duration + Sync),
-    /// Takes the bytes of what is done.
+    /// Saves the bytes of a checkpoint.
     pub save: &'a (dyn Fn(Vec<u8>) + Sync),
 }
 
-/// Keeps what grows now and then.
+/// Saves checkpoints at intervals.
 pub(super) struct Checkpointer<'a> {
     sink: CheckpointSink<'a>,
     batch: WorkBatch,
@@ -51,17 +50,17 @@ impl<'a> Checkpointer<'a> {
         }
     }
 
-    /// What was kept before.
+    /// The checkpoint to resume from.
     pub(super) fn resumed_from(&mut self) -> Option<ProgressiveRender> {
         self.sink.resumed_from.take()
     }
 
-    /// Keeps it now.
+    /// Saves a checkpoint now.
     pub(super) fn save(&self, progressive: &ProgressiveRender) {
         (self.sink.save)(progressive.save());
     }
 
-    /// So many tiles took since then.
+    /// Adapts the batch size to the time of the last batch, and saves if it is time.
     fn took(&mut self, progressive: &ProgressiveRender, tiles: u32, resumed_from: Duration) {
         let now = (self.sink.elapsed)();
         self.batch.adapt(tiles, now.saturating_sub(resumed_from));
@@ -73,14 +72,13 @@ impl<'a> Checkpointer<'a> {
 }
 
 impl ProgressiveRender {
-    /// The rays it took.
+    /// The number of rays so far.
     #[must_use]
     pub fn rays(&self) -> u64 {
         self.film.counts.rays()
     }
 
-    /// Takes the samples of the round that are missing, and keeps them on the way; false if someone said
-    /// stop.
+    /// Takes the missing samples of the round and saves checkpoints; false if it was stopped.
     pub(super) fn refine(
         &mut self,
         world: &AnyWorld,
@@ -111,7 +109,7 @@ impl ProgressiveRender {
         true
     }
 
-    /// The picture as far as it is, of a bound on its error.
+    /// The current picture with a bound on its error.
     pub(super) fn result(&self, bound: Bound, values: Values) -> TargetResult {
         TargetResult {
             image: self.film.image(values),
@@ -125,7 +123,8 @@ impl ProgressiveRender {
         }
     }
 
-    /// Rounds, points of lights and whether those were asked for, the samples wanted, and the film, as bytes.
+    /// The state as bytes: rounds, light samples and whether they were requested, the requested
+    /// samples, the film.
     #[must_use]
     pub fn save(&self) -> Vec<u8> {
         let wanted = self.wanted.iter().flatten();
@@ -137,20 +136,22 @@ impl ProgressiveRender {
         bytes
     }
 
-    /// What was kept in such bytes, of the picture of an order.
+    /// Loads the state of a render of an order.
     ///
     /// # Errors
-    /// If the bytes are of something else or of another version, or damaged.
+    /// If the bytes belong to another render or version, or are corrupt.
     pub fn load(bytes: &[u8], order: &Order) -> Result<Self, FilmError> {
-        /// More rounds than that no picture takes.
+        /// The maximum number of rounds.
         const MOST: u32 = 1 << 16;
         const LONGEST: u32 = 1 << 24;
         const SHORT: FilmError = FilmError::Corrupt("its end is missing");
         const WRONG: FilmError = FilmError::Corrupt("its rounds can't be");
+        // Split the bytes into numbers and film.
         let length = 8 * (order.crop.pixels() + 2);
         let (numbers, film) = bytes.split_at_checked(length).ok_or(SHORT)?;
-        // As many pixels as there are numbers.
+        // The film checks its number of pixels.
         let film = order.film().load(film)?;
+        // Read the numbers.
         let mut pairs = numbers.chunks_exact(8).map(|pair| {
             let (pair, _) = pair.as_chunks::<4>();
             [pair[0], pair[1]].map(u32::from_le_bytes)
@@ -160,10 +161,11 @@ impl ProgressiveRender {
             return Err(FilmError::OtherPicture);
         }
         let wanted: Vec<[u32; 2]> = pairs.collect();
+        // Check the numbers against the film.
         let is_consistent = |(wanted, index): (&[u32; 2], usize)| {
             let counts = film.pixel(index).counts().into_iter().zip(wanted);
             counts.into_iter().all(|(count, &wanted)| {
-                // A round doubles what is there; the first begins with none.
+                // A round doubles the samples; the first starts from none.
                 let is_taken = count == wanted || 2 * count == wanted;
                 (is_taken || (rounds == 0 && count == 0))
                     && wanted.is_power_of_two()

@@ -1,6 +1,6 @@
-//! The reference of a study. Knobs are raised one at a time until the picture no longer changes or
-//! the budget ends; then it is rendered twice with independent sampling. The mean of the two halves
-//! is the reference, and their difference estimates its error.
+//! The reference of a study. Parameters are raised one at a time until the picture no longer
+//! changes or the budget ends; then it is rendered a second time with independent samples. The mean
+//! of the two halves is the reference, and their difference estimates its error.
 
 use super::metrics::{LEVELS, mean, mean_product, rmse};
 use super::outcome::{BounceCost, MoreBounces};
@@ -11,22 +11,23 @@ use rtc_image::Image;
 use rtc_render::Seeds;
 use serde::{Deserialize, Serialize};
 
-/// The smallest error worth a row, in grey levels: a twentieth of a level is beyond any eye.
+/// The smallest error worth a row, in grey levels: a twentieth of a level is invisible.
 pub(super) const MIN_ERROR: f64 = 0.05;
 
-/// The picture counts as unchanged if raising a knob changes it by less than this, in grey levels.
+/// The picture counts as unchanged if raising a parameter changes it by less than this, in grey
+/// levels.
 const UNCHANGED: f64 = MIN_ERROR / 10.0;
 
-/// A value of a knob alone, and its error.
+/// A value of a parameter, and its error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Level {
     /// The value.
     pub value: u32,
-    /// Its error if all other knobs have none, in grey levels.
+    /// Its error if all other parameters have none, in grey levels.
     pub error: f64,
-    /// Whether the error stands out from the noise of the study.
+    /// Whether the error is significant against the noise of the study.
     pub resolved: bool,
-    /// The rays it takes, with the other knobs where the sweep has them.
+    /// Its rays, with the other parameters as in the sweep.
     pub rays: u64,
 }
 
@@ -38,11 +39,12 @@ pub(super) struct Reference {
     pub(super) floor: f64,
 }
 
-/// The depths of paths, against the scene's own.
+/// The path depths compared with that of the scene.
 pub(super) struct Depths {
-    /// The error of each depth up to the scene's own, or to where no more shows.
+    /// The error of each depth up to that of the scene, or to the depth where the picture no longer
+    /// changes.
     pub(super) levels: Vec<Level>,
-    /// What more bounces add.
+    /// The effect of more bounces.
     pub(super) more: MoreBounces,
 }
 
@@ -58,7 +60,7 @@ pub enum DepthEnd {
     Open,
 }
 
-/// Sampling independent of every render and of other numbers.
+/// Seeds that are independent of normal renders and of other numbers.
 pub(super) fn independent(number: u64) -> Seeds {
     Seeds {
         pixel: number,
@@ -67,7 +69,7 @@ pub(super) fn independent(number: u64) -> Seeds {
     }
 }
 
-/// A depth, sampled once or more.
+/// The renders of a depth, one for each seed.
 struct DepthProbe(Vec<RenderedTiles>);
 
 impl DepthProbe {
@@ -82,7 +84,7 @@ impl DepthProbe {
             .sum()
     }
 
-    /// Its difference from another depth in the common part of all samplings.
+    /// Its difference from another depth, beyond sampling noise.
     fn error(&self, other: &Self) -> f64 {
         let [a, b] = [&self.0, &other.0]
             .map(|renders| [&renders[0].tiles, &renders[renders.len() - 1].tiles]);
@@ -90,14 +92,15 @@ impl DepthProbe {
     }
 }
 
-/// Compares the depths of paths with that of `start`, up to where no more shows. All depths have the
-/// same sampling, by each of the seeds, so that only the depth differs.
+/// Compares path depths with that of `start`, up to the depth where the picture no longer changes.
+/// All depths use the same seeds, so that only the depth differs.
 pub(super) fn depths(
     subject: &Subject<'_>,
     start: Setting,
     seeds: &[Seeds],
     budget: u64,
 ) -> Result<Depths, Stopped> {
+    // Render the depths from 0 up.
     let render = |depth| {
         let renders = seeds
             .iter()
@@ -105,11 +108,12 @@ pub(super) fn depths(
         renders.collect::<Result<_, _>>().map(DepthProbe)
     };
     let (mut renders, end) = search_depths(render, budget)?;
-    // A search that ended for its budget still asks for the scene's own depth.
+    // If the budget ended the search, the scene's depth is still needed.
     let last = renders.len() - 1;
     if end == DepthEnd::Open && last < start.depth as usize {
         renders.push(render(start.depth)?);
     }
+    // Compare each depth with that of the scene.
     let depth = |place: usize| match u32::try_from(place) {
         Ok(depth) if place <= last => depth,
         _ => start.depth,
@@ -125,6 +129,7 @@ pub(super) fn depths(
         }
     };
     let mut levels: Vec<_> = renders.iter().enumerate().map(level).collect();
+    // Report the greater depths separately.
     let own_rays = renders[own].rays().max(1) as f64;
     let deeper = levels.split_off(own + 1).into_iter();
     let cost = |level: Level| BounceCost {
@@ -140,7 +145,7 @@ pub(super) fn depths(
     Ok(Depths { levels, more })
 }
 
-/// The depths from 0 up, until the picture no longer changes or the budget ends.
+/// Renders the depths from 0 up, until the picture no longer changes or the budget ends.
 fn search_depths(
     render: impl Fn(u32) -> Result<DepthProbe, Stopped>,
     budget: u64,
@@ -170,14 +175,15 @@ fn search_depths(
     Ok((renders, end))
 }
 
-/// Renders the reference with about `budget` rays: raises one of the knobs that sample after the
-/// other, from `start`, until the picture no longer changes or the budget ends.
+/// Renders the reference with about `budget` rays: raises the sampling parameters in turn, from
+/// `start`, until the picture no longer changes or the budget ends.
 pub(super) fn reference(
     subject: &Subject<'_>,
     start: Setting,
     parameters: &[Parameter],
     budget: u64,
 ) -> Result<Reference, Stopped> {
+    // Without sampling, one render is exact.
     let mut setting = start;
     if parameters.is_empty() {
         let rendered = subject.render(setting, Seeds::NONE)?;
@@ -187,13 +193,14 @@ pub(super) fn reference(
             floor: 0.0,
         });
     }
+    // Raise the parameters in turn.
     let mut half = subject.render(setting, independent(1))?;
     let mut spent = half.counts.rays() as f64;
     for (number, parameter) in (2..).zip(parameters.iter().cycle()) {
         let raised = setting.with(*parameter, raised(setting.get(*parameter)));
         let growth =
             parameter.samples(raised.get(*parameter)) / parameter.samples(setting.get(*parameter));
-        // The other half costs the same.
+        // Reserve the cost of the second half.
         if spent + 2.0 * growth * half.counts.rays() as f64 > budget as f64 {
             break;
         }
@@ -205,6 +212,7 @@ pub(super) fn reference(
             break;
         }
     }
+    // Render a second, independent half.
     let other = subject.render(setting, independent(0x5EED))?;
     let tiles = mean(&half.tiles, &other.tiles);
     Ok(Reference {

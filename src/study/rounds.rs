@@ -1,23 +1,23 @@
-//! What a growing picture lacks for its goal, and the samples of its next round.
+//! The stopping criterion of a progressive render, and the samples of its next round.
 
 use super::metrics::LEVELS;
 use super::noise::{Noise, SampleAllocation, doubled_if};
 use rtc_render::{ProgressiveFilm, Replicates};
 
-/// A target is given up with so many times the samples that its noise needs: where few pixels have
-/// most of the noise, a bound that holds would take many more.
+/// A target is abandoned at this multiple of the samples that its noise needs: where few pixels
+/// have most of the noise, a valid bound would need many more.
 const MOST_SAMPLES: f64 = 4.0;
 
-/// The samples that each replicate has at least before a target is met without a bound, while no
-/// sample may have met light that is much brighter than white.
+/// The minimum number of samples per replicate to accept a target without a bound, if light much
+/// brighter than white may be undersampled.
 const LEAST_UNBOUNDED: u32 = 64;
 
-/// What is missing for a goal, in grey levels.
+/// What a render lacks for its target.
 enum Missing {
     Nothing,
-    /// Less noise than this mean square.
+    /// The noise must fall below this mean square.
     Samples(f64),
-    /// More samples everywhere: no sample may have met some bright light.
+    /// All pixels need more samples: some bright light may be undersampled.
     RareLight,
 }
 
@@ -37,8 +37,8 @@ impl Missing {
     }
 }
 
-/// The length of all replicates after the next round, of at most so many samples more; `None` if
-/// the goal, in grey levels, is reached or nothing fits.
+/// The samples of all pixels after the next round, with at most `most` additional samples; `None`
+/// if the goal, in grey levels, is reached or nothing fits.
 pub(super) fn next_round(
     film: &ProgressiveFilm,
     noise: &Noise,
@@ -46,9 +46,10 @@ pub(super) fn next_round(
     goal: Option<f64>,
     most: f64,
 ) -> Option<Vec<[u32; 2]>> {
-    /// The step in noise if a round would change nothing, or would not fit.
+    /// The factors on the target noise if a round would change nothing, or would not fit.
     const LESS: f64 = 0.8;
     const MORE: f64 = 1.5;
+    // Find the noise to reach.
     let missing = goal.map(|error| Missing::of(film, noise, tail, error));
     let mut square = match missing {
         Some(Missing::Nothing) => return None,
@@ -57,6 +58,7 @@ pub(super) fn next_round(
         Some(Missing::Samples(square)) => square,
         None => noise.square / 4.0,
     };
+    // Allocate samples; lower the noise until something changes.
     let allocation = SampleAllocation::of(film, noise);
     let samples = film.samples() as f64;
     let round = |square: f64| {
@@ -70,7 +72,7 @@ pub(super) fn next_round(
     let (mut wanted, mut more) = round(square);
     while more == 0.0 {
         if goal.is_some() {
-            // The pilots have not met what the replicates differ by.
+            // The pilots missed what the replicates differ by.
             return doubled(film, most);
         }
         if square < f64::MIN_POSITIVE {
@@ -79,6 +81,7 @@ pub(super) fn next_round(
         square *= LESS;
         (wanted, more) = round(square);
     }
+    // Raise the noise until the round fits.
     while more > most {
         square *= MORE;
         (wanted, more) = round(square);
@@ -86,7 +89,7 @@ pub(super) fn next_round(
     (more > 0.0).then_some(wanted)
 }
 
-/// Twice the samples in all pixels, if no more than so many are too many.
+/// Doubles the samples of all pixels, if that takes at most `most` samples.
 fn doubled(film: &ProgressiveFilm, most: f64) -> Option<Vec<[u32; 2]>> {
     let twice = |pixel: &Replicates| pixel.counts().map(|count| doubled_if(count, true));
     let wanted: Vec<_> = film.pixels().map(twice).collect();

@@ -1,4 +1,5 @@
-//! The rows of a study: the settings worth it, rendered, timed and judged, and those on the front.
+//! The rows of a study: the most promising settings, rendered, timed and compared with the
+//! reference, and the Pareto front.
 
 use super::benchmark::{BenchmarkCase, TimedRun, benchmark};
 use super::metrics::Errors;
@@ -13,7 +14,7 @@ use super::tile_errors::TileErrors;
 use super::{Context, FOR_ROWS, MAX_REFERENCE_ERROR, Scope};
 
 impl Scope {
-    /// The scene's own setting and the best ones by the model, rendered, timed and judged.
+    /// Renders, times and measures the scene's setting and the best ones of the model.
     pub(super) fn rows(
         &self,
         subject: &Subject<'_>,
@@ -25,6 +26,7 @@ impl Scope {
             depths: _,
             model,
         } = context;
+        // Choose candidates with the model.
         let budget = self.hundredths(FOR_ROWS);
         let varied: Vec<_> = self
             .used
@@ -39,8 +41,9 @@ impl Scope {
             });
         let least_error = (3.0 * reference.floor).max(reference::MIN_ERROR);
         let best = pareto::candidates(model, min, &varied, budget as f64 / 10.0, least_error);
-        // Of tiles alone the pixels around are not known.
+        // The denoiser needs the neighbours of tiles, too.
         let is_denoised = self.used.contains(&Parameter::Denoise) && subject.is_whole();
+        // Add cheaper arithmetics and denoised settings.
         let settings = std::iter::once(self.scene_setting).chain(
             best.into_iter()
                 .filter(|setting| *setting != self.scene_setting),
@@ -48,6 +51,7 @@ impl Scope {
         let settings = settings
             .flat_map(|setting| std::iter::once(setting).chain(pareto::cheaper(model, setting)))
             .chain(self.scene_setting.denoised().filter(|_| is_denoised));
+        // Render and time all of them.
         let cases: Vec<_> = settings
             .map(|setting| BenchmarkCase {
                 subject: subject.clone(),
@@ -55,6 +59,7 @@ impl Scope {
             })
             .collect();
         let benchmark = benchmark(&cases, budget, Some(&reference.tiles), rng)?;
+        // Measure their errors.
         let row = |(case, run): (&BenchmarkCase<'_>, TimedRun)| {
             let errors = Errors::of(&run.rendered.tiles, &reference.tiles, subject.fraction());
             Row {
@@ -81,8 +86,8 @@ impl Scope {
     }
 }
 
-/// The rows in ascending order of cost, those on the front marked: of a `fraction` of the picture, those
-/// that surely have less error than what is there and costs less.
+/// Sorts the rows by cost and marks those on the Pareto front: the rows whose error is certainly
+/// below that of all cheaper ones on the front.
 fn ranked(rows: Vec<Row>, reference: &Reference, fraction: f64) -> Vec<Row> {
     let points: Vec<_> = rows.iter().map(Row::point).collect();
     let errors = |row: &Row| TileErrors::of(&row.tiles, &reference.tiles, fraction);

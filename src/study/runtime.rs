@@ -1,4 +1,4 @@
-//! The environment of a study: threads, a clock, and an observer who may say stop.
+//! The runtime of a study: thread pools, clocks, a stop callback, and the journal.
 
 use super::denoised::film;
 use super::journal::{Entry, Journal};
@@ -10,16 +10,16 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// A clock, read before and after a piece of work. Its origin does not matter.
+/// The clocks, read before and after a piece of work. Their origin does not matter.
 #[derive(Clone, Copy)]
 pub struct Clock<'a> {
     /// The processor time that the calling thread has used.
     pub cpu: &'a (dyn Fn() -> Duration + Sync),
-    /// The time of day.
+    /// The wall-clock time.
     pub wall: &'a (dyn Fn() -> Duration + Sync),
 }
 
-/// How long a piece of work took.
+/// The duration of a piece of work in seconds.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Time {
     pub(super) cpu: f64,
@@ -43,7 +43,7 @@ impl Time {
 }
 
 impl Clock<'_> {
-    /// Does a piece of work on the calling thread. Returns its duration in seconds, too.
+    /// Runs work on the calling thread; also returns its duration in seconds.
     fn measure<T>(&self, work: impl FnOnce() -> T) -> (T, Time) {
         let (cpu, wall) = ((self.cpu)(), (self.wall)());
         let done = work();
@@ -59,36 +59,36 @@ impl Clock<'_> {
     }
 }
 
-/// Threads, a clock, and an observer who may say stop.
+/// Thread pools, clocks, a stop callback, and the journal.
 pub struct StudyRuntime<'a> {
     clock: Clock<'a>,
     on_pixel: &'a OnPixel<'a>,
-    /// All threads, for work that is not timed.
+    /// The pool for work that is not timed.
     all_threads: ThreadPool,
-    /// One thread, for timed work: its processor time does not depend on other load.
+    /// A pool of one thread for timed work: its processor time does not depend on other load.
     one_thread: ThreadPool,
-    /// The vector instructions that scenes are rendered with.
+    /// The SIMD level for rendering.
     simd: SimdLevel,
-    /// What was rendered, if that is kept.
+    /// The journal, if renders are recorded.
     journal_state: Option<Mutex<JournalState>>,
-    /// Who saves it.
+    /// Saves the journal.
     save: &'a (dyn Fn(&Journal) + Sync),
 }
 
-/// What was rendered, and how it is kept.
+/// The journal, and when it is saved.
 struct JournalState {
     journal: Journal,
     every: Duration,
-    /// When it was kept last.
+    /// The time of the last save.
     saved: Duration,
 }
 
 impl<'a> StudyRuntime<'a> {
-    /// A bench with `threads` threads, 0 for one per core. `on_pixel` is asked from all of them
-    /// after each pixel and within long ones.
+    /// A runtime with `threads` threads, 0 for one per core. All of them call `on_pixel` after each
+    /// pixel and within long ones.
     ///
     /// # Errors
-    /// If the system gives no threads.
+    /// If the system cannot create threads.
     pub fn new(
         threads: usize,
         clock: Clock<'a>,
@@ -106,15 +106,14 @@ impl<'a> StudyRuntime<'a> {
         })
     }
 
-    /// The same bench, where scenes are rendered with the vector instructions of a level: what is
-    /// found is the same, but for the time it takes.
+    /// Sets the SIMD level for rendering. Only the times depend on it.
     #[must_use]
     pub fn with_simd(self, simd: SimdLevel) -> Self {
         Self { simd, ..self }
     }
 
-    /// The same bench, which renders nothing that is in the journal, and hands it to `save` with all renders that
-    /// are done after so much time.
+    /// Sets the journal: renders that are in it are replayed; it is passed to `save` each time
+    /// `every` has passed.
     #[must_use]
     pub fn with_journal(
         mut self,
@@ -131,7 +130,7 @@ impl<'a> StudyRuntime<'a> {
         self
     }
 
-    /// Hands the journal to whoever saves it.
+    /// Saves the journal.
     pub fn save(&self) {
         if let Some(journal_state) = self.journal_state() {
             (self.save)(&journal_state.journal);
@@ -143,12 +142,12 @@ impl<'a> StudyRuntime<'a> {
         Some(journal_state.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// The next render, if it was done before.
+    /// The next render, if it is in the journal.
     pub(super) fn replay(&self, key: u64) -> Option<Entry> {
         self.journal_state()?.journal.replay(key)
     }
 
-    /// Takes down a render, if that is to be kept.
+    /// Records a render, if there is a journal.
     pub(super) fn record(&self, entry: impl FnOnce() -> Entry) {
         let Some(mut journal_state) = self.journal_state() else {
             return;
@@ -161,7 +160,7 @@ impl<'a> StudyRuntime<'a> {
         }
     }
 
-    /// Renders a scene as planned, denoised if that is asked for; `None` if the observer said stop.
+    /// Renders a scene as planned, and denoises it if requested; `None` if it was stopped.
     pub(super) fn render(
         &self,
         (scene, plan): (&ValidScene, &Plan),
@@ -172,7 +171,7 @@ impl<'a> StudyRuntime<'a> {
         film(&world, job, denoise, self.on_pixel)
     }
 
-    /// The rays of each pixel of the whole picture, row by row, as [`Self::render`] takes them.
+    /// The number of rays of each pixel of the whole picture, row by row, for [`Self::render`].
     pub(super) fn rays_of_pixels(
         &self,
         (scene, plan): (&ValidScene, &Plan),
@@ -192,12 +191,12 @@ impl<'a> StudyRuntime<'a> {
         Some(rays.into_iter().map(AtomicU64::into_inner).collect())
     }
 
-    /// Does a piece of work on all threads.
+    /// Runs work on all threads.
     pub(super) fn in_parallel<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         self.all_threads.install(work)
     }
 
-    /// Does a piece of work on one thread. Returns its duration, too.
+    /// Runs work on one thread; also returns its duration.
     pub(super) fn measure<T: Send>(&self, work: impl FnOnce() -> T + Send) -> (T, Time) {
         self.one_thread.install(|| self.clock.measure(work))
     }

@@ -1,4 +1,4 @@
-//! A setting: a value for each knob, read from a scene and written into one.
+//! A setting: a value for each parameter, which can be read from a scene and written to it.
 
 use super::parameter::{Parameter, arithmetic, precision_value};
 use rtc_ir::{Material, Mode, Scene};
@@ -6,7 +6,7 @@ use rtc_passes::Overrides;
 use rtc_plan::Arithmetic;
 use serde::{Deserialize, Serialize};
 
-/// A value for each knob.
+/// A value for each parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Setting {
@@ -18,20 +18,20 @@ pub struct Setting {
     pub lights: u32,
     /// Rays of each glossy lobe.
     pub glossy: u32,
-    /// Paths of a pixel, 1 where none are traced.
+    /// Paths per pixel; 1 without path tracing.
     pub paths: u32,
     /// Whether the picture is denoised.
     #[serde(default)]
     pub denoise: bool,
     /// Bounces after the first hit.
     pub depth: u32,
-    /// The arithmetic by which rays meet shapes.
+    /// The arithmetic of ray intersection.
     pub precision: Arithmetic,
 }
 
 impl Setting {
-    /// The setting of a scene, with the robust arithmetic. Of lobes with different numbers of rays,
-    /// the largest number is taken.
+    /// The setting of a scene, with the robust arithmetic. If glossy lobes have different numbers
+    /// of rays, the largest is used.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let (supersampling, aperture, paths) = if let Mode::Path(path) = &scene.settings.mode {
@@ -51,7 +51,7 @@ impl Setting {
         }
     }
 
-    /// The value of a knob.
+    /// The value of a parameter.
     #[must_use]
     pub fn get(&self, parameter: Parameter) -> u32 {
         match parameter {
@@ -66,7 +66,7 @@ impl Setting {
         }
     }
 
-    /// The same with another value for a knob.
+    /// The setting with another value for a parameter.
     #[must_use]
     pub fn with(mut self, parameter: Parameter, value: u32) -> Self {
         let slot = match parameter {
@@ -91,7 +91,7 @@ impl Setting {
         self
     }
 
-    /// The settings of fewer paths that are tried denoised.
+    /// The settings with fewer paths that are tried with denoising.
     pub(super) fn denoised(self) -> impl Iterator<Item = Self> {
         let tried = [self.paths / 4, self.paths / 16].into_iter();
         tried.filter(|paths| *paths >= 2).map(move |paths| Self {
@@ -101,7 +101,7 @@ impl Setting {
         })
     }
 
-    /// Camera rays of a pixel.
+    /// The camera rays per pixel.
     #[must_use]
     pub fn camera_rays(&self) -> f64 {
         Parameter::Supersampling.samples(self.supersampling)
@@ -109,8 +109,8 @@ impl Setting {
             * f64::from(self.paths)
     }
 
-    /// Writes the values into a scene, except the precision and whether it is denoised. Lobes keep their numbers of rays if
-    /// the setting has the largest of them.
+    /// Writes the values into a scene, except precision and denoising. Lobes keep their numbers of
+    /// rays if the setting has the largest of them.
     pub fn apply(&self, scene: &mut Scene) {
         let Self {
             supersampling,
@@ -134,8 +134,8 @@ impl Setting {
         overrides.apply(scene);
     }
 
-    /// In words, for the knobs given: "4×4 with 16 aperture samples, depth 3". The robust
-    /// arithmetic is not mentioned, nor is a picture that is not denoised.
+    /// Formats the given parameters: "4×4 with 16 aperture samples, depth 3". The robust arithmetic
+    /// and a picture without denoising are not mentioned.
     #[must_use]
     pub fn words(&self, parameters: &[Parameter]) -> String {
         let is_named = |parameter: &&Parameter| {
@@ -161,7 +161,7 @@ impl Setting {
     }
 }
 
-/// The numbers of rays of the lobes of a scene.
+/// The ray numbers of the glossy lobes of a scene.
 fn lobes(scene: &Scene) -> impl Iterator<Item = u32> {
     scene
         .materials

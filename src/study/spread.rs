@@ -1,5 +1,5 @@
-//! How the error of a setting differs between renders: what a picture's error is expected to be, and how far
-//! one picture may be off that.
+//! The distribution of the error of a setting over renders with other seeds: its expectation and
+//! its standard deviation.
 
 use super::metrics::{LEVELS, mean_product};
 use super::subject::RenderedTiles;
@@ -8,29 +8,30 @@ use rtc_ir::{Mode, Pattern, Settings};
 use rtc_render::Seeds;
 use serde::{Deserialize, Serialize};
 
-/// The error over renders by other random numbers (Celarek, Jakob, Wimmer, Lehtinen, "Quantifying the error
-/// of light transport algorithms", Computer Graphics Forum 38(4), 2019): the expectation of the mean
-/// square error, and how far it spreads. What a scene samples in a fixed pattern is the same in all.
+/// The error over renders with other seeds (Celarek, Jakob, Wimmer, Lehtinen, "Quantifying the
+/// error of light transport algorithms", Computer Graphics Forum 38(4), 2019): the expectation of
+/// the mean square error, and its deviation. Fixed sampling patterns are the same in all renders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct ErrorSpread {
-    /// How many renders there were.
+    /// The number of renders.
     pub renders: u32,
     /// The root of the expected mean square error, in grey levels.
     pub expected: f64,
-    /// The standard deviation of the error of a render (its `rmse`), in grey levels; 0 if all are alike.
+    /// The standard deviation of the error of a render (its `rmse`), in grey levels; 0 if all are
+    /// identical.
     pub deviation: f64,
 }
 
 impl ErrorSpread {
-    /// Of the mean square errors of some renders, for a white of 1.
+    /// From the mean square errors of the renders, for a white of 1.
     pub(super) fn of(squares: &[f64]) -> Self {
         let count = squares.len().max(1) as f64;
         let mean = |values: &dyn Fn(f64) -> f64| {
             let values = squares.iter().map(|square| values(*square));
             values.sum::<f64>() / count
         };
-        // From the first on, so that none is exactly how far alike ones are off.
+        // Relative to the first, so that identical errors give exactly 0.
         let first = squares.first().copied().unwrap_or_default().sqrt();
         let off = mean(&|square: f64| square.sqrt() - first);
         let square =
@@ -43,7 +44,7 @@ impl ErrorSpread {
         }
     }
 
-    /// The deviation as a share of the expected error; 0 if there is none.
+    /// The deviation as a fraction of the expected error; 0 if that is 0.
     #[must_use]
     pub fn relative(&self) -> f64 {
         match self.expected {
@@ -53,19 +54,19 @@ impl ErrorSpread {
     }
 }
 
-/// The random numbers of the renders of a row, and what each is held against.
+/// The seeds of the renders of a row, and the reference.
 #[derive(Clone, Copy)]
 pub(super) struct Reseeded<'t> {
-    /// The reference; without one all renders are alike.
+    /// The reference; without one all renders have the same seeds.
     pub(super) reference: Option<&'t [Image]>,
-    /// How many renders of the row there were before.
+    /// The number of earlier renders of the row.
     pub(super) before: u64,
 }
 
 impl Reseeded<'_> {
-    /// The seeds of a render: those of `rtc render` for the first one.
+    /// The seeds of a render; the first has those of `rtc render`.
     pub(super) fn seeds(&self, number: u64, settings: &Settings) -> Seeds {
-        /// Other than those of references and sweeps.
+        /// Different from the seeds of references and sweeps.
         const FIRST: u64 = 0xAF7E;
         let number = self.before + number;
         if self.reference.is_none() || number == 0 {
@@ -90,7 +91,7 @@ impl Reseeded<'_> {
         }
     }
 
-    /// The mean square error of a render.
+    /// The mean square error of a render against the reference.
     pub(super) fn square(&self, rendered: &RenderedTiles) -> Option<f64> {
         let reference = self.reference?;
         Some(mean_product(

@@ -1,5 +1,5 @@
-//! Statistics for studies: medians with confidence intervals, power laws, and repeatable random
-//! numbers.
+//! Statistics for studies: medians with confidence intervals, power laws, hypothesis tests, and a
+//! seeded random number generator.
 
 use rtc_math::{GAMMA, exp, ln, mix, pow};
 use serde::{Deserialize, Serialize};
@@ -47,12 +47,13 @@ impl Estimate {
     }
 }
 
-/// Repeatable random numbers, by SplitMix64.
+/// A seeded random number generator: SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom
+/// number generators", OOPSLA 2014).
 #[derive(Clone, Debug)]
 pub struct Rng(u64);
 
 impl Rng {
-    /// The sequence of a seed.
+    /// The generator of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
@@ -66,7 +67,7 @@ impl Rng {
         usize::try_from(wide >> 64).unwrap_or(0)
     }
 
-    /// Puts the items in random order (Fisher and Yates).
+    /// Shuffles the items (Fisher–Yates).
     pub fn shuffle<T>(&mut self, items: &mut [T]) {
         for i in (1..items.len()).rev() {
             items.swap(i, self.below(i + 1));
@@ -74,7 +75,7 @@ impl Rng {
     }
 }
 
-/// How many samples a bootstrap draws.
+/// The number of bootstrap resamples.
 const DRAWS: usize = 999;
 
 /// The median with its 95 % interval by the bootstrap (Efron, "Bootstrap methods", Annals of
@@ -134,7 +135,7 @@ pub struct PowerLaw {
 }
 
 impl PowerLaw {
-    /// The law that fits points (x, y) above 0 best on logarithmic scales; `None` for fewer than
+    /// The least-squares fit to positive points (x, y) on logarithmic scales; `None` for fewer than
     /// three.
     #[must_use]
     pub fn fit(points: &[(f64, f64)]) -> Option<Self> {
@@ -194,18 +195,19 @@ pub(super) fn normal_quantile(tail: f64) -> f64 {
         / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308)))
 }
 
-/// How far the means of two sets of values are apart.
+/// The test of the difference of two means.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MeanTest {
     /// The first mean less the second.
     pub(super) difference: f64,
-    /// As rare as so many standard deviations of a normal variable, if the means were the same.
+    /// The significance, as a number of standard deviations of a normal variable.
     pub(super) deviations: f64,
 }
 
 /// The test of the means of pairs of values, at least two (Student, "The probable error of a mean",
-/// Biometrika 6 (1908)). Student's t is told as a normal variable by Wallace's approximation (Annals of
-/// Mathematical Statistics 30 (1959)). Differences as small as errors of rounding are none.
+/// Biometrika 6 (1908)). Student's t is converted to a normal variable by Wallace's approximation
+/// (Annals of Mathematical Statistics 30 (1959)). Differences of the size of rounding errors count
+/// as 0.
 pub(super) fn paired(first: &[f64], second: &[f64]) -> MeanTest {
     const ROUNDING: f64 = 1e-12;
     let n = first.len() as f64;

@@ -1,5 +1,4 @@
-//! The subject of a study: a scene, and some tiles of its picture. It renders them in any setting,
-//! and counts their rays.
+//! The subject of a study: a scene, and some tiles of its picture, which it renders in any setting.
 
 use super::journal::Entry;
 use super::outcome::StudyArea;
@@ -19,7 +18,7 @@ use xxhash_rust::xxh3::xxh3_64;
 pub(super) struct Subject<'runtime> {
     pub(super) scene: Arc<Scene>,
     seed: u64,
-    /// The tiles by rank, as column and row.
+    /// The tiles in order of rank, as column and row.
     tiles: Vec<[u32; 2]>,
     runtime: &'runtime StudyRuntime<'runtime>,
 }
@@ -31,22 +30,22 @@ pub(super) struct RenderedTiles {
     pub(super) counts: Counts,
 }
 
-/// A render of some tiles, and how long it took.
+/// A timed render of some tiles.
 pub(super) struct Timed {
     pub(super) rendered: RenderedTiles,
     pub(super) time: Time,
-    /// The mean square error of each render, if they were held against something.
+    /// The mean square error of each render, if there is a reference.
     pub(super) squares: Vec<f64>,
     /// Whether it was rendered before the study was interrupted.
     pub(super) is_resumed: bool,
 }
 
-/// The observer said stop.
+/// The study or render was stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stopped;
 
 impl<'runtime> Subject<'runtime> {
-    /// The whole picture of a proven scene; `seed` gives the order of tiles for smaller parts.
+    /// The whole picture of a validated scene; `seed` gives the order of tiles for smaller parts.
     pub(super) fn new(scene: &Scene, seed: u64, runtime: &'runtime StudyRuntime<'runtime>) -> Self {
         let [columns, rows] = scene.camera.size.map(|pixels| pixels.div_ceil(Tiles::SIDE));
         let mut tiles: Vec<_> = (0..rows)
@@ -91,7 +90,7 @@ impl<'runtime> Subject<'runtime> {
         self.tiles.len()
     }
 
-    /// Where the tiles lie.
+    /// The rectangles of the tiles.
     pub(super) fn cells(&self) -> Vec<Crop> {
         self.tiles
             .iter()
@@ -99,7 +98,7 @@ impl<'runtime> Subject<'runtime> {
             .collect()
     }
 
-    /// Where the pictures of a render lie: the tiles, or the whole picture.
+    /// The rectangles of the images of a render: the tiles, or the whole picture.
     pub(super) fn areas(&self) -> Vec<Crop> {
         let [width, height] = self.scene.camera.size;
         match self.is_whole() {
@@ -138,7 +137,7 @@ impl<'runtime> Subject<'runtime> {
         Ok(rays)
     }
 
-    /// The tiles of a render, also of a whole picture.
+    /// The tiles of a render; a whole picture is split into tiles.
     pub(super) fn tiles_of(&self, rendered: RenderedTiles) -> Vec<Image> {
         match rendered.tiles.as_slice() {
             [whole] if self.is_whole() => {
@@ -161,7 +160,7 @@ impl<'runtime> Subject<'runtime> {
         self.pixels() as f64 / (f64::from(width) * f64::from(height))
     }
 
-    /// The part, to be told.
+    /// The rendered part, for reports.
     pub(super) fn area(&self) -> StudyArea {
         StudyArea {
             size: self.scene.camera.size,
@@ -171,8 +170,8 @@ impl<'runtime> Subject<'runtime> {
         }
     }
 
-    /// Renders in a setting on all threads. A seed other than 0 makes that sampling independent of
-    /// all other seeds.
+    /// Renders in a setting on all threads. A seed other than 0 gives samples independent of all
+    /// other seeds.
     pub(super) fn render(&self, setting: Setting, seeds: Seeds) -> Result<RenderedTiles, Stopped> {
         let key = self.key("picture", setting, seeds);
         if let Some(entry) = self.runtime.replay(key) {
@@ -190,14 +189,14 @@ impl<'runtime> Subject<'runtime> {
         Ok(rendered)
     }
 
-    /// Tells renders of a study apart.
+    /// A key that identifies a render of the study.
     fn key(&self, kind: &str, setting: Setting, seeds: Seeds) -> u64 {
         let tiles = self.tiles.len();
         xxh3_64(format!("{kind} {setting:?} {seeds:?} {tiles}").as_bytes())
     }
 
-    /// Renders in a setting on one thread, `repeats` times as decided from the first result, each as
-    /// `reseeded` says. If the picture of the first is not wanted, it may be missing.
+    /// Renders in a setting on one thread, `repeats` times as decided from the first result, each
+    /// as `reseeded` says. If the picture of the first is not wanted, it may be missing.
     pub(super) fn time(
         &self,
         setting: Setting,
@@ -205,6 +204,7 @@ impl<'runtime> Subject<'runtime> {
         reseeded: Reseeded<'_>,
         repeats: impl FnOnce(&RenderedTiles) -> u64,
     ) -> Result<Timed, Stopped> {
+        // Replay the render from the journal, if it is there.
         let key = self.key("time", setting, reseeded.seeds(0, &self.scene.settings));
         if let Some(Entry {
             rendered, seconds, ..
@@ -220,6 +220,7 @@ impl<'runtime> Subject<'runtime> {
                 is_resumed: true,
             });
         }
+        // Render and time.
         let scene = self.validate_with(setting, None);
         let render = |number| {
             let seeds = reseeded.seeds(number, &self.scene.settings);
@@ -236,6 +237,7 @@ impl<'runtime> Subject<'runtime> {
             time = time.plus(more);
         }
         let time = time.over(count as f64);
+        // Record it.
         self.runtime.record(|| Entry {
             key,
             rendered: RenderedTiles {
@@ -257,11 +259,13 @@ impl<'runtime> Subject<'runtime> {
 
     /// The seconds for preparing the scene and for skipping all pixels, in each of `rounds`.
     pub(super) fn time_overhead(&self, setting: Setting, rounds: usize) -> Vec<[f64; 2]> {
+        // Replay from the journal, if it is there.
         let key = self.key("overhead", setting, Seeds::NONE);
         if let Some(entry) = self.runtime.replay(key) {
             let (pairs, _) = entry.seconds.as_chunks();
             return pairs.to_vec();
         }
+        // Define a render without pixels, and one that skips all pixels.
         let scene = self.validate(setting, Seeds::NONE);
         let nowhere = Crop {
             x: 0,
@@ -281,6 +285,7 @@ impl<'runtime> Subject<'runtime> {
             }),
             ..Job::default()
         };
+        // Time both in rounds.
         let seconds = |job| {
             let plan = || Plan::with_arithmetic(setting.precision, &scene, Rules::ALL);
             let work = || self.runtime.render((&scene, &plan()), job, false);
@@ -291,6 +296,7 @@ impl<'runtime> Subject<'runtime> {
             [prepare, (seconds(&without_tiles) - prepare).max(0.0)]
         };
         let seconds: Vec<[f64; 2]> = (0..rounds).map(round).collect();
+        // Record the times.
         self.runtime.record(|| Entry {
             key,
             rendered: RenderedTiles {
@@ -302,12 +308,12 @@ impl<'runtime> Subject<'runtime> {
         seconds
     }
 
-    /// The scene in a setting, with sub-samples in a pattern that seeds change.
+    /// The validated scene in a setting, with jittered sub-samples if the seeds change them.
     fn validate(&self, setting: Setting, seeds: Seeds) -> ValidScene {
         self.validate_with(setting, (seeds.pixel != 0).then_some(Pattern::Jitter))
     }
 
-    /// The scene in a setting, in its own pattern or in another.
+    /// The validated scene in a setting, with its own pixel pattern or another.
     fn validate_with(&self, setting: Setting, pattern: Option<Pattern>) -> ValidScene {
         let mut scene = Scene::clone(&self.scene);
         setting.apply(&mut scene);
@@ -339,7 +345,7 @@ impl<'runtime> Subject<'runtime> {
         Ok(RenderedTiles { tiles, counts })
     }
 
-    /// What is asked of the renderer: the tiles, sampled by seeds.
+    /// The render job: the tiles, with seeds.
     fn job(&self, seeds: Seeds) -> Job {
         let last = self
             .tiles
@@ -357,7 +363,7 @@ impl<'runtime> Subject<'runtime> {
         }
     }
 
-    /// Where a tile lies in the picture.
+    /// The rectangle of a tile.
     fn rectangle(&self, [x, y]: [u32; 2]) -> Crop {
         let [width, height] = self.scene.camera.size;
         let side = Tiles::SIDE;

@@ -1,5 +1,5 @@
-//! Each knob alone: its error if all others have none, the power law of that error, and a model of
-//! all together: squares of errors add.
+//! Each parameter alone: its error if all others have none, and the power law of that error; and a
+//! model of all parameters together, in which squared errors add.
 
 use super::metrics::{LEVELS, products};
 use super::outcome::ParameterReport;
@@ -12,17 +12,17 @@ use rtc_image::Image;
 use rtc_math::{exp, ln};
 use rtc_render::Seeds;
 
-/// A knob at each of its values, all others as in the reference.
+/// A parameter at each of its values, with all others as in the reference.
 pub(super) struct Levels {
     pub(super) parameter: Parameter,
     pub(super) levels: Vec<Level>,
     pub(super) law: Option<PowerLaw>,
 }
 
-/// Renders the values of one sampling knob within the budget.
+/// Renders the values of one sampling parameter within the budget.
 ///
-/// The others stay at `base` with independent sampling in two renders: their common error is that
-/// of the knob alone.
+/// The others stay at `base` with independent samples in two renders: their common error is that of
+/// the parameter alone.
 pub(super) fn sweep(
     subject: &Subject<'_>,
     reference: &Reference,
@@ -58,7 +58,7 @@ pub(super) fn sweep(
     })
 }
 
-/// Independent sampling, except for that of the knob.
+/// Independent seeds, except for the parameter itself.
 fn others(parameter: Parameter, number: u64) -> Seeds {
     let seeds = independent(number);
     match parameter {
@@ -72,7 +72,7 @@ fn others(parameter: Parameter, number: u64) -> Seeds {
 
 /// The common error of two renders against the reference, less the error of the reference itself.
 fn level(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) -> Level {
-    /// The channels of a block of pixels that a tile has too.
+    /// The number of channels of a block of pixels, at most a tile.
     const BLOCK: usize = 3 * 256;
     let floor = reference.floor / LEVELS;
     let reference_tiles = reference.tiles.as_slice();
@@ -96,8 +96,8 @@ fn level(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) ->
     }
 }
 
-/// The law of the rungs that stand out; a single point of a light or lobe is another picture, not a
-/// sample of it.
+/// The power law of the resolved levels. A single light or lobe sample is at the centre: that is
+/// another picture, not a sample of it.
 fn law(parameter: Parameter, levels: &[Level]) -> Option<PowerLaw> {
     let is_sample = |level: &&Level| {
         level.resolved
@@ -116,13 +116,13 @@ pub(super) struct Model {
     parameters: Vec<Levels>,
     base: Setting,
     base_rays: f64,
-    /// The square of what sub-samples and points of the lens leave together beyond what each
-    /// leaves alone, one of each.
+    /// The interaction of supersampling and lens samples: the squared error of one of each, beyond
+    /// the sum of both alone.
     interaction: f64,
 }
 
 impl Model {
-    /// The model of ladders that were measured around `base`, which takes `base_rays`.
+    /// The model of levels that were measured around `base`, which takes `base_rays`.
     pub(super) fn new(
         mut parameters: Vec<Levels>,
         depths: Option<&Depths>,
@@ -142,7 +142,7 @@ impl Model {
         }
     }
 
-    /// Learns from the error of the base with one sub-sample and one point of the lens.
+    /// Fits the interaction to the error of the base with one sub-sample and one lens sample.
     pub(super) fn learn_interaction(&mut self, coarse: Setting, error: f64) {
         let alone = self.error(coarse);
         self.interaction = (error * error - alone * alone).max(0.0);
@@ -159,7 +159,7 @@ impl Model {
             .find(|levels| levels.parameter == parameter)
     }
 
-    /// The measured values of a knob, in ascending order of work.
+    /// The measured values of a parameter, in ascending order of work.
     pub(super) fn measured_values(&self, parameter: Parameter) -> impl Iterator<Item = u32> {
         self.levels(parameter)
             .into_iter()
@@ -167,7 +167,8 @@ impl Model {
             .map(|level| level.value)
     }
 
-    /// The measurements of a knob; `not_applicable` is the reason to leave it alone, if there is one.
+    /// The measurements of a parameter; `not_applicable` is the reason why it does not apply, if it
+    /// does not.
     pub(super) fn report(
         &self,
         parameter: Parameter,
@@ -190,14 +191,14 @@ impl Model {
         let squares = self.parameters.iter().map(|levels| {
             let value = setting.get(levels.parameter);
             let error = levels.error(value);
-            // Lights and lobes are sampled anew for each camera ray; one point of them is the same
-            // every time.
+            // Lights and lobes are resampled for each camera ray; a single sample is always the
+            // centre.
             let is_resampled =
                 matches!(levels.parameter, Parameter::Lights | Parameter::Glossy) && value > 1;
             error * error * if is_resampled { more } else { 1.0 }
         });
-        // The edges of each point's picture are jagged in their own way: their mean is as smooth as
-        // they are many.
+        // Each lens sample has its own aliasing: the mean is smoother the more lens samples there
+        // are.
         let samples = Parameter::Supersampling.samples(setting.supersampling);
         let interaction =
             self.interaction / (samples * samples.sqrt() * f64::from(setting.aperture));
@@ -216,7 +217,7 @@ impl Model {
 
 impl Levels {
     fn error(&self, value: u32) -> f64 {
-        // The first rung leaves the most error; it counts even where the noise hides it.
+        // The first level has the largest error; it counts even if it is not resolved.
         let counts = |(index, level): &(usize, &Level)| {
             *index == 0 || level.resolved || self.parameter == Parameter::Depth
         };
@@ -238,7 +239,7 @@ impl Levels {
             .position(|level| level.value > value)
             .filter(|above| *above > 0);
         match above {
-            // Between the depths tried and the scene's own, which has no error.
+            // Between the measured depths and the scene's depth, which has no error.
             Some(above) if self.parameter == Parameter::Depth => {
                 let (below, above) = (clear[above - 1], clear[above]);
                 let fraction =
@@ -246,7 +247,7 @@ impl Levels {
                 below.error + fraction * (above.error - below.error)
             }
             Some(above) => self.between([clear[above - 1], clear[above]], x, |level| level.error),
-            // Beyond the last value: no more gain in depth, the power law otherwise.
+            // Beyond the last value: constant for the depth, the power law otherwise.
             None if self.parameter == Parameter::Depth => last.error,
             None => {
                 let exponent = self.law.map_or(0.5, |law| law.p.value.clamp(0.25, 2.0));
@@ -255,7 +256,7 @@ impl Levels {
         }
     }
 
-    /// In units of its own.
+    /// The rays in arbitrary units.
     fn rays(&self, value: u32) -> f64 {
         let at = |level: &Level| level.rays as f64;
         if let Some(level) = self.levels.iter().find(|level| level.value == value) {
@@ -275,7 +276,7 @@ impl Levels {
         }
     }
 
-    /// On a straight line between two rungs, on logarithmic scales.
+    /// Linear interpolation between two levels, on logarithmic scales.
     fn between(&self, [below, above]: [&Level; 2], x: f64, of: impl Fn(&Level) -> f64) -> f64 {
         let log = |x: f64| ln(x.max(f64::MIN_POSITIVE));
         let (from, to) = (

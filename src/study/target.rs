@@ -1,9 +1,9 @@
-//! Rendering to a target: rounds of samples where they are needed, until an error is reached.
+//! Rendering to a target error: rounds of samples where they are needed.
 //!
-//! The true picture is the limit of many sub-samples, lens points and points of soft lights, or of
-//! many paths, at the scene's own depth and with its own lobes; a light sampled at its centre alone
-//! stays so. Rounds are decided by the
-//! whole film: a target error alone gives the same picture on any number of threads.
+//! The error is measured against the limit of many sub-samples, lens samples and light samples, or
+//! of many paths, at the scene's depth and with its lobes; a light with a single sample keeps it.
+//! Each round is decided from the whole film: with only a target error, the picture is the same for
+//! any number of threads.
 
 use super::budget::{self, CoarsePicture};
 use super::noise::Noise;
@@ -21,108 +21,108 @@ use rtc_render::{
 use rtc_valid::revalidate;
 use std::time::Duration;
 
-/// When to stop; with both, whichever comes first.
+/// The stopping criterion; with both, whichever comes first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Goal {
     /// The root mean square error in grey levels of 8 bits, of display values.
     pub error: Option<f64>,
-    /// When the picture is to be ready, by the clock of [`Watch::elapsed`]. There is at least one sample
-    /// of each replicate in one pixel of 8 × 8.
+    /// The time budget, by the clock of [`Watch::elapsed`]. One pixel of each 8 × 8 block always
+    /// gets a sample of each replicate.
     pub time: Option<Duration>,
 }
 
-/// What is to be rendered.
+/// A render job with a goal.
 #[derive(Clone, Copy, Debug)]
 pub struct Order {
     /// When to stop.
     pub goal: Goal,
-    /// The part of the picture, within it.
+    /// The rendered part of the picture.
     pub crop: Crop,
-    /// The background, where paths are traced.
+    /// The background, for path tracing.
     pub background: Background,
-    /// What the picture holds; errors are those of display values in any case.
+    /// The values in the picture; errors are always those of display values.
     pub values: Values,
-    /// How values are shown, and what they are multiplied by before, where paths are traced.
+    /// The tone curve and the exposure factor, for path tracing.
     pub display: (Tone, f64),
-    /// Whether soft lights keep their number of points. Otherwise it is chosen.
+    /// Whether area lights keep their number of samples. Otherwise it is chosen.
     pub keep_lights: bool,
-    /// Where sampling starts: another seed gives independent noise.
+    /// The seed: another seed gives independent noise.
     pub seed: u64,
 }
 
-/// The observer of a render in progress.
+/// The callbacks of a render.
 pub struct Watch<'a> {
-    /// Called from all threads after each pixel with the rays it took; false means stop.
+    /// Called from all threads after each pixel with its rays; false stops the render.
     pub on_pixel: &'a OnPixel<'a>,
-    /// Whether the user said stop, rather than the time ran out.
+    /// Whether the user stopped the render, rather than the time budget.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
-    /// The time since the start, from which a time allowed counts.
+    /// The time since the start of the time budget.
     pub elapsed: &'a (dyn Fn() -> Duration + Sync),
-    /// Called before each round, also while the setting is chosen.
+    /// Called before each round, also while light samples are chosen.
     pub round: &'a (dyn Fn(Progress) + Sync),
 }
 
 /// The progress before a round.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
-    /// The pixels that the round looks at.
+    /// The number of pixels of the round.
     pub pixels: u64,
-    /// The bound on the error so far, in grey levels; none before the first round.
+    /// The current error bound in grey levels; `None` before the first round.
     pub error: Option<f64>,
 }
 
-/// The samples of the pixels.
+/// Statistics of the samples per pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Samples {
-    /// Of the pixel with the fewest samples.
+    /// The minimum.
     pub min: u64,
-    /// In the mean.
+    /// The mean.
     pub mean: f64,
-    /// Of the pixel with the most samples.
+    /// The maximum.
     pub most: u64,
 }
 
-/// A picture and its error.
+/// A picture and its error bound.
 #[derive(Clone, Debug)]
 pub struct TargetResult {
     /// The picture.
     pub image: Image,
-    /// Of each pixel the fraction of the samples that met a surface.
+    /// For each pixel, the fraction of samples that hit a surface.
     pub coverage: Vec<f32>,
-    /// Its rays, including those for the choice of the setting, without those of an unfinished round.
+    /// Its rays, including those for choosing light samples, without those of an unfinished round.
     pub counts: Counts,
-    /// The root mean square error in grey levels, kept in 90 % of all renders, as `benches/honest.sh`
-    /// counts; of what samples met alone, if there is no bound.
+    /// The bound on the root mean square error in grey levels, which holds in 90 % of all renders,
+    /// as `benches/honest.sh` counts; if there is no bound, that of the sampled part.
     pub error: f64,
-    /// If there is no bound: how bright, in multiples of white, light may be that no sample met.
+    /// If there is no bound: the possible brightness, in multiples of white, of light that no
+    /// sample has hit.
     pub undersampled: Option<f64>,
-    /// If the time ended before each pixel had a sample; there is no bound on its error then.
+    /// Set if the time ended before each pixel had a sample; then there is no error bound.
     pub coarse: Option<CoarsePicture>,
-    /// Its samples.
+    /// The samples per pixel.
     pub samples: Samples,
-    /// Points of each soft light at a hit.
+    /// Samples of each area light at a hit.
     pub light_samples: u32,
 }
 
-/// The fraction of pictures that may be worse than promised.
+/// The fraction of pictures whose error may exceed the bound.
 pub(super) const TAIL: f64 = 0.05;
 
-/// The samples of all pixels together in the first round, per replicate: enough also for pictures
-/// of few pixels.
+/// The minimum total number of samples per replicate in the first round, for pictures of few
+/// pixels.
 const FIRST: usize = 1024;
 
-/// The least samples of a replicate in the first round where paths are traced: sRGB coding of a
-/// mean of very few samples does not represent that of many.
+/// The minimum number of samples per replicate in the first round of path tracing: sRGB coding is
+/// nonlinear, so means of very few samples are not representative.
 const FIRST_PATHS: usize = 8;
 
-/// The least samples of a pilot: their variance is known.
+/// The minimum number of pilot samples: a variance needs two.
 const FIRST_PILOT: u32 = 2;
 
-/// Renders a proven scene in its world until the goal is reached, on the threads of the current
-/// pool.
+/// Renders a validated scene until the goal is reached, on the threads of the current pool.
 ///
 /// # Errors
-/// If someone said stop.
+/// If it was stopped.
 pub fn approach(
     world: &mut AnyWorld,
     scene: &Scene,
@@ -132,10 +132,10 @@ pub fn approach(
     approach_keeping(world, scene, order, watch, None)
 }
 
-/// As [`approach`], but what is done is kept on the way, and what was kept before is gone on from.
+/// Like [`approach`], with checkpoints: it resumes from one and saves new ones.
 ///
 /// # Errors
-/// If someone said stop; what is done is kept then.
+/// If it was stopped; then a checkpoint is saved.
 pub fn approach_keeping(
     world: &mut AnyWorld,
     scene: &Scene,
@@ -158,7 +158,7 @@ pub fn approach_keeping(
     result
 }
 
-/// As [`approach`], for a scene that is sampled; the world is left in another setting.
+/// Like [`approach`], for a sampled scene; it changes the settings of the world.
 fn in_rounds(
     world: &mut AnyWorld,
     scene: &Scene,
@@ -166,6 +166,7 @@ fn in_rounds(
     watch: &Watch<'_>,
     mut checkpointer: Option<Checkpointer<'_>>,
 ) -> Result<TargetResult, Stopped> {
+    // Resume from a checkpoint, or choose light samples and begin.
     let mut progressive = match checkpointer.as_mut().and_then(Checkpointer::resumed_from) {
         Some(resumed_from) => resumed_from,
         None => {
@@ -176,6 +177,7 @@ fn in_rounds(
             progressive
         }
     };
+    // Refine in rounds until the bound meets the target.
     set_sampling(world, scene, progressive.light_samples);
     let undersampled = order.undersampled(world);
     let mut error = None;
@@ -200,14 +202,14 @@ fn in_rounds(
     }
 }
 
-/// The probability of a larger error than is said after so many rounds. A stop at any round is one
-/// of many looks: the tails of all rounds, 1/(r(r + 1)), sum to the one allowed.
+/// The tail probability of the bound after a number of rounds. The render may stop after any round
+/// (sequential testing): the tails of all rounds, 1/(r(r + 1)), sum to the allowed one.
 pub(super) fn tail_of(rounds: u32) -> f64 {
     let round = f64::from(rounds);
     TAIL / (round * (round + 1.0))
 }
 
-/// A picture without samples, of so many points of each soft light.
+/// A render without samples yet.
 pub(super) fn begin(light_samples: u32, order: &Order) -> ProgressiveRender {
     ProgressiveRender {
         film: order.film(),
@@ -218,8 +220,7 @@ pub(super) fn begin(light_samples: u32, order: &Order) -> ProgressiveRender {
     }
 }
 
-/// The samples of each replicate, and of the pilot, that all pixels are to have before it is decided
-/// which have more.
+/// The samples of each replicate and of the pilot of all pixels in the first round.
 pub(super) fn first_round(scene: &Scene, order: &Order, world: &AnyWorld) -> [u32; 2] {
     let min = if not_applicable(Parameter::Paths, scene).is_none() {
         FIRST_PATHS
@@ -242,7 +243,7 @@ impl Order {
         film
     }
 
-    /// What samples of a world may show.
+    /// The bound on undersampled features in a world.
     pub(super) fn undersampled(&self, world: &AnyWorld) -> Undersampled {
         let (_, exposure) = self.display;
         Undersampled {
@@ -252,7 +253,7 @@ impl Order {
     }
 }
 
-/// The picture of a mode without sampling.
+/// Renders a mode without random sampling.
 fn render_unsampled(
     world: &AnyWorld,
     order: &Order,
@@ -287,7 +288,7 @@ fn render_unsampled(
     })
 }
 
-/// Sets random sub-samples in the pixels, and the number of points of soft lights.
+/// Sets jittered sub-samples, and the number of light samples.
 pub(super) fn set_sampling(world: &mut AnyWorld, scene: &Scene, light_samples: u32) {
     let mut scene = scene.clone();
     scene.settings.pattern = Pattern::Jitter;
@@ -295,24 +296,26 @@ pub(super) fn set_sampling(world: &mut AnyWorld, scene: &Scene, light_samples: u
     world.change(revalidate(&scene));
 }
 
-/// The best number of points of each soft light, and the rays for finding it. Larger numbers are
-/// tried on some tiles as long as noise times rays falls: that product is the cost of a picture of
-/// given error.
+/// The best number of samples of each area light, and the rays for finding it. Larger numbers are
+/// tried on some tiles as long as noise times rays decreases: that product is the cost at a given
+/// error (the inverse efficiency).
 pub(super) fn light_samples(
     world: &mut AnyWorld,
     scene: &Scene,
     order: &Order,
     watch: &Watch<'_>,
 ) -> Result<(u32, Counts), Stopped> {
-    /// Tiles, and samples of a replicate in them.
+    /// The number of tiles, and the samples per replicate in them.
     const TILES: usize = 4;
     const LENGTH: u32 = 4;
+    // Keep the number if it is fixed or cannot matter.
     let scene_samples = scene.settings.light_samples;
     let (mut best, mut tried) = ((scene_samples, f64::INFINITY), Counts::default());
     if order.keep_lights || scene_samples == 1 || not_applicable(Parameter::Lights, scene).is_some()
     {
         return Ok((scene_samples, tried));
     }
+    // Choose a few random tiles of the crop.
     let Crop {
         x,
         y,
@@ -338,6 +341,7 @@ pub(super) fn light_samples(
     let wanted: Vec<_> = pixels
         .map(|pixel| [if some.contain(pixel) { LENGTH } else { 0 }, 0])
         .collect();
+    // Try larger numbers while noise times rays decreases.
     for count in [2, 4, 8, 16, 32] {
         let mut film = ProgressiveFilm::new(order.crop, order.seed);
         set_sampling(world, scene, count);

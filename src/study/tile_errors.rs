@@ -1,5 +1,5 @@
-//! What some tiles, chosen at random, say of the whole picture. Errors are spread unevenly: a few
-//! tiles have most of the error, and they may not be among those chosen.
+//! The error of the whole picture, estimated from random tiles. Errors are distributed unevenly: a
+//! few tiles have most of the error, and they may not be among the random ones.
 
 use super::metrics::mean_square;
 use super::statistics::student;
@@ -12,7 +12,7 @@ pub(super) struct TileErrors {
     squares: Vec<f64>,
     /// The pixels of each, over their mean number.
     weights: Vec<f64>,
-    /// The fraction of the picture that they are.
+    /// The fraction of the picture that the tiles cover.
     fraction: f64,
 }
 
@@ -29,11 +29,12 @@ impl TileErrors {
         }
     }
 
-    /// Where the mean square error of the whole picture lies, with 95 % confidence if errors are
-    /// spread evenly, and less the fewer tiles have most of the error.
+    /// The confidence interval of the mean square error of the whole picture: 95 % if errors are
+    /// distributed evenly, less if few tiles have most of the error.
     ///
-    /// The interval is symmetric on a logarithmic scale. Its upper end is that of one tile more,
-    /// which is `WORSE` than the worst: the errors seen are too small more often than too large.
+    /// The interval is symmetric on a logarithmic scale. Its upper end includes an additional tile
+    /// with `WORSE` times the worst error, because sampled errors are too small more often than too
+    /// large.
     pub(super) fn interval(&self) -> [f64; 2] {
         const WORSE: f64 = 2.0;
         let mean = self.mean();
@@ -47,12 +48,12 @@ impl TileErrors {
         let mut more = self.clone();
         more.squares.push(WORSE * worst);
         more.weights.push(1.0);
-        // No channel is off by more than 1.
+        // The error of a channel is at most 1.
         let high = (more.mean() * more.factor()).clamp(mean, mean.max(1.0));
         [mean / self.factor(), high]
     }
 
-    /// The factor by which the mean is known.
+    /// The relative half-width of the interval of the mean, as a factor.
     fn factor(&self) -> f64 {
         let n = self.squares.len();
         exp(student(n - 1) * self.scale(n) * deviation(&self.squares, &self.weights) / self.mean())
@@ -63,8 +64,8 @@ impl TileErrors {
         mean(&self.squares, &self.weights)
     }
 
-    /// Whether the error is surely less than that of another render of the same tiles, by more than
-    /// a factor: tiles in which both are off are no evidence (the ratio estimator; Cochran, "Sampling
+    /// Whether the error is certainly less than that of another render of the same tiles, by more
+    /// than a factor. Errors common to both cancel (the ratio estimator; Cochran, "Sampling
     /// techniques" (1977), 6.4).
     pub(super) fn is_clearly_below(&self, other: &Self, factor: f64) -> bool {
         let (ours, theirs) = (self.mean(), other.mean());
@@ -118,7 +119,7 @@ mod tests {
         assert_eq!(errors(&[0.5], 0.5).interval(), [0.0, 1.0]);
         let [few, many] = [0.1, 0.9].map(|fraction| errors(&squares, fraction).interval());
         assert!(few[0] < many[0] && many[0] < 0.02 && 0.02 < many[1] && many[1] < few[1]);
-        // By hand: ln of the factor is t₃·√(0.9/4)·s/0.02, and s is 0.01·√2.
+        // The expected value: ln of the factor is t₃·√(0.9/4)·s/0.02, and s is 0.01·√2.
         let low = 0.02 / exp(3.182 * 0.225_f64.sqrt() * 2.0_f64.sqrt() / 2.0);
         assert!((few[0] / low - 1.0).abs() < 1e-12, "{few:?}");
     }
@@ -131,7 +132,7 @@ mod tests {
         assert!(half.interval()[1] > coarse.interval()[0]);
         assert!(half.is_clearly_below(&coarse, 1.001) && !coarse.is_clearly_below(&half, 1.001));
         assert!(!coarse.is_clearly_below(&coarse, 1.0));
-        // Better on the whole, yet only in one tile.
+        // Better in the mean, but only in one tile.
         let other = errors(&[0.0, 0.5, 0.0, 0.2, 0.03, 0.5], 0.1);
         assert!(other.mean() < coarse.mean() && !other.is_clearly_below(&coarse, 1.001));
     }

@@ -1,31 +1,32 @@
-//! What no sample may have met: no estimate from samples knows of it, but their number bounds it.
+//! A bound on the error from features that no sample has hit. No estimate from samples includes it,
+//! but the number of samples bounds it (the rule of three).
 
 use super::metrics::LEVELS;
 use rtc_render::ProgressiveFilm;
 
-/// The expected meetings that do not stay out, but with a probability of 5 %.
+/// The expected number of hits of features that are missed with a probability of only 5 %.
 const EXPECTED_HITS: f64 = 3.0;
 
-/// The fraction of the square of a target that may be left to what is not met. Where noise needs many
-/// samples, all pixels soon have so many that far less is left.
+/// The fraction of the squared target that undersampled features may take. Where noise needs many
+/// samples, the actual fraction soon is far lower.
 const TARGET_FRACTION: f64 = 0.25;
 
-/// The most samples of a replicate that all pixels are to have for what is not met alone.
+/// The maximum number of samples per replicate that are taken only for undersampled features.
 const MOST: u32 = 256;
 
-/// The error by what no sample of a film may have met.
+/// The error bound of undersampled features of a film.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct UndersampledError {
     /// Its mean square, for a white of 1.
     pub(super) square: f64,
-    /// As of [`Undersampled`].
+    /// As in [`Undersampled`].
     pub(super) brightest: f64,
 }
 
 impl UndersampledError {
-    /// Whether a bound is told that counts it, beside the mean square error of what was met. A target is
-    /// in grey levels. If much brighter light than white may be unmet, a bound would tell of nothing
-    /// else.
+    /// Whether a bound includes it, given the mean square error of the sampled part and a target in
+    /// grey levels. If light much brighter than white may be undersampled, a bound would be
+    /// dominated by it.
     pub(super) fn is_included(&self, sampled: f64, target: Option<f64>) -> bool {
         match target {
             Some(target) => self.square <= allowance(target),
@@ -34,31 +35,32 @@ impl UndersampledError {
     }
 }
 
-/// The mean square error, for a white of 1, that a target in grey levels leaves to what is not met.
+/// The mean square error, for a white of 1, that a target in grey levels allows for undersampled
+/// features.
 fn allowance(target: f64) -> f64 {
     TARGET_FRACTION * target * target / (LEVELS * LEVELS)
 }
 
-/// What a sample may show, and in how many pixels.
+/// The bound on undersampled features, from the brightest sample value and the number of pixels.
 ///
-/// Features that all samples together were to meet three times in the mean are met by none with a
-/// probability of e⁻³ = 5 % only (the "rule of three": Hanley, Lippman-Hand, "If nothing goes wrong,
-/// is everything all right?", JAMA 249 (1983)). Let a pixel have n samples, none of which shows more
-/// than L times the white of a display. A feature that a share p of its samples meets changes it by
-/// pL, at most by 1. With np in sum at most 3 over all pixels, the sum of the squared changes is
-/// greatest where as many pixels as can be change by 1, each with p = 1/L: those are k = 3L/n. If
-/// that is less than one, one pixel changes by k.
+/// A feature with an expected number of 3 hits is missed by all samples with a probability of only
+/// e⁻³ = 5 % (the "rule of three": Hanley, Lippman-Hand, "If nothing goes wrong, is everything all
+/// right?", JAMA 249 (1983)). Let a pixel have n samples of at most L times the white of a display.
+/// A feature that is hit with probability p changes the pixel by pL, at most by 1. If the sum of np
+/// over all pixels is at most 3, the sum of the squared changes is largest if as many pixels as
+/// possible change by 1, each with p = 1/L: these are k = 3L/n pixels. If k < 1, one pixel changes
+/// by k.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Undersampled {
-    /// The greatest value of a sample, in multiples of the white of a display: at least 1.
+    /// The largest value of a sample, in multiples of display white: at least 1.
     pub(super) brightest: f64,
     /// The number of pixels.
     pub(super) pixels: usize,
 }
 
 impl Undersampled {
-    /// The mean square error by what is not met, for a white of 1, if the replicates of each pixel
-    /// have `count` samples or more.
+    /// The mean square error of undersampled features, for a white of 1, if the replicates of each
+    /// pixel have at least `count` samples.
     fn square(&self, count: u32) -> f64 {
         let changed = EXPECTED_HITS * self.brightest / (2.0 * f64::from(count.max(1)));
         let squares = if changed < 1.0 {
@@ -69,13 +71,13 @@ impl Undersampled {
         squares / self.pixels.max(1) as f64
     }
 
-    /// Of a film with samples everywhere.
+    /// The bound for a film with samples in all pixels.
     pub(super) fn of(&self, film: &ProgressiveFilm) -> UndersampledError {
         let shown = film.pixels().map(|pixel| pixel.counts()[0]);
         self.within(shown.min().unwrap_or(0))
     }
 
-    /// Of pixels that have `count` samples or more in each of two replicates.
+    /// The bound for pixels with at least `count` samples in each of two replicates.
     pub(super) fn within(&self, count: u32) -> UndersampledError {
         UndersampledError {
             square: self.square(count),
@@ -83,8 +85,8 @@ impl Undersampled {
         }
     }
 
-    /// The least samples of a replicate with which a bound in grey levels can be told; 1 if that is
-    /// too many.
+    /// The minimum number of samples per replicate for a bound in grey levels; 1 if that is too
+    /// many.
     pub(super) fn least(&self, error: f64) -> u32 {
         let counts = std::iter::successors(Some(1), |count| Some(2 * count));
         let mut counts = counts.take_while(|count| *count <= MOST);
@@ -104,9 +106,9 @@ mod tests {
             brightest,
             pixels: 100,
         };
-        // One pixel of a hundred, off by 3/8.
+        // One pixel of a hundred with an error of 3/8.
         assert_eq!(undersampled(1.0).square(4), 0.375 * 0.375 / 100.0);
-        // Three pixels, off by 1.
+        // Three pixels with an error of 1.
         assert_eq!(undersampled(8.0).square(4), 0.03);
     }
 
@@ -125,7 +127,7 @@ mod tests {
         assert_eq!(undersampled.least(1e-9), 1, "too many");
     }
 
-    /// No other share-out of three meetings over pixels changes them by more.
+    /// No other distribution of three hits over pixels gives a larger error.
     #[test]
     fn nothing_unmet_is_worse() {
         for (brightest, count) in [(1.0, 1), (1.0, 4), (8.0, 4), (3.0, 16)] {

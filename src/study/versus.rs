@@ -1,10 +1,10 @@
-//! A scene against another, as after a change and before: what each takes, and whether their pictures differ
-//! by more than noise.
+//! The comparison of a scene with a reference scene, for example before and after a change: their
+//! costs, and whether their pictures differ by more than noise.
 //!
-//! Each is rendered several times, by turns with the same random numbers: what both share cancels. The error
-//! beyond noise is the mean product of two independent differences, and a test of pairs says for each tile
-//! whether it differs (as Welch's does for unpaired renders in Jung, Hanika, Dachsbacher, "Detecting Bias in
-//! Monte Carlo Renderers using Welch's t-test", JCGT 9(2), 2020).
+//! Both are rendered several times with the same random numbers, so that common noise cancels. The
+//! error beyond noise is the mean product of two independent differences, and a paired test decides
+//! for each tile whether it differs (as Welch's does for unpaired renders in Jung, Hanika,
+//! Dachsbacher, "Detecting Bias in Monte Carlo Renderers using Welch's t-test", JCGT 9(2), 2020).
 
 use super::benchmark::{BenchmarkCase, benchmark};
 use super::metrics::{LEVELS, mean_product, products, rmse};
@@ -19,49 +19,49 @@ use rtc_ir::Scene;
 use rtc_render::Crop;
 use serde::Serialize;
 
-/// The renders of each scene with independent samples.
+/// The number of renders of each scene with independent samples.
 const REPLICATES: u8 = 8;
 
-/// Renders of both on the clock.
+/// The timed renders of both.
 const ROUNDS: f64 = 3.0;
 
-/// Renders of both in all, with the pilot.
+/// All renders of both, with the pilot.
 const RENDERS: f64 = 8.0 + ROUNDS + 1.0;
 
-/// The sampling of the pilot.
+/// The seed of the pilot.
 const PILOT: u64 = 0x5EED;
 
-/// Fewer tiles say too little.
+/// The minimum number of tiles.
 const FEWEST: usize = 8;
 
-/// The probability that any tile is said to differ where none does.
+/// The probability that any tile is reported as different if none is.
 const FALSE_ALARM: f64 = 0.05;
 
-/// A scene against another, its reference; ratios are the scene's over the reference's.
+/// The comparison of a scene with its reference; ratios are scene over reference.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Versus {
-    /// The form of this report: `rtc-versus/1`.
+    /// The schema of this report: `rtc-versus/1`.
     pub schema: String,
     /// The scene and its reference, and the machine.
     pub scenes: [About; 2],
-    /// The part of the pictures that was rendered.
+    /// The rendered part of the pictures.
     pub part: StudyArea,
     /// Processor seconds for the whole pictures.
     pub seconds: [Estimate; 2],
-    /// Their ratio.
+    /// The ratio of the seconds.
     pub time: Estimate,
-    /// The rays of the part rendered.
+    /// The rays of the rendered part.
     pub rays: [Rays; 2],
-    /// The noise of one render of each, of samples at random, in grey levels.
+    /// The sampling noise of one render of each, in grey levels.
     pub noise: [f64; 2],
-    /// The difference of the pictures as `rtc render` makes them, in grey levels.
+    /// The difference of the pictures that `rtc render` makes, in grey levels.
     pub rendered: f64,
-    /// Their difference beyond noise, with the interval of 95 %, in grey levels.
+    /// Their difference beyond noise, with its 95 % interval, in grey levels.
     pub error: Estimate,
-    /// The number of tiles that were tested.
+    /// The number of tested tiles.
     pub tested: usize,
-    /// Those that surely differ, the most different first.
+    /// The tiles that differ significantly, the most different first.
     pub different: Vec<DifferentTile>,
     /// Wall time over processor time: above 1.2 the machine was busy.
     pub wall_over_cpu: f64,
@@ -75,9 +75,9 @@ pub struct DifferentTile {
     pub at: [u32; 2],
     /// Columns and rows.
     pub size: [u32; 2],
-    /// How far its mean colours are apart, in grey levels.
+    /// The difference of its mean colours, in grey levels.
     pub levels: f64,
-    /// As rare as so many standard deviations of a normal variable, if only noise were between them.
+    /// The significance, as a number of standard deviations of a normal variable.
     pub deviations: f64,
 }
 
@@ -89,7 +89,7 @@ impl Versus {
         scene / reference.max(1.0)
     }
 
-    /// The ratio of noise; 1 where neither has any.
+    /// The ratio of noise; 1 if neither has any.
     #[must_use]
     pub fn ratio_of_noise(&self) -> f64 {
         match self.noise {
@@ -99,10 +99,10 @@ impl Versus {
     }
 }
 
-/// Compares a proven scene with its reference; their pictures have one size.
+/// Compares a validated scene with its reference; their pictures have the same size.
 ///
 /// # Errors
-/// If the observer said stop.
+/// If it was stopped.
 ///
 /// # Panics
 /// If the pictures differ in size.
@@ -114,6 +114,7 @@ pub fn versus(
     runtime: &StudyRuntime<'_>,
 ) -> Result<Versus, Stopped> {
     assert_eq!(scenes[0].camera.size, scenes[1].camera.size);
+    // Choose as many tiles as the budget allows.
     let budget = scenes
         .map(|scene| effort.rays(scene))
         .into_iter()
@@ -121,7 +122,7 @@ pub fn versus(
     let [first, second] = scenes.map(|scene| Subject::new(scene, seed, runtime));
     let count = affordable([&first, &second], budget)?;
     let subjects = [first.keep(count), second.keep(count)];
-    // A race tells ratios to the first.
+    // A benchmark reports ratios to the first case.
     let cases = [&subjects[1], &subjects[0]].map(|subject| BenchmarkCase {
         subject: subject.clone(),
         setting: Setting::of(&subject.scene),
@@ -129,6 +130,7 @@ pub fn versus(
     let rounds = (budget * ROUNDS / RENDERS) as u64;
     let benchmark = benchmark(&cases, rounds, None, &mut Rng::new(seed))?;
     let [first, second] = [1, 0].map(|which| &benchmark.runs[which]);
+    // Render the replicates of both.
     let cells = subjects[0].cells();
     let [scene, reference] = subjects
         .each_ref()
@@ -150,7 +152,7 @@ pub fn versus(
     })
 }
 
-/// The number of tiles of both that a budget of rays is enough for.
+/// The number of tiles of both that a ray budget allows.
 fn affordable(subjects: [&Subject<'_>; 2], budget: f64) -> Result<usize, Stopped> {
     let mut rays = 0.0;
     for subject in subjects {
@@ -164,14 +166,14 @@ fn affordable(subjects: [&Subject<'_>; 2], budget: f64) -> Result<usize, Stopped
 
 /// The replicates of a scene.
 struct SampledScene {
-    /// The means of the first half of them and of the second, in tiles.
+    /// The means of the even and of the odd replicates, in tiles.
     halves: [Vec<Image>; 2],
     /// The mean colour of each tile, for each replicate.
     means: Vec<Vec<[f64; 3]>>,
 }
 
 impl SampledScene {
-    /// The samples of a seed, which are independent of those of other seeds.
+    /// Renders the replicates of a seed, which are independent of those of other seeds.
     fn of(subject: &Subject<'_>, seed: u64) -> Result<Self, Stopped> {
         let first = seed.wrapping_mul(u64::from(REPLICATES)).wrapping_add(1);
         let mut halves = [Vec::new(), Vec::new()];
@@ -199,14 +201,14 @@ impl SampledScene {
         Ok(Self { halves, means })
     }
 
-    /// The root mean square error of one replicate, in grey levels: the halves differ by the noise of two
-    /// means.
+    /// The root mean square error of one replicate, in grey levels, from the difference of the two
+    /// half means.
     fn noise(&self) -> f64 {
         let [first, second] = &self.halves;
         rmse(first, second) * (0.25 * f64::from(REPLICATES)).sqrt()
     }
 
-    /// The colours of a tile.
+    /// A channel of the mean colour of a tile, for each replicate.
     fn channel(&self, tile: usize, channel: usize) -> Vec<f64> {
         self.means
             .iter()
@@ -229,8 +231,8 @@ fn add(sum: &mut Image, tile: &Image) {
     pairs.for_each(|(sum, value)| *sum += value);
 }
 
-/// The difference of two scenes beyond noise, in grey levels, with the interval of 95 %: what noise leaves
-/// open of it, and the choice of tiles.
+/// The difference of two scenes beyond noise, in grey levels, with its 95 % interval from noise and
+/// from the choice of tiles.
 fn beyond_noise([a, b]: &[SampledScene; 2], fraction: f64) -> Estimate {
     let first = [a.halves[0].as_slice(), &b.halves[0]];
     let second = [a.halves[1].as_slice(), &b.halves[1]];
@@ -238,9 +240,9 @@ fn beyond_noise([a, b]: &[SampledScene; 2], fraction: f64) -> Estimate {
     let squares = products(first, first).zip(products(second, second));
     let (mut count, mut variance) = (0.0, 0.0);
     for (product, (one, other)) in products(first, second).zip(squares) {
-        // The variance of either difference.
+        // Estimate the variance of either difference.
         let noise = 0.5 * (one - 2.0 * product + other).max(0.0);
-        // That of their product.
+        // Add the variance of their product.
         variance += noise * (2.0 * product.max(0.0) + noise);
         count += 1.0;
     }
@@ -267,8 +269,9 @@ fn variance_of(values: &[f64]) -> f64 {
     squares.sum::<f64>() / values.len().saturating_sub(1).max(1) as f64
 }
 
-/// The tiles in which a colour differs, all tests together (Holm, "A simple sequentially
-/// rejective multiple test procedure", Scandinavian Journal of Statistics 6 (1979)).
+/// The tiles in which a colour differs significantly, with a correction for multiple tests (Holm,
+/// "A simple sequentially rejective multiple test procedure", Scandinavian Journal of Statistics 6
+/// (1979)).
 fn different([a, b]: &[SampledScene; 2], cells: &[Crop]) -> Vec<DifferentTile> {
     let of = |(tile, cell): (usize, &Crop)| {
         let tests = [0, 1, 2].map(|c| paired(&a.channel(tile, c), &b.channel(tile, c)));
@@ -285,7 +288,7 @@ fn different([a, b]: &[SampledScene; 2], cells: &[Crop]) -> Vec<DifferentTile> {
     };
     let mut tiles: Vec<_> = cells.iter().enumerate().map(of).collect();
     tiles.sort_by(|a, b| b.deviations.total_cmp(&a.deviations));
-    // Three colours of each tile, both signs.
+    // Three channels of each tile, two-sided.
     let tests = 6.0 * tiles.len() as f64;
     let limit = |rejected: usize| normal_quantile(FALSE_ALARM / (tests - 6.0 * rejected as f64));
     let count = tiles

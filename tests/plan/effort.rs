@@ -49,7 +49,7 @@ fn too_many_mirrors_are_followed_without_asking() {
     assert_eq!(reason(1000, 500), "2 bounces: mirrors show mirrors");
     assert_eq!(
         reason(1001, 500),
-        "2 bounces; too many mirrors to ask which sees which"
+        "2 bounces; too many reflective surfaces to test all pairs"
     );
 }
 

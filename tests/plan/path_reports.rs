@@ -31,9 +31,9 @@ environment map:  the environment has no image;
 emission:  no material emits light;
 unlit surfaces:  no material is unlit;
 alpha:  all materials are opaque;
-light weights:  no light can be found both by aiming and by scattering;
-microfacets:  no material reflects at its boundary;
-compensation:  no light bounces between microfacets;
+light weights:  no light is found both by light sampling and by BSDF sampling;
+microfacets:  no material has a microfacet lobe;
+compensation:  there is no multiple scattering between microfacets;
 clearcoat:  no material has a clearcoat;
 sheen:  no material has sheen;
 anisotropy:  no material is anisotropic;
@@ -43,30 +43,30 @@ refraction:  no material transmits light;
 absorption:  no medium absorbs light;
 dispersion:  no material disperses light;
 textures:  no material has a texture;
-corner colours:  no mesh has colours at its corners;
+corner colours:  no mesh has vertex colours;
 corner normals:  no mesh has normals;
 normal maps:  no material has a normal map;
-lens:  a pinhole: the lens has radius 0;";
+lens:  a pinhole camera: the lens radius is 0;";
 
 /// What it says of [`rich`].
 const NEEDED: &str = "\
-surfaces:  3 of 3 may be met by a ray; Surface 0
-environment:  paths that leave the scene find light; Environment 0
+surfaces:  3 of 3 can be hit by a ray; Surface 0
+environment:  paths that leave the scene hit the environment light; Environment 0
 environment map:  the environment has an image; Environment 0
 emission:  1 material; Material 2
-direct light:  a surface is lit by a light that can be aimed at; Light 0
-shadows:  a surface may hide a light from another, or from itself; Light 0
-light weights:  aiming and scattering find the same light; Light 0
+direct light:  a surface is illuminated by a light that can be sampled; Light 0
+shadows:  a surface may shadow another or itself; Light 0
+light weights:  light sampling and BSDF sampling find the same light; Light 0
 bounces:  at most 2 bounces; Settings 0
 microfacets:  1 material; Material 0
-compensation:  light bounces between the facets of rough surfaces; Settings 0
+compensation:  there is multiple scattering between microfacets; Settings 0
 clearcoat:  2 materials; Material 0 Material 1
 textures:  a material has a texture; Material 2
-corner colours:  a mesh has colours at its corners; Surface 0
-corner normals:  a mesh has normals at its corners; Surface 0
+corner colours:  a mesh has vertex colours; Surface 0
+corner normals:  a mesh has vertex normals; Surface 0
 normal maps:  a material has a normal map; Material 2
 lens:  a lens of radius 0.25; Camera 0
-supersampling:  4 paths a pixel; Settings 0";
+supersampling:  4 paths per pixel; Settings 0";
 
 #[test]
 fn each_effect_is_told_with_its_reason_and_the_values_that_decided() {
@@ -81,7 +81,7 @@ fn each_effect_is_told_with_its_reason_and_the_values_that_decided() {
 #[test]
 fn what_is_pruned_is_told_with_its_own_rule() {
     // A black light is left out before.
-    let rule = "P-ALPHA alpha is 1, or above the cutoff, wherever a surface lies";
+    let rule = "P-ALPHA alpha is 1, or above the cutoff, everywhere on the surfaces";
     let told = told(&rich(), State::Pruned);
     assert_eq!(told, format!("alpha: {rule}; Material 1"));
 }

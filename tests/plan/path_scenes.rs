@@ -106,7 +106,7 @@ const OF_SCENES: [OfScene; 30] = [
         PathFeatures::NONE,
     ),
     (
-        "one path a pixel",
+        "one path per pixel",
         |s| path(s).samples = 1,
         [&[], &[Effect::Supersampling]],
         LIT,

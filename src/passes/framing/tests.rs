@@ -1,4 +1,4 @@
-//! What is framed, and how large it shows.
+//! Tests of framing.
 
 use super::*;
 use rtc_ir::{Ambient, Instance, MaterialId, MeshId, Mode, Pattern, Settings, Triangle};
@@ -30,7 +30,7 @@ fn empty() -> Scene {
     Scene::new(camera, settings)
 }
 
-/// A scene of boxes, each by two corners.
+/// A scene of boxes, each with two opposite corners.
 fn scene(boxes: &[[[f64; 3]; 2]]) -> Scene {
     let mut scene = empty();
     for [low, high] in boxes {
@@ -63,7 +63,7 @@ fn scene(boxes: &[[[f64; 3]; 2]]) -> Scene {
     scene
 }
 
-/// Where the corners of some boxes come to, −1 to 1 across the picture: least and greatest.
+/// The projected corners of some boxes, −1 to 1 across the picture: minimum and maximum.
 fn shown(scene: &Scene, boxes: &[[[f64; 3]; 2]]) -> [[f64; 2]; 2] {
     let camera = &scene.camera;
     let [eye, center, right, up] =
@@ -139,7 +139,7 @@ fn a_wide_ground_is_no_subject_but_a_floor_alone_is() {
     let distance = |scene: &Scene| scene.camera.distance();
     assert!((distance(&alone) - distance(&on_ground)).abs() < 1e-9);
     assert!(distance(&framed(&[ground], Framing::default())) > 100.0);
-    // A roof of the same size, and a small floor, belong to it.
+    // A roof of the same size and a small floor are part of the subject.
     let (roof, floor) = (
         [[-90.0, 5.0, -90.0], [90.0, 5.1, 90.0]],
         [[-1.5, -0.01, -1.5], [1.5, 0.0, 1.5]],
@@ -165,7 +165,7 @@ fn an_orbit_goes_to_the_right_and_up_and_rolls_clockwise() {
     assert!(near(at(0.0, 0.0, 0.0), (Vec3::Y, Vec3::Z)));
     assert!(near(at(PI / 2.0, 0.0, 0.0), (Vec3::Y, Vec3::X)));
     assert!(near(at(0.0, PI / 2.0, 0.0), (-Vec3::Z, Vec3::Y)));
-    // The camera turns clockwise: what was up leans to its left.
+    // The camera rolls clockwise: the up direction leans to its left.
     assert!(near(at(0.0, 0.0, PI / 2.0), (Vec3::X, Vec3::Z)));
 }
 

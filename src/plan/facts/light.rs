@@ -1,10 +1,11 @@
-//! Lights as each integrator sees them: Whitted's integrator sees lights of the course, paths see physical ones.
+//! Lights as each integrator uses them: the Whitted integrator uses the course's point lights, the
+//! path integrator uses physical lights.
 
 use rtc_profile::Profile;
 use rtc_valid::{CourseLight, Falloff, Light, PointLight, Punctual};
 use std::f64::consts::PI;
 
-/// The lights that Whitted's integrator sees: those of the course, in the order of the scene.
+/// The lights of the Whitted integrator: the course's point lights, in scene order.
 #[must_use]
 pub fn course(lights: &[Light]) -> Vec<CourseLight> {
     let course = |light: &Light| match light {
@@ -14,8 +15,8 @@ pub fn course(lights: &[Light]) -> Vec<CourseLight> {
     lights.iter().filter_map(course).collect()
 }
 
-/// The lights that the path integrator sees: all. A light of the course has the intensity that
-/// gives a facing white Lambert surface its colour as radiance.
+/// The lights of the path integrator: all lights. A course light gets the intensity with which a
+/// facing white Lambertian surface has the light's colour as radiance.
 #[must_use]
 pub fn punctual(lights: &[Light]) -> Vec<Punctual> {
     let physical = |light: &Light| match light {

@@ -1,11 +1,13 @@
-//! Materials as each integrator sees them: Whitted's integrator sees Phong's model, paths see glTF's.
+//! Materials as each integrator uses them: the Whitted integrator uses the Phong model, the path
+//! integrator the glTF material.
 
 use rtc_math::{NonNegative, Positive, UnitInterval, Vec3};
 use rtc_tables::{PhongTerms, fit_phong};
 use rtc_valid::{Map, Material, Phong, Standard, UvSet};
 use std::num::NonZeroU32;
 
-/// The material as Whitted's integrator sees it. Of glTF's material it takes the colour, without the emission.
+/// The material of the Whitted integrator. A glTF material is converted by its colour, without
+/// emission.
 #[must_use]
 pub fn phong(material: &Material) -> Phong {
     match material {
@@ -14,7 +16,7 @@ pub fn phong(material: &Material) -> Phong {
     }
 }
 
-/// The material as the path integrator sees it; of Phong's model, the one that comes nearest.
+/// The material of the path integrator. A Phong material is converted to the closest glTF material.
 #[must_use]
 pub fn standard(material: &Material) -> Standard {
     match material {
@@ -63,7 +65,7 @@ fn standard_of_phong(phong: &Phong) -> Standard {
     }
 }
 
-/// A texture by the coordinates of the surface as they are.
+/// A map with untransformed texture coordinates.
 fn whole(texture: usize) -> Map {
     Map {
         texture,

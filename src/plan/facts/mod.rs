@@ -1,7 +1,8 @@
-//! The proof as an integrator sees it: functions from proven nouns to proven nouns.
+//! Conversions of validated lights and materials to the models that each integrator uses.
 //!
-//! Each integrator knows one model of materials and one of lights. It sees other models as the
-//! nearest ones of its own.
+//! Each integrator has one material model and one light model: the Whitted integrator the Phong model
+//! and point lights without falloff, the path integrator the glTF material and physical lights. Other
+//! models are converted to the closest equivalent.
 
 pub mod light;
 pub mod material;

@@ -1,5 +1,5 @@
-//! The draft of the path plan: everything that the scene asks for, minus everything that a rule
-//! proves to add nothing.
+//! The builder of the path plan: it starts with everything the scene requires, and each rule
+//! removes what provably contributes zero.
 
 use super::facts::{MaterialUses, Presence};
 use super::rules::PathRule;
@@ -13,57 +13,57 @@ use rtc_math::{UnitInterval, Vec3};
 use rtc_valid::{Alpha, Map, Mesh, PathSettings, Punctual, Shape, Standard, Surface, ValidScene};
 use std::ops::Range;
 
-/// The part of a scene that is still in the plan.
+/// The part of a scene that remains in the plan.
 #[derive(Clone)]
 pub(super) struct PlanBuilder<'scene> {
     pub(super) scene: &'scene ValidScene,
     pub(super) path: PathSettings,
     /// The punctual lights.
     pub(super) punctual: &'scene [Punctual],
-    /// Per material, its surfaces.
+    /// The surfaces of each material.
     pub(super) uses: &'scene [MaterialUses],
-    /// What its textures show.
+    /// The values of the textures.
     pub(super) textures: &'scene TextureValues<'scene>,
-    /// Per surface, its bounds.
+    /// The bounds of each surface.
     pub(super) surface_bounds: &'scene [SurfaceBounds],
-    /// Per surface, its footprint in the picture.
+    /// The screen rectangle of each surface.
     pub(super) screen_rects: &'scene [ScreenRect],
-    /// Per material of the scene, the simplified material.
+    /// The simplified material for each material of the scene.
     pub(super) materials: Vec<Standard>,
-    /// Per texture, whether maps of it are folded into the factors.
+    /// For each texture, whether its maps are folded into factors.
     pub(super) folded: Vec<bool>,
-    /// Per punctual light.
+    /// The use of each punctual light.
     pub(super) lights: Vec<LightUse>,
     pub(super) environment: EnvironmentUse,
-    /// Per surface, whether it is in the world.
+    /// For each surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
     /// The maximum number of bounces.
     pub(super) max_depth: u32,
-    /// Whether the last ray of a path may still find light.
+    /// Whether the last ray of a path may hit an emitter.
     pub(super) last_ray: bool,
     /// Whether lights are sampled.
     pub(super) nee: bool,
-    /// Whether any surface may shadow another.
+    /// Whether any surface may cast a shadow.
     pub(super) shadows: bool,
 }
 
-/// The part of a light that is still in the plan.
+/// The part of a light that remains in the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightUse {
     /// Nothing: the light is removed.
     Nothing,
-    /// Its index in the light distribution; it reaches no surface.
+    /// Only its index in the light distribution; it illuminates no surface.
     OnlyIndex,
     /// All of it.
     All,
 }
 
-/// The part of the environment that is still in the plan.
+/// The part of the environment that remains in the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EnvironmentUse {
     /// Nothing: it emits no light.
     Nothing,
-    /// The value of its image, which is the same in all directions, and the choice of directions.
+    /// The constant value of its image, and its direction sampling.
     Constant,
     /// All of it.
     All,
@@ -72,9 +72,9 @@ pub enum EnvironmentUse {
 /// A rule that was applied.
 pub(super) struct Applied {
     pub(super) rule: &'static PathRule,
-    /// The effects that are not needed after this rule.
+    /// The effects that are no longer required after this rule.
     pub(super) removed_effects: Vec<Effect>,
-    /// The values that decided.
+    /// The scene values that decide it.
     pub(super) places: Vec<ValuePath>,
 }
 
@@ -100,7 +100,7 @@ impl PlanBuilder<'_> {
         })
     }
 
-    /// Simplifies the materials that are in use; returns the places of the changed ones.
+    /// Simplifies the used materials; returns the paths of the changed ones.
     pub(super) fn simplify(
         &mut self,
         simplified: impl Fn(&Self, usize, &Standard) -> Standard,
@@ -115,7 +115,7 @@ impl PlanBuilder<'_> {
         changed.into_iter().map(put).collect()
     }
 
-    /// The materials with a surface in the world, each with its index.
+    /// The materials of surfaces in the world, each with its index.
     pub(super) fn used_materials(&self) -> impl Iterator<Item = (usize, &Standard)> {
         let is_used = |material: &usize| {
             self.uses[*material]
@@ -128,7 +128,7 @@ impl PlanBuilder<'_> {
             .map(|index| (index, &self.materials[index]))
     }
 
-    /// Whether a material that scatters light has a property.
+    /// Whether any material that scatters light has a property.
     fn any(&self, has: impl Fn(&Standard) -> bool) -> bool {
         self.max_depth > 0
             && self
@@ -136,18 +136,17 @@ impl PlanBuilder<'_> {
                 .any(|(_, material)| !material.unlit && has(material))
     }
 
-    /// Whether a path may follow a scattered ray.
+    /// Whether a path may continue after the first hit.
     pub(super) fn bounces(&self) -> bool {
         self.max_depth > u32::from(!self.last_ray) && self.used_materials().next().is_some()
     }
 
-    /// Whether light comes through any surface: that of a ray that goes on, or that of a light
-    /// behind it.
+    /// Whether any surface transmits light, of a continued path or of a light behind it.
     pub(super) fn transmits(&self) -> bool {
         self.any(|material| material_requires(material, Effect::Refraction))
     }
 
-    /// Whether the draft still asks for an effect.
+    /// Whether an effect is still required.
     pub(super) fn requires(&self, effect: Effect) -> bool {
         match effect {
             Effect::Surfaces => self.surfaces.contains(&true),
@@ -209,7 +208,7 @@ impl PlanBuilder<'_> {
         })
     }
 
-    /// Whether any normal map, or any other map, is looked up.
+    /// Whether any normal map is looked up, or else any other map.
     fn any_map(&self, of_normals: bool) -> bool {
         let is_of_normals = |material: &Standard, map: &Map| {
             let normals = [&material.normal_map, &material.clearcoat_normal_map];
@@ -241,7 +240,7 @@ impl PlanBuilder<'_> {
         self.uses[material].presence(map) == Presence::Everywhere
     }
 
-    /// Whether a map is 0 in some channels on all surfaces of a material; not without a map.
+    /// Whether a map is 0 in some channels on all surfaces of a material; false without a map.
     pub(super) fn is_zero(
         &self,
         material: usize,
@@ -256,18 +255,18 @@ impl PlanBuilder<'_> {
         })
     }
 
-    /// Whether there is a light to sample, and a surface with a lobe that is not a delta lobe.
+    /// Whether there is a light to sample and a surface with a non-delta lobe.
     fn samples_lights(&self) -> bool {
         self.nee && self.any(|_| true) && self.has_sampled_light()
     }
 
-    /// Whether the light distribution has a light that may reach a surface.
+    /// Whether the light distribution has a light that may illuminate a surface.
     fn has_sampled_light(&self) -> bool {
         self.lights.contains(&LightUse::All) || self.has_extended_light()
     }
 
-    /// Whether there is a light that both light sampling and BSDF sampling find: an environment
-    /// image, or emissive triangles.
+    /// Whether there is a light that both light sampling and BSDF sampling can hit: an environment
+    /// image or emissive triangles.
     pub(super) fn has_extended_light(&self) -> bool {
         let shines = self.environment != EnvironmentUse::Nothing;
         (shines && self.has_environment_image()) || self.has_emissive_mesh()
@@ -290,14 +289,14 @@ impl PlanBuilder<'_> {
     }
 }
 
-/// Whether light goes through a material.
+/// Whether a material transmits light.
 pub(super) fn is_transmissive(m: &Standard) -> bool {
     let mut layers = Layer::ALL.into_iter();
     let by_layer = layers.any(|layer| layer.transmits() && layer.is_in(m));
     by_layer || m.transmission > UnitInterval::ZERO
 }
 
-/// Whether a material asks for an effect; false for effects that no material has.
+/// Whether a material requires an effect; false for effects that do not depend on materials.
 pub(super) fn material_requires(m: &Standard, effect: Effect) -> bool {
     let is_nonzero = |weight: UnitInterval| weight > UnitInterval::ZERO;
     match effect {

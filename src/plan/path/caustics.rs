@@ -1,22 +1,22 @@
-//! Caustics: light that smooth metal and glass throw onto other surfaces. Paths from the camera find it
-//! by chance, or not at all.
+//! Caustics: light that smooth metal and glass focus onto other surfaces. Camera paths find it only
+//! by BSDF sampling, or not at all.
 
 use super::{EnvironmentUse, LightUse, PathPlan};
 use rtc_math::{UnitInterval, Vec3};
 use rtc_valid::Standard;
 
-/// How traced paths find the caustics of a scene.
+/// How path tracing finds the caustics of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Caustics {
-    /// A path that scatters meets a light by way of a smooth surface: seldom, so they are noise.
+    /// A scattered path hits a light after a smooth surface. This is rare, so caustics are noisy.
     ByChance,
-    /// Some not at all: no path meets a light without size by way of a perfect mirror or lens.
+    /// Some caustics are missing: no path hits a punctual light by way of a perfect mirror or lens.
     LeftOut,
 }
 
 impl PathPlan {
-    /// How caustics are found; `None` where nothing throws any. Materials count as they are, on a
-    /// surface or not.
+    /// How caustics are found, or `None` if the scene has none. All materials count, also unused
+    /// ones.
     #[must_use]
     pub fn caustics(&self) -> Option<Caustics> {
         let has_punctual = self.has_punctual();
@@ -32,8 +32,8 @@ impl PathPlan {
         })
     }
 
-    /// Whether a path may come upon a light without size by way of metal or glass that is smooth,
-    /// but not perfectly so: what it carries then grows as the lobe narrows, and has no useful
+    /// Whether a path may sample a punctual light by way of metal or glass that is smooth, but not
+    /// perfectly smooth. The radiance of such a path grows as the lobe narrows and has no useful
     /// bound.
     #[must_use]
     pub fn has_unbounded_caustics(&self) -> bool {
@@ -50,24 +50,24 @@ impl PathPlan {
 }
 
 impl Caustics {
-    /// How they are found, in words.
+    /// A description for reports.
     #[must_use]
     pub const fn description(self) -> &'static str {
         match self {
-            Self::ByChance => "found by chance alone, as noise; `--clamp` bounds it",
-            Self::LeftOut => "those of lights without size are left out, as no path finds them",
+            Self::ByChance => "found only by BSDF sampling, as noise; `--clamp` bounds it",
+            Self::LeftOut => "caustics of punctual lights are missing: no path finds them",
         }
     }
 }
 
-/// Whether a material mirrors or refracts most light in nearly one direction.
+/// Whether a material reflects or refracts most light into nearly one direction.
 fn casts_caustics(m: &Standard) -> bool {
-    /// So rough, light is spread over tens of degrees.
+    /// At this roughness, light is spread over tens of degrees.
     const ROUGH: f64 = 0.4;
     m.roughness.get() < ROUGH && reflects_or_refracts(m)
 }
 
-/// Whether a material mirrors or refracts most light.
+/// Whether a material reflects or refracts most light.
 fn reflects_or_refracts(m: &Standard) -> bool {
     !m.unlit && (m.metallic.get() > 0.5 || m.transmission.get() > 0.0)
 }

@@ -1,5 +1,5 @@
-//! Facts of a scene before any rule: the surfaces of each material, their texture coordinates, and
-//! the values of their textures there.
+//! Facts about a scene before any rule is applied: the surfaces of each material, their texture
+//! coordinates, and the texture values there.
 
 use super::texture::{Area, TextureValues};
 use crate::Layer;
@@ -7,17 +7,17 @@ use crate::shape::shape_facts;
 use rtc_math::UnitInterval;
 use rtc_valid::{Map, Shape, Standard, ValidScene};
 
-/// Facts of all surfaces of one material.
+/// Facts about all surfaces of one material.
 #[derive(Clone, Debug)]
 pub(super) struct MaterialUses {
-    /// The surfaces, as indices into those of the scene.
+    /// The indices of the surfaces in the scene.
     pub(super) surfaces: Vec<usize>,
-    /// Per set of texture coordinates, the surfaces that have it.
+    /// For each set of texture coordinates, which surfaces have it.
     sets: [Presence; 2],
-    /// Per set, the bounding rectangle of all coordinates.
+    /// For each set, the bounding rectangle of all coordinates.
     areas: [Area; 2],
-    /// Whether any surface has vertex colours. Rounding of their interpolation may leave an alpha
-    /// just below those of the corners.
+    /// Whether any surface has vertex colours. Rounding in the interpolation may leave an alpha
+    /// just below those of the vertices.
     pub(super) has_colors: bool,
 }
 
@@ -41,7 +41,7 @@ impl Presence {
 }
 
 impl MaterialUses {
-    /// The uses of each material of a scene.
+    /// The facts for each material of a scene.
     pub(super) fn of(scene: &ValidScene) -> Vec<Self> {
         let unused = Self {
             surfaces: Vec::new(),
@@ -50,7 +50,7 @@ impl MaterialUses {
             has_colors: false,
         };
         let mut uses = vec![unused; scene.materials().len()];
-        // A mesh is looked through once, however many instances it has.
+        // Each mesh is scanned once, however many instances it has.
         let mut of_meshes = vec![None; scene.meshes().len()];
         for (index, surface) in scene.surfaces().iter().enumerate() {
             let used_materials = &mut uses[surface.material];
@@ -81,8 +81,8 @@ impl MaterialUses {
         self.sets[map.set.index()]
     }
 
-    /// The value of a channel that a map shows on all these surfaces, if it shows only one: colour
-    /// channels as they are stored.
+    /// The value of a channel of a map on all these surfaces, if it is constant there; colour
+    /// channels are not decoded.
     pub(super) fn value(
         &self,
         map: &Map,
@@ -90,7 +90,7 @@ impl MaterialUses {
         textures: &TextureValues<'_>,
     ) -> Option<f64> {
         let value = || textures.value(map, self.areas[map.set.index()], channel);
-        // Without texture coordinates, a map is 1.
+        // Without texture coordinates, a map has the value 1.
         match self.presence(map) {
             Presence::Never => Some(1.0),
             Presence::Everywhere => value(),
@@ -98,8 +98,8 @@ impl MaterialUses {
         }
     }
 
-    /// Whether a channel has a property wherever these surfaces show a map, and 1 has it, which a map
-    /// is without texture coordinates.
+    /// Whether a channel of a map has a property everywhere on these surfaces. The value 1, which a
+    /// map has without texture coordinates, must have it too.
     pub(super) fn all(
         &self,
         map: &Map,
@@ -113,7 +113,7 @@ impl MaterialUses {
 
 /// Whether all lobes of a material are delta lobes: it is smooth and has no diffuse base.
 ///
-/// The compensation for multiple bounces between microfacets is never a delta lobe.
+/// The lobe that compensates for multiple scattering between microfacets is never a delta lobe.
 pub(super) fn is_delta(m: &Standard, multiple_scattering: bool) -> bool {
     let is_0 = |number: UnitInterval| number == UnitInterval::ZERO;
     let is_1 = |number: UnitInterval| number == UnitInterval::ONE;
@@ -123,7 +123,7 @@ pub(super) fn is_delta(m: &Standard, multiple_scattering: bool) -> bool {
     let is_black = m.base_color[..3].iter().all(|channel| is_0(*channel));
     let has_smooth_coat = is_0(m.clearcoat) || is_0(m.clearcoat_roughness);
     let has_base = !(is_metal || is_glass || is_black);
-    // A coat and a film may be smooth; other layers spread light.
+    // Clearcoat and iridescence may be smooth; all other layers scatter light.
     let spreads = |layer: Layer| !matches!(layer, Layer::Clearcoat | Layer::Iridescence);
     let mut layers = Layer::ALL.into_iter().filter(|layer| layer.is_in(m));
     let is_delta = is_smooth && has_smooth_coat && !layers.any(spreads);

@@ -1,8 +1,19 @@
-//! The plan of traced paths: the materials, lights and steps that a picture needs.
+//! The plan of the path integrator: the materials, lights and features that a picture needs.
 //!
-//! Rules work on a draft that starts with everything the scene asks for. An effect is absent if the
-//! scene never asked for it, pruned if a rule removed it, and needed otherwise. So the verdicts
-//! always agree with the work that the integrator gets.
+//! - [`facts`]: facts before any rule: the surfaces of each material and their texture coordinates.
+//! - [`texture`]: the values of a texture within a rectangle of texture coordinates.
+//! - [`builder`]: the [`PlanBuilder`], the part of the scene that remains in the plan.
+//! - [`rules`]: the rules, each with its name, its statement and its proof.
+//! - [`status`]: the status of each effect, derived from the builder before and after the rules.
+//! - [`caustics`]: whether and how the caustics of a scene are found.
+//!
+//! Rules work on a [`PlanBuilder`] that starts with everything the scene requires. An effect is
+//! absent if the scene does not require it, pruned if a rule removed it, and needed otherwise. So
+//! each status agrees with the work of the integrator.
+//!
+//! A rule may remove work only if no random number changes its meaning: a light that illuminates
+//! nothing keeps its index in the light distribution, and a constant environment map keeps its
+//! direction sampling.
 
 mod builder;
 mod caustics;
@@ -28,27 +39,27 @@ use rtc_math::Vec3;
 use rtc_valid::{Map, PathSettings, Projection, Standard, UvSet, ValidScene};
 use texture::TextureValues;
 
-/// The work that traced paths need.
+/// The work of the path integrator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathPlan {
-    /// Per material of the scene, the simplified material.
+    /// The simplified material for each material of the scene.
     pub materials: Vec<Standard>,
-    /// Per material, the maps that are folded into constants: the index of the texture, and the set
-    /// of coordinates.
+    /// For each material, the maps that are folded into constants: the texture index and the set of
+    /// coordinates.
     folded: Vec<Vec<(usize, UvSet)>>,
-    /// Per punctual light.
+    /// The use of each punctual light.
     pub lights: Vec<LightUse>,
-    /// What is left of the environment.
+    /// The use of the environment.
     pub environment: EnvironmentUse,
-    /// Whether the last ray of a path may still find light.
+    /// Whether the last ray of a path may hit an emitter.
     pub last_ray: bool,
     /// The features that the integrator needs.
     pub features: PathFeatures,
 }
 
 impl PathPlan {
-    /// Whether a map of a material is constant on all its surfaces, so that preparation folds it
-    /// into the factor.
+    /// Whether a map of a material is constant on all its surfaces, so that scene preparation folds
+    /// it into a factor.
     #[must_use]
     pub fn is_folded(&self, material: usize, map: &Map) -> bool {
         self.folded[material].contains(&(map.texture, map.set))
@@ -58,15 +69,16 @@ impl PathPlan {
 /// The scene after the rules.
 pub(super) struct Planned {
     pub(super) plan: PathPlan,
-    /// Per surface, whether it is in the world.
+    /// For each surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
     /// The maximum number of bounces.
     pub(super) max_depth: u32,
     pub(super) statuses: Vec<EffectStatus>,
 }
 
-/// Plans the paths of a scene.
+/// Plans path tracing of a scene.
 pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Planned {
+    // Gather the facts.
     let (uses, surface_bounds, textures) = (
         MaterialUses::of(scene),
         surface_bounds(scene),
@@ -85,6 +97,7 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
         }
         Projection::Orthographic => vec![ScreenRect::Unknown; surface_bounds.len()],
     };
+    // Start with everything that the scene requires.
     let requested = PlanBuilder {
         scene,
         path,
@@ -111,9 +124,11 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
         nee: true,
         shadows: true,
     };
+    // Apply the rules, and derive the status of each effect.
     let mut left = requested.clone();
     let applied = apply(&mut left, rules);
     let statuses = status::statuses(&requested, &left, &applied);
+    // Take the plan from what remains.
     let folded = |(index, material): (usize, &Standard)| {
         let maps = material.maps().filter(|map| left.is_folded(index, map));
         maps.map(|map| (map.texture, map.set)).collect()
@@ -134,7 +149,8 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
     }
 }
 
-/// Applies the rules until none changes the draft. Every change removes something, so this ends.
+/// Applies the rules until none changes anything. Every change removes something, so the loop
+/// terminates.
 fn apply(builder: &mut PlanBuilder<'_>, rules: Rules) -> Vec<Applied> {
     let mut applied = Vec::new();
     loop {
@@ -150,7 +166,7 @@ fn apply(builder: &mut PlanBuilder<'_>, rules: Rules) -> Vec<Applied> {
     }
 }
 
-/// The features that the integrator needs for the draft.
+/// The features that the integrator needs.
 fn features(builder: &PlanBuilder<'_>, rules: Rules) -> PathFeatures {
     if rules == Rules::NONE {
         return PathFeatures::EVERYTHING;

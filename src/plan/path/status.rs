@@ -1,14 +1,14 @@
-//! The verdict on each effect of traced paths, derived from the final draft.
+//! The status of each effect of path tracing, derived from the final [`PlanBuilder`].
 
 use super::builder::{Applied, PlanBuilder, material_requires};
 use crate::effect::{Effect, EffectStatus, State};
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_valid::Standard;
 
-/// The most places named for one verdict.
+/// The maximum number of facts of a status.
 const MAX_FACTS: usize = 3;
 
-/// A verdict on each effect that paths may have.
+/// The status of each effect that path tracing may have.
 pub(super) fn statuses(
     requested: &PlanBuilder<'_>,
     left: &PlanBuilder<'_>,
@@ -26,6 +26,7 @@ fn status(
     left: &PlanBuilder<'_>,
     applied: &[Applied],
 ) -> EffectStatus {
+    // Needed if still required; pruned if a rule removed it; otherwise absent.
     let removed_effects = || {
         applied
             .iter()
@@ -46,6 +47,7 @@ fn status(
     } else {
         (State::Absent, None, absence(effect).to_owned(), Vec::new())
     };
+    // Name only the first facts.
     facts.truncate(MAX_FACTS);
     EffectStatus {
         effect,
@@ -57,42 +59,42 @@ fn status(
     }
 }
 
-/// Why a scene does not ask for an effect.
+/// The reason why a scene does not require an effect.
 fn absence(effect: Effect) -> &'static str {
     match effect {
         Effect::Surfaces => "the scene has none",
-        Effect::Supersampling => "one path a pixel",
-        Effect::Lens => "a pinhole: the lens has radius 0",
+        Effect::Supersampling => "one path per pixel",
+        Effect::Lens => "a pinhole camera: the lens radius is 0",
         Effect::Environment => "the scene has no environment",
         Effect::EnvironmentMap => "the environment has no image",
         Effect::Emission => "no material emits light",
         Effect::Unlit => "no material is unlit",
         Effect::Alpha => "all materials are opaque",
-        Effect::DirectLight => "there is no light to aim at",
-        Effect::Shadows => "no light is aimed at",
-        Effect::Mis => "no light can be found both by aiming and by scattering",
-        Effect::Depth => "no path goes on",
+        Effect::DirectLight => "there is no light to sample",
+        Effect::Shadows => "no light is sampled",
+        Effect::Mis => "no light is found both by light sampling and by BSDF sampling",
+        Effect::Depth => "no path continues after its first hit",
         Effect::Refraction => "no material transmits light",
         Effect::Volume => "no medium absorbs light",
         Effect::Dispersion => "no material disperses light",
-        Effect::Microfacets => "no material reflects at its boundary",
-        Effect::Compensation => "no light bounces between microfacets",
+        Effect::Microfacets => "no material has a microfacet lobe",
+        Effect::Compensation => "there is no multiple scattering between microfacets",
         Effect::Layer(layer) => layer.absence(),
         Effect::Textures => "no material has a texture",
         Effect::NormalMapping => "no material has a normal map",
         Effect::NormalInterpolation => "no mesh has normals",
-        Effect::VertexColors => "no mesh has colours at its corners",
+        Effect::VertexColors => "no mesh has vertex colours",
         Effect::DepthBuffer
         | Effect::NormalBuffer
         | Effect::SoftLight
         | Effect::Highlight
         | Effect::Mirror
-        | Effect::GlossyReflection => "paths know no such effect",
+        | Effect::GlossyReflection => "path tracing does not have it",
     }
 }
 
 impl PlanBuilder<'_> {
-    /// Why the picture needs an effect, and the values that make it necessary.
+    /// The reason why the picture needs an effect, and the scene values that require it.
     fn need(&self, effect: Effect) -> (String, Vec<ValuePath>) {
         let materials: Vec<_> = self.materials_with(effect).map(material).collect();
         if materials.is_empty() {
@@ -102,7 +104,7 @@ impl PlanBuilder<'_> {
         }
     }
 
-    /// As [`Self::need`], of an effect that no material asks for by itself.
+    /// Like [`Self::need`], for an effect that no single material requires.
     fn need_of_scene(&self, effect: Effect) -> (String, Vec<ValuePath>) {
         let at = |entity, field| vec![ValuePath::new(entity, 0, field)];
         let says = |reason: &str, entity| (reason.to_owned(), at(entity, Field::Whole));
@@ -113,11 +115,11 @@ impl PlanBuilder<'_> {
                     .iter()
                     .filter(|is_in_world| **is_in_world)
                     .count();
-                let reason = format!("{left} of {} may be met by a ray", self.surfaces.len());
+                let reason = format!("{left} of {} can be hit by a ray", self.surfaces.len());
                 (reason, at(EntityKind::Surface, Field::Whole))
             }
             Effect::Supersampling => {
-                let reason = counted(self.path.samples.get() as usize, "path") + " a pixel";
+                let reason = counted(self.path.samples.get() as usize, "path") + " per pixel";
                 (reason, at(EntityKind::Settings, Field::Mode))
             }
             Effect::Lens => {
@@ -130,30 +132,25 @@ impl PlanBuilder<'_> {
                 (reason, at(EntityKind::Settings, Field::MaxDepth))
             }
             Effect::Compensation => {
-                let reason = "light bounces between the facets of rough surfaces";
+                let reason = "there is multiple scattering between microfacets";
                 (reason.to_owned(), at(EntityKind::Settings, Field::Mode))
             }
             Effect::Environment => says(
-                "paths that leave the scene find light",
+                "paths that leave the scene hit the environment light",
                 EntityKind::Environment,
             ),
             Effect::EnvironmentMap => says("the environment has an image", EntityKind::Environment),
             Effect::DirectLight => says(
-                "a surface is lit by a light that can be aimed at",
+                "a surface is illuminated by a light that can be sampled",
                 EntityKind::Light,
             ),
-            Effect::Shadows => says(
-                "a surface may hide a light from another, or from itself",
-                EntityKind::Light,
-            ),
+            Effect::Shadows => says("a surface may shadow another or itself", EntityKind::Light),
             Effect::Mis => says(
-                "aiming and scattering find the same light",
+                "light sampling and BSDF sampling find the same light",
                 EntityKind::Light,
             ),
-            Effect::NormalInterpolation => {
-                says("a mesh has normals at its corners", EntityKind::Surface)
-            }
-            Effect::VertexColors => says("a mesh has colours at its corners", EntityKind::Surface),
+            Effect::NormalInterpolation => says("a mesh has vertex normals", EntityKind::Surface),
+            Effect::VertexColors => says("a mesh has vertex colours", EntityKind::Surface),
             Effect::NormalMapping => ("a material has a normal map".to_owned(), self.with_maps()),
             Effect::Textures => ("a material has a texture".to_owned(), self.with_maps()),
             Effect::Emission
@@ -180,7 +177,7 @@ impl PlanBuilder<'_> {
         with_maps.map(|(index, _)| material(index)).collect()
     }
 
-    /// The materials that ask for an effect by themselves.
+    /// The materials that require an effect.
     fn materials_with(&self, effect: Effect) -> impl Iterator<Item = usize> {
         let requires =
             move |(_, material): &(usize, &Standard)| material_requires(material, effect);

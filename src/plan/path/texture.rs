@@ -1,4 +1,4 @@
-//! The values that a texture shows within a rectangle of texture coordinates.
+//! The values of a texture within a rectangle of texture coordinates.
 
 use rtc_image::Texel;
 use rtc_valid::{Image, Map, Texture, ValidScene, Wrap};
@@ -9,10 +9,10 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Area([[f64; 2]; 2]);
 
-/// The margin in texels, for rounding and for the neighbours that filters blend in.
+/// The margin in texels, for rounding and for the neighbours that filtering reads.
 const MARGIN: f64 = 2.0;
 
-/// An area of more repetitions than this counts as the whole image.
+/// An area with more repetitions than this counts as the whole image.
 const MAX_REPEATS: f64 = 1e6;
 
 impl Area {
@@ -47,13 +47,13 @@ impl Area {
     }
 }
 
-/// What the textures of a scene show. A question on a whole image is answered once, and by as few
-/// texels as decide it.
+/// The values of the textures of a scene. Answers about whole images are cached, and each scan
+/// stops at the first texel that decides.
 pub(super) struct TextureValues<'scene> {
     scene: &'scene ValidScene,
-    /// Per image, whether all texels are equal.
+    /// For each image, whether all texels are equal.
     constant: Vec<OnceCell<bool>>,
-    /// Per image and channel, the value of all texels, if they have only one.
+    /// For each image and channel, the value of all texels, if they are equal.
     values: Vec<[OnceCell<Option<f64>>; 4]>,
 }
 
@@ -79,9 +79,9 @@ impl<'scene> TextureValues<'scene> {
         *self.constant[image].get_or_init(is_constant)
     }
 
-    /// The value of a channel (red, green, blue, alpha) that a map shows everywhere on an area, if
-    /// it shows only one: colours as they are stored, bytes in units of 255. What filtering blends
-    /// of equal texels is that value.
+    /// The value of a channel (red, green, blue, alpha) of a map on an area, if it is constant
+    /// there; colours are not decoded, bytes are divided by 255. Filtering equal texels gives that
+    /// value.
     pub(super) fn value(&self, map: &Map, area: Area, channel: usize) -> Option<f64> {
         let texture = &self.scene.textures()[map.texture];
         let Some(image) = image_of(texture) else {
@@ -95,7 +95,7 @@ impl<'scene> TextureValues<'scene> {
         }
     }
 
-    /// Whether a channel has a property in all texels that a map may show on an area.
+    /// Whether a channel has a property in all texels that a lookup on an area may read.
     pub(super) fn all(
         &self,
         map: &Map,
@@ -113,7 +113,7 @@ impl<'scene> TextureValues<'scene> {
         }
     }
 
-    /// The part of an image that a texture may show on an area of its coordinates.
+    /// The texels that a lookup of a texture on an area may read.
     fn region(&self, texture: &Texture, image: usize, Area([us, vs]): Area) -> ImageRegion<'scene> {
         let image = &self.scene.images()[image];
         let [width, height] = [image.width.get(), image.height.get()];
@@ -132,7 +132,7 @@ impl<'scene> TextureValues<'scene> {
     }
 }
 
-/// Channels of the texture that shows its own coordinates, where they are constant.
+/// The constant channels of the texture whose colour is its coordinates.
 const UV: [Option<f64>; 4] = [None, Some(0.0), None, Some(1.0)];
 
 /// The image of a texture, if it has one.
@@ -144,7 +144,7 @@ fn image_of(texture: &Texture) -> Option<usize> {
     }
 }
 
-/// A part of an image.
+/// A rectangle of texels of an image.
 struct ImageRegion<'scene> {
     image: &'scene Image,
     columns: Range<u32>,
@@ -170,7 +170,7 @@ impl ImageRegion<'_> {
             .map(move |texel| value(self.image.texels.at(texel), channel))
     }
 
-    /// The value of a channel, if it has only one.
+    /// The value of a channel, if it is constant.
     fn value(&self, channel: usize) -> Option<f64> {
         let mut values = self.channel(channel);
         let first = values.next()?;
@@ -178,7 +178,7 @@ impl ImageRegion<'_> {
     }
 }
 
-/// The value of a channel, as sampling reads it.
+/// The value of a channel, as texture sampling reads it.
 fn value(texel: Texel, channel: usize) -> f64 {
     match (texel, channel) {
         (Texel::Rgb8(_) | Texel::Rgb32f(_), 3..) => 1.0,
@@ -188,7 +188,8 @@ fn value(texel: Texel, channel: usize) -> f64 {
     }
 }
 
-/// The columns or rows that coordinates from `low` to `high` may show; all in doubt.
+/// The columns or rows that lookups at coordinates from `low` to `high` may read; all if that is
+/// uncertain.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -206,7 +207,7 @@ fn texels([low, high]: [f64; 2], count: u32, wrap: Wrap) -> Range<u32> {
     if wrap != Wrap::Clamp && (first < 0.0 || last > size) {
         return 0..count;
     }
-    // Outside of the unit square, a clamped image repeats its outermost texels.
+    // Outside the unit square, a clamped image repeats its outermost texels.
     let first = first.clamp(0.0, size - 1.0).floor() as u32;
     let last = last.clamp(1.0, size).ceil() as u32;
     first..last

@@ -1,58 +1,66 @@
-//! Projection of boxes through the lens to rectangles of pixels, with a margin.
+//! Conservative projection of bounding boxes through the lens to pixel rectangles.
+//!
+//! A box is projected corner by corner, through every corner of the lens; the rectangle of these
+//! points, expanded by a pixel and by the error bound, contains every pixel whose camera rays may hit
+//! the box. All error bounds are first-order bounds of the rounding of each operation, as multiples
+//! of the unit roundoff [`U`]. Where the error may exceed [`MAX_ERROR`] of a pixel, or a box reaches
+//! the plane of the lens, the result is [`ScreenRect::Unknown`].
 
 use crate::margin::{MARGIN, OrientedPlane};
 use crate::surface_bounds::{Extent, SurfaceBounds};
 use rtc_math::{Bounds, U, Vec3, cross, dot};
 use rtc_valid::Camera;
 
-/// The largest rounding error of a projected point, in pixels, that is accepted.
+/// The largest accepted rounding error of a projected point, in pixels.
 const MAX_ERROR: f64 = 0.25;
 
-/// A rectangle of pixels: columns and rows, each from the first to before the last.
+/// A rectangle of pixels: half-open ranges of columns and rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PixelRect {
     pub(crate) x: [u32; 2],
     pub(crate) y: [u32; 2],
 }
 
-/// The rectangle of a surface in the picture.
+/// The screen-space bounds of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ScreenRect {
-    /// Outside the picture: no camera ray meets it.
+    /// Outside the picture: no camera ray hits the surface.
     Outside,
-    /// Only in these pixels.
+    /// Within these pixels.
     Within(PixelRect),
     /// Unknown.
     Unknown,
 }
 
-/// The camera as a map from the world to the picture.
+/// The camera as a projection from the world to the picture.
 pub(crate) struct ScreenProjection {
     camera: Camera,
-    /// The normal of the image plane, scaled so that the plane is at distance 1 from the eye.
+    /// The normal of the image plane, scaled so that the plane has depth 1 from the eye.
     depth: Vec3,
-    /// The length of that direction.
+    /// The length of that vector.
     depth_scale: f64,
     /// Points whose convex hull contains the lens.
     lens: Vec<Vec3>,
-    /// The box of all points of the lens.
+    /// The bounding box of the lens.
     lens_box: Bounds,
-    /// The maximum distance of the lens and the centre of the picture from the origin.
+    /// The maximum distance from the origin to the lens, plus that to the centre of the picture.
     reach: f64,
-    /// The steps between pixels, across and upward.
+    /// The distances between pixels, across and upward.
     steps: [f64; 2],
-    /// The pixels, in pixels.
+    /// The size of the picture in pixels.
     size: [f64; 2],
-    /// Whether rounding makes the map useless everywhere.
+    /// Whether rounding makes the projection useless everywhere.
     is_ill_conditioned: bool,
 }
 
 impl ScreenProjection {
     pub(crate) fn new(camera: &Camera, pinhole: bool) -> Self {
+        // Compute the image plane from the camera axes.
         let (right, up) = (camera.right.length(), camera.up.length());
         let normal = cross(camera.right / right, camera.up / up);
         let forward = camera.center - camera.eye;
         let distance = dot(normal, forward);
+        // Bound the lens by the corners of its square.
         let radius = if pinhole {
             0.0
         } else {
@@ -65,12 +73,14 @@ impl ScreenProjection {
         } else {
             vec![camera.eye]
         };
+        // Give up if rounding is large against a pixel or against the distance of the plane.
         let size = [camera.width.get(), camera.height.get()].map(f64::from);
         let reach = camera.eye.abs().max(camera.center.abs()).max_element()
             + right * size[0]
             + up * size[1];
         let is_ill_conditioned =
             64.0 * U * reach > MAX_ERROR * right.min(up) || U * reach > MARGIN * distance.abs();
+        // Scale the normal so that the image plane has depth 1.
         let depth = normal / distance;
         let reach =
             lens.iter().map(|from| from.length()).fold(0.0, f64::max) + camera.center.length();
@@ -89,12 +99,12 @@ impl ScreenProjection {
         }
     }
 
-    /// The box of all points of the lens.
+    /// The bounding box of the lens.
     pub(crate) fn lens(&self) -> Bounds {
         self.lens_box
     }
 
-    /// The rectangle of a surface in the picture.
+    /// The screen-space bounds of a surface.
     pub(crate) fn screen_rect(&self, bounds: &SurfaceBounds) -> ScreenRect {
         match &bounds.extent {
             Extent::Within(aabb) if !self.is_ill_conditioned => self.project(aabb),
@@ -102,8 +112,9 @@ impl ScreenProjection {
         }
     }
 
-    /// Whether no camera ray meets a plane: from all of the lens, the rays through all of the picture
-    /// lead away from it. Both are convex, and the distance from the plane is linear in each.
+    /// Whether no camera ray hits a plane: all rays from the lens through the picture lead away
+    /// from it. Lens and picture are convex and the distance from the plane is linear in both, so
+    /// their corners suffice.
     pub(crate) fn is_behind(&self, plane: &OrientedPlane) -> bool {
         let Camera {
             center, right, up, ..
@@ -124,7 +135,8 @@ impl ScreenProjection {
         !self.is_ill_conditioned && self.lens.iter().all(leads_away)
     }
 
-    /// The projection of a point through the centre of the lens, in pixels; `None` if it is uncertain.
+    /// The projection of a point through the centre of the lens, in pixels; `None` if it is
+    /// uncertain.
     pub(crate) fn project_through_center(&self, point: Vec3) -> Option<[f64; 2]> {
         let size = point.abs().max_element() + self.lens_box.reach();
         let depth = (point - self.camera.eye).dot(self.depth);
@@ -133,7 +145,8 @@ impl ScreenProjection {
         (!self.is_ill_conditioned && depth > 16.0 * error_bound && error <= MAX_ERROR).then_some(at)
     }
 
-    /// The rectangle of a box: the hull of the projections of its corners through the corners of the lens.
+    /// The screen rectangle of a box: the bounds of the projections of its corners through the
+    /// corners of the lens.
     fn project(&self, aabb: &Bounds) -> ScreenRect {
         let size = aabb.reach() + self.lens_box.reach();
         let aabb = aabb.widened(MARGIN * size);
@@ -171,7 +184,7 @@ impl ScreenProjection {
         depth: f64,
         error_bound: f64,
     ) -> ([f64; 2], f64) {
-        /// The steps of a camera are at a right angle to within this.
+        /// The camera's axes are perpendicular up to this error.
         const RIGHT_ANGLE: f64 = 1e-9;
         let Camera {
             center, right, up, ..
@@ -187,7 +200,7 @@ impl ScreenProjection {
         (at, (error + skew) / across_step.min(upward_step))
     }
 
-    /// The pixels of an interval of the picture, grown by one.
+    /// The pixels of a screen-space interval, expanded by one pixel.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -1,4 +1,4 @@
-//! Where things show, to within rounding.
+//! Tests of the projection and of its error bounds.
 
 use super::*;
 use crate::margin::tests::{has_margin, span};
@@ -25,7 +25,7 @@ fn camera(eye: [f64; 3], center: [f64; 3], [right, up]: [f64; 2], radius: f64) -
     }
 }
 
-/// Pixels of size 1 around the origin, seen from 100 in front.
+/// Pixels of size 1 around the origin, with the eye at distance 100.
 fn projection(radius: f64) -> ScreenProjection {
     ScreenProjection::new(
         &camera([0.0, 0.0, 100.0], [0.0; 3], [1.0; 2], radius),
@@ -112,7 +112,7 @@ fn a_camera_is_measured() {
         (Vec3::Z * -0.125, 0.125, 10.0)
     );
     assert_eq!(projection.lens(), span([3.0, 0.0, 4.0], [3.0, 0.0, 4.0]));
-    // The radius counts in steps upward, the lens is as wide as pixels are.
+    // The lens radius is in units of the upward step, and the lens has the aspect of a pixel.
     let open = ScreenProjection::new(
         &camera([3.0, 0.0, 4.0], [3.0, 0.0, -4.0], [0.5, 0.25], 0.75),
         false,
@@ -137,7 +137,7 @@ fn a_picture_is_blurred_where_rounding_is_a_part_of_a_pixel_or_of_the_way_to_it(
     let steps = |steps| pinhole([reach, 0.0, 1_073_741_824.0], [reach, 0.0, 0.0], steps);
     has_margin(0.25, |up| !steps([4.0, up]).is_ill_conditioned);
     has_margin(0.25, |right| !steps([right, 4.0]).is_ill_conditioned);
-    // 30 aside, and the picture is 50 and 20 large.
+    // The offset is 30, and the picture has the sizes 50 and 20.
     has_margin(100.0 * U / MARGIN, |z| {
         !pinhole([30.0, 0.0, z], [30.0, 0.0, 0.0], [0.5, 0.25]).is_ill_conditioned
     });
@@ -209,12 +209,12 @@ fn the_place_of_a_point_has_its_rounding_and_that_of_the_steps() {
             "{found:e}, not {wanted:e}"
         )
     };
-    // Seen in the middle: what the depth is in doubt by, and the rounding of the way, 3, and of
-    // the camera, 100.
+    // In the middle: the error of the depth, the rounding of the distance, 3, and that of the
+    // camera, 100.
     let (at, error) = project_point([-1.0, -2.0, 2.0], 100.0 * U);
     assert_eq!(at, [50.0, 40.0]);
     is_near(error, ((200.0 + 16.0) * 3.0 + 16.0 * 100.0) * U / 0.25);
-    // 6 pixels across and 20 upward: what two steps at no right angle come to.
+    // 6 pixels across and 20 upward: the error of axes that are not perpendicular.
     let (at, error) = project_point([2.0, 3.0, 6.0], 0.0);
     assert_eq!(at, [56.0, 20.0]);
     is_near(error, 1e-9 * 26.0 * 0.75 / 0.25);

@@ -1,8 +1,13 @@
-//! The rules: each proves that something adds exactly nothing.
+//! The rules: each proves that some work contributes exactly zero.
+//!
+//! A [`Rule`] names a rule of either integrator; [`Rules`] is a set of them as bits. The names (`E-…`
+//! for the Whitted integrator, `P-…` for path tracing, `B-…` for bounded errors) and the texts are
+//! what `rtc explain` prints. The path rules keep their names and texts beside their proofs, in
+//! [`path::rules`].
 
 use super::path;
 
-/// A rule, known to users by its name.
+/// A rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u64)]
 #[expect(missing_docs, reason = "each is described by its text")]
@@ -52,7 +57,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    /// All rules, those by light first.
+    /// All rules, those of the Whitted integrator first.
     pub const ALL: [Self; 42] = [
         Self::Mode,
         Self::LightBlack,
@@ -104,13 +109,13 @@ impl Rule {
         self.row().0
     }
 
-    /// The statement and the reason.
+    /// The statement and its proof.
     #[must_use]
     pub fn text(self) -> &'static str {
         self.row().1
     }
 
-    /// The rule of a name.
+    /// The rule with this name.
     #[must_use]
     pub fn find(name: &str) -> Option<Self> {
         Self::ALL
@@ -126,107 +131,123 @@ impl Rule {
         match self {
             Self::Mode => (
                 "E-MODE",
-                "A depth or normal buffer is a function of the first hit alone: lights, colours and bounces do not show.",
+                "A depth or normal buffer is a function of the first hit only: it does not depend \
+                 on lights, colours and bounces.",
             ),
             Self::LightBlack => (
                 "E-LIGHT-BLACK",
-                "A black light multiplies finite terms by 0. Not in Gooch's shading, whose tones are not the light's.",
+                "The terms of a light of colour 0 are finite values times 0. The rule does not \
+                 apply to Gooch shading, whose tones do not depend on the colour of the light.",
             ),
             Self::LightUnreached => (
                 "E-LIGHT-UNREACH",
-                "Where kd·C and ks are 0 on all that can be seen, each direct term has a factor 0.",
+                "If kd·C and ks are 0 on all visible surfaces, each direct term has a factor of \
+                 0.",
             ),
             Self::LightBehind => (
                 "E-LIGHT-BEHIND",
-                "A flat surface seen from one side has N·L < 0 for a light on the other: its diffuse term is max(0, N·L) \
-                 = 0, and so is the highlight, with shadows by the language or because ks is 0.",
+                "If a flat surface is visible from one side only and the light is on the other \
+                 side, then N·L < 0: the diffuse term max(0, N·L) is 0, and the highlight is 0 as \
+                 well, with shadows by its definition, without shadows because ks is 0.",
             ),
-            Self::ShadowOff => ("E-SHADOW-OFF", "The scene does not ask for shadows."),
+            Self::ShadowOff => ("E-SHADOW-OFF", "Shadows are off in the scene."),
             Self::ShadowFacing => (
                 "E-SHADOW-NL",
-                "Where N·L ≤ 0, with the shading or the geometric normal, the surface stands in its own light: no shadow ray \
-                 need say so.",
+                "If N·L ≤ 0 for the shading or the geometric normal, the surface shadows itself \
+                 at this point: no shadow ray is needed.",
             ),
             Self::ShadowUnlit => (
                 "E-SHADOW-KM",
-                "At a hit whose kd·C and ks are 0 a light adds nothing, hidden or not: no shadow ray.",
+                "At a hit with kd·C = 0 and ks = 0 a light contributes nothing, occluded or not: \
+                 no shadow ray is needed.",
             ),
             Self::ShadowConvex => (
                 "E-SHADOW-CONVEX",
-                "A convex solid lies behind the plane that touches it at a point with N·L > 0, the light before it: it \
-                 does not shadow itself. Nor does a flat surface whose plane the light is off.",
+                "A convex solid lies behind its tangent plane at any point with N·L > 0, and the \
+                 light lies in front of that plane: the solid does not shadow itself. The same \
+                 holds for a flat surface if the light is not in its plane.",
             ),
             Self::ShadowPair => (
                 "E-SHADOW-PAIR",
-                "All segments from a surface to a light lie in the convex hull of the two: a solid outside the hull casts \
-                 no shadow there.",
+                "All segments from a surface to a light lie in the convex hull of both: a surface \
+                 outside this hull casts no shadow there.",
             ),
             Self::SoftPoint => (
                 "E-SOFT",
-                "A light of radius 0 is a point, and one sample of a light asks its centre: no sampling.",
+                "A light of radius 0 is a point light, and a single sample of a light is its \
+                 centre: no sampling is needed.",
             ),
             Self::HighlightKs => (
                 "E-SPEC",
-                "Where ks is 0 the highlight is 0 times a power of at most 1: no power.",
+                "If ks is 0, the highlight is 0 times a power of at most 1: the power is not \
+                 computed.",
             ),
             Self::MirrorKs => (
                 "E-REFL-KS",
-                "The radiance along a mirrored or refracted ray is multiplied by ks or kt. If that is 0, no ray is traced.",
+                "The radiance along a reflected or refracted ray is multiplied by ks or kt. If \
+                 this factor is 0, the ray is not traced.",
             ),
             Self::MirrorDepth => ("E-REFL-DEPTH", "The scene allows no bounce."),
             Self::MirrorUnreached => (
                 "E-REFL-UNREACH",
-                "A flat mirror seen from one side shows only that half of space, and the background is black: chains of \
-                 mirrors that can see one another bound the bounces.",
+                "A flat reflective surface that is visible from one side reflects only the half- \
+                 space on that side, and the background is black. So the longest chain of \
+                 reflective surfaces that are visible from one another bounds the number of \
+                 bounces.",
             ),
             Self::MirrorConvex => (
                 "E-REFL-CONVEX",
-                "A ray mirrored off a convex solid from outside leaves through the half-space before its tangent plane: \
-                 it can't meet the solid again.",
+                "A ray that is reflected off a convex solid from outside stays in the half-space \
+                 in front of its tangent plane: it can't hit the solid again.",
             ),
             Self::Opaque => (
                 "E-REFR",
-                "No material that can be seen has kt > 0: nothing refracts.",
+                "No visible material has kt > 0: there is no refraction.",
             ),
             Self::GlossyMirror => (
                 "E-GLOSSY",
-                "A lobe of one sample is the mirror, a lobe of weight 0 is nothing.",
+                "A glossy lobe of one sample is a perfect reflection, and a lobe of weight 0 \
+                 contributes nothing.",
             ),
             Self::Cut => (
                 "B-CUT",
-                "Bounces whose weight bounds all they can add below half a level of 8 bits are cut off. Only with \
-                 --approx: the picture may differ by that much.",
+                "Bounces are cut off once their weight bounds the remaining contribution below \
+                 half a level of 8 bits. Only with --approx: the picture may differ by that much.",
             ),
             Self::TextureConstant => (
                 "E-TEX-CONST",
-                "A texture whose texels are all equal is that value everywhere.",
+                "A texture whose texels are all equal has this value everywhere.",
             ),
             Self::TextureUnseen => (
                 "E-TEX-UNSEEN",
-                "A map on a surface without texture coordinates, on one that can't be seen, or for a term whose weight \
-                 is 0, does not show.",
+                "A map is not used on a surface without texture coordinates, on an invisible \
+                 surface, or for a term of weight 0.",
             ),
             Self::NormalFlat => (
                 "E-NORMAL",
-                "Shading normals do not show without light and mirrors, and where all corners of each triangle have the \
-                 same normal there is nothing to interpolate.",
+                "Shading normals are not used without light and reflections. If the vertex \
+                 normals of each triangle are equal, there is nothing to interpolate.",
             ),
             Self::Pinhole => (
                 "E-DOF",
-                "A lens of radius 0 or of one sample is its centre: one ray.",
+                "A lens of radius 0, or a lens with one sample, is its centre: one camera ray is \
+                 enough.",
             ),
-            Self::OneSample => ("E-SS", "A factor of 1 is one sample a pixel."),
+            Self::OneSample => ("E-SS", "A factor of 1 is one sample per pixel."),
             Self::PixelMiss => (
                 "E-SS-MISS",
-                "No ray of a pixel outside the projected boxes of all surfaces meets anything: it is black, untraced.",
+                "No ray of a pixel outside the projected bounding boxes of all surfaces can hit \
+                 anything: the pixel is black and is not traced.",
             ),
             Self::PixelFlat => (
                 "E-SS-FLAT",
-                "Where all rays of a pixel meet one flat surface of one value, one is traced and counts for all.",
+                "If all rays of a pixel hit one flat surface of one value, one ray is traced and \
+                 stands for all.",
             ),
             Self::Cull => (
                 "E-CULL",
-                "A surface that no camera, shadow or mirror ray can meet is left out of the world.",
+                "A surface that no camera, shadow, reflected or refracted ray can hit is removed \
+                 from the world.",
             ),
             Self::PathLightBlack
             | Self::PathDarkSky
@@ -255,24 +276,24 @@ impl Rule {
 pub struct Rules(u64);
 
 impl Rules {
-    /// No rule: everything a scene could ask for is simulated.
+    /// No rule: everything that a scene could require is simulated.
     pub const NONE: Self = Self(0);
-    /// Every rule that changes no bit.
+    /// Every rule that does not change the picture.
     pub const ALL: Self = Self(u64::MAX).without(Rule::Cut);
-    /// The rules that decide hit by hit.
+    /// The rules that are decided at each hit.
     pub const AT_HITS: Self = Self::NONE
         .with(Rule::ShadowFacing)
         .with(Rule::ShadowUnlit)
         .with(Rule::HighlightKs)
         .with(Rule::MirrorKs);
 
-    /// The set with a rule more.
+    /// The set with one more rule.
     #[must_use]
     pub const fn with(self, rule: Rule) -> Self {
         Self(self.0 | 1 << rule as u64)
     }
 
-    /// The set with a rule less.
+    /// The set without a rule.
     #[must_use]
     pub const fn without(self, rule: Rule) -> Self {
         Self(self.0 & !(1 << rule as u64))

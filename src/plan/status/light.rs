@@ -1,4 +1,4 @@
-//! Verdicts on lights, shadows and highlights.
+//! The status of direct light, shadows, area lights and highlights.
 
 use super::{MAX_DETAILS, first_n, light, settings};
 use crate::effect::{Effect, EffectStatus};
@@ -18,14 +18,14 @@ pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
     all
 }
 
-/// The statement of a rule on a light, and the value that decided.
+/// The reason why a rule removed the direct terms of a light, and the scene values that decided.
 fn reason(findings: &Findings<'_>, index: usize, rule: Rule) -> (&'static str, Vec<ValuePath>) {
     if rule == Rule::LightBlack {
         return ("its colour is 0", vec![light(index, Field::Color)]);
     }
     if rule == Rule::Mode {
         return (
-            "the mode shows the first hit alone",
+            "the mode renders only the first hit",
             vec![settings(Field::Mode)],
         );
     }
@@ -36,18 +36,19 @@ fn reason(findings: &Findings<'_>, index: usize, rule: Rule) -> (&'static str, V
                 .visible()
                 .map(|surface| findings.surface(surface, Field::Whole)),
         ));
-        return ("it stands behind all surfaces that can be seen", facts);
+        return ("it is behind all visible surfaces", facts);
     }
     let facts = first_n(
         findings
             .visible()
             .map(|surface| findings.material(surface, Field::Kd)),
     );
-    ("kd·C and ks are 0 on all that can be seen", facts)
+    ("kd·C and ks are 0 on all visible surfaces", facts)
 }
 
 fn direct(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::DirectLight;
+    // Absent without lights or shading.
     let lights = &findings.facts.sources;
     if lights.is_empty() {
         return EffectStatus::absent(effect, "the scene has no light", vec![]);
@@ -57,13 +58,15 @@ fn direct(findings: &Findings<'_>) -> EffectStatus {
             .by_mode(effect, true)
             .unwrap_or_else(|| EffectStatus::absent(effect, "", vec![]));
     }
+    // Gooch shading needs all lights.
     if let Mode::Gooch(_) = findings.mode() {
         return EffectStatus::needed(
             effect,
-            "Gooch's tones follow the lights",
+            "Gooch shading depends on the light direction",
             vec![light(0, Field::Position)],
         );
     }
+    // Needed if any light illuminates a visible surface, otherwise pruned.
     let needed = findings.lights.plans.iter().position(|light| light.direct);
     match needed.zip(findings.first(MaterialSummary::is_illuminated)) {
         Some((index, surface)) => {
@@ -80,7 +83,7 @@ fn direct(findings: &Findings<'_>) -> EffectStatus {
             EffectStatus::needed(
                 effect,
                 format!(
-                    "{count} of {} lights shine on what can be seen",
+                    "{count} of {} lights illuminate visible surfaces",
                     lights.len()
                 ),
                 facts,
@@ -115,14 +118,16 @@ fn per_light(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
 
 fn shadows(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Shadows;
+    // Absent if the mode or the scene has no shadows.
     let requested = findings.facts.scene.settings().shadows;
     if let Some(status) = findings.by_mode(effect, requested) {
         return status;
     }
     if !requested {
-        let reason = "the scene does not ask for shadows";
+        let reason = "shadows are off in the scene";
         return EffectStatus::absent(effect, reason, vec![]).by(Rule::ShadowOff);
     }
+    // Needed if there is a possible shadow.
     if let Some(Shadow {
         light: index,
         occluder,
@@ -135,21 +140,23 @@ fn shadows(findings: &Findings<'_>) -> EffectStatus {
             findings.surface(receiver, Field::Whole),
         ];
         let reason = match (occluder == receiver, findings.lights.capped) {
-            (_, true) => "too many surfaces to ask which hides which",
-            (true, false) => "a surface may hide a light from itself",
-            (false, false) => "a surface may hide a light from another",
+            (_, true) => "too many surfaces to test all occluders",
+            (true, false) => "a surface may shadow itself",
+            (false, false) => "a surface may shadow another",
         };
         return EffectStatus::needed(effect, reason, facts);
     }
+    // Absent without shadow casters.
     if findings.facts.occluders().next().is_none() {
         return EffectStatus::absent(effect, "no surface casts shadows", vec![]);
     }
+    // Pruned otherwise; find the rule.
     let illuminated = findings.first(|summary| findings.is_illuminated(summary));
     let Some(surface) = illuminated else {
         return EffectStatus::pruned(
             effect,
             Rule::ShadowUnlit,
-            "no light adds more than its ambient term",
+            "no light contributes more than its ambient term",
             vec![],
         );
     };
@@ -161,20 +168,21 @@ fn shadows(findings: &Findings<'_>) -> EffectStatus {
         return EffectStatus::pruned(
             effect,
             Rule::ShadowConvex,
-            "one convex surface, lights outside",
+            "the only surface is convex, and the lights are outside",
             facts,
         );
     }
     EffectStatus::pruned(
         effect,
         Rule::ShadowPair,
-        "nothing stands between a light and what it shines on",
+        "no surface lies between a light and the surfaces it illuminates",
         facts,
     )
 }
 
 fn soft(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::SoftLight;
+    // Absent if no light has a radius.
     let (scene, samples) = (findings.facts.scene, settings(Field::LightSamples));
     let Some(first) = findings
         .facts
@@ -187,23 +195,25 @@ fn soft(findings: &Findings<'_>) -> EffectStatus {
     if let Some(status) = findings.by_mode(effect, true) {
         return status;
     }
+    // Pruned with a single sample; needed if a sampled light contributes.
     let facts = vec![samples, light(first, Field::LightRadius)];
     let count = scene.settings().light_samples.get();
     if count == 1 {
         return EffectStatus::pruned(
             effect,
             Rule::SoftPoint,
-            "one sample of a light asks its centre",
+            "one light sample is the centre of the light",
             facts,
         );
     }
     if findings.is_soft() {
         return EffectStatus::needed(
             effect,
-            format!("{count} points of a light with a radius"),
+            format!("{count} samples of a light with a radius"),
             facts,
         );
     }
+    // Pruned by the rule that removed the light.
     let rule = findings.lights.rules[first].unwrap_or(Rule::LightUnreached);
     let (reason, facts) = reason(findings, first, rule);
     EffectStatus::pruned(effect, rule, format!("soft light: {reason}"), facts)
@@ -211,6 +221,7 @@ fn soft(findings: &Findings<'_>) -> EffectStatus {
 
 fn highlight(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Highlight;
+    // Decided by the mode without shading.
     let any_ks = findings
         .facts
         .materials
@@ -221,6 +232,7 @@ fn highlight(findings: &Findings<'_>) -> EffectStatus {
             .by_mode(effect, any_ks)
             .unwrap_or_else(|| EffectStatus::absent(effect, "", vec![]));
     }
+    // Needed if a visible surface with ks > 0 is illuminated.
     if let Some(surface) =
         findings.first(|summary| summary.is_specular && findings.is_illuminated(summary))
     {
@@ -228,8 +240,9 @@ fn highlight(findings: &Findings<'_>) -> EffectStatus {
             findings.material(surface, Field::Ks),
             findings.surface(surface, Field::Whole),
         ];
-        return EffectStatus::needed(effect, "ks > 0 on a surface that can be seen", facts);
+        return EffectStatus::needed(effect, "ks > 0 on a visible surface", facts);
     }
+    // Pruned otherwise; find the rule: no light, invisible, or ks = 0.
     if findings.any(|summary| summary.is_specular) {
         let rule = findings
             .lights
@@ -242,14 +255,14 @@ fn highlight(findings: &Findings<'_>) -> EffectStatus {
         return EffectStatus::pruned(
             effect,
             rule,
-            "no light adds more than its ambient term",
+            "no light contributes more than its ambient term",
             vec![],
         );
     }
     let unseen = findings.first_unseen(|summary| summary.is_specular);
     if let Some(surface) = unseen.filter(|_| findings.facts.rules.contains(Rule::Cull)) {
         let facts = vec![findings.surface(surface, Field::Whole)];
-        return EffectStatus::pruned(effect, Rule::Cull, "nothing with ks > 0 can be seen", facts);
+        return EffectStatus::pruned(effect, Rule::Cull, "no visible surface has ks > 0", facts);
     }
     let facts = first_n(
         findings
@@ -259,12 +272,12 @@ fn highlight(findings: &Findings<'_>) -> EffectStatus {
     EffectStatus::pruned(
         effect,
         Rule::HighlightKs,
-        "ks is 0 on all that can be seen",
+        "ks is 0 on all visible surfaces",
         facts,
     )
 }
 
-/// Seen materials without highlights, beside others with them.
+/// The visible materials without a highlight, if others have one.
 fn materials_without_highlight(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
     let is_needed = findings.is_shaded() && findings.any(|summary| summary.is_specular);
     let surfaces = findings

@@ -1,4 +1,4 @@
-//! Verdicts on bounces: mirrors, lobes, refraction, depth.
+//! The status of bounces: reflection, glossy lobes, refraction, depth.
 
 use super::{MAX_DETAILS, first_n, settings};
 use crate::effect::{Effect, EffectStatus};
@@ -15,7 +15,8 @@ pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
     all
 }
 
-/// The reason why no bounce adds anything, if so; `requires` says whether a material asks for the effect.
+/// The reason why no bounce adds anything, if so; `requires` says whether a material asks for the
+/// effect.
 fn no_bounce(
     findings: &Findings<'_>,
     effect: Effect,
@@ -41,15 +42,16 @@ fn no_bounce(
         return Some(EffectStatus::pruned(
             effect,
             Rule::Cut,
-            "what bounces add is too small to see",
+            "the contribution of bounces is below half a level of 8 bits",
             facts,
         ));
     }
     Some(no_visible_reflection(findings, effect, requested))
 }
 
-/// The reason why mirrors show nothing, although bounces are allowed.
+/// The status if reflections contribute nothing, although bounces are allowed.
 fn no_visible_reflection(findings: &Findings<'_>, effect: Effect, requested: bool) -> EffectStatus {
+    // Visible reflective surfaces, but their reflections are black.
     if let Some(mirror) = findings.first(MaterialSummary::has_bounce) {
         let facts = vec![
             findings.surface(mirror, Field::Whole),
@@ -59,20 +61,24 @@ fn no_visible_reflection(findings: &Findings<'_>, effect: Effect, requested: boo
         let (rule, reason) = if is_alone {
             (
                 Rule::MirrorConvex,
-                "the mirrors that can be seen show nothing: one convex surface",
+                "the visible reflections are black: the only surface is convex",
             )
         } else {
-            (
-                Rule::MirrorUnreached,
-                "the mirrors that can be seen show nothing",
-            )
+            (Rule::MirrorUnreached, "the visible reflections are black")
         };
         return EffectStatus::pruned(effect, rule, reason, facts);
     }
+    // Reflective surfaces, but all invisible.
     if requested && let Some(mirror) = findings.first_unseen(MaterialSummary::has_bounce) {
         let facts = vec![findings.surface(mirror, Field::Whole)];
-        return EffectStatus::pruned(effect, Rule::Cull, "no mirror can be seen", facts);
+        return EffectStatus::pruned(
+            effect,
+            Rule::Cull,
+            "no reflective surface is visible",
+            facts,
+        );
     }
+    // No reflective surface.
     let facts = first_n(
         findings
             .visible()
@@ -81,7 +87,7 @@ fn no_visible_reflection(findings: &Findings<'_>, effect: Effect, requested: boo
     EffectStatus::pruned(
         effect,
         Rule::MirrorKs,
-        "ks is 0 on all that can be seen",
+        "ks is 0 on all visible surfaces",
         facts,
     )
 }
@@ -104,9 +110,9 @@ fn depth(findings: &Findings<'_>) -> EffectStatus {
     let rest = requested - planned.min(requested);
     let bounces = if planned == 1 { "bounce" } else { "bounces" };
     let reason = match (rest, findings.visibility.capped) {
-        (0, true) => format!("{planned} {bounces}; too many mirrors to ask which sees which"),
-        (0, false) => format!("{planned} {bounces}: mirrors show mirrors"),
-        _ => format!("{planned} {bounces} of {requested}: no chain of mirrors is longer"),
+        (0, true) => format!("{planned} {bounces}; too many reflective surfaces to test all pairs"),
+        (0, false) => format!("{planned} {bounces}: reflective surfaces are visible in each other"),
+        _ => format!("{planned} {bounces} of {requested}: no chain of reflections is longer"),
     };
     let status = EffectStatus::needed(effect, reason, facts);
     match rest {
@@ -129,22 +135,22 @@ fn mirror(findings: &Findings<'_>) -> EffectStatus {
             ];
             let is_specular = findings.facts.summaries[surface].is_specular;
             let reason = if is_specular {
-                "ks > 0 on a surface that can be seen"
+                "ks > 0 on a visible surface"
             } else {
-                "light may be reflected totally"
+                "total internal reflection is possible"
             };
             EffectStatus::needed(effect, reason, facts)
         }
         None => EffectStatus::pruned(
             effect,
             Rule::MirrorKs,
-            "ks is 0 on all that can be seen",
+            "ks is 0 on all visible surfaces",
             vec![],
         ),
     }
 }
 
-/// Seen materials without mirrors, beside others with them.
+/// The visible materials without reflection, if others have it.
 fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = EffectStatus> {
     let is_needed = findings.max_depth > 0 && findings.any(MaterialSummary::has_bounce);
     let surfaces = findings
@@ -164,7 +170,7 @@ fn glossy(findings: &Findings<'_>) -> EffectStatus {
         .iter()
         .all(|material| material.glossy_samples.get() == 1)
     {
-        return EffectStatus::absent(effect, "each mirror is sharp: one sample", vec![])
+        return EffectStatus::absent(effect, "all reflections are perfect: one sample", vec![])
             .by(Rule::GlossyMirror);
     }
     if let Some(status) = no_bounce(findings, effect, |_| true) {
@@ -177,10 +183,10 @@ fn glossy(findings: &Findings<'_>) -> EffectStatus {
                 findings.material(surface, Field::GlossySamples),
                 findings.surface(surface, Field::Whole),
             ];
-            EffectStatus::needed(effect, format!("{count} rays of a lobe"), facts)
+            EffectStatus::needed(effect, format!("{count} rays per glossy lobe"), facts)
         }
         None => {
-            let reason = "no glossy surface that can be seen has ks > 0";
+            let reason = "no visible glossy surface has ks > 0";
             EffectStatus::pruned(effect, Rule::GlossyMirror, reason, vec![])
         }
     }
@@ -190,7 +196,7 @@ fn refraction(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Refraction;
     let materials = &findings.facts.materials;
     if materials.iter().all(|material| material.kt.get() == 0.0) {
-        return EffectStatus::absent(effect, "no material lets light through", vec![])
+        return EffectStatus::absent(effect, "no material transmits light", vec![])
             .by(Rule::Opaque);
     }
     if let Some(status) = no_bounce(findings, effect, |_| true) {
@@ -202,7 +208,7 @@ fn refraction(findings: &Findings<'_>) -> EffectStatus {
                 findings.material(surface, Field::Kt),
                 findings.surface(surface, Field::Whole),
             ];
-            EffectStatus::needed(effect, "kt > 0 on a surface that can be seen", facts)
+            EffectStatus::needed(effect, "kt > 0 on a visible surface", facts)
         }
         None => {
             let unseen = findings.first_unseen(|summary| summary.refracts);
@@ -211,12 +217,7 @@ fn refraction(findings: &Findings<'_>) -> EffectStatus {
                     .iter()
                     .map(|surface| findings.surface(*surface, Field::Whole)),
             );
-            EffectStatus::pruned(
-                effect,
-                Rule::Opaque,
-                "nothing with kt > 0 can be seen",
-                facts,
-            )
+            EffectStatus::pruned(effect, Rule::Opaque, "no visible surface has kt > 0", facts)
         }
     }
 }

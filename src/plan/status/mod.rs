@@ -1,5 +1,16 @@
-//! The verdicts: whether the picture needs each effect, and by which values, or the rule that left
-//! it out, and the reason.
+//! The status of each effect of the Whitted integrator: whether the picture needs it, the reason, the
+//! scene values that decide, and the rule that removed it.
+//!
+//! Each function of the submodules decides one effect from the [`Findings`], in a fixed order: needed
+//! if any visible surface requires it; absent if the scene does not have it at all; otherwise pruned,
+//! with the rule that removed it. Submodules:
+//!
+//! - [`light`]: direct light, shadows, area lights, highlights;
+//! - [`mirror`]: bounces, reflection, glossy lobes, refraction;
+//! - [`picture`]: buffers, surfaces, textures, normals, lens, supersampling.
+//!
+//! A status for the whole scene may be followed by statuses of single lights or materials, at most
+//! [`MAX_DETAILS`]. The path integrator has its own [`crate::path`] statuses.
 
 mod light;
 mod mirror;
@@ -12,10 +23,10 @@ use super::{Findings, MaterialSummary};
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_valid::Mode;
 
-/// The maximum number of verdicts on single lights or materials for one effect.
+/// The maximum number of statuses of single lights or materials for one effect.
 const MAX_DETAILS: usize = 24;
 
-/// The verdicts on all effects, each followed by those on single entities.
+/// The status of each effect, followed by those of single entities.
 pub(super) fn statuses(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> Vec<EffectStatus> {
     let mut all = picture::buffers(findings, pixel_classes);
     all.extend(light::statuses(findings));
@@ -84,7 +95,7 @@ impl EffectStatus {
         }
     }
 
-    /// Adds the rule by whose definition the effect is absent.
+    /// Adds the rule that explains the absence.
     fn by(self, rule: Rule) -> Self {
         Self {
             rule: Some(rule),
@@ -94,7 +105,7 @@ impl EffectStatus {
 }
 
 impl Findings<'_> {
-    /// The place of a surface in the IR.
+    /// The path of a surface in the IR.
     fn surface(&self, surface: usize, field: Field) -> ValuePath {
         ValuePath::new(
             EntityKind::Surface,
@@ -103,7 +114,7 @@ impl Findings<'_> {
         )
     }
 
-    /// The place of a value of the material of a surface.
+    /// The path of a value of a surface's material in the IR.
     fn material(&self, surface: usize, field: Field) -> ValuePath {
         ValuePath::new(
             EntityKind::Material,
@@ -112,13 +123,13 @@ impl Findings<'_> {
         )
     }
 
-    /// The first surface that is seen and has nonzero terms.
+    /// The first visible surface whose material has a property.
     fn first(&self, shows: impl Fn(&MaterialSummary) -> bool) -> Option<usize> {
         self.visible()
             .find(|surface| shows(&self.facts.summaries[*surface]))
     }
 
-    /// The first surface that has nonzero terms but is not seen.
+    /// The first invisible surface whose material has a property.
     fn first_unseen(&self, shows: impl Fn(&MaterialSummary) -> bool) -> Option<usize> {
         let mut surfaces = 0..self.facts.summaries.len();
         surfaces.find(|surface| {
@@ -126,7 +137,8 @@ impl Findings<'_> {
         })
     }
 
-    /// The materials without a seen surface that has nonzero terms, each with one of its surfaces.
+    /// The materials of visible surfaces that do not have a property, each with one of its
+    /// surfaces.
     fn materials_without(
         &self,
         shows: impl Fn(&MaterialSummary) -> bool,
@@ -140,13 +152,13 @@ impl Findings<'_> {
         without.into_iter().flatten().flatten()
     }
 
-    /// The verdict on an effect of shading in a mode without it, or with another form of it.
+    /// The status of a shading effect in a mode that does not have it.
     fn by_mode(&self, effect: Effect, requested: bool) -> Option<EffectStatus> {
         let reason = match self.mode() {
             Mode::Phong | Mode::Path(_) => return None,
-            Mode::Gooch(_) => "Gooch's shading has none",
-            Mode::Normal => "a normal buffer shows the first hit alone",
-            Mode::Zbuffer => "a depth buffer shows the first hit alone",
+            Mode::Gooch(_) => "Gooch shading does not have it",
+            Mode::Normal => "a normal buffer is a function of the first hit",
+            Mode::Zbuffer => "a depth buffer is a function of the first hit",
         };
         let facts = vec![settings(Field::Mode)];
         Some(if requested {
@@ -157,7 +169,7 @@ impl Findings<'_> {
     }
 }
 
-/// The first few of many places.
+/// The first few distinct paths.
 fn first_n(places: impl Iterator<Item = ValuePath>) -> Vec<ValuePath> {
     const MAX_FACTS: usize = 3;
     let mut first_n = Vec::with_capacity(MAX_FACTS);

@@ -1,4 +1,4 @@
-//! Verdicts on buffers and surfaces, on maps and normals, on lens and samples.
+//! The status of buffers, surfaces, maps, normals, the lens and supersampling.
 
 use super::{camera, first_n, settings};
 use crate::effect::{Effect, EffectStatus};
@@ -15,12 +15,12 @@ pub(super) fn buffers(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> 
         if is_shown {
             EffectStatus::needed(effect, reason, facts)
         } else {
-            EffectStatus::absent(effect, "another mode", facts)
+            EffectStatus::absent(effect, "the mode is another", facts)
         }
     };
     let mode = findings.mode();
-    let depth = "the picture is one of depths";
-    let normal = "the picture is one of normals";
+    let depth = "the picture is a depth buffer";
+    let normal = "the picture is a normal buffer";
     vec![
         buffer(Effect::DepthBuffer, matches!(mode, Mode::Zbuffer), depth),
         buffer(Effect::NormalBuffer, matches!(mode, Mode::Normal), normal),
@@ -29,6 +29,7 @@ pub(super) fn buffers(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> 
 }
 
 fn surfaces(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> EffectStatus {
+    // List the surfaces that no ray can hit.
     let count = findings.facts.surface_bounds.len();
     let is_left_out = |surface: usize| {
         !findings.visibility.visible[surface] && !findings.lights.occludes[surface]
@@ -41,6 +42,7 @@ fn surfaces(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> EffectStat
             .map(|surface| findings.surface(*surface, Field::Whole)),
     );
     let empty = pixel_classes.empty_fraction();
+    // Absent without surfaces; pruned if no ray can hit any.
     if count == 0 {
         return EffectStatus::absent(Effect::Surfaces, "the scene has none", vec![]);
     }
@@ -48,24 +50,25 @@ fn surfaces(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> EffectStat
         return EffectStatus::pruned(
             Effect::Surfaces,
             Rule::Cull,
-            "no ray can meet any of them",
+            "no ray can hit any surface",
             places,
         );
     }
+    // Needed otherwise, with the numbers of surfaces and of empty pixels.
     let seen = first_n(
         findings
             .visible()
             .map(|surface| findings.surface(surface, Field::Whole)),
     );
-    let mut reason = format!("{} of {count} may be met by a ray", count - out.len());
+    let mut reason = format!("{} of {count} can be hit by a ray", count - out.len());
     if empty > 0.0 {
         reason += &format!(
-            "; {:.0} % of the pixels show none (E-SS-MISS)",
+            "; {:.0} % of the pixels are empty (E-SS-MISS)",
             100.0 * empty
         );
     }
     if !findings.facts.rules.contains(Rule::Cull) {
-        return EffectStatus::needed(Effect::Surfaces, "all are kept", seen);
+        return EffectStatus::needed(Effect::Surfaces, "all surfaces are kept", seen);
     }
     let status = EffectStatus::needed(Effect::Surfaces, reason, seen);
     if out.is_empty() {
@@ -90,6 +93,7 @@ pub(super) fn maps(findings: &Findings<'_>) -> Vec<EffectStatus> {
 
 fn textures(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Textures;
+    // Needed if a visible surface depends on a texture.
     if let Some(surface) = findings.first(|summary| findings.shows_color_map(summary)) {
         let facts = vec![
             findings.material(surface, Field::ColorMap),
@@ -104,6 +108,7 @@ fn textures(findings: &Findings<'_>) -> EffectStatus {
         ];
         return EffectStatus::needed(effect, "a texture scales the ks of a surface", facts);
     }
+    // Absent if no material has a texture.
     let has_map = |material: &&rtc_valid::Phong| {
         material
             .maps
@@ -114,6 +119,7 @@ fn textures(findings: &Findings<'_>) -> EffectStatus {
     if !materials.iter().any(|material| has_map(&material)) {
         return EffectStatus::absent(effect, "no material has a texture", vec![]);
     }
+    // Pruned otherwise; find the rule: mode, constant, or unused.
     if let Some(status) = findings
         .by_mode(effect, true)
         .filter(|_| !findings.is_shaded())
@@ -141,7 +147,7 @@ fn textures(findings: &Findings<'_>) -> EffectStatus {
             .iter()
             .map(|surface| findings.surface(*surface, Field::Whole)),
     );
-    let reason = "textures are on surfaces without uv, out of sight, or of weight 0";
+    let reason = "all textures are on surfaces without uv, on invisible surfaces, or of weight 0";
     EffectStatus::pruned(effect, Rule::TextureUnseen, reason, facts)
 }
 
@@ -155,7 +161,7 @@ fn interpolation(findings: &Findings<'_>) -> EffectStatus {
     let mut has_vertex_normals = findings.visible().filter(shows);
     if let Some(surface) = has_vertex_normals.find(|surface| !is_even(*surface)) {
         let facts = vec![findings.surface(surface, Field::Whole)];
-        return EffectStatus::needed(effect, "a mesh has normals at its corners", facts);
+        return EffectStatus::needed(effect, "a mesh has vertex normals", facts);
     }
     let has_normals = |surface: &usize| findings.facts.summaries[*surface].has_vertex_normals;
     let Some(surface) = (0..findings.facts.summaries.len()).find(has_normals) else {
@@ -171,9 +177,9 @@ fn interpolation(findings: &Findings<'_>) -> EffectStatus {
         );
     }
     let reason = if findings.visible().any(|surface| shows(&surface)) {
-        "all corners of each triangle have the same normal"
+        "the vertex normals of each triangle are equal"
     } else {
-        "meshes with normals are out of sight, or neither lit nor mirrors"
+        "meshes with normals are invisible, or neither illuminated nor reflective"
     };
     EffectStatus::pruned(effect, Rule::NormalFlat, reason, facts)
 }
@@ -187,7 +193,7 @@ fn mapping(findings: &Findings<'_>) -> EffectStatus {
             findings.material(surface, Field::NormalMap),
             findings.surface(surface, Field::Whole),
         ];
-        return EffectStatus::needed(effect, "a map bends the normals of a surface", facts);
+        return EffectStatus::needed(effect, "a map changes the normals of a surface", facts);
     }
     let maps = |material: &rtc_valid::Phong| {
         material
@@ -196,11 +202,7 @@ fn mapping(findings: &Findings<'_>) -> EffectStatus {
             .is_some_and(|maps| maps.normal.is_some() || maps.bump.is_some())
     };
     if !findings.facts.materials.iter().any(maps) {
-        return EffectStatus::absent(
-            effect,
-            "no material has a normal map or a height field",
-            vec![],
-        );
+        return EffectStatus::absent(effect, "no material has a normal map or a bump map", vec![]);
     }
     if matches!(findings.mode(), Mode::Zbuffer) {
         return EffectStatus::pruned(
@@ -210,20 +212,21 @@ fn mapping(findings: &Findings<'_>) -> EffectStatus {
             vec![settings(Field::Mode)],
         );
     }
-    let reason = "such maps are on surfaces without uv, out of sight, or neither lit nor mirrors";
+    let reason = "all such maps are on surfaces that have no uv, are invisible, or are neither illuminated nor reflective";
     EffectStatus::pruned(effect, Rule::TextureUnseen, reason, vec![])
 }
 
 /// Depth of field.
 pub(super) fn lens(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Lens;
+    // Absent if no lens is set; pruned if it is a pinhole.
     let lens = &findings.facts.scene.camera().lens;
     let (radius, samples) = (lens.radius.get(), lens.samples.get());
     let facts = vec![camera(Field::LensRadius), camera(Field::LensSamples)];
     if radius == 0.0 && samples == 1 {
         return EffectStatus::absent(
             effect,
-            "a pinhole: no lens is given",
+            "a pinhole camera: the lens is not set",
             vec![camera(Field::LensRadius)],
         )
         .by(Rule::Pinhole);
@@ -232,7 +235,7 @@ pub(super) fn lens(findings: &Findings<'_>) -> EffectStatus {
         return EffectStatus::pruned(
             effect,
             Rule::Pinhole,
-            "the radius of the lens is 0: a pinhole",
+            "the lens radius is 0: a pinhole camera",
             facts,
         );
     }
@@ -240,25 +243,27 @@ pub(super) fn lens(findings: &Findings<'_>) -> EffectStatus {
         return EffectStatus::pruned(
             effect,
             Rule::Pinhole,
-            "one sample of the lens is its centre",
+            "one lens sample is the centre of the lens",
             facts,
         );
     }
+    // Pruned if the mode or the view does not need it.
     if matches!(findings.mode(), Mode::Zbuffer) {
         let facts = vec![settings(Field::Mode)];
         return EffectStatus::pruned(
             effect,
             Rule::Mode,
-            "a depth buffer is seen from the eye alone",
+            "a depth buffer has rays from the eye only",
             facts,
         );
     }
     if findings.visible().next().is_none() {
-        return EffectStatus::pruned(effect, Rule::PixelMiss, "nothing is in view", facts);
+        return EffectStatus::pruned(effect, Rule::PixelMiss, "no surface is visible", facts);
     }
+    // Needed otherwise.
     EffectStatus::needed(
         effect,
-        format!("{samples} points of a lens of radius {radius}"),
+        format!("{samples} samples of a lens of radius {radius}"),
         facts,
     )
 }
@@ -273,7 +278,7 @@ pub(super) fn supersampling(findings: &Findings<'_>, pixel_classes: &PixelClasse
         let reason = if settings_of_scene.pattern == Pattern::Grid {
             "a factor of 1"
         } else {
-            "a factor of 1, at random"
+            "a factor of 1, with a random sample position"
         };
         return EffectStatus::absent(effect, reason, facts).by(Rule::OneSample);
     }
@@ -282,19 +287,19 @@ pub(super) fn supersampling(findings: &Findings<'_>, pixel_classes: &PixelClasse
         return EffectStatus::pruned(
             effect,
             Rule::Mode,
-            "a depth buffer looks through the middle of each pixel",
+            "a depth buffer has one ray through the centre of each pixel",
             facts,
         );
     }
     if findings.visible().next().is_none() && findings.facts.rules.contains(Rule::PixelMiss) {
-        return EffectStatus::pruned(effect, Rule::PixelMiss, "nothing is in view", facts);
+        return EffectStatus::pruned(effect, Rule::PixelMiss, "no surface is visible", facts);
     }
     let mut reason = format!(
-        "a factor of {factor}: {} rays a pixel",
+        "a factor of {factor}: {} rays per pixel",
         u64::from(factor) * u64::from(factor)
     );
     if pixel_classes.has_flat_pixels() {
-        reason += ", but one where one flat surface fills it (E-SS-FLAT)";
+        reason += ", but one ray where one flat surface covers the pixel (E-SS-FLAT)";
     }
     EffectStatus::needed(effect, reason, facts)
 }

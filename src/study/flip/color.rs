@@ -1,21 +1,23 @@
-//! The spaces of colour that FLIP goes through, and the distance of two colours in the last.
+//! The colour spaces of FLIP, and its colour distance.
 
 use rtc_math::{Vec3, pow};
 
-/// The distance of two colours: along the lightness plus across (Abasi et al., 2020).
+/// The HyAB distance of two colours: city-block distance in lightness, Euclidean in chroma (Abasi
+/// et al., "Distance metrics for very large color differences", Color Research & Application 45
+/// (2020)).
 pub(super) fn hyab(a: Vec3, b: Vec3) -> f64 {
     let d = a - b;
     d.x.abs() + (d.y * d.y + d.z * d.z).sqrt()
 }
 
-/// The distance of two display colours in CIELAB: ΔE*ab (CIE 1976), of which 1 is about what an eye can
-/// tell.
+/// The distance of two display colours in CIELAB: ΔE*ab (CIE 1976), of which 1 is about the just
+/// noticeable difference.
 pub(crate) fn delta_e(a: [f64; 3], b: [f64; 3]) -> f64 {
     let [a, b] = [a, b].map(|color| linear_to_lab(to_linear(color)));
     (a - b).length()
 }
 
-/// Hunt's effect: colours look paler in the dark.
+/// The Hunt effect: dark colours look less saturated.
 pub(super) fn hunt(lab: Vec3) -> Vec3 {
     Vec3::new(lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z)
 }
@@ -54,14 +56,14 @@ pub(super) fn linear_to_xyz(color: Vec3) -> Vec3 {
     Vec3::from_array(XYZ_FROM_LINEAR.map(|row| row.dot(color)))
 }
 
-/// Cramer's rule.
+/// The inverse, by Cramer's rule.
 pub(super) fn xyz_to_linear(xyz: Vec3) -> Vec3 {
     let [r0, r1, r2] = XYZ_FROM_LINEAR;
     let determinant = r0.dot(r1.cross(r2));
     (r1.cross(r2) * xyz.x + r2.cross(r0) * xyz.y + r0.cross(r1) * xyz.z) / determinant
 }
 
-/// XYZ as shares of white.
+/// XYZ relative to the reference white.
 fn relative(xyz: Vec3) -> Vec3 {
     xyz / linear_to_xyz(Vec3::ONE)
 }
@@ -78,7 +80,7 @@ pub(super) fn opponent_to_xyz(color: Vec3) -> Vec3 {
 }
 
 pub(super) fn linear_to_lab(color: Vec3) -> Vec3 {
-    /// Below it the cube root is replaced by a line.
+    /// Below this value the cube root is replaced by a line (CIE 1976).
     const DELTA: f64 = 6.0 / 29.0;
     let f = |t: f64| {
         if t > DELTA * DELTA * DELTA {

@@ -1,9 +1,14 @@
-//! FLIP for displays: how different two pictures look when one flips to the other (Andersson et
-//! al., "FLIP: a difference evaluator for alternating images", HPG 2020), 0 for no difference, 1
-//! for the largest.
+//! LDR-FLIP: the perceived difference when one alternates between two pictures (Andersson, Nilsson,
+//! Akenine-Möller, Oskarsson, Åström, Fairchild, "FLIP: A Difference Evaluator for Alternating
+//! Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), HPG 2020):
+//! 0 for no difference, 1 for the largest.
 //!
-//! A display value is taken as the sRGB value a monitor is sent. Pictures are continued by their
-//! border.
+//! The steps are those of the paper: both pictures are filtered with contrast sensitivity functions in
+//! YCxCz and converted to CIELAB with the Hunt effect; the HyAB distance gives the colour difference;
+//! edge and point detectors on the luminance give the feature difference, which amplifies the colour
+//! difference. The tests compare with the authors' program, `flip-evaluator` 1.7.
+//!
+//! Display values are sRGB. Beyond the border, pictures are continued with their border pixels.
 
 mod color;
 
@@ -15,13 +20,13 @@ use color::{
 use rtc_image::Image;
 use rtc_math::{Vec3, exp, pow};
 
-/// Pixels in a degree of view for a 0.7 m wide monitor of 3840 pixels, seen from 0.7 m.
+/// The pixels per degree of a 0.7 m wide monitor with 3840 pixels at a distance of 0.7 m.
 pub const PIXELS_PER_DEGREE: f64 = 67.020_645;
 
-/// How many pixels away the eye's blur reaches at [`PIXELS_PER_DEGREE`].
+/// The radius of the largest filter at [`PIXELS_PER_DEGREE`], in pixels.
 pub(super) const REACH: u32 = 10;
 
-/// The difference of each pixel, row by row; the pictures are of one size.
+/// The difference of each pixel, row by row; the pictures have the same size.
 #[must_use]
 pub fn flip(reference: &Image, test: &Image, pixels_per_degree: f64) -> Vec<f64> {
     let vision = VisionFilters::new(pixels_per_degree);
@@ -36,23 +41,23 @@ pub fn flip(reference: &Image, test: &Image, pixels_per_degree: f64) -> Vec<f64>
         .collect()
 }
 
-/// A pixel as perceived.
+/// The filtered colour and features of a pixel.
 struct PixelFeatures {
-    /// CIELAB after the eye's blur, a and b scaled by Hunt's effect.
+    /// CIELAB after the contrast sensitivity filter, a and b scaled for the Hunt effect.
     color: Vec3,
-    /// The strength of the edge here.
+    /// The strength of the edge.
     edge: f64,
-    /// The strength of the point here.
+    /// The strength of the point.
     point: f64,
 }
 
-/// The map from a colour distance to a perceived difference.
+/// The exponent of the perceived colour difference.
 const Q_COLOR: f64 = 0.7;
 
-/// The difference of a pixel, where `largest` is that of green and blue.
+/// The difference of a pixel; `largest` is the colour difference of green and blue.
 fn difference(reference: &PixelFeatures, test: &PixelFeatures, largest: f64) -> f64 {
     const Q_FEATURE: f64 = 0.5;
-    // Redistribute the colour error: the lower 40 % of its range takes 95 % of the scale.
+    // Map the colour error: the lower 40 % of its range to 95 % of the scale.
     const KNEE: f64 = 0.4;
     const AT_KNEE: f64 = 0.95;
     let knee = KNEE * largest;
@@ -62,7 +67,7 @@ fn difference(reference: &PixelFeatures, test: &PixelFeatures, largest: f64) -> 
     } else {
         AT_KNEE + (color - knee) / (largest - knee) * (1.0 - AT_KNEE)
     };
-    // Let a difference of features strengthen that of colour.
+    // Combine with the feature difference as an exponent.
     let feature = (reference.edge - test.edge)
         .abs()
         .max((reference.point - test.point).abs());
@@ -70,7 +75,7 @@ fn difference(reference: &PixelFeatures, test: &PixelFeatures, largest: f64) -> 
     pow(color.min(1.0), 1.0 - feature.min(1.0))
 }
 
-/// The filters of an eye at some distance.
+/// The filters of the visual system at a viewing distance.
 struct VisionFilters {
     /// The contrast sensitivity to luminance, red–green and blue–yellow: a sum of separable
     /// Gaussians for each, with their weights.
@@ -103,8 +108,9 @@ impl VisionFilters {
         }
     }
 
-    /// All pixels of a picture as perceived.
+    /// Filters all pixels of a picture.
     fn perceive(&self, image: &Image) -> Vec<PixelFeatures> {
+        // Convert to the opponent colour space YCxCz.
         let (width, height) = (image.width as usize, image.height as usize);
         let opponent: Vec<_> = image
             .pixels
@@ -119,13 +125,16 @@ impl VisionFilters {
                 values,
             }
         };
+        // Filter with the contrast sensitivity functions.
         let blurred = [0, 1, 2].map(|channel| plane(channel).blur(&self.sensitivity[channel]));
+        // Detect edges and points in the luminance.
         let mut luminance = plane(0);
         luminance
             .values
             .iter_mut()
             .for_each(|y| *y = (*y + 16.0) / 116.0);
         let [edges, points] = self.feature.strengths(&luminance);
+        // Convert to CIELAB with the Hunt effect.
         (0..width * height)
             .map(|i| {
                 let seen =
@@ -170,7 +179,7 @@ fn offsets(radius: f64) -> impl Iterator<Item = f64> {
 
 impl FeatureFilter {
     fn new(pixels_per_degree: f64) -> Self {
-        /// The width of the features an eye is most sensitive to, in degrees.
+        /// The width of the feature detector, in degrees (from the paper).
         const WIDTH: f64 = 0.082;
         let deviation = 0.5 * WIDTH * pixels_per_degree;
         let radius = (3.0 * deviation).ceil();
@@ -189,7 +198,7 @@ impl FeatureFilter {
         }
     }
 
-    /// The strength of edges and points: the lengths of the first and of the second derivatives.
+    /// The strength of edges and points: the norms of the first and second derivatives.
     fn strengths(&self, luminance: &Channel) -> [Vec<f64>; 2] {
         [&self.first, &self.second].map(|derivative| {
             let across = luminance.convolve(derivative, &self.smooth);
@@ -204,7 +213,7 @@ impl FeatureFilter {
     }
 }
 
-/// The weights scaled so that those above 0 sum to one, and those below to minus one.
+/// Normalizes the weights so that positive ones sum to one and negative ones to minus one.
 fn balanced(weights: Vec<f64>) -> Vec<f64> {
     let above: f64 = weights.iter().filter(|weight| **weight > 0.0).sum();
     let below: f64 = -weights.iter().filter(|weight| **weight < 0.0).sum::<f64>();
@@ -214,7 +223,7 @@ fn balanced(weights: Vec<f64>) -> Vec<f64> {
         .collect()
 }
 
-/// One number for each pixel.
+/// An image with one channel.
 struct Channel {
     width: usize,
     height: usize,
@@ -254,8 +263,8 @@ impl Channel {
     }
 }
 
-/// The weighted sum around a place on a line of `length` values, the first and last of which go on
-/// for ever.
+/// The weighted sum around an index on a line of `length` values, which is continued with its first
+/// and last value.
 fn weighted_sum(weights: &[f64], at: usize, length: usize, value: impl Fn(usize) -> f64) -> f64 {
     let radius = weights.len() / 2;
     let index = |k: usize| (at + k).saturating_sub(radius).min(length - 1);

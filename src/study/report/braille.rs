@@ -1,21 +1,21 @@
-//! Error against time for a terminal, both logarithmic: dots of braille, two by four in a letter.
+//! A log–log plot of error against time for a terminal, in braille characters of 2 × 4 dots.
 
 use super::super::advice::{digits, seconds};
 use super::super::outcome::{Row, Study};
 use super::chart::front_steps;
 use rtc_math::ln;
 
-/// Letters of the plot.
+/// The size of the plot in characters.
 const COLUMNS: usize = 64;
 const LINES: usize = 12;
 
-/// Room for the error beside it.
+/// The width of the axis labels.
 const MARGIN: usize = 8;
 
-/// The bits of a letter for its dots, row by row (Unicode, U+2800 on).
+/// The bits of the dots of a character, row by row (Unicode block U+2800).
 const BITS: [[u8; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
 
-/// All rows with an error as dots, the front as steps; nothing if they are too few.
+/// Plots all rows with an error as dots and the front as steps; empty if there are too few.
 pub(super) fn plot(study: &Study) -> String {
     let rows = study.rows.iter().filter(|row| row.errors.rmse > 0.0);
     let rows: Vec<&Row> = rows.collect();
@@ -29,13 +29,15 @@ pub(super) fn plot(study: &Study) -> String {
     }
 }
 
-/// The plot of points and of a line of steps; `None` where they have one place on an axis.
+/// Plots points and a step line; `None` if an axis has no extent.
 fn drawn(points: &[(f64, f64)], steps: &[(f64, f64)]) -> Option<String> {
+    // Find the ranges of both axes.
     let axis = |of: fn(&(f64, f64)) -> f64| {
         let ends = points.iter().map(of).fold((f64::INFINITY, 0.0), ends);
         (0.0 < ends.0 && ends.0 < ends.1).then_some(ends)
     };
     let (xs, ys) = (axis(|point| point.0)?, axis(|point| point.1)?);
+    // Draw the step line and the points.
     let mut canvas = Canvas([[0; COLUMNS]; LINES]);
     let place = |(x, y): (f64, f64)| {
         let at = |value: f64, (low, high): (f64, f64), most: usize| {
@@ -54,6 +56,7 @@ fn drawn(points: &[(f64, f64)], steps: &[(f64, f64)]) -> Option<String> {
             canvas.set(dot);
         }
     }
+    // Format the lines with labels.
     let mut text = String::new();
     for (index, line) in canvas.lines().enumerate() {
         let label = match index {
@@ -73,7 +76,7 @@ fn ends((low, high): (f64, f64), value: f64) -> (f64, f64) {
     (low.min(value), high.max(value))
 }
 
-/// Dots, from the upper left.
+/// A bitmap of dots, from the upper left.
 struct Canvas([[u8; COLUMNS]; LINES]);
 
 impl Canvas {
@@ -83,7 +86,7 @@ impl Canvas {
         }
     }
 
-    /// The dots of a line along an axis.
+    /// Draws a line along an axis.
     fn line(&mut self, [[x0, y0], [x1, y1]]: [[usize; 2]; 2]) {
         for x in x0.min(x1)..=x0.max(x1) {
             (y0.min(y1)..=y0.max(y1)).for_each(|y| self.set([x, y]));
@@ -113,7 +116,7 @@ mod tests {
         let lines: Vec<Vec<char>> = text.lines().map(|line| line.chars().collect()).collect();
         assert_eq!(lines.len(), LINES + 1, "{text}");
         assert!(lines.iter().all(|line| line.len() <= 80), "{text}");
-        // Four dots, with the step beside them.
+        // Four dots, next to the step line.
         assert_eq!(lines[0][MARGIN + 1], '⠛', "{text}");
         assert_eq!(lines[LINES - 1][MARGIN + COLUMNS], '⣧', "{text}");
         let middle = &lines[LINES / 2][MARGIN + 1..];

@@ -1,11 +1,12 @@
-//! Words for those who read a report: what each column means, and what a time buys.
+//! Texts that several reports share: the meaning of each column, and the best setting within a
+//! time.
 
 use super::super::advice::{digits, interval, seconds};
 use super::super::outcome::{Row, Study};
 use super::super::parameter::Parameter;
 
-/// What the columns of the table mean, by their names in the terminal and on the page; knobs explain themselves
-/// by their long names.
+/// The meaning of the columns, with their names in the terminal and in the HTML report. Parameters
+/// are explained by their long names.
 pub(super) const MEANINGS: [(&str, &str, &str); 13] = [
     ("*", "★", "on the front: nothing as cheap has less error"),
     ("rays", "rays", "rays of the whole picture"),
@@ -62,8 +63,8 @@ pub(super) const MEANINGS: [(&str, &str, &str); 13] = [
     ),
 ];
 
-/// The row with the least error of those on the front that are done within each time, for times of 1, 2, 5, 10 …:
-/// only those times at which another row is bought.
+/// For times of 1, 2, 5, 10 …, the row of the front with the least error within this time; only the
+/// times at which the row changes.
 pub(super) fn best_by_time(study: &Study) -> Vec<(f64, &Row)> {
     let front: Vec<_> = study.rows.iter().filter(|row| row.front).collect();
     let times = (-4..6).flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * power_of_ten(decade)));
@@ -82,7 +83,8 @@ pub(super) fn best_by_time(study: &Study) -> Vec<(f64, &Row)> {
     best_within
 }
 
-/// As "0.17 s ± 3.1 %, error 1.07 grey levels, 1.09 ± 0.02 over 12 renders (2×2, depth 2)".
+/// For example "0.17 s ± 3.1 %, error 1.07 grey levels, 1.09 ± 0.02 over 12 renders (2×2, depth
+/// 2)".
 pub(super) fn measured(row: &Row, used: &[Parameter]) -> String {
     let limit = if row.is_resolved { "" } else { "≤ " };
     let (time, off) = (seconds(row.seconds.value), 100.0 * row.seconds.relative());
@@ -105,7 +107,7 @@ fn power_of_ten(decade: i32) -> f64 {
     rtc_math::exp(f64::from(decade) * std::f64::consts::LN_10)
 }
 
-/// As "in 1.00 s: error 0.4 grey levels (4×4, depth 2)".
+/// For example "in 1.00 s: error 0.4 grey levels (4×4, depth 2)".
 pub(super) fn best_within(study: &Study, (time, row): &(f64, &Row)) -> String {
     let limit = if row.is_resolved { "" } else { "≤ " };
     let (time, error) = (seconds(*time), digits(row.errors.rmse));

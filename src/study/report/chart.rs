@@ -1,5 +1,5 @@
-//! Plots as SVG, both axes logarithmic, whose marks say their values. Text stays text, and black follows the page: its style
-//! turns that for the dark.
+//! Log–log plots as SVG. Each mark has its values as a tooltip. Text stays text, and the page's
+//! style inverts black in dark mode.
 
 use super::super::advice::{digits, seconds};
 use super::super::outcome::{ParameterReport, Row, Study};
@@ -20,19 +20,20 @@ const FLOOR: RGBColor = RGBColor(0xd0, 0x60, 0x30);
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
-/// A point of a plot that says its values when the pointer is over it, or the keyboard gets to it.
+/// A mark of a plot that shows its values on hover or keyboard focus.
 struct Mark {
-    /// Where it is, in units of the plot.
+    /// The position, in units of the plot.
     at: (i32, i32),
     words: String,
 }
 
-/// A span of values that fits on a logarithmic axis.
+/// A range of positive values for a logarithmic axis.
 type AxisRange = std::ops::Range<f64>;
 
 /// Error against time: all rows with their intervals, the front as steps, the floor of the
 /// reference.
 pub(super) fn front(study: &Study) -> String {
+    // Find the ranges of both axes.
     let rows: Vec<_> = study
         .rows
         .iter()
@@ -48,6 +49,7 @@ pub(super) fn front(study: &Study) -> String {
             ["time of one processor", "error in grey levels"],
             seconds,
         )?;
+        // Draw the front and the error of the reference.
         let steps = front_steps(&rows, xs.end);
         chart.draw_series([PathElement::new(steps, ACCENT.stroke_width(2))])?;
         if let Some(floor) = floor {
@@ -58,6 +60,7 @@ pub(super) fn front(study: &Study) -> String {
             let label = Text::new("error of the reference", (6, -14), font(11));
             chart.draw_series([EmptyElement::at((xs.start, floor)) + label])?;
         }
+        // Draw the rows with labels.
         let used = study.used();
         let mut labels = Vec::new();
         for row in &rows {
@@ -66,6 +69,7 @@ pub(super) fn front(study: &Study) -> String {
                 draw_label(&mut chart, row, &used, &mut labels)?;
             }
         }
+        // Add tooltips.
         let mark_of = |row: &&Row| Mark {
             at: chart.backend_coord(&(row.seconds.value, row.errors.rmse)),
             words: captions::measured(row, &used),
@@ -74,11 +78,11 @@ pub(super) fn front(study: &Study) -> String {
     })
 }
 
-/// The corners of the front: the least error for each time.
+/// The vertices of the front's step line: the least error for each time.
 pub(super) fn front_steps(rows: &[&Row], end: f64) -> Vec<(f64, f64)> {
     let mut steps: Vec<(f64, f64)> = Vec::new();
     for row in rows.iter().filter(|row| row.front) {
-        // Where times do not differ clearly, rows are placed by their rays.
+        // Rows with similar times are ordered by rays: keep x monotonic.
         let x = steps
             .last()
             .map_or(0.0, |last| last.0)
@@ -108,15 +112,15 @@ fn draw_row(chart: &mut Chart<'_, '_>, row: &Row) -> Outcome {
     Ok(())
 }
 
-/// The values of a setting above its mark, or below it where another label stands above; where both
-/// places are taken the mark alone says them. `labels` are where labels stand.
+/// Draws the values of a setting above its mark, or below it if another label overlaps; if both
+/// overlap, no label. `labels` has the positions of all labels.
 fn draw_label(
     chart: &mut Chart<'_, '_>,
     row: &Row,
     used: &[Parameter],
     labels: &mut Vec<(i32, i32)>,
 ) -> Outcome {
-    /// About as wide and high as a label.
+    /// The approximate size of a label.
     const SIZE: (i32, i32) = (110, 13);
     const ABOVE_OR_BELOW: [i32; 2] = [-15, 6];
     let at = (row.seconds.value, row.errors.rmse);
@@ -141,10 +145,11 @@ fn draw_label(
     Ok(())
 }
 
-/// The error of a knob alone, and its law.
+/// Plots the error of one parameter, and its power law.
 pub(super) fn parameter(report: &ParameterReport) -> String {
-    // A logarithmic axis has no 0; a depth of 0 stands beside 1.
+    // A logarithmic axis has no 0: a depth of 0 is drawn at ½.
     let x = |value: u32| report.parameter.samples(value).max(0.5);
+    // Collect the levels with an error, and the ranges of both axes.
     let points: Vec<_> = report
         .levels
         .iter()
@@ -170,15 +175,17 @@ pub(super) fn parameter(report: &ParameterReport) -> String {
             [name, "error in grey levels"],
             digits,
         )?;
+        // Draw the power law.
         if let Some(law) = &report.law {
             const STEPS: u32 = 100;
             let x =
                 |step: u32| xs.start * pow(xs.end / xs.start, f64::from(step) / f64::from(STEPS));
             let line = (0..=STEPS).map(|step| (x(step), law.at(x(step))));
-            // Points outside would be drawn on the edge.
+            // Drop points outside: plotters would draw them on the edge.
             let line = line.filter(|(_, y)| ys.contains(y)).collect::<Vec<_>>();
             chart.draw_series([PathElement::new(line, ACCENT.mix(0.6).stroke_width(1))])?;
         }
+        // Draw the levels.
         let mark = |(x, level): &(f64, &Level)| {
             let style = if level.resolved {
                 ACCENT.filled()
@@ -188,6 +195,7 @@ pub(super) fn parameter(report: &ParameterReport) -> String {
             Circle::new((*x, level.error), 4, style)
         };
         chart.draw_series(points.iter().map(mark))?;
+        // Add tooltips.
         let mark_of = |(x, level): &(f64, &Level)| Mark {
             at: chart.backend_coord(&(*x, level.error)),
             words: format!(
@@ -200,7 +208,7 @@ pub(super) fn parameter(report: &ParameterReport) -> String {
     })
 }
 
-/// The decades that hold all values.
+/// The range of decades that contains all values.
 fn span(values: impl Iterator<Item = f64>) -> AxisRange {
     let decades = (-12..=12).map(|decade| exp(f64::from(decade) * std::f64::consts::LN_10));
     let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
@@ -225,14 +233,14 @@ fn plot(
         Ok(marks)
     });
     drop(root);
-    // Drawing into a string cannot fail; if it did, the page has no plot.
+    // Drawing into a string cannot fail; if it did, the page would have no plot.
     match drawn {
         Ok(marks) => with_marks(&svg, &marks),
         Err(error) => format!("<p>no plot: {error}</p>"),
     }
 }
 
-/// A plot with its spots on top, and a line below it for what the last one says.
+/// A plot with its marks on top, and a line below it for the values of the last one.
 fn with_marks(svg: &str, marks: &[Mark]) -> String {
     let mark_of = |Mark { at: (x, y), words }: &Mark| {
         let words = escaped(words);
@@ -249,7 +257,7 @@ fn with_marks(svg: &str, marks: &[Mark]) -> String {
     )
 }
 
-/// Shows below a plot what the mark says that the pointer or the keyboard got to.
+/// Shows the values of the mark under the pointer or the keyboard focus below the plot.
 const SHOW_VALUES: &str = "const words = event.target.getAttribute('aria-label'); \
                     if (words) this.lastElementChild.textContent = words";
 

@@ -1,5 +1,5 @@
-//! The rows of a study as CSV (RFC 4180): a line of names, then one line a row; errors in grey
-//! levels, time in seconds.
+//! The rows of a study as CSV (RFC 4180): a header line, then one line per row; errors in grey
+//! levels, times in seconds.
 
 use super::super::outcome::{Row, Study};
 use super::super::parameter::Parameter;

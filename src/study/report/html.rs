@@ -1,5 +1,5 @@
-//! The page: one file that needs no network and no script, for wide screens and narrow ones, light
-//! and dark.
+//! The HTML report: one file without network requests or script files, for wide and narrow screens,
+//! light and dark mode.
 
 use super::super::advice::{digits, interval, seconds};
 use super::super::outcome::{BounceCost, Row, Study};
@@ -10,10 +10,10 @@ use std::fmt::Write;
 
 const STYLE: &str = include_str!("page.css");
 
-/// The maximum number of rows shown as pictures.
+/// The maximum number of rows with pictures.
 const PICTURES: usize = 8;
 
-/// The page of a study.
+/// The HTML report of a study.
 #[must_use]
 pub fn html(study: &Study) -> String {
     let title = format!("What accuracy costs: {}", escaped(&study.about.scene));
@@ -39,7 +39,7 @@ pub fn html(study: &Study) -> String {
     page(&title, &(advice + &sections.concat()))
 }
 
-/// A page with all it needs within it.
+/// A self-contained page.
 pub(super) fn page(title: &str, body: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -87,7 +87,7 @@ fn front(study: &Study) -> String {
     )
 }
 
-/// What the columns mean; it opens by mouse and keyboard.
+/// The meaning of the columns, in a collapsible section.
 fn legend(used: &[Parameter]) -> String {
     let parameters = used
         .iter()
@@ -103,7 +103,7 @@ fn legend(used: &[Parameter]) -> String {
     )
 }
 
-/// What a time buys, with a slider over the times at which it is another row.
+/// The best setting within each time, with a slider over the times.
 fn times(study: &Study) -> String {
     let lines: Vec<_> = best_by_time(study)
         .iter()
@@ -274,12 +274,14 @@ fn pictures(study: &Study) -> String {
     if study.reference_tiles.is_empty() {
         return String::new();
     }
+    // Choose rows of the front and the scene's row.
     let shown: Vec<_> = study
         .rows
         .iter()
         .filter(|row| row.front || row.own)
         .collect();
     let step = shown.len().div_ceil(PICTURES).max(1);
+    // Draw each picture beside its FLIP map.
     let mut figures = figure(&[picture::tiles(&study.reference_tiles)], "The reference");
     for row in shown.into_iter().step_by(step) {
         let own = if row.own { ", the scene's own" } else { "" };
@@ -342,7 +344,7 @@ fn fine_print(study: &Study) -> String {
     format!("<h2>What this rests on</h2>\n{lines}")
 }
 
-/// Text escaped for HTML.
+/// Escapes text for HTML.
 pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")

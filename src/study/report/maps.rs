@@ -1,4 +1,4 @@
-//! Maps of cost and error with their scales: a section of the page, and a page of their own.
+//! Maps of cost and error with their scales: a section of the report, and a separate page.
 
 use super::super::advice::digits;
 use super::super::difference::heat_map;
@@ -8,7 +8,7 @@ use super::html::{escaped, page};
 use super::picture::wide;
 use std::fmt::Write;
 
-/// The colours of a scale.
+/// The number of colours of a scale.
 const STEPS: u32 = 64;
 
 /// The section of the maps; empty if there are none.

@@ -1,5 +1,14 @@
-//! A study in several forms: a table for a terminal, CSV and JSON for programs, a page for a
-//! browser.
+//! Reports of a study: a table for a terminal, CSV and JSON for programs, an HTML page.
+//!
+//! - [`mod@table`]: text of 80 columns, with a plot in [`braille`] characters;
+//! - [`mod@csv`] and [`json()`]: all numbers of the rows, and the whole study;
+//! - [`mod@html`]: a self-contained page with SVG plots ([`chart`]), pictures ([`picture`]) and
+//!   [`maps`];
+//! - [`slider`]: the page that compares two pictures (`rtc diff`);
+//! - [`versus`]: the comparison of two scenes (`rtc cost` with a reference scene).
+//!
+//! [`captions`] has the texts that the table and the page share. Reports only format what a [`Study`]
+//! holds: a study that was read from JSON gives the same reports, except for the pictures.
 
 mod braille;
 mod captions;
@@ -21,10 +30,10 @@ pub use versus::versus_table;
 
 use super::outcome::Study;
 
-/// All of a study but its pictures as JSON.
+/// A study as JSON, without its pictures.
 ///
 /// # Panics
-/// Never: a study holds nothing that JSON can't.
+/// Never: a study can always be serialised.
 #[must_use]
 pub fn json(study: &Study) -> String {
     serde_json::to_string_pretty(study).expect("a study holds names and numbers") + "\n"

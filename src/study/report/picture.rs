@@ -1,5 +1,4 @@
-//! Pictures for the page: the rendered tiles side by side, and the perceived difference at each
-//! place, as data URIs.
+//! Pictures for the HTML report as data URIs: the rendered tiles side by side, and their FLIP maps.
 
 use super::super::difference::heat_map;
 use super::super::flip::{PIXELS_PER_DEGREE, flip};
@@ -10,19 +9,19 @@ use rtc_image::{FileFormat, Image, Picture, shrunk};
 /// Wider pictures are shrunk to this width, in pixels.
 const WIDTH: u32 = 400;
 
-/// The tiles side by side, as a PNG in a URI.
+/// The tiles side by side, as a PNG data URI.
 pub(super) fn tiles(tiles: &[Image]) -> String {
     uri(&shrunk(mosaic(tiles), [WIDTH, u32::MAX]))
 }
 
-/// A picture by itself, as a PNG in a URI.
+/// A single picture as a PNG data URI.
 pub(super) fn wide(image: &Image) -> String {
     /// Wider pictures are shrunk to this width, in pixels.
     const WIDTH: u32 = 1600;
     uri(&shrunk(image.clone(), [WIDTH, u32::MAX]))
 }
 
-/// FLIP of each place, from black for no difference to white for the largest.
+/// The FLIP map, from black for no difference to white for the largest.
 pub(super) fn heat(test: &[Image], reference: &[Image]) -> String {
     let map = |(test, reference): (&Image, &Image)| {
         let flips = flip(reference, test, PIXELS_PER_DEGREE);
@@ -31,7 +30,7 @@ pub(super) fn heat(test: &[Image], reference: &[Image]) -> String {
     tiles(&test.iter().zip(reference).map(map).collect::<Vec<_>>())
 }
 
-/// Tiles in rows of about as many as there are rows; black where there is none.
+/// Tiles in a grid that is about square; black where there is none.
 fn mosaic(tiles: &[Image]) -> Image {
     let side = |of: fn(&Image) -> u32| tiles.iter().map(of).max().unwrap_or(1);
     let (width, height) = (side(|tile| tile.width), side(|tile| tile.height));
@@ -60,7 +59,7 @@ fn mosaic(tiles: &[Image]) -> Image {
 }
 
 fn uri(image: &Image) -> String {
-    // A picture too large to encode is left out.
+    // A picture that is too large to encode is omitted.
     let bytes = Picture::opaque(image.clone())
         .encode(FileFormat::Png8)
         .unwrap_or_default();

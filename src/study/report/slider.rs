@@ -1,5 +1,5 @@
-//! The page of two pictures: one over the other with a slider between, where they differ, by how much, and
-//! what differs in their scenes.
+//! The page that compares two pictures: a slider between them, a map and measures of their
+//! difference, and the differences of their scenes.
 
 use super::super::difference::{Difference, heat_map};
 use super::html::{self, escaped};
@@ -9,24 +9,24 @@ use rtc_image::Image;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// So many differences of the scenes are on the page at most.
+/// The maximum number of scene differences on the page.
 const MOST: usize = 500;
 
-/// Two pictures and what is known of them.
+/// Two pictures and their difference.
 pub struct SliderPage<'a> {
-    /// What the new and the old picture are called.
+    /// The names of the new and the old picture.
     pub names: [&'a str; 2],
-    /// The pictures, of one size.
+    /// The pictures, of the same size.
     pub pictures: [&'a Image; 2],
-    /// How far they are apart.
+    /// The measures of their difference.
     pub difference: &'a Difference,
     /// FLIP of each pixel.
     pub flips: &'a [f64],
-    /// What differs in their scenes, if they are pictures of scenes.
+    /// The differences of their scenes, if known.
     pub changes: Option<&'a [Change]>,
 }
 
-/// The page, with all it needs within it.
+/// The self-contained page.
 #[must_use]
 pub fn slider_page(page: &SliderPage<'_>) -> String {
     let [new, old] = page.names.map(escaped);
@@ -105,7 +105,7 @@ fn changed(page: &SliderPage<'_>) -> String {
     format!("<h2>What differs in the scenes</h2>\n{table}")
 }
 
-/// A value of a scene in a few words; a dash for none.
+/// A value of a scene as short text; a dash for none.
 #[must_use]
 pub fn value_text(value: Option<&Value>) -> String {
     const MOST: usize = 60;

@@ -1,4 +1,4 @@
-//! The table for a terminal of 80 columns.
+//! The report for a terminal of 80 columns.
 
 use super::super::advice::{digits, seconds};
 use super::super::outcome::{BounceCost, MoreBounces, ParameterReport, Row, Study};
@@ -10,9 +10,10 @@ use std::fmt::Write;
 
 const WIDTH: usize = 80;
 
-/// The whole study as text.
+/// The study as text.
 #[must_use]
 pub fn table(study: &Study) -> String {
+    // Write the header of the table and its rows.
     let used = study.used();
     let mut text = format!("{}\n", head(study));
     let mut names = String::from(" ");
@@ -32,6 +33,7 @@ pub fn table(study: &Study) -> String {
     }
     text += &legend(&used, &columns);
     text += "\n";
+    // Write the best setting within each time, and the plot.
     for what in best_by_time(study) {
         text += &wrapped(&best_within(study, &what));
     }
@@ -41,12 +43,15 @@ pub fn table(study: &Study) -> String {
         .parameters
         .iter()
         .for_each(|parameter| text += &wrapped(&knob_line(parameter, study.bounces.as_ref())));
+    // Write bounces, ablations and arithmetics.
     text += &more_bounces(study.bounces.as_ref());
     text += &effects(study);
     text += "\n";
+    // Write the advice.
     for (place, advice) in study.advice.iter().enumerate() {
         text += &wrapped(advice);
-        // The first is the main advice. Its command is one line, to be copied.
+        // The first line is the main advice. Its command stays on one line, so that it can be
+        // copied.
         if let (0, Some(command)) = (place, &study.command) {
             let _ = writeln!(text, "  {command}");
         }
@@ -61,7 +66,7 @@ pub fn table(study: &Study) -> String {
     text
 }
 
-/// What the columns mean that are shown.
+/// The meaning of the displayed columns.
 fn legend(used: &[Parameter], columns: &[usize]) -> String {
     let parameters = used
         .iter()
@@ -72,7 +77,7 @@ fn legend(used: &[Parameter], columns: &[usize]) -> String {
     wrapped(&parameters.chain(meanings).collect::<Vec<_>>().join("; "))
 }
 
-/// What more bounces than the scene's own would add.
+/// The effect of more bounces than the scene has.
 fn more_bounces(bounces: Option<&MoreBounces>) -> String {
     let costs = bounces.map(steps).unwrap_or_default();
     let line = |cost: &BounceCost| {
@@ -88,7 +93,7 @@ fn more_bounces(bounces: Option<&MoreBounces>) -> String {
     }
 }
 
-/// The deeper depths worth a line: one bounce more, then twice as many each time, and all.
+/// The listed depths: 1, 2, 4, … more bounces, and the last.
 pub(super) fn steps(bounces: &MoreBounces) -> Vec<BounceCost> {
     let last = bounces.deeper.len().saturating_sub(1);
     let all = bounces.deeper.iter().enumerate();
@@ -125,7 +130,7 @@ fn effects(study: &Study) -> String {
     text
 }
 
-/// A name that leaves room for the columns beside it.
+/// Truncates a name to its column.
 fn clipped(name: &str) -> String {
     const ROOM: usize = 30;
     match name.chars().count() {
@@ -134,7 +139,7 @@ fn clipped(name: &str) -> String {
     }
 }
 
-/// The columns after those of the knobs, with their widths.
+/// The columns after those of the parameters, with their widths.
 const COLUMNS: [(&str, usize); 11] = [
     ("rays", 8),
     ("time", 8),
@@ -149,14 +154,14 @@ const COLUMNS: [(&str, usize); 11] = [
     ("tiles%", 8),
 ];
 
-/// The places of those that make room for others, the first to go first.
+/// The columns that are dropped if there is no room, in this order.
 const MODEL: usize = 7;
 const MEAN: usize = 5;
 const SPREAD: usize = 6;
 const FLIP: usize = 9;
 
-/// The places of the columns that are shown, as far as there is room: those of what the tiles leave open
-/// of the error only if tiles were looked at, those of other renders only if any differs.
+/// The indices of the displayed columns, as far as there is room: the interval only if tiles were
+/// rendered, the error over renders only if renders differ.
 fn columns(study: &Study, used: &[Parameter]) -> Vec<usize> {
     let is_alike = study.rows.iter().all(|row| row.spread.deviation == 0.0);
     let mut shown: Vec<_> = (0..COLUMNS.len())
@@ -176,7 +181,7 @@ fn columns(study: &Study, used: &[Parameter]) -> Vec<usize> {
     shown
 }
 
-/// The width of the column of a knob.
+/// The width of a parameter's column.
 fn width(parameter: Parameter) -> usize {
     if parameter == Parameter::Precision {
         7
@@ -225,7 +230,7 @@ fn line(row: &Row, used: &[Parameter], (columns, fraction): (&[usize], f64)) -> 
     line
 }
 
-/// By how many hundredths the error of the whole picture may be less and more: "-25+70".
+/// The relative confidence interval of the error of the whole picture, in percent: "-25+70".
 fn off(row: &Row) -> String {
     let errors = &row.errors;
     let off = |end: f64| match errors.rmse {
@@ -235,7 +240,7 @@ fn off(row: &Row) -> String {
     format!("-{:.0}+{:.0}", off(errors.rmse_low), off(errors.rmse_high))
 }
 
-/// Right-aligned, with a blank before it at least.
+/// Writes a right-aligned cell, with at least one blank before it.
 fn write_cell(line: &mut String, text: &str, width: usize) {
     let blanks = width.saturating_sub(text.chars().count()).max(1);
     let _ = write!(line, "{:blanks$}{text}", "");
@@ -248,7 +253,7 @@ fn head(study: &Study) -> String {
         .concat()
 }
 
-/// The part rendered, and how well it represents the whole.
+/// The rendered part of the picture.
 pub(super) fn part(study: &Study) -> String {
     let [width, height] = study.part.size;
     match study.part.tiles {
@@ -273,7 +278,7 @@ pub(super) fn reference(study: &Study) -> String {
     )
 }
 
-/// The result for a knob, in one sentence.
+/// The result for a parameter, in one sentence.
 pub(super) fn knob_line(report: &ParameterReport, bounces: Option<&MoreBounces>) -> String {
     let name = report.parameter.name();
     let last = report.levels.last().map_or(0, |level| level.value);
@@ -309,7 +314,8 @@ pub(super) fn knob_line(report: &ParameterReport, bounces: Option<&MoreBounces>)
     }
 }
 
-/// The scene's own depth, and what lies beyond. The search went to `last` if it did not go beyond.
+/// The scene's depth, and the effect of greater depths. The search went to `last` if it did not go
+/// beyond the scene's depth.
 fn depth_line(bounces: &MoreBounces, last: u32) -> String {
     let MoreBounces { own, end, deeper } = bounces;
     let words = match deeper.last() {
@@ -329,7 +335,7 @@ fn depth_line(bounces: &MoreBounces, last: u32) -> String {
     format!("depth: errors are against the scene's own, {own}; {words}")
 }
 
-/// A number of rays, as 1.23 M.
+/// Formats a number of rays, for example 1.23 M.
 pub(super) fn count(rays: f64) -> String {
     match rays {
         ..1e4 => format!("{rays:.0}"),
@@ -339,7 +345,7 @@ pub(super) fn count(rays: f64) -> String {
     }
 }
 
-/// The text in lines of at most 80 columns.
+/// Wraps text at 80 columns.
 fn wrapped(text: &str) -> String {
     let mut lines = String::new();
     let mut column = 0;

@@ -1,16 +1,17 @@
-//! A scene against its reference, in words for a terminal.
+//! The comparison of a scene with its reference, for a terminal.
 
 use super::super::advice::{digits, seconds};
 use super::super::versus::{DifferentTile, Versus};
 use super::table::count;
 use std::fmt::Write;
 
-/// The tiles that are named.
+/// The maximum number of listed tiles.
 const NAMED: usize = 5;
 
-/// The whole comparison as text.
+/// The comparison as text.
 #[must_use]
 pub fn versus_table(versus: &Versus) -> String {
+    // Write what was compared.
     let mut text = String::new();
     for (which, about) in ["scene    ", "reference"].iter().zip(&versus.scenes) {
         let _ = writeln!(text, "{which}  {}  {}", about.hash, about.scene);
@@ -24,6 +25,7 @@ pub fn versus_table(versus: &Versus) -> String {
         ),
     };
     let _ = writeln!(text, "{width}×{height} pixels{looked}\n");
+    // Write time, rays and noise of both scenes.
     text += "             scene      reference  ratio\n";
     let fraction = versus.part.fraction;
     let rays = versus.rays.map(|rays| count(rays.all() as f64 / fraction));
@@ -46,6 +48,7 @@ pub fn versus_table(versus: &Versus) -> String {
     for (name, [scene, reference], ratio, words) in rows {
         let _ = writeln!(text, "{name:13}{scene:11}{reference:11}{ratio:.2}×{words}");
     }
+    // Write the difference.
     text += &format!("\n{}{}", difference(versus), tiles(versus));
     if versus.wall_over_cpu > 1.2 {
         let times = versus.wall_over_cpu;

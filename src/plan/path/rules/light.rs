@@ -18,7 +18,8 @@ fn light_path(light: usize) -> ValuePath {
 pub(super) const ZERO_INTENSITY: PathRule = PathRule {
     rule: Rule::PathLightBlack,
     name: "P-LIGHT-ZERO",
-    text: "A light of intensity 0 is chosen with probability 0: it leaves the choice of lights.",
+    text: "A light of intensity 0 has the sampling probability 0: it is removed from the light \
+           distribution.",
     reason: "all lights have intensity 0",
     apply: |builder| {
         let lights = builder.punctual;
@@ -30,7 +31,8 @@ pub(super) const ZERO_INTENSITY: PathRule = PathRule {
 pub(super) const BLACK_ENVIRONMENT: PathRule = PathRule {
     rule: Rule::PathDarkSky,
     name: "P-ENV-ZERO",
-    text: "An environment whose radiance is 0 in all directions adds 0 to a path that leaves the scene.",
+    text: "An environment with radiance 0 in all directions contributes 0 to a path that leaves \
+           the scene.",
     reason: "the environment is black",
     apply: |builder| {
         reduce_environment(builder, EnvironmentUse::Nothing, |builder, image| {
@@ -42,10 +44,10 @@ pub(super) const BLACK_ENVIRONMENT: PathRule = PathRule {
 pub(super) const CONSTANT_ENVIRONMENT: PathRule = PathRule {
     rule: Rule::PathEvenSky,
     name: "P-ENV-CONST",
-    text: "An environment image whose texels are all equal shows that value in every direction: what \
-           filtering blends of equal texels is that texel. It is read once, when the scene is \
-           prepared. Directions to it are chosen by its table as before, so that no random number \
-           changes its meaning.",
+    text: "If all texels of the environment image are equal, it has this value in all directions: \
+           filtering equal texels gives the same value. The value is read once, when the scene is \
+           prepared. Directions are still sampled from its table, so that the use of random \
+           numbers does not change.",
     reason: "all texels of the environment's image are equal",
     apply: |builder| {
         reduce_environment(builder, EnvironmentUse::Constant, |builder, image| {
@@ -54,8 +56,7 @@ pub(super) const CONSTANT_ENVIRONMENT: PathRule = PathRule {
     },
 };
 
-/// Reduces an environment with an image that has a property to `rest`; returns its place if that
-/// changed it.
+/// Reduces an environment whose image has a property; returns its path if that changed it.
 fn reduce_environment(
     builder: &mut PlanBuilder<'_>,
     rest: EnvironmentUse,
@@ -73,9 +74,9 @@ fn reduce_environment(
 pub(super) const OUT_OF_RANGE: PathRule = PathRule {
     rule: Rule::PathLightReach,
     name: "P-LIGHT-REACH",
-    text: "A light whose range, or whose cone, ends before the boxes of all surfaces sends nothing to \
-           them. It keeps its place in the choice of lights, so that no random number changes its \
-           meaning, and loses its evaluation and its shadow ray.",
+    text: "A light whose range or cone ends before the bounding boxes of all surfaces does not \
+           illuminate them. It keeps its index in the light distribution, so that the use of \
+           random numbers does not change, but it is not evaluated and has no shadow ray.",
     reason: "no surface is within the range or the cone of a light",
     apply: |builder| {
         let lights = builder.punctual;
@@ -94,8 +95,8 @@ pub(super) const OUT_OF_RANGE: PathRule = PathRule {
 pub(super) const DELTA_ONLY: PathRule = PathRule {
     rule: Rule::PathDelta,
     name: "P-DELTA",
-    text: "Where every material scatters light into single directions alone, a direction aimed at a \
-           light has value 0: no light is sampled, and no two ways of sampling need weights.",
+    text: "If all lobes of all materials are delta lobes, the BSDF has the value 0 in a direction \
+           sampled from a light: no light is sampled, and no MIS weights are needed.",
     reason: "all materials are mirrors or clear glass",
     apply: |builder| {
         let multiple = builder.path.multiple_scattering;
@@ -114,11 +115,11 @@ pub(super) const DELTA_ONLY: PathRule = PathRule {
 pub(super) const SINGLE_CONVEX: PathRule = PathRule {
     rule: Rule::PathShadowAlone,
     name: "P-SHADOW-ALONE",
-    text: "A convex opaque solid that stands alone, looked at from outside, lies behind the plane that \
-           touches it at any of its points, and a light before that plane is not hidden by it. A flat \
-           surface that stands alone hides no light that is off its plane; of an environment with an image \
-           some directions are not.",
-    reason: "one convex surface stands alone and does not hide its lights",
+    text: "If the only surface is a convex opaque solid seen from outside, it lies behind its \
+           tangent plane at any point and does not occlude a light in front of that plane. If the \
+           only surface is flat, it does not occlude a light off its plane. An environment with \
+           an image has directions within the plane, so a flat surface may occlude it.",
+    reason: "the only surface is convex and does not shadow itself",
     apply: |builder| {
         let mut left = (0..builder.surfaces.len()).filter(|surface| builder.surfaces[*surface]);
         let (Some(surface), None) = (left.next(), left.next()) else {
@@ -133,7 +134,7 @@ pub(super) const SINGLE_CONVEX: PathRule = PathRule {
     },
 };
 
-/// Reduces lights to `rest`; returns the places of the changed ones.
+/// Reduces lights; returns the paths of the changed ones.
 fn reduce_lights(
     builder: &mut PlanBuilder<'_>,
     rest: LightUse,
@@ -148,7 +149,7 @@ fn reduce_lights(
     out.into_iter().map(light_path).collect()
 }
 
-/// Whether the only surface of a scene surely casts no shadow on itself.
+/// Whether the only surface of a scene certainly does not shadow itself.
 fn casts_no_self_shadow(builder: &PlanBuilder<'_>, surface: usize) -> bool {
     let (bounds, material) = (
         &builder.surface_bounds[surface],
@@ -170,15 +171,15 @@ fn casts_no_self_shadow(builder: &PlanBuilder<'_>, surface: usize) -> bool {
             let mut places = builder.punctual.iter().filter_map(position);
             bounds.is_disjoint_from(&eye) && places.all(|at| bounds.is_disjoint_from(&point(at)))
         }
-        // Nor is a closed convex mesh known to spare them: a ray from beside an edge starts a few
-        // rounding errors above its face, and by as much the edge functions of the next face may be
-        // wrong, the more so the flatter the ray runs to it.
+        // A closed convex mesh may shadow itself: a ray that starts near an edge starts a few
+        // rounding errors off its face, and the edge functions of the next face have errors of the
+        // same size, larger at grazing angles.
         ShapeClass::Other => false,
     };
     keeps_rays_out && is_dark && is_perspective && spares
 }
 
-/// Whether a light is surely off a plane. A ray along the plane may round to either side of it.
+/// Whether a light is certainly off a plane. A ray within the plane may be rounded to either side.
 fn is_off_plane(light: &Punctual, plane: &OrientedPlane) -> bool {
     match light {
         Punctual::Directional(sun) => sun.direction.dot(plane.normal).abs() > 4.0 * MARGIN,
@@ -195,7 +196,7 @@ fn is_black(texels: &Texels) -> bool {
     }
 }
 
-/// Whether a light sends nothing in any direction.
+/// Whether a light has intensity 0 in all directions.
 fn is_dark(light: &Punctual) -> bool {
     match light {
         Punctual::Directional(sun) => sun.irradiance == Vec3::ZERO,
@@ -215,7 +216,7 @@ fn point(at: Vec3) -> Bounds {
     Bounds::about(at, Vec3::ZERO)
 }
 
-/// Whether a light surely does not reach a surface.
+/// Whether a surface is certainly outside the range or the cone of a light.
 fn is_out_of_range(light: &Punctual, bounds: &SurfaceBounds) -> bool {
     let (Some(aabb), Punctual::Point(light)) = (bounds.aabb(), light) else {
         return false;
@@ -229,16 +230,18 @@ fn is_out_of_range(light: &Punctual, bounds: &SurfaceBounds) -> bool {
     is_beyond || cone.is_some_and(|cone| is_outside_cone(aabb, light.position, cone, margin))
 }
 
-/// Far above the rounding error of the cosine of an angle.
+/// A bound far above the rounding error of the cosine of an angle.
 const SLACK: f64 = 1e-12;
 
-/// Whether the ball around a box lies outside of a cone by a margin: the cone is given by its apex, its
-/// axis and the cosine of its half angle.
+/// Whether the bounding sphere of a box is outside a cone by a margin. The cone is given by its
+/// apex, its axis and the cosine of its half angle.
 fn is_outside_cone(aabb: &Bounds, apex: Vec3, (axis, cosine): (Vec3, f64), margin: f64) -> bool {
-    // Widen the cone: where it is narrow, a rounding error of the cosine is a large one of the angle.
+    // Widen the cone: where it is narrow, a small error of the cosine is a large error of the
+    // angle.
     let cosine = cosine - SLACK;
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-    // Compute the distance of the centre from the side of the cone, a lower bound on that from it.
+    // Compute the distance of the centre from the cone's lateral surface, a lower bound of the
+    // distance from the cone.
     let center = aabb.min * 0.5 + aabb.max * 0.5;
     let to = center - apex;
     let along = to.dot(axis);
@@ -257,7 +260,7 @@ mod tests {
 
     #[test]
     fn a_box_is_beside_a_cone_where_the_ball_around_it_is() {
-        // The ball of radius 0.1·√3, four units from the apex, touches a cone of 30° at 32.48°.
+        // The sphere of radius 0.1·√3, four units from the apex, touches a cone of 30° at 32.48°.
         let cosine = cos(30_f64.to_radians());
         for (degrees, is_outside) in [(0.0, false), (32.0, false), (33.0, true), (120.0, true)] {
             let angle = f64::to_radians(degrees);
@@ -280,7 +283,7 @@ mod tests {
 
     #[test]
     fn a_box_beside_a_cone_keeps_a_margin_from_it() {
-        // A half space, half a unit before a box that lies in a ball of an eighth.
+        // A half-space, half a unit before a box with a bounding sphere of radius 1/8.
         let aabb = Bounds::about(Vec3::new(0.0, 0.0, -0.5), Vec3::X * 0.125);
         let is_outside_cone = |margin| is_outside_cone(&aabb, Vec3::ZERO, (Vec3::Z, SLACK), margin);
         assert!(!is_outside_cone(0.375) && is_outside_cone(0.3749));
@@ -314,7 +317,7 @@ mod tests {
         let margin = 8.0 * MARGIN * (0.125 + 0.125);
         assert_eq!(is_out(margin, 0.0), [false, false]);
         assert_eq!(is_out(1.01 * margin, 0.0), [true, true]);
-        // The spot shines past the box.
+        // The spot's cone misses the box.
         assert_eq!(is_out(0.0, 0.99), [false, true]);
     }
 

@@ -1,4 +1,4 @@
-//! Rules on materials: layers of weight 0, alpha of 1, what an unlit material ignores.
+//! Rules on materials: layers of weight 0, opaque alpha, the ignored parameters of unlit materials.
 
 use super::PathRule;
 use crate::Layer;
@@ -11,9 +11,10 @@ use rtc_valid::{Alpha, Map, Standard};
 pub(super) const ZERO: PathRule = PathRule {
     rule: Rule::PathZero,
     name: "P-WEIGHT-ZERO",
-    text: "Transmission, specular reflection, emission and layers of weight 0 add nothing: where the \
-           factor is 0, or the texture is 0 in the channel that counts, wherever a surface lies on it.",
-    reason: "its textures are 0 wherever a surface lies on them",
+    text: "Transmission, specular reflection, emission and layers of weight 0 contribute nothing. \
+           The weight is 0 if the factor is 0, or if the texture is 0 in the used channel \
+           everywhere on the surfaces.",
+    reason: "its textures are 0 everywhere on the surfaces",
     apply: |builder| builder.simplify(without_zeros),
 };
 
@@ -24,7 +25,7 @@ fn without_zeros(builder: &PlanBuilder<'_>, index: usize, m: &Standard) -> Stand
         |map: &Option<Map>, channel| builder.is_zero(index, map.as_ref(), channel..channel + 1);
     let are_zero = |map: &Option<Map>| builder.is_zero(index, map.as_ref(), 0..3);
     if is_nonzero(m.transmission) && is_zero(&m.transmission_map, 0) {
-        // The factor alone decides that the camera sees back faces.
+        // The factor alone decides whether the camera sees back faces.
         new.double_sided = true;
         new.transmission = UnitInterval::ZERO;
     }
@@ -49,7 +50,8 @@ fn without_zeros(builder: &PlanBuilder<'_>, index: usize, m: &Standard) -> Stand
 pub(super) const UNLIT: PathRule = PathRule {
     rule: Rule::PathUnlitMaterial,
     name: "P-UNLIT-MATERIAL",
-    text: "An unlit material shows its base colour and ends the path: nothing else of it counts.",
+    text: "An unlit material has its base colour as radiance and ends the path: its other \
+           parameters are not used.",
     reason: "the materials that have it are unlit",
     apply: |builder| {
         builder.simplify(|_, _, material| {
@@ -71,10 +73,10 @@ pub(super) const UNLIT: PathRule = PathRule {
 pub(super) const OPAQUE: PathRule = PathRule {
     rule: Rule::PathOpaque,
     name: "P-ALPHA",
-    text: "A material whose alpha is 1 wherever a surface lies on its texture, or that is masked and \
-           whose alpha is above the cutoff there, covers what is behind it: it is opaque. Not where \
-           surfaces have colours at their corners, whose alpha is interpolated.",
-    reason: "alpha is 1, or above the cutoff, wherever a surface lies",
+    text: "A material is opaque if its alpha is 1 everywhere on its surfaces, or if it has an \
+           alpha mask and its alpha is above the cutoff everywhere. The rule does not apply to \
+           surfaces with vertex colours, whose alpha is interpolated.",
+    reason: "alpha is 1, or above the cutoff, everywhere on the surfaces",
     apply: |builder| {
         builder.simplify(|builder, index, material| {
             let is_opaque = covers(builder, index, material);
@@ -91,9 +93,9 @@ pub(super) const OPAQUE: PathRule = PathRule {
     },
 };
 
-/// Whether a material is opaque. Its texture is looked at only where the factor leaves that open.
+/// Whether a material is opaque. Its texture is read only where the factor does not decide it.
 fn covers(builder: &PlanBuilder<'_>, index: usize, material: &Standard) -> bool {
-    /// A margin above the rounding error of filtered values.
+    /// A bound above the rounding error of filtered values.
     const MARGIN: f64 = 1e-6;
     let uses = &builder.uses[index];
     let factor = material.base_color[3].get();

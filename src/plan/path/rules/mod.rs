@@ -1,5 +1,11 @@
-//! The rules for traced paths. Each rule proves that a part of the scene adds exactly nothing, and
-//! removes it from the draft. The rules run in this order until none changes the draft.
+//! The rules for path tracing. Each rule proves that a part of the scene contributes exactly zero and
+//! removes it from the [`PlanBuilder`].
+//!
+//! A rule is a [`PathRule`] constant beside the functions of its proof: [`light`] for lights, light
+//! sampling and shadows, [`material`] for material parameters, [`texture`] for maps, [`paths`] for
+//! the path length and the surfaces of the world. The rules run in the order of [`ALL`] until none
+//! changes anything. To add a rule: a variant of [`Rule`], a constant here, its entry in [`ALL`], and
+//! a test in `tests/plan`.
 
 mod light;
 mod material;
@@ -14,14 +20,14 @@ use rtc_ir::ValuePath;
 pub(crate) struct PathRule {
     /// The switch of the rule.
     pub(crate) rule: Rule,
-    /// The name that users know it by.
+    /// The name in reports.
     pub(crate) name: &'static str,
-    /// The text: what the rule says, and why it is right.
+    /// The statement of the rule and its proof.
     pub(crate) text: &'static str,
-    /// Why an effect is not needed then: lower case, no full stop.
+    /// The reason why an effect is not needed: lower case, no full stop.
     pub(crate) reason: &'static str,
-    /// Removes the parts that add nothing; returns the values that decided, none if nothing
-    /// changed.
+    /// Removes the parts that contribute zero; returns the scene values that decided, none if
+    /// nothing changed.
     pub(super) apply: fn(&mut PlanBuilder<'_>) -> Vec<ValuePath>,
 }
 

@@ -1,4 +1,4 @@
-//! Rules on the depth of paths, and on the surfaces they can meet.
+//! Rules on the length of paths and on the surfaces that they can hit.
 
 use super::PathRule;
 use crate::MAX_PAIRS;
@@ -15,7 +15,7 @@ fn depth() -> ValuePath {
     ValuePath::new(EntityKind::Settings, 0, Field::MaxDepth)
 }
 
-/// Whether a scattered ray may find light at a surface or in the environment.
+/// Whether a scattered ray may hit an emissive surface or an environment that is not black.
 fn finds_light(builder: &PlanBuilder<'_>) -> bool {
     let is_emissive = |material: &Standard| material.unlit || material.emissive != Vec3::ZERO;
     builder.requires(Effect::Environment)
@@ -27,9 +27,9 @@ fn finds_light(builder: &PlanBuilder<'_>) -> bool {
 pub(super) const NO_EMISSION: PathRule = PathRule {
     rule: Rule::PathDark,
     name: "P-DARK",
-    text: "Where nothing shines, neither a light nor a surface nor the environment, every path is \
-           black after its first hit: none is followed.",
-    reason: "nothing shines",
+    text: "If no light, no surface and no environment emits light, every path is black after its \
+           first hit: none is continued.",
+    reason: "there is no light",
     apply: |builder| {
         let is_lit = builder.lights.contains(&LightUse::All) || finds_light(builder);
         end_paths(builder, !is_lit)
@@ -39,7 +39,7 @@ pub(super) const NO_EMISSION: PathRule = PathRule {
 pub(super) const UNLIT_ONLY: PathRule = PathRule {
     rule: Rule::PathUnlit,
     name: "P-UNLIT",
-    text: "A path ends on an unlit surface. Where all are unlit it is one ray.",
+    text: "A path ends on an unlit surface. If all surfaces are unlit, a path is one ray.",
     reason: "all surfaces are unlit",
     apply: |builder| {
         let all_unlit = builder.used_materials().all(|(_, material)| material.unlit);
@@ -50,9 +50,9 @@ pub(super) const UNLIT_ONLY: PathRule = PathRule {
 pub(super) const LAST_RAY: PathRule = PathRule {
     rule: Rule::PathLast,
     name: "P-LAST",
-    text: "After its last bounce a path adds only what it finds there shining. Where neither a surface \
-           nor the environment shines, the last ray finds nothing: it is not traced.",
-    reason: "a ray after the last bounce would find nothing that shines",
+    text: "After its last bounce a path adds only the emission at the next hit. If neither a \
+           surface nor the environment emits light, the last ray is not traced.",
+    reason: "a ray after the last bounce cannot hit an emitter",
     apply: |builder| {
         if !builder.last_ray || builder.max_depth == 0 || finds_light(builder) {
             return Vec::new();
@@ -65,9 +65,9 @@ pub(super) const LAST_RAY: PathRule = PathRule {
 pub(super) const CULL: PathRule = PathRule {
     rule: Rule::PathCull,
     name: "P-CULL",
-    text: "Where no path goes on and no light is looked for, a surface outside the view of the camera \
-           is met by no ray.",
-    reason: "no ray of the camera meets it",
+    text: "If no path continues and there are no shadow rays, no ray hits a surface outside the \
+           view of the camera.",
+    reason: "no camera ray hits it",
     apply: |builder| {
         if builder.bounces() || builder.requires(Effect::Shadows) {
             return Vec::new();
@@ -80,13 +80,14 @@ pub(super) const CULL: PathRule = PathRule {
 pub(super) const CULL_SHADOW: PathRule = PathRule {
     rule: Rule::PathCullShadow,
     name: "P-CULL-SHADOW",
-    text: "Where no path goes on and no light has an extent, rays go from the camera to the surfaces in \
-           view, and from these to the lights. A surface outside the view, and outside the convex hull \
-           of each surface in view and each light, is met by no ray. Not where lights are chosen by \
-           what they send to the whole scene, of which the surface is a part.",
-    reason: "no ray of the camera meets it, and it is not between a surface in view and a light",
+    text: "If no path continues and no light has an extent, rays go from the camera to the \
+           visible surfaces, and from these to the lights. No ray hits a surface that is outside \
+           the view and outside the convex hull of each visible surface and each light. The rule \
+           does not apply if the sampling probabilities of lights depend on the size of the \
+           scene, to which the surface belongs.",
+    reason: "no camera ray hits it, and it is not between a visible surface and a light",
     apply: |builder| {
-        // A path goes on to each light with an extent.
+        // A path may continue to any light with an extent.
         if builder.bounces() || !builder.requires(Effect::Shadows) || depends_on_scene_size(builder)
         {
             return Vec::new();
@@ -96,7 +97,7 @@ pub(super) const CULL_SHADOW: PathRule = PathRule {
     },
 };
 
-/// Whether the choice between lights without extent depends on the size of the scene.
+/// Whether the sampling probabilities of punctual lights depend on the size of the scene.
 fn depends_on_scene_size(builder: &PlanBuilder<'_>) -> bool {
     let is_chosen = |(_, left): &(&Punctual, &LightUse)| **left != LightUse::Nothing;
     let chosen = || {
@@ -113,8 +114,8 @@ fn depends_on_scene_size(builder: &PlanBuilder<'_>) -> bool {
     chosen().count() > 1 && chosen().any(is_by_size)
 }
 
-/// The surfaces outside the view that surely no ray from one in view to a light meets; `None` where
-/// that is not known.
+/// The surfaces outside the view that certainly no shadow ray of a visible surface hits; `None` if
+/// that is unknown.
 fn missed_by_shadow_rays(builder: &PlanBuilder<'_>) -> Option<Vec<usize>> {
     let (seen, unseen) = split(builder);
     let is_in_world = |(_, left): &(&Punctual, &LightUse)| **left == LightUse::All;
@@ -145,11 +146,12 @@ fn missed_by_shadow_rays(builder: &PlanBuilder<'_>) -> Option<Vec<usize>> {
     Some(unseen.into_iter().filter(is_missed).collect())
 }
 
-/// Where the rays to a light that start in a box end; for a sun, beyond another box.
+/// The bounds of the end points of shadow rays that start in a box; for a directional light, beyond
+/// another box.
 fn end(light: &Punctual, start: &Bounds, other: &Bounds) -> Bounds {
     match light {
         Punctual::Directional(sun) => {
-            // Points of the two are at most √3 times the sum of their sizes apart.
+            // The distance of two points of the boxes is at most √3 times the sum of their sizes.
             let step = sun.direction * (2.0 * (start.reach() + other.reach()));
             Bounds {
                 min: start.min + step,
@@ -160,13 +162,13 @@ fn end(light: &Punctual, start: &Bounds, other: &Bounds) -> Bounds {
     }
 }
 
-/// The surfaces of the world that a ray of the camera may meet, and the others.
+/// The surfaces of the world that a camera ray may hit, and the others.
 fn split(builder: &PlanBuilder<'_>) -> (Vec<usize>, Vec<usize>) {
     let left = (0..builder.surfaces.len()).filter(|surface| builder.surfaces[*surface]);
     left.partition(|surface| builder.screen_rects[*surface] != ScreenRect::Outside)
 }
 
-/// Leaves surfaces out of the world; returns their places.
+/// Removes surfaces from the world; returns their paths.
 fn remove_surfaces(builder: &mut PlanBuilder<'_>, surfaces: Vec<usize>) -> Vec<ValuePath> {
     surfaces
         .iter()
@@ -176,7 +178,7 @@ fn remove_surfaces(builder: &mut PlanBuilder<'_>, surfaces: Vec<usize>) -> Vec<V
     surfaces.into_iter().map(place).collect()
 }
 
-/// Ends all paths at their first hit, if that is proven to be sufficient.
+/// Ends all paths at the first hit, if that is proven to be sufficient.
 fn end_paths(builder: &mut PlanBuilder<'_>, is_enough: bool) -> Vec<ValuePath> {
     if !is_enough || builder.max_depth == 0 {
         return Vec::new();
@@ -199,7 +201,7 @@ mod tests {
         });
         let start = Bounds::about(Vec3::new(1.0, 0.5, 0.0), Vec3::splat(0.5));
         let other = Bounds::about(Vec3::new(3.0, 0.5, 0.0), Vec3::splat(0.25));
-        // Twice the largest coordinates of both, 1.5 and 3.25.
+        // The step is twice the sum of the largest coordinates, 1.5 and 3.25.
         let beyond = Bounds::about(Vec3::new(10.5, 0.5, 0.0), Vec3::splat(0.5));
         assert_eq!(end(&sun, &start, &other), beyond);
     }

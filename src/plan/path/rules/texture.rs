@@ -12,10 +12,10 @@ use rtc_valid::{Map, Standard};
 pub(super) const UNSEEN: PathRule = PathRule {
     rule: Rule::PathMapUnseen,
     name: "P-TEX-UNSEEN",
-    text: "A map shows ones on surfaces without its texture coordinates, and a map that multiplies 0 \
-           does not show at all: neither is looked up. Nor are maps that only light needs, where no \
-           path goes on.",
-    reason: "its maps multiply 0, or no surface has their texture coordinates",
+    text: "A map has the value 1 on surfaces without its texture coordinates, and a map that \
+           scales a factor of 0 has no effect: neither is looked up. If no path continues, maps \
+           that only illumination needs are not looked up either.",
+    reason: "its maps scale a factor of 0, or no surface has their texture coordinates",
     apply: |builder| builder.simplify(without_unused_maps),
 };
 
@@ -43,7 +43,8 @@ fn without_unused_maps(builder: &PlanBuilder<'_>, index: usize, m: &Standard) ->
             is_shaded && m.specular_color != Vec3::ZERO,
         ),
         (&mut new.transmission_map, is_shaded && !is_clear),
-        // No integrator reads the thickness of a volume: rays measure it.
+        // No integrator reads the thickness of a volume: it is the distance between the hits of a
+        // ray.
         (&mut new.thickness_map, false),
         (
             &mut new.clearcoat_normal_map,
@@ -66,8 +67,8 @@ fn without_unused_maps(builder: &PlanBuilder<'_>, index: usize, m: &Standard) ->
 pub(super) const CONSTANT: PathRule = PathRule {
     rule: Rule::PathMapConstant,
     name: "P-TEX-CONST",
-    text: "A texture whose texels are all equal shows that value everywhere: maps of it become factors, \
-           and a normal map one normal, when the scene is prepared.",
+    text: "A texture whose texels are all equal has this value everywhere: its maps become \
+           factors, and a normal map becomes one normal, when the scene is prepared.",
     reason: "all texels of each of its textures are equal",
     apply: |builder| {
         let mut changed = Vec::new();
