@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# Renders the pictures of the book into docs/book/src/pictures. With names as arguments it renders
+# only those: `docs/book/gallery.sh glass metals`. RTC is the program; without it one is built.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+if [[ -z ${RTC:-} ]]; then
+    cargo build --release --quiet
+    RTC=target/release/rtc
+fi
+own=docs/book/scenes out=docs/book/src/pictures
+names=("$@")
+mkdir -p "$out"
+
+# picture NAME FILE OPTION...
+picture() {
+    local name=$1
+    shift
+    if ((${#names[@]})) && [[ " ${names[*]} " != *" $name "* ]]; then return; fi
+    echo "$name"
+    "$RTC" render -q "$@" -o "$out/$name.jpg"
+}
+
+# The tutorial.
+for scene in "$own"/tutorial-0*.yaml; do
+    picture "$(basename "$scene" .yaml)" "$scene"
+done
+for step in 10-model 11-lens; do
+    picture "tutorial-$step" "$own/tutorial-$step.yaml" --clamp 4
+done
+
+# Scenes of rays and their mirror images.
+picture shapes scenes/shapes.yaml --size 480x300
+picture mirrors scenes/mirrors.yaml --size 480 --supersampling 3
+picture glass scenes/glass.yaml --size 480x360
+picture glossy scenes/glossy.yaml --size 480x360
+picture mirror-box scenes/mirror-box.yaml --size 480x360
+picture soft-light scenes/soft-light.yaml --size 480x300
+picture depth-of-field scenes/depth-of-field.yaml --size 480
+picture bokeh scenes/bokeh.yaml --size 480x360
+picture globe scenes/globe.yaml --size 480
+picture off-axis-eye scenes/off-axis-eye.yaml --size 480
+picture gooch scenes/gooch.yaml --size 480 --supersampling 3
+picture normals scenes/normals.yaml --size 480 --supersampling 3
+picture zbuffer scenes/zbuffer.yaml --size 480 --supersampling 3
+for name in bricks toon town; do
+    picture "$name" "$own/$name.yaml"
+done
+
+# Scenes whose light is followed along all paths.
+picture vases scenes/vases.yaml --size 480x360 --spp 64 --denoise
+for name in fence lamp room sheen spots sun-and-sky; do
+    picture "$name" "$own/$name.yaml" --spp 64 --denoise
+done
+for name in anisotropy clearcoat dispersion iridescence lanterns metals transmission; do
+    picture "$name" "$own/$name.yaml" --spp 160 --clamp 2
+done
+
+# Assets by themselves.
+picture vase scenes/vase.glb --size 360 --spp 64 --denoise
+picture top-side "$own/top.glb" --size 360 --orbit 30,15 --spp 64 --denoise
+for variant in red blue brass; do
+    picture "top-$variant" "$own/top.glb" --size 320 --variant "$variant" --spp 64 --denoise
+done
+picture top-above "$own/top.glb" --size 320 --camera above --spp 64 --denoise
+picture top-tilted "$own/top.glb" --size 320 --animation wobble --time 0.5 --spp 64 --denoise
+
+# What the first hits of the camera rays met.
+if ((${#names[@]} == 0)) || [[ " ${names[*]} " == *" aov "* ]]; then
+    made=$(mktemp -d)
+    trap 'rm -r "$made"' EXIT
+    "$RTC" render -q scenes/vases.yaml --spp 16 --aov albedo,normal,depth -o "$made/vases.png"
+    "$RTC" render -q scenes/vases.yaml --spp 16 -o "$made/colour.png"
+    echo aov
+    ls "$made"
+fi
