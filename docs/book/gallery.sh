@@ -47,29 +47,30 @@ for name in bricks toon town; do
 done
 
 # Scenes whose light is followed along all paths.
-picture vases scenes/vases.yaml --size 480x360 --spp 64 --denoise
+picture vases scenes/vases.yaml --size 480x360 --spp 32 --denoise
 for name in fence lamp room sheen spots sun-and-sky; do
-    picture "$name" "$own/$name.yaml" --spp 64 --denoise
+    picture "$name" "$own/$name.yaml" --spp 32 --denoise
 done
 for name in anisotropy clearcoat dispersion iridescence lanterns metals transmission; do
-    picture "$name" "$own/$name.yaml" --spp 160 --clamp 2
+    picture "$name" "$own/$name.yaml" --spp 72 --clamp 2
 done
 
 # Assets by themselves.
-picture vase scenes/vase.glb --size 360 --spp 64 --denoise
-picture top-side "$own/top.glb" --size 360 --orbit 30,15 --spp 64 --denoise
+picture vase scenes/vase.glb --size 360 --spp 32 --denoise
 for variant in red blue brass; do
-    picture "top-$variant" "$own/top.glb" --size 320 --variant "$variant" --spp 64 --denoise
+    picture "top-$variant" "$own/top.glb" --size 320 --variant "$variant" --spp 32 --denoise
 done
-picture top-above "$own/top.glb" --size 320 --camera above --spp 64 --denoise
-picture top-tilted "$own/top.glb" --size 320 --animation wobble --time 0.5 --spp 64 --denoise
+picture top-above "$own/top.glb" --size 320 --camera above --spp 32 --denoise
+picture top-tilted "$own/top.glb" --size 320 --animation wobble --time 0.5 --spp 32 --denoise
 
-# What the first hits of the camera rays met.
-if ((${#names[@]} == 0)) || [[ " ${names[*]} " == *" aov "* ]]; then
-    made=$(mktemp -d)
-    trap 'rm -r "$made"' EXIT
-    "$RTC" render -q scenes/vases.yaml --spp 16 --aov albedo,normal,depth -o "$made/vases.png"
-    "$RTC" render -q scenes/vases.yaml --spp 16 -o "$made/colour.png"
-    echo aov
-    ls "$made"
+# The scene of `mistakes` after its repair, and where the rays of a study go.
+made=$(mktemp -d)
+trap 'rm -r "$made"' EXIT
+cp docs/book/mistakes/ball.yaml "$made"
+"$RTC" check -q --fix --unsafe "$made/ball.yaml"
+picture ball "$made/ball.yaml" --supersampling 3
+if ((${#names[@]} == 0)) || [[ " ${names[*]} " == *" rays "* ]]; then
+    echo rays
+    "$RTC" cost -q scenes/glass.yaml --effort quick --maps "$made" -o "$made/study"
+    cp "$made/rays-own.png" "$out/rays.png"
 fi
