@@ -1,19 +1,27 @@
-//! The library's door: [`Scene::open`], [`Scene::check`], [`Scene::render`], [`Picture::save`].
+//! The public library API: [`Scene::open`], [`Scene::check`], [`Scene::render`], [`Picture::save`].
 //!
-//! It holds no rule about scenes: it hands what is asked for to [`rtc_pipeline`], as the command
-//! line does, so both find the same and render the same bytes.
+//! It contains no rules about scenes. Like the command line it calls [`rtc_pipeline`], so both
+//! report the same diagnostics and render the same bytes.
+//!
+//! - [`Scene`] is a scene that was read; [`Reading`] has the options of reading it.
+//! - [`Diagnostic`] is an error, a warning or a note about a scene, with [`Label`]s and [`Hint`]s.
+//! - [`Options`] has the options of rendering, [`Picture`] is the result.
+//! - [`Effect`] says whether a picture needs an effect such as shadows, and why not.
+//! - [`Error`] is returned if there is no scene or no picture.
 
+mod diagnostic;
 mod effect;
 mod error;
-mod finding;
 mod light;
 mod options;
 mod picture;
 mod scene;
 
+#[allow(deprecated)]
+pub use diagnostic::Finding;
+pub use diagnostic::{Diagnostic, Hint, Label, Location};
 pub use effect::Effect;
 pub use error::Error;
-pub use finding::{Finding, Hint, Label, Location};
 pub use light::Light;
 pub use options::{Format, Options, Reading};
 pub use picture::{Picture, Statistics};

@@ -1,8 +1,8 @@
-//! `rtc`, a compiler for 3-D scenes: it reads them, says what is wrong with them, and renders them on
-//! the CPU, the same bytes every time.
+//! `rtc`, a compiler for 3-D scenes: it reads scenes, reports their errors, and renders them on the
+//! CPU, deterministically.
 //!
-//! A [`Scene`] is opened from files on disk or in memory, checked into [`Finding`]s, and rendered
-//! into a [`Picture`] as [`Options`] say:
+//! A [`Scene`] is opened from files on disk or in memory, checked, which yields [`Diagnostic`]s,
+//! and rendered with [`Options`] into a [`Picture`]:
 //!
 //! ```
 //! use rtc::{Error, Options, Scene};
@@ -19,8 +19,8 @@
 //!   material: {color: [1, 0.2, 0.1], ka: 0.2, kd: 0.8, ks: 0, n: 1}
 //! ";
 //! let mut scene = Scene::from_files("ball.yaml", [("ball.yaml".to_owned(), text.into())])?;
-//! for finding in scene.check() {
-//!     println!("{finding}");
+//! for diagnostic in scene.check() {
+//!     println!("{diagnostic}");
 //! }
 //! let picture = scene.render(&Options::new().supersampling(2))?;
 //! assert_eq!((picture.width(), picture.height()), (32, 24));
@@ -29,48 +29,52 @@
 //! # }
 //! ```
 //!
-//! `Scene::open("scene.yaml")` reads a file and what it names, `picture.save("scene.png")` writes one.
-//! Nothing here prints, exits, looks at a clock or reads the environment, and pictures are the same
-//! for any number of threads. The cargo feature `cli`, on by default, is for the binary and for `run`,
-//! which is all of it: `default-features = false` leaves it out. The library builds for `wasm32-unknown-unknown`, where
-//! scenes come from memory, one thread renders, and there is no `Picture::save`.
+//! `Scene::open("scene.yaml")` reads a file and the files it refers to, `picture.save("scene.png")`
+//! writes one. The library does not print, exit, read the clock or the environment, and the number
+//! of threads does not change a picture. The cargo feature `cli`, on by default, adds the command
+//! line (`run`); `default-features = false` leaves it out. The library builds for
+//! `wasm32-unknown-unknown`, where scenes come from memory, one thread renders, and there is no
+//! `Picture::save`.
 //!
-//! # Within
+//! # Packages
 //!
-//! A scene passes through these rooms, each a package of its own below `src`. A room may name only rooms of
-//! earlier lines; rooms of one line do not know each other (their manifests say so, and `tests/tidy.rs` reads them).
+//! A scene passes through these stages, each a package below `src`. A package may use packages of
+//! earlier lines only; packages of one line do not know each other (their manifests say so, and
+//! `tests/tidy.rs` reads them).
 //!
 //! 1. `math`, `color`: vectors, exact and robust arithmetic; colour spaces and tone curves.
-//!    `tables`: the shapes and the parameters of the glTF material, which every later room reads.
-//! 2. `profile`: how the intensity of a light depends on the direction. `image`: pixel files. `source`: files, spans into them, limits, and
-//!    `source::tree`, the spanned tree that YAML and JSON become.
-//! 3. `diag`: one diagnostic type, the table of codes, the printers.
-//! 4. `ir`: the intermediate representation, `ir::Scene` and its nouns, with a version.
-//! 5. `front`: text to IR: the course's YAML, glTF, mesh files. `emit`: IR back to the course's
-//!    YAML, and to glTF. `codec`: IR to bytes and back. `passes`: IR to IR, as one run asks:
-//!    other settings, another view, other light. `valid`: IR to proof.
-//! 6. `plan`: what the picture really needs, each omission with its reason.
-//! 7. `render`: a proven scene becomes a world, the world a film. It cannot fail.
+//!    `tables`: the tables of shapes and of the parameters of the glTF material.
+//! 2. `profile`: angular distributions of lights. `image`: image files. `source`: files, spans,
+//!    limits, and `source::tree`, the spanned tree of YAML and JSON.
+//! 3. `diag`: the diagnostic type, the table of codes, the printers.
+//! 4. `ir`: the intermediate representation, `ir::Scene`, with a version.
+//! 5. `front`: text to IR: YAML of the course, glTF, mesh files. `emit`: IR to YAML, glTF and
+//!    other formats. `codec`: IR to bytes and back. `passes`: IR to IR, as the options of one run
+//!    require. `valid`: IR to `ValidScene`.
+//! 6. `plan`: which effects a picture needs, each omission with its reason.
+//! 7. `render`: a valid scene becomes a world, the world a film. It cannot fail.
 //! 8. `study`: accuracy against time: renders, measures, reports.
-//! 9. `pipeline`: the doors the stages are joined by.
-//! 10. `api`: the door for callers: what this page shows.
+//! 9. `pipeline`: joins the stages.
+//! 10. `api`: the public API of this page.
 //! 11. `cli`: arguments, streams, exit codes (cargo feature `cli`).
 //!
-//! The promise between the rooms: whoever holds a `valid::ValidScene` need not doubt a number.
+//! Code that receives a `valid::ValidScene` may rely on every number being in range.
 
 #![forbid(unsafe_code)]
 
 mod api;
 
+#[allow(deprecated)]
+pub use api::Finding;
 pub use api::{
-    Aov, Effect, EffectState, Error, Finding, Format, Hint, Label, Light, Location, Options,
+    Aov, Diagnostic, Effect, EffectState, Error, Format, Hint, Label, Light, Location, Options,
     Picture, Reading, Scene, Severity, Statistics, Tone,
 };
 #[cfg(feature = "cli")]
 pub use rtc_cli::run;
 
-/// The rooms, for the binary and for what judges them beside this crate: tests, benches, fuzzing.
-/// Nothing here is promised to stay as it is.
+/// The packages, for the binary and for tests, benchmarks and fuzzing. They are not part of the
+/// stable API.
 #[doc(hidden)]
 pub mod internals {
     #[cfg(feature = "cli")]

@@ -142,13 +142,13 @@ fn findings_say_what_and_where_and_errors_hold_them() {
     let error = scene.render(&Options::new()).unwrap_err();
     assert!(
         error
-            .findings()
+            .diagnostics()
             .iter()
             .any(|found| found.severity == Severity::Error)
     );
     assert!(error.to_string().contains("a/b.yaml:3"), "{error}");
     let missing = Scene::open("no/such/scene.yaml").err().unwrap();
-    assert_eq!(missing.findings()[0].code, "IO001", "{missing}");
+    assert_eq!(missing.diagnostics()[0].code, "IO001", "{missing}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use rtc::internals::codec;
 use rtc::internals::diag::Sink;
-use rtc::internals::emit::course::{WrittenScene, emit_beside};
+use rtc::internals::emit::course::{WrittenScene, emit_with_files};
 use rtc::internals::ir::{ImageId, Material, MaterialId, MeshId, Scene, Shape, Texture, TextureId};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::{Loader, SourceMap};
@@ -29,7 +29,7 @@ pub(crate) fn assert_comes_back(scene: &Scene) {
 /// The scene that its text is.
 fn there_and_back(scene: &Scene) -> Scene {
     let folder = tempfile::tempdir().unwrap();
-    let WrittenScene { text, files } = emit_beside(scene, Some("it.files")).unwrap();
+    let WrittenScene { text, files } = emit_with_files(scene, Some("it.files")).unwrap();
     for file in &files {
         let path = folder.path().join(&file.name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();

@@ -1,21 +1,21 @@
-//! What a picture needs, and what is left out of it with the reason.
+//! The effects of a picture: which are rendered, which are omitted, and why.
 
 use rtc_plan::{EffectStatus, State};
 
-/// An effect of light or of the film, and whether pictures of a scene simulate it.
+/// An effect of light or of the film, and whether the renderer simulates it for a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Effect {
-    /// Its name, as `shadows`.
+    /// Its name, for example `shadows`.
     pub name: &'static str,
-    /// The address of the one light, material or surface that it is about; `None` for the whole scene.
+    /// The path of the light, material or surface that it concerns; `None` for the whole scene.
     pub of: Option<String>,
     /// Whether it is simulated.
     pub state: State,
-    /// The rule that proves that the picture is the same without it, if one does; `rtc explain` has
+    /// The rule that proves that the picture is the same without it, if any; `rtc explain` prints
     /// its proof.
     pub rule: Option<&'static str>,
-    /// The reason in plain words: one line, lower case, without a full stop.
+    /// The reason: one line, lower case, without a full stop.
     pub because: String,
 }
 

@@ -1,6 +1,6 @@
-//! Why there is no scene, or no picture of it.
+//! The errors of reading and rendering a scene.
 
-use super::{Finding, Severity};
+use super::{Diagnostic, Severity};
 use rtc_pipeline::RenderError;
 use std::fmt;
 use std::io;
@@ -9,43 +9,50 @@ use std::path::PathBuf;
 /// Why there is no scene, or no picture of it.
 #[non_exhaustive]
 pub enum Error {
-    /// The scene can't be read or has errors: all that was found, warnings too.
-    Invalid(Vec<Finding>),
-    /// The picture would take more rays than the scene may: where they ran out.
-    TooManyRays(Box<Finding>),
-    /// It can't be done so, for this reason: options that don't fit, no memory, no threads.
+    /// The scene can't be read or has errors: all diagnostics, including warnings.
+    Invalid(Vec<Diagnostic>),
+    /// The picture needs more rays than allowed. The diagnostic says where the limit was reached.
+    TooManyRays(Box<Diagnostic>),
+    /// The request was rejected, with the reason: invalid options, too little memory, no threads.
     Refused(String),
-    /// The caller said stop.
+    /// The caller stopped the render.
     Stopped,
     /// The picture could not be written.
     Unwritable {
-        /// Where it was to be.
+        /// The path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         error: io::Error,
     },
 }
 
 impl Error {
-    /// The findings it holds; none if it is not about the scene.
+    /// The diagnostics of the error; empty if it is not about the scene.
     #[must_use]
-    pub fn findings(&self) -> &[Finding] {
+    pub fn diagnostics(&self) -> &[Diagnostic] {
         match self {
-            Self::Invalid(findings) => findings,
-            Self::TooManyRays(finding) => std::slice::from_ref(finding),
+            Self::Invalid(diagnostics) => diagnostics,
+            Self::TooManyRays(diagnostic) => std::slice::from_ref(diagnostic),
             Self::Refused(_) | Self::Stopped | Self::Unwritable { .. } => &[],
         }
     }
 
-    /// The same, of a render; `finding` makes public what was found.
+    /// The former name of [`Self::diagnostics`].
+    #[deprecated(since = "0.1.0", note = "use `diagnostics`")]
+    #[must_use]
+    pub fn findings(&self) -> &[Diagnostic] {
+        self.diagnostics()
+    }
+
+    /// The error of a render; `diagnostic` converts a diagnostic to its public type.
     pub(super) fn of_render(
         error: RenderError,
-        finding: impl FnOnce(rtc_diag::Diagnostic) -> Finding,
+        diagnostic: impl FnOnce(rtc_diag::Diagnostic) -> Diagnostic,
     ) -> Self {
         match error {
             RenderError::Stopped => Self::Stopped,
-            RenderError::RanOut(found) => Self::TooManyRays(Box::new(finding(*found))),
-            RenderError::Refused(words) => Self::Refused(words),
+            RenderError::RanOut(found) => Self::TooManyRays(Box::new(diagnostic(*found))),
+            RenderError::Refused(message) => Self::Refused(message),
         }
     }
 }
@@ -53,10 +60,10 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Invalid(findings) => {
+            Self::Invalid(diagnostics) => {
                 let errors = || {
-                    let all = findings.iter();
-                    all.filter(|finding| finding.severity == Severity::Error)
+                    let all = diagnostics.iter();
+                    all.filter(|diagnostic| diagnostic.severity == Severity::Error)
                 };
                 match (errors().next(), errors().count()) {
                     (Some(first), 1) => write!(f, "the scene has an error: {}", first.short()),
@@ -66,8 +73,8 @@ impl fmt::Display for Error {
                     (None, _) => f.write_str("the scene can't be read"),
                 }
             }
-            Self::TooManyRays(finding) => f.write_str(&finding.short()),
-            Self::Refused(words) => f.write_str(words),
+            Self::TooManyRays(diagnostic) => f.write_str(&diagnostic.short()),
+            Self::Refused(message) => f.write_str(message),
             Self::Stopped => f.write_str("stopped by the caller"),
             Self::Unwritable { path, error } => {
                 write!(f, "can't write `{}`: {error}", path.display())
@@ -76,7 +83,7 @@ impl fmt::Display for Error {
     }
 }
 
-/// As it is displayed, so that `main` may return it.
+/// The same as `Display`, so that `main` may return it.
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

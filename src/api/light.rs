@@ -2,30 +2,29 @@
 
 use rtc_ir::{self as ir, Emitter, PointLight, Punctual};
 
-/// A light. Colours are linear red, green and blue, each at least 0; lengths are those of the scene.
+/// A light. Colours are linear red, green and blue, each at least 0; lengths are in scene units.
 ///
-/// A scene with a physical light, which is every one but [`Light::plain`], is shown by the light
-/// along all its paths.
+/// A scene with a physical light (any except [`Light::plain`]) is rendered by path tracing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light(pub(super) ir::Light);
 
 impl Light {
-    /// From infinitely far away: `direction` leads to it and has any length but 0, `irradiance` is
-    /// that on a surface that faces it.
+    /// A directional light. `direction` points to it and has any length but 0; `irradiance` is that
+    /// on a surface that faces it.
     #[must_use]
     pub fn sun(direction: [f64; 3], irradiance: [f64; 3]) -> Self {
         Self::physical(Emitter::Sun { direction }, irradiance)
     }
 
-    /// From a point into all directions; `intensity` is power per steradian.
+    /// A point light. `intensity` is the radiant intensity, power per steradian.
     #[must_use]
     pub fn point(position: [f64; 3], intensity: [f64; 3]) -> Self {
         let range = None;
         Self::physical(Emitter::Point { position, range }, intensity)
     }
 
-    /// From a point towards `direction`: of full `intensity` within the angle `inner`, fading to
-    /// none at `outer`, both in radians from the direction, `outer` at most π/2.
+    /// A spot light with axis `direction`: full `intensity` within the angle `inner` from the axis,
+    /// falling to 0 at `outer`. Both are in radians, `outer` is at most π/2.
     #[must_use]
     pub fn spot(
         position: [f64; 3],
@@ -43,8 +42,8 @@ impl Light {
         Self::physical(emitter, intensity)
     }
 
-    /// A light of the course: from a point, or with a radius above 0 from the sphere around it, with
-    /// the same strength at any distance.
+    /// A light of the course, without falloff: a point light, or with a radius above 0 a spherical
+    /// light.
     #[must_use]
     pub fn plain(position: [f64; 3], color: [f64; 3], radius: f64) -> Self {
         Self(ir::Light::Point(PointLight {

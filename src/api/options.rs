@@ -1,4 +1,4 @@
-//! What a caller asks for: how a scene is read, and how its picture is made.
+//! Options of reading a scene and of rendering a picture.
 
 use super::{Aov, Error, Scene, Tone};
 use rtc_image::BackgroundFill;
@@ -9,13 +9,13 @@ use rtc_render::Crop;
 use rtc_source::MemoryFiles;
 use std::path::{Path, PathBuf};
 
-/// How a scene is read, and what of it.
+/// Options of reading a scene.
 #[derive(Clone, Debug, Default)]
 #[must_use = "it reads nothing until a scene is opened by it"]
 pub struct Reading(pipeline::Options);
 
 impl Reading {
-    /// As [`Scene::open`] reads.
+    /// The options of [`Scene::open`].
     pub fn new() -> Self {
         Self::default()
     }
@@ -32,53 +32,53 @@ impl Reading {
         self
     }
 
-    /// A folder, beside that of the scene, whose files the scene may name.
+    /// An additional folder from which the scene may read files.
     pub fn asset_root(mut self, folder: impl Into<PathBuf>) -> Self {
         self.0.front.asset_root = Some(folder.into());
         self
     }
 
-    /// Of a glTF asset: the moment at which it is shown, in seconds; at rest without.
+    /// For a glTF asset with animations: the time in seconds. By default the asset is at rest.
     pub fn time(mut self, seconds: f64) -> Self {
         self.0.front.time = Some(seconds);
         self
     }
 
-    /// Of a glTF asset: the animation that the moment is of; the first without.
+    /// For a glTF asset: the animation that [`Reading::time`] applies to; by default the first.
     pub fn animation(mut self, name: impl Into<String>) -> Self {
         self.0.front.animation = Some(name.into());
         self
     }
 
-    /// Of a glTF asset: the variant of its materials.
+    /// For a glTF asset: the material variant.
     pub fn variant(mut self, name: impl Into<String>) -> Self {
         self.0.front.variant = Some(name.into());
         self
     }
 
-    /// Of a glTF asset: the camera, by its name, that of its node, or its index.
+    /// For a glTF asset: the camera, by its name, the name of its node, or its index.
     pub fn camera(mut self, name: impl Into<String>) -> Self {
         self.0.front.camera = Some(name.into());
         self
     }
 
-    /// How many threads decode images, 0 for one per core.
+    /// The number of threads that decode images; 0 for one per core.
     pub fn threads(mut self, threads: usize) -> Self {
         self.0.front.threads = threads;
         self
     }
 
-    /// Reads the scene in a file.
+    /// Reads a scene from a file.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if there is no such file, or it can't be read.
+    /// [`Error::Invalid`] if the file does not exist or can't be read.
     pub fn open(&self, path: impl AsRef<Path>) -> Result<Scene, Error> {
         let options = self.options()?;
         Scene::new(Input::file(path.as_ref(), options))
     }
 
-    /// Takes the scene at `path` of `files`, in memory, each a path with `/` between components and
-    /// the bytes of the file; the scene may name the others.
+    /// Reads the scene at `path` from `files` in memory. Each file is a path, with `/` between
+    /// components, and its bytes. The scene may refer to the other files.
     ///
     /// # Errors
     /// [`Error::Invalid`] if there is no file at `path`.
@@ -100,18 +100,18 @@ impl Reading {
     }
 }
 
-/// What kind of file a picture is made for, and so which values it holds.
+/// The file format of a picture, which decides which values the picture holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
-    /// Values as displayed, for a PNG of 8 bits a channel.
+    /// Display values, for a PNG with 8 bits per channel.
     #[default]
     Png,
-    /// Values as displayed, for a PNG of 16 bits a channel.
+    /// Display values, for a PNG with 16 bits per channel.
     Png16,
     /// Linear values, for an EXR of 32-bit floats.
     Exr,
-    /// Linear values, for an EXR of 16-bit floats; layers of distances and places keep 32 bits.
+    /// Linear values, for an EXR of 16-bit floats; depth and position layers keep 32 bits.
     ExrHalf,
 }
 
@@ -125,7 +125,7 @@ impl Format {
         }
     }
 
-    /// What the name of its file ends in.
+    /// The extension of its file name.
     #[must_use]
     pub fn extension(self) -> &'static str {
         match self {
@@ -135,7 +135,8 @@ impl Format {
     }
 }
 
-/// How a picture is made; what is not said is as the scene says, or as `rtc render` does.
+/// Options of rendering. An option that is not set has the value of the scene, or the default of
+/// `rtc render`.
 #[derive(Clone, Debug, Default)]
 #[must_use = "it makes no picture until a scene is rendered by it"]
 pub struct Options {
@@ -156,69 +157,69 @@ pub struct Options {
 }
 
 impl Options {
-    /// The picture that the scene asks for.
+    /// The defaults.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The kind of file it is made for.
+    /// The file format.
     pub fn format(mut self, format: Format) -> Self {
         self.format = format;
         self
     }
 
-    /// Width and height in pixels; the picture keeps its height in the scene.
+    /// Width and height in pixels; the vertical field of view stays.
     pub fn size(mut self, width: u32, height: u32) -> Self {
         self.overrides.size = Some([width, height]);
         self
     }
 
-    /// Paths a pixel, at least 1, of scenes whose paths are traced.
+    /// Paths per pixel, at least 1; for path tracing.
     pub fn samples(mut self, paths: u32) -> Self {
         self.overrides.spp = Some(paths);
         self
     }
 
-    /// Sub-samples along each side of a pixel, at least 1, of scenes whose paths are not traced.
+    /// Sub-samples along each side of a pixel, at least 1; for all other integrators.
     pub fn supersampling(mut self, side: u32) -> Self {
         self.overrides.supersampling = Some(side);
         self
     }
 
-    /// Bounces after the first hit.
+    /// The maximum number of bounces after the first hit.
     pub fn depth(mut self, bounces: u32) -> Self {
         self.overrides.depth = Some(bounces);
         self
     }
 
-    /// Threads, 0 for one per core; the picture is the same for any number.
+    /// The number of threads, 0 for one per core. It does not change the picture.
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = threads;
         self
     }
 
-    /// Takes samples, more where there is more noise, until the error is at most so many grey levels of 8
-    /// bits, above 0: root mean square, in 90 % of all pictures. [`Picture::error`](super::Picture::error)
-    /// says how good it got.
+    /// Takes samples adaptively until the root mean square error is at most `levels` (above 0) grey
+    /// levels of 8 bits, with a confidence of 90 %. [`Picture::error`](super::Picture::error) is
+    /// the error reached.
     pub fn target_error(mut self, levels: f64) -> Self {
         self.target_error = Some(levels);
         self
     }
 
-    /// Denoises a picture of traced paths, which takes two paths a pixel at least.
-    /// [`Picture::error`](super::Picture::error) says how good it got.
+    /// Denoises a path-traced picture; needs at least two paths per pixel.
+    /// [`Picture::error`](super::Picture::error) is the error reached.
     pub fn denoise(mut self, denoise: bool) -> Self {
         self.denoise = denoise;
         self
     }
 
-    /// The most rays that it may take.
+    /// The maximum number of rays.
     pub fn max_rays(mut self, rays: u64) -> Self {
         self.rays = Some(rays);
         self
     }
 
-    /// The part that is rendered, in pixels from the upper left.
+    /// Renders a part only: the upper left corner and the size, in pixels.
     pub fn crop(mut self, [x, y]: [u32; 2], [width, height]: [u32; 2]) -> Self {
         self.crop = Some(Crop {
             x,
@@ -229,31 +230,31 @@ impl Options {
         self
     }
 
-    /// The exposure in stops, -64 to 64; each doubles the values.
+    /// The exposure in stops, -64 to 64; each stop doubles the values.
     pub fn exposure(mut self, stops: f64) -> Self {
         self.exposure = Some(Exposure::Stops(stops));
         self
     }
 
-    /// The exposure by what is seen; not of linear values.
+    /// Chooses the exposure from the visible radiance; not for linear formats.
     pub fn auto_exposure(mut self) -> Self {
         self.exposure = Some(Exposure::Auto);
         self
     }
 
-    /// How linear values become displayed ones; not of linear values.
+    /// The tone map; not for linear formats.
     pub fn tonemap(mut self, tone: Tone) -> Self {
         self.tone = Some(tone);
         self
     }
 
-    /// Nothing behind the surfaces: the picture has an alpha channel.
+    /// A transparent background: the picture gets an alpha channel.
     pub fn transparent(mut self) -> Self {
         self.background = BackgroundFill::Transparent;
         self
     }
 
-    /// A colour behind the surfaces, in the values that the picture holds.
+    /// The colour of the background, in the values that the picture holds.
     pub fn background(mut self, color: [f64; 3]) -> Self {
         self.background = BackgroundFill::Color(color);
         self
@@ -265,14 +266,14 @@ impl Options {
         self
     }
 
-    /// Where the camera stands and what is in the middle of the picture.
+    /// The position of the camera and the point in the centre of the picture.
     pub fn look_at(mut self, eye: [f64; 3], center: [f64; 3]) -> Self {
         (self.view.eye, self.view.center) = (Some(eye), Some(center));
         self
     }
 
-    /// All of the scene from an angle, in radians: around from the front to the right, and above the
-    /// horizon.
+    /// Frames the whole scene from an angle, in radians: azimuth from the front to the right, and
+    /// elevation above the horizon.
     pub fn orbit(mut self, azimuth: f64, elevation: f64) -> Self {
         self.view.orbit = Some(Orbit {
             azimuth,
@@ -282,13 +283,13 @@ impl Options {
         self
     }
 
-    /// The same radiance from every direction in place of what surrounds the scene, linear.
+    /// Replaces the environment by a uniform one of this linear radiance.
     pub fn environment(mut self, radiance: [f64; 3]) -> Self {
         self.environment = Some(radiance);
         self
     }
 
-    /// Whether light is followed along all its paths, or by Whitted's rules.
+    /// Whether to use path tracing or Whitted ray tracing.
     pub fn trace_paths(mut self, traced: bool) -> Self {
         self.integrator = Some(if traced {
             IntegratorChoice::Path
@@ -298,7 +299,7 @@ impl Options {
         self
     }
 
-    /// View and light.
+    /// The overrides of view and light.
     pub(super) fn stage(&self) -> ViewAndLight {
         ViewAndLight {
             view: self.view,
@@ -309,7 +310,10 @@ impl Options {
         }
     }
 
-    /// The picture as it is asked for.
+    /// The setup of the picture.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] if an option is invalid.
     pub(super) fn setup(&self) -> Result<PictureSetup, Error> {
         if let Some(fault) = self.fault() {
             return Err(refused(fault));
@@ -329,7 +333,7 @@ impl Options {
         Ok(setup)
     }
 
-    /// What is wrong with it, whatever the scene.
+    /// The first invalid option, independent of the scene.
     fn fault(&self) -> Option<&'static str> {
         let Overrides {
             size,
@@ -390,10 +394,10 @@ impl Options {
         faults
             .iter()
             .find(|(is_so, _)| *is_so)
-            .map(|(_, words)| *words)
+            .map(|(_, message)| *message)
     }
 }
 
-fn refused(words: &str) -> Error {
-    Error::Refused(words.to_owned())
+fn refused(message: &str) -> Error {
+    Error::Refused(message.to_owned())
 }

@@ -1,12 +1,12 @@
-//! A picture that was rendered.
+//! A rendered picture.
 
-use super::{Aov, Error, Finding, Format, Tone};
+use super::{Aov, Diagnostic, Error, Format, Tone};
 use rtc_color::quantize8;
 use rtc_image::{self as image, Origin};
 use rtc_pipeline::ResolvedOutputTransform;
 use rtc_render::Counts;
 
-/// A picture: rows from the top, each from the left.
+/// A picture: rows from top to bottom, each from left to right.
 #[derive(Clone, Debug)]
 pub struct Picture {
     held: image::Picture,
@@ -15,20 +15,20 @@ pub struct Picture {
     format: Format,
     statistics: Statistics,
     error: Option<f64>,
-    findings: Vec<Finding>,
+    diagnostics: Vec<Diagnostic>,
 }
 
-/// What a picture took.
+/// The number of rays of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Statistics {
     /// All rays.
     pub rays: u64,
-    /// Those from the eye.
+    /// Camera rays.
     pub camera_rays: u64,
-    /// Those from the eye that hit a surface.
+    /// Camera rays that hit a surface.
     pub hits: u64,
-    /// Those to a light.
+    /// Shadow rays.
     pub shadow_rays: u64,
 }
 
@@ -37,7 +37,7 @@ impl Picture {
         (held, look, origin): (image::Picture, ResolvedOutputTransform, Origin),
         format: Format,
         (counts, error): (&Counts, Option<f64>),
-        findings: Vec<Finding>,
+        diagnostics: Vec<Diagnostic>,
     ) -> Self {
         Self {
             held,
@@ -51,7 +51,7 @@ impl Picture {
                 shadow_rays: counts.shadow,
             },
             error,
-            findings,
+            diagnostics,
         }
     }
 
@@ -67,8 +67,8 @@ impl Picture {
         self.held.image.height
     }
 
-    /// Red, green and blue of each pixel: of [`Format::Exr`] linear (Rec. 709), times the opacity
-    /// where there is one; else as displayed, where [0, 1] is shown.
+    /// Red, green and blue of each pixel. For EXR formats: linear (Rec. 709), premultiplied by
+    /// alpha. For PNG formats: display values, of which [0, 1] can be shown.
     #[must_use]
     pub fn pixels(&self) -> &[[f64; 3]] {
         &self.held.image.pixels
@@ -80,8 +80,8 @@ impl Picture {
         self.held.alpha.as_deref()
     }
 
-    /// Red, green, blue and opacity of each pixel in a byte each, as a display shows them, opacity
-    /// straight; linear values are coded by sRGB.
+    /// Red, green, blue and alpha of each pixel as bytes for a display, alpha not premultiplied.
+    /// Linear values are encoded as sRGB.
     #[must_use]
     pub fn rgba8(&self) -> Vec<u8> {
         let alpha = |index: usize| self.alpha().map_or(1.0, |alpha| f64::from(alpha[index]));
@@ -100,7 +100,8 @@ impl Picture {
         bytes.collect()
     }
 
-    /// A layer that was asked for: the values of [`Aov::channels`], pixel after pixel.
+    /// A layer that was requested: the values of [`Aov::channels`], pixel after pixel; `None` if it
+    /// was not requested.
     #[must_use]
     pub fn layer(&self, aov: Aov) -> Option<Vec<f32>> {
         let image::Layers { names, values } = &self.held.layers;
@@ -113,42 +114,47 @@ impl Picture {
         Some(own.copied().collect())
     }
 
-    /// What it took.
+    /// The number of rays.
     #[must_use]
     pub fn statistics(&self) -> Statistics {
         self.statistics
     }
 
-    /// The error in grey levels of 8 bits that it has at most, in 90 % of all pictures, if
+    /// An upper bound of the error in grey levels of 8 bits, with a confidence of 90 %, if
     /// [`Options::target_error`](super::Options::target_error) or
-    /// [`Options::denoise`](super::Options::denoise) was asked for; none where light that no
-    /// sample met may be far brighter than white.
+    /// [`Options::denoise`](super::Options::denoise) was set. `None` if there may be light much
+    /// brighter than white that no sample found.
     #[must_use]
     pub fn error(&self) -> Option<f64> {
         self.error
     }
 
-    /// What was found about the scene and in the picture; no errors.
+    /// Warnings and notes about the scene and the picture.
     #[must_use]
-    pub fn findings(&self) -> &[Finding] {
-        &self.findings
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
     }
 
-    /// The bytes of its file, the same as those of `rtc render`.
+    /// The former name of [`Self::diagnostics`].
+    #[deprecated(since = "0.1.0", note = "use `diagnostics`")]
+    #[must_use]
+    pub fn findings(&self) -> &[Diagnostic] {
+        self.diagnostics()
+    }
+
+    /// The bytes of the file, identical to those of `rtc render`.
     ///
     /// # Errors
-    /// [`Error::Refused`] if it is larger than the format can hold.
+    /// [`Error::Refused`] if it is larger than the format allows.
     pub fn encode(&self) -> Result<Vec<u8>, Error> {
         let bytes = self.look.encode(&self.held, || self.origin.clone());
         bytes.map_err(|error| Error::Refused(error.to_string()))
     }
 
-    /// Writes its file, which appears whole or not at all. Its name ends in `.png` or `.exr`, as the
-    /// picture was made for.
+    /// Writes the file atomically. The extension must be that of the format.
     ///
     /// # Errors
-    /// [`Error::Refused`] if the name is of another kind of file, [`Error::Unwritable`] if it can't
-    /// be written.
+    /// [`Error::Refused`] if the extension differs, [`Error::Unwritable`] if writing fails.
     #[cfg(not(target_family = "wasm"))]
     pub fn save(&self, path: impl AsRef<std::path::Path>) -> Result<(), Error> {
         let path = path.as_ref();

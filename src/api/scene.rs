@@ -1,7 +1,7 @@
-//! A scene that a caller holds.
+//! A scene that was read.
 
-use super::{Effect, Error, Finding, Light, Options, Picture, Reading};
-use rtc_diag::{Diagnostic, Sink};
+use super::{Diagnostic, Effect, Error, Light, Options, Picture, Reading};
+use rtc_diag::Sink;
 use rtc_passes as passes;
 use rtc_pipeline::{
     self as pipeline, Input, Loaded, Observer, PictureSetup, RenderSubject, Traced,
@@ -11,12 +11,12 @@ use rtc_render::Film;
 use std::fmt;
 use std::path::Path;
 
-/// A scene that was read, in any form: the YAML or JSON of the course, glTF, a mesh, or the IR.
+/// A scene that was read from any format: YAML or JSON of the course, glTF, a mesh, or the IR.
 pub struct Scene {
     input: Input,
-    /// As it was read, and changed since; `None` if it has errors.
+    /// The scene with its changes; `None` if it has errors.
     loaded: Option<Loaded>,
-    /// What was found while it was read.
+    /// The diagnostics of reading.
     found: Sink,
 }
 
@@ -30,18 +30,19 @@ impl fmt::Debug for Scene {
 }
 
 impl Scene {
-    /// Reads the scene in a file; [`Reading`] says how, where this is not enough.
+    /// Reads a scene from a file; [`Reading`] has options for it.
     ///
-    /// What the scene names is read too. Mistakes in it are findings of [`Scene::check`].
+    /// The files to which the scene refers are read too. Errors in the scene are reported by
+    /// [`Scene::check`].
     ///
     /// # Errors
-    /// [`Error::Invalid`] if there is no such file, or it can't be read.
+    /// [`Error::Invalid`] if the file does not exist or can't be read.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         Reading::new().open(path)
     }
 
-    /// Takes the scene at `path` of `files`, in memory, each a path with `/` between components and
-    /// the bytes of the file; the scene may name the others.
+    /// Reads the scene at `path` from `files` in memory. Each file is a path, with `/` between
+    /// components, and its bytes. The scene may refer to the other files.
     ///
     /// # Errors
     /// [`Error::Invalid`] if there is no file at `path`.
@@ -56,9 +57,9 @@ impl Scene {
         let loaded = input.load();
         let found = input.take_findings();
         if !input.is_read() {
-            let findings = found.kept().iter();
-            let findings = findings.map(|found| Finding::new(found, input.map()));
-            return Err(Error::Invalid(findings.collect()));
+            let diagnostics = found.kept().iter();
+            let diagnostics = diagnostics.map(|found| Diagnostic::new(found, input.map()));
+            return Err(Error::Invalid(diagnostics.collect()));
         }
         Ok(Self {
             input,
@@ -67,18 +68,18 @@ impl Scene {
         })
     }
 
-    /// All that is to be said of it, in the order of its text; one with errors has no picture.
-    pub fn check(&mut self) -> Vec<Finding> {
+    /// All diagnostics, in the order of the text. A scene with errors can't be rendered.
+    pub fn check(&mut self) -> Vec<Diagnostic> {
         self.restart();
         if let Some(loaded) = self.loaded.clone() {
             self.input.unstage();
             self.input.validate(loaded, |_, _| ());
         }
-        self.findings()
+        self.diagnostics()
     }
 
-    /// What its picture needs and what is left out of it, each with the reason: the parts of the
-    /// picture by their names, then those of single lights, materials and surfaces.
+    /// The effects of the picture, which are rendered and which omitted, each with the reason:
+    /// first effects of the whole picture, then of single lights, materials and surfaces.
     ///
     /// # Errors
     /// As [`Scene::render`].
@@ -88,38 +89,39 @@ impl Scene {
         Ok(plan.statuses.iter().map(Effect::new).collect())
     }
 
-    /// How many lights it has, besides surroundings and surfaces that glow; 0 if it has errors.
+    /// The number of lights, without the environment and emissive surfaces; 0 if the scene has
+    /// errors.
     #[must_use]
     pub fn lights(&self) -> usize {
         let loaded = self.loaded.as_ref();
         loaded.map_or(0, |loaded| loaded.lowered.scene.lights.len())
     }
 
-    /// Adds a light, which [`Scene::check`] judges like the others; nothing if it has errors.
+    /// Adds a light; [`Scene::check`] validates it. Does nothing if the scene has errors.
     pub fn add_light(&mut self, light: Light) {
         if let Some(loaded) = &mut self.loaded {
             passes::add_light(&mut loaded.lowered.scene, light.0);
         }
     }
 
-    /// Takes its lights away, besides surroundings and surfaces that glow.
+    /// Removes all lights except the environment and emissive surfaces.
     pub fn remove_lights(&mut self) {
         if let Some(loaded) = &mut self.loaded {
             passes::remove_lights(&mut loaded.lowered);
         }
     }
 
-    /// Renders its picture.
+    /// Renders the picture.
     ///
     /// # Errors
-    /// [`Error::Invalid`] if it has errors, [`Error::Refused`] if the options don't fit or there is
-    /// no memory, [`Error::TooManyRays`] if it takes more rays than it may.
+    /// [`Error::Invalid`] if the scene has errors, [`Error::Refused`] if an option is invalid or
+    /// memory is too small, [`Error::TooManyRays`] if it needs more rays than allowed.
     pub fn render(&mut self, options: &Options) -> Result<Picture, Error> {
         self.render_until(options, &|| false)
     }
 
-    /// Renders its picture, unless it is stopped: `is_stopped` is asked from all threads, after each
-    /// pixel and within long ones.
+    /// Renders the picture unless it is stopped. All threads call `is_stopped` after each pixel,
+    /// and during long ones.
     ///
     /// # Errors
     /// As [`Scene::render`], and [`Error::Stopped`].
@@ -150,8 +152,8 @@ impl Scene {
                 (film, grown.undersampled.is_none().then_some(grown.error))
             } else {
                 let Traced { film, probed } = setup.trace(&mut subject, order, &observer)?;
-                let told = probed.filter(|probed| probed.undersampled.is_none());
-                (film, told.map(|probed| probed.error))
+                let verified = probed.filter(|probed| probed.undersampled.is_none());
+                (film, verified.map(|probed| probed.error))
             };
             let counts = film.counts;
             let film = (film.image, film.coverage, &counts);
@@ -165,11 +167,11 @@ impl Scene {
             (picture, look, origin),
             options.format,
             (&counts, error),
-            self.findings(),
+            self.diagnostics(),
         ))
     }
 
-    /// The scene as the options ask for it, proven.
+    /// Validates the scene with these options.
     fn validate(
         &mut self,
         options: &Options,
@@ -182,24 +184,24 @@ impl Scene {
             None => Ok(None),
         };
         let proven = proven.map_err(|error| self.error(error))?;
-        proven.ok_or_else(|| Error::Invalid(self.findings()))
+        proven.ok_or_else(|| Error::Invalid(self.diagnostics()))
     }
 
-    /// Forgets what was found after it was read.
+    /// Discards the diagnostics that are not from reading.
     fn restart(&mut self) {
         self.input.take_findings();
         self.input.put_findings(self.found.clone());
     }
 
-    /// What was found.
-    fn findings(&mut self) -> Vec<Finding> {
+    /// The diagnostics so far.
+    fn diagnostics(&mut self) -> Vec<Diagnostic> {
         let mut found = self.input.take_findings();
         found.sort();
-        let public = |found: &Diagnostic| Finding::new(found, self.input.map());
+        let public = |found: &rtc_diag::Diagnostic| Diagnostic::new(found, self.input.map());
         found.kept().iter().map(public).collect()
     }
 
     fn error(&self, error: pipeline::RenderError) -> Error {
-        Error::of_render(error, |found| Finding::new(&found, self.input.map()))
+        Error::of_render(error, |found| Diagnostic::new(&found, self.input.map()))
     }
 }

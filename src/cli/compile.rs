@@ -178,7 +178,7 @@ fn write_text(
     }
     let folder = output.folder_beside(target);
     let WrittenScene { text, files } =
-        emit::course::emit_beside(scene, folder.as_deref()).map_err(refuse)?;
+        emit::course::emit_with_files(scene, folder.as_deref()).map_err(refuse)?;
     let mut companions = Companions::beside(target);
     for file in &files {
         let bytes = file.bytes().map_err(refuse)?;

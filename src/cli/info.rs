@@ -156,7 +156,7 @@ fn picture(proven: &Proven) -> Value {
     } = &proven.lowered.scene;
     let (mode, samples) = match &settings.mode {
         Mode::Phong => ("phong", None),
-        Mode::Zbuffer => ("zbuffer", None),
+        Mode::Depth => ("zbuffer", None),
         Mode::Normal => ("normal", None),
         Mode::Gooch(_) => ("gooch", None),
         Mode::Path(path) => ("path", Some(path.samples)),

@@ -69,7 +69,7 @@ pub(super) fn options(reading: &Reading, project: Option<&Project>) -> Result<Op
             camera: camera.clone(),
             threads: 0,
         },
-        valid: valid::ProofOptions {
+        valid: valid::ValidationOptions {
             limits: reading
                 .limits(|limits| project.into_iter().for_each(|own| own.set_limits(limits))),
         },

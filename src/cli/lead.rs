@@ -136,7 +136,7 @@ fn samples(scene: Option<&Scene>, count: Option<u32>) -> String {
             let count = count.map_or_else(|| "N".to_owned(), |count| count.to_string());
             format!("`--spp {count}` is for this scene, whose paths are traced")
         }
-        Some(Mode::Zbuffer) => "this scene takes one sample a pixel".to_owned(),
+        Some(Mode::Depth) => "this scene takes one sample a pixel".to_owned(),
         Some(Mode::Phong | Mode::Gooch(_) | Mode::Normal) => {
             let side = count.map_or_else(|| "N".to_owned(), |count| side(count).to_string());
             format!("`--supersampling {side}` is for this scene: {side}×{side} samples a pixel")
@@ -179,7 +179,7 @@ pub(super) fn idle(asked: &Overrides, mode: &Mode) -> Option<&'static str> {
         Mode::Path(_) => is_side.then_some(
             "warning: `--supersampling` changes nothing: paths are traced; `--spp N` takes N of a pixel",
         ),
-        Mode::Zbuffer => is_spp.then_some("warning: `--spp` changes nothing: no paths are traced"),
+        Mode::Depth => is_spp.then_some("warning: `--spp` changes nothing: no paths are traced"),
         Mode::Phong | Mode::Gooch(_) | Mode::Normal => is_spp.then_some(
             "warning: `--spp` changes nothing: no paths are traced; `--supersampling N` takes N×N samples of a pixel",
         ),

@@ -287,7 +287,7 @@ impl<'scene> Counter<'scene> {
                 pixel.min((MIN_PATHS / pixels.clamp(1, MIN_PIXELS)).max(1)),
                 MIN_PIXELS,
             ),
-            Mode::Phong | Mode::Gooch(_) | Mode::Normal | Mode::Zbuffer => {
+            Mode::Phong | Mode::Gooch(_) | Mode::Normal | Mode::Depth => {
                 (pixel, (MAX_RAYS / 4 / pixel.max(1)).max(1))
             }
         };
@@ -333,7 +333,7 @@ fn samples_of_pixel(scene: &ValidScene) -> u64 {
     let (lens, settings) = (scene.camera().lens, scene.settings());
     match settings.mode {
         Mode::Path(path) => path.samples.get().into(),
-        Mode::Zbuffer => 1,
+        Mode::Depth => 1,
         Mode::Phong | Mode::Gooch(_) | Mode::Normal => {
             let factor = u64::from(settings.supersampling.get());
             let points = if lens.radius.get() > 0.0 {

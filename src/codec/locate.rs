@@ -36,11 +36,11 @@ pub(super) fn error_node(tree: Option<&Tree<'_>>, text: &str, read: usize) -> Er
     let find = |is: &dyn Fn(usize, usize) -> bool| {
         tree.and_then(|tree| {
             tree.nodes()
-                .find(|at| is(tree.place(*at).0, tree.place(*at).1))
+                .find(|at| is(tree.range(*at).0, tree.range(*at).1))
         })
     };
     if let Some((at, tree)) = find(&|_, e| e == end).zip(tree) {
-        let (start, end) = tree.place(at);
+        let (start, end) = tree.range(at);
         return ErrorNode {
             start,
             end,

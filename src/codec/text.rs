@@ -213,7 +213,7 @@ impl<'a> TextSlice<'a> {
             .saturating_add(self.text.len() as u64);
         budget.has(Resource::Memory, cost).ok()?;
         let base = u32::try_from(self.base).ok()?;
-        let (tree, fault) = json::begin(self.file, base, self.text);
+        let (tree, fault) = json::parse_prefix(self.file, base, self.text);
         Some((tree, fault.is_none()))
     }
 

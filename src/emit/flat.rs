@@ -1,31 +1,31 @@
-//! What has corners or no end: squares in place of planes, triangles in place of quadrilaterals.
+//! Replaces planes by squares and flat quadrilaterals by triangles.
 
 use rtc_ir::{BoundingSphere, Plane, Scene};
 use rtc_math::{Basis, Vec3, cross, unit};
 
-/// How far a plane goes on, in radii of the scene.
+/// The half side of the square of a plane, in radii of the scene.
 const PLANE: f64 = 4.0;
 
-/// Half the side of the square that a plane is cut to.
+/// Half the side of the square of a plane.
 pub(super) fn side(around: BoundingSphere) -> f64 {
     PLANE * around.radius
 }
 
-/// A ball around all that has an end, and the eye: what planes are cut by.
+/// A sphere around all finite shapes and the eye, which determines the squares of planes.
 pub(super) fn around(scene: &Scene) -> BoundingSphere {
     let eye = Vec3::from_array(scene.camera.eye);
-    let gaze = Vec3::from_array(scene.camera.center) - eye;
-    let ball = scene.bounding_sphere().unwrap_or(BoundingSphere {
+    let view_direction = Vec3::from_array(scene.camera.center) - eye;
+    let bounding = scene.bounding_sphere().unwrap_or(BoundingSphere {
         center: eye,
-        radius: gaze.length(),
+        radius: view_direction.length(),
     });
     BoundingSphere {
-        radius: ball.radius.max(ball.center.distance(eye)),
-        ..ball
+        radius: bounding.radius.max(bounding.center.distance(eye)),
+        ..bounding
     }
 }
 
-/// A square around the point of a plane that is nearest to the middle of the scene.
+/// A square around the point of a plane that is closest to the centre of the scene.
 pub(super) fn square(plane: &Plane, around: BoundingSphere) -> [Vec3; 4] {
     let Plane { center, normal } = plane;
     let basis = Basis::around(unit(Vec3::from_array(*normal)).unwrap_or(Vec3::Z));
@@ -40,7 +40,7 @@ pub(super) fn square(plane: &Plane, around: BoundingSphere) -> [Vec3; 4] {
     ]
 }
 
-/// The halves of a flat quadrilateral along the diagonal that lies in it.
+/// The two triangles of a flat quadrilateral, along the diagonal inside it.
 pub(super) fn split(corners: [Vec3; 4]) -> Vec<[u32; 3]> {
     let normal = |[a, b, c]: [u32; 3]| {
         let [a, b, c] = [a, b, c].map(|corner| corners[corner as usize]);

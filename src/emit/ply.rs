@@ -1,14 +1,14 @@
-//! Meshes as PLY (Turk, "The PLY polygon file format", 1994), binary and little-endian: all columns,
-//! each number as it is.
+//! Writes meshes as PLY (Turk, "The PLY polygon file format", 1994), binary and little-endian: all
+//! columns, without loss.
 //!
-//! Names are those in common use; for what has none, `s1 t1` are the second texture coordinates,
-//! `tx ty tz tw` the tangent with the side of growing v, and `linear_red` to `linear_alpha` the colour
-//! as no display codes it.
+//! Property names are those in common use. Where none is common, `s1 t1` are the second texture
+//! coordinates, `tx ty tz tw` the tangent with its handedness, and `linear_red` to `linear_alpha`
+//! the linear colour.
 
 use rtc_ir::{Column, Mesh};
 use std::fmt::Write as _;
 
-/// The file of a mesh.
+/// The PLY file of a mesh.
 pub(super) fn encode(mesh: &Mesh) -> Vec<u8> {
     let Mesh {
         name: _,
@@ -52,7 +52,7 @@ pub(super) fn encode(mesh: &Mesh) -> Vec<u8> {
     bytes
 }
 
-/// Names the numbers of a column in the head, unless it is empty.
+/// Declares the properties of a column, unless it is empty.
 fn declare<const N: usize>(column: &Column<N>, names: [&str; N], head: &mut String) {
     let kind = match column {
         _ if column.is_empty() => return,
@@ -64,7 +64,7 @@ fn declare<const N: usize>(column: &Column<N>, names: [&str; N], head: &mut Stri
     }
 }
 
-/// Writes what a column says of a vertex; nothing if it is empty.
+/// Writes the values of a vertex; nothing for an empty column.
 fn store<const N: usize>(column: &Column<N>, vertex: usize, bytes: &mut Vec<u8>) {
     match column {
         Column::Single(vectors) => {

@@ -19,7 +19,7 @@ pub enum Light {
 impl Light {
     /// Whether any channel of its intensity is above 0.
     #[must_use]
-    pub fn shines(&self) -> bool {
+    pub fn emits(&self) -> bool {
         let intensity = match self {
             Self::Point(light) => light.color,
             Self::Punctual(light) => light.intensity,
@@ -84,7 +84,8 @@ pub enum Emitter {
         range: Option<f64>,
     },
     /// A photometric light (IES profile): its intensity is a factor of the measured candelas.
-    Lamp {
+    #[serde(rename = "lamp")]
+    Photometric {
         /// The position.
         position: [f64; 3],
         /// The axis, where the vertical angle is 0; of any length but 0.
@@ -151,7 +152,7 @@ impl Emitter {
             Self::Sun { .. } => None,
             Self::Point { position, .. }
             | Self::Spot { position, .. }
-            | Self::Lamp { position, .. } => Some(*position),
+            | Self::Photometric { position, .. } => Some(*position),
         }
     }
 
@@ -162,7 +163,7 @@ impl Emitter {
             Self::Point { .. } => None,
             Self::Sun { direction }
             | Self::Spot { direction, .. }
-            | Self::Lamp { direction, .. } => Some(*direction),
+            | Self::Photometric { direction, .. } => Some(*direction),
         }
     }
 
@@ -170,7 +171,7 @@ impl Emitter {
     #[must_use]
     pub fn range(&self) -> Option<f64> {
         match self {
-            Self::Sun { .. } | Self::Lamp { .. } => None,
+            Self::Sun { .. } | Self::Photometric { .. } => None,
             Self::Point { range, .. } | Self::Spot { range, .. } => *range,
         }
     }
@@ -188,7 +189,7 @@ impl Emitter {
                 outer_angle,
                 ..
             } => Profile::cone(axis(*direction)?, *inner_angle, *outer_angle),
-            Self::Lamp {
+            Self::Photometric {
                 position: _,
                 direction,
                 horizontal,
@@ -234,7 +235,7 @@ impl Emitter {
                 *direction = rotate(*direction);
                 *range = range.map(|range| range * scale);
             }
-            Self::Lamp {
+            Self::Photometric {
                 position,
                 direction,
                 horizontal,
@@ -282,7 +283,7 @@ impl Emitter {
                     intensity: "intensity",
                 }
             }
-            Self::Lamp {
+            Self::Photometric {
                 position,
                 direction,
                 horizontal,

@@ -64,7 +64,8 @@ pub struct Phong {
     pub kt: f64,
     /// The relative index of refraction, inside over outside, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub eta: f64,
+    #[serde(rename = "eta")]
+    pub ior: f64,
     /// The number of rays that sample the glossy lobe, at least 1; with 1 the reflection is a
     /// perfect mirror.
     #[schemars(range(min = 1))]
@@ -92,7 +93,7 @@ impl Phong {
         ks: 0.0,
         n: 1.0,
         kt: 0.0,
-        eta: 1.0,
+        ior: 1.0,
         glossy_samples: 1,
         color_map: None,
         specular_map: None,

@@ -91,7 +91,8 @@ pub enum Mode {
     /// Whitted ray tracing with the Phong model: shadows, reflection and refraction.
     Phong,
     /// The distance of the first hit: near is white, far is black.
-    Zbuffer,
+    #[serde(rename = "zbuffer")]
+    Depth,
     /// The normal of the first hit, (N + 1)/2 per component.
     Normal,
     /// Gooch's cool-to-warm shading.

@@ -23,7 +23,7 @@ pub(super) fn has_light(scene: &Scene, kind: SceneKind) -> bool {
         SceneKind::Text => emissive_surfaces(scene).contains(&true),
         SceneKind::Asset | SceneKind::BareAsset => emissive_brightness(scene) >= MIN_BRIGHTNESS,
     };
-    scene.environment.is_some() || scene.lights.iter().any(Light::shines) || is_emissive()
+    scene.environment.is_some() || scene.lights.iter().any(Light::emits) || is_emissive()
 }
 
 /// For each surface, whether it is emissive.

@@ -81,7 +81,7 @@ pub(super) fn require_paths(scene: &ValidScene, option: &str) -> Result<(), Rend
 fn paths(scene: &ValidScene, option: &str) -> Result<u32, RenderError> {
     match scene.settings().mode {
         Mode::Path(path) => Ok(path.samples.get()),
-        Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => Err(RenderError::Refused(
+        Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => Err(RenderError::Refused(
             format!("`{option}` is for traced paths; `--integrator path` traces them"),
         )),
     }

@@ -213,7 +213,7 @@ impl Input {
     fn set_stage(&mut self, lowered: &mut Lowered, is_asset: bool) -> Provenance {
         let mut provenance = Provenance {
             is_asset,
-            is_lit_asset: is_asset && lowered.scene.lights.iter().any(Light::shines),
+            is_lit_asset: is_asset && lowered.scene.lights.iter().any(Light::emits),
             is_unlit: is_asset && lowered.scene.is_unlit(),
             fill: FillLight::Never,
             framing: None,

@@ -59,7 +59,7 @@ pub struct Options {
     /// What the front end lets pass.
     pub front: front::FrontOptions,
     /// What the proof lets pass.
-    pub valid: valid::ProofOptions,
+    pub valid: valid::ValidationOptions,
     /// What is made of findings.
     pub levels: FindingLevels,
     /// What is read in place of files that scenes name.

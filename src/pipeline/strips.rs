@@ -59,7 +59,7 @@ impl PictureSetup {
     /// # Errors
     /// If it is such a picture.
     pub fn refuse_strips(&self, subject: &RenderSubject) -> Result<(), RenderError> {
-        let is_distances = matches!(subject.proven.scene.settings().mode, Mode::Zbuffer);
+        let is_distances = matches!(subject.proven.scene.settings().mode, Mode::Depth);
         let is_whole = matches!(self.look.kind, FileFormat::Jpeg | FileFormat::Webp);
         let reasons = [
             (is_whole, WHOLE),

@@ -86,7 +86,7 @@ pub(super) fn is_pinhole(scene: &ValidScene) -> bool {
     let lens = &scene.camera().lens;
     lens.radius.get() == 0.0
         || lens.samples.get() == 1
-        || matches!(scene.settings().mode, Mode::Zbuffer)
+        || matches!(scene.settings().mode, Mode::Depth)
 }
 
 /// What the rules found.
@@ -132,7 +132,7 @@ impl Findings<'_> {
     /// Whether the picture depends on the shading normals of a material.
     pub(super) fn shows_normal(&self, summary: &MaterialSummary) -> bool {
         match self.mode() {
-            Mode::Zbuffer => false,
+            Mode::Depth => false,
             Mode::Normal | Mode::Path(_) => true,
             Mode::Gooch(_) => !self.lights.plans.is_empty(),
             Mode::Phong => {
@@ -181,7 +181,7 @@ impl Findings<'_> {
     pub(super) fn is_sampled(&self) -> bool {
         let settings = self.facts.scene.settings();
         let several = settings.supersampling.get() > 1 || settings.pattern != Pattern::Grid;
-        several && !matches!(settings.mode, Mode::Zbuffer)
+        several && !matches!(settings.mode, Mode::Depth)
     }
 
     /// The smallest feature set that renders the picture.

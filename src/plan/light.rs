@@ -167,7 +167,7 @@ impl Facts<'_> {
         let shadowed = vec![true; self.surface_bounds.len()];
         let rule = match self.scene.settings().mode {
             Mode::Gooch(_) | Mode::Path(_) => None,
-            Mode::Normal | Mode::Zbuffer => self.allowed(Rule::Mode),
+            Mode::Normal | Mode::Depth => self.allowed(Rule::Mode),
             Mode::Phong if light.color == Vec3::ZERO && self.rules.contains(Rule::LightBlack) => {
                 Some(Rule::LightBlack)
             }

@@ -165,7 +165,7 @@ impl Findings<'_> {
                     && !self.shows_color_map(summary)
                     && (self.max_depth == 0 || !summary.has_bounce())
             }
-            Mode::Zbuffer | Mode::Gooch(_) | Mode::Path(_) => false,
+            Mode::Depth | Mode::Gooch(_) | Mode::Path(_) => false,
         };
         let corners = if shows_one_value {
             shape_facts(shape).polygon(plane.normal)

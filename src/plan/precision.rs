@@ -95,7 +95,7 @@ fn sends_rays(scene: &ValidScene, surface: &Surface, is_lit: bool) -> bool {
     match settings.mode {
         Mode::Phong => {}
         Mode::Path(_) => return true,
-        Mode::Normal | Mode::Gooch(_) | Mode::Zbuffer => return false,
+        Mode::Normal | Mode::Gooch(_) | Mode::Depth => return false,
     }
     let Phong { ks, kt, .. } = facts::material::phong(&scene.materials()[surface.material]);
     is_lit || settings.max_depth > 0 && (ks.get() > 0.0 || kt.get() > 0.0)

@@ -1,50 +1,49 @@
-//! What one run may take of the machine: a limit for each resource, charged before memory is taken
-//! or work is done.
+//! Resource limits of one run. A resource is charged before memory is allocated or work is done.
 //!
-//! Most limits grow with the bytes read, so that a large file may be large and a small one may not.
-//! All files of a run draw on one budget, which the [`super::SourceMap`] holds.
+//! Most limits grow with the number of bytes read, so a large file may need more than a small one.
+//! All files of a run share one budget, which the [`super::SourceMap`] holds.
 
 use std::fmt::{self, Write as _};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-/// What a run takes of the machine.
+/// A resource of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resource {
-    /// Bytes of what files become, textures aside.
+    /// Bytes of decoded files, without textures.
     Memory,
-    /// Bytes of textures, as large as their files say that they are.
+    /// Bytes of textures, with the sizes that their files declare.
     Textures,
-    /// Pixels of all images decoded, and of the picture.
+    /// Pixels of all decoded images, and of the picture.
     Pixels,
-    /// Vertices made, each as often as it is made: for every primitive, morph target and pose.
+    /// Vertices generated, counted for every primitive, morph target and pose.
     Vertices,
-    /// Surfaces placed: primitives times the instances of each.
+    /// Surfaces placed: primitives times their instances.
     Surfaces,
     /// Values in the texts of scenes and assets.
     Nodes,
-    /// Findings kept; further ones are counted.
+    /// Diagnostics that are stored; further ones are only counted.
     Findings,
     /// Rays of a picture.
     Rays,
 }
 
-/// One resource: its name, and the limit by default.
+/// A resource: its name and its default limit.
 struct Row {
     resource: Resource,
     name: &'static str,
     base: u64,
-    /// How much the limit grows for every KiB read.
+    /// The growth of the limit per KiB read.
     per_kib: u64,
-    /// How much it grows for every KiB before that, and until which limit.
+    /// An additional growth per KiB, and the limit up to which it applies.
     first: (u64, u64),
-    text: &'static str,
+    description: &'static str,
 }
 
 const MIB: u64 = 1 << 20;
-/// A limit that grows alike for all that is read.
+/// No additional growth.
 const NONE: (u64, u64) = (0, 0);
 
-/// The limits by default, in the order of [`Resource`].
+/// The default limits, in the order of [`Resource`].
 const TABLE: [Row; COUNT] = [
     Row {
         resource: Resource::Memory,
@@ -52,16 +51,17 @@ const TABLE: [Row; COUNT] = [
         base: 192 * MIB,
         per_kib: 32 << 10,
         first: NONE,
-        text: "bytes of what files become: vertices, data decompressed, parts of the IR, the picture of an environment",
+        description: "bytes of what files become: vertices, data decompressed, parts of the IR, the picture of an environment",
     },
-    // Ordinary pictures take a byte for some hundred pixels at most, and many of them 2 GiB in all.
+    // Ordinary images need at most one byte for some hundred pixels, and many of them 2 GiB
+    // together.
     Row {
         resource: Resource::Textures,
         name: "textures",
         base: 192 * MIB,
         per_kib: 32 << 10,
         first: (MIB, 2048 * MIB),
-        text: "bytes of textures, as large as their files say that they are",
+        description: "bytes of textures, as large as their files say that they are",
     },
     Row {
         resource: Resource::Pixels,
@@ -69,7 +69,7 @@ const TABLE: [Row; COUNT] = [
         base: 1 << 28,
         per_kib: 0,
         first: NONE,
-        text: "pixels of all images decoded, and of the picture",
+        description: "pixels of all images decoded, and of the picture",
     },
     Row {
         resource: Resource::Vertices,
@@ -77,7 +77,7 @@ const TABLE: [Row; COUNT] = [
         base: 1 << 24,
         per_kib: 1 << 10,
         first: NONE,
-        text: "vertices made, each as often as it is made: for every primitive, morph target and pose",
+        description: "vertices made, each as often as it is made: for every primitive, morph target and pose",
     },
     Row {
         resource: Resource::Surfaces,
@@ -85,7 +85,7 @@ const TABLE: [Row; COUNT] = [
         base: 1 << 20,
         per_kib: 1 << 6,
         first: NONE,
-        text: "surfaces placed: primitives times the instances of each",
+        description: "surfaces placed: primitives times the instances of each",
     },
     Row {
         resource: Resource::Nodes,
@@ -93,7 +93,7 @@ const TABLE: [Row; COUNT] = [
         base: 1 << 21,
         per_kib: 1 << 10,
         first: NONE,
-        text: "values in the texts of scenes and assets, those behind aliases each time",
+        description: "values in the texts of scenes and assets, those behind aliases each time",
     },
     Row {
         resource: Resource::Findings,
@@ -101,7 +101,7 @@ const TABLE: [Row; COUNT] = [
         base: 10_000,
         per_kib: 0,
         first: NONE,
-        text: "findings kept; further ones are counted",
+        description: "findings kept; further ones are counted",
     },
     Row {
         resource: Resource::Rays,
@@ -109,14 +109,14 @@ const TABLE: [Row; COUNT] = [
         base: 1 << 32,
         per_kib: 0,
         first: NONE,
-        text: "rays of a picture",
+        description: "rays of a picture",
     },
 ];
 
 const COUNT: usize = 8;
 
 impl Resource {
-    /// All of them, in the order of the table.
+    /// All resources, in the order of the table.
     pub fn all() -> impl Iterator<Item = Self> {
         TABLE.iter().map(|row| row.resource)
     }
@@ -132,34 +132,34 @@ impl Resource {
     }
 }
 
-/// How much a run may take of each resource.
+/// The limit of each resource.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
-    /// What was asked for instead of the default.
-    asked: [Option<u64>; COUNT],
-    /// What the default may be at most.
-    most: [Option<u64>; COUNT],
+    /// Limits that were set in place of the default.
+    set_limits: [Option<u64>; COUNT],
+    /// Upper bounds of the defaults.
+    max_defaults: [Option<u64>; COUNT],
 }
 
 impl Limits {
     /// No limits at all.
     pub const NONE: Self = Self {
-        asked: [Some(u64::MAX); COUNT],
-        most: [None; COUNT],
+        set_limits: [Some(u64::MAX); COUNT],
+        max_defaults: [None; COUNT],
     };
 
     /// Sets one limit.
     pub fn set(&mut self, resource: Resource, limit: u64) {
-        self.asked[resource as usize] = Some(limit);
+        self.set_limits[resource as usize] = Some(limit);
     }
 
-    /// Lowers one limit where it would be higher by default; one that is set goes before.
+    /// Lowers a default limit. A limit that was set has priority.
     pub fn lower(&mut self, resource: Resource, limit: u64) {
-        let most = &mut self.most[resource as usize];
-        *most = Some(most.map_or(limit, |own| own.min(limit)));
+        let max = &mut self.max_defaults[resource as usize];
+        *max = Some(max.map_or(limit, |max| max.min(limit)));
     }
 
-    /// The limit on a resource of a run that has read so many bytes.
+    /// The limit of a resource after `read` bytes were read.
     #[must_use]
     pub fn of(&self, resource: Resource, read: u64) -> u64 {
         let Row {
@@ -170,23 +170,23 @@ impl Limits {
         } = resource.row();
         let grown = |per_kib: u64| u128::from(read) * u128::from(per_kib) / 1024;
         let base = u128::from(*base);
-        let begun = (base + grown(*first)).min(base.max(u128::from(*until)));
-        let most = self.most[resource as usize].unwrap_or(u64::MAX);
-        let all = u64::try_from(begun + grown(*per_kib))
+        let first_part = (base + grown(*first)).min(base.max(u128::from(*until)));
+        let max = self.max_defaults[resource as usize].unwrap_or(u64::MAX);
+        let all = u64::try_from(first_part + grown(*per_kib))
             .unwrap_or(u64::MAX)
-            .min(most);
-        self.asked[resource as usize].unwrap_or(all)
+            .min(max);
+        self.set_limits[resource as usize].unwrap_or(all)
     }
 }
 
-/// A limit that would have been passed; prints as the reason.
+/// A limit that would be exceeded; displays as a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Exceeded {
-    /// What there is not enough of.
+    /// The resource.
     pub resource: Resource,
-    /// How much it would have been in all.
+    /// The total amount that would be needed.
     pub total: u64,
-    /// How much it may be.
+    /// The limit.
     pub limit: u64,
 }
 
@@ -222,7 +222,7 @@ impl fmt::Display for Exceeded {
 }
 
 impl Exceeded {
-    /// What to do about it.
+    /// A hint on how to raise the limit.
     #[must_use]
     pub fn hint(&self) -> String {
         format!(
@@ -232,7 +232,7 @@ impl Exceeded {
     }
 }
 
-/// A number of bytes as people read it.
+/// A number of bytes, displayed with a unit.
 struct Size(u64);
 
 impl fmt::Display for Size {
@@ -244,7 +244,7 @@ impl fmt::Display for Size {
     }
 }
 
-/// What a run has taken so far.
+/// What a run has used so far.
 #[derive(Debug, Default)]
 pub struct Budget {
     limits: Limits,
@@ -253,7 +253,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// A budget of which nothing is spent.
+    /// A budget of which nothing is used.
     #[must_use]
     pub fn new(limits: Limits) -> Self {
         Self {
@@ -262,15 +262,15 @@ impl Budget {
         }
     }
 
-    /// Takes down that so many bytes were read; most limits grow by it.
+    /// Records that bytes were read; most limits grow with them.
     pub fn read(&self, bytes: usize) {
         self.read.fetch_add(bytes as u64, Relaxed);
     }
 
-    /// Charges so much of a resource, unless that would pass its limit.
+    /// Charges an amount of a resource.
     ///
     /// # Errors
-    /// If there is not so much left; then nothing is charged.
+    /// If that would exceed the limit; then nothing is charged.
     pub fn charge(&self, resource: Resource, amount: u64) -> Result<(), Exceeded> {
         let limit = self.limit(resource);
         let spend = |spent: u64| spent.checked_add(amount).filter(|total| *total <= limit);
@@ -282,10 +282,10 @@ impl Budget {
         })
     }
 
-    /// Whether so much of a resource is left; nothing is charged.
+    /// Checks whether an amount of a resource remains, without charging it.
     ///
     /// # Errors
-    /// If there is not so much left.
+    /// If less remains.
     pub fn has(&self, resource: Resource, amount: u64) -> Result<(), Exceeded> {
         let limit = self.limit(resource);
         let total = self.spent[resource as usize]
@@ -302,21 +302,21 @@ impl Budget {
         }
     }
 
-    /// How much of a resource may be taken in all, by what was read so far.
+    /// The limit of a resource after the bytes read so far.
     #[must_use]
     pub fn limit(&self, resource: Resource) -> u64 {
         self.limits.of(resource, self.read.load(Relaxed))
     }
 
-    /// How much of a resource is left.
+    /// The remaining amount of a resource.
     #[must_use]
-    pub fn left(&self, resource: Resource) -> u64 {
+    pub fn remaining(&self, resource: Resource) -> u64 {
         self.limit(resource)
             .saturating_sub(self.spent[resource as usize].load(Relaxed))
     }
 }
 
-/// `schema/limits.md`.
+/// The page `schema/limits.md`.
 #[must_use]
 pub fn page() -> String {
     let mut page = "\
@@ -336,7 +336,7 @@ and `GiB` may follow the number), `--allow-huge` lifts all of them.
         base,
         per_kib,
         first: (first, until),
-        text,
+        description,
     } in TABLE
     {
         let more = match (per_kib, first) {
@@ -345,9 +345,9 @@ and `GiB` may follow the number), `--allow-huge` lifts all of them.
             _ => format!("{per_kib}, and {first} up to {until}"),
         };
         // Writing to a string does not fail.
-        let _ = writeln!(page, "| `{name}` | {base} | {more} | {text} |");
+        let _ = writeln!(page, "| `{name}` | {base} | {more} | {description} |");
     }
-    page + include_str!("strangers.md")
+    page + include_str!("untrusted.md")
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
-//! Paths as URIs write them.
+//! Percent-encoding of paths in URIs.
 
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use std::fmt::Display;
 
-/// What is escaped in the path of a URI: all but the unreserved characters (RFC 3986, section 2.3)
-/// and the slash.
+/// The characters that are escaped in a URI path: all except unreserved characters (RFC 3986,
+/// section 2.3) and the slash.
 const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC
     .remove(b'-')
     .remove(b'.')
@@ -12,7 +12,7 @@ const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC
     .remove(b'~')
     .remove(b'/');
 
-/// A path with `/` between its components, with escapes for what a URI can't hold.
+/// A path with `/` between components, percent-encoded.
 pub fn uri_path(path: &str) -> impl Display {
     utf8_percent_encode(path, ESCAPED)
 }

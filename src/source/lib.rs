@@ -1,5 +1,22 @@
-//! Files, their bytes, spans into them, and trees of their texts: every byte a person wrote has a
-//! place.
+//! Files, their bytes, spans into them, and spanned trees of YAML and JSON.
+//!
+//! # Overview
+//! - [`Loader`] reads files, standard input and [`MemoryFiles`]. It is the only code that opens
+//!   files.
+//! - [`SourceMap`] owns the bytes of all files of a run. A [`FileId`] names one; a [`Span`] is a
+//!   byte range in it. The map converts offsets to [`LineColumn`]s.
+//! - [`Search`] finds the files to which a scene refers: below its folder, its parent folder, or a
+//!   folder that the user allows.
+//! - [`Budget`] and [`Limits`] bound the memory and work of a run, per [`Resource`].
+//! - [`tree`] parses YAML and JSON to a [`tree::Tree`] of nodes with spans, and formats YAML.
+//! - [`EditedFiles`] are texts that an editor has open; they replace files on disk.
+//!
+//! # Guarantees
+//! - Every value of a text has a span.
+//! - Parsing is bounded in depth and memory and reports the position of each error.
+//! - A scene can't read files outside the folders that are searched, and only regular files are
+//!   read.
+//! - Nothing is printed.
 
 pub mod budget;
 mod edited;

@@ -1,8 +1,7 @@
-//! The one file that reads: a file or standard input, within a limit of size, most often into the
-//! source map.
+//! Reads files and standard input, up to a size limit. No other code opens files.
 //!
-//! What the user names is opened as it is. What a scene names is opened first, and judged by what
-//! was opened: a path can lead elsewhere the next time it is followed.
+//! A path that the user gives is opened as it is. A path from a scene is opened first and then
+//! checked through the open file, because the path could point elsewhere when it is followed again.
 
 use super::{FileId, Found, MemoryFiles, SourceMap};
 use std::fmt;
@@ -11,20 +10,20 @@ use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The largest file read, in bytes: offsets are 32 bits, and a larger scene text is a mistake.
+/// The largest file in bytes: offsets are 32 bits, and a larger scene text is a mistake.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// Why a file could not be read; prints as the reason.
+/// Why a file could not be read; displays as a message.
 #[derive(Debug)]
 pub enum LoadError {
-    /// The system said no.
+    /// An error of the operating system.
     Io(io::Error),
-    /// The file is larger than the limit, given in bytes.
+    /// The file is larger than the limit.
     TooLarge {
         /// The limit in bytes.
         limit: u64,
     },
-    /// There is a device, a pipe or a socket, where reading may wait for ever or never end.
+    /// The path is a device, a pipe or a socket, where reading may block or never end.
     NotRegular,
 }
 
@@ -38,24 +37,24 @@ impl fmt::Display for LoadError {
     }
 }
 
-/// Reads files, most often into a [`SourceMap`].
+/// Reads files, usually into a [`SourceMap`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Loader;
 
 impl Loader {
-    /// Reads the file at `path`; its name in the map is the path as the user wrote it.
+    /// Reads the file at `path` into the map; its name is the path as the user wrote it.
     ///
     /// # Errors
-    /// What the system says, or that the file is too large.
+    /// If it can't be opened or is too large.
     pub fn file(&self, path: &Path, map: &mut SourceMap) -> Result<FileId, LoadError> {
         let bytes = self.bytes(path, MAX_BYTES, map)?;
         Ok(map.add_from(path, bytes))
     }
 
-    /// Reads the file at `path` of files in memory, as a scene that may name the others.
+    /// Reads the file at `path` of files in memory into the map; a scene may refer to the others.
     ///
     /// # Errors
-    /// If there is none, or that it is too large.
+    /// If it does not exist or is too large.
     pub fn memory(
         &self,
         path: &str,
@@ -66,24 +65,24 @@ impl Loader {
         Ok(map.add_memory(path, files, bytes))
     }
 
-    /// Reads all of `reader`, for instance standard input, under the name given.
+    /// Reads all of `reader`, for example standard input, into the map under a name.
     ///
     /// # Errors
-    /// What the reader says, or that there is too much of it.
+    /// An error of the reader, or too many bytes.
     pub fn reader(
         &self,
         name: &str,
         reader: impl Read,
         map: &mut SourceMap,
     ) -> Result<FileId, LoadError> {
-        Ok(map.add(name, all(reader, 0, MAX_BYTES)?))
+        Ok(map.add(name, read_to_limit(reader, 0, MAX_BYTES)?))
     }
 
-    /// Reads a file that was found, of at most `limit` bytes: what was opened when it was found, or the
-    /// text that the map has in its place. The map only notes it.
+    /// Reads a file that was found, of at most `limit` bytes: the file that was opened when it was
+    /// found, or the text that replaces it. The map records only the path.
     ///
     /// # Errors
-    /// What the system says, or that the file is too large.
+    /// If it can't be read or is too large.
     pub fn found(&self, found: &Found, limit: u64, map: &SourceMap) -> Result<Vec<u8>, LoadError> {
         let opened = found.opened();
         if opened.memory().is_some() {
@@ -91,30 +90,31 @@ impl Loader {
         }
         map.note(&found.path);
         match map.edited(opened.path()) {
-            Some(text) => all(text, text.len(), limit),
+            Some(text) => read_to_limit(text, text.len(), limit),
             None => opened.bytes(limit),
         }
     }
 
-    /// Reads the file at `path`, which the user names, of at most `limit` bytes. The map only notes
-    /// it.
+    /// Reads the file at `path`, given by the user, of at most `limit` bytes. The map records only
+    /// the path.
     ///
     /// # Errors
-    /// What the system says, or that the file is too large.
+    /// If it can't be opened or is too large.
     pub fn bytes(&self, path: &Path, limit: u64, map: &SourceMap) -> Result<Vec<u8>, LoadError> {
         map.note(path);
-        // To open a device may already do something, so it is not even tried.
-        let there = fs::metadata(path).map_err(LoadError::Io)?;
-        if !there.is_file() && !there.is_dir() {
+        // Opening a device can have side effects, so it is not tried.
+        let metadata = fs::metadata(path).map_err(LoadError::Io)?;
+        if !metadata.is_file() && !metadata.is_dir() {
             return Err(LoadError::NotRegular);
         }
-        whole(&without_waiting().open(path).map_err(LoadError::Io)?, limit)
+        read_all(&nonblocking().open(path).map_err(LoadError::Io)?, limit)
     }
 
-    /// Reads a regular file of at most `limit` bytes that nobody named, and tells whose it is.
+    /// Reads a regular file of at most `limit` bytes that the user did not name, and checks its
+    /// owner.
     ///
     /// # Errors
-    /// What the system says, or that there is no such file or it is too large.
+    /// If there is no such regular file, or it is too large.
     pub fn owned(&self, path: &Path, limit: u64) -> Result<OwnedFile, LoadError> {
         let opened = Opened::at(path).ok_or(LoadError::NotRegular)?;
         let bytes = opened.bytes(limit)?;
@@ -125,56 +125,56 @@ impl Loader {
         Ok(OwnedFile {
             path: opened.path,
             bytes,
-            is_own: is_own(&metadata),
+            is_trusted: is_trusted(&metadata),
         })
     }
 }
 
-/// A file that nobody named.
+/// A file that the user did not name.
 #[derive(Debug)]
 pub struct OwnedFile {
-    /// Where it lies, free of links.
+    /// Its canonical path.
     pub path: PathBuf,
-    /// What is in it.
+    /// Its content.
     pub bytes: Vec<u8>,
-    /// Whether it belongs to the user or to the system's administrator, and nobody else may write
-    /// it; true where the system does not tell.
-    pub is_own: bool,
+    /// Whether it belongs to the user or to root and is not writable by others; true on systems
+    /// without file owners.
+    pub is_trusted: bool,
 }
 
 #[cfg(unix)]
-fn is_own(file: &Metadata) -> bool {
+fn is_trusted(file: &Metadata) -> bool {
     use std::os::unix::fs::MetadataExt;
-    /// The right of all others to write.
+    /// The write permission of others.
     const WRITABLE: u32 = 0o002;
     let user = rustix::process::geteuid().as_raw();
     [0, user].contains(&file.uid()) && file.mode() & WRITABLE == 0
 }
 
 #[cfg(not(unix))]
-fn is_own(_: &Metadata) -> bool {
+fn is_trusted(_: &Metadata) -> bool {
     true
 }
 
-/// What tells a file from others, by whatever names and links it is reached.
+/// The identity of a file, independent of its names and links.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Identity(Known);
+pub struct Identity(IdentityKind);
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Known {
-    ToSystem(FileIdentity),
+enum IdentityKind {
+    OnDisk(FileKey),
     InMemory(PathBuf),
 }
 
 /// Device and inode.
 #[cfg(unix)]
-type FileIdentity = (u64, u64);
+type FileKey = (u64, u64);
 
-/// The path, free of links.
+/// The canonical path.
 #[cfg(not(unix))]
-type FileIdentity = PathBuf;
+type FileKey = PathBuf;
 
-/// A regular file that was opened, and where it lies.
+/// An open regular file with its canonical path.
 #[derive(Debug)]
 pub(super) struct Opened {
     path: PathBuf,
@@ -183,23 +183,23 @@ pub(super) struct Opened {
 
 #[derive(Debug)]
 enum Content {
-    /// Or why the system did not open it.
+    /// The open file, or why it could not be opened.
     System(io::Result<File>),
     Memory(Arc<MemoryFiles>),
 }
 
 impl Opened {
-    /// Opens the file at `path`; `None` if there is none, or what is there is no regular file.
+    /// Opens the file at `path`; `None` if it is not a regular file.
     pub(super) fn at(path: &Path) -> Option<Self> {
-        // To open a device may already do something, so it is not even tried.
+        // Opening a device can have side effects, so it is not tried.
         if !fs::metadata(path).ok()?.is_file() {
             return None;
         }
-        let file = without_waiting().open(path);
+        let file = nonblocking().open(path);
         let path = fs::canonicalize(path).ok()?;
         if let Ok(file) = &file {
-            let (opened, there) = (file.metadata().ok()?, fs::metadata(&path).ok()?);
-            if !opened.is_file() || !is_same(&opened, &there) {
+            let (opened, metadata) = (file.metadata().ok()?, fs::metadata(&path).ok()?);
+            if !opened.is_file() || !is_same(&opened, &metadata) {
                 return None;
             }
         }
@@ -209,7 +209,7 @@ impl Opened {
         })
     }
 
-    /// The file at a path of files in memory.
+    /// A file in memory.
     pub(super) fn in_memory(files: &Arc<MemoryFiles>, path: &Path) -> Option<Self> {
         let (path, _) = files.get(path)?;
         Some(Self {
@@ -218,7 +218,7 @@ impl Opened {
         })
     }
 
-    /// The files in memory that it is of.
+    /// The files in memory to which it belongs.
     pub(super) fn memory(&self) -> Option<&Arc<MemoryFiles>> {
         match &self.content {
             Content::System(_) => None,
@@ -226,25 +226,25 @@ impl Opened {
         }
     }
 
-    /// Where it lies, free of links.
+    /// The canonical path.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What tells it from other files; `None` if it can't be read.
+    /// The identity; `None` if it can't be read.
     pub(super) fn identity(&self) -> Option<Identity> {
         let Content::System(file) = &self.content else {
-            return Some(Identity(Known::InMemory(self.path.clone())));
+            return Some(Identity(IdentityKind::InMemory(self.path.clone())));
         };
         let file = file.as_ref().ok()?;
         #[cfg(unix)]
         let key = key(&file.metadata().ok()?);
         #[cfg(not(unix))]
         let key = file.metadata().ok().map(|_| self.path.clone())?;
-        Some(Identity(Known::ToSystem(key)))
+        Some(Identity(IdentityKind::OnDisk(key)))
     }
 
-    /// The first bytes, of at most 64 KiB; none if it can't be read.
+    /// The first bytes, at most 64 KiB; empty if it can't be read.
     pub(super) fn head(&self) -> Vec<u8> {
         let mut head = Vec::new();
         if let Content::System(Ok(file)) = &self.content
@@ -260,7 +260,7 @@ impl Opened {
             Content::Memory(files) => in_memory(files, &self.path, limit),
             Content::System(Ok(file)) => {
                 (&*file).rewind().map_err(LoadError::Io)?;
-                whole(file, limit)
+                read_all(file, limit)
             }
             Content::System(Err(error)) => Err(LoadError::Io(
                 error
@@ -271,8 +271,8 @@ impl Opened {
     }
 }
 
-/// Reads without waiting for a writer, should a pipe have come to where a file was.
-fn without_waiting() -> OpenOptions {
+/// Options that do not block if a pipe has replaced the file.
+fn nonblocking() -> OpenOptions {
     let mut options = OpenOptions::new();
     options.read(true);
     #[cfg(unix)]
@@ -285,12 +285,12 @@ fn without_waiting() -> OpenOptions {
 }
 
 #[cfg(unix)]
-fn key(file: &Metadata) -> FileIdentity {
+fn key(file: &Metadata) -> FileKey {
     use std::os::unix::fs::MetadataExt;
     (file.dev(), file.ino())
 }
 
-/// True if both are of one file, as far as the system tells.
+/// Whether both belong to one file, as far as the system can tell.
 #[cfg(unix)]
 fn is_same(a: &Metadata, b: &Metadata) -> bool {
     key(a) == key(b)
@@ -305,11 +305,11 @@ fn is_same(a: &Metadata, b: &Metadata) -> bool {
 fn in_memory(files: &MemoryFiles, path: &Path, limit: u64) -> Result<Vec<u8>, LoadError> {
     let missing = || LoadError::Io(io::ErrorKind::NotFound.into());
     let (_, bytes) = files.get(path).ok_or_else(missing)?;
-    all(bytes, bytes.len(), limit)
+    read_to_limit(bytes, bytes.len(), limit)
 }
 
-/// All of an open file.
-fn whole(file: &File, limit: u64) -> Result<Vec<u8>, LoadError> {
+/// Reads an open file.
+fn read_all(file: &File, limit: u64) -> Result<Vec<u8>, LoadError> {
     let metadata = file.metadata().map_err(LoadError::Io)?;
     if metadata.is_dir() {
         return Err(LoadError::Io(io::ErrorKind::IsADirectory.into()));
@@ -320,11 +320,11 @@ fn whole(file: &File, limit: u64) -> Result<Vec<u8>, LoadError> {
     if metadata.len() > limit {
         return Err(LoadError::TooLarge { limit });
     }
-    all(file, usize::try_from(metadata.len()).unwrap_or(0), limit)
+    read_to_limit(file, usize::try_from(metadata.len()).unwrap_or(0), limit)
 }
 
-/// All there is to read, most likely `expected` bytes.
-fn all(reader: impl Read, expected: usize, limit: u64) -> Result<Vec<u8>, LoadError> {
+/// Reads to the end, at most `limit` bytes; `expected` bytes are allocated at once.
+fn read_to_limit(reader: impl Read, expected: usize, limit: u64) -> Result<Vec<u8>, LoadError> {
     let mut bytes = Vec::new();
     bytes
         .try_reserve_exact(expected)

@@ -1,4 +1,4 @@
-//! The source map: owns the bytes of every file read and turns offsets into lines and columns.
+//! The source map: owns the bytes of every file and converts offsets to lines and columns.
 
 use super::memory::resolved;
 use super::{Budget, EditedFiles, Folder, Found, Limits, MemoryFiles};
@@ -7,10 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// How far into a file a NUL is looked for.
+/// The number of bytes that are searched for NUL to detect binary files.
 const SNIFF: usize = 8192;
 
-/// Names one file of a [`SourceMap`].
+/// The index of a file in a [`SourceMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FileId(u32);
 
@@ -32,7 +32,7 @@ impl Span {
         Self { file, start, end }
     }
 
-    /// The smallest span that holds both; `other` must lie in the same file.
+    /// The smallest span that contains both; both must be in the same file.
     #[must_use]
     pub fn to(self, other: Span) -> Self {
         Self {
@@ -43,7 +43,7 @@ impl Span {
     }
 }
 
-/// A place as people count it: both numbers start at 1, columns in characters.
+/// A line and a column, both from 1; columns count characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LineColumn {
     /// The line, from 1.
@@ -54,43 +54,43 @@ pub struct LineColumn {
 
 struct SourceFile {
     name: String,
-    /// The folder it was read from, unless it came through a stream.
+    /// The folder that it was read from; `None` for a stream.
     folder: Option<Folder>,
-    /// All of them, or the first ones of a file that was released.
+    /// All bytes, or the first ones of a file that was released.
     bytes: Vec<u8>,
     is_released: bool,
-    /// Found when a line is first asked for: most files are never pointed at, and some are large
-    /// and binary.
+    /// Computed when a line is first needed: most files never need it, and some are large and
+    /// binary.
     line_starts: OnceLock<Vec<u32>>,
-    /// As `line_starts`, for lines may be as long as the file.
-    letters: OnceLock<Vec<LetterMark>>,
+    /// Computed when needed, like `line_starts`; a line may be as long as the file.
+    characters: OnceLock<Vec<ColumnMark>>,
     /// Whether all of it is UTF-8.
     is_utf8: OnceLock<bool>,
 }
 
-/// How many characters there are before a byte that one starts at.
+/// The number of characters before a character boundary.
 #[derive(Clone, Copy)]
-struct LetterMark {
+struct ColumnMark {
     offset: u32,
-    letters: u32,
+    characters: u32,
 }
 
-/// A place at least every so many bytes is marked.
-const MARKED: usize = 1 << 10;
+/// The minimum distance between two marks, in bytes.
+const MARK_INTERVAL: usize = 1 << 10;
 
-/// All files of one run, with their names as the user gave them, and the budget of the run.
+/// All files of one run with the names that the user gave them, and the budget of the run.
 #[derive(Default)]
 pub struct SourceMap {
     files: Vec<SourceFile>,
     budget: Budget,
-    /// All files read, free of links, those that are not in the map too.
+    /// The canonical paths of all files read, including those that are not in the map.
     read: Mutex<BTreeSet<PathBuf>>,
-    /// What stands in place of files.
+    /// Texts that replace files.
     edited: EditedFiles,
 }
 
 impl SourceMap {
-    /// An empty map of a run with these limits.
+    /// An empty map for a run with these limits.
     #[must_use]
     pub fn with_limits(limits: Limits) -> Self {
         Self {
@@ -99,24 +99,24 @@ impl SourceMap {
         }
     }
 
-    /// Has these texts read in place of their files, where a scene names them.
+    /// Replaces files by these texts when a scene refers to them.
     #[must_use]
     pub fn with_edited(self, edited: EditedFiles) -> Self {
         Self { edited, ..self }
     }
 
-    /// What stands in place of the file at a path that is free of links.
+    /// The text that replaces the file at a canonical path.
     pub(super) fn edited(&self, path: &Path) -> Option<&[u8]> {
         self.edited.get(path)
     }
 
-    /// What the run may still take of the machine. The bytes of the files of the map count as read.
+    /// The budget of the run. The bytes of the files of the map count as read.
     #[must_use]
     pub fn budget(&self) -> &Budget {
         &self.budget
     }
 
-    /// Notes that a file is read.
+    /// Records that a file was read.
     pub(super) fn note(&self, path: &Path) {
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         self.read
@@ -125,29 +125,29 @@ impl SourceMap {
             .insert(path);
     }
 
-    /// Whether the file at a path was read, by whatever name.
+    /// Whether the file at a path was read, under any name.
     #[must_use]
     pub fn has_read(&self, path: &Path) -> bool {
         let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         fs::canonicalize(path).is_ok_and(|path| read.contains(&path))
     }
 
-    /// The files that were read, free of links.
+    /// The canonical paths of the files that were read.
     #[must_use]
     pub fn paths_read(&self) -> Vec<PathBuf> {
         let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         read.iter().cloned().collect()
     }
 
-    /// Adds a file and returns its handle.
+    /// Adds a file and returns its index.
     ///
     /// # Panics
-    /// If the file holds 4 GiB or more; [`super::Loader`] refuses such files before.
+    /// If the file has 4 GiB or more; [`super::Loader`] rejects such files.
     pub fn add(&mut self, name: impl Into<String>, bytes: Vec<u8>) -> FileId {
         self.push(name.into(), None, bytes)
     }
 
-    /// Adds a file that was read from `path`, which is its name too.
+    /// Adds a file that was read from `path`, which is also its name.
     ///
     /// # Panics
     /// As [`Self::add`].
@@ -156,7 +156,7 @@ impl SourceMap {
         self.push(path.display().to_string(), folder, bytes)
     }
 
-    /// Adds a file at a path of files in memory.
+    /// Adds a file in memory.
     ///
     /// # Panics
     /// As [`Self::add`].
@@ -167,7 +167,7 @@ impl SourceMap {
         self.push(path.to_owned(), Some(folder), bytes)
     }
 
-    /// Adds a file that was found; it is called as the user would write it.
+    /// Adds a file that was found; its name is the path as the user would write it.
     ///
     /// # Panics
     /// As [`Self::add`].
@@ -188,19 +188,19 @@ impl SourceMap {
             bytes,
             is_released: false,
             line_starts: OnceLock::new(),
-            letters: OnceLock::new(),
+            characters: OnceLock::new(),
             is_utf8: OnceLock::new(),
         });
         id
     }
 
-    /// The folder the file was read from; none for what came through a stream.
+    /// The folder of the file; `None` for a stream.
     #[must_use]
     pub fn folder(&self, file: FileId) -> Option<&Folder> {
         self.file(file).folder.as_ref()
     }
 
-    /// The name the user gave the file.
+    /// The name of the file.
     #[must_use]
     pub fn name(&self, file: FileId) -> &str {
         &self.file(file).name
@@ -212,8 +212,8 @@ impl SourceMap {
         &self.file(file).bytes
     }
 
-    /// Whether lines of the file mean something to a person. Latin-1 counts: its lines can be read
-    /// but for some letters.
+    /// Whether the file is text with readable lines. Latin-1 counts: only some of its characters
+    /// are lost.
     #[must_use]
     pub fn is_text(&self, file: FileId) -> bool {
         let source = self.file(file);
@@ -221,20 +221,20 @@ impl SourceMap {
         !head.contains(&0) || (source.is_utf8() && !source.is_released)
     }
 
-    /// Gives back the memory of a binary file of which all was made that it is for; the first `kept`
-    /// bytes stay. A text stays whole, for findings quote it.
+    /// Frees the memory of a binary file that is no longer needed, except its first `kept` bytes. A
+    /// text is kept, because diagnostics quote it.
     pub fn release(&mut self, file: FileId, kept: usize) {
         let kept = kept.max(SNIFF);
         if kept < self.bytes(file).len() && !self.is_text(file) {
-            let own = &mut self.files[file.0 as usize];
-            own.bytes.truncate(kept);
-            own.bytes.shrink_to_fit();
-            (own.line_starts, own.letters) = (OnceLock::new(), OnceLock::new());
-            own.is_released = true;
+            let source = &mut self.files[file.0 as usize];
+            source.bytes.truncate(kept);
+            source.bytes.shrink_to_fit();
+            (source.line_starts, source.characters) = (OnceLock::new(), OnceLock::new());
+            source.is_released = true;
         }
     }
 
-    /// The text of the file, if it is UTF-8 and not a binary container.
+    /// The text of the file, if it is UTF-8 and was not released.
     #[must_use]
     pub fn text(&self, file: FileId) -> Option<&str> {
         let source = self.file(file);
@@ -242,7 +242,7 @@ impl SourceMap {
         text.ok().filter(|_| !source.is_released)
     }
 
-    /// The text a span covers, with what is not UTF-8 replaced.
+    /// The text of a span; invalid UTF-8 is replaced.
     #[must_use]
     pub fn slice(&self, span: Span) -> std::borrow::Cow<'_, str> {
         let bytes = self.bytes(span.file);
@@ -259,11 +259,11 @@ impl SourceMap {
         let start = starts.get(line - 1).copied().unwrap_or(0);
         LineColumn {
             line: to_u32(line),
-            column: source.letters_before(offset) - source.letters_before(start) + 1,
+            column: source.characters_before(offset) - source.characters_before(start) + 1,
         }
     }
 
-    /// The byte range of the lines `first..=last` (from 1), line ends included; clipped to the
+    /// The byte range of the lines `first..=last` (from 1), with their newlines, clipped to the
     /// file.
     #[must_use]
     pub fn lines(&self, file: FileId, first: u32, last: u32) -> Span {
@@ -296,39 +296,40 @@ impl SourceFile {
         *self.is_utf8.get_or_init(find)
     }
 
-    /// How many characters begin before a byte; what is not UTF-8 counts as it is shown.
-    fn letters_before(&self, offset: u32) -> u32 {
-        let marks = self.letters.get_or_init(|| marks(&self.bytes));
+    /// The number of characters that start before an offset; invalid UTF-8 counts as it is
+    /// displayed.
+    fn characters_before(&self, offset: u32) -> u32 {
+        let marks = self.characters.get_or_init(|| marks(&self.bytes));
         let next = marks.partition_point(|mark| mark.offset <= offset);
         let mark = marks[next.saturating_sub(1)];
         let end = (offset as usize).min(self.bytes.len());
         let rest = self.bytes.get(mark.offset as usize..end);
         let rest = String::from_utf8_lossy(rest.unwrap_or_default());
-        mark.letters + to_u32(rest.chars().count())
+        mark.characters + to_u32(rest.chars().count())
     }
 }
 
-/// Marks for all of a file, from its beginning on.
-fn marks(bytes: &[u8]) -> Vec<LetterMark> {
-    let (mut marks, mut offset, mut letters) = (Vec::new(), 0, 0);
-    let mut pass = |bytes: usize| {
-        let last = marks.last().map(|mark: &LetterMark| mark.offset as usize);
-        if last.is_none_or(|last| offset - last >= MARKED) {
-            marks.push(LetterMark {
+/// The marks of a whole file.
+fn marks(bytes: &[u8]) -> Vec<ColumnMark> {
+    let (mut marks, mut offset, mut characters) = (Vec::new(), 0, 0);
+    let mut advance = |bytes: usize| {
+        let last = marks.last().map(|mark: &ColumnMark| mark.offset as usize);
+        if last.is_none_or(|last| offset - last >= MARK_INTERVAL) {
+            marks.push(ColumnMark {
                 offset: to_u32(offset),
-                letters,
+                characters,
             });
         }
         offset += bytes;
-        letters += 1;
+        characters += 1;
     };
     for chunk in bytes.utf8_chunks() {
-        chunk.valid().chars().for_each(|c| pass(c.len_utf8()));
+        chunk.valid().chars().for_each(|c| advance(c.len_utf8()));
         if !chunk.invalid().is_empty() {
-            pass(chunk.invalid().len());
+            advance(chunk.invalid().len());
         }
     }
-    pass(0);
+    advance(0);
     marks
 }
 
@@ -368,15 +369,15 @@ mod tests {
         }
     }
 
-    /// However long a line is, no more of it is read for a column than lies between two marks.
+    /// Finding a column reads no more bytes than lie between two marks, however long the line.
     #[test]
     fn the_work_for_a_column_does_not_grow_with_its_line() {
-        for letters in [4_000, 8_000, 16_000] {
-            let line = "ü😀a".repeat(letters);
+        for characters in [4_000, 8_000, 16_000] {
+            let line = "ü😀a".repeat(characters);
             let marks = marks(line.as_bytes());
             let gaps = marks.windows(2).map(|pair| pair[1].offset - pair[0].offset);
-            assert!(gaps.max() <= Some(to_u32(MARKED + 4)));
-            assert!(marks.len() <= line.len() / MARKED + 1);
+            assert!(gaps.max() <= Some(to_u32(MARK_INTERVAL + 4)));
+            assert!(marks.len() <= line.len() / MARK_INTERVAL + 1);
         }
     }
 

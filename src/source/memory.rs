@@ -1,14 +1,14 @@
-//! Files in memory, which a caller hands over in place of a folder.
+//! Files in memory, in place of a folder.
 
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
-/// Files by their paths from a root that is nowhere.
+/// Files by their paths from a virtual root.
 #[derive(Debug, Default)]
 pub struct MemoryFiles(BTreeMap<PathBuf, Vec<u8>>);
 
 impl MemoryFiles {
-    /// These files, each with its path, `/` between components; of two at one path the last.
+    /// Files with their paths, `/` between components; of two files at one path the last is kept.
     #[must_use]
     pub fn new(files: impl IntoIterator<Item = (String, Vec<u8>)>) -> Self {
         let files = files.into_iter();
@@ -19,7 +19,7 @@ impl MemoryFiles {
         )
     }
 
-    /// The path as it is known here, and the bytes of the file there.
+    /// The normalised path and the bytes of a file.
     pub(super) fn get(&self, path: &Path) -> Option<(&Path, &[u8])> {
         let (path, bytes) = self.0.get_key_value(&resolved(path))?;
         Some((path, bytes))
@@ -34,7 +34,7 @@ impl MemoryFiles {
     }
 }
 
-/// A path without `.` and `..`, from the root.
+/// A path from the root, without `.` and `..`.
 pub(super) fn resolved(path: &Path) -> PathBuf {
     let mut resolved = PathBuf::new();
     for part in path.components() {

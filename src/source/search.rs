@@ -1,11 +1,11 @@
-//! Search for the files that a scene names: only below the scene's folder, its parent, or a folder
+//! Finds the files to which a scene refers: only below the scene's folder, its parent, or a folder
 //! that the user allows.
 //!
-//! A name that leads elsewhere (`C:\…\earth.png`, `/home/…`, `../..`) is never followed: the
-//! longest tail of it that exists below those folders is taken, last a name that differs in case
-//! only. Only regular files are found, and judged once they are open. The parent lends what is by name
-//! and first bytes what the scene asks for; a home, a system folder or a hidden file lends nothing.
-//! Whether anything else is there is not told.
+//! A path that leads elsewhere (`C:\…\earth.png`, `/home/…`, `../..`) is never followed: its
+//! longest suffix that exists below those folders is used, and last a name that differs only in
+//! case. Only regular files are found, and they are checked once they are open. The parent folder
+//! is searched only for visible files whose extension and magic bytes match; home and system
+//! folders are never searched. Error messages don't reveal whether any other file exists.
 
 mod folder;
 mod listing;
@@ -21,46 +21,46 @@ use std::path::{Path, PathBuf};
 /// The maximum number of components of a name that are tried, from its end.
 const MAX_COMPONENTS: usize = 16;
 
-/// The folders in which files are looked for, in this order.
+/// The folders that are searched, in this order.
 #[derive(Clone, Debug, Default)]
 pub struct Search {
     folders: Vec<Folder>,
-    /// The last of them is the parent of the scene's folder.
+    /// Whether the last folder is the parent of the scene's folder.
     has_parent: bool,
-    /// The folder the user allows, resolved.
+    /// The folder that the user allows, canonical.
     allowed: Option<PathBuf>,
     listings: Listings,
 }
 
-/// A kind of file that scenes name.
+/// A kind of file that scenes refer to.
 #[derive(Clone, Copy, Debug)]
 pub struct FileKind {
-    /// What its names end in, in lower case.
+    /// The extensions of its names, in lower case.
     pub extensions: &'static [&'static str],
-    /// Whether a file that begins with these bytes, at most 64 KiB, is one.
+    /// Whether a file that begins with these bytes, at most 64 KiB, is of this kind.
     pub begins: fn(&[u8]) -> bool,
 }
 
 /// A file that was found, and is open.
 #[derive(Debug)]
 pub struct Found {
-    /// Its path, free of links.
+    /// Its canonical path.
     pub path: PathBuf,
     /// Its path as the user would write it.
     pub shown: PathBuf,
-    /// It has not the name, or lies not where the name says.
+    /// Whether its name or folder differs from the path that was asked for.
     pub elsewhere: bool,
     opened: Opened,
 }
 
-/// Why there is no such file.
+/// Why a file was not found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Missing {
-    /// There is no folder to look in.
+    /// There is no folder to search.
     NoFolder,
-    /// It was at none of these places.
+    /// The file is at none of these paths.
     Absent(Vec<PathBuf>),
-    /// The name leads out of the folders, and nothing like it is at these places.
+    /// The path leads outside the folders, and no suffix of it exists at these paths.
     Outside(Vec<PathBuf>),
 }
 
@@ -74,7 +74,7 @@ impl Found {
         }
     }
 
-    /// The folder it lies in.
+    /// The folder of the file.
     #[must_use]
     pub fn folder(&self) -> Option<Folder> {
         let shown = self.shown.parent().map(Path::to_owned);
@@ -85,7 +85,7 @@ impl Found {
         })
     }
 
-    /// What tells it from other files; `None` if it can't be read.
+    /// The identity of the file; `None` if it can't be read.
     #[must_use]
     pub fn identity(&self) -> Option<Identity> {
         self.opened.identity()
@@ -96,14 +96,14 @@ impl Found {
     }
 }
 
-/// A name as a scene writes it, on any system.
+/// A path in a scene, with the separators of any system.
 struct Name<'a> {
     components: Vec<&'a str>,
-    /// How many `..` are left over in front.
-    climbs: usize,
-    /// It starts at a drive or at the root.
+    /// The number of leading `..`.
+    parents: usize,
+    /// Whether it starts at a drive or at the root.
     is_absolute: bool,
-    /// White space was cut off.
+    /// Whether white space was removed.
     trimmed: bool,
 }
 
@@ -112,7 +112,7 @@ impl<'a> Name<'a> {
         let text = written.trim();
         let mut name = Self {
             components: Vec::new(),
-            climbs: 0,
+            parents: 0,
             is_absolute: text.starts_with(['/', '\\']),
             trimmed: text.len() != written.len(),
         };
@@ -120,7 +120,7 @@ impl<'a> Name<'a> {
         for part in text.split(['/', '\\']) {
             match part {
                 "" | "." => {}
-                ".." if name.components.pop().is_none() => name.climbs += 1,
+                ".." if name.components.pop().is_none() => name.parents += 1,
                 ".." => {}
                 part if is_drive(part) && name.components.is_empty() => name.is_absolute = true,
                 part => name.components.push(part),
@@ -129,32 +129,32 @@ impl<'a> Name<'a> {
         name
     }
 
-    fn leads_out(&self) -> bool {
-        self.is_absolute || self.climbs > 0
+    fn escapes(&self) -> bool {
+        self.is_absolute || self.parents > 0
     }
 
-    /// Whether it leads where nothing is looked for; the parent is looked in if it lends.
+    /// Whether it leads outside all folders that are searched.
     fn leads_above(&self, has_parent: bool) -> bool {
-        self.is_absolute || self.climbs > usize::from(has_parent)
+        self.is_absolute || self.parents > usize::from(has_parent)
     }
 
-    /// The name's tails, from the longest to its last component.
+    /// The suffixes of the path, from the longest to the last component.
     fn tails(&self) -> impl Iterator<Item = PathBuf> {
         let first = self.components.len().saturating_sub(MAX_COMPONENTS);
         (first..self.components.len()).map(|from| self.components[from..].iter().collect())
     }
 }
 
-/// The entry at a place.
-enum At {
+/// The result of looking up a path in a folder.
+enum Lookup {
     File(Opened),
-    /// A link that leads out, whether there is anything or not.
-    Withheld,
+    /// A link leads outside the folder, whether its target exists or not.
+    Outside,
     Nothing,
 }
 
 impl Search {
-    /// Looks in `folder`, that of the scene, and in `allowed`; of files in memory in all.
+    /// Searches `folder`, that of the scene, and then `allowed`; for files in memory, all folders.
     #[must_use]
     pub fn new(folder: Option<&Folder>, allowed: Option<&Path>) -> Self {
         let given = match folder.and_then(Folder::memory) {
@@ -170,44 +170,45 @@ impl Search {
         }
     }
 
-    /// Looks last in the parent of the scene's `folder` too, unless that is `home` or lends nothing
-    /// for another reason.
+    /// Also searches the parent of the scene's `folder`, last, unless it is `home` or excluded for
+    /// another reason.
     #[must_use]
     pub fn with_parent(mut self, folder: Option<&Folder>, home: Option<&Path>) -> Self {
         let home = home.and_then(|home| fs::canonicalize(home).ok());
-        let lends =
-            |parent: &Folder| parent.lends(home.as_deref()) || self.is_allowed(&parent.resolved);
-        let parent = folder.and_then(Folder::parent).filter(lends);
+        let may_be_searched = |parent: &Folder| {
+            parent.may_be_searched(home.as_deref()) || self.is_allowed(&parent.resolved)
+        };
+        let parent = folder.and_then(Folder::parent).filter(may_be_searched);
         self.has_parent = parent.is_some();
         self.folders.extend(parent);
         self
     }
 
-    /// The file of a kind that a scene names `written`.
+    /// Finds a file of a kind that a scene calls `written`.
     ///
     /// # Errors
-    /// If there is none: the reason, with the places that were searched.
+    /// If there is none: the reason, with the paths that were searched.
     pub fn find(&self, written: &str, kind: &FileKind) -> Result<Found, Missing> {
         let Some(scene) = self.folders.first() else {
             return Err(Missing::NoFolder);
         };
         let name = Name::new(written);
         let mut outside = name.leads_above(self.has_parent);
-        if let Some(opened) = self.climb(scene, &name) {
+        if let Some(opened) = self.open_above(scene, &name) {
             let shown = scene.shown.join(written.trim().replace('\\', "/"));
             return Ok(Found::new(opened, shown, name.trimmed));
         }
-        let mut looked: Vec<PathBuf> = Vec::new();
+        let mut searched: Vec<PathBuf> = Vec::new();
         for (index, tail) in name.tails().enumerate() {
-            let elsewhere = index > 0 || name.leads_out() || name.trimmed;
+            let elsewhere = index > 0 || name.escapes() || name.trimmed;
             for (place, folder) in self.folders.iter().enumerate() {
                 let shown = folder.shown.join(&tail);
                 match self.at(place, &tail, kind) {
-                    At::File(opened) => return Ok(Found::new(opened, shown, elsewhere)),
-                    At::Withheld => outside = true,
-                    At::Nothing => {}
+                    Lookup::File(opened) => return Ok(Found::new(opened, shown, elsewhere)),
+                    Lookup::Outside => outside = true,
+                    Lookup::Nothing => {}
                 }
-                looked.push(shown);
+                searched.push(shown);
             }
         }
         let places = 0..self.folders.len();
@@ -217,47 +218,47 @@ impl Search {
                 .find_map(|at| self.other_case(at, &tail, kind))
         });
         other_case.ok_or(if outside {
-            Missing::Outside(looked)
+            Missing::Outside(searched)
         } else {
-            Missing::Absent(looked)
+            Missing::Absent(searched)
         })
     }
 
-    /// The file at exactly the path `written`, relative and with `/` between components, below the
-    /// folder of the scene or the one the user allows.
+    /// Finds the file at exactly the path `written`, relative and with `/` between components,
+    /// below the folder of the scene or the folder that the user allows.
     ///
     /// # Errors
-    /// If there is none: the reason, with the places that were searched.
+    /// If there is none: the reason, with the paths that were searched.
     pub fn below(&self, written: &str) -> Result<Found, Missing> {
         let own = self.folders.len() - usize::from(self.has_parent);
         if own == 0 {
             return Err(Missing::NoFolder);
         }
         let name = Name::new(written);
-        if name.leads_out() || written.contains('\\') {
+        if name.escapes() || written.contains('\\') {
             return Err(Missing::Outside(Vec::new()));
         }
-        let (mut looked, mut outside) = (Vec::new(), false);
+        let (mut searched, mut outside) = (Vec::new(), false);
         for (folder, shown) in self.folders[..own]
             .iter()
             .map(|folder| (folder, folder.shown.join(written)))
         {
             match self.within(folder, Path::new(written)) {
-                At::File(opened) => return Ok(Found::new(opened, shown, false)),
-                At::Withheld => outside = true,
-                At::Nothing => {}
+                Lookup::File(opened) => return Ok(Found::new(opened, shown, false)),
+                Lookup::Outside => outside = true,
+                Lookup::Nothing => {}
             }
-            looked.push(shown);
+            searched.push(shown);
         }
         Err(if outside {
-            Missing::Outside(looked)
+            Missing::Outside(searched)
         } else {
-            Missing::Absent(looked)
+            Missing::Absent(searched)
         })
     }
 
-    /// The same of a path that climbs by `..`: below the folder the user allows; or, one step up,
-    /// what the folder above lends of a kind.
+    /// The same for a path with leading `..`: below the folder that the user allows, or, with one
+    /// `..`, a file of a kind in the parent folder.
     ///
     /// # Errors
     /// As [`Search::below`].
@@ -271,21 +272,21 @@ impl Search {
             return outside;
         }
         let path: PathBuf = name.components.iter().collect();
-        if name.climbs == 0 {
+        if name.parents == 0 {
             return self.below(&path.to_string_lossy());
         }
         let shown = scene.shown.join(written);
-        if let Some(opened) = self.climb(scene, &name) {
+        if let Some(opened) = self.open_above(scene, &name) {
             return Ok(Found::new(opened, shown, false));
         }
         let parent = self.folders.len() - 1;
-        let Some(kind) = kind.filter(|_| self.has_parent && name.climbs == 1) else {
+        let Some(kind) = kind.filter(|_| self.has_parent && name.parents == 1) else {
             return outside;
         };
         match self.at(parent, &path, kind) {
-            At::File(opened) => Ok(Found::new(opened, shown, false)),
-            At::Withheld => outside,
-            At::Nothing => Err(Missing::Absent(vec![shown])),
+            Lookup::File(opened) => Ok(Found::new(opened, shown, false)),
+            Lookup::Outside => outside,
+            Lookup::Nothing => Err(Missing::Absent(vec![shown])),
         }
     }
 
@@ -295,64 +296,63 @@ impl Search {
             .is_some_and(|allowed| path.starts_with(allowed))
     }
 
-    /// The file at a name with `..` in front, which only the folder the user allows can hold.
-    fn climb(&self, scene: &Folder, name: &Name) -> Option<Opened> {
+    /// The file at a path with leading `..`, which must be below the folder that the user allows.
+    fn open_above(&self, scene: &Folder, name: &Name) -> Option<Opened> {
         self.allowed
             .as_ref()
-            .filter(|_| name.climbs > 0 && !name.is_absolute)?;
-        let above = scene.resolved.ancestors().nth(name.climbs)?;
+            .filter(|_| name.parents > 0 && !name.is_absolute)?;
+        let above = scene.resolved.ancestors().nth(name.parents)?;
         let opened = scene.open(&above.join(name.components.iter().collect::<PathBuf>()))?;
         self.is_allowed(opened.path()).then_some(opened)
     }
 
-    /// What is below the folder at `place`; of the parent only what it lends.
-    fn at(&self, place: usize, tail: &Path, kind: &FileKind) -> At {
+    /// Looks up a path below folder `index`; in the parent folder only files that match the kind.
+    fn at(&self, place: usize, tail: &Path, kind: &FileKind) -> Lookup {
         let folder = &self.folders[place];
         let is_parent = self.has_parent && place + 1 == self.folders.len();
-        let is_lent = |opened: &Opened| {
-            self.is_allowed(opened.path()) || kind.is_lent(opened, &folder.resolved)
+        let matches = |opened: &Opened| {
+            self.is_allowed(opened.path()) || kind.matches(opened, &folder.resolved)
         };
         match self.within(folder, tail) {
-            At::File(opened) if !is_parent || is_lent(&opened) => At::File(opened),
-            At::File(_) | At::Withheld if is_parent => At::Nothing,
-            at @ (At::File(_) | At::Withheld | At::Nothing) => at,
+            Lookup::File(opened) if !is_parent || matches(&opened) => Lookup::File(opened),
+            Lookup::File(_) | Lookup::Outside if is_parent => Lookup::Nothing,
+            at @ (Lookup::File(_) | Lookup::Outside | Lookup::Nothing) => at,
         }
     }
 
-    fn within(&self, folder: &Folder, tail: &Path) -> At {
+    fn within(&self, folder: &Folder, tail: &Path) -> Lookup {
         let is_inside = |opened: &Opened| {
             opened.path().starts_with(&folder.resolved) || self.is_allowed(opened.path())
         };
         let opened = folder.open(&folder.resolved.join(tail));
         match opened.filter(is_inside) {
-            Some(opened) => At::File(opened),
-            None if folder.leads_out(tail) => At::Withheld,
-            None => At::Nothing,
+            Some(opened) => Lookup::File(opened),
+            None if folder.escapes(tail) => Lookup::Outside,
+            None => Lookup::Nothing,
         }
     }
 
-    /// The file whose last component differs from that of `tail` in case only; the first by name,
-    /// if there are more.
+    /// The file whose last component differs from that of `tail` only in case; the first by name if
+    /// there are several.
     fn other_case(&self, place: usize, tail: &Path, kind: &FileKind) -> Option<Found> {
         let folder = &self.folders[place];
-        let wanted = tail.file_name()?.to_str()?;
+        let expected = tail.file_name()?.to_str()?;
         let listing = self
             .listings
             .of(folder, folder.resolved.join(tail).parent()?);
-        listing.alike(wanted).iter().find_map(|name| {
+        listing.ignoring_case(expected).iter().find_map(|name| {
             let tail = tail.with_file_name(name);
             match self.at(place, &tail, kind) {
-                At::File(opened) => Some(Found::new(opened, folder.shown.join(&tail), true)),
-                At::Withheld | At::Nothing => None,
+                Lookup::File(opened) => Some(Found::new(opened, folder.shown.join(&tail), true)),
+                Lookup::Outside | Lookup::Nothing => None,
             }
         })
     }
 }
 
 impl FileKind {
-    /// Whether a file below a folder is of this kind, by its name and its first bytes, and not
-    /// hidden there.
-    fn is_lent(&self, opened: &Opened, folder: &Path) -> bool {
+    /// Whether a file below a folder is of this kind, by extension and first bytes, and not hidden.
+    fn matches(&self, opened: &Opened, folder: &Path) -> bool {
         let extension = opened
             .path()
             .extension()

@@ -134,7 +134,7 @@ fn lights(scene: &Scene) -> Vec<Candidate> {
             scene.lights.remove(index);
         }),
     };
-    let emits = |index: &usize| scene.lights[*index].shines();
+    let emits = |index: &usize| scene.lights[*index].emits();
     let lights = (0..scene.lights.len())
         .filter(emits)
         .take(MAX_PER_KIND)

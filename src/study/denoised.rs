@@ -22,7 +22,7 @@ pub(super) fn film(
     // Render without denoising if that is not requested or not path tracing.
     let paths = match &world.scene().settings().mode {
         Mode::Path(path) if denoise => path.samples.get(),
-        Mode::Path(_) | Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
+        Mode::Path(_) | Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => {
             return world.render(job, on_pixel);
         }
     };

@@ -290,7 +290,7 @@ pub struct PhongTerms {
     /// The weight of the refracted ray.
     pub kt: f64,
     /// The index of refraction.
-    pub eta: f64,
+    pub ior: f64,
 }
 
 /// The parameters of the glTF material that comes nearest to Phong's model; of what it does not
@@ -342,7 +342,7 @@ pub fn fit_phong(phong: &PhongTerms) -> PhongFit {
         specular: one_if(mirrors || refracts),
         transmission: kt,
         thickness: one_if(refracts),
-        ior: phong.eta.max(1.0),
+        ior: phong.ior.max(1.0),
     }
 }
 

@@ -1,4 +1,5 @@
-//! The proof of the camera: a frustum with an inside, steps at right angles, an image with pixels.
+//! Validates the camera: the eye is off the image plane, the steps are perpendicular, the image has
+//! pixels.
 
 use super::check::{Check, SMALLEST};
 use rtc_diag::Diagnostic;
@@ -7,19 +8,19 @@ use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{NonNegative, Vec3};
 use std::num::NonZeroU32;
 
-/// The largest cosine between `right` and `up` that counts as a right angle.
+/// The largest cosine of the angle between `right` and `up` that counts as a right angle.
 const RIGHT_ANGLE: f64 = 1e-9;
 
 /// A camera whose image has pixels and whose eye is off the image plane.
 #[derive(Clone, Debug)]
 pub struct Camera {
-    /// Where rays start.
+    /// The origin of the rays.
     pub eye: Vec3,
-    /// The middle of the image.
+    /// The centre of the image.
     pub center: Vec3,
-    /// The step to the right neighbour of a pixel.
+    /// The vector to the right neighbour of a pixel.
     pub right: Vec3,
-    /// The step to the upper neighbour; at a right angle to `right`.
+    /// The vector to the upper neighbour of a pixel; perpendicular to `right`.
     pub up: Vec3,
     /// Width in pixels.
     pub width: NonZeroU32,
@@ -36,17 +37,17 @@ pub struct Camera {
 pub struct Lens {
     /// The radius of the aperture.
     pub radius: NonNegative,
-    /// The points of the aperture for each sub-sample.
+    /// Aperture samples of each sub-sample.
     pub samples: NonZeroU32,
 }
 
 /// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Projection {
-    /// From the eye.
+    /// Rays start at the eye.
     Perspective,
-    /// Parallel: through each point of the image, along the line from the eye to the middle of the
-    /// image. Each ray starts as far in front of the image as the eye.
+    /// Parallel rays: each passes through its point of the image in the direction from the eye to
+    /// the image centre, and starts at the distance of the eye before the image.
     Orthographic,
 }
 
@@ -94,7 +95,7 @@ fn at(field: Field) -> ValuePath {
     ValuePath::new(EntityKind::Camera, 0, field)
 }
 
-/// A step between pixels: a vector with a length.
+/// A step between pixels: a vector of nonzero length.
 fn step(value: [f64; 3], field: Field, check: &mut Check<'_>) -> Option<Vec3> {
     let vector = check.vector(value, at(field))?;
     if vector.abs().max_element() < SMALLEST {
@@ -103,11 +104,12 @@ fn step(value: [f64; 3], field: Field, check: &mut Check<'_>) -> Option<Vec3> {
         } else {
             "are too small to compute with"
         };
-        let finding = Diagnostic::new(&codes::CAMERA_BASIS, format!("the camera's pixels {what}"));
+        let diagnostic =
+            Diagnostic::new(&codes::CAMERA_BASIS, format!("the camera's pixels {what}"));
         check.report(
             at(field),
             "this step between pixels is shorter than 1e-60",
-            finding,
+            diagnostic,
         );
         return None;
     }
@@ -129,18 +131,18 @@ fn frustum(eye: Vec3, center: Vec3, right: Vec3, up: Vec3, check: &mut Check<'_>
     }
     let normal = rtc_math::cross(right.normalize(), up.normalize());
     if rtc_math::dot(normal, center - eye) == 0.0 {
-        let finding = Diagnostic::new(
+        let diagnostic = Diagnostic::new(
             &codes::EYE_IN_IMAGE_PLANE,
             "the eye lies in the image plane",
         );
-        let finding = finding.also(
+        let diagnostic = diagnostic.also(
             check.span(at(Field::Center)),
             "the plane goes through this point",
         );
         check.report(
             at(Field::Eye),
             "every ray would run inside the image",
-            finding.hint("move the eye off the plane"),
+            diagnostic.hint("move the eye off the plane"),
         );
         return None;
     }
@@ -152,8 +154,8 @@ fn image_size(size: [u32; 2], check: &mut Check<'_>) -> Option<(NonZeroU32, NonZ
         (Some(width), Some(height)) => Some((width, height)),
         _ => {
             let message = format!("the image has no pixels: {} × {}", size[0], size[1]);
-            let finding = Diagnostic::new(&codes::EMPTY_IMAGE, message);
-            check.report(at(Field::Size), "both must be at least 1", finding);
+            let diagnostic = Diagnostic::new(&codes::EMPTY_IMAGE, message);
+            check.report(at(Field::Size), "both must be at least 1", diagnostic);
             None
         }
     }

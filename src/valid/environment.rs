@@ -1,18 +1,18 @@
-//! The proof of the environment.
+//! Validates the environment.
 
 use super::check::Check;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::Vec3;
 
-/// The radiance from directions without a surface.
+/// The radiance along rays that hit no surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Environment {
-    /// The radiance, each channel at least 0, a factor of the image if there is one.
+    /// The radiance, each channel at least 0; a factor of the image if there is one.
     pub radiance: Vec3,
-    /// An image of all directions: an index into [`super::ValidScene::images`].
+    /// An equirectangular image of all directions: an index into [`super::ValidScene::images`].
     pub image: Option<usize>,
-    /// The rows of the rotation from directions of the world to those of the image.
+    /// The rows of the rotation from world directions to image directions.
     pub image_from_world: [Vec3; 3],
 }
 

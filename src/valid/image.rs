@@ -1,13 +1,13 @@
-//! The proof of the images: every image has a pixel for each column and row.
+//! Validates the images: every image has a pixel for each column and row.
 
-use super::check::{Check, place};
+use super::check::Check;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_image::Texels;
-use rtc_ir::{self as ir, EntityKind, Field};
+use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use std::num::NonZeroU32;
 
-/// A picture of at least one pixel.
+/// An image of at least one pixel.
 #[derive(Clone, Debug)]
 pub struct Image {
     /// Width in pixels.
@@ -26,18 +26,19 @@ pub(super) fn image(image: &ir::Image, index: usize, check: &mut Check<'_>) -> O
         kind,
         pixels,
     } = image;
-    let mut refuse = |message: String| {
+    let mut reject = |message: String| {
         check.report(
-            place(EntityKind::Image, index, Field::Whole),
+            ValuePath::new(EntityKind::Image, index, Field::Whole),
             "",
             Diagnostic::new(&codes::BAD_IMAGE, message),
         );
     };
-    let wanted = (u64::from(*width) * u64::from(*height)).saturating_mul(kind.bytes() as u64);
+    let expected = (u64::from(*width) * u64::from(*height)).saturating_mul(kind.bytes() as u64);
     let sides = NonZeroU32::new(*width).zip(NonZeroU32::new(*height));
-    let Some((sound_width, sound_height)) = sides.filter(|_| pixels.len() as u64 == wanted) else {
-        refuse(format!(
-            "an image of {width} × {height} pixels has {} bytes of {wanted}",
+    let Some((valid_width, valid_height)) = sides.filter(|_| pixels.len() as u64 == expected)
+    else {
+        reject(format!(
+            "an image of {width} × {height} pixels has {} bytes of {expected}",
             pixels.len()
         ));
         return None;
@@ -49,12 +50,12 @@ pub(super) fn image(image: &ir::Image, index: usize, check: &mut Check<'_>) -> O
         ir::Pixels::Rgb32f => Texels::Rgb32f(pixels),
     };
     if !texels.are_light() {
-        refuse("an image has a pixel that is negative or not finite".to_owned());
+        reject("an image has a pixel that is negative or not finite".to_owned());
         return None;
     }
     Some(Image {
-        width: sound_width,
-        height: sound_height,
+        width: valid_width,
+        height: valid_height,
         texels,
     })
 }

@@ -1,19 +1,19 @@
 //! Lints for a light or an eye inside a solid.
 //!
-//! A solid is a curved shape with an inside, or the closed surface of one object: the triangles of a
-//! box, a prism or a tetrahedron, or a mesh. For the latter the generalised winding number (Jacobson,
-//! Kavan, Sorkine-Hornung 2013, "Robust inside-outside segmentation using generalized winding
-//! numbers", eq. 5) tells the inside: it is ±1 inside a closed surface, 0 outside, and in between for
-//! an open one.
+//! A solid is a curved shape with an inside, or the closed surface of one object: the triangles of
+//! a box, a prism or a tetrahedron, or a mesh. For the latter the generalised winding number
+//! (Jacobson, Kavan, Sorkine-Hornung 2013, "Robust inside-outside segmentation using generalized
+//! winding numbers", eq. 5) decides: it is ±1 inside a closed surface, 0 outside, and in between
+//! for an open one.
 
-use super::check::{Check, place};
+use super::check::Check;
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, EntityKind, Field, Shape};
+use rtc_ir::{self as ir, EntityKind, Field, Shape, ValuePath};
 use rtc_math::{Vec3, atan2, unit};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// The limit on points times primitives: beyond it the search is left out.
+/// The maximum number of points times primitives; beyond it the lint is skipped.
 const MAX_PAIRS: usize = 1_000_000;
 
 /// A solid of the scene.
@@ -34,7 +34,7 @@ struct Solids<'s> {
 impl<'s> Solids<'s> {
     /// Groups the surfaces. Surfaces that one object of the text was lowered to have one span.
     fn new(scene: &'s ir::Scene, check: &Check<'_>) -> Self {
-        let span = |index| check.span(place(EntityKind::Surface, index, Field::Whole));
+        let span = |index| check.span(ValuePath::new(EntityKind::Surface, index, Field::Whole));
         let is_flat = |index: usize| is_flat(&scene.surfaces[index].shape);
         let mut solids = Vec::new();
         let mut start = 0;
@@ -61,7 +61,7 @@ impl<'s> Solids<'s> {
         }
     }
 
-    /// The number of primitives that the tests of one point against all solids look at.
+    /// The number of primitives that one point is tested against.
     fn cost(&self) -> usize {
         let primitives = |surface: &ir::Surface| match &surface.shape {
             Shape::Instance(instance) => self
@@ -84,7 +84,7 @@ impl<'s> Solids<'s> {
         let surfaces = self.surfaces(solid);
         let shape = &surfaces[0].shape;
         if !is_flat(shape) {
-            return holds(shape, point);
+            return contains_point(shape, point);
         }
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for surface in surfaces {
@@ -181,13 +181,13 @@ pub(super) fn lights(scene: &ir::Scene, check: &mut Check<'_>) {
         let name = solid.name;
         let message = format!("a light is inside a {name}");
         let diagnostic = Diagnostic::new(&codes::LIGHT_INSIDE, message);
-        let span = check.span(place(
+        let span = check.span(ValuePath::new(
             EntityKind::Surface,
             solid.surfaces.start,
             Field::Whole,
         ));
         check.report(
-            place(EntityKind::Light, index, Field::Position),
+            ValuePath::new(EntityKind::Light, index, Field::Position),
             &format!("with shadows, the {name} blocks this light to the outside"),
             diagnostic.also(span, format!("the {name}")),
         );
@@ -234,21 +234,21 @@ pub(super) fn eye(scene: &ir::Scene, check: &mut Check<'_>) {
     }
     let name = solid.name;
     let message = format!("the eye is inside a {name} that hides all other objects");
-    let span = check.span(place(
+    let span = check.span(ValuePath::new(
         EntityKind::Surface,
         solid.surfaces.start,
         Field::Whole,
     ));
     let diagnostic = Diagnostic::new(&codes::EYE_INSIDE, message).also(span, format!("the {name}"));
     check.report(
-        place(EntityKind::Camera, 0, Field::Eye),
+        ValuePath::new(EntityKind::Camera, 0, Field::Eye),
         "every ray starts in there",
         diagnostic,
     );
 }
 
-/// Whether a point lies inside a solid; what has no inside that one formula tells holds nothing.
-fn holds(shape: &ir::Shape, point: Vec3) -> bool {
+/// Whether a solid given by one formula contains a point; false for other shapes.
+fn contains_point(shape: &ir::Shape, point: Vec3) -> bool {
     match shape {
         ir::Shape::Sphere(sphere) => {
             point.distance(Vec3::from_array(sphere.center)) < sphere.radius
@@ -260,19 +260,19 @@ fn holds(shape: &ir::Shape, point: Vec3) -> bool {
                 height,
                 radius,
             } = cylinder;
-            let way = unit(Vec3::from_array(*axis)).map(|axis| axis * *height);
+            let up = unit(Vec3::from_array(*axis)).map(|axis| axis * *height);
             let from_base = point - Vec3::from_array(*base);
-            along(from_base, way).is_some_and(|(_, off)| off < *radius)
+            along(from_base, up).is_some_and(|(_, off)| off < *radius)
         }
         ir::Shape::Cone(ir::Cone { base, up, radius }) => {
             let from_base = point - Vec3::from_array(*base);
-            let place = along(from_base, Some(Vec3::from_array(*up)));
-            place.is_some_and(|(share, off)| off < radius * (1.0 - share))
+            let coordinates = along(from_base, Some(Vec3::from_array(*up)));
+            coordinates.is_some_and(|(fraction, off)| off < radius * (1.0 - fraction))
         }
         ir::Shape::Paraboloid(ir::Paraboloid { base, up, radius }) => {
             let from_base = point - Vec3::from_array(*base);
-            let place = along(from_base, Some(Vec3::from_array(*up)));
-            place.is_some_and(|(share, off)| off < radius * (1.0 - share).sqrt())
+            let coordinates = along(from_base, Some(Vec3::from_array(*up)));
+            coordinates.is_some_and(|(fraction, off)| off < radius * (1.0 - fraction).sqrt())
         }
         ir::Shape::Torus(torus) => {
             let ir::Torus {
@@ -297,11 +297,11 @@ fn holds(shape: &ir::Shape, point: Vec3) -> bool {
     }
 }
 
-/// Where a point is beside the way from the base of a solid to its top: after which share of it,
-/// and how far off; none if it is below or above.
-fn along(from_base: Vec3, way: Option<Vec3>) -> Option<(f64, f64)> {
-    let way = way?;
-    let (axis, height) = (unit(way)?, way.length());
+/// The position of a point along the axis of a solid: the fraction of the height above the base,
+/// and the distance from the axis. `None` below the base or above the top.
+fn along(from_base: Vec3, up: Option<Vec3>) -> Option<(f64, f64)> {
+    let up = up?;
+    let (axis, height) = (unit(up)?, up.length());
     let above = axis.dot(from_base);
     (above > 0.0 && above < height).then(|| (above / height, (from_base - axis * above).length()))
 }

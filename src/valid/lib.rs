@@ -1,8 +1,24 @@
-//! The proof: only [`validate`] makes a [`ValidScene`], and every number in a proof is in its range.
+//! Validates a scene: [`validate`] is the only way to make a [`ValidScene`], in which every number
+//! is in range.
 //!
-//! All checks on the IR are here, so a faulty IR file is refused like a faulty text. This room does
-//! not know the source of a scene: it looks up spans in the origins it is given, and every finding
-//! has a JSON pointer.
+//! # Overview
+//! - [`validate`] takes an `ir::Scene` and its source spans, reports every error to the sink, and
+//!   returns a [`ValidScene`] if there is none.
+//! - [`ValidScene`] has its own types for each kind of entity, with the same names as in the IR:
+//!   [`Camera`], [`Settings`], [`Light`], [`Image`], [`Texture`], [`Mesh`], [`Material`],
+//!   [`Surface`]. Their fields have types that state the range, such as `Positive` and
+//!   `UnitInterval`.
+//! - Each kind of entity has a file, which destructures the IR type completely: a new field does
+//!   not compile until it is checked.
+//! - Lints (`lint`, `inside`) warn about values that are valid but probably unintended.
+//!
+//! # Guarantees
+//! - Indices are in range, numbers finite and in range, directions nonzero, camera axes
+//!   perpendicular, and faces have an area (those without are dropped with a warning).
+//! - Code that receives a [`ValidScene`] needs no further checks and can't fail.
+//! - All checks of the IR are here, so an invalid IR file is rejected like an invalid text. This
+//!   package does not know where a scene came from: it looks up spans in [`SourceSpans`], and every
+//!   diagnostic has a JSON pointer into the IR.
 
 mod camera;
 mod check;
@@ -10,13 +26,13 @@ mod environment;
 mod image;
 mod inside;
 mod light;
+mod lint;
 mod material;
 mod mesh;
 mod phong;
 mod settings;
 mod shape;
 mod standard;
-mod suspicion;
 mod texture;
 
 pub use camera::{Camera, Lens, Projection};
@@ -25,7 +41,7 @@ pub use environment::Environment;
 pub use image::Image;
 pub use light::{CourseLight, DirectionalLight, Falloff, Light, PointLight, Punctual};
 pub use material::Material;
-pub use mesh::{MOST_TRIANGLES, Mesh};
+pub use mesh::{MAX_MESH_TRIANGLES, Mesh};
 pub use phong::{Bump, Maps, Phong};
 pub use settings::{Ambient, Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::*;
@@ -38,15 +54,15 @@ use rtc_ir::{self as ir, SourceSpans};
 use rtc_source::Limits;
 use std::sync::Arc;
 
-/// What the proof accepts.
+/// Options of the validation.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct ProofOptions {
-    /// The limits on the pixels of the picture and on its rays.
+pub struct ValidationOptions {
+    /// The limits on the pixels and the rays of the picture.
     pub limits: Limits,
 }
 
-/// A proven scene: handles in range, numbers finite and in range, bases at right angles, triangles
-/// with an area.
+/// A valid scene: indices in range, numbers finite and in range, camera axes perpendicular,
+/// triangles with an area.
 #[derive(Clone, Debug)]
 pub struct ValidScene {
     camera: Camera,
@@ -73,7 +89,7 @@ impl ValidScene {
         &self.settings
     }
 
-    /// The lights, of any kind, in the order of the scene.
+    /// The lights, in the order of the scene.
     #[must_use]
     pub fn lights(&self) -> &[Light] {
         &self.lights
@@ -103,13 +119,13 @@ impl ValidScene {
         &self.meshes
     }
 
-    /// The materials, of any family.
+    /// The materials.
     #[must_use]
     pub fn materials(&self) -> &[Material] {
         &self.materials
     }
 
-    /// The surfaces, without triangles that have no area.
+    /// The surfaces, without faces that have no area.
     #[must_use]
     pub fn surfaces(&self) -> &[Surface] {
         &self.surfaces
@@ -117,8 +133,7 @@ impl ValidScene {
 }
 
 impl ValidScene {
-    /// The same scene with another camera, for a picture of the same size; `None` if that camera is
-    /// not valid.
+    /// The same scene with another camera of the same image size; `None` if that camera is invalid.
     #[must_use]
     pub fn seen_by(&self, camera: &ir::Camera) -> Option<Self> {
         let (source_spans, mut sink) = (SourceSpans::default(), Sink::default());
@@ -132,31 +147,32 @@ impl ValidScene {
     }
 }
 
-/// The proof of a scene that was already proven with another camera or in other settings.
+/// Validates a scene that was valid before and whose camera or settings were changed to valid
+/// values.
 ///
 /// # Panics
-/// If what was changed is out of range.
+/// If the scene is invalid.
 #[must_use]
 pub fn revalidate(scene: &ir::Scene) -> ValidScene {
-    let options = ProofOptions {
+    let options = ValidationOptions {
         limits: Limits::NONE,
     };
-    let proof = validate(
+    let surface_check = validate(
         scene,
         &SourceSpans::default(),
         &options,
         &mut Sink::default(),
     );
-    proof.expect("the scene was proven before, and what was changed is in range")
+    surface_check.expect("the scene was proven before, and what was changed is in range")
 }
 
-/// Proves the scene, or reports in the sink all faults of it, not only the first.
+/// Validates the scene and reports all errors to the sink, not only the first.
 ///
 /// Returns `None` if and only if this call reported an error.
 pub fn validate(
     scene: &ir::Scene,
     source_spans: &SourceSpans,
-    options: &ProofOptions,
+    options: &ValidationOptions,
     sink: &mut Sink,
 ) -> Option<ValidScene> {
     let ir::Scene {
@@ -208,6 +224,6 @@ pub fn validate(
         surfaces: valid_surfaces?.into_iter().flatten().collect(),
     };
     inside::lights(scene, &mut check);
-    suspicion::suspicions(scene, &mut check);
+    lint::lints(scene, &mut check);
     check.is_clean().then_some(valid)
 }

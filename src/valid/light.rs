@@ -1,6 +1,6 @@
-//! The proof of the lights.
+//! Validates the lights.
 
-use super::check::{Check, place};
+use super::check::Check;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
@@ -10,62 +10,62 @@ use rtc_profile::Profile;
 /// A light of any kind.
 #[derive(Clone, Debug)]
 pub enum Light {
-    /// A light of the course, in units of the display.
+    /// A light of the course, in display values.
     Course(CourseLight),
     /// A light in physical units.
     Punctual(Punctual),
 }
 
-/// A point light without falloff, equal in all directions; a soft light if it has a radius.
+/// A point light without falloff, equal in all directions; a spherical light if it has a radius.
 #[derive(Clone, Copy, Debug)]
 pub struct CourseLight {
-    /// Where it stands.
+    /// The position.
     pub position: Vec3,
-    /// Its colour, each channel at least 0.
+    /// The intensity, linear RGB, each channel at least 0.
     pub color: Vec3,
-    /// Its radius; 0 for a point.
+    /// The radius; 0 for a point.
     pub radius: NonNegative,
 }
 
 /// A light without extent, in physical units.
 #[derive(Clone, Debug)]
 pub enum Punctual {
-    /// From infinitely far away.
+    /// A directional light.
     Directional(DirectionalLight),
-    /// From a point.
+    /// A point light.
     Point(PointLight),
 }
 
 /// A light infinitely far away.
 #[derive(Clone, Copy, Debug)]
 pub struct DirectionalLight {
-    /// The unit vector to it.
+    /// The unit vector to the light.
     pub direction: Vec3,
     /// The irradiance on a surface that faces it, each channel at least 0.
     pub irradiance: Vec3,
 }
 
-/// A point that shines.
+/// A point light with an angular distribution.
 #[derive(Clone, Debug)]
 pub struct PointLight {
-    /// Where it stands.
+    /// The position.
     pub position: Vec3,
-    /// The radiant intensity, each channel at least 0, by how much of it goes in a direction.
+    /// The radiant intensity, each channel at least 0; the profile multiplies it.
     pub intensity: Vec3,
-    /// How much of the intensity goes in which direction.
+    /// The angular distribution of the intensity.
     pub profile: Profile,
     /// The falloff.
     pub falloff: Falloff,
 }
 
-/// How light fades with distance.
+/// How the irradiance depends on the distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Falloff {
     /// Not at all, as in the course.
     None,
-    /// With the square of the distance.
+    /// It falls with the square of the distance.
     Square,
-    /// With the square of the distance, down to zero at a range.
+    /// It falls with the square of the distance, and to zero at a range.
     Ranged(Positive),
 }
 
@@ -82,7 +82,7 @@ fn course(light: &ir::PointLight, index: usize, check: &mut Check<'_>) -> Option
         color,
         radius,
     } = light;
-    let at = |field| place(EntityKind::Light, index, field);
+    let at = |field| ValuePath::new(EntityKind::Light, index, field);
     let position = check.vector(*position, at(Field::Position));
     let color = check.color(*color, at(Field::Color));
     let radius = check.non_negative(*radius, "radius", at(Field::LightRadius));
@@ -94,10 +94,10 @@ fn course(light: &ir::PointLight, index: usize, check: &mut Check<'_>) -> Option
 }
 
 fn punctual(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> Option<Punctual> {
-    let at = place(EntityKind::Light, index, Field::Whole);
+    let at = ValuePath::new(EntityKind::Light, index, Field::Whole);
     let ir::Punctual { emitter, intensity } = light;
     let intensity = check.color(*intensity, at);
-    let place = emitter.position().map(|position| {
+    let located = emitter.position().map(|position| {
         (
             check.vector(position, at),
             falloff(emitter.range(), at, check),
@@ -111,14 +111,14 @@ fn punctual(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> Option
     if direction == Some(None) {
         return None;
     }
-    let Some((position, falloff)) = place else {
+    let Some((position, falloff)) = located else {
         return Some(Punctual::Directional(DirectionalLight {
             direction: direction??,
             irradiance: intensity?,
         }));
     };
-    let refuse = |fault| check.report(at, "", Diagnostic::new(&codes::BAD_LIGHT, fault));
-    let profile = emitter.profile().map_err(refuse).ok();
+    let reject = |find_error| check.report(at, "", Diagnostic::new(&codes::BAD_LIGHT, find_error));
+    let profile = emitter.profile().map_err(reject).ok();
     Some(Punctual::Point(PointLight {
         position: position?,
         intensity: intensity?,

@@ -1,14 +1,14 @@
-//! The proof of the materials, of any family.
+//! Validates the materials.
 
 use super::check::{Check, EntityCounts};
 use super::phong::{self, Phong};
 use super::standard::{self, Standard};
 use rtc_ir as ir;
 
-/// A material of any family.
+/// A material of either model.
 #[derive(Clone, Debug)]
 pub enum Material {
-    /// Phong's model with mirror and refraction.
+    /// The Phong model with reflection and refraction.
     Phong(Phong),
     /// The material of glTF.
     Standard(Box<Standard>),

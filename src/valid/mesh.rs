@@ -1,47 +1,46 @@
-//! The proof of the meshes: their corners are finite, their triangles refer to existing corners and
-//! have an area.
+//! Validates the meshes: vertices are finite, triangles refer to existing vertices and have an
+//! area.
 
-use super::check::{Check, LARGEST, place};
+use super::check::{Check, LARGEST};
 use super::shape::has_area;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
-use rtc_ir::{self as ir, EntityKind, Field};
+use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{Column, Shared, Vec3, unit};
 
-/// A mesh has at most so many triangles: a hierarchy over them takes 21 GB.
-pub const MOST_TRIANGLES: usize = 1 << 29;
+/// The maximum number of triangles of a mesh: its BVH takes 21 GB.
+pub const MAX_MESH_TRIANGLES: usize = 1 << 29;
 
-/// Triangles over one list of corners. Its columns are shared with the scene.
+/// Triangles over one list of vertices. Its columns are shared with the scene.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
-    /// The positions of the corners.
+    /// The position of each vertex.
     pub positions: Column<3>,
-    /// The shading normal at each corner, finite and of any length, or zero where it has none;
+    /// The shading normal at each vertex, finite and of any length, or zero where there is none;
     /// empty for flat shading.
     pub normals: Column<3>,
-    /// The texture coordinates at each corner; empty if there are none.
+    /// The texture coordinates at each vertex; empty if there are none.
     pub uvs: Column<2>,
     /// The second set of texture coordinates; empty if there is none.
     pub second_uvs: Column<2>,
-    /// The direction of growing u at each corner, and ±1 for the side of growing v; empty if there
-    /// are none.
+    /// The tangent at each vertex, and ±1 for the side of the bitangent; empty if there are none.
     pub tangents: Column<4>,
-    /// The colour at each corner, with alpha, each at least 0; empty if there are none.
+    /// The colour at each vertex, with alpha, each at least 0; empty if there are none.
     pub colors: Column<4>,
-    /// The corners of each triangle, in range; every triangle has an area.
+    /// The vertex indices of each triangle, in range; every triangle has an area.
     pub triangles: Shared<[u32; 3]>,
 }
 
 impl Mesh {
-    /// The positions of the corners of a triangle.
+    /// The vertex positions of a triangle.
     #[must_use]
     #[inline]
     pub fn corners(&self, triangle: [u32; 3]) -> [Vec3; 3] {
         corners(&self.positions, triangle)
     }
 
-    /// The unit shading normal at corner `corner` of a mesh that has normals, or zero where it has
-    /// none.
+    /// The unit shading normal at vertex `corner` of a mesh that has normals, or zero where there
+    /// is none.
     #[must_use]
     #[inline]
     pub fn normal(&self, corner: u32) -> Vec3 {
@@ -50,8 +49,8 @@ impl Mesh {
 }
 
 pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Option<Mesh> {
-    let whole = place(EntityKind::Mesh, index, Field::Whole);
-    if let Some(message) = fault(mesh) {
+    let whole = ValuePath::new(EntityKind::Mesh, index, Field::Whole);
+    if let Some(message) = find_error(mesh) {
         check.report(whole, "", Diagnostic::new(&codes::BAD_MESH, message));
         return None;
     }
@@ -66,7 +65,7 @@ pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Opti
         colors,
         triangles,
     } = mesh.clone();
-    let mut proven = Mesh {
+    let mut valid = Mesh {
         positions,
         normals,
         uvs,
@@ -91,19 +90,19 @@ pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Opti
             "",
             Diagnostic::new(&codes::DEGENERATE_TRIANGLE, message),
         );
-        proven.triangles = mesh.triangles.iter().copied().filter(shows).collect();
+        valid.triangles = mesh.triangles.iter().copied().filter(shows).collect();
     }
-    Some(proven)
+    Some(valid)
 }
 
 fn corners(positions: &Column<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
     let position = |corner: u32| Vec3::from_array(positions.at(corner as usize));
-    // Written out: `map` of an array is not inlined here, and doubles the time for a large mesh.
+    // Written out: `map` of an array is not inlined here and doubles the time for a large mesh.
     [position(a), position(b), position(c)]
 }
 
-/// The first fault of a mesh, in words.
-fn fault(mesh: &ir::Mesh) -> Option<String> {
+/// A message for the first error of a mesh.
+fn find_error(mesh: &ir::Mesh) -> Option<String> {
     let ir::Mesh {
         name: _,
         part: _,
@@ -115,19 +114,19 @@ fn fault(mesh: &ir::Mesh) -> Option<String> {
         colors,
         triangles,
     } = mesh;
-    fault_of_numbers(positions, normals)
-        .or_else(|| fault_of_columns([uvs, second_uvs], tangents, colors))
-        .or_else(|| fault_of_lengths(mesh))
-        .or_else(|| fault_of_count(triangles.len()))
-        .or_else(|| fault_of_triangles(triangles, positions.len()))
+    error_in_numbers(positions, normals)
+        .or_else(|| error_in_columns([uvs, second_uvs], tangents, colors))
+        .or_else(|| error_in_lengths(mesh))
+        .or_else(|| error_in_count(triangles.len()))
+        .or_else(|| error_in_triangles(triangles, positions.len()))
 }
 
-fn is_sound(value: &f64) -> bool {
+fn is_valid(value: &f64) -> bool {
     value.abs() <= LARGEST
 }
 
-fn fault_of_numbers(positions: &Column<3>, normals: &Column<3>) -> Option<String> {
-    if let Some(vertex) = positions.iter().position(|p| !p.iter().all(is_sound)) {
+fn error_in_numbers(positions: &Column<3>, normals: &Column<3>) -> Option<String> {
+    if let Some(vertex) = positions.iter().position(|p| !p.iter().all(is_valid)) {
         return Some(format!(
             "vertex {vertex} of a mesh is not finite: {:?}",
             positions.at(vertex)
@@ -141,16 +140,16 @@ fn fault_of_numbers(positions: &Column<3>, normals: &Column<3>) -> Option<String
     ))
 }
 
-fn fault_of_columns(
+fn error_in_columns(
     uvs: [&Column<2>; 2],
     tangents: &Column<4>,
     colors: &Column<4>,
 ) -> Option<String> {
     let mut all_uvs = uvs[0].iter().chain(uvs[1].iter());
-    if let Some(vertex) = all_uvs.position(|uv| !uv.iter().all(is_sound)) {
+    if let Some(vertex) = all_uvs.position(|uv| !uv.iter().all(is_valid)) {
         return Some(format!("uv {vertex} of a mesh is not finite"));
     }
-    if let Some(vertex) = tangents.iter().position(|t| !t.iter().all(is_sound)) {
+    if let Some(vertex) = tangents.iter().position(|t| !t.iter().all(is_valid)) {
         return Some(format!(
             "tangent {vertex} of a mesh is not finite: {:?}",
             tangents.at(vertex)
@@ -164,7 +163,7 @@ fn fault_of_columns(
     ))
 }
 
-fn fault_of_lengths(mesh: &ir::Mesh) -> Option<String> {
+fn error_in_lengths(mesh: &ir::Mesh) -> Option<String> {
     let count = mesh.positions.len();
     let matches = |length: usize| length == 0 || length == count;
     let (normals, uvs) = (mesh.normals.len(), mesh.uvs.len());
@@ -175,26 +174,27 @@ fn fault_of_lengths(mesh: &ir::Mesh) -> Option<String> {
     }
     let (uvs, tangents) = (mesh.second_uvs.len(), mesh.tangents.len());
     let colors = mesh.colors.len();
-    let is_sound = matches(uvs) && matches(tangents) && matches(colors);
-    (!is_sound).then(|| {
+    let is_valid = matches(uvs) && matches(tangents) && matches(colors);
+    (!is_valid).then(|| {
         format!(
             "a mesh has {count} positions, {uvs} second uvs, {tangents} tangents and {colors} colours"
         )
     })
 }
 
-fn fault_of_count(triangles: usize) -> Option<String> {
-    let message =
-        || format!("a mesh has {triangles} triangles; at most {MOST_TRIANGLES} can be rendered");
-    (triangles > MOST_TRIANGLES).then(message)
+fn error_in_count(triangles: usize) -> Option<String> {
+    let message = || {
+        format!("a mesh has {triangles} triangles; at most {MAX_MESH_TRIANGLES} can be rendered")
+    };
+    (triangles > MAX_MESH_TRIANGLES).then(message)
 }
 
-fn fault_of_triangles(triangles: &[[u32; 3]], count: usize) -> Option<String> {
-    let is_lost = |triangle: &[u32; 3]| triangle.iter().any(|k| *k as usize >= count);
-    let lost = triangles.iter().position(is_lost)?;
+fn error_in_triangles(triangles: &[[u32; 3]], count: usize) -> Option<String> {
+    let is_out_of_range = |triangle: &[u32; 3]| triangle.iter().any(|k| *k as usize >= count);
+    let out_of_range = triangles.iter().position(is_out_of_range)?;
     Some(format!(
-        "triangle {lost} of a mesh refers to {:?}, but the mesh has {count} vertices",
-        triangles[lost]
+        "triangle {out_of_range} of a mesh refers to {:?}, but the mesh has {count} vertices",
+        triangles[out_of_range]
     ))
 }
 
@@ -203,9 +203,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_mesh_of_more_than_a_hierarchy_holds_has_a_fault() {
-        assert_eq!(fault_of_count(MOST_TRIANGLES), None);
-        let fault = fault_of_count(MOST_TRIANGLES + 1);
-        assert!(fault.is_some_and(|fault| fault.contains("536870913 triangles")));
+    fn a_mesh_of_more_triangles_than_a_bvh_holds_has_an_error() {
+        assert_eq!(error_in_count(MAX_MESH_TRIANGLES), None);
+        let error = error_in_count(MAX_MESH_TRIANGLES + 1);
+        assert!(error.is_some_and(|error| error.contains("536870913 triangles")));
     }
 }

@@ -1,12 +1,12 @@
-//! The proof of Phong's model.
+//! Validates the Phong model.
 
-use super::check::{Check, EntityCounts, place};
+use super::check::{Check, EntityCounts};
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityKind, Field, TextureId, ValuePath};
 use rtc_math::{NonNegative, Positive, Vec3};
 use std::num::NonZeroU32;
 
-/// Phong's model with mirror and refraction; see [`ir::Phong`] for the formula.
+/// The Phong model with reflection and refraction; see [`ir::Phong`] for the formula.
 #[derive(Clone, Debug)]
 pub struct Phong {
     /// The colour of the surface.
@@ -15,15 +15,15 @@ pub struct Phong {
     pub ka: NonNegative,
     /// The weight of the diffuse term.
     pub kd: NonNegative,
-    /// The weight of the highlight and of the mirror ray.
+    /// The weight of the highlight and of the reflected ray.
     pub ks: NonNegative,
     /// The exponent of the highlight and of the glossy lobe.
     pub n: NonNegative,
     /// The weight of the refracted ray.
     pub kt: NonNegative,
-    /// The index of refraction of the inside over that of the outside.
-    pub eta: Positive,
-    /// Rays of the glossy lobe.
+    /// The relative index of refraction, inside over outside.
+    pub ior: Positive,
+    /// The number of rays that sample the glossy lobe.
     pub glossy_samples: NonZeroU32,
     /// The textures, if there are any.
     pub maps: Option<Box<Maps>>,
@@ -32,13 +32,13 @@ pub struct Phong {
 /// Textures of a material, as indices into [`super::ValidScene::textures`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Maps {
-    /// The texture that gives the colour.
+    /// The texture of the colour.
     pub color: Option<usize>,
     /// The texture whose red channel multiplies ks.
     pub specular: Option<usize>,
-    /// The texture of the shading normal.
+    /// The normal map.
     pub normal: Option<usize>,
-    /// The height field.
+    /// The bump map.
     pub bump: Option<Bump>,
 }
 
@@ -64,21 +64,21 @@ pub(super) fn phong(
         ks,
         n,
         kt,
-        eta,
+        ior,
         glossy_samples,
         color_map,
         specular_map,
         normal_map,
         bump,
     } = phong;
-    let at = |field| place(EntityKind::Material, index, field);
+    let at = |field| ValuePath::new(EntityKind::Material, index, field);
     let color = check.color(*color, at(Field::Color));
     let ka = check.non_negative(*ka, "ka", at(Field::Ka));
     let kd = check.non_negative(*kd, "kd", at(Field::Kd));
     let ks = check.non_negative(*ks, "ks", at(Field::Ks));
     let n = check.exponent(*n, at(Field::N));
     let kt = check.non_negative(*kt, "refract", at(Field::Kt));
-    let eta = check.length(*eta, at(Field::Eta), &codes::ETA, "index of refraction");
+    let ior = check.length(*ior, at(Field::Ior), &codes::ETA, "index of refraction");
     let glossy_samples = check.count(*glossy_samples, "glossySamples", at(Field::GlossySamples));
     let mut texture = |id: &Option<TextureId>, field| {
         check.optional(id.as_ref(), |check, id| {
@@ -104,7 +104,7 @@ pub(super) fn phong(
         ks: ks?,
         n: n?,
         kt: kt?,
-        eta: eta?,
+        ior: ior?,
         glossy_samples: glossy_samples?,
         maps: maps.has_some().then(|| Box::new(maps)),
     })
@@ -113,12 +113,12 @@ pub(super) fn phong(
 fn height_field(
     bump: &ir::Bump,
     counts: &EntityCounts,
-    place: ValuePath,
+    path: ValuePath,
     check: &mut Check<'_>,
 ) -> Option<Bump> {
     let ir::Bump { texture, height } = bump;
-    let texture = check.handle(texture.0, counts.textures, "texture", place);
-    let height = check.number(*height, place);
+    let texture = check.handle(texture.0, counts.textures, "texture", path);
+    let height = check.number(*height, path);
     Some(Bump {
         texture: texture?,
         height: height?,

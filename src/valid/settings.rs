@@ -1,4 +1,4 @@
-//! The proof of the settings, and the limits on pixels and rays.
+//! Validates the settings, and the limits on pixels and rays.
 
 use super::check::Check;
 use rtc_color::Tone;
@@ -8,34 +8,34 @@ use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_source::Resource;
 use std::num::NonZeroU32;
 
-/// The largest number of bounces: a path keeps a few bytes for each.
+/// The maximum number of bounces: a path stores a few bytes for each.
 const MAX_DEPTH: u32 = 1_000_000;
 
-/// The settings of a picture.
+/// The integrator and its sampling parameters.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// What a pixel shows.
+    /// The integrator.
     pub mode: Mode,
-    /// Whether surfaces hide lights from each other.
+    /// Whether surfaces cast shadows.
     pub shadows: bool,
-    /// Mirror or refraction bounces after the first hit.
+    /// The maximum number of reflections or refractions after the first hit.
     pub max_depth: u32,
     /// Sub-samples along each side of a pixel.
     pub supersampling: NonZeroU32,
     /// The position of each sub-sample in its cell.
     pub pattern: Pattern,
-    /// Points of each soft light.
+    /// Samples per soft light.
     pub light_samples: NonZeroU32,
-    /// Whether Phong's terms of the first hit fall in steps, as in a cartoon; only in his mode.
+    /// Toon shading: the Phong terms of the first hit are quantised; true in Phong mode only.
     pub toon: bool,
-    /// How often Phong's ambient term is added.
+    /// How often the ambient term of the Phong model is added.
     pub ambient: Ambient,
 }
 
-/// How often Phong's ambient term is added.
+/// How often the ambient term of the Phong model is added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ambient {
-    /// Once for each light, times its colour.
+    /// Once per light, multiplied by the colour of the light.
     PerLight,
     /// Once.
     Once,
@@ -46,40 +46,39 @@ pub enum Ambient {
 pub enum Pattern {
     /// At the centre of the cell.
     Grid,
-    /// Random in the cell, seeded by pixel and sample.
+    /// Uniformly in the cell, seeded by pixel and sample.
     Jitter,
-    /// Random in the pixel, seeded by pixel and sample.
+    /// Uniformly in the pixel, seeded by pixel and sample.
     Random,
 }
 
-/// What a pixel shows.
+/// The integrator.
 #[derive(Clone, Copy, Debug)]
 pub enum Mode {
-    /// Phong's model.
+    /// Whitted ray tracing with the Phong model.
     Phong,
     /// The distance of the first hit.
-    Zbuffer,
+    Depth,
     /// The normal of the first hit.
     Normal,
     /// Gooch's cool-to-warm shading.
     Gooch(Gooch),
-    /// The light along all paths.
+    /// Path tracing.
     Path(PathSettings),
 }
 
 impl Mode {
-    /// The default tone map: radiance is encoded for a display, colours of the course stay as they
-    /// are.
+    /// The default tone map: sRGB encoding for radiance, none for colours of the course.
     #[must_use]
     pub fn tone(&self) -> Tone {
         match self {
             Self::Path(_) => Tone::Srgb,
-            Self::Phong | Self::Zbuffer | Self::Normal | Self::Gooch(_) => Tone::None,
+            Self::Phong | Self::Depth | Self::Normal | Self::Gooch(_) => Tone::None,
         }
     }
 }
 
-/// How paths are traced.
+/// Parameters of path tracing.
 #[derive(Clone, Copy, Debug)]
 pub struct PathSettings {
     /// Paths per pixel.
@@ -112,7 +111,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
         toon,
         ambient,
     } = settings;
-    let mode = proven_mode(mode, check);
+    let mode = valid_mode(mode, check);
     let supersampling = check.count(
         *supersampling,
         "supersampling factor",
@@ -120,14 +119,14 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
     );
     let light_samples = check.count(*light_samples, "light samples", at(Field::LightSamples));
     if *max_depth > MAX_DEPTH {
-        let finding = Diagnostic::new(
+        let diagnostic = Diagnostic::new(
             &codes::TOO_DEEP,
             format!("{max_depth} bounces are too many"),
         );
         check.report(
             at(Field::MaxDepth),
             "",
-            finding.hint(format!("at most {MAX_DEPTH}; 5 is enough for most scenes")),
+            diagnostic.hint(format!("at most {MAX_DEPTH}; 5 is enough for most scenes")),
         );
         return None;
     }
@@ -150,10 +149,10 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
     })
 }
 
-fn proven_mode(mode: &ir::Mode, check: &mut Check<'_>) -> Option<Mode> {
+fn valid_mode(mode: &ir::Mode, check: &mut Check<'_>) -> Option<Mode> {
     match mode {
         ir::Mode::Phong => Some(Mode::Phong),
-        ir::Mode::Zbuffer => Some(Mode::Zbuffer),
+        ir::Mode::Depth => Some(Mode::Depth),
         ir::Mode::Normal => Some(Mode::Normal),
         ir::Mode::Gooch(parameters) => gooch(parameters, check),
         ir::Mode::Path(ir::PathSettings {
@@ -187,28 +186,28 @@ fn at(field: Field) -> ValuePath {
     ValuePath::new(EntityKind::Settings, 0, field)
 }
 
-/// Refuses pictures beyond the limits on pixels and rays.
-pub(super) fn budget(scene: &ir::Scene, options: &super::ProofOptions, check: &mut Check<'_>) {
+/// Rejects pictures beyond the limits on pixels and rays.
+pub(super) fn budget(scene: &ir::Scene, options: &super::ValidationOptions, check: &mut Check<'_>) {
     let [width, height] = scene.camera.size;
     let pixels = u128::from(width) * u128::from(height);
     let limit = options.limits.of(Resource::Pixels, 0);
     if pixels > limit.into() {
         let message = format!("the image is too large: {width} × {height} = {pixels} pixels");
-        let finding = Diagnostic::new(&codes::HUGE_IMAGE, message);
-        let finding = finding.hint(format!(
+        let diagnostic = Diagnostic::new(&codes::HUGE_IMAGE, message);
+        let diagnostic = diagnostic.hint(format!(
             "at most {limit} pixels; `--limit pixels=…` sets another limit"
         ));
         check.report(
             ValuePath::new(EntityKind::Camera, 0, Field::Size),
             "",
-            finding,
+            diagnostic,
         );
         return;
     }
     too_many_rays(scene, pixels, options.limits.of(Resource::Rays, 0), check);
 }
 
-/// Refuses a picture with too many camera and shadow rays, further bounces not counted.
+/// Rejects a picture with too many camera and shadow rays, further bounces not counted.
 fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<'_>) {
     let [width, height] = scene.camera.size;
     let supersampling = scene.settings.supersampling;
@@ -234,30 +233,30 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<
     } else {
         rays.to_string()
     };
-    let finding = Diagnostic::new(
+    let diagnostic = Diagnostic::new(
         &codes::TOO_MANY_RAYS,
         format!("the picture takes too many rays: {product} = {total}"),
     );
-    let finding = finding.hint(format!(
+    let diagnostic = diagnostic.hint(format!(
         "at most {limit} rays; `--limit rays=…` sets another limit"
     ));
-    let culprit = if u128::from(samples.light) > cells {
+    let field = if u128::from(samples.light) > cells {
         Field::LightSamples
     } else {
         Field::Supersampling
     };
-    check.report(at(culprit), "", finding);
+    check.report(at(field), "", diagnostic);
 }
 
-/// Checks how values are shown: by so many stops as change a picture.
+/// Validates the display settings: the exposure is in range.
 pub(super) fn display(display: &ir::Display, check: &mut Check<'_>) {
     const MOST: f64 = ir::Display::MOST_STOPS;
     let ir::Display { exposure, tone: _ } = display;
     if !(-MOST..=MOST).contains(exposure) {
         let message =
             format!("the exposure is `{exposure}` stops, but must be from -{MOST} to {MOST}");
-        let finding = Diagnostic::new(&codes::OUT_OF_RANGE, message);
-        check.report(at(Field::Whole), "", finding);
+        let diagnostic = Diagnostic::new(&codes::OUT_OF_RANGE, message);
+        check.report(at(Field::Whole), "", diagnostic);
     }
 }
 

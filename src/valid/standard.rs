@@ -1,14 +1,14 @@
-//! The proof of glTF's material: every factor is in the range of its specification.
+//! Validates the glTF material: every factor is in the range of its specification.
 
-use super::check::{Check, EntityCounts, LARGEST, place};
+use super::check::{Check, EntityCounts, LARGEST};
 use super::texture::{self, Map};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{NonNegative, Positive, UnitInterval, Vec3, shortest};
 use rtc_tables::{camel_case, map_of, parameters};
 
-/// The type of a proven parameter of a kind of the table.
-macro_rules! proven {
+/// The type of a valid parameter of each kind of the table.
+macro_rules! validated {
     (fraction) => { UnitInterval };
     (number) => { f64 };
     (non_negative) => { NonNegative };
@@ -25,8 +25,8 @@ macro_rules! proven {
     (map) => { Option<Map> };
 }
 
-/// A default of the table, proven.
-macro_rules! proven_default {
+/// A default of the table as a valid value.
+macro_rules! validated_default {
     (fraction, $value:expr) => {
         UnitInterval::saturating($value)
     };
@@ -69,24 +69,24 @@ const fn unit_intervals([a, b, c, d]: [f64; 4]) -> [UnitInterval; 4] {
     ]
 }
 
-/// The material and its proof, from the table of its parameters: the kind of each names its check.
+/// Declares the material and its validation from the table of its parameters: the kind of each
+/// names its check.
 macro_rules! material {
     ($(
         $(#[doc = $about:literal])*
         $field:ident: $kind:ident = $default:expr, $omitted:literal;
     )*) => {
-        /// The material of glTF, proven: the factors of its specification, by whose names they go,
-        /// each in its range, and the maps that multiply them.
+        /// The material of glTF with its factors in range and the maps that multiply them.
         #[derive(Clone, Debug, PartialEq)]
         pub struct Standard {
-            $($(#[doc = $about])* pub $field: proven!($kind),)*
+            $($(#[doc = $about])* pub $field: validated!($kind),)*
         }
 
         impl Standard {
             /// The default material of glTF: white, metallic and rough.
-            pub const DEFAULT: Self = Self { $($field: proven_default!($kind, $default),)* };
+            pub const DEFAULT: Self = Self { $($field: validated_default!($kind, $default),)* };
 
-            /// Every map it has.
+            /// All texture maps.
             pub fn maps(&self) -> impl Iterator<Item = &Map> {
                 [$(map_of!($kind, &self.$field)),*].into_iter().flatten()
             }
@@ -99,7 +99,7 @@ macro_rules! material {
             check: &mut Check<'_>,
         ) -> Option<Standard> {
             let ir::Standard { name: _, $($field,)* } = material;
-            let at = place(EntityKind::Material, index, Field::Whole);
+            let at = ValuePath::new(EntityKind::Material, index, Field::Whole);
             let mut parameters = Parameters { at, counts, check };
             $(let $field = parameters.$kind($field, camel_case!($field));)*
             Some(Standard { $($field: $field?,)* })
@@ -110,35 +110,35 @@ macro_rules! material {
 parameters!(material);
 
 impl Standard {
-    /// Whether a ray of the camera goes through the back. That of what transmits it may meet from
-    /// within.
+    /// Whether camera rays pass through back faces. A transmissive material is also visible from
+    /// inside.
     #[must_use]
     pub fn is_seen_from_one_side(&self) -> bool {
         !self.double_sided && self.transmission == UnitInterval::ZERO
     }
 }
 
-/// The alpha mode: how much of the background a surface covers.
+/// The alpha mode: how a surface covers what is behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Alpha {
-    /// All.
+    /// Fully.
     Opaque,
-    /// All where alpha is at least the cutoff, nothing elsewhere.
+    /// Fully where alpha is at least the cutoff, not at all elsewhere.
     Mask(NonNegative),
-    /// The fraction alpha.
+    /// By the fraction alpha.
     Blend,
 }
 
-/// The least and the greatest number.
+/// The minimum and the maximum.
 type Range = [f64; 2];
 
-const SHARE: Range = [0.0, 1.0];
+const FRACTION: Range = [0.0, 1.0];
 const AT_LEAST_0: Range = [0.0, LARGEST];
 const AT_LEAST_1: Range = [1.0, LARGEST];
 const ABOVE_0: Range = [f64::MIN_POSITIVE, LARGEST];
 const ANY: Range = [-LARGEST, LARGEST];
 
-/// The checks of the parameters of one material.
+/// The state of validating one material.
 struct Parameters<'a, 'run> {
     at: ValuePath,
     counts: &'a EntityCounts,
@@ -154,30 +154,30 @@ struct Parameters<'a, 'run> {
     reason = "an error and an absence are two things"
 )]
 impl Parameters<'_, '_> {
-    /// A number in a range, ends included.
+    /// A number in a range, bounds included.
     fn within(&mut self, value: f64, name: &str, [low, high]: Range) -> Option<f64> {
-        let is_sound = low <= value && value <= high;
-        if !is_sound {
+        let is_valid = low <= value && value <= high;
+        if !is_valid {
             let [value, low, high] = [value, low, high].map(shortest);
             let message =
                 format!("`{name}` of a material is `{value}`, but must be from {low} to {high}");
-            let finding = Diagnostic::new(&codes::BAD_FACTOR, message);
-            self.check.report(self.at, "", finding);
+            let diagnostic = Diagnostic::new(&codes::BAD_FACTOR, message);
+            self.check.report(self.at, "", diagnostic);
         }
-        is_sound.then_some(value)
+        is_valid.then_some(value)
     }
 
-    /// Several numbers in a range; all faults are reported.
+    /// Several numbers in a range; all errors are reported.
     fn all_within<const N: usize>(
         &mut self,
         values: &[f64; N],
         name: &str,
         range: Range,
     ) -> Option<[f64; N]> {
-        let is_sound = values.iter().fold(true, |is_sound, value| {
-            is_sound & self.within(*value, name, range).is_some()
+        let is_valid = values.iter().fold(true, |is_valid, value| {
+            is_valid & self.within(*value, name, range).is_some()
         });
-        is_sound.then_some(*values)
+        is_valid.then_some(*values)
     }
 
     fn number(&mut self, value: &f64, name: &str) -> Option<f64> {
@@ -185,7 +185,8 @@ impl Parameters<'_, '_> {
     }
 
     fn fraction(&mut self, value: &f64, name: &str) -> Option<UnitInterval> {
-        self.within(*value, name, SHARE).and_then(UnitInterval::new)
+        self.within(*value, name, FRACTION)
+            .and_then(UnitInterval::new)
     }
 
     fn non_negative(&mut self, value: &f64, name: &str) -> Option<NonNegative> {
@@ -217,7 +218,7 @@ impl Parameters<'_, '_> {
     }
 
     fn fractions(&mut self, values: &[f64; 4], name: &str) -> Option<[UnitInterval; 4]> {
-        self.all_within(values, name, SHARE)
+        self.all_within(values, name, FRACTION)
             .map(|values| values.map(UnitInterval::saturating))
     }
 
@@ -243,7 +244,8 @@ impl Parameters<'_, '_> {
     }
 
     fn fraction_color(&mut self, values: &[f64; 3], name: &str) -> Option<Vec3> {
-        self.all_within(values, name, SHARE).map(Vec3::from_array)
+        self.all_within(values, name, FRACTION)
+            .map(Vec3::from_array)
     }
 
     fn alpha(&mut self, alpha: &ir::Alpha, name: &str) -> Option<Alpha> {

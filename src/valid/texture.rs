@@ -1,6 +1,6 @@
-//! The proof of the textures and of the maps: the images and textures they refer to exist.
+//! Validates the textures and texture maps: the images and textures they refer to exist.
 
-use super::check::{Check, EntityCounts, place};
+use super::check::{Check, EntityCounts};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 
@@ -9,14 +9,14 @@ use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 pub enum Texture {
     /// The colour (u, 0, v).
     Uv,
-    /// An image as the course looks it up, v = 1 at its top row: an index into
+    /// An image with the texture coordinates of the course, v = 1 at its top row: an index into
     /// [`super::ValidScene::images`].
     Image(usize),
     /// An image as glTF samples it, v = 0 at its top row.
     Sampled(Sampled),
 }
 
-/// An image and its sampling.
+/// An image with its sampler.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampled {
     /// An index into [`super::ValidScene::images`].
@@ -27,35 +27,35 @@ pub struct Sampled {
     pub filter: Filter,
 }
 
-/// The wrap mode: the texel for coordinates outside the unit square.
+/// The wrap mode: how an image continues outside the unit square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wrap {
-    /// The image again.
+    /// It repeats.
     Repeat,
-    /// The image again, mirrored at each edge.
+    /// It repeats, mirrored at each edge.
     Mirror,
-    /// The texel at the edge.
+    /// With the texels of the edge.
     Clamp,
 }
 
 /// The filter between texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filter {
-    /// Bilinear, of the four nearest.
+    /// Bilinear, between the four nearest.
     Linear,
     /// The nearest texel.
     Nearest,
 }
 
-/// A texture, and the map from the coordinates of a surface to its own.
+/// A texture with an affine map from surface to texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Map {
     /// An index into [`super::ValidScene::textures`].
     pub texture: usize,
-    /// Which coordinates of the surface.
+    /// The set of texture coordinates of the surface.
     pub set: UvSet,
-    /// The rows of the affine map from the coordinates of the surface to those of the texture,
-    /// `(a, b, c)` for `a·u + b·v + c`.
+    /// The rows of the affine map from surface to texture coordinates, `(a, b, c)` for `a·u + b·v +
+    /// c`.
     pub texture_from_surface: [[f64; 3]; 2],
 }
 
@@ -87,7 +87,7 @@ pub(super) fn texture(
     images: usize,
     check: &mut Check<'_>,
 ) -> Option<Texture> {
-    let at = place(EntityKind::Texture, index, Field::Whole);
+    let at = ValuePath::new(EntityKind::Texture, index, Field::Whole);
     let mut exists = |image: ir::ImageId| check.handle(image.0, images, "image", at);
     match texture {
         ir::Texture::Uv => Some(Texture::Uv),
@@ -111,7 +111,7 @@ pub(super) fn texture(
     }
 }
 
-/// The map of a material at a place.
+/// Validates the texture map of a material.
 pub(super) fn map(
     map: &ir::Map,
     counts: &EntityCounts,
@@ -124,21 +124,21 @@ pub(super) fn map(
         texture_from_surface,
     } = map;
     let texture = check.handle(texture.0, counts.textures, "texture", at);
-    let proven_set = match set {
+    let valid_set = match set {
         0 => Some(UvSet::First),
         1 => Some(UvSet::Second),
         _ => None,
     };
-    if proven_set.is_none() {
+    if valid_set.is_none() {
         let message =
             format!("a map uses set {set} of texture coordinates, but only sets 0 and 1 exist");
         check.report(at, "", Diagnostic::new(&codes::BAD_FACTOR, message));
     }
     let rows = texture_from_surface.unwrap_or(Map::IDENTITY);
-    let finite = rows.iter().flatten().fold(true, |sound, number| {
-        sound & check.number(*number, at).is_some()
+    let finite = rows.iter().flatten().fold(true, |valid, number| {
+        valid & check.number(*number, at).is_some()
     });
-    let (texture, set) = (texture?, proven_set?);
+    let (texture, set) = (texture?, valid_set?);
     finite.then_some(Map {
         texture,
         set,

@@ -158,11 +158,11 @@ fn statements_become_the_words_of_the_course() {
     );
     assert_eq!(phong("Ks 1 1 1\nillum 1\n").ks, 0.0, "without highlights");
     let veil = phong("d 0.25\nNi 1.5\n");
-    assert_eq!((veil.kt, veil.kd, veil.eta), (0.75, 0.25, 1.0));
+    assert_eq!((veil.kt, veil.kd, veil.ior), (0.75, 0.25, 1.0));
     assert_eq!(phong("Tr 0.75\n").kt, 0.75);
     assert_eq!(phong("d 1\nTr 1\n").kt, 0.0, "`d` counts");
     let glass = phong("illum 7\nNi 1.5\n");
-    assert_eq!((glass.kt, glass.kd, glass.eta), (1.0, 0.0, 1.5));
+    assert_eq!((glass.kt, glass.kd, glass.ior), (1.0, 0.0, 1.5));
 }
 
 #[test]

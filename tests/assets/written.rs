@@ -2,7 +2,7 @@
 
 use crate::texts::assert_comes_back;
 use rtc::internals::color::Tone;
-use rtc::internals::emit::course::emit_beside;
+use rtc::internals::emit::course::emit_with_files;
 use rtc::internals::front::course;
 use rtc::internals::ir::{
     Alpha, Column, Display, Emitter, Environment, Filter, Image, ImageId, Instance, Light, Map,
@@ -222,7 +222,7 @@ fn everything() -> Scene {
 fn all_that_a_scene_may_hold_comes_back() {
     let scene = everything();
     assert_comes_back(&scene);
-    let text = emit_beside(&scene, Some("x.files")).unwrap().text;
+    let text = emit_with_files(&scene, Some("x.files")).unwrap().text;
     let schema = course::schema();
     let keys = schema["$defs"]["standard-material"]["properties"]
         .as_object()
@@ -258,12 +258,12 @@ fn columns_of_either_precision_come_back() {
 
 #[test]
 fn without_a_folder_no_file_is_promised() {
-    let refused = emit_beside(&everything(), None).unwrap_err();
+    let refused = emit_with_files(&everything(), None).unwrap_err();
     assert!(refused.contains("-o FILE"), "{refused}");
     let mut scene = everything();
     scene.surfaces[0].shape = scene.surfaces[1].shape.clone();
     scene.meshes[1].triangles = Vec::new().into();
-    let refused = emit_beside(&scene, Some("x.files")).unwrap_err();
+    let refused = emit_with_files(&scene, Some("x.files")).unwrap_err();
     assert!(refused.contains("no triangles"), "{refused}");
 }
 
@@ -275,7 +275,7 @@ fn what_is_the_same_is_one_file() {
         ..scene.images[0].clone()
     };
     scene.meshes[1] = scene.meshes[0].clone();
-    let files = emit_beside(&scene, Some("x.files")).unwrap().files;
+    let files = emit_with_files(&scene, Some("x.files")).unwrap().files;
     let names: Vec<_> = files.iter().map(|file| file.name.as_str()).collect();
     assert_eq!(names.len(), 3, "{names:?}");
     assert!(names[0].starts_with("x.files/b-") && names[0].ends_with(".png"));

@@ -156,7 +156,7 @@ fn settings() -> impl Strategy<Value = Settings> {
     });
     let mode = prop_oneof![
         Just(Mode::Phong),
-        Just(Mode::Zbuffer),
+        Just(Mode::Depth),
         Just(Mode::Normal),
         gooch,
         path
@@ -211,7 +211,7 @@ fn light() -> impl Strategy<Value = Light> {
         })
     });
     let lamp = (triple(), triple(), triple(), photometry).prop_map(
-        |(position, direction, horizontal, photometry)| Emitter::Lamp {
+        |(position, direction, horizontal, photometry)| Emitter::Photometric {
             position,
             direction,
             horizontal,
@@ -320,7 +320,7 @@ fn phong() -> impl Strategy<Value = Material> {
                     ks,
                     n,
                     kt,
-                    eta,
+                    ior: eta,
                     glossy_samples,
                     color_map,
                     specular_map,

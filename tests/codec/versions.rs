@@ -137,7 +137,7 @@ fn frozen_files_of_version_4_decode() {
         .collect();
     assert_eq!(parts, [Some("red"), Some("blue")]);
     let Light::Punctual(Punctual {
-        emitter: Emitter::Lamp { photometry, .. },
+        emitter: Emitter::Photometric { photometry, .. },
         ..
     }) = &path.lights[0]
     else {

@@ -66,7 +66,7 @@ pub(crate) fn check(scene: &ir::Scene) -> Result<ValidScene, Vec<&'static str>> 
     let proof = valid::validate(
         scene,
         &ir::SourceSpans::default(),
-        &valid::ProofOptions::default(),
+        &valid::ValidationOptions::default(),
         &mut sink,
     );
     proof.ok_or_else(|| sink.kept().iter().map(|finding| finding.code.id).collect())

@@ -134,7 +134,7 @@ fn validate(scene: &Scene) -> ValidScene {
     let proof = valid::validate(
         scene,
         &SourceSpans::default(),
-        &valid::ProofOptions::default(),
+        &valid::ValidationOptions::default(),
         &mut sink,
     );
     proof.unwrap_or_else(|| panic!("{sink:?}"))

@@ -147,7 +147,7 @@ impl Dice {
             beta: self.pick(&[0.0, 0.5]),
         };
         let mode = match self.roll(8) {
-            0 => ir::Mode::Zbuffer,
+            0 => ir::Mode::Depth,
             1 => ir::Mode::Normal,
             2 => ir::Mode::Gooch(gooch),
             _ => ir::Mode::Phong,
@@ -216,7 +216,7 @@ impl Dice {
             ks: self.pick(&[0.0, 0.0, 0.5]),
             n: self.pick(&[0.0, 1.0, 8.0]),
             kt: self.pick(&[0.0, 0.0, 0.0, 0.6]),
-            eta: self.pick(&[1.0, 1.5]),
+            ior: self.pick(&[1.0, 1.5]),
             glossy_samples: self.pick(&[1, 1, 2]),
             color_map: self.map(),
             specular_map: self.map(),

@@ -178,7 +178,7 @@ fn laws_hold_for_scenes_of_all_kinds() {
 /// Kinds of everything that scenes are made of.
 const KINDS: [&str; 25] = [
     "Phong",
-    "Zbuffer",
+    "Depth",
     "Normal",
     "Gooch",
     "Path",

@@ -57,7 +57,7 @@ fn highlights() {
             ("no light", changed(&busy(), |scene| scene.lights.clear())),
             (
                 "a depth buffer",
-                changed(&busy(), |scene| scene.settings.mode = Mode::Zbuffer),
+                changed(&busy(), |scene| scene.settings.mode = Mode::Depth),
             ),
             ("out of sight", changed(&busy(), unseen)),
         ],
@@ -157,7 +157,7 @@ fn lights() {
             ("behind a wall", changed(&busy(), background)),
             (
                 "a depth buffer",
-                changed(&busy(), |scene| scene.settings.mode = Mode::Zbuffer),
+                changed(&busy(), |scene| scene.settings.mode = Mode::Depth),
             ),
             ("no surface", base_scene()),
         ],
@@ -204,7 +204,7 @@ fn lenses_and_samples() {
             ),
             (
                 "a depth buffer",
-                changed(&lens, |scene| scene.settings.mode = Mode::Zbuffer),
+                changed(&lens, |scene| scene.settings.mode = Mode::Depth),
             ),
             ("nothing in view", changed(&lens, away)),
         ],
@@ -218,7 +218,7 @@ fn lenses_and_samples() {
             ),
             (
                 "a depth buffer",
-                changed(&busy(), |scene| scene.settings.mode = Mode::Zbuffer),
+                changed(&busy(), |scene| scene.settings.mode = Mode::Depth),
             ),
             ("nothing in view", changed(&busy(), away)),
         ],
@@ -299,7 +299,7 @@ fn textures_and_normal_maps() {
                 ("out of sight", changed(&mapped, out_of_sight)),
                 (
                     "a depth buffer",
-                    changed(&mapped, |scene| scene.settings.mode = Mode::Zbuffer),
+                    changed(&mapped, |scene| scene.settings.mode = Mode::Depth),
                 ),
                 (
                     "no light",

@@ -13,7 +13,7 @@ pub(super) fn matt() -> Phong {
         ks: 0.0,
         n: 8.0,
         kt: 0.0,
-        eta: 1.5,
+        ior: 1.5,
         glossy_samples: 1,
         color_map: None,
         specular_map: None,

@@ -157,8 +157,10 @@ fn same_light(before: &Light, after: &Light) {
         std::mem::discriminant(&a.emitter),
         std::mem::discriminant(&b.emitter)
     );
-    if let (Emitter::Lamp { photometry: a, .. }, Emitter::Lamp { photometry: b, .. }) =
-        (&a.emitter, &b.emitter)
+    if let (
+        Emitter::Photometric { photometry: a, .. },
+        Emitter::Photometric { photometry: b, .. },
+    ) = (&a.emitter, &b.emitter)
     {
         assert_eq!(a, b);
     }

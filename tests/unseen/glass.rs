@@ -85,7 +85,7 @@ fn glass(shape: Option<(&str, f64)>, eta: f64, shadows: bool) -> Scene {
         if let Material::Phong(phong) = material
             && phong.kt > 0.0
         {
-            phong.eta = eta;
+            phong.ior = eta;
         }
     }
     scene

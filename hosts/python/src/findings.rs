@@ -3,7 +3,7 @@
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rtc::{Error, Finding, Severity};
+use rtc::{Error, Diagnostic, Severity};
 
 pyo3::create_exception!(
     rtc,
@@ -13,7 +13,7 @@ pyo3::create_exception!(
 );
 
 /// A finding as a dictionary.
-pub(crate) fn told(py: Python<'_>, finding: &Finding) -> PyResult<Py<PyAny>> {
+pub(crate) fn told(py: Python<'_>, finding: &Diagnostic) -> PyResult<Py<PyAny>> {
     let dict = PyDict::new(py);
     let place = finding.primary.as_ref().map(|label| &label.location);
     let severity = match finding.severity {
@@ -39,7 +39,7 @@ pub(crate) fn told(py: Python<'_>, finding: &Finding) -> PyResult<Py<PyAny>> {
 
 /// The exception of an error.
 pub(crate) fn raised(py: Python<'_>, error: &Error) -> PyErr {
-    let findings = error.findings().iter().map(|finding| told(py, finding));
+    let findings = error.diagnostics().iter().map(|finding| told(py, finding));
     let raised = SceneError::new_err(error.to_string());
     let set = findings
         .collect::<PyResult<Vec<_>>>()

@@ -91,7 +91,7 @@ impl Picture {
 
     /// What was found about the scene and in the picture, as dictionaries.
     fn findings(&self, py: Python<'_>) -> PyResult<Vec<Py<PyAny>>> {
-        let findings = self.made.findings().iter();
+        let findings = self.made.diagnostics().iter();
         findings.map(|finding| crate::told(py, finding)).collect()
     }
 }

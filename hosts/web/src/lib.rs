@@ -1,7 +1,7 @@
 //! The library in a page: a scene in memory is checked, explained and rendered. What is told goes out as JSON, pictures as
 //! bytes; rendering holds the thread, so the page calls it from a worker.
 
-use rtc::{Effect, EffectState, Error, Finding, Label, Options, Severity};
+use rtc::{Effect, EffectState, Error, Diagnostic, Label, Options, Severity};
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -120,21 +120,21 @@ impl Picture {
 
     /// What was found in the scene and the picture: an array of JSON.
     pub fn findings(&self) -> String {
-        told(self.0.findings()).to_string()
+        told(self.0.diagnostics()).to_string()
     }
 }
 
 /// `message` in words and `findings`, which may be empty.
 fn thrown(error: &Error) -> String {
-    json!({"message": error.to_string(), "findings": told(error.findings())}).to_string()
+    json!({"message": error.to_string(), "findings": told(error.diagnostics())}).to_string()
 }
 
-fn told(findings: &[Finding]) -> Value {
+fn told(findings: &[Diagnostic]) -> Value {
     Value::Array(findings.iter().map(finding).collect())
 }
 
 /// A finding; `text` is what `rtc check` prints.
-fn finding(finding: &Finding) -> Value {
+fn finding(finding: &Diagnostic) -> Value {
     let severity = match finding.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",

@@ -117,7 +117,7 @@ pub(super) fn told(scene: &Scene, own: &Setting) -> Value {
     let integrator = match scene.settings.mode {
         Mode::Path(_) => Some("path"),
         Mode::Phong => Some("whitted"),
-        Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => None,
+        Mode::Depth | Mode::Normal | Mode::Gooch(_) => None,
     };
     let parameters = Parameter::ALL.map(parameter);
     json!({ "knobs": parameters, "integrator": integrator })

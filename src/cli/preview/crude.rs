@@ -7,7 +7,7 @@ use rtc_ir::{Mode, Scene, SourceSpans};
 use rtc_pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject, Traced};
 use rtc_render::Crop;
 use rtc_source::Limits;
-use rtc_valid::{self as valid, ProofOptions};
+use rtc_valid::{self as valid, ValidationOptions};
 
 /// About so many pixels.
 const PIXELS: u64 = 20_000;
@@ -26,7 +26,7 @@ pub(super) fn render(
     let Crop { width, height, .. } = setup.window(scene)?;
     let (camera, settings) = (scene.camera.clone(), scene.settings.clone());
     let k = coarsen(scene);
-    let options = ProofOptions {
+    let options = ValidationOptions {
         limits: Limits::NONE,
     };
     let proof = valid::validate(

@@ -161,7 +161,7 @@ fn content(
     let is_link = path.is_symlink();
     match Loader.owned(path, MAX_BYTES) {
         Ok(file) if !file.path.starts_with(folder) => Ok(Err(LINK)),
-        Ok(file) if !file.is_own && !reading.trust_project => {
+        Ok(file) if !file.is_trusted && !reading.trust_project => {
             Ok(Err("it belongs to another user, or all may write it"))
         }
         Ok(file) => Ok(Ok(file.bytes)),

@@ -36,7 +36,7 @@ pub(super) fn is_listed(folder: &Path) -> Result<bool, Failure> {
         let own = own.canonicalize();
         own.is_ok_and(|own| folder.starts_with(own))
     };
-    Ok(file.is_own && listed.iter().any(holds))
+    Ok(file.is_trusted && listed.iter().any(holds))
 }
 
 /// The folders of the list; `None` if the text is no such list.

@@ -1,10 +1,10 @@
-//! The camera back to text.
+//! Writes the camera.
 
-use super::Text;
+use super::SceneWriter;
 use rtc_ir::{Camera, Lens, Projection};
 use rtc_math::{Vec3, camera_basis, length, unit};
 
-impl Text<'_> {
+impl SceneWriter<'_> {
     pub(super) fn camera(&mut self, camera: &Camera) {
         let Camera {
             eye,
@@ -38,28 +38,31 @@ impl Text<'_> {
     }
 }
 
-/// How far frames may be from right angles and equal lengths to be looked for among those of an
-/// `up` alone.
+/// The largest deviation from perpendicular axes and square pixels at which a frame of an `up`
+/// alone is tried.
 const TOLERANCE: f64 = 1e-9;
 
-/// An `up` that alone gives exactly the frame of the camera, if one is found.
+/// An `up` from which the exact frame of the camera can be computed, if one is found.
 fn upright(camera: &Camera) -> Option<Vec3> {
     let [eye, center, right, up] =
         [camera.eye, camera.center, camera.right, camera.up].map(Vec3::from_array);
-    let (gaze, across, upward) = (unit(center - eye)?, unit(right)?, unit(up)?);
+    let (view_direction, across, upward) = (unit(center - eye)?, unit(right)?, unit(up)?);
     let pixel = length(up);
     let is_square =
         ((length(right) - pixel) / pixel).abs() < TOLERANCE && across.dot(upward).abs() < TOLERANCE;
-    // A mirrored image is none either.
-    let is_faced = across.dot(gaze).abs() < TOLERANCE && upward.dot(gaze).abs() < TOLERANCE;
-    if !is_square || !is_faced || across.cross(upward).dot(gaze) > 0.0 {
+    // A mirrored image can't be expressed by `up` either.
+    let is_faced = across.dot(view_direction).abs() < TOLERANCE
+        && upward.dot(view_direction).abs() < TOLERANCE;
+    if !is_square || !is_faced || across.cross(upward).dot(view_direction) > 0.0 {
         return None;
     }
     let exact = |candidate: &Vec3| camera_basis(eye, center, *candidate) == Ok((right, up));
-    axes(pixel).chain(tilted(up, gaze * pixel)).find(exact)
+    axes(pixel)
+        .chain(tilted(up, view_direction * pixel))
+        .find(exact)
 }
 
-/// The axes with the length of a pixel, rounded as a person would have written it.
+/// The world axes with the length of a pixel, rounded as an author would write it.
 fn axes(pixel: f64) -> impl Iterator<Item = Vec3> {
     let rounded = move |digits: usize| format!("{pixel:.digits$e}").parse().unwrap_or(pixel);
     let lengths = move || [rounded(3), rounded(8), rounded(14), pixel];
@@ -75,11 +78,12 @@ fn axes(pixel: f64) -> impl Iterator<Item = Vec3> {
         .flat_map(move |axis| lengths().map(|length| axis * length))
 }
 
-/// `up` tilted along the gaze: all give the same frame, each with its own rounding.
-fn tilted(up: Vec3, gaze: Vec3) -> impl Iterator<Item = Vec3> {
+/// `up` tilted along the viewing direction: all give the same frame, with different rounding
+/// errors.
+fn tilted(up: Vec3, view_direction: Vec3) -> impl Iterator<Item = Vec3> {
     const TRIES: u32 = 1 << 10;
     (0..TRIES).map(move |step| {
         let t = f64::from(step) / f64::from(TRIES);
-        (up * (1.0 - t * t) + gaze * (2.0 * t)) / (1.0 + t * t)
+        (up * (1.0 - t * t) + view_direction * (2.0 * t)) / (1.0 + t * t)
     })
 }

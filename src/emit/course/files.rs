@@ -1,19 +1,19 @@
-//! The files that a text names: those that images and meshes came from, or new ones beside the text.
+//! The files to which a text refers: the original files of images and meshes, or new sidecar files.
 
 use super::quoted;
-use crate::{beside, ply};
+use crate::{ply, sidecar};
 use rtc_image::{FileFormat, Image as Radiances, Picture, png_bytes};
 use rtc_ir::{Image, ImageId, Material, Mesh, MeshId, Pixels, Scene};
 use std::collections::BTreeMap;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
-/// The word that stands for the uv of the surface in place of a file.
+/// The name of the texture of surface coordinates, which is not a file.
 const UV: &str = "UV";
 
-/// A file that a text names.
+/// A file to which a text refers.
 #[derive(Debug)]
 pub struct Attachment<'s> {
-    /// Its path from the folder of the text, with `/`.
+    /// Its path relative to the folder of the text, with `/`.
     pub name: String,
     content: Content<'s>,
 }
@@ -25,10 +25,10 @@ enum Content<'s> {
 }
 
 impl Attachment<'_> {
-    /// The bytes of the file; the same every time.
+    /// The bytes of the file; always the same.
     ///
     /// # Errors
-    /// The reason, in words, why there is no such file.
+    /// A message, if there is no such file.
     pub fn bytes(&self) -> Result<Vec<u8>, String> {
         match self.content {
             Content::Mesh(mesh) => Ok(ply::encode(mesh)),
@@ -37,23 +37,23 @@ impl Attachment<'_> {
     }
 }
 
-/// How images and meshes are named.
+/// The names of image and mesh files.
 pub(super) struct FileNames<'s> {
-    /// Whether files that images and meshes came from are named.
-    names_known: bool,
+    /// Whether the original file names are used.
+    uses_original_names: bool,
     /// The folder of new files.
     folder: Option<String>,
     new: BTreeMap<String, Attachment<'s>>,
-    /// The names so far, in quotes: a mesh of many instances is hashed once.
+    /// The quoted names so far: a mesh with many instances is hashed once.
     of_images: BTreeMap<u32, String>,
     of_meshes: BTreeMap<u32, String>,
 }
 
 impl<'s> FileNames<'s> {
-    /// By the files that they came from.
-    pub(super) fn known() -> Self {
+    /// Uses the original files.
+    pub(super) fn original() -> Self {
         Self {
-            names_known: true,
+            uses_original_names: true,
             folder: None,
             new: BTreeMap::new(),
             of_images: BTreeMap::new(),
@@ -61,14 +61,14 @@ impl<'s> FileNames<'s> {
         }
     }
 
-    /// By new files in a folder, unless the scene is of the course alone, whose images and meshes came
-    /// from files.
-    pub(super) fn beside(scene: &Scene, folder: Option<&str>) -> Self {
+    /// Writes new files to a folder, unless the scene has Phong materials only: then its images and
+    /// meshes come from files.
+    pub(super) fn with_new_files(scene: &Scene, folder: Option<&str>) -> Self {
         let is_course = |material: &Material| material.phong().is_some();
         Self {
-            names_known: scene.materials.iter().all(is_course),
+            uses_original_names: scene.materials.iter().all(is_course),
             folder: folder.map(str::to_owned),
-            ..Self::known()
+            ..Self::original()
         }
     }
 
@@ -76,7 +76,7 @@ impl<'s> FileNames<'s> {
         self.new.into_values().collect()
     }
 
-    /// The name of an image in quotes.
+    /// The quoted name of an image.
     pub(super) fn image(
         &mut self,
         scene: &'s Scene,
@@ -94,7 +94,7 @@ impl<'s> FileNames<'s> {
         Ok(name)
     }
 
-    /// The name of the file of a mesh in quotes, and the part of it that it is.
+    /// The quoted file name of a mesh, and the part of the file.
     pub(super) fn mesh(
         &mut self,
         scene: &'s Scene,
@@ -104,10 +104,10 @@ impl<'s> FileNames<'s> {
             .meshes
             .get(id as usize)
             .ok_or("a surface refers to a mesh that does not exist")?;
-        if mesh.triangles.is_empty() && !self.names_known {
+        if mesh.triangles.is_empty() && !self.uses_original_names {
             return Err("a mesh has no triangles, and no file holds such a mesh".to_owned());
         }
-        let part = mesh.part.as_deref().filter(|_| self.names_known);
+        let part = mesh.part.as_deref().filter(|_| self.uses_original_names);
         if let Some(name) = self.of_meshes.get(&id) {
             return Ok((name.clone(), part));
         }
@@ -116,20 +116,20 @@ impl<'s> FileNames<'s> {
         Ok((name, part))
     }
 
-    fn name(&mut self, known: &str, content: Content<'s>) -> Result<String, String> {
-        let known_file = file_name(known);
-        if self.names_known && (known_file.is_ok() || self.folder.is_none()) {
-            return known_file;
+    fn name(&mut self, original: &str, content: Content<'s>) -> Result<String, String> {
+        let original_file = file_name(original);
+        if self.uses_original_names && (original_file.is_ok() || self.folder.is_none()) {
+            return original_file;
         }
         let Some(folder) = &self.folder else {
             let message = "its meshes and images are to be files beside the text: give `-o FILE`";
             return Err(message.to_owned());
         };
-        let (word, extension, hash) = match content {
+        let (fallback, extension, hash) = match content {
             Content::Mesh(mesh) => ("mesh", "ply", xxh3_64(&ply::encode(mesh))),
             Content::Image(image) => ("image", extension(image), hash(image)),
         };
-        let name = beside::path(folder, known, word, hash, extension);
+        let name = sidecar::path(folder, original, fallback, hash, extension);
         let quoted = quoted(&name);
         self.new
             .entry(name.clone())
@@ -138,7 +138,7 @@ impl<'s> FileNames<'s> {
     }
 }
 
-/// The name of a file in quotes, if it names one.
+/// A file name in quotes, if it is one.
 pub(super) fn file_name(name: &str) -> Result<String, String> {
     if name.is_empty() || name.eq_ignore_ascii_case(UV) || name.contains('\\') {
         return Err(format!(
@@ -156,7 +156,7 @@ fn extension(image: &Image) -> &'static str {
     }
 }
 
-/// The hash of what an image shows.
+/// The hash of the content of an image.
 fn hash(image: &Image) -> u64 {
     let mut hasher = Xxh3::new();
     hasher.update(&image.width.to_le_bytes());
@@ -166,7 +166,7 @@ fn hash(image: &Image) -> u64 {
     hasher.digest()
 }
 
-/// The pixels of an image in a file that keeps them all: PNG, or OpenEXR of 32-bit floats.
+/// An image as a file without loss: PNG, or OpenEXR with 32-bit floats.
 fn encode(image: &Image) -> Result<Vec<u8>, String> {
     let Image {
         name: _,
@@ -176,8 +176,8 @@ fn encode(image: &Image) -> Result<Vec<u8>, String> {
         pixels,
     } = image;
     let size = [*width, *height];
-    let wanted = (u64::from(*width) * u64::from(*height)).saturating_mul(kind.bytes() as u64);
-    if pixels.len() as u64 != wanted || wanted == 0 {
+    let expected = (u64::from(*width) * u64::from(*height)).saturating_mul(kind.bytes() as u64);
+    if pixels.len() as u64 != expected || expected == 0 {
         return Err("an image has not the pixels that it should have".to_owned());
     }
     let encoded = match kind {
@@ -196,5 +196,5 @@ fn encode(image: &Image) -> Result<Vec<u8>, String> {
             picture.encode(FileFormat::Exr)
         }
     };
-    encoded.map_err(|fault| fault.to_string())
+    encoded.map_err(|error| error.to_string())
 }

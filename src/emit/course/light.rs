@@ -1,10 +1,10 @@
-//! The lights and the surroundings back to text.
+//! Writes the lights and the environment.
 
-use super::Text;
+use super::SceneWriter;
 use super::files::file_name;
 use rtc_ir::{Environment, Light, PointLight, Punctual, Scene};
 
-impl<'s> Text<'s> {
+impl<'s> SceneWriter<'s> {
     pub(super) fn light(&mut self, light: &Light) -> Result<(), String> {
         match light {
             Light::Point(PointLight {

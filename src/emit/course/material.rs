@@ -1,9 +1,9 @@
-//! The materials back to text.
+//! Writes the materials.
 
-use super::Text;
+use super::SceneWriter;
 use rtc_ir::{Bump, Material, Phong, Scene, Texture, TextureId};
 
-impl<'s> Text<'s> {
+impl<'s> SceneWriter<'s> {
     pub(super) fn material(
         &mut self,
         key: &str,
@@ -24,7 +24,7 @@ impl<'s> Text<'s> {
             ks,
             n,
             kt,
-            eta,
+            ior,
             glossy_samples,
             color_map,
             specular_map,
@@ -36,9 +36,9 @@ impl<'s> Text<'s> {
         for (key, value) in [("ka", ka), ("kd", kd), ("ks", ks), ("n", n)] {
             self.number(key, *value, 6);
         }
-        if *kt != 0.0 || *eta != 1.0 {
+        if *kt != 0.0 || *ior != 1.0 {
             self.number("kt", *kt, 6);
-            self.number("eta", *eta, 6);
+            self.number("eta", *ior, 6);
         }
         if *glossy_samples != 1 {
             self.line(6, &format!("glossySamples: {glossy_samples}"));
@@ -64,7 +64,7 @@ impl<'s> Text<'s> {
         Ok(())
     }
 
-    /// What stands for a texture in a text.
+    /// The name of a texture in the text.
     fn texture_name(&mut self, texture: TextureId, scene: &'s Scene) -> Result<String, String> {
         match exists(texture, scene)? {
             Texture::Uv => Ok("UV".to_owned()),
@@ -76,7 +76,7 @@ impl<'s> Text<'s> {
     }
 }
 
-/// The texture that a material refers to.
+/// The texture to which a material refers.
 pub(super) fn exists(TextureId(id): TextureId, scene: &Scene) -> Result<&Texture, String> {
     let texture = scene.textures.get(id as usize);
     texture.ok_or_else(|| "a material refers to a texture that does not exist".to_owned())

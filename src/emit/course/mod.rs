@@ -1,5 +1,8 @@
-//! The IR back to the YAML of the course: the canonical spelling, with a `Camera`, and every number
-//! the shortest that reads back.
+//! Writes the IR as YAML of the course, in canonical spelling, with a `Camera`, and with the
+//! shortest decimal of each number that reads back exactly.
+//!
+//! [`emit`] refers to the original files of images and meshes, [`emit_with_files`] also writes new
+//! ones. `files` names them. Lowering the text gives the same scene.
 
 mod camera;
 mod files;
@@ -18,36 +21,39 @@ use rtc_ir::{
 use rtc_math::shortest;
 use std::fmt::Write as _;
 
-/// A text, and the files beside it that it names.
+/// A text and its sidecar files.
 #[derive(Debug)]
 pub struct WrittenScene<'s> {
     /// The scene.
     pub text: String,
-    /// The files.
+    /// The sidecar files.
     pub files: Vec<Attachment<'s>>,
 }
 
-/// Writes the scene in the canonical spelling with a `Camera`.
+/// Writes the scene in canonical spelling with a `Camera`.
 ///
-/// Lowering the text gives the scene again, to the last bit, without materials that no surface has;
-/// a material that several surfaces share becomes an anchor with aliases, images and meshes are
-/// written as the names of their files.
+/// Lowering the text gives the same scene, bit for bit, except materials without a surface. A
+/// material of several surfaces becomes an anchor with aliases; images and meshes are written as
+/// file names.
 ///
 /// # Errors
-/// The reason, in words, why the scene can't be said in this format.
+/// A message, if the format can't express the scene.
 pub fn emit(scene: &Scene) -> Result<String, String> {
-    write(scene, FileNames::known()).map(|document| document.text)
+    write(scene, FileNames::original()).map(|document| document.text)
 }
 
-/// The same for a scene whose images and meshes need not be files: those of a scene that holds
-/// materials of glTF, and images without a name, become files in `folder`, which is named as the text
-/// is to name it. Lowering the text gives the scene again but for the names and the order of images,
-/// textures and meshes, and for those that no surface shows.
+/// The same for a scene whose images and meshes may have no files: those of a scene with glTF
+/// materials, and images without a name, become files in `folder`, a path relative to the text.
+/// Lowering the text gives the same scene, except names and order of images, textures and meshes,
+/// and those without a surface.
 ///
 /// # Errors
-/// As [`emit`]; without a folder also if files would be needed.
-pub fn emit_beside<'s>(scene: &'s Scene, folder: Option<&str>) -> Result<WrittenScene<'s>, String> {
-    write(scene, FileNames::beside(scene, folder))
+/// As [`emit`]; also if a file is needed and `folder` is `None`.
+pub fn emit_with_files<'s>(
+    scene: &'s Scene,
+    folder: Option<&str>,
+) -> Result<WrittenScene<'s>, String> {
+    write(scene, FileNames::with_new_files(scene, folder))
 }
 
 fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>, String> {
@@ -64,7 +70,7 @@ fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>,
         environment,
         display,
     } = scene;
-    let mut text = Text {
+    let mut text = SceneWriter {
         text: String::new(),
         finite: true,
         names,
@@ -87,14 +93,14 @@ fn write<'s>(scene: &'s Scene, names: FileNames<'s>) -> Result<WrittenScene<'s>,
 }
 
 /// The text so far.
-struct Text<'s> {
+struct SceneWriter<'s> {
     text: String,
-    /// Whether all numbers so far were.
+    /// Whether all numbers so far were finite.
     finite: bool,
     names: FileNames<'s>,
 }
 
-impl<'s> Text<'s> {
+impl<'s> SceneWriter<'s> {
     fn line(&mut self, indent: usize, content: &str) {
         writeln!(self.text, "{:indent$}{content}", "")
             .expect("a string takes all that is written to it");
@@ -112,11 +118,11 @@ impl<'s> Text<'s> {
 
     /// Numbers as a flow list.
     fn list(&mut self, numbers: impl IntoIterator<Item = f64>) -> String {
-        let shown = numbers.into_iter().map(|number| {
+        let displayed = numbers.into_iter().map(|number| {
             self.finite &= number.is_finite();
             shortest(number)
         });
-        format!("[{}]", shown.collect::<Vec<_>>().join(", "))
+        format!("[{}]", displayed.collect::<Vec<_>>().join(", "))
     }
 
     fn display(&mut self, display: &Display) {
@@ -150,7 +156,7 @@ impl<'s> Text<'s> {
                 .get_mut(surface.material.0 as usize)
                 .ok_or("a surface refers to a material that does not exist")? += 1;
         }
-        // The number of each material in the order of first use: unused materials take none.
+        // The number of each material in the order of first use; unused materials have none.
         let mut numbers: Vec<Option<usize>> = vec![None; uses.len()];
         let mut next = 0;
         for (index, surface) in scene.surfaces.iter().enumerate() {
@@ -206,7 +212,7 @@ impl<'s> Text<'s> {
         } = settings;
         match mode {
             Mode::Phong => self.line(0, "RenderMode: phong"),
-            Mode::Zbuffer => self.line(0, "RenderMode: zbuffer"),
+            Mode::Depth => self.line(0, "RenderMode: zbuffer"),
             Mode::Normal => self.line(0, "RenderMode: normal"),
             Mode::Path(_) => self.line(0, "RenderMode: path"),
             Mode::Gooch(Gooch { b, y, alpha, beta }) => {
@@ -222,7 +228,7 @@ impl<'s> Text<'s> {
         }
         match ambient {
             Ambient::Once => self.line(0, "Ambient: once"),
-            // Who makes JSON of it would change its meaning.
+            // Written explicitly, because a JSON version of the text would have another default.
             Ambient::PerLight if *mode == Mode::Phong => self.line(0, "Ambient: perLight"),
             Ambient::PerLight => {}
         }
@@ -246,8 +252,8 @@ impl<'s> Text<'s> {
         }
     }
 
-    /// Says how paths are followed, where their number a pixel is not that of `SuperSampling`; returns
-    /// what that is to be.
+    /// Writes the path tracing parameters, unless `SuperSampling` expresses them; returns the
+    /// factor for `SuperSampling`.
     fn paths(&mut self, mode: &Mode, supersampling: u32) -> u32 {
         let Mode::Path(PathSettings {
             samples,
@@ -267,7 +273,7 @@ impl<'s> Text<'s> {
     }
 }
 
-/// A text in quotes, in which YAML and JSON agree.
+/// A quoted string that is valid in YAML and JSON.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

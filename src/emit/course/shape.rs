@@ -1,20 +1,20 @@
-//! The shapes back to text.
+//! Writes the shapes.
 
-use super::{Text, quoted, triple};
+use super::{SceneWriter, quoted, triple};
 use rtc_ir::{self as ir, Instance, Quad, Scene, Shape, Sphere, Triangle};
 use rtc_math::{Vec3, axis_and_angle, shortest, turned_to_z, unit};
 
-/// A shape as the scene format writes it.
+/// A shape that the scene format can express.
 trait Emit {
     /// # Errors
-    /// Says what the format has no words for.
-    fn emit<'s>(&self, text: &mut Text<'s>, scene: &'s Scene) -> Result<(), String>;
+    /// A message, if the format can't express the shape.
+    fn emit<'s>(&self, text: &mut SceneWriter<'s>, scene: &'s Scene) -> Result<(), String>;
 }
 
-/// Writes each shape in its own way, or by the keys of its row.
+/// Writes each shape by its own `impl`, or by the keys of its row.
 macro_rules! emit {
     ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
-        impl<'s> Text<'s> {
+        impl<'s> SceneWriter<'s> {
             pub(super) fn shape(&mut self, shape: &Shape, scene: &'s Scene) -> Result<(), String> {
                 match shape {
                     $(Shape::$Name(shape) => shape.emit(self, scene),)*
@@ -30,10 +30,10 @@ macro_rules! emit {
 macro_rules! by_keys {
     ($Name:ident custom $values:tt) => {};
     ($Name:ident derived {
-        $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+        $type:literal $($value:ident: $rule:ident $key:literal $($name:literal)?;)*
     }) => {
         impl Emit for ir::$Name {
-            fn emit<'s>(&self, text: &mut Text<'s>, _: &'s Scene) -> Result<(), String> {
+            fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
                 let Self { $($value),* } = self;
                 text.kind($type);
                 $(text.$rule($key, $value);)*
@@ -45,7 +45,7 @@ macro_rules! by_keys {
 
 rtc_tables::shapes!(emit);
 
-impl Text<'_> {
+impl SceneWriter<'_> {
     fn kind(&mut self, word: &str) {
         self.line(2, &format!("- type: {word}"));
     }
@@ -74,21 +74,21 @@ impl Text<'_> {
 }
 
 impl Emit for Sphere {
-    fn emit<'s>(&self, text: &mut Text<'s>, _: &'s Scene) -> Result<(), String> {
+    fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
         let Self {
             center,
             radius,
-            texture_from_world: turn,
+            texture_from_world: rotation,
         } = self;
         text.kind("sphere");
         text.point("position", center);
-        let Some(turn) = turn else {
+        let Some(rotation) = rotation else {
             text.length("radius", radius);
             return Ok(());
         };
-        let turn = turn_of(*turn)
+        let rotation = axis_angle_of(*rotation)
             .ok_or("the texture of a sphere is turned as no axis and angle say to the last bit")?;
-        let (axis, angle) = turn;
+        let (axis, angle) = rotation;
         text.finite &= [*radius, angle]
             .iter()
             .chain(&axis)
@@ -103,7 +103,7 @@ impl Emit for Sphere {
 }
 
 impl Emit for Triangle {
-    fn emit<'s>(&self, text: &mut Text<'s>, _: &'s Scene) -> Result<(), String> {
+    fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
         let Self { vertices, uvs } = self;
         text.kind("triangle");
         text.corners(vertices);
@@ -116,7 +116,7 @@ impl Emit for Triangle {
 }
 
 impl Emit for Quad {
-    fn emit<'s>(&self, text: &mut Text<'s>, _: &'s Scene) -> Result<(), String> {
+    fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
         let Self { vertices } = self;
         text.kind("quad");
         text.corners(vertices);
@@ -128,7 +128,7 @@ impl Emit for Quad {
 }
 
 impl Emit for Instance {
-    fn emit<'s>(&self, text: &mut Text<'s>, scene: &'s Scene) -> Result<(), String> {
+    fn emit<'s>(&self, text: &mut SceneWriter<'s>, scene: &'s Scene) -> Result<(), String> {
         let Self {
             mesh,
             world_from_object,
@@ -157,32 +157,35 @@ impl Emit for Instance {
     }
 }
 
-/// An axis and an angle that give a rotation to the last bit, the shorter the better; `None` if
-/// none is found, as for a rotation that no text was lowered to.
-fn turn_of(rows: [[f64; 3]; 3]) -> Option<([f64; 3], f64)> {
-    let (axis, nearly) = axis_and_angle(rows);
-    let turns = |angle: &f64| turned_to_z(axis, *angle) == Some(rows);
-    let digits =
-        (0..18).map(|digits: usize| format!("{nearly:.digits$}").parse().unwrap_or(nearly));
-    // Halfway between two quarters it counts from which side the angle is written.
+/// An axis and an angle, as short as possible, whose rotation equals `rows` bit for bit; `None` if
+/// none is found, for example if no text was lowered to this rotation.
+fn axis_angle_of(rows: [[f64; 3]; 3]) -> Option<([f64; 3], f64)> {
+    let (axis, approximate) = axis_and_angle(rows);
+    let reproduces = |angle: &f64| turned_to_z(axis, *angle) == Some(rows);
+    let digits = (0..18).map(|digits: usize| {
+        format!("{approximate:.digits$}")
+            .parse()
+            .unwrap_or(approximate)
+    });
+    // Halfway between two quarters of a turn, the sign of the angle matters.
     let angles = digits
-        .chain(around(nearly, f64::EPSILON / 2.0))
+        .chain(around(approximate, f64::EPSILON / 2.0))
         .flat_map(|angle| [angle, angle + 360.0, angle - 360.0]);
-    let angle = angles.into_iter().find(turns)?;
-    // Any length will do, so long as it rounds to this axis.
+    let angle = angles.into_iter().find(reproduces)?;
+    // Any length that normalises to this axis.
     let mut lengths = around(1.0, 1.0 / 67_108_864.0);
     let axis = lengths
         .find_map(|length| Some(axis * length).filter(|scaled| unit(*scaled) == Some(axis)))?;
     Some((axis.to_array(), angle))
 }
 
-/// A number and some on either side of it, the steps between them ever wider: first `share` of the
-/// number, then 16 times as much, and so on. How far off it is depends on what was rounded, so no
-/// one step would do.
-fn around(middle: f64, share: f64) -> impl Iterator<Item = f64> {
+/// Candidates around a number with increasing step sizes: first `fraction` of the number, then 16
+/// times as much, and so on. The distance depends on what was rounded, so one step size would not
+/// do.
+fn around(middle: f64, fraction: f64) -> impl Iterator<Item = f64> {
     const SCALES: u32 = 6;
     const STEPS: i32 = 1 << 15;
-    let step = move |scale| middle * share * f64::from(16_i32.pow(scale));
+    let step = move |scale| middle * fraction * f64::from(16_i32.pow(scale));
     let steps =
         (0..SCALES).flat_map(move |scale| (1..=STEPS).map(move |k| step(scale) * f64::from(k)));
     std::iter::once(middle).chain(steps.flat_map(move |by| [middle + by, middle - by]))

@@ -1,18 +1,18 @@
-//! The material of glTF back to text, from the table of its parameters.
+//! Writes the glTF material, from the table of its parameters.
 
 use super::material::exists;
-use super::{Text, quoted};
+use super::{SceneWriter, quoted};
 use rtc_ir::{Alpha, Filter, Map, Sampled, Scene, Standard, Texture, Wrap};
 use rtc_math::shortest;
 use rtc_tables::{camel_case, parameters};
 
-/// Writes all parameters that are not as by default: the kind of each names its way.
+/// Writes all parameters that are not the default; the kind of each names its method.
 macro_rules! material {
     ($(
         $(#[doc = $about:literal])*
         $field:ident: $kind:ident = $default:expr, $omitted:literal;
     )*) => {
-        impl<'s> Text<'s> {
+        impl<'s> SceneWriter<'s> {
             pub(super) fn standard(
                 &mut self,
                 key: &str,
@@ -39,13 +39,13 @@ macro_rules! material {
 
 parameters!(material);
 
-/// The parameters of one material, each as it is written.
+/// The writer of the parameters of one material.
 struct Parameters<'t, 's> {
-    text: &'t mut Text<'s>,
+    text: &'t mut SceneWriter<'s>,
     scene: &'s Scene,
 }
 
-/// What is written, or the reason why it can't be.
+/// The text of a value, or why it can't be written.
 type Written = Result<String, String>;
 
 #[expect(
@@ -135,7 +135,7 @@ impl Parameters<'_, '_> {
             keys += &format!(", set: {set}");
         }
         if *wrap != [Wrap::Repeat; 2] {
-            let [u, v] = wrap.map(wrap_word);
+            let [u, v] = wrap.map(wrap_name);
             keys += &format!(", wrap: [{u}, {v}]");
         }
         match filter {
@@ -150,7 +150,7 @@ impl Parameters<'_, '_> {
     }
 }
 
-fn wrap_word(wrap: Wrap) -> &'static str {
+fn wrap_name(wrap: Wrap) -> &'static str {
     match wrap {
         Wrap::Repeat => "repeat",
         Wrap::Mirror => "mirror",

@@ -1,5 +1,5 @@
-//! The camera: perspective or orthographic, and in `extras.rtc` what glTF has no words for: the
-//! size of the picture, the plane of focus, where its middle lies, the lens.
+//! Writes the camera: perspective or orthographic. Image size, plane of focus, off-centre
+//! projection and lens go to `extras.rtc`, because glTF can't express them.
 
 use super::document::{self, Index, Node};
 use super::writer::{GltfWriter, extras, single};
@@ -7,9 +7,10 @@ use rtc_ir::{Camera, EntityKind, Field, Lens, Projection, ValuePath};
 use rtc_math::{Vec3, atan2, length, unit};
 use serde_json::{Map as Block, Value, json};
 
-/// The near plane, as a share of the distance to the plane of focus.
+/// The near plane, as a fraction of the distance to the plane of focus.
 const NEAR: f64 = 1e-3;
-/// How far the middle of the picture may be from the axis to be on it, in halves of the picture.
+/// The largest offset of the image centre from the axis that counts as centred, in half image
+/// sizes.
 const CENTERED: f64 = 1e-12;
 
 impl GltfWriter<'_> {
@@ -35,7 +36,7 @@ impl GltfWriter<'_> {
         ];
         let middle = center - (eye - z * distance);
         let shift = [middle.dot(x) / half[0], middle.dot(y) / half[1]];
-        let own = self.own_words_of_camera(distance, shift, lens);
+        let rtc_extras = self.camera_extras(distance, shift, lens);
         let (kind, projection) = match projection {
             Projection::Perspective => ("perspective", perspective(half, distance)),
             Projection::Orthographic => ("orthographic", self.orthographic(half, distance)),
@@ -43,7 +44,7 @@ impl GltfWriter<'_> {
         let camera = document::Camera {
             projection,
             kind,
-            extras: extras(own),
+            extras: extras(rtc_extras),
         };
         let node = Node {
             camera: Some(Index::push(&mut self.root.cameras, camera)),
@@ -52,40 +53,40 @@ impl GltfWriter<'_> {
         self.node(node, [x, y, z, eye].map(|column| column.to_array()));
     }
 
-    fn own_words_of_camera(
+    fn camera_extras(
         &mut self,
         distance: f64,
         shift: [f64; 2],
         lens: &Lens,
     ) -> Block<String, Value> {
-        let place = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+        let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
         let [width, height] = self.scene.camera.size;
-        let mut own = Block::new();
-        let mut say = |key: &str, value| {
-            own.insert(key.to_owned(), value);
+        let mut rtc_extras = Block::new();
+        let mut insert = |key: &str, value| {
+            rtc_extras.insert(key.to_owned(), value);
         };
-        say("width", width.into());
-        say("height", height.into());
-        say("focusDistance", distance.into());
-        self.told.own_words("the size of the picture", place);
+        insert("width", width.into());
+        insert("height", height.into());
+        insert("focusDistance", distance.into());
+        self.reporter.in_extras("the size of the picture", path);
         if shift.iter().any(|side| side.abs() > CENTERED) {
-            say("shift", json!(shift));
+            insert("shift", json!(shift));
             let what = "that the camera looks past the middle of its picture";
-            self.told.own_words(what, place);
+            self.reporter.in_extras(what, path);
         }
         let Lens { radius, samples } = lens;
         if *radius != 0.0 || *samples != 1 {
-            say("lensRadius", (*radius).into());
-            say("lensSamples", (*samples).into());
-            self.told.own_words("the lens of the camera", place);
+            insert("lensRadius", (*radius).into());
+            insert("lensSamples", (*samples).into());
+            self.reporter.in_extras("the lens of the camera", path);
         }
-        own
+        rtc_extras
     }
 
     fn orthographic(&self, [xmag, ymag]: [f64; 2], distance: f64) -> document::Projection {
         let eye = Vec3::from_array(self.scene.camera.eye);
-        let far = self.scene.bounding_sphere().map_or(distance, |ball| {
-            ball.center.distance(eye) + ball.radius + distance
+        let far = self.scene.bounding_sphere().map_or(distance, |bounding| {
+            bounding.center.distance(eye) + bounding.radius + distance
         });
         document::Projection::Orthographic {
             xmag,
@@ -104,7 +105,7 @@ fn perspective([width, height]: [f64; 2], distance: f64) -> document::Projection
     }
 }
 
-/// A distance above 0 in the few digits of a 32-bit float, if there is one as long.
+/// A positive distance rounded to f32, if that is a normal number.
 fn short(distance: f64) -> f64 {
     let rounded = f64::from(single(distance));
     match rounded.is_normal() {

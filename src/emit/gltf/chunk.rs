@@ -1,4 +1,4 @@
-//! The one buffer: buffer views and accessors, each written once.
+//! Buffer views and accessors in the single buffer.
 
 use super::document::{
     ARRAY_BUFFER, Accessor, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT, Index, UNSIGNED_INT,
@@ -8,7 +8,7 @@ use super::writer::GltfWriter;
 use rtc_ir::Image;
 
 impl GltfWriter<'_> {
-    /// Adds bytes as a buffer view, whose length is filled up to whole words.
+    /// Adds bytes as a buffer view, padded to a multiple of 4 bytes.
     pub(super) fn view(&mut self, bytes: &[u8], target: Option<u32>) -> Index<BufferView> {
         let offset = self.bin.len();
         self.bin.extend_from_slice(bytes);
@@ -22,7 +22,7 @@ impl GltfWriter<'_> {
         Index::push(&mut self.root.buffer_views, view)
     }
 
-    /// Adds vectors of floats, one a vertex. Positions need their extent.
+    /// Adds float vectors, one per vertex. Positions need their minimum and maximum.
     pub(super) fn floats<const N: usize>(
         &mut self,
         vectors: &[[f32; N]],
@@ -51,7 +51,7 @@ impl GltfWriter<'_> {
         Index::push(&mut self.root.accessors, accessor)
     }
 
-    /// Adds the pixels of an image of floats, in rows from the top.
+    /// Adds the pixels of a float image, in rows from the top.
     pub(super) fn pixels(&mut self, image: &Image) -> Index<Accessor> {
         let view = self.view(&image.pixels, None);
         let count = image.pixels.len() / image.kind.bytes();
@@ -62,15 +62,15 @@ impl GltfWriter<'_> {
         Index::push(&mut self.root.accessors, accessor)
     }
 
-    /// Adds the corners of triangles, in the smallest type that counts so many vertices.
+    /// Adds the vertex indices of triangles, in the smallest type that fits `vertices`.
     pub(super) fn indices(&mut self, triangles: &[[u32; 3]], vertices: usize) -> Index<Accessor> {
         let corners = triangles.iter().flatten();
-        // The greatest number of a type restarts a strip (glTF 2.0, section 3.7.2.1).
+        // The largest value of a type is the primitive restart index (glTF 2.0, section 3.7.2.1).
         let short: Option<Vec<u8>> = (vertices <= usize::from(u16::MAX)).then(|| {
-            let words = corners
+            let indices = corners
                 .clone()
                 .filter_map(|corner| u16::try_from(*corner).ok());
-            words.flat_map(u16::to_le_bytes).collect()
+            indices.flat_map(u16::to_le_bytes).collect()
         });
         let (bytes, component) = match short {
             Some(bytes) => (bytes, UNSIGNED_SHORT),
@@ -102,7 +102,7 @@ fn accessor(
     }
 }
 
-/// The least and greatest values of each component.
+/// The minimum and maximum of each component.
 fn extent<const N: usize>(vectors: &[[f32; N]]) -> [Vec<f64>; 2] {
     let mut extent = [[f32::INFINITY; N], [f32::NEG_INFINITY; N]];
     for vector in vectors {

@@ -1,45 +1,46 @@
-//! The document: the parts of glTF 2.0 that are written, named as its specification names them.
+//! The glTF document: the objects of glTF 2.0 that are written, with the names of the
+//! specification.
 //!
-//! A property that is not needed is left out. The order of the fields is that of the file.
+//! Properties with default values are omitted. The order of the fields is that of the file.
 
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 use std::marker::PhantomData;
 
-/// The type of a component or an index: of 16 bits.
+/// Component type: u16.
 pub(super) const UNSIGNED_SHORT: u32 = 5123;
-/// The type of a component or an index: of 32 bits.
+/// Component type: u32.
 pub(super) const UNSIGNED_INT: u32 = 5125;
-/// The type of a component: a float of 32 bits.
+/// Component type: f32.
 pub(super) const FLOAT: u32 = 5126;
-/// What a buffer view is for: attributes of vertices.
+/// Buffer view target: vertex attributes.
 pub(super) const ARRAY_BUFFER: u32 = 34962;
-/// What a buffer view is for: indices of vertices.
+/// Buffer view target: vertex indices.
 pub(super) const ELEMENT_ARRAY_BUFFER: u32 = 34963;
-/// A filter of a sampler: the nearest pixel.
+/// Sampler filter: nearest.
 pub(super) const MIN_HIT_DISTANCE: u32 = 9728;
-/// A filter of a sampler: between pixels.
+/// Sampler filter: linear.
 pub(super) const LINEAR: u32 = 9729;
-/// A filter of a sampler: between pixels, and between sizes of the picture.
+/// Sampler filter: linear with linear mipmapping.
 pub(super) const LINEAR_MIPMAP_LINEAR: u32 = 9987;
-/// What a sampler does at the edge: the picture ends.
+/// Wrap mode: clamp to edge.
 pub(super) const CLAMP_TO_EDGE: u32 = 33071;
-/// What a sampler does at the edge: the picture turns round.
+/// Wrap mode: mirrored repeat.
 pub(super) const MIRRORED_REPEAT: u32 = 33648;
-/// What a sampler does at the edge: the picture begins again.
+/// Wrap mode: repeat.
 pub(super) const REPEAT: u32 = 10497;
 
-/// What only some programs read; `None` if there is nothing.
+/// Application-specific data, if any.
 pub(super) type Extras = Option<Value>;
 
-/// The place of a part in its list.
+/// The index of an object in its array.
 #[derive(Serialize)]
 #[serde(transparent)]
 pub(super) struct Index<T>(u32, PhantomData<fn() -> T>);
 
 impl<T> Index<T> {
-    /// Adds a part to its list.
+    /// Adds an object to its array.
     pub(super) fn push(list: &mut Vec<T>, part: T) -> Self {
         list.push(part);
         let last = u32::try_from(list.len() - 1).unwrap_or(u32::MAX);
@@ -59,7 +60,7 @@ impl<T> Clone for Index<T> {
 
 impl<T> Copy for Index<T> {}
 
-/// All of it. It has one scene.
+/// The root object. It has one scene.
 #[derive(Default, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Root {
@@ -94,21 +95,21 @@ pub(super) struct Root {
     pub(super) textures: Vec<Texture>,
 }
 
-/// Who wrote it, in which version of glTF.
+/// The generator and the glTF version.
 #[derive(Default, Serialize)]
 pub(super) struct Asset {
     pub(super) generator: &'static str,
     pub(super) version: &'static str,
 }
 
-/// The nodes that are shown.
+/// The root nodes.
 #[derive(Default, Serialize)]
 pub(super) struct Scene {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) nodes: Vec<Index<Node>>,
 }
 
-/// Something that stands in the scene. The matrix has its columns one after the other.
+/// A node. Its matrix is column-major.
 #[derive(Default, Serialize)]
 pub(super) struct Node {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -133,7 +134,7 @@ pub(super) struct Mesh {
     pub(super) primitives: [Primitive; 1],
 }
 
-/// Triangles of one material.
+/// A triangle primitive with one material.
 #[derive(Serialize)]
 pub(super) struct Primitive {
     pub(super) attributes: Attributes,
@@ -141,7 +142,7 @@ pub(super) struct Primitive {
     pub(super) material: Index<Material>,
 }
 
-/// What the vertices have.
+/// Vertex attributes.
 #[derive(Clone, Copy, Default, Serialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 pub(super) struct Attributes {
@@ -159,7 +160,7 @@ pub(super) struct Attributes {
     pub(super) texcoord_1: Option<Index<Accessor>>,
 }
 
-/// Elements of a buffer view.
+/// A typed view of a buffer view.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
@@ -176,7 +177,7 @@ pub(super) struct Accessor {
     pub(super) name: Option<String>,
 }
 
-/// Bytes of a buffer.
+/// A byte range of a buffer.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct BufferView {
@@ -187,7 +188,7 @@ pub(super) struct BufferView {
     pub(super) target: Option<u32>,
 }
 
-/// The bytes of a file, or those of the binary chunk.
+/// A buffer: a file, or the binary chunk.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Buffer {
@@ -196,7 +197,7 @@ pub(super) struct Buffer {
     pub(super) uri: Option<String>,
 }
 
-/// A picture, in a buffer view or in a file.
+/// An image in a buffer view or in a file.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Image {
@@ -209,7 +210,7 @@ pub(super) struct Image {
     pub(super) uri: Option<String>,
 }
 
-/// How a picture is looked up.
+/// A texture sampler.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Sampler {
@@ -219,14 +220,14 @@ pub(super) struct Sampler {
     pub(super) wrap_t: u32,
 }
 
-/// A picture and how it is looked up.
+/// An image with its sampler.
 #[derive(Serialize)]
 pub(super) struct Texture {
     pub(super) sampler: Index<Sampler>,
     pub(super) source: Index<Image>,
 }
 
-/// What a material says of a texture. A map of normals has a scale.
+/// A reference to a texture. A normal map has a scale.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct TextureInfo {
@@ -238,7 +239,7 @@ pub(super) struct TextureInfo {
     pub(super) extensions: Option<Value>,
 }
 
-/// A material. The blocks of its extensions stand by their names.
+/// A material, with its extensions by name.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Material {
@@ -260,7 +261,7 @@ pub(super) struct Material {
     pub(super) extras: Extras,
 }
 
-/// The core of a material.
+/// The metallic-roughness parameters.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct PbrMetallicRoughness {
@@ -284,17 +285,17 @@ pub(super) struct Camera {
     pub(super) extras: Extras,
 }
 
-/// What a camera sees.
+/// A projection.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase", rename_all_fields = "camelCase")]
 pub(super) enum Projection {
-    /// A pyramid, from the angle at its top.
+    /// Perspective, by vertical field of view.
     Perspective {
         aspect_ratio: f64,
         yfov: f64,
         znear: f64,
     },
-    /// A box, from half its width and height.
+    /// Orthographic, by half width and half height.
     Orthographic {
         xmag: f64,
         ymag: f64,
@@ -316,7 +317,7 @@ pub(super) struct Lights {
     pub(super) lights: Vec<Light>,
 }
 
-/// A light of `KHR_lights_punctual`, which shines along its −z axis.
+/// A light of `KHR_lights_punctual`, which points along its −z axis.
 #[derive(Serialize)]
 pub(super) struct Light {
     pub(super) color: [f64; 3],
@@ -331,7 +332,7 @@ pub(super) struct Light {
     pub(super) kind: &'static str,
 }
 
-/// The cone of a spot.
+/// The cone of a spot light.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Spot {
@@ -346,7 +347,7 @@ pub(super) struct NodeExtensions {
     pub(super) punctual: LightReference,
 }
 
-/// The light that hangs on a node.
+/// The light of a node.
 #[derive(Serialize)]
 pub(super) struct LightReference {
     pub(super) light: Index<Light>,

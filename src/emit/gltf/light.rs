@@ -1,4 +1,4 @@
-//! Lights: `KHR_lights_punctual`, and in `extras.rtc` what it has no words for.
+//! Writes lights: `KHR_lights_punctual`, and in `extras.rtc` what it can't express.
 
 use super::document::{self, Index, Spot};
 use super::material::strength;
@@ -9,15 +9,15 @@ use rtc_math::{Basis, Vec3, unit};
 use serde_json::{Map as Block, Value, json};
 use std::f64::consts::PI;
 
-/// A light as glTF has it.
-struct Lamp {
+/// A light in terms of glTF.
+struct GltfLight {
     kind: &'static str,
     intensity: [f64; 3],
     range: Option<f64>,
     /// The inner and the outer angle.
     angles: Option<[f64; 2]>,
-    own: Block<String, Value>,
-    /// From the light, which shines along its −z axis, to the world.
+    rtc_extras: Block<String, Value>,
+    /// The transform from the light, which points along its −z axis, to the world.
     columns: [[f64; 3]; 4],
 }
 
@@ -30,123 +30,130 @@ impl GltfWriter<'_> {
         }
         let middle = scene
             .bounding_sphere()
-            .map_or(Vec3::ZERO, |ball| ball.center);
+            .map_or(Vec3::ZERO, |bounding| bounding.center);
         for (index, light) in scene.lights.iter().enumerate() {
-            let place = ValuePath::new(EntityKind::Light, index, Field::Whole);
-            let lamp = match light {
-                Light::Point(point) => self.course_light(point, middle, place),
-                Light::Punctual(punctual) => self.punctual(punctual, middle, place),
+            let path = ValuePath::new(EntityKind::Light, index, Field::Whole);
+            let light = match light {
+                Light::Point(point) => self.course_light(point, middle, path),
+                Light::Punctual(punctual) => self.punctual(punctual, middle, path),
             };
-            self.light(lamp);
+            self.light(light);
         }
     }
 
-    /// A light of the course has no falloff. Written is the one that lights the middle of the scene
-    /// as much: a facing white Lambert surface there has the colour of the light as radiance.
-    fn course_light(&mut self, light: &PointLight, middle: Vec3, place: ValuePath) -> Lamp {
+    /// A light of the course has no falloff. The light written gives the same irradiance at the
+    /// centre of the scene: a white Lambertian surface that faces it there has the colour of the
+    /// light as radiance.
+    fn course_light(&mut self, light: &PointLight, middle: Vec3, path: ValuePath) -> GltfLight {
         let PointLight {
             position,
             color,
             radius,
         } = light;
-        self.told
-            .own_words("a light without falloff, with its radius,", place);
+        self.reporter
+            .in_extras("a light without falloff, with its radius,", path);
         let message =
             "a light without falloff becomes one that lights the middle of the scene as much";
-        self.told.tell(&codes::GLTF_NEARLY, message, place);
+        self.reporter.report(&codes::GLTF_NEARLY, message, path);
         let square = middle.distance_squared(Vec3::from_array(*position));
-        let own = json!({ "color": color, "radius": radius });
-        Lamp {
+        let rtc_extras = json!({ "color": color, "radius": radius });
+        GltfLight {
             kind: "point",
             intensity: color.map(|channel| channel * PI * square),
             range: None,
             angles: None,
-            own: Block::from_iter([("point".to_owned(), own)]),
+            rtc_extras: Block::from_iter([("point".to_owned(), rtc_extras)]),
             columns: placed(*position),
         }
     }
 
-    fn punctual(&mut self, light: &Punctual, middle: Vec3, place: ValuePath) -> Lamp {
+    fn punctual(&mut self, light: &Punctual, middle: Vec3, path: ValuePath) -> GltfLight {
         let Punctual { emitter, intensity } = light;
-        let lamp = |kind, columns| Lamp {
+        let light = |kind, columns| GltfLight {
             kind,
             intensity: *intensity,
             range: emitter.range(),
             angles: None,
-            own: Block::new(),
+            rtc_extras: Block::new(),
             columns,
         };
         match emitter {
-            Emitter::Sun { direction } => {
-                lamp("directional", shining(middle.to_array(), *direction, None))
-            }
-            Emitter::Point { position, range: _ } => lamp("point", placed(*position)),
+            Emitter::Sun { direction } => light(
+                "directional",
+                pointing_from(middle.to_array(), *direction, None),
+            ),
+            Emitter::Point { position, range: _ } => light("point", placed(*position)),
             Emitter::Spot {
                 position,
                 direction,
                 inner_angle,
                 outer_angle,
                 range: _,
-            } => Lamp {
+            } => GltfLight {
                 angles: Some([*inner_angle, *outer_angle]),
-                ..lamp(
+                ..light(
                     "spot",
-                    shining(*position, direction.map(|along| -along), None),
+                    pointing_from(*position, direction.map(|component| -component), None),
                 )
             },
-            Emitter::Lamp {
+            Emitter::Photometric {
                 position,
                 direction,
                 horizontal,
                 photometry,
             } => {
-                let back = direction.map(|along| -along);
-                let columns = shining(*position, back, Some(*horizontal));
-                self.measured(lamp("point", columns), photometry, place)
+                let back = direction.map(|component| -component);
+                let columns = pointing_from(*position, back, Some(*horizontal));
+                self.photometric_light(light("point", columns), photometry, path)
             }
         }
     }
 
-    /// A lamp as it was measured: glTF has the point with the mean of its candelas.
-    fn measured(&mut self, lamp: Lamp, photometry: &Photometry, place: ValuePath) -> Lamp {
+    /// An IES light: glTF gets a point light with the mean of its candelas.
+    fn photometric_light(
+        &mut self,
+        light: GltfLight,
+        photometry: &Photometry,
+        path: ValuePath,
+    ) -> GltfLight {
         let Photometry {
             name,
             vertical,
             horizontal,
             candela,
         } = photometry;
-        self.told.own_words("how a lamp was measured", place);
+        self.reporter.in_extras("how a lamp was measured", path);
         let message = "a measured lamp becomes a point that shines alike in all directions";
-        self.told.tell(&codes::GLTF_NEARLY, message, place);
+        self.reporter.report(&codes::GLTF_NEARLY, message, path);
         let mean = candela.iter().sum::<f64>() / (candela.len().max(1) as f64);
-        let own = json!({
+        let rtc_extras = json!({
             "name": name,
-            "factor": lamp.intensity,
+            "factor": light.intensity,
             "vertical": vertical,
             "horizontal": horizontal,
             "candela": candela,
         });
-        Lamp {
-            intensity: lamp.intensity.map(|channel| channel * mean),
-            own: Block::from_iter([("photometry".to_owned(), own)]),
-            ..lamp
+        GltfLight {
+            intensity: light.intensity.map(|channel| channel * mean),
+            rtc_extras: Block::from_iter([("photometry".to_owned(), rtc_extras)]),
+            ..light
         }
     }
 
-    fn light(&mut self, lamp: Lamp) {
-        let Lamp {
+    fn light(&mut self, light: GltfLight) {
+        let GltfLight {
             kind,
             intensity,
             range,
             angles,
-            own,
+            rtc_extras,
             columns,
-        } = lamp;
+        } = light;
         self.root.extensions_used.insert("KHR_lights_punctual");
         let strength = strength(intensity);
         let light = document::Light {
             color: intensity.map(|channel| channel / strength),
-            extras: extras(own),
+            extras: extras(rtc_extras),
             intensity: strength,
             range,
             spot: angles.map(|[inner_cone_angle, outer_cone_angle]| Spot {
@@ -161,13 +168,14 @@ impl GltfWriter<'_> {
     }
 }
 
-/// Something without a direction.
+/// The transform of a light without direction.
 fn placed(position: [f64; 3]) -> [[f64; 3]; 4] {
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], position]
 }
 
-/// Something that shines away from `back`, with its x axis towards `across` if that is given.
-fn shining(position: [f64; 3], back: [f64; 3], across: Option<[f64; 3]>) -> [[f64; 3]; 4] {
+/// The transform of a light that points away from `back`, with its x axis towards `across` if
+/// given.
+fn pointing_from(position: [f64; 3], back: [f64; 3], across: Option<[f64; 3]>) -> [[f64; 3]; 4] {
     let z = unit(Vec3::from_array(back)).unwrap_or(Vec3::Z);
     let around = Basis::around(z);
     let x = across.and_then(|across| {

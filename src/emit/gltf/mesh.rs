@@ -1,5 +1,5 @@
-//! Meshes and where they stand: attributes once for each mesh of the scene, a mesh of glTF for each
-//! material that it has, a node for each surface.
+//! Writes meshes and nodes: accessors once per mesh of the scene, a glTF mesh per mesh and
+//! material, a node per surface.
 
 use super::document::{self, Accessor, Attributes, Index, Node, Primitive};
 use super::writer::{GltfWriter, extras, single};
@@ -16,11 +16,12 @@ pub(super) struct MeshAccessors {
     triangles: Index<Accessor>,
 }
 
-/// Lengths that count as 1, so that the numbers stay as they are; that of glTF is 0.006.
+/// Lengths that count as 1, so that numbers stay unchanged; the tolerance of the glTF validator is
+/// 0.006.
 const UNIT: std::ops::RangeInclusive<f64> = 0.999..=1.001;
 
 impl GltfWriter<'_> {
-    /// Writes a surface of the scene as a node with a mesh; `None` if that is not possible.
+    /// Writes a surface as a node with a mesh; `None` if that is impossible.
     pub(super) fn surface(&mut self, index: usize) -> Option<()> {
         let scene = self.scene;
         let surface = &scene.surfaces[index];
@@ -31,34 +32,35 @@ impl GltfWriter<'_> {
         else {
             unreachable!("all shapes have become meshes");
         };
-        let place = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+        let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
         if scene.meshes[mesh.0 as usize].triangles.is_empty() {
             return Some(());
         }
         let material = self.material(surface.material, *mesh);
-        let mesh = self.mesh(*mesh, material, place)?;
-        let mut own = serde_json::Map::new();
+        let mesh = self.mesh(*mesh, material, path)?;
+        let mut rtc_extras = serde_json::Map::new();
         if surface.casts_no_shadow {
-            own.insert("castsNoShadow".to_owned(), true.into());
-            self.told.own_words("that a surface casts no shadow", place);
+            rtc_extras.insert("castsNoShadow".to_owned(), true.into());
+            self.reporter
+                .in_extras("that a surface casts no shadow", path);
         }
         let name = scene.names.get(index).filter(|name| !name.is_empty());
         let node = Node {
             mesh: Some(mesh),
             name: name.cloned(),
-            extras: extras(own),
+            extras: extras(rtc_extras),
             ..Node::default()
         };
         self.node(node, *world_from_object);
         Some(())
     }
 
-    /// The mesh of glTF with this material.
+    /// The glTF mesh with this material.
     fn mesh(
         &mut self,
         id: MeshId,
         material: Index<document::Material>,
-        place: ValuePath,
+        path: ValuePath,
     ) -> Option<Index<document::Mesh>> {
         let key = (id.0, material.value());
         if let Some(known) = self.meshes.get(&key) {
@@ -67,7 +69,7 @@ impl GltfWriter<'_> {
         let MeshAccessors {
             of_vertices: attributes,
             triangles,
-        } = self.attributes(id, place)?;
+        } = self.attributes(id, path)?;
         let primitive = Primitive {
             attributes,
             indices: triangles,
@@ -84,12 +86,12 @@ impl GltfWriter<'_> {
     }
 
     /// The accessors of a mesh of the scene.
-    fn attributes(&mut self, id: MeshId, place: ValuePath) -> Option<MeshAccessors> {
+    fn attributes(&mut self, id: MeshId, path: ValuePath) -> Option<MeshAccessors> {
         if let Some(known) = self.attributes.get(&id.0) {
             return Some(*known);
         }
         let mesh = &self.scene.meshes[id.0 as usize];
-        self.charge(mesh, place)?;
+        self.charge(mesh, path)?;
         let Mesh {
             name: _,
             part: _,
@@ -101,13 +103,13 @@ impl GltfWriter<'_> {
             colors,
             triangles,
         } = mesh;
-        let corners = self.rounded(positions, place)?;
+        let corners = self.rounded(positions, path)?;
         let mut of_vertices = Attributes {
             position: Some(self.floats(&corners, true)),
             ..Attributes::default()
         };
         if !normals.is_empty() {
-            let normals = self.directions(normals, &corners, triangles, place)?;
+            let normals = self.directions(normals, &corners, triangles, path)?;
             of_vertices.normal = Some(self.floats(&normals, false));
         }
         for (uvs, attribute) in [
@@ -115,16 +117,16 @@ impl GltfWriter<'_> {
             (second_uvs, &mut of_vertices.texcoord_1),
         ] {
             if !uvs.is_empty() {
-                let uvs = self.rounded(uvs, place)?;
+                let uvs = self.rounded(uvs, path)?;
                 *attribute = Some(self.floats(&uvs, false));
             }
         }
         if !tangents.is_empty() && !normals.is_empty() {
-            let tangents = self.tangents(tangents, normals, place)?;
+            let tangents = self.tangents(tangents, normals, path)?;
             of_vertices.tangent = Some(self.floats(&tangents, false));
         }
         if !colors.is_empty() {
-            let colors = self.rounded(colors, place)?;
+            let colors = self.rounded(colors, path)?;
             of_vertices.color_0 = Some(self.floats(&colors, false));
         }
         let made = MeshAccessors {
@@ -135,37 +137,39 @@ impl GltfWriter<'_> {
         Some(made)
     }
 
-    /// Charges the bytes of a mesh; `None` if that is too much, which is told.
-    fn charge(&mut self, mesh: &Mesh, place: ValuePath) -> Option<()> {
+    /// Charges the bytes of a mesh; `None` if they exceed the budget, which is reported.
+    fn charge(&mut self, mesh: &Mesh, path: ValuePath) -> Option<()> {
         let numbers = 3 * (mesh.positions.len() + mesh.normals.len() + mesh.triangles.len())
             + 2 * (mesh.uvs.len() + mesh.second_uvs.len())
             + 4 * (mesh.tangents.len() + mesh.colors.len());
         let charged = self.budget.charge(Resource::Memory, 4 * numbers as u64);
-        if let Err(fault) = &charged {
-            let message = format!("the mesh takes too much as glTF: {fault}");
-            self.told.refuse(&codes::OVER_LIMIT, &message, place);
+        if let Err(error) = &charged {
+            let message = format!("the mesh takes too much as glTF: {error}");
+            self.reporter
+                .report_error(&codes::OVER_LIMIT, &message, path);
         }
         charged.ok()
     }
 
-    /// A column in 32-bit floats; `None` if they don't reach so far.
+    /// A column as f32; `None` if a value is out of range, which is reported.
     fn rounded<const N: usize>(
         &mut self,
         column: &Column<N>,
-        place: ValuePath,
+        path: ValuePath,
     ) -> Option<Vec<[f32; N]>> {
         let vectors: Vec<[f32; N]> = match column {
             Column::Single(vectors) => vectors.to_vec(),
-            Column::Double(vectors) => vectors.iter().map(|own| own.map(single)).collect(),
+            Column::Double(vectors) => vectors.iter().map(|vector| vector.map(single)).collect(),
         };
         if let Column::Double(exact) = column {
             if !vectors.iter().flatten().all(|number| number.is_finite()) {
                 let message = "a mesh reaches beyond the range of the 32-bit floats of glTF";
-                self.told.refuse(&codes::GLTF_UNSAID, message, place);
+                self.reporter
+                    .report_error(&codes::GLTF_UNSAID, message, path);
                 return None;
             }
             let is_exact =
-                |(own, exact): (&f32, &f64)| f64::from(*own).to_bits() == exact.to_bits();
+                |(rounded, exact): (&f32, &f64)| f64::from(*rounded).to_bits() == exact.to_bits();
             if !vectors
                 .iter()
                 .flatten()
@@ -173,28 +177,28 @@ impl GltfWriter<'_> {
                 .all(is_exact)
             {
                 let message = "the vertices of a mesh are rounded to the 32-bit floats of glTF";
-                self.told.tell(&codes::GLTF_NEARLY, message, place);
+                self.reporter.report(&codes::GLTF_NEARLY, message, path);
             }
         }
         Some(vectors)
     }
 
-    /// Tangents of length 1 with a side of ±1, as glTF wants them; those that are so keep their
-    /// bits. One without a direction takes one across its normal.
+    /// Tangents normalised to length 1 and handedness ±1, as glTF requires; valid ones keep their
+    /// bits. A tangent without direction becomes one perpendicular to its normal.
     fn tangents(
         &mut self,
         tangents: &Column<4>,
         normals: &Column<3>,
-        place: ValuePath,
+        path: ValuePath,
     ) -> Option<Vec<[f32; 4]>> {
-        let mut rounded = self.rounded(tangents, place)?;
+        let mut rounded = self.rounded(tangents, path)?;
         for (at, tangent) in rounded.iter_mut().enumerate() {
             let [x, y, z, side] = tangents.at(at);
-            let own = Vec3::new(x, y, z);
-            if !UNIT.contains(&own.length()) {
+            let vector = Vec3::new(x, y, z);
+            if !UNIT.contains(&vector.length()) {
                 let across = || Vec3::from_array(normals.at(at)).any_orthogonal_vector();
-                let own = unit(own).or_else(|| unit(across()));
-                let [x, y, z] = own.unwrap_or(Vec3::X).to_array().map(single);
+                let vector = unit(vector).or_else(|| unit(across()));
+                let [x, y, z] = vector.unwrap_or(Vec3::X).to_array().map(single);
                 *tangent = [x, y, z, tangent[3]];
             }
             tangent[3] = if side < 0.0 { -1.0 } else { 1.0 };
@@ -202,40 +206,44 @@ impl GltfWriter<'_> {
         Some(rounded)
     }
 
-    /// Normals of length 1, as glTF wants them; those that have it keep their bits. One without a
-    /// direction takes that of a triangle at it.
+    /// Normals of length 1, as glTF requires; valid ones keep their bits. A normal without
+    /// direction becomes that of a triangle at the vertex.
     fn directions(
         &mut self,
         normals: &Column<3>,
         corners: &[[f32; 3]],
         triangles: &[[u32; 3]],
-        place: ValuePath,
+        path: ValuePath,
     ) -> Option<Vec<[f32; 3]>> {
-        let mut rounded = self.rounded(normals, place)?;
+        let mut rounded = self.rounded(normals, path)?;
         let corner = |at: u32| Vec3::from_array(corners[at as usize].map(f64::from));
-        let mut lost: BTreeMap<u32, Vec3> = BTreeMap::new();
+        let mut without_direction: BTreeMap<u32, Vec3> = BTreeMap::new();
         for (at, normal) in rounded.iter_mut().enumerate() {
-            let own = Vec3::from_array(normals.at(at));
-            if UNIT.contains(&own.length()) {
+            let vector = Vec3::from_array(normals.at(at));
+            if UNIT.contains(&vector.length()) {
                 continue;
             }
-            match unit(own) {
-                Some(own) => *normal = own.to_array().map(single),
+            match unit(vector) {
+                Some(vector) => *normal = vector.to_array().map(single),
                 None => {
-                    lost.insert(u32::try_from(at).unwrap_or(u32::MAX), Vec3::Z);
+                    without_direction.insert(u32::try_from(at).unwrap_or(u32::MAX), Vec3::Z);
                 }
             }
         }
-        let needed = if lost.is_empty() { &[] } else { triangles };
+        let needed = if without_direction.is_empty() {
+            &[]
+        } else {
+            triangles
+        };
         for [a, b, c] in needed {
             let front = unit(cross(corner(*b) - corner(*a), corner(*c) - corner(*a)));
             for vertex in [a, b, c] {
-                if let (Some(own), Some(front)) = (lost.get_mut(vertex), front) {
-                    *own = front;
+                if let (Some(vector), Some(front)) = (without_direction.get_mut(vertex), front) {
+                    *vector = front;
                 }
             }
         }
-        for (at, normal) in lost {
+        for (at, normal) in without_direction {
             rounded[at as usize] = normal.to_array().map(single);
         }
         Some(rounded)

@@ -1,22 +1,28 @@
-//! The IR to glTF 2.0, as one binary file or as several.
+//! Writes the IR as glTF 2.0, as one binary file or as several files.
 //!
-//! Shapes become meshes, Phong's model the nearest metallic-roughness material. What glTF has no
-//! words for goes into `extras.rtc`, value by value; each such place is told.
+//! # Steps
+//! 1. `tessellate` tessellates shapes into meshes.
+//! 2. [`GltfWriter`] adds surfaces (`mesh`, `material`, `phong`, `texture`), lights, the camera and
+//! settings to the [`document`].
+//! 3. `finish` adds the buffer and makes a [`GltfAsset`], which can be written.
+//!
+//! The Phong model is approximated by the metallic-roughness model. What glTF can't express goes to
+//! `extras.rtc`, which only rtc reads; each such value is reported.
 
 mod camera;
 mod chunk;
 mod document;
-mod form;
 mod light;
 mod material;
 mod mesh;
 mod phong;
+mod reporter;
 mod settings;
+mod tessellate;
 mod texture;
-mod told;
 mod writer;
 
-use super::told::Told;
+use super::reporter::Reporter;
 use document::{Asset, Buffer, Index};
 use rtc_diag::{Sink, codes};
 use rtc_ir::{EntityKind, Field, Scene, SourceSpans, ValuePath};
@@ -25,24 +31,23 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use writer::GltfWriter;
 
-/// An asset, ready to be written.
+/// An asset that is ready to be written.
 pub struct GltfAsset {
-    /// The document, as JSON.
+    /// The document as JSON.
     json: Vec<u8>,
-    /// The vertices and pictures in the same file; empty if they are in others, or there are none.
+    /// The binary chunk: vertices and images; empty if there are none or they are in other files.
     bin: Vec<u8>,
-    /// The vertices and pictures in files of their own, by their paths from the folder of the asset.
+    /// Sidecar files with vertices and images, by their paths relative to the asset.
     files: BTreeMap<String, Vec<u8>>,
     is_binary: bool,
 }
 
-/// Makes an asset of a proven scene. `tolerance` is the farthest that a mesh may be from the shape
-/// it stands for, in scene units; without one it is a thousandth of the radius of each shape. With a
-/// folder, named as the asset is to name it, vertices and pictures become files there, and the asset
-/// a text.
+/// Converts a valid scene to glTF. `tolerance` is the maximum distance between a mesh and its shape
+/// in scene units; by default it is a thousandth of the radius of each shape. With `folder`, a path
+/// relative to the asset, vertices and images become files there and the asset is JSON text.
 ///
-/// `None` if the scene can't be written; the sink says why. It also has a note for each value that
-/// is written nearly, or in words that only rtc reads, and a warning for each that is left out.
+/// `None` if the scene can't be written; the sink has the error. It also has a note for each value
+/// that is approximated or written to `extras.rtc`, and a warning for each that is dropped.
 pub fn emit(
     scene: &Scene,
     source_spans: &SourceSpans,
@@ -51,10 +56,10 @@ pub fn emit(
     budget: &Budget,
     sink: &mut Sink,
 ) -> Option<GltfAsset> {
-    let mut told = Told::new(source_spans, sink);
-    let scene = form::only_meshes(scene, tolerance, budget, &mut told)?;
-    charge_pictures(&scene, budget, &mut told)?;
-    let mut writer = GltfWriter::new(&scene, folder, budget, told);
+    let mut reporter = Reporter::new(source_spans, sink);
+    let scene = tessellate::only_meshes(scene, tolerance, budget, &mut reporter)?;
+    charge_pictures(&scene, budget, &mut reporter)?;
+    let mut writer = GltfWriter::new(&scene, folder, budget, reporter);
     for index in 0..scene.surfaces.len() {
         writer.surface(index)?;
     }
@@ -64,14 +69,14 @@ pub fn emit(
     writer.finish()
 }
 
-/// Charges the pictures of textures as if none became smaller; `None` if that is too much, which is
-/// told.
-fn charge_pictures(scene: &Scene, budget: &Budget, told: &mut Told<'_>) -> Option<()> {
+/// Charges the images of textures as if none were compressed; `None` if they exceed the budget,
+/// which is reported.
+fn charge_pictures(scene: &Scene, budget: &Budget, reporter: &mut Reporter<'_>) -> Option<()> {
     for (index, image) in scene.images.iter().enumerate() {
-        if let Err(fault) = budget.charge(Resource::Memory, image.pixels.len() as u64) {
-            let message = format!("the picture takes too much as a PNG: {fault}");
-            let place = ValuePath::new(EntityKind::Image, index, Field::Whole);
-            told.refuse(&codes::OVER_LIMIT, &message, place);
+        if let Err(error) = budget.charge(Resource::Memory, image.pixels.len() as u64) {
+            let message = format!("the picture takes too much as a PNG: {error}");
+            let path = ValuePath::new(EntityKind::Image, index, Field::Whole);
+            reporter.report_error(&codes::OVER_LIMIT, &message, path);
             return None;
         }
     }
@@ -101,8 +106,9 @@ impl GltfWriter<'_> {
         };
         if u32::try_from(json.len() + self.bin.len() + HEADS).is_err() {
             let message = "the scene takes more than the 4 GiB that a .glb holds";
-            let place = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
-            self.told.refuse(&codes::GLTF_UNSAID, message, place);
+            let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            self.reporter
+                .report_error(&codes::GLTF_UNSAID, message, path);
             return None;
         }
         Some(GltfAsset {
@@ -114,17 +120,17 @@ impl GltfWriter<'_> {
     }
 }
 
-/// Bytes of the header of a .glb and those of its chunks, and of what fills them up.
+/// The size of the .glb header, chunk headers and padding, in bytes.
 const HEADS: usize = 12 + 8 + 8 + 6;
 
 impl GltfAsset {
-    /// The files that it names, by their paths from its folder, with `/`.
+    /// The sidecar files, by their paths relative to the asset, with `/`.
     pub fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
         let files = self.files.iter();
         files.map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
     }
 
-    /// Writes it, but for those files.
+    /// Writes the asset without its sidecar files.
     ///
     /// # Errors
     /// Those of `out`.
@@ -139,9 +145,9 @@ impl GltfAsset {
         let total: usize = chunks.clone().map(|(_, bytes, _)| 8 + padded(bytes)).sum();
         out.write_all(b"glTF")?;
         out.write_all(&2_u32.to_le_bytes())?;
-        out.write_all(&word(12 + total)?)?;
+        out.write_all(&u32_bytes(12 + total)?)?;
         for (kind, bytes, padding) in chunks {
-            out.write_all(&word(padded(bytes))?)?;
+            out.write_all(&u32_bytes(padded(bytes))?)?;
             out.write_all(*kind)?;
             out.write_all(bytes)?;
             out.write_all(&vec![*padding; padded(bytes) - bytes.len()])?;
@@ -150,8 +156,8 @@ impl GltfAsset {
     }
 }
 
-/// A length as a .glb holds it, of 32 bits.
-fn word(length: usize) -> io::Result<[u8; 4]> {
+/// A length as a u32 of a .glb.
+fn u32_bytes(length: usize) -> io::Result<[u8; 4]> {
     let length = u32::try_from(length).map_err(io::Error::other)?;
     Ok(length.to_le_bytes())
 }

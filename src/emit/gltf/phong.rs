@@ -1,4 +1,4 @@
-//! Phong's model: the material of glTF that comes nearest, and its own weights in `extras.rtc`.
+//! Writes the Phong model: its weights go to `extras.rtc`.
 
 use super::writer::GltfWriter;
 use rtc_diag::codes;
@@ -6,12 +6,12 @@ use rtc_ir::{Bump, Phong, ValuePath};
 use serde_json::{Map as Block, Value, json};
 
 impl GltfWriter<'_> {
-    /// The weights and maps of Phong's model for `extras.rtc`.
+    /// The weights and maps of the Phong model for `extras.rtc`.
     pub(super) fn phong(
         &mut self,
         phong: &Phong,
         has_uvs: bool,
-        place: ValuePath,
+        path: ValuePath,
     ) -> Block<String, Value> {
         let Phong {
             color,
@@ -20,7 +20,7 @@ impl GltfWriter<'_> {
             ks,
             n,
             kt,
-            eta,
+            ior,
             glossy_samples,
             color_map,
             specular_map,
@@ -28,17 +28,17 @@ impl GltfWriter<'_> {
             bump,
         } = phong;
         let message = "Phong's model becomes the metallic-roughness material that comes nearest";
-        self.told.tell(&codes::GLTF_NEARLY, message, place);
-        self.told
-            .own_words("what Phong's model says of a material", place);
-        let mut own = json!({
+        self.reporter.report(&codes::GLTF_NEARLY, message, path);
+        self.reporter
+            .in_extras("what Phong's model says of a material", path);
+        let mut rtc_extras = json!({
             "color": color,
             "ka": ka,
             "kd": kd,
             "ks": ks,
             "n": n,
             "kt": kt,
-            "eta": eta,
+            "eta": ior,
             "glossySamples": glossy_samples,
         });
         let bump_map = bump.as_ref().map(|Bump { texture, .. }| *texture);
@@ -50,12 +50,12 @@ impl GltfWriter<'_> {
         ];
         for (key, texture) in maps {
             if let Some(texture) = texture.filter(|_| has_uvs) {
-                own[key] = self.texture(texture, place).value().into();
+                rtc_extras[key] = self.texture(texture, path).value().into();
             }
         }
         if let Some(Bump { height, .. }) = bump.as_ref().filter(|_| has_uvs) {
-            own["bumpHeight"] = (*height).into();
+            rtc_extras["bumpHeight"] = (*height).into();
         }
-        Block::from_iter([("phong".to_owned(), own)])
+        Block::from_iter([("phong".to_owned(), rtc_extras)])
     }
 }

@@ -1,4 +1,4 @@
-//! How the picture is made, and what surrounds the scene, in `extras.rtc` of the asset.
+//! Writes settings, display and environment to `extras.rtc` of the asset.
 
 use super::writer::{GltfWriter, extras, number};
 use rtc_color::Tone;
@@ -9,60 +9,60 @@ use rtc_ir::{
 use serde_json::{Map as Block, Value, json};
 
 impl GltfWriter<'_> {
-    /// Writes the settings, unless they are those that glTF is rendered with, the display and the
+    /// Writes the settings, unless they are the defaults for glTF, the display settings and the
     /// environment.
     pub(super) fn settings(&mut self) {
-        let mut own = Block::new();
+        let mut rtc_extras = Block::new();
         if self.scene.settings != of_gltf() {
-            let place = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
-            self.told.own_words("how the picture is made", place);
-            own = settings(&self.scene.settings);
+            let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            self.reporter.in_extras("how the picture is made", path);
+            rtc_extras = settings(&self.scene.settings);
         }
         if !self.scene.display.is_plain() {
-            let place = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
-            self.told.own_words("how the picture is shown", place);
+            let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            self.reporter.in_extras("how the picture is shown", path);
             let Display { exposure, tone } = &self.scene.display;
             let tone = tone.map(Tone::name);
-            own.insert(
+            rtc_extras.insert(
                 "display".to_owned(),
                 json!({ "exposure": exposure, "tone": tone.unwrap_or("mode") }),
             );
         }
         if let Some(environment) = &self.scene.environment {
-            self.environment(environment, &mut own);
+            self.environment(environment, &mut rtc_extras);
         }
-        self.root.extras = extras(own);
+        self.root.extras = extras(rtc_extras);
     }
 
-    fn environment(&mut self, environment: &Environment, own: &mut Block<String, Value>) {
+    fn environment(&mut self, environment: &Environment, rtc_extras: &mut Block<String, Value>) {
         let Environment {
             radiance,
             image,
             image_from_world,
         } = environment;
-        let place = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
-        self.told.own_words("what surrounds the scene", place);
-        let mut words = json!({ "radiance": radiance });
+        let path = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
+        self.reporter.in_extras("what surrounds the scene", path);
+        let mut values = json!({ "radiance": radiance });
         if let Some(id) = image {
             let image = &self.scene.images[id.0 as usize];
             match image.kind {
                 Pixels::Rgb8 | Pixels::Rgba8 => {
-                    words["image"] = self.image(number(*id)).value().into();
+                    values["image"] = self.image(number(*id)).value().into();
                 }
                 Pixels::Rgb32f => {
-                    words["pixels"] = self.pixels(image).value().into();
-                    words["width"] = image.width.into();
+                    values["pixels"] = self.pixels(image).value().into();
+                    values["width"] = image.width.into();
                 }
             }
         }
         if let Some(rows) = image_from_world {
-            words["rotation"] = rows.as_flattened().into();
+            values["rotation"] = rows.as_flattened().into();
         }
-        own.insert("environment".to_owned(), words);
+        rtc_extras.insert("environment".to_owned(), values);
     }
 }
 
-/// The settings that a glTF asset is rendered with where nobody says otherwise.
+/// The default settings for a glTF asset.
 fn of_gltf() -> Settings {
     Settings {
         mode: Mode::Path(PathSettings::default()),
@@ -89,18 +89,19 @@ fn settings(settings: &Settings) -> Block<String, Value> {
     } = settings;
     let (mode, parameters) = match mode {
         Mode::Phong => ("phong", None),
-        Mode::Zbuffer => ("zbuffer", None),
+        Mode::Depth => ("zbuffer", None),
         Mode::Normal => ("normal", None),
         Mode::Gooch(Gooch { b, y, alpha, beta }) => {
-            let own = json!({ "b": b, "y": y, "alpha": alpha, "beta": beta });
-            ("gooch", Some(own))
+            let rtc_extras = json!({ "b": b, "y": y, "alpha": alpha, "beta": beta });
+            ("gooch", Some(rtc_extras))
         }
         Mode::Path(PathSettings {
             samples,
             multiple_scattering,
         }) => {
-            let own = json!({ "samples": samples, "multipleScattering": multiple_scattering });
-            ("path", Some(own))
+            let rtc_extras =
+                json!({ "samples": samples, "multipleScattering": multiple_scattering });
+            ("path", Some(rtc_extras))
         }
     };
     let pattern = match pattern {
@@ -126,6 +127,6 @@ fn settings(settings: &Settings) -> Block<String, Value> {
         .into_iter()
         .map(|(key, value)| (key.to_owned(), value));
     pairs
-        .chain(parameters.map(|own| (mode.to_owned(), own)))
+        .chain(parameters.map(|rtc_extras| (mode.to_owned(), rtc_extras)))
         .collect()
 }

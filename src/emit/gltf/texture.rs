@@ -1,4 +1,4 @@
-//! Textures: images as PNG, samplers, and how the materials look them up.
+//! Writes textures: images as PNG, samplers, and texture references.
 
 use super::document::{
     CLAMP_TO_EDGE, Image, Index, LINEAR, LINEAR_MIPMAP_LINEAR, MIN_HIT_DISTANCE, MIRRORED_REPEAT,
@@ -13,17 +13,16 @@ use rtc_ir::{
 use rtc_math::{atan2, cos, sin};
 use serde_json::{Value, json};
 
-/// Pixels along the side of the picture that shows the colours (u, 0, v).
+/// The side in pixels of the image of the colours (u, 0, v).
 const UV_SIDE: u32 = 256;
-/// The rows of the map from the coordinates of the course, where v grows upwards, to those of glTF.
+/// The rows of the map from texture coordinates of the course, v upwards, to those of glTF.
 const UPWARDS: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]];
-/// How far a map may be from scales and a turn, as a share of it.
+/// The largest shear of a map that counts as none, relative to its size.
 const SHEAR: f64 = 1e-9;
 
 impl GltfWriter<'_> {
-    /// What a material says of a map: the index of its texture, the set of coordinates, and their
-    /// transformation.
-    pub(super) fn texture_info(&mut self, map: &Map, place: ValuePath) -> TextureInfo {
+    /// The reference to a texture: its index, the set of coordinates, and their transform.
+    pub(super) fn texture_info(&mut self, map: &Map, path: ValuePath) -> TextureInfo {
         let Map {
             texture,
             set,
@@ -38,12 +37,12 @@ impl GltfWriter<'_> {
             (true, None) => Some(UPWARDS),
             (true, Some([u, [a, b, c]])) => Some([*u, [-a, -b, 1.0 - c]]),
         };
-        let index = self.texture(*texture, place);
+        let index = self.texture(*texture, path);
         let extensions = map.map(|map| {
             self.root.extensions_used.insert("KHR_texture_transform");
             let transform = transform(map).unwrap_or_else(|| {
                 let message = "a texture is sheared, for which glTF has no words";
-                self.told.tell(&codes::GLTF_UNSAID, message, place);
+                self.reporter.report(&codes::GLTF_UNSAID, message, path);
                 json!({})
             });
             json!({ "KHR_texture_transform": transform })
@@ -57,14 +56,14 @@ impl GltfWriter<'_> {
     }
 
     /// A texture of the scene.
-    pub(super) fn texture(&mut self, id: TextureId, place: ValuePath) -> Index<Texture> {
+    pub(super) fn texture(&mut self, id: TextureId, path: ValuePath) -> Index<Texture> {
         if let Some(known) = self.textures.get(&id.0) {
             return *known;
         }
         let (source, wrap, filter) = match &self.scene.textures[id.0 as usize] {
             ir::Texture::Uv => {
                 let message = "the colours (u, 0, v) become a picture of them";
-                self.told.tell(&codes::GLTF_NEARLY, message, place);
+                self.reporter.report(&codes::GLTF_NEARLY, message, path);
                 (self.uv_image(), [Wrap::Clamp; 2], Filter::Linear)
             }
             ir::Texture::Image(image) => (
@@ -105,7 +104,7 @@ impl GltfWriter<'_> {
         sampler
     }
 
-    /// An image of the scene, with 8 bits a channel.
+    /// An image of the scene, with 8 bits per channel.
     pub(super) fn image(&mut self, id: u32) -> Index<Image> {
         if let Some(known) = self.images.get(&id) {
             return *known;
@@ -117,12 +116,12 @@ impl GltfWriter<'_> {
             kind,
             pixels,
         } = &self.scene.images[id as usize];
-        let place = ValuePath::new(EntityKind::Image, id as usize, Field::Whole);
+        let path = ValuePath::new(EntityKind::Image, id as usize, Field::Whole);
         let bytes = match kind {
             Pixels::Rgb8 | Pixels::Rgba8 => pixels.to_vec(),
             Pixels::Rgb32f => {
                 let message = "a picture of floats as a texture is rounded to 8 bits a channel";
-                self.told.tell(&codes::GLTF_UNSAID, message, place);
+                self.reporter.report(&codes::GLTF_UNSAID, message, path);
                 pixels.as_chunks::<4>().0.iter().map(quantized).collect()
             }
         };
@@ -132,7 +131,7 @@ impl GltfWriter<'_> {
         image
     }
 
-    /// The picture of the colours (u, 0, v), v upwards.
+    /// The image of the colours (u, 0, v), v upwards.
     fn uv_image(&mut self) -> Index<Image> {
         if let Some(known) = self.uv_image {
             return known;
@@ -181,20 +180,22 @@ fn quantized(bytes: &[u8; 4]) -> u8 {
     byte
 }
 
-/// The scales, turn and offset of `KHR_texture_transform` that make a map; none if it shears.
+/// The scale, rotation and offset of `KHR_texture_transform` that equal a map; `None` if it has
+/// shear.
 fn transform([[a, b, x], [c, d, y]]: [[f64; 3]; 2]) -> Option<Value> {
-    let turn = if b == 0.0 && c == 0.0 {
+    let rotation = if b == 0.0 && c == 0.0 {
         0.0
     } else {
         atan2(-c, a)
     };
-    let (cos, sin) = (cos(turn), sin(turn));
+    let (cos, sin) = (cos(rotation), sin(rotation));
     let (u, v) = (cos * a - sin * c, sin * b + cos * d);
     let back = [cos * u, sin * v, -sin * u, cos * v];
     let off = [a, b, c, d].into_iter().zip(back);
     let off = off
-        .map(|(own, back)| (own - back).abs())
+        .map(|(entry, back)| (entry - back).abs())
         .fold(0.0, f64::max);
     let size = a.abs().max(b.abs()).max(c.abs()).max(d.abs());
-    (off <= SHEAR * size).then(|| json!({ "offset": [x, y], "rotation": turn, "scale": [u, v] }))
+    (off <= SHEAR * size)
+        .then(|| json!({ "offset": [x, y], "rotation": rotation, "scale": [u, v] }))
 }

@@ -1,4 +1,4 @@
-//! The asset in the making: the document, the binary chunk, and what was written already.
+//! The state of the glTF writer: the document, the binary chunk, and the objects written so far.
 
 use super::document::{
     Extras, Image, Index, Light, LightReference, Material, Mesh, Node, NodeExtensions, Root,
@@ -6,8 +6,8 @@ use super::document::{
 };
 use super::material::MaterialKey;
 use super::mesh::MeshAccessors;
-use crate::beside;
-use crate::told::Told;
+use crate::reporter::Reporter;
+use crate::sidecar;
 use rtc_ir::{ImageId, Scene};
 use rtc_source::{Budget, uri_path};
 use serde_json::{Map, Value, json};
@@ -20,18 +20,18 @@ pub(super) struct GltfWriter<'w> {
     pub(super) root: Root,
     pub(super) bin: Vec<u8>,
     pub(super) budget: &'w Budget,
-    pub(super) told: Told<'w>,
-    /// The folder of files beside the asset, and what they hold; none if all is in one file.
+    pub(super) reporter: Reporter<'w>,
+    /// The folder of sidecar files and their contents; `None` if there is one file only.
     pub(super) folder: Option<&'w str>,
     pub(super) files: BTreeMap<String, Vec<u8>>,
-    /// What was written of each kind, by what it was written for.
+    /// The objects written so far, by what they were written for.
     pub(super) images: BTreeMap<u32, Index<Image>>,
     pub(super) textures: BTreeMap<u32, Index<Texture>>,
     pub(super) samplers: BTreeMap<[u32; 3], Index<Sampler>>,
     pub(super) materials: BTreeMap<MaterialKey, Index<Material>>,
     pub(super) attributes: BTreeMap<u32, MeshAccessors>,
     pub(super) meshes: BTreeMap<(u32, u32), Index<Mesh>>,
-    /// The picture that stands for the colours (u, 0, v).
+    /// The image of the colours (u, 0, v).
     pub(super) uv_image: Option<Index<Image>>,
 }
 
@@ -40,14 +40,14 @@ impl<'w> GltfWriter<'w> {
         scene: &'w Scene,
         folder: Option<&'w str>,
         budget: &'w Budget,
-        told: Told<'w>,
+        reporter: Reporter<'w>,
     ) -> Self {
         Self {
             scene,
             root: Root::default(),
             bin: Vec::new(),
             budget,
-            told,
+            reporter,
             folder,
             files: BTreeMap::new(),
             images: BTreeMap::new(),
@@ -60,21 +60,21 @@ impl<'w> GltfWriter<'w> {
         }
     }
 
-    /// Adds a file in `folder`; its URI. The words are what it is of, what stands for that where it has
-    /// no name, and the extension.
+    /// Adds a sidecar file in `folder` and returns its URI. The name consists of its source, a
+    /// fallback for a source without a name, and the extension.
     pub(super) fn file(
         &mut self,
         folder: &str,
-        (of, word, extension): (&str, &str, &str),
+        (source_name, fallback, extension): (&str, &str, &str),
         bytes: Vec<u8>,
     ) -> String {
-        let path = beside::path(folder, of, word, xxh3_64(&bytes), extension);
+        let path = sidecar::path(folder, source_name, fallback, xxh3_64(&bytes), extension);
         let uri = uri_path(&path).to_string();
         self.files.insert(path, bytes);
         uri
     }
 
-    /// Adds a node that the scene shows; `columns` are those of the map from it to the world.
+    /// Adds a root node; `columns` is its transform to the world.
     pub(super) fn node(&mut self, node: Node, columns: [[f64; 3]; 4]) {
         const IDENTITY: [[f64; 3]; 4] =
             [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
@@ -86,7 +86,7 @@ impl<'w> GltfWriter<'w> {
     }
 }
 
-/// A number as a 32-bit float.
+/// A number rounded to f32.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "rounding is what is asked for"
@@ -95,12 +95,12 @@ pub(super) fn single(number: f64) -> f32 {
     number as f32
 }
 
-/// An object of `extras` that holds this under `rtc`; none if there is nothing to hold.
+/// An `extras` object with this under `rtc`; `None` if it is empty.
 pub(super) fn extras(rtc: Map<String, Value>) -> Extras {
     (!rtc.is_empty()).then(|| json!({ "rtc": rtc }))
 }
 
-/// A node that a light hangs on.
+/// A node with a light.
 pub(super) fn lit(light: Index<Light>) -> Node {
     Node {
         extensions: Some(NodeExtensions {
@@ -110,7 +110,7 @@ pub(super) fn lit(light: Index<Light>) -> Node {
     }
 }
 
-/// The number of an image of the scene.
+/// The index of an image of the scene.
 pub(super) fn number(ImageId(id): ImageId) -> u32 {
     id
 }

@@ -1,18 +1,19 @@
-//! The camera: any frustum of square pixels, a thin lens, or rays side by side.
+//! Writes the camera: any frustum with square pixels, a thin lens, or an orthographic projection.
 
 use super::MitsubaWriter;
+use crate::export::joined;
 use crate::flat::{around, side};
-use crate::twin::joined;
 use rtc_ir::{Camera, EntityKind, Field, Projection, ValuePath};
 use rtc_math::{Vec3, length, shortest, unit};
 
-/// How far the sides of a pixel may differ, as a share, for it to be square.
+/// The largest relative difference of the sides of a pixel that counts as square.
 const SQUARE: f64 = 1e-9;
-/// How far the middle of the picture may be from the axis to be on it, in halves of the picture.
+/// The largest offset of the image centre from the axis that counts as centred, in half image
+/// sizes.
 const CENTERED: f64 = 1e-12;
 
 impl MitsubaWriter<'_> {
-    /// Mitsuba's camera looks along its z axis, y up, x to the left.
+    /// Mitsuba's camera looks along its z axis, with y up and x to the left.
     pub(super) fn camera(&mut self) {
         let scene = self.scene;
         let Camera {
@@ -56,8 +57,8 @@ impl MitsubaWriter<'_> {
         self.film([*width, *height]);
     }
 
-    /// Mitsuba cuts rays off near the camera and far from it: within a millionth of the scene, and
-    /// beyond the squares that stand for planes.
+    /// The clipping planes of Mitsuba's camera: near at a millionth of the scene radius, far beyond
+    /// the squares of planes.
     fn clips(&mut self) {
         let around = around(self.scene);
         self.value(2, "float", "near_clip", &shortest(1e-6 * around.radius));
@@ -67,12 +68,12 @@ impl MitsubaWriter<'_> {
     fn square_pixels(&mut self, right: f64, up: f64) {
         if (right / up - 1.0).abs() > SQUARE {
             let message = "pixels are not square: Mitsuba's are, as high as these";
-            let place = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
-            self.told.no_twin(message, place);
+            let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+            self.reporter.unsupported(message, path);
         }
     }
 
-    /// Opens the sensor; its picture may have its middle beside the axis, by halves of the picture.
+    /// Starts the sensor; its principal point may be off-centre, in half image sizes.
     fn perspective(&mut self, is_lens: bool, [x, y]: [f64; 2]) {
         let kind = if is_lens { "thinlens" } else { "perspective" };
         self.line(1, &format!(r#"<sensor type="{kind}">"#));
@@ -88,24 +89,24 @@ impl MitsubaWriter<'_> {
             }
             (true, true) => {
                 let message = "a lens looks past the middle of the picture: Mitsuba's does not";
-                let place = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
-                self.told.no_twin(message, place);
+                let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+                self.reporter.unsupported(message, path);
             }
         }
     }
 
-    /// Mitsuba's picture goes from −1 to 1 across.
+    /// Mitsuba's orthographic image extends from −1 to 1 horizontally.
     fn orthographic(&mut self, [x, y, z]: [Vec3; 3], half: f64, (eye, center): (Vec3, Vec3)) {
-        if unit(center - eye).is_some_and(|gaze| gaze.distance(z) > SQUARE) {
+        if unit(center - eye).is_some_and(|view_direction| view_direction.distance(z) > SQUARE) {
             let message = "rays come slantwise through the picture: Mitsuba's come straight";
-            let place = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
-            self.told.no_twin(message, place);
+            let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+            self.reporter.unsupported(message, path);
         }
         self.line(1, r#"<sensor type="orthographic">"#);
         self.placed([-x * half, y * half, z, eye]);
     }
 
-    /// The map from what is written to the world, by its columns.
+    /// The transform to the world, by its columns.
     pub(super) fn placed(&mut self, columns: [Vec3; 4]) {
         self.line(2, r#"<transform name="to_world">"#);
         self.line(3, &matrix(columns));
@@ -127,7 +128,7 @@ impl MitsubaWriter<'_> {
     }
 }
 
-/// An affine map by its columns, as rows.
+/// An affine map given by its columns, as rows.
 fn matrix(columns: [Vec3; 4]) -> String {
     let row = |k: usize| {
         let [a, b, c, d] = columns.map(|column| column[k]);

@@ -1,27 +1,27 @@
-//! Suns and points without an end; other lights have no exact twin.
+//! Writes suns and point lights without range; other lights have no exact equivalent.
 
 use super::MitsubaWriter;
-use crate::twin::joined;
+use crate::export::joined;
 use rtc_ir::{Emitter, EntityKind, Field, Light, Punctual, ValuePath};
 use rtc_math::{Vec3, unit};
 
 impl MitsubaWriter<'_> {
     pub(super) fn lights(&mut self) {
         let scene = self.scene;
-        let shining = scene.lights.iter().enumerate();
-        for (index, light) in shining.filter(|(_, light)| light.shines()) {
-            let place = ValuePath::new(EntityKind::Light, index, Field::Whole);
+        let emitting = scene.lights.iter().enumerate();
+        for (index, light) in emitting.filter(|(_, light)| light.emits()) {
+            let path = ValuePath::new(EntityKind::Light, index, Field::Whole);
             match light {
                 Light::Point(_) => {
                     let message = "a light without falloff is left out: Mitsuba has none";
-                    self.told.no_twin(message, place);
+                    self.reporter.unsupported(message, path);
                 }
-                Light::Punctual(punctual) => self.punctual(punctual, place),
+                Light::Punctual(punctual) => self.punctual(punctual, path),
             }
         }
     }
 
-    fn punctual(&mut self, light: &Punctual, place: ValuePath) {
+    fn punctual(&mut self, light: &Punctual, path: ValuePath) {
         let Punctual { emitter, intensity } = light;
         match emitter {
             Emitter::Sun { direction } => {
@@ -34,7 +34,7 @@ impl MitsubaWriter<'_> {
             Emitter::Point { position, range } => {
                 if range.is_some() {
                     let message = "Mitsuba's points have no range: this one shines beyond its own";
-                    self.told.no_twin(message, place);
+                    self.reporter.unsupported(message, path);
                 }
                 self.line(1, r#"<emitter type="point">"#);
                 self.value(2, "point", "position", &joined(*position, ", "));
@@ -43,11 +43,11 @@ impl MitsubaWriter<'_> {
             }
             Emitter::Spot { .. } => {
                 let message = "a spot is left out: Mitsuba's fades in another way at its rim";
-                self.told.no_twin(message, place);
+                self.reporter.unsupported(message, path);
             }
-            Emitter::Lamp { .. } => {
-                self.told
-                    .no_twin("a measured lamp is left out: Mitsuba has none", place);
+            Emitter::Photometric { .. } => {
+                self.reporter
+                    .unsupported("a measured lamp is left out: Mitsuba has none", path);
             }
         }
     }

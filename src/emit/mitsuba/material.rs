@@ -1,36 +1,39 @@
-//! Materials: matt ones and perfect mirrors have exact twins; for others stands what comes near.
+//! Writes materials: diffuse materials and perfect mirrors are exact; others are approximated.
 
 use super::MitsubaWriter;
-use crate::nearest::nearest;
-use crate::twin::{listed, worn};
+use crate::approximation::approximate_phong;
+use crate::export::{enumeration, used_materials};
 use rtc_ir::{Alpha, Material, Standard, ValuePath};
 use rtc_math::shortest;
 use std::borrow::Cow;
 
-/// The reflectance of a dielectric along the normal that the parameter `specular` of Mitsuba's
-/// `principled` stands for at 1 (Burley, "Physically based shading at Disney", 2012, section 5.2).
+/// The normal-incidence reflectance of a dielectric with `specular` = 1 in Mitsuba's `principled`
+/// plugin (Burley, "Physically based shading at Disney", 2012, section 5.2).
 const PRINCIPLED: f64 = 0.08;
 
 impl MitsubaWriter<'_> {
-    /// Writes the materials that surfaces have.
+    /// Writes the materials of surfaces.
     pub(super) fn materials(&mut self) {
-        for (index, material, place) in worn(self.scene) {
-            self.material(index, &standard(material), place);
+        for (index, material, path) in used_materials(self.scene) {
+            self.material(index, &standard(material), path);
         }
     }
 
-    fn material(&mut self, index: usize, material: &Standard, place: ValuePath) {
-        let unlike = unlike(material);
-        if !unlike.is_empty() {
-            let message = format!("a material is written without {}", listed(&unlike));
-            self.told.no_twin(&message, place);
+    fn material(&mut self, index: usize, material: &Standard, path: ValuePath) {
+        let missing_features = missing_features(material);
+        if !missing_features.is_empty() {
+            let message = format!(
+                "a material is written without {}",
+                enumeration(&missing_features)
+            );
+            self.reporter.unsupported(&message, path);
         }
         let (kind, message) = Plugin::of(material);
         if let Some(message) = message {
-            self.told.no_twin(message, place);
+            self.reporter.unsupported(message, path);
         }
         let id = format!(r#"id="m{index}""#);
-        // Light goes through what transmits; what does not has two sides.
+        // Transmissive materials must not be `twosided`; all others are.
         let is_open = matches!(kind, Plugin::Glass(_));
         if is_open {
             self.bsdf(1, &kind, &id, material);
@@ -42,7 +45,7 @@ impl MitsubaWriter<'_> {
     }
 
     fn bsdf(&mut self, depth: usize, kind: &Plugin, id: &str, material: &Standard) {
-        let head = format!(r#"<bsdf type="{}" {id}"#, kind.word());
+        let head = format!(r#"<bsdf type="{}" {id}"#, kind.shape_name());
         self.line(depth, &format!("{}>", head.trim_end()));
         let [r, g, b, _] = material.base_color;
         let inner = depth + 1;
@@ -75,25 +78,25 @@ impl MitsubaWriter<'_> {
     }
 }
 
-/// The material as traced paths show it.
+/// The material that path tracing uses.
 pub(super) fn standard(material: &Material) -> Cow<'_, Standard> {
     match material {
         Material::Standard(standard) => Cow::Borrowed(standard),
-        Material::Phong(phong) => Cow::Owned(nearest(phong)),
+        Material::Phong(phong) => Cow::Owned(approximate_phong(phong)),
     }
 }
 
-/// What Mitsuba has for a material.
+/// The Mitsuba plugin of a material.
 enum Plugin {
     Matt,
     Mirror,
-    /// By its plugin.
+    /// The name of the plugin.
     Glass(&'static str),
     Layered,
 }
 
 impl Plugin {
-    /// The kind, and how it differs from the material.
+    /// The plugin, and a message if it differs from the material.
     fn of(material: &Standard) -> (Self, Option<&'static str>) {
         let (metal, rough) = (material.metallic, material.roughness);
         let [r, g, b, _] = material.base_color;
@@ -120,7 +123,7 @@ impl Plugin {
         }
     }
 
-    fn word(&self) -> &'static str {
+    fn shape_name(&self) -> &'static str {
         match self {
             Self::Matt => "diffuse",
             Self::Mirror => "conductor",
@@ -130,13 +133,13 @@ impl Plugin {
     }
 }
 
-/// Whether all light that a material does not mirror goes through it.
+/// Whether all light that is not reflected is transmitted.
 fn is_glass(material: &Standard) -> bool {
     material.transmission == 1.0 && material.metallic == 0.0
 }
 
-/// The parts of a material that are not written at all.
-fn unlike(material: &Standard) -> Vec<&'static str> {
+/// The features of a material that are not written.
+fn missing_features(material: &Standard) -> Vec<&'static str> {
     let default = Standard::default();
     let base = Standard {
         name: material.name.clone(),
@@ -171,10 +174,10 @@ fn unlike(material: &Standard) -> Vec<&'static str> {
         ),
     ];
     let parts = parts.into_iter().filter(|(has, _)| *has);
-    parts.map(|(_, words)| words).collect()
+    parts.map(|(_, name)| name).collect()
 }
 
-/// Whether there is more to a material than its base and its maps.
+/// Whether a material has features apart from its base and its maps.
 fn has_layers(material: &Standard, base: &Standard) -> bool {
     let mut bare = material.clone();
     bare.forget_maps(|_| true);

@@ -1,5 +1,5 @@
-//! The IR as a scene of Mitsuba 3 (XML), with meshes as PLY beside it: the parts that Mitsuba shows
-//! just so, in traced paths. What has no exact twin there is told, with what stands for it.
+//! Writes the IR as a Mitsuba 3 scene (XML) with meshes as PLY sidecar files. Path-traced features
+//! that Mitsuba supports are exact; everything else is reported with its replacement.
 
 mod camera;
 mod light;
@@ -7,21 +7,21 @@ mod material;
 mod shape;
 
 use super::ExportedScene;
-use super::told::Told;
-use super::twin::joined;
+use super::export::joined;
+use super::reporter::Reporter;
 use rtc_diag::Sink;
 use rtc_ir::{
     Display, EntityKind, Environment, Field, Mode, PathSettings, Scene, SourceSpans, ValuePath,
 };
 use rtc_source::Budget;
-use shape::Soup;
+use shape::TriangleSoup;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// Writes a proven scene; meshes become files in `folder`, which is named as the text is to name it.
+/// Exports a valid scene; meshes become files in `folder`, a path relative to the text.
 ///
-/// `None` if the meshes take too much, which the sink says. It also has a warning for each part that
-/// has no exact twin.
+/// `None` if the meshes exceed the budget; the sink has the error. It also has a warning for each
+/// feature without an exact equivalent.
 pub fn emit(
     scene: &Scene,
     source_spans: &SourceSpans,
@@ -33,11 +33,11 @@ pub fn emit(
         scene,
         folder,
         budget,
-        told: Told::new(source_spans, sink),
+        reporter: Reporter::new(source_spans, sink),
         text: String::new(),
         files: BTreeMap::new(),
         meshes: BTreeMap::new(),
-        soups: BTreeMap::new(),
+        triangle_soups: BTreeMap::new(),
     };
     writer.line(0, r#"<scene version="3.0.0">"#);
     writer.settings();
@@ -58,13 +58,13 @@ struct MitsubaWriter<'w> {
     scene: &'w Scene,
     folder: &'w str,
     budget: &'w Budget,
-    told: Told<'w>,
+    reporter: Reporter<'w>,
     text: String,
     files: BTreeMap<String, Vec<u8>>,
-    /// The names of the files of meshes that were written.
+    /// The file names of the meshes written so far.
     meshes: BTreeMap<u32, String>,
-    /// Triangles that stand in the scene themselves, by their material.
-    soups: BTreeMap<u32, Soup>,
+    /// Triangles in world coordinates, by material.
+    triangle_soups: BTreeMap<u32, TriangleSoup>,
 }
 
 impl MitsubaWriter<'_> {
@@ -85,8 +85,8 @@ impl MitsubaWriter<'_> {
         self.value(depth, "rgb", name, &joined(color, " "));
     }
 
-    /// A path of so many bounces has one edge more after the first. Sampler and samples are parameters
-    /// of the scene, which Mitsuba's `-D` sets.
+    /// Mitsuba counts path edges, one more than bounces. Sampler and sample count are parameters of
+    /// the scene, which Mitsuba's `-D` sets.
     fn settings(&mut self) {
         let settings = &self.scene.settings;
         let samples = match &settings.mode {
@@ -94,11 +94,11 @@ impl MitsubaWriter<'_> {
                 samples,
                 multiple_scattering: _,
             }) => *samples,
-            Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
+            Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => {
                 let message = "Mitsuba traces paths, and this scene is shown in another way: \
                                `--integrator path` shows what is written";
-                let place = ValuePath::new(EntityKind::Settings, 0, Field::Mode);
-                self.told.no_twin(message, place);
+                let path = ValuePath::new(EntityKind::Settings, 0, Field::Mode);
+                self.reporter.unsupported(message, path);
                 settings.supersampling.saturating_pow(2)
             }
         };
@@ -111,8 +111,8 @@ impl MitsubaWriter<'_> {
         let Display { exposure, tone } = &self.scene.display;
         if *exposure != 0.0 || tone.is_some() {
             let message = "exposure and tone map are left out: Mitsuba writes linear values";
-            let place = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
-            self.told.no_twin(message, place);
+            let path = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
+            self.reporter.unsupported(message, path);
         }
     }
 
@@ -127,8 +127,8 @@ impl MitsubaWriter<'_> {
         };
         if image.is_some() {
             let message = "a picture of the surroundings is left out";
-            let place = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
-            self.told.no_twin(message, place);
+            let path = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
+            self.reporter.unsupported(message, path);
             return;
         }
         self.line(1, r#"<emitter type="constant">"#);

@@ -1,10 +1,11 @@
-//! Surfaces: spheres, cylinders, discs, meshes; what has corners is one mesh for each material.
+//! Writes surfaces: spheres, cylinders, discs and meshes; shapes with corners become one mesh per
+//! material.
 
 use super::MitsubaWriter;
 use super::material::standard;
+use crate::export::{joined, shape_name};
 use crate::flat::{around, side, split, square};
-use crate::twin::{joined, word};
-use crate::{beside, ply};
+use crate::{ply, sidecar};
 use rtc_ir::{
     BoundingSphere, Column, Cylinder, Disc, EntityKind, Field, Instance, Mesh, MeshId, Shape,
     Sphere, Surface, ValuePath,
@@ -12,18 +13,18 @@ use rtc_ir::{
 use rtc_math::{Basis, Vec3, is_flat, shortest, unit};
 use xxhash_rust::xxh3::xxh3_64;
 
-/// Bytes of the head of a PLY, and of what it has for a triangle.
+/// Bytes of a PLY header, and of a triangle.
 const HEAD: u64 = 512;
 const TRIANGLE: u64 = 13;
 
-/// Triangles with corners of their own, in the world.
+/// A triangle soup in world coordinates.
 #[derive(Default)]
-pub(super) struct Soup {
+pub(super) struct TriangleSoup {
     corners: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
 }
 
-impl Soup {
+impl TriangleSoup {
     fn add(&mut self, corners: &[Vec3], triangles: &[[u32; 3]]) {
         let first = u32::try_from(self.corners.len()).unwrap_or(u32::MAX);
         self.corners.extend(corners.iter().map(Vec3::to_array));
@@ -35,21 +36,23 @@ impl Soup {
 }
 
 impl MitsubaWriter<'_> {
-    /// Writes all surfaces; `None` if a mesh takes too much, which is told.
+    /// Writes all surfaces; `None` if a mesh exceeds the budget, which is reported.
     pub(super) fn surfaces(&mut self) -> Option<()> {
         let (scene, around) = (self.scene, around(self.scene));
         for (index, surface) in scene.surfaces.iter().enumerate() {
-            let place = ValuePath::new(EntityKind::Surface, index, Field::Whole);
-            self.surface(surface, around, place)?;
+            let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+            self.surface(surface, around, path)?;
         }
-        for (material, Soup { corners, triangles }) in std::mem::take(&mut self.soups) {
+        for (material, TriangleSoup { corners, triangles }) in
+            std::mem::take(&mut self.triangle_soups)
+        {
             let mesh = Mesh {
                 positions: Column::from(corners),
                 triangles: triangles.into(),
                 ..Mesh::default()
             };
-            let place = ValuePath::new(EntityKind::Material, material as usize, Field::Whole);
-            let name = self.ply("triangles", &mesh, place)?;
+            let path = ValuePath::new(EntityKind::Material, material as usize, Field::Whole);
+            let name = self.ply("triangles", &mesh, path)?;
             self.mesh(&name, true, None, material);
         }
         Some(())
@@ -59,7 +62,7 @@ impl MitsubaWriter<'_> {
         &mut self,
         surface: &Surface,
         around: BoundingSphere,
-        place: ValuePath,
+        path: ValuePath,
     ) -> Option<()> {
         let material = surface.material.0;
         match &surface.shape {
@@ -69,7 +72,7 @@ impl MitsubaWriter<'_> {
             Shape::Plane(plane) => {
                 let width = shortest(2.0 * side(around));
                 let message = format!("Mitsuba has no plane: a square {width} wide stands for it");
-                self.told.no_twin(&message, place);
+                self.reporter.unsupported(&message, path);
                 self.corners(&square(plane, around), &[[0, 1, 2], [0, 2, 3]], material);
             }
             Shape::Triangle(triangle) => {
@@ -80,23 +83,26 @@ impl MitsubaWriter<'_> {
                 let corners = quad.vertices.map(Vec3::from_array);
                 self.corners(&corners, &split(corners), material);
             }
-            Shape::Instance(instance) => return self.instance(instance, material, place),
+            Shape::Instance(instance) => return self.instance(instance, material, path),
             Shape::Quad(_) | Shape::Cone(_) | Shape::Paraboloid(_) | Shape::Torus(_) => {
-                let message = format!("Mitsuba has no {}: it is left out", word(&surface.shape));
-                self.told.no_twin(&message, place);
+                let message = format!(
+                    "Mitsuba has no {}: it is left out",
+                    shape_name(&surface.shape)
+                );
+                self.reporter.unsupported(&message, path);
                 return Some(());
             }
         }
-        self.shines_outwards(material, place);
+        self.report_two_sided_emission(material, path);
         Some(())
     }
 
-    /// Tells of a surface that shines: on both sides here.
-    fn shines_outwards(&mut self, material: u32, place: ValuePath) {
+    /// Reports an emissive surface, which in rtc emits on both sides.
+    fn report_two_sided_emission(&mut self, material: u32, path: ValuePath) {
         if self.emitted(material) != [0.0; 3] {
             let message = "Mitsuba's emitters shine to the front alone, or outwards: this one shines \
                            both ways";
-            self.told.no_twin(message, place);
+            self.reporter.unsupported(message, path);
         }
     }
 
@@ -105,14 +111,14 @@ impl MitsubaWriter<'_> {
     }
 
     fn corners(&mut self, corners: &[Vec3], triangles: &[[u32; 3]], material: u32) {
-        let soup = self.soups.entry(material).or_default();
-        soup.add(corners, triangles);
+        let triangle_soup = self.triangle_soups.entry(material).or_default();
+        triangle_soup.add(corners, triangles);
     }
 
-    /// Opens a shape, has its own values written, and ends it with what all have.
-    fn shape(&mut self, kind: &str, material: u32, own: impl FnOnce(&mut Self)) {
+    /// Writes a shape: its own values, then material and emission.
+    fn shape(&mut self, kind: &str, material: u32, write_parameters: impl FnOnce(&mut Self)) {
         self.line(1, &format!(r#"<shape type="{kind}">"#));
-        own(self);
+        write_parameters(self);
         self.line(2, &format!(r#"<ref id="m{material}"/>"#));
         let emitted = self.emitted(material);
         if emitted != [0.0; 3] {
@@ -130,7 +136,7 @@ impl MitsubaWriter<'_> {
         });
     }
 
-    /// Mitsuba's cylinder is open at both ends.
+    /// Mitsuba's cylinder has no caps, so they are discs.
     fn cylinder(&mut self, cylinder: &Cylinder, material: u32) {
         let Cylinder {
             base,
@@ -156,7 +162,7 @@ impl MitsubaWriter<'_> {
         }
     }
 
-    /// Mitsuba's disc has the radius 1, about the z axis.
+    /// Mitsuba's disc has radius 1 and the z axis as its normal.
     fn disc(&mut self, disc: &Disc, material: u32) {
         let normal = unit(Vec3::from_array(disc.normal)).unwrap_or(Vec3::Z);
         let basis = Basis::around(normal);
@@ -169,7 +175,7 @@ impl MitsubaWriter<'_> {
         self.shape("disk", material, |text| text.placed(columns));
     }
 
-    fn instance(&mut self, instance: &Instance, material: u32, place: ValuePath) -> Option<()> {
+    fn instance(&mut self, instance: &Instance, material: u32, path: ValuePath) -> Option<()> {
         let Instance {
             mesh: id,
             world_from_object,
@@ -180,12 +186,12 @@ impl MitsubaWriter<'_> {
         }
         if !mesh.colors.is_empty() {
             let message = "the colours of the corners of a mesh are left out";
-            self.told.no_twin(message, place);
+            self.reporter.unsupported(message, path);
         }
         let name = self.file_of(*id)?;
         let columns = world_from_object.map(Vec3::from_array);
         self.mesh(&name, mesh.normals.is_empty(), Some(columns), material);
-        self.shines_outwards(material, place);
+        self.report_two_sided_emission(material, path);
         Some(())
     }
 
@@ -213,18 +219,18 @@ impl MitsubaWriter<'_> {
             triangles: mesh.triangles.clone(),
             ..Mesh::default()
         };
-        let place = ValuePath::new(EntityKind::Mesh, id.0 as usize, Field::Whole);
-        let name = self.ply(&mesh.name, &bare, place)?;
+        let path = ValuePath::new(EntityKind::Mesh, id.0 as usize, Field::Whole);
+        let name = self.ply(&mesh.name, &bare, path)?;
         self.meshes.insert(id.0, name.clone());
         Some(name)
     }
 
-    fn ply(&mut self, of: &str, mesh: &Mesh, place: ValuePath) -> Option<String> {
+    fn ply(&mut self, of: &str, mesh: &Mesh, path: ValuePath) -> Option<String> {
         let columns = mesh.positions.bytes() + mesh.normals.bytes();
         let bytes = columns as u64 + TRIANGLE * mesh.triangles.len() as u64 + HEAD;
-        self.told.charge(bytes, self.budget, place)?;
+        self.reporter.charge(bytes, self.budget, path)?;
         let bytes = ply::encode(mesh);
-        let name = beside::path(self.folder, of, "mesh", xxh3_64(&bytes), "ply");
+        let name = sidecar::path(self.folder, of, "mesh", xxh3_64(&bytes), "ply");
         self.files.insert(name.clone(), bytes);
         Some(name)
     }

@@ -1,32 +1,35 @@
-//! Phong's model without what goes through and without maps; the sum over the lights that its
-//! ambient term is becomes one colour.
+//! Writes the Phong model without transmission and maps. Its ambient term, a sum over the lights,
+//! becomes one colour.
 
 use super::{PovWriter, vector};
-use crate::twin::{listed, worn};
+use crate::export::{enumeration, used_materials};
 use rtc_ir::{Ambient, Light, Material, Phong, Standard, ValuePath};
 use rtc_math::shortest;
 
 impl PovWriter<'_> {
-    /// Writes the materials that surfaces have.
+    /// Writes the materials of surfaces.
     pub(super) fn materials(&mut self) {
-        for (index, material, place) in worn(self.scene) {
-            self.material(index, material, place);
+        for (index, material, path) in used_materials(self.scene) {
+            self.material(index, material, path);
         }
     }
 
-    fn material(&mut self, index: usize, material: &Material, place: ValuePath) {
+    fn material(&mut self, index: usize, material: &Material, path: ValuePath) {
         let phong = match material {
             Material::Phong(phong) => phong.clone(),
             Material::Standard(standard) => {
                 let message = "a material of glTF is written as matt, in its base colour";
-                self.told.no_twin(message, place);
+                self.reporter.unsupported(message, path);
                 matt(standard)
             }
         };
-        let unlike = unlike(&phong);
-        if !unlike.is_empty() {
-            let message = format!("a material is written without {}", listed(&unlike));
-            self.told.no_twin(&message, place);
+        let missing_features = missing_features(&phong);
+        if !missing_features.is_empty() {
+            let message = format!(
+                "a material is written without {}",
+                enumeration(&missing_features)
+            );
+            self.reporter.unsupported(&message, path);
         }
         let ambient = vector(self.ambient_light().map(|channel| channel * phong.ka));
         let color = vector(phong.color);
@@ -37,7 +40,7 @@ impl PovWriter<'_> {
         ));
     }
 
-    /// What the ambient term is multiplied by: the sum of the colours of all lights, or 1.
+    /// The factor of the ambient term: the sum of the colours of all lights, or 1.
     fn ambient_light(&self) -> [f64; 3] {
         if self.scene.settings.ambient == Ambient::Once {
             return [1.0; 3];
@@ -57,8 +60,8 @@ fn matt(standard: &Standard) -> Phong {
     }
 }
 
-/// The parts of a material that are not written.
-fn unlike(phong: &Phong) -> Vec<&'static str> {
+/// The features of a material that are not written.
+fn missing_features(phong: &Phong) -> Vec<&'static str> {
     let parts = [
         (phong.kt > 0.0, "the light that goes through"),
         (phong.glossy_samples > 1, "the spread of its mirror image"),
@@ -68,5 +71,5 @@ fn unlike(phong: &Phong) -> Vec<&'static str> {
         (phong.bump.is_some(), "its bump map"),
     ];
     let parts = parts.into_iter().filter(|(has, _)| *has);
-    parts.map(|(_, words)| words).collect()
+    parts.map(|(_, name)| name).collect()
 }

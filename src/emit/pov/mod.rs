@@ -1,12 +1,12 @@
-//! The IR as a scene of POV-Ray 3.7: the parts of the course's scenes that POV-Ray shows just so,
-//! in Phong's model. What has no exact twin there is told, with what stands for it.
+//! Writes the IR as a POV-Ray 3.7 scene. Features of the Phong model that POV-Ray supports are
+//! exact; everything else is reported with its replacement.
 
 mod material;
 mod shape;
 
 use super::ExportedScene;
-use super::told::Told;
-use super::twin::joined;
+use super::export::joined;
+use super::reporter::Reporter;
 use rtc_diag::Sink;
 use rtc_ir::{
     Camera, Display, EntityKind, Field, Light, Mode, Pattern, PointLight, Projection, Scene,
@@ -17,8 +17,8 @@ use rtc_source::Budget;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// Writes a proven scene. `None` if its meshes take too much, which the sink says. It also has a
-/// warning for each part that has no exact twin.
+/// Exports a valid scene. `None` if its meshes exceed the budget; the sink has the error. It also
+/// has a warning for each feature without an exact equivalent.
 pub fn emit(
     scene: &Scene,
     source_spans: &SourceSpans,
@@ -28,7 +28,7 @@ pub fn emit(
     let mut writer = PovWriter {
         scene,
         budget,
-        told: Told::new(source_spans, sink),
+        reporter: Reporter::new(source_spans, sink),
         text: String::new(),
     };
     writer.settings();
@@ -46,7 +46,7 @@ pub fn emit(
 struct PovWriter<'w> {
     scene: &'w Scene,
     budget: &'w Budget,
-    told: Told<'w>,
+    reporter: Reporter<'w>,
     text: String,
 }
 
@@ -55,11 +55,11 @@ impl PovWriter<'_> {
         writeln!(self.text, "{content}").expect("a string takes all that is written to it");
     }
 
-    /// POV-Ray counts the ray of the camera as a level, and ends rays that would add less than
+    /// POV-Ray counts the camera ray as a level, and drops rays that would contribute less than
     /// `adc_bailout`.
     fn settings(&mut self) {
-        /// Of levels of reflection, and of samples across a pixel.
-        const MOST: [u32; 2] = [256, 9];
+        /// The maximum number of reflection levels, and of samples across a pixel.
+        const MAX: [u32; 2] = [256, 9];
         let Settings {
             mode,
             shadows: _,
@@ -71,38 +71,38 @@ impl PovWriter<'_> {
             ambient: _,
         } = &self.scene.settings;
         let [width, height] = self.scene.camera.size;
-        let across = (*supersampling).min(MOST[1]);
+        let across = (*supersampling).min(MAX[1]);
         let samples = match (across, pattern) {
             (1, _) => String::new(),
             (factor, Pattern::Grid) => format!(" +A0.0 +AM1 +R{factor} -J"),
             (factor, _) => format!(" +A0.0 +AM1 +R{factor} +J"),
         };
-        let place = ValuePath::new(EntityKind::Settings, 0, Field::Mode);
+        let path = ValuePath::new(EntityKind::Settings, 0, Field::Mode);
         if *mode != Mode::Phong || *toon {
             let message = "POV-Ray shows Phong's model, and this scene is shown in another way";
-            self.told.no_twin(message, place);
+            self.reporter.unsupported(message, path);
         }
         let levels = max_depth.saturating_add(1);
-        if levels > MOST[0] || *supersampling > MOST[1] {
+        if levels > MAX[0] || *supersampling > MAX[1] {
             let message = "POV-Ray follows at most 256 levels, and takes at most 9 × 9 samples";
-            self.told.no_twin(message, place);
+            self.reporter.unsupported(message, path);
         }
         let Display { exposure, tone } = &self.scene.display;
         if *exposure != 0.0 || tone.is_some() {
             let message = "exposure and tone map are left out";
-            self.told.no_twin(message, place);
+            self.reporter.unsupported(message, path);
         }
         self.line(&format!(
             "// povray +W{width} +H{height} +FN File_Gamma=1.0{samples}\n#version 3.7;"
         ));
-        let levels = levels.min(MOST[0]);
+        let levels = levels.min(MAX[0]);
         self.line(&format!(
             "global_settings {{ assumed_gamma 1 ambient_light rgb 1 max_trace_level {levels} \
              adc_bailout 0 }}"
         ));
     }
 
-    /// POV-Ray's camera takes the picture by its sides, so any frustum is said exactly.
+    /// POV-Ray's camera is given by the sides of its image, so any frustum is exact.
     fn camera(&mut self) {
         let Camera {
             eye,
@@ -115,20 +115,20 @@ impl PovWriter<'_> {
         } = &self.scene.camera;
         let [right, up] = [(right, width), (up, height)]
             .map(|(step, count)| Vec3::from_array(*step) * f64::from(*count));
-        let gaze = Vec3::from_array(*center) - Vec3::from_array(*eye);
+        let view_direction = Vec3::from_array(*center) - Vec3::from_array(*eye);
         let kind = match projection {
             Projection::Perspective => "perspective",
             Projection::Orthographic => "orthographic",
         };
         if lens.radius > 0.0 {
             let message = "the lens is left out: POV-Ray blurs by another pattern";
-            let place = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
-            self.told.no_twin(message, place);
+            let path = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
+            self.reporter.unsupported(message, path);
         }
-        let [right, up, gaze] = [right, up, gaze].map(|v| vector(v.to_array()));
+        let [right, up, view_direction] = [right, up, view_direction].map(|v| vector(v.to_array()));
         let eye = vector(*eye);
         self.line(&format!(
-            "camera {{ {kind} location {eye} direction {gaze} right {right} up {up} }}"
+            "camera {{ {kind} location {eye} direction {view_direction} right {right} up {up} }}"
         ));
     }
 
@@ -136,12 +136,12 @@ impl PovWriter<'_> {
         let scene = self.scene;
         if scene.environment.is_some() {
             let message = "the surroundings are left out";
-            let place = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
-            self.told.no_twin(message, place);
+            let path = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
+            self.reporter.unsupported(message, path);
         }
-        let shining = scene.lights.iter().enumerate();
-        for (index, light) in shining.filter(|(_, light)| light.shines()) {
-            let place = ValuePath::new(EntityKind::Light, index, Field::Whole);
+        let emitting = scene.lights.iter().enumerate();
+        for (index, light) in emitting.filter(|(_, light)| light.emits()) {
+            let path = ValuePath::new(EntityKind::Light, index, Field::Whole);
             let Light::Point(PointLight {
                 position,
                 color,
@@ -149,12 +149,12 @@ impl PovWriter<'_> {
             }) = light
             else {
                 let message = "a light in physical units is left out";
-                self.told.no_twin(message, place);
+                self.reporter.unsupported(message, path);
                 continue;
             };
             if *radius > 0.0 && scene.settings.light_samples > 1 {
                 let message = "a soft light is written as the point in its middle";
-                self.told.no_twin(message, place);
+                self.reporter.unsupported(message, path);
             }
             let (position, color) = (vector(*position), vector(*color));
             self.line(&format!("light_source {{ {position}, rgb {color} }}"));
@@ -162,7 +162,7 @@ impl PovWriter<'_> {
     }
 }
 
-/// A vector of POV-Ray's.
+/// A vector in POV-Ray syntax.
 fn vector(numbers: impl IntoIterator<Item = f64>) -> String {
     format!("<{}>", joined(numbers, ", "))
 }

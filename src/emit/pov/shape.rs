@@ -1,8 +1,8 @@
-//! Surfaces: all shapes but bilinear patches and paraboloids; meshes with all their corners.
+//! Writes surfaces: all shapes except bilinear patches and paraboloids; meshes with all vertices.
 
 use super::{PovWriter, vector};
+use crate::export::shape_name;
 use crate::flat::split;
-use crate::twin::word;
 use rtc_ir::{
     Column, Cone, Cylinder, Disc, EntityKind, Field, Instance, Mesh, Plane, Quad, Shape, Sphere,
     Surface, Torus, Triangle, ValuePath,
@@ -10,28 +10,28 @@ use rtc_ir::{
 use rtc_math::{Basis, Vec3, is_flat, shortest, unit};
 use std::fmt::Write as _;
 
-/// The most bytes that three numbers, or three indices, take as text.
+/// The maximum number of bytes of three numbers, or three indices, as text.
 const TRIPLE: u64 = 80;
 
 impl PovWriter<'_> {
-    /// Writes all surfaces; `None` if a mesh takes too much, which is told.
+    /// Writes all surfaces; `None` if a mesh exceeds the budget, which is reported.
     pub(super) fn surfaces(&mut self) -> Option<()> {
         let scene = self.scene;
         let mut declared = vec![false; scene.meshes.len()];
         for (index, surface) in scene.surfaces.iter().enumerate() {
-            let place = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+            let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
             if let Shape::Instance(Instance { mesh, .. }) = &surface.shape {
                 let at = mesh.0 as usize;
                 if !std::mem::replace(&mut declared[at], true) {
                     self.declare(at, &scene.meshes[at])?;
                 }
             }
-            self.surface(surface, place);
+            self.surface(surface, path);
         }
         Some(())
     }
 
-    fn surface(&mut self, surface: &Surface, place: ValuePath) {
+    fn surface(&mut self, surface: &Surface, path: ValuePath) {
         let Surface {
             shape,
             material,
@@ -40,24 +40,27 @@ impl PovWriter<'_> {
         if self.is_empty(shape) {
             return;
         }
-        let Some(form) = self.form(shape) else {
-            let message = format!("POV-Ray has no {}: it is left out", word(shape));
-            self.told.no_twin(&message, place);
+        let Some(shape_text) = self.shape_text(shape) else {
+            let message = format!("POV-Ray has no {}: it is left out", shape_name(shape));
+            self.reporter.unsupported(&message, path);
             return;
         };
-        let is_dark = self.scene.settings.shadows && !casts_no_shadow;
-        let shadow = if is_dark { "" } else { " no_shadow" };
-        self.line(&format!("{form} texture {{ M{} }}{shadow} }}", material.0));
+        let blocks_light = self.scene.settings.shadows && !casts_no_shadow;
+        let shadow = if blocks_light { "" } else { " no_shadow" };
+        self.line(&format!(
+            "{shape_text} texture {{ M{} }}{shadow} }}",
+            material.0
+        ));
     }
 
-    /// Whether it is of a mesh without triangles.
+    /// Whether it is an instance of a mesh without triangles.
     fn is_empty(&self, shape: &Shape) -> bool {
         let meshes = &self.scene.meshes;
-        matches!(shape, Shape::Instance(own) if meshes[own.mesh.0 as usize].triangles.is_empty())
+        matches!(shape, Shape::Instance(instance) if meshes[instance.mesh.0 as usize].triangles.is_empty())
     }
 
-    /// A shape but for its end; none if POV-Ray has no such shape.
-    fn form(&self, shape: &Shape) -> Option<String> {
+    /// A shape without its closing brace; `None` if POV-Ray has no such shape.
+    fn shape_text(&self, shape: &Shape) -> Option<String> {
         Some(match shape {
             Shape::Sphere(Sphere { center, radius, .. }) => {
                 format!("sphere {{ {}, {}", vector(*center), shortest(*radius))
@@ -99,16 +102,16 @@ impl PovWriter<'_> {
         })
     }
 
-    /// Writes a mesh, to be placed by its instances; `None` if it takes too much, which is told.
+    /// Declares a mesh for its instances; `None` if it exceeds the budget, which is reported.
     fn declare(&mut self, index: usize, mesh: &Mesh) -> Option<()> {
-        let place = ValuePath::new(EntityKind::Mesh, index, Field::Whole);
+        let path = ValuePath::new(EntityKind::Mesh, index, Field::Whole);
         if !mesh.colors.is_empty() {
             let message = "the colours of the corners of a mesh are left out";
-            self.told.no_twin(message, place);
+            self.reporter.unsupported(message, path);
         }
         let lines = mesh.positions.len() + mesh.normals.len() + mesh.triangles.len();
-        self.told
-            .charge(TRIPLE * lines as u64, self.budget, place)?;
+        self.reporter
+            .charge(TRIPLE * lines as u64, self.budget, path)?;
         if mesh.triangles.is_empty() {
             return Some(());
         }
@@ -148,15 +151,15 @@ fn corners(corners: &[[f64; 3]]) -> String {
     corners.join(", ")
 }
 
-/// Two triangles, if it is flat.
+/// Two triangles, if the quadrilateral is flat.
 fn quad(quad: &Quad) -> Option<String> {
-    let places = quad.vertices.map(Vec3::from_array);
-    let halves = split(places);
+    let corners_ = quad.vertices.map(Vec3::from_array);
+    let halves = split(corners_);
     let halves = halves.iter().map(|half| {
         let half = half.map(|corner| quad.vertices[corner as usize]);
         format!("triangle {{ {} }}", corners(&half))
     });
-    is_flat(places).then(|| format!("mesh {{ {}", halves.collect::<Vec<_>>().join(" ")))
+    is_flat(corners_).then(|| format!("mesh {{ {}", halves.collect::<Vec<_>>().join(" ")))
 }
 
 fn cylinder(cylinder: &Cylinder) -> String {
@@ -166,7 +169,7 @@ fn cylinder(cylinder: &Cylinder) -> String {
     format!("cylinder {{ {base}, {top}, {}", shortest(cylinder.radius))
 }
 
-/// POV-Ray's torus lies about the y axis.
+/// POV-Ray's torus has the y axis as its axis.
 fn torus(torus: &Torus) -> String {
     let basis = Basis::around(direction(torus.axis));
     let columns = [basis.bitangent, basis.normal, basis.tangent];

@@ -82,8 +82,8 @@ fn report_opaque_glass(span: Span, context: &mut Context<'_>) {
 pub(super) fn make_opaque(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
     phong.kt = 0.0;
     // The validator rejects a negative index.
-    if phong.eta > 0.0 {
-        phong.eta = 1.0;
+    if phong.ior > 0.0 {
+        phong.ior = 1.0;
     }
     let message = || "the material has a weight of refraction, but is declared opaque".to_owned();
     context.report(&codes::NO_EFFECT, span, message, |d| {

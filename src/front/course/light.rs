@@ -156,7 +156,7 @@ impl Lowering {
         };
         self.files
             .add_pending(AssetTarget::Photometry(self.scene.lights.len()), file);
-        let emitter = ir::Emitter::Lamp {
+        let emitter = ir::Emitter::Photometric {
             position,
             direction,
             horizontal: light.horizontal.value.0,

@@ -168,7 +168,7 @@ impl Lowering {
         let mut is_clear = false;
         match glass_setting(value) {
             Some((true, span)) if value.kt.span.is_none() => {
-                (phong.kt, phong.eta) = refraction(1.0, value.eta.value.0);
+                (phong.kt, phong.ior) = refraction(1.0, value.eta.value.0);
                 glass = Some(span);
                 is_clear = value.is_transparent.is_absent();
             }
@@ -211,7 +211,7 @@ impl Lowering {
             ks: specular(ks).value.0,
             n: n.value.0,
             kt,
-            eta,
+            ior: eta,
             glossy_samples: glossy_samples.value.0,
             color_map: self.texture(texture),
             specular_map: self.texture(specular_map),
@@ -284,7 +284,7 @@ impl Lowering {
             (Field::Ks, specular(ks).span),
             (Field::N, n.span),
             (Field::Kt, kt.span),
-            (Field::Eta, eta.span),
+            (Field::Ior, eta.span),
             (Field::GlossySamples, glossy_samples.span),
         ] {
             self.origin(EntityKind::Material, id.0 as usize, field, span);

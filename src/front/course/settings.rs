@@ -116,7 +116,7 @@ const GOOCH: ir::Gooch = ir::Gooch {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Mode {
     Phong,
-    Zbuffer,
+    Depth,
     Normal,
     Gooch,
     Path,
@@ -126,8 +126,8 @@ pub(super) enum Mode {
 /// The keywords of the render modes.
 const MODES: &[(&str, Mode)] = &[
     ("phong", Mode::Phong),
-    ("zbuffer", Mode::Zbuffer),
-    ("z-buffer", Mode::Zbuffer),
+    ("zbuffer", Mode::Depth),
+    ("z-buffer", Mode::Depth),
     ("normal", Mode::Normal),
     ("gooch", Mode::Gooch),
     ("path", Mode::Path),
@@ -138,7 +138,7 @@ const MODES: &[(&str, Mode)] = &[
 /// The numbers of render modes in some files.
 const NUMBERED: &[(u8, Mode)] = &[
     (0, Mode::Phong),
-    (1, Mode::Zbuffer),
+    (1, Mode::Depth),
     (2, Mode::Normal),
     (4, Mode::Gooch),
 ];
@@ -289,7 +289,7 @@ impl Lowering {
         }
         match mode {
             Mode::Phong | Mode::Uv => ir::Mode::Phong,
-            Mode::Zbuffer => ir::Mode::Zbuffer,
+            Mode::Depth => ir::Mode::Depth,
             Mode::Normal => ir::Mode::Normal,
             Mode::Path => ir::Mode::Path(ir::PathSettings::default()),
             Mode::Gooch => {
@@ -325,7 +325,7 @@ fn report_unused(scene: &Scene, context: &mut Context<'_>) {
     } = scene;
     match mode.value {
         Mode::Phong | Mode::Path => return,
-        Mode::Zbuffer | Mode::Normal | Mode::Gooch | Mode::Uv => {}
+        Mode::Depth | Mode::Normal | Mode::Gooch | Mode::Uv => {}
     }
     // Gooch shading: programs differ about shadows.
     if let (Mode::Gooch, true, Some(span)) = (mode.value, shadows.value, shadows.span) {
@@ -353,7 +353,7 @@ fn report_unused(scene: &Scene, context: &mut Context<'_>) {
             "mirror images",
         ),
         (
-            rays > 1 && mode.value == Mode::Zbuffer,
+            rays > 1 && mode.value == Mode::Depth,
             sampling.span,
             "supersampling",
         ),

@@ -22,7 +22,7 @@ pub(super) struct Attribute {
 /// Reads a map of attributes and their accessors.
 pub(super) fn read(fields: Fields<'_, '_>) -> Vec<Attribute> {
     let attribute = |(key, at): (NodeId, NodeId)| {
-        let accessor = usize::try_from(fields.json.whole(at)?).ok()?;
+        let accessor = usize::try_from(fields.json.integer(at)?).ok()?;
         Some(Attribute {
             at,
             name: fields.json.text(key)?.to_owned(),

@@ -69,7 +69,7 @@ impl<'t, 's> Fields<'t, 's> {
     }
 
     pub(super) fn whole(&self, key: &str) -> Option<u64> {
-        self.json.whole(self.node(key)?)
+        self.json.integer(self.node(key)?)
     }
 
     /// An index or a size.
@@ -87,7 +87,7 @@ impl<'t, 's> Fields<'t, 's> {
     pub(super) fn indices(&self, key: &str) -> Vec<usize> {
         let items = self.json.list(self.at, key);
         items
-            .filter_map(|item| usize::try_from(self.json.whole(item)?).ok())
+            .filter_map(|item| usize::try_from(self.json.integer(item)?).ok())
             .collect()
     }
 

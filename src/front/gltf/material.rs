@@ -301,7 +301,7 @@ pub(super) fn check_variants(doc: &Document<'_>, report: &mut AssetReport<'_, '_
         let mut seen = std::collections::BTreeSet::new();
         for mapping in variants.objects("mappings") {
             for item in report.json.list(mapping.at, "variants") {
-                let Some(variant) = report.json.whole(item) else {
+                let Some(variant) = report.json.integer(item) else {
                     continue;
                 };
                 if !seen.insert(variant) {

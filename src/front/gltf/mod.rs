@@ -125,7 +125,7 @@ pub fn lower(
             let at = base + u32::try_from(fault.at).unwrap_or(u32::MAX - base);
             sink.push(not_json(
                 Span::new(file, at, at),
-                &format!("the text is not JSON: {}", fault.what),
+                &format!("the text is not JSON: {}", fault.message),
             ));
             return None;
         }

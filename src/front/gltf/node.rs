@@ -54,7 +54,7 @@ pub(super) struct Instancing {
 impl Instancing {
     fn read(attributes: Fields<'_, '_>) -> Self {
         let pairs = attributes.json.pairs(attributes.at);
-        let accessors = pairs.filter_map(|(_, at)| attributes.json.whole(at));
+        let accessors = pairs.filter_map(|(_, at)| attributes.json.integer(at));
         Self {
             parts: ["TRANSLATION", "ROTATION", "SCALE"].map(|name| attributes.index(name)),
             all: accessors
@@ -133,7 +133,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> For
         }
     }
     let mut parents = vec![None; doc.nodes.len()];
-    let index_at = |at: NodeId, json: &Tree<'_>| usize::try_from(json.whole(at)?).ok();
+    let index_at = |at: NodeId, json: &Tree<'_>| usize::try_from(json.integer(at)?).ok();
     for (index, node) in doc.nodes.iter().enumerate() {
         for at in report.json.list(node.at, "children") {
             let Some(child) = index_at(at, report.json) else {

@@ -35,7 +35,7 @@ fn phong_of_standard(standard: &Standard) -> Phong {
         ks: standard.metallic.into(),
         n: NonNegative::saturating(1.0 / (roughness * roughness).max(1e-4)),
         kt: NonNegative::ZERO,
-        eta: Positive::ONE,
+        ior: Positive::ONE,
         glossy_samples: NonZeroU32::MIN,
         maps: None,
     }
@@ -48,7 +48,7 @@ fn standard_of_phong(phong: &Phong) -> Standard {
         ks: phong.ks.get(),
         n: phong.n.get(),
         kt: phong.kt.get(),
-        eta: phong.eta.get(),
+        ior: phong.ior.get(),
     });
     let [r, g, b] = fit.base_color.map(UnitInterval::saturating);
     Standard {
@@ -128,7 +128,7 @@ mod tests {
                 kd: number(kd),
                 ks: number(ks),
                 n: number(30.0),
-                eta: Positive::new(1.75).unwrap(),
+                ior: Positive::new(1.75).unwrap(),
                 ..matt()
             })
         };
@@ -172,7 +172,7 @@ mod tests {
             color: Vec3::new(2.0, 0.5, 0.0),
             kd: number(0.5),
             kt: number(3.0),
-            eta: Positive::new(0.7).unwrap(),
+            ior: Positive::new(0.7).unwrap(),
             maps: Some(Box::new(Maps {
                 color: Some(4),
                 specular: Some(5),

@@ -158,7 +158,7 @@ impl Findings<'_> {
             Mode::Phong | Mode::Path(_) => return None,
             Mode::Gooch(_) => "Gooch shading does not have it",
             Mode::Normal => "a normal buffer is a function of the first hit",
-            Mode::Zbuffer => "a depth buffer is a function of the first hit",
+            Mode::Depth => "a depth buffer is a function of the first hit",
         };
         let facts = vec![settings(Field::Mode)];
         Some(if requested {

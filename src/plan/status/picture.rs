@@ -22,7 +22,7 @@ pub(super) fn buffers(findings: &Findings<'_>, pixel_classes: &PixelClasses) -> 
     let depth = "the picture is a depth buffer";
     let normal = "the picture is a normal buffer";
     vec![
-        buffer(Effect::DepthBuffer, matches!(mode, Mode::Zbuffer), depth),
+        buffer(Effect::DepthBuffer, matches!(mode, Mode::Depth), depth),
         buffer(Effect::NormalBuffer, matches!(mode, Mode::Normal), normal),
         surfaces(findings, pixel_classes),
     ]
@@ -168,7 +168,7 @@ fn interpolation(findings: &Findings<'_>) -> EffectStatus {
         return EffectStatus::absent(effect, "no mesh has normals", vec![]);
     };
     let facts = vec![findings.surface(surface, Field::Whole)];
-    if matches!(findings.mode(), Mode::Zbuffer) {
+    if matches!(findings.mode(), Mode::Depth) {
         return EffectStatus::pruned(
             effect,
             Rule::Mode,
@@ -204,7 +204,7 @@ fn mapping(findings: &Findings<'_>) -> EffectStatus {
     if !findings.facts.materials.iter().any(maps) {
         return EffectStatus::absent(effect, "no material has a normal map or a bump map", vec![]);
     }
-    if matches!(findings.mode(), Mode::Zbuffer) {
+    if matches!(findings.mode(), Mode::Depth) {
         return EffectStatus::pruned(
             effect,
             Rule::Mode,
@@ -248,7 +248,7 @@ pub(super) fn lens(findings: &Findings<'_>) -> EffectStatus {
         );
     }
     // Pruned if the mode or the view does not need it.
-    if matches!(findings.mode(), Mode::Zbuffer) {
+    if matches!(findings.mode(), Mode::Depth) {
         let facts = vec![settings(Field::Mode)];
         return EffectStatus::pruned(
             effect,
@@ -282,7 +282,7 @@ pub(super) fn supersampling(findings: &Findings<'_>, pixel_classes: &PixelClasse
         };
         return EffectStatus::absent(effect, reason, facts).by(Rule::OneSample);
     }
-    if matches!(findings.mode(), Mode::Zbuffer) {
+    if matches!(findings.mode(), Mode::Depth) {
         let facts = vec![settings(Field::Mode), settings(Field::Supersampling)];
         return EffectStatus::pruned(
             effect,

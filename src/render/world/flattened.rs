@@ -7,7 +7,7 @@ use crate::ray::Ray;
 use crate::shape::geometry::{Geometry, LocalRay};
 use crate::shape::mesh::FEW;
 use crate::shape::triangle::{self, Shear};
-use rtc_valid::{self as valid, MOST_TRIANGLES, ValidScene};
+use rtc_valid::{self as valid, MAX_MESH_TRIANGLES, ValidScene};
 
 /// The triangles of all flattened instances, numbered surface by surface.
 pub(super) struct Flattened {
@@ -20,7 +20,7 @@ pub(super) struct Flattened {
 /// together.
 const MAX_TRIANGLES: usize = 1 << 18;
 
-const _: () = assert!(MOST_TRIANGLES == MOST, "a proven mesh has a hierarchy");
+const _: () = assert!(MAX_MESH_TRIANGLES == MOST, "a proven mesh has a hierarchy");
 
 /// One ray against flattened triangles. The ray is brought to the coordinates of a surface once for
 /// a run of its triangles.
@@ -180,7 +180,7 @@ pub(super) fn flattened_surfaces(scene: &ValidScene) -> Vec<bool> {
     let mut all = 0;
     let mut flattens = |mesh: usize| {
         let is_worth = uses[mesh] == 1 || uses[mesh] * triangles(mesh) <= MAX_TRIANGLES;
-        let fits = is_worth && all + triangles(mesh) <= MOST_TRIANGLES;
+        let fits = is_worth && all + triangles(mesh) <= MAX_MESH_TRIANGLES;
         all += usize::from(fits) * triangles(mesh);
         fits
     };

@@ -92,7 +92,7 @@ fn phong(material: Phong, textures: &Textures) -> PhongMaterial {
         ks,
         n,
         kt,
-        eta,
+        ior: eta,
         glossy_samples,
         maps,
     } = material;

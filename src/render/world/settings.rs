@@ -142,7 +142,7 @@ pub(super) fn settings(scene: &ValidScene) -> Settings {
 fn prepared_mode(mode: valid::Mode) -> Mode {
     match mode {
         valid::Mode::Phong => Mode::Phong,
-        valid::Mode::Zbuffer => Mode::Depth,
+        valid::Mode::Depth => Mode::Depth,
         valid::Mode::Normal => Mode::Normal,
         valid::Mode::Gooch(valid::Gooch { b, y, alpha, beta }) => {
             Mode::Gooch(Gooch { b, y, alpha, beta })

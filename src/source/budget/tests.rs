@@ -16,13 +16,13 @@ fn the_table_is_in_the_order_of_the_resources() {
 fn what_is_charged_is_within_the_limit_and_nothing_is_charged_beyond_it() {
     let budget = Budget::default();
     assert_eq!(budget.charge(Resource::Surfaces, 1 << 20), Ok(()));
-    let refused = budget.charge(Resource::Surfaces, 64).unwrap_err();
-    assert_eq!((refused.total, refused.limit), ((1 << 20) + 64, 1 << 20));
+    let exceeded = budget.charge(Resource::Surfaces, 64).unwrap_err();
+    assert_eq!((exceeded.total, exceeded.limit), ((1 << 20) + 64, 1 << 20));
     budget.read(1024);
     assert_eq!(
         (
             budget.charge(Resource::Surfaces, 64),
-            budget.left(Resource::Surfaces)
+            budget.remaining(Resource::Surfaces)
         ),
         (Ok(()), 0)
     );
@@ -60,12 +60,12 @@ fn a_limit_asked_for_counts_whatever_is_read() {
     limits.set(Resource::Memory, 1 << 21);
     let budget = Budget::new(limits);
     budget.read(1 << 20);
-    let refused = budget
+    let exceeded = budget
         .charge(Resource::Memory, (2 << 20) + 1)
         .unwrap_err()
         .to_string();
     assert_eq!(
-        refused,
+        exceeded,
         "it would take 3 MiB of memory, and the limit is 2 MiB"
     );
 }

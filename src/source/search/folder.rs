@@ -1,4 +1,4 @@
-//! A folder in which files are looked for, of the system or of files in memory.
+//! A folder that is searched, on disk or in memory.
 
 use crate::loader::Opened;
 use crate::memory::MemoryFiles;
@@ -6,29 +6,29 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-/// Folders of the system, which lend nothing, nor does any folder below.
-const OF_THE_SYSTEM: [&str; 5] = ["/proc", "/sys", "/dev", "/etc", "/private/etc"];
+/// System folders; they and all folders below are excluded from the search of the parent folder.
+const SYSTEM_FOLDERS: [&str; 5] = ["/proc", "/sys", "/dev", "/etc", "/private/etc"];
 
-/// Folders of homes.
-const OF_HOMES: [&str; 3] = ["/home", "/Users", "C:\\Users"];
+/// The folders of home folders.
+const HOME_FOLDERS: [&str; 3] = ["/home", "/Users", "C:\\Users"];
 
-/// The most parts of a path that are followed, those of links too.
-const MOST_STEPS: usize = 400;
+/// The maximum number of path components that are followed, including those of links.
+const MAX_STEPS: usize = 400;
 
 /// A folder.
 #[derive(Clone, Debug)]
 pub struct Folder {
-    /// As the user would write it.
+    /// The path as the user would write it.
     pub(super) shown: PathBuf,
-    /// Without links and `..`.
+    /// The canonical path.
     pub(super) resolved: PathBuf,
-    /// The files it is of, if they lie in memory.
+    /// The files in memory, for a folder in memory.
     files: Option<Arc<MemoryFiles>>,
 }
 
 impl Folder {
-    /// The folder that the user writes so; `None` if there is none. Nothing stands for the current
-    /// one.
+    /// The folder at a path of the user; `None` if it does not exist. An empty path is the current
+    /// folder.
     #[must_use]
     pub fn new(shown: &Path) -> Option<Self> {
         let path = if shown.as_os_str().is_empty() {
@@ -43,7 +43,7 @@ impl Folder {
         })
     }
 
-    /// A folder free of links, shown by the first of these names that leads there.
+    /// A folder by its canonical path, displayed by the first of these names that leads to it.
     pub(super) fn named(resolved: &Path, names: impl IntoIterator<Item = PathBuf>) -> Self {
         let leads_there = |folder: &Self| folder.resolved == resolved;
         let folder = names
@@ -56,7 +56,7 @@ impl Folder {
         })
     }
 
-    /// A folder of files in memory, shown by its own name if by no other.
+    /// A folder in memory, displayed by its own path if no other is given.
     pub(crate) fn in_memory(
         files: &Arc<MemoryFiles>,
         resolved: &Path,
@@ -69,12 +69,12 @@ impl Folder {
         }
     }
 
-    /// The files it is of, if they lie in memory.
+    /// The files in memory, for a folder in memory.
     pub(super) fn memory(&self) -> Option<&Arc<MemoryFiles>> {
         self.files.as_ref()
     }
 
-    /// The file at a path free of `..`, in this folder or above.
+    /// Opens the file at a path without `..`, in this folder or above.
     pub(super) fn open(&self, path: &Path) -> Option<Opened> {
         match &self.files {
             Some(files) => Opened::in_memory(files, path),
@@ -82,16 +82,15 @@ impl Folder {
         }
     }
 
-    /// Whether a link on the way to a place in it leads out, whatever is there: only what lies in
-    /// the folder is looked at.
-    pub(super) fn leads_out(&self, place: &Path) -> bool {
+    /// Whether a link on the path leads outside the folder, whether or not its target exists.
+    pub(super) fn escapes(&self, place: &Path) -> bool {
         if self.files.is_some() {
             return false;
         }
-        let mut way: Vec<PathBuf> = parts_from_last(place);
+        let mut pending: Vec<PathBuf> = parts_from_last(place);
         let mut at = self.resolved.clone();
-        for _ in 0..MOST_STEPS {
-            let Some(part) = way.pop() else {
+        for _ in 0..MAX_STEPS {
+            let Some(part) = pending.pop() else {
                 return false;
             };
             match part.as_os_str() == ".." {
@@ -104,12 +103,13 @@ impl Folder {
             if there.is_symlink()
                 && let Ok(target) = fs::read_link(&at)
             {
-                // From the root it leads out even where it comes back; who follows it sees that.
+                // A link to an absolute path counts as leading outside, even if it returns;
+                // following it decides.
                 at.pop();
                 if target.has_root() {
                     at = PathBuf::new();
                 }
-                way.extend(parts_from_last(&target));
+                pending.extend(parts_from_last(&target));
             }
             if !at.starts_with(&self.resolved) {
                 return true;
@@ -118,7 +118,7 @@ impl Folder {
         false
     }
 
-    /// A place in it, free of links.
+    /// The canonical path of a path in this folder.
     pub(super) fn resolve(&self, place: &Path) -> Option<PathBuf> {
         match &self.files {
             Some(_) => Some(place.to_owned()),
@@ -126,7 +126,7 @@ impl Folder {
         }
     }
 
-    /// The names of what lies at a place, in no order.
+    /// The names of the entries at a path, in no order.
     pub(super) fn names(&self, place: &Path) -> Box<dyn Iterator<Item = String>> {
         if let Some(files) = &self.files {
             return Box::new(files.names(place).into_iter());
@@ -150,23 +150,24 @@ impl Folder {
         ))
     }
 
-    /// Whether it may lend files to scenes in a folder within; `home` is that of the user.
-    pub(super) fn lends(&self, home: Option<&Path>) -> bool {
+    /// Whether it may be searched as the parent folder of a scene; `home` is the user's home
+    /// folder.
+    pub(super) fn may_be_searched(&self, home: Option<&Path>) -> bool {
         let path = &self.resolved;
         let names = path
             .components()
             .filter(|part| matches!(part, Component::Normal(_)))
             .count();
-        let of_system = OF_THE_SYSTEM.iter().any(|folder| path.starts_with(folder));
+        let of_system = SYSTEM_FOLDERS.iter().any(|folder| path.starts_with(folder));
         let is_home = home == Some(path)
-            || OF_HOMES
+            || HOME_FOLDERS
                 .iter()
                 .any(|homes| path.parent() == Some(Path::new(homes)));
         names >= 2 && !of_system && !is_home
     }
 }
 
-/// The names on the way to a place, and `..`, the first of them last.
+/// The components of a path, `..` included, in reverse order.
 fn parts_from_last(place: &Path) -> Vec<PathBuf> {
     let is_step =
         |part: &Component<'_>| matches!(part, Component::Normal(_) | Component::ParentDir);

@@ -1,34 +1,34 @@
-//! The names in folders, each folder read once for all names that are not found there.
+//! Cached listings of folders: each folder is read once.
 
 use super::Folder;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The most names of a folder that are looked at.
-const MOST: usize = 1 << 16;
+/// The maximum number of names that are read from a folder.
+const MAX_NAMES: usize = 1 << 16;
 
-/// The names in the folders that were looked into.
+/// The listings of the folders read so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Listings(Arc<Mutex<BTreeMap<PathBuf, Arc<Listing>>>>);
 
 /// The names in a folder.
 #[derive(Debug)]
 pub(super) struct Listing {
-    /// In order.
+    /// The names, sorted.
     pub(super) names: Vec<String>,
-    /// The same by what they are in lower case.
+    /// The names by their lower-case form.
     by_lower: BTreeMap<String, Vec<String>>,
 }
 
 impl Listings {
-    /// The names at a place in a folder.
+    /// The listing of a path in a folder.
     pub(super) fn of(&self, folder: &Folder, place: &Path) -> Arc<Listing> {
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(listing) = known.get(place) {
             return Arc::clone(listing);
         }
-        let listing = Arc::new(Listing::new(folder.names(place).take(MOST).collect()));
+        let listing = Arc::new(Listing::new(folder.names(place).take(MAX_NAMES).collect()));
         known.insert(place.to_owned(), Arc::clone(&listing));
         listing
     }
@@ -39,16 +39,16 @@ impl Listing {
         names.sort_unstable();
         let mut by_lower: BTreeMap<String, Vec<String>> = BTreeMap::new();
         for name in &names {
-            let alike = by_lower.entry(name.to_lowercase()).or_default();
-            alike.push(name.clone());
+            let ignoring_case = by_lower.entry(name.to_lowercase()).or_default();
+            ignoring_case.push(name.clone());
         }
         Self { names, by_lower }
     }
 
-    /// The names that differ from one in case only, in order.
-    pub(super) fn alike(&self, name: &str) -> &[String] {
-        let alike = self.by_lower.get(&name.to_lowercase());
-        alike.map_or(&[], Vec::as_slice)
+    /// The names that differ from `name` only in case, sorted.
+    pub(super) fn ignoring_case(&self, name: &str) -> &[String] {
+        let ignoring_case = self.by_lower.get(&name.to_lowercase());
+        ignoring_case.map_or(&[], Vec::as_slice)
     }
 }
 
@@ -56,7 +56,7 @@ impl Listing {
 mod tests {
     use super::*;
 
-    /// However many names are not there, and however many are.
+    /// Independent of the number of names searched and of files present.
     #[test]
     fn a_folder_is_read_once() {
         let files = |count: usize| {
@@ -70,8 +70,11 @@ mod tests {
             for at in 0..count {
                 let again = listings.of(&folder, Path::new("a"));
                 assert!(Arc::ptr_eq(&first, &again));
-                assert_eq!(again.alike(&format!("y{at}.PNG")), [format!("Y{at}.png")]);
-                assert!(again.alike("z.png").is_empty());
+                assert_eq!(
+                    again.ignoring_case(&format!("y{at}.PNG")),
+                    [format!("Y{at}.png")]
+                );
+                assert!(again.ignoring_case("z.png").is_empty());
             }
             assert_eq!(first.names.len(), count);
         }

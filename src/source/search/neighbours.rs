@@ -1,15 +1,15 @@
-//! The places of files: what lies beside one that is not there, so that a slip in its name can be
-//! told, and how one that was found is called from the folders that are searched.
+//! Names of files near a missing one, to suggest a correction, and paths of found files relative to
+//! the folders that are searched.
 
 use super::{FileKind, Folder, Found, Search};
 use std::path::{Component, Path};
 
-/// The maximum number of files that are looked at for a name like another.
+/// The maximum number of files that are compared.
 const MAX_NEIGHBOURS: usize = 4096;
 
 impl Search {
-    /// The names of files of a kind in the place of the scene's own folder that a name leads to, in
-    /// order; hidden ones are not told.
+    /// The names of the visible files of a kind in the folder, below the scene's folder, to which a
+    /// path leads; sorted.
     #[must_use]
     pub fn neighbours(&self, name: &str, kind: &FileKind) -> Vec<String> {
         let path = Path::new(name);
@@ -20,7 +20,7 @@ impl Search {
             return Vec::new();
         };
         let place = folder.resolved.join(path.parent().unwrap_or(Path::new("")));
-        // A link may lead out of the scene's folder.
+        // A link may lead outside the scene's folder.
         let place = folder.resolve(&place);
         let place = place.filter(|place| place.starts_with(&folder.resolved));
         let listing = place.map(|place| self.listings.of(folder, &place));
@@ -34,7 +34,7 @@ impl Search {
         names.filter(is_of_kind).collect()
     }
 
-    /// The path of a file that was found, from the first of the folders that it lies below, with `/`
+    /// The path of a found file relative to the first searched folder that contains it, with `/`
     /// between components.
     #[must_use]
     pub fn path_to(&self, found: &Found) -> Option<String> {

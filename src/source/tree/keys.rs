@@ -1,17 +1,17 @@
-//! The keys of maps: duplicate keys, and the sorted keys of large maps.
+//! The keys of maps: duplicate keys, and sorted keys of large maps.
 
 use super::{NodeId, Tree};
 use std::collections::BTreeMap;
 
-/// Maps up to this size are searched pair by pair; the keys of larger ones are sorted.
-const FEW: usize = 12;
+/// Maps up to this size are searched linearly; the keys of larger ones are sorted.
+const LINEAR_SEARCH_MAX: usize = 12;
 
 /// The keys of a tree, collected as each map closes.
 #[derive(Debug, Default)]
 pub(super) struct Keys {
     /// Duplicate keys, each with its first occurrence.
     duplicates: Vec<(NodeId, NodeId)>,
-    /// The keys of each large map, sorted by text, then by place.
+    /// The keys of each large map, sorted by text, then by position.
     sorted: BTreeMap<NodeId, Vec<NodeId>>,
 }
 
@@ -27,32 +27,32 @@ impl Keys {
     }
 }
 
-/// The first of the sorted keys that is this text.
+/// The first of the sorted keys with this text.
 pub(super) fn search(tree: &Tree<'_>, sorted: &[NodeId], text: &str) -> Option<NodeId> {
-    let is_before = |key: &NodeId| tree.text(*key).is_some_and(|own| own < text);
+    let is_before = |key: &NodeId| tree.text(*key).is_some_and(|found_text| found_text < text);
     let first = *sorted.get(sorted.partition_point(is_before))?;
     tree.is(first, text).then_some(first)
 }
 
-/// Looks at the keys of a map that has just closed.
+/// Collects the keys of a map that was just closed.
 pub(super) fn close(tree: &mut Tree<'_>, map: NodeId) {
     let texts = || {
         let keys = tree.pairs(map).map(|(key, _)| key);
         keys.filter_map(|key| Some((tree.text(key)?, key)))
     };
-    let mut few = [("", map); FEW];
+    let mut entries = [("", map); LINEAR_SEARCH_MAX];
     let mut count = 0;
     for entry in texts() {
-        if let Some(slot) = few.get_mut(count) {
+        if let Some(slot) = entries.get_mut(count) {
             *slot = entry;
         }
         count += 1;
     }
-    if count <= FEW {
-        // Almost all maps end here: nothing is allocated but for a duplicate.
+    if count <= LINEAR_SEARCH_MAX {
+        // Almost all maps end here: nothing is allocated unless there is a duplicate.
         let mut found = Vec::new();
-        for (at, (text, key)) in few[..count].iter().enumerate() {
-            let first = few[..at].iter().find(|(earlier, _)| earlier == text);
+        for (at, (text, key)) in entries[..count].iter().enumerate() {
+            let first = entries[..at].iter().find(|(earlier, _)| earlier == text);
             found.extend(first.map(|(_, first)| (*first, *key)));
         }
         tree.keys.duplicates.append(&mut found);

@@ -1,9 +1,16 @@
-//! The spanned tree: a text of YAML or JSON as one flat vector of nodes, each with the bytes it was
-//! written in.
+//! The spanned tree: a YAML or JSON text as one flat vector of nodes with spans.
 //!
-//! Nodes are in the order of the text; a list or map knows where its descendants end, so nothing
-//! recurses. A node is 16 bytes; of JSON it has a way to the root as well, and is 24. Aliases of
-//! YAML are links and are never expanded, so a small text can't become a large tree.
+//! # Overview
+//! - [`yaml::parse`] and [`json::parse`] make a [`Tree`]; [`yaml::layout`] formats YAML.
+//! - A [`NodeId`] is an index into the nodes. [`Tree::kind`] is the type of a node ([`NodeKind`]),
+//!   [`Tree::shape`] its type and text, [`Tree::span`] its position in the file.
+//! - [`Tree::get`], [`Tree::pairs`] and [`Tree::items`] navigate maps and lists.
+//! - Of JSON, [`Tree::pointer`] is the JSON pointer of a node.
+//!
+//! # Representation
+//! Nodes are in the order of the text. A list or map stores where its descendants end, so nothing
+//! recurses. A node has 16 bytes, and in JSON 8 more for its parent. YAML aliases are links that
+//! are never expanded, so a small text can't become a large tree.
 
 pub mod json;
 mod keys;
@@ -18,30 +25,31 @@ use keys::Keys;
 use pointer::PointerStep;
 use std::ops::Range;
 
-/// Names a node of a [`Tree`].
+/// The index of a node in a [`Tree`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct NodeId(u32);
 
-/// How a node is written, and what its link is.
+/// How a node is written; this also decides the meaning of its link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Form {
+enum Syntax {
     /// `null` in JSON.
     Null,
     /// `true` or `false` in JSON.
     Bool,
     /// A number in JSON.
     Number,
-    /// A word of YAML as written.
+    /// A plain scalar of YAML.
     Word,
-    /// Text in quotes without escapes, quotes included in the range.
+    /// A quoted string without escapes; the range includes the quotes.
     Quoted,
-    /// Text that differs from how it is written; the link is its index among the cooked ones.
-    Cooked,
-    /// A list; the link is one past its last descendant.
+    /// A string whose value differs from its text; the link is its index among the unescaped
+    /// strings.
+    Unescaped,
+    /// A list; the link is the index after its last descendant.
     List,
-    /// A map, keys and values in turn; the link is one past its last descendant.
+    /// A map: keys and values alternate; the link is the index after its last descendant.
     Map,
-    /// An alias for the node at the link.
+    /// An alias of the node at the link.
     Alias,
 }
 
@@ -50,10 +58,10 @@ struct Node {
     start: u32,
     end: u32,
     link: u32,
-    form: Form,
+    syntax: Syntax,
 }
 
-/// What a node is, aliases followed.
+/// The type of a node, with aliases resolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NodeKind {
     /// `null` in JSON.
@@ -62,9 +70,9 @@ pub enum NodeKind {
     Bool,
     /// A number in JSON.
     Number,
-    /// A plain word of YAML: a number, a truth value, nothing, or text. Who reads it decides.
+    /// A plain scalar of YAML: a number, a boolean, null, or a string. The reader decides.
     Word,
-    /// Text in quotes or a block; also each key of a map in JSON.
+    /// A quoted string or a block scalar; also each key of a map in JSON.
     Text,
     /// A list.
     List,
@@ -73,7 +81,7 @@ pub enum NodeKind {
 }
 
 impl NodeKind {
-    /// As messages call it.
+    /// The name in messages.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -88,12 +96,12 @@ impl NodeKind {
     }
 }
 
-/// What a node is, with its text, aliases followed.
+/// The type of a node with its text, aliases resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NodeContent<'t> {
-    /// A plain word: a number, a truth value, nothing, or text.
+    /// A plain scalar: a number, a boolean, null, or a string.
     Word(&'t str),
-    /// Text in quotes or a block.
+    /// A quoted string or a block scalar.
     Text(&'t str),
     /// A list.
     List,
@@ -101,24 +109,24 @@ pub enum NodeContent<'t> {
     Map,
 }
 
-/// A parsed text. Offsets are those of the text, spans those of the file.
+/// A parsed text. Offsets are relative to the text, spans to the file.
 #[derive(Debug)]
 pub struct Tree<'s> {
     source: &'s str,
-    /// Where the text begins in its file.
+    /// The offset of the text in its file.
     base: u32,
     file: FileId,
     nodes: Vec<Node>,
-    /// The step that leads to each node of JSON; none of YAML.
+    /// The parent and index of each node of JSON; empty for YAML.
     steps: Vec<PointerStep>,
-    /// Texts that differ from how they are written, one after the other, and where each lies.
-    cooked: String,
-    places: Vec<(u32, u32)>,
+    /// The concatenated values of strings that differ from their text, and the range of each.
+    unescaped: String,
+    ranges: Vec<(u32, u32)>,
     keys: Keys,
 }
 
 impl<'s> Tree<'s> {
-    /// A tree without nodes, of a text that begins `base` bytes into its file.
+    /// A tree without nodes for a text that starts `base` bytes into its file.
     fn new(file: FileId, base: u32, source: &'s str) -> Self {
         Self {
             source,
@@ -126,8 +134,8 @@ impl<'s> Tree<'s> {
             file,
             nodes: Vec::new(),
             steps: Vec::new(),
-            cooked: String::new(),
-            places: Vec::new(),
+            unescaped: String::new(),
+            ranges: Vec::new(),
             keys: Keys::default(),
         }
     }
@@ -138,7 +146,7 @@ impl<'s> Tree<'s> {
         NodeId(0)
     }
 
-    /// How many values there are, and keys.
+    /// The number of nodes, keys included.
     #[must_use]
     pub fn count(&self) -> usize {
         self.nodes.len()
@@ -153,147 +161,146 @@ impl<'s> Tree<'s> {
         self.nodes[id.0 as usize]
     }
 
-    /// The text in these bytes, unless they cut a character.
+    /// The text of a range, unless it splits a character.
     fn slice(&self, range: Range<u32>) -> Option<&'s str> {
         self.source.get(range.start as usize..range.end as usize)
     }
 
-    /// Keeps a text that differs from how it is written; its index among the cooked ones.
-    fn cook(&mut self, write: impl FnOnce(&mut String)) -> u32 {
-        let start = to_u32(self.cooked.len());
-        write(&mut self.cooked);
-        self.places.push((start, to_u32(self.cooked.len())));
-        to_u32(self.places.len() - 1)
+    /// Stores a string value that differs from its text; returns its index.
+    fn unescape_with(&mut self, write: impl FnOnce(&mut String)) -> u32 {
+        let start = to_u32(self.unescaped.len());
+        write(&mut self.unescaped);
+        self.ranges.push((start, to_u32(self.unescaped.len())));
+        to_u32(self.ranges.len() - 1)
     }
 
-    /// The node an alias stands for, or the node itself. An alias never points at another.
+    /// The node of an alias, or the node itself. An alias never refers to another alias.
     #[must_use]
     pub fn target(&self, id: NodeId) -> NodeId {
         let node = self.node(id);
-        if node.form == Form::Alias {
+        if node.syntax == Syntax::Alias {
             NodeId(node.link)
         } else {
             id
         }
     }
 
-    /// Where the node was written; for an alias, where the alias stands.
+    /// The span of the node; for an alias, that of the alias.
     #[must_use]
     pub fn span(&self, id: NodeId) -> Span {
         let node = self.node(id);
         Span::new(self.file, node.start + self.base, node.end + self.base)
     }
 
-    /// The bytes of the text that the node was written in.
+    /// The byte range of the node in the text.
     #[must_use]
-    pub fn place(&self, id: NodeId) -> (usize, usize) {
+    pub fn range(&self, id: NodeId) -> (usize, usize) {
         let node = self.node(id);
         (node.start as usize, node.end as usize)
     }
 
-    /// As written; for an alias, the alias.
+    /// The source text; for an alias, the alias.
     #[must_use]
     pub fn written(&self, id: NodeId) -> &'s str {
-        self.word(self.node(id))
+        self.source_of(self.node(id))
     }
 
-    fn word(&self, node: Node) -> &'s str {
+    fn source_of(&self, node: Node) -> &'s str {
         self.slice(node.start..node.end)
             .expect("a node starts and ends between characters")
     }
 
-    /// The node that is meant, aliases followed.
-    fn meant(&self, id: NodeId) -> Node {
+    /// The node with aliases resolved.
+    fn resolve_alias(&self, id: NodeId) -> Node {
         let node = self.node(id);
-        if node.form == Form::Alias {
+        if node.syntax == Syntax::Alias {
             self.node(NodeId(node.link))
         } else {
             node
         }
     }
 
-    /// What the node is, aliases followed.
+    /// The type of the node, aliases resolved.
     #[must_use]
     pub fn kind(&self, id: NodeId) -> NodeKind {
-        match self.meant(id).form {
-            Form::Null => NodeKind::Null,
-            Form::Bool => NodeKind::Bool,
-            Form::Number => NodeKind::Number,
-            Form::Word => NodeKind::Word,
-            Form::Quoted | Form::Cooked => NodeKind::Text,
-            Form::List => NodeKind::List,
-            Form::Map => NodeKind::Map,
-            Form::Alias => unreachable!("an alias never stands for another"),
+        match self.resolve_alias(id).syntax {
+            Syntax::Null => NodeKind::Null,
+            Syntax::Bool => NodeKind::Bool,
+            Syntax::Number => NodeKind::Number,
+            Syntax::Word => NodeKind::Word,
+            Syntax::Quoted | Syntax::Unescaped => NodeKind::Text,
+            Syntax::List => NodeKind::List,
+            Syntax::Map => NodeKind::Map,
+            Syntax::Alias => unreachable!("an alias never stands for another"),
         }
     }
 
-    /// What the node is, with its text, aliases followed.
+    /// The type of the node with its text, aliases resolved.
     #[must_use]
     pub fn shape(&self, id: NodeId) -> NodeContent<'_> {
-        let node = self.meant(id);
-        match node.form {
-            Form::Null | Form::Bool | Form::Number | Form::Word => {
-                NodeContent::Word(self.word(node))
+        let node = self.resolve_alias(id);
+        match node.syntax {
+            Syntax::Null | Syntax::Bool | Syntax::Number | Syntax::Word => {
+                NodeContent::Word(self.source_of(node))
             }
-            Form::Quoted | Form::Cooked => NodeContent::Text(self.quoted(node)),
-            Form::List => NodeContent::List,
-            Form::Map => NodeContent::Map,
-            Form::Alias => unreachable!("an alias never stands for another"),
+            Syntax::Quoted | Syntax::Unescaped => NodeContent::Text(self.quoted(node)),
+            Syntax::List => NodeContent::List,
+            Syntax::Map => NodeContent::Map,
+            Syntax::Alias => unreachable!("an alias never stands for another"),
         }
     }
 
     /// Whether the node is a map, aliases followed.
     #[must_use]
     pub fn is_map(&self, id: NodeId) -> bool {
-        self.meant(id).form == Form::Map
+        self.resolve_alias(id).syntax == Syntax::Map
     }
 
     /// Whether the node is a list, aliases followed.
     #[must_use]
     pub fn is_list(&self, id: NodeId) -> bool {
-        self.meant(id).form == Form::List
+        self.resolve_alias(id).syntax == Syntax::List
     }
 
-    /// What is said by a text in quotes or a block.
+    /// The value of a quoted string or a block scalar.
     fn quoted(&self, node: Node) -> &str {
-        let text = if node.form == Form::Cooked {
-            let (start, end) = self.places[node.link as usize];
-            self.cooked.get(start as usize..end as usize)
+        let text = if node.syntax == Syntax::Unescaped {
+            let (start, end) = self.ranges[node.link as usize];
+            self.unescaped.get(start as usize..end as usize)
         } else {
             self.slice(inside_quotes(node.start, node.end))
         };
         text.expect("a text starts and ends between characters")
     }
 
-    /// The text of a word, quoted or not; of JSON, of texts alone.
+    /// The text of a scalar; in JSON, of strings only.
     #[must_use]
     pub fn text(&self, id: NodeId) -> Option<&str> {
-        let node = self.meant(id);
-        match node.form {
-            Form::Quoted | Form::Cooked => Some(self.quoted(node)),
-            Form::Word => Some(self.word(node)),
-            Form::Null | Form::Bool | Form::Number | Form::List | Form::Map => None,
-            Form::Alias => unreachable!("an alias never stands for another"),
+        let node = self.resolve_alias(id);
+        match node.syntax {
+            Syntax::Quoted | Syntax::Unescaped => Some(self.quoted(node)),
+            Syntax::Word => Some(self.source_of(node)),
+            Syntax::Null | Syntax::Bool | Syntax::Number | Syntax::List | Syntax::Map => None,
+            Syntax::Alias => unreachable!("an alias never stands for another"),
         }
     }
 
-    /// True if the node is the text given.
+    /// Whether the node is a scalar with this text.
     #[must_use]
     pub fn is(&self, id: NodeId, text: &str) -> bool {
-        self.text(id).is_some_and(|own| own == text)
+        self.text(id).is_some_and(|found_text| found_text == text)
     }
 
-    /// The number of a number in JSON; infinite if a 64-bit float can't hold it.
+    /// The value of a JSON number; infinite if it is out of the range of f64.
     #[must_use]
     pub fn number(&self, id: NodeId) -> Option<f64> {
         (self.kind(id) == NodeKind::Number)
             .then(|| self.written(id).parse().unwrap_or(f64::INFINITY))
     }
 
-    /// The number of a number in JSON that is whole, not negative and below 2^53, however it is
-    /// written.
+    /// The value of a JSON number that is an integer, not negative and below 2^53, in any notation.
     #[must_use]
-    pub fn whole(&self, id: NodeId) -> Option<u64> {
+    pub fn integer(&self, id: NodeId) -> Option<u64> {
         const EXACT: f64 = 9_007_199_254_740_992.0;
         let number = self
             .number(id)
@@ -306,13 +313,13 @@ impl<'s> Tree<'s> {
         number.map(|number| number as u64)
     }
 
-    /// The truth of a truth value in JSON.
+    /// The value of a JSON boolean.
     #[must_use]
     pub fn boolean(&self, id: NodeId) -> Option<bool> {
         (self.kind(id) == NodeKind::Bool).then(|| self.written(id) == "true")
     }
 
-    /// The items of a list; of a map, its keys and values in turn; of a word, nothing.
+    /// The items of a list, or the alternating keys and values of a map; nothing for a scalar.
     pub fn items(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
         let id = self.target(id);
         let end = self.end(id);
@@ -320,7 +327,8 @@ impl<'s> Tree<'s> {
         std::iter::successors(inside(id.0 + 1), move |id| inside(self.end(*id)))
     }
 
-    /// The keys and values of a map as written, merge keys included; of anything else, nothing.
+    /// The keys and values of a map in the order of the text, merge keys included; nothing for
+    /// other nodes.
     pub fn pairs(&self, id: NodeId) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
         let most = if self.is_map(id) { usize::MAX } else { 0 };
         let mut items = self.items(id).take(most);
@@ -330,14 +338,14 @@ impl<'s> Tree<'s> {
     /// The index after the node and its descendants.
     fn end(&self, id: NodeId) -> u32 {
         let node = self.node(id);
-        if matches!(node.form, Form::List | Form::Map) {
+        if matches!(node.syntax, Syntax::List | Syntax::Map) {
             node.link
         } else {
             id.0 + 1
         }
     }
 
-    /// The value of `key` in a map, its own alone.
+    /// The value of `key` in a map, without merged maps.
     #[must_use]
     pub fn get(&self, map: NodeId, key: &str) -> Option<NodeId> {
         let map = self.target(map);
@@ -345,50 +353,50 @@ impl<'s> Tree<'s> {
             Some(sorted) => keys::search(self, sorted, key),
             None => self
                 .pairs(map)
-                .map(|(own, _)| own)
-                .find(|own| self.is(*own, key)),
+                .map(|(found_text, _)| found_text)
+                .find(|found_text| self.is(*found_text, key)),
         };
-        found.map(|own| NodeId(own.0 + 1))
+        found.map(|found_text| NodeId(found_text.0 + 1))
     }
 
-    /// The value at the end of a way of keys.
+    /// The value at the end of a path of keys.
     #[must_use]
     pub fn at(&self, map: NodeId, keys: &[&str]) -> Option<NodeId> {
         keys.iter().try_fold(map, |map, key| self.get(map, key))
     }
 
-    /// The value of `key`, or the map itself where it has none: the best place to point at.
+    /// The value of `key`, or the map itself without one: the best span for a diagnostic.
     #[must_use]
     pub fn at_or(&self, map: NodeId, key: &str) -> NodeId {
         self.get(map, key).unwrap_or(map)
     }
 
-    /// The items of the list that `key` of a map holds; none if there is no such list.
+    /// The items of the list at `key` of a map; nothing if it is not a list.
     pub fn list(&self, map: NodeId, key: &str) -> impl Iterator<Item = NodeId> + '_ {
         let list = self.get(map, key).filter(|list| self.is_list(*list));
         list.into_iter().flat_map(|list| self.items(list))
     }
 
-    /// Whether the values behind two keys are written alike.
+    /// Whether the values of two keys have the same source text.
     #[must_use]
     pub fn are_alike(&self, first: NodeId, second: NodeId) -> bool {
         let value = |key: NodeId| self.written(NodeId(key.0 + 1));
         value(first) == value(second)
     }
 
-    /// The keys that stand again in their map: the first of each, and another.
+    /// The duplicate keys: the first occurrence and a later one.
     #[must_use]
     pub fn duplicate_keys(&self) -> &[(NodeId, NodeId)] {
         self.keys.duplicates()
     }
 }
 
-/// The bytes between the quotes of a quoted word.
+/// The byte range between the quotes of a string.
 fn inside_quotes(start: u32, end: u32) -> Range<u32> {
     start + 1..end.saturating_sub(1)
 }
 
-/// An offset or index of a text; the loader refuses files of 4 GiB and more.
+/// An offset or index as `u32`; the loader rejects files of 4 GiB and more.
 fn to_u32(count: usize) -> u32 {
     u32::try_from(count).expect("the loader refuses files of 4 GiB and more")
 }

@@ -1,18 +1,18 @@
-//! The way from the root of a tree of JSON to each of its nodes, as findings name it.
+//! JSON pointers of the nodes of a JSON tree, for diagnostics.
 
 use super::{NodeId, NodeKind, Tree};
 
-/// The last step of the way to a node.
+/// The parent of a node and its index there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PointerStep {
-    /// The list or map the node lies in; the root lies in itself.
+    /// The list or map that contains the node; the root contains itself.
     pub(super) parent: u32,
-    /// The index in a list; of no meaning elsewhere.
+    /// The index in a list; otherwise without meaning.
     pub(super) slot: u32,
 }
 
-/// The longest step of a pointer and the longest pointer in bytes: longer ones are cut, for
-/// findings are many.
+/// The maximum length in bytes of a component and of a pointer. Longer ones are shortened, because
+/// there may be many diagnostics.
 const LONG_STEP: usize = 256;
 const LONG_POINTER: usize = 512;
 
@@ -22,14 +22,14 @@ impl Tree<'_> {
         self.steps.get(id.0 as usize).copied().unwrap_or(root)
     }
 
-    /// The list or map the node lies in; the root lies in itself, and so does all of YAML.
+    /// The list or map that contains the node; the root for the root and for YAML.
     #[must_use]
     pub fn parent(&self, id: NodeId) -> NodeId {
         NodeId(self.step(id).parent)
     }
 
-    /// The way from the root to the node, a JSON pointer (RFC 6901). Of a long one the beginning is
-    /// left out, and of a long key the end: `…` stands there.
+    /// The JSON pointer (RFC 6901) of the node. `…` replaces the start of a long pointer and the
+    /// end of a long key.
     #[must_use]
     pub fn pointer(&self, id: NodeId) -> String {
         let mut steps = Vec::new();
@@ -51,7 +51,8 @@ impl Tree<'_> {
         steps.iter().rev().map(String::as_str).collect()
     }
 
-    /// The key of a value of a map; of a key, itself. The beginning of a long one, as written.
+    /// The key of a map value, or the key itself for a key. A long key is shortened, in its source
+    /// form.
     fn key(&self, id: NodeId) -> String {
         let after = self.source.as_bytes()[self.node(id).end as usize..].trim_ascii_start();
         let is_key = after.first() == Some(&b':');

@@ -1,4 +1,4 @@
-//! Trees of both languages.
+//! Tests of YAML and JSON trees.
 
 use super::*;
 use crate::SourceMap;
@@ -20,9 +20,9 @@ fn aliases_are_links_and_spans_are_bytes_of_the_file() {
     with("\u{feff}a: &x [1, 'q', \"\\u0041\"]\nb: *x\n", |tree| {
         let pairs: Vec<_> = tree.pairs(tree.root()).collect();
         assert_eq!(pairs.len(), 2);
-        let words: Vec<_> = tree.items(pairs[1].1).map(|id| tree.shape(id)).collect();
+        let literals: Vec<_> = tree.items(pairs[1].1).map(|id| tree.shape(id)).collect();
         assert_eq!(
-            words,
+            literals,
             [
                 NodeContent::Word("1"),
                 NodeContent::Text("q"),
@@ -40,7 +40,7 @@ fn aliases_are_links_and_spans_are_bytes_of_the_file() {
 
 #[test]
 fn a_block_is_text_whatever_it_begins_with() {
-    for (text, word) in [
+    for (text, literal) in [
         ("a: |\n  \"b \u{1cc}", "\"b \u{1cc}"),
         ("a: |\n  'b \u{e9}", "'b \u{e9}"),
         ("a: >\n  \"b\"", "\"b\""),
@@ -52,8 +52,8 @@ fn a_block_is_text_whatever_it_begins_with() {
             let NodeContent::Text(found) = tree.shape(value) else {
                 panic!("{text:?} is no text")
             };
-            // Whether a last line that does not end gets an end is the parser's affair.
-            assert_eq!(found.trim_end_matches('\n'), word, "{text:?}");
+            // The parser decides whether an unterminated last line gets a newline.
+            assert_eq!(found.trim_end_matches('\n'), literal, "{text:?}");
         });
     }
 }
@@ -83,7 +83,7 @@ fn nodes_know_their_way_and_their_bytes() {
         ("/a/1/b~1c", "xé😀")
     );
     assert_eq!(
-        (tree.number(at(&["e"])), tree.whole(at(&["e"]))),
+        (tree.number(at(&["e"])), tree.integer(at(&["e"]))),
         (Some(-25.0), None)
     );
     assert_eq!(
@@ -149,7 +149,7 @@ fn keys_of_wide_maps_are_found() {
         .collect();
     let text = format!("{{{text}\"b\":[1,{{\"c\":2}}]}}");
     let tree = json::parse(file(), 0, &text).unwrap();
-    let found = (0..100).filter_map(|key| tree.whole(tree.get(tree.root(), &format!("a{key}"))?));
+    let found = (0..100).filter_map(|key| tree.integer(tree.get(tree.root(), &format!("a{key}"))?));
     assert!(found.eq(0..100));
     assert_eq!(tree.get(tree.root(), "a100"), None);
     assert_eq!(tree.list(tree.root(), "b").count(), 2);
@@ -185,14 +185,14 @@ fn depth_is_bounded() {
 
 #[test]
 fn a_text_up_to_its_fault_is_a_tree() {
-    let (tree, fault) = json::begin(file(), 0, r#"{"a": [1, {"b": 2, "c" x"#);
-    assert_eq!(fault.map(|fault| fault.at), Some(23));
+    let (tree, error) = json::parse_prefix(file(), 0, r#"{"a": [1, {"b": 2, "c" x"#);
+    assert_eq!(error.map(|error| error.at), Some(23));
     let list = tree.get(tree.root(), "a").unwrap();
     let inner = tree.items(list).nth(1).unwrap();
     let two = tree.get(inner, "b").unwrap();
     assert_eq!(
-        (tree.whole(two), tree.pointer(two).as_str()),
+        (tree.integer(two), tree.pointer(two).as_str()),
         (Some(2), "/a/1/b")
     );
-    assert_eq!(tree.place(inner), (10, 23));
+    assert_eq!(tree.range(inner), (10, 23));
 }

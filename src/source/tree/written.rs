@@ -1,10 +1,10 @@
-//! What the text around a node says, and whether two nodes were written to say the same.
+//! The text after a node, and comparison of nodes.
 
-use super::{Form, NodeId, Tree};
+use super::{NodeId, Syntax, Tree};
 use crate::Span;
 
 impl<'s> Tree<'s> {
-    /// The rest of the line that follows a span in this text.
+    /// The text after a span, up to the end of its line.
     #[must_use]
     pub fn rest_of_line(&self, span: Span) -> &'s str {
         let end = span.end.saturating_sub(self.base) as usize;
@@ -12,10 +12,11 @@ impl<'s> Tree<'s> {
         rest.split(['\n', '\r']).next().unwrap_or_default()
     }
 
-    /// Whether two values are the same: words and texts, lists and maps of the same in one order.
+    /// Whether two values are equal: the same scalars, lists and maps in the same order.
     #[must_use]
     pub fn is_same(&self, a: NodeId, b: NodeId) -> bool {
-        /// Nodes of what an alias stands for that are compared: it may stand for much, and often.
+        /// The maximum number of nodes of an alias target that are compared: it may be large and
+        /// used often.
         const MOST: u32 = 1 << 10;
         let is_alias = [a, b].iter().any(|id| self.target(*id) != *id);
         let (a, b) = (self.target(a), self.target(b));
@@ -27,7 +28,7 @@ impl<'s> Tree<'s> {
         }
         let inside = |id: NodeId| (id.0..self.end(id)).map(NodeId);
         let is_same = |(a, b): (NodeId, NodeId)| {
-            self.node(a).form == self.node(b).form
+            self.node(a).syntax == self.node(b).syntax
                 && self.target(a) == a
                 && self.target(b) == b
                 && self.shape(a) == self.shape(b)
@@ -35,15 +36,15 @@ impl<'s> Tree<'s> {
         inside(a).len() == inside(b).len() && inside(a).zip(inside(b)).all(is_same)
     }
 
-    /// Whether another text says the same: the same nodes with the same texts, aliases of the same.
+    /// Whether another tree is equal: the same nodes with the same texts and the same aliases.
     #[must_use]
-    pub fn says_the_same(&self, other: &Tree<'_>) -> bool {
+    pub fn is_equivalent(&self, other: &Tree<'_>) -> bool {
         let is_same = |id: NodeId| {
-            let (own, its) = (self.node(id), other.node(id));
-            let has_link = matches!(own.form, Form::List | Form::Map | Form::Alias);
-            own.form == its.form
+            let (mine, theirs) = (self.node(id), other.node(id));
+            let has_link = matches!(mine.syntax, Syntax::List | Syntax::Map | Syntax::Alias);
+            mine.syntax == theirs.syntax
                 && if has_link {
-                    own.link == its.link
+                    mine.link == theirs.link
                 } else {
                     self.shape(id) == other.shape(id)
                 }

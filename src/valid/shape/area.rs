@@ -1,9 +1,9 @@
-//! Whether a face has an area.
+//! Whether a triangle has an area.
 
 use crate::check::SMALLEST;
 use rtc_math::{U, Vec3, cross, unit_scale};
 
-/// Whether three corners are not in line.
+/// Whether three corners are not collinear.
 #[inline]
 pub(crate) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
     let edges = [b - a, c - a];
@@ -11,8 +11,8 @@ pub(crate) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
 }
 
 /// Whether the rounded cross product proves that two edges span an area. Its error is at most 6 u
-/// times the product of their lengths. It suffices for nearly all triangles, and the exact product
-/// is much slower.
+/// times the product of their lengths. This suffices for nearly all triangles; the exact product is
+/// much slower.
 #[inline(always)]
 fn surely_spans([first, second]: [Vec3; 2]) -> bool {
     let (p, q) = (first.abs().max_element(), second.abs().max_element());
@@ -38,8 +38,8 @@ fn spans([first, second]: [Vec3; 2]) -> bool {
 mod tests {
     use super::*;
 
-    /// Slivers of all sizes, from clear triangles to those that only exact arithmetic tells from
-    /// lines.
+    /// Slivers of all sizes, from clear triangles to those that only exact arithmetic distinguishes
+    /// from lines.
     #[test]
     fn what_is_surely_an_area_is_one() {
         let mut sure = 0;

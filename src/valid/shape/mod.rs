@@ -1,4 +1,4 @@
-//! The proof of the shapes: radii above 0, directions of nonzero length, faces with an area.
+//! Validates the shapes: radii above 0, directions of nonzero length, faces with an area.
 
 mod area;
 mod check;
@@ -15,16 +15,16 @@ pub struct Surface {
     pub shape: Shape,
     /// An index into [`super::ValidScene::materials`], in range.
     pub material: usize,
-    /// Whether it hides lights from other surfaces and from itself, where shadows are asked for.
+    /// Whether it casts shadows on other surfaces and on itself, if shadows are on.
     pub casts_shadow: bool,
-    /// Its index in the IR. The IR also has the triangles without an area.
+    /// Its index in the IR, which also has the faces without an area.
     pub index: usize,
 }
 
-/// What an enum holds of a shape that is small.
+/// How an enum stores a small shape.
 type Inline<T> = T;
 
-/// Declares the proven shapes: those whose values are `derived` in full, of the others the variant.
+/// Declares the valid shapes: the struct of those with `derived` values, and the enum of all.
 macro_rules! declare {
     ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
         /// A shape of any kind.
@@ -33,35 +33,35 @@ macro_rules! declare {
             $($(#[$doc])* $Name($Store<$Name>),)*
         }
 
-        $(proven!($(#[$doc])* $Name $how $values);)*
+        $(validated!($(#[$doc])* $Name $how $values);)*
     };
 }
 
-/// Declares a proven shape.
-macro_rules! proven {
+/// Declares the struct of a valid shape.
+macro_rules! validated {
     ($(#[$doc:meta])* $Name:ident custom $values:tt) => {};
     ($(#[$doc:meta])* $Name:ident derived {
-        $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+        $type:literal $($value:ident: $rule:ident $key:literal $($name:literal)?;)*
     }) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         pub struct $Name {
             $(
-                #[doc = proven_type!(doc $rule $Name $value)]
-                pub $value: proven_type!($rule),
+                #[doc = validated_type!(doc $rule $Name $value)]
+                pub $value: validated_type!($rule),
             )*
         }
     };
 }
 
-/// The type of a value that is proven by a rule, and its description.
-macro_rules! proven_type {
+/// The type of a value of a rule, and its description.
+macro_rules! validated_type {
     (point) => { Vec3 };
     (direction) => { Vec3 };
     (step) => { Vec3 };
     (length) => { Positive };
     (doc direction $Name:ident $value:ident) => {
-        concat!(proven_type!(doc point $Name $value), ", with its largest component in [1, 2)")
+        concat!(validated_type!(doc point $Name $value), ", with its largest component in [1, 2)")
     };
     (doc $rule:ident $Name:ident $value:ident) => {
         concat!("[`", stringify!($value), "`](rtc_ir::", stringify!($Name), "::", stringify!($value), ")")
@@ -77,12 +77,12 @@ pub struct Sphere {
     pub center: Vec3,
     /// Its radius.
     pub radius: Positive,
-    /// The rows of the rotation from directions of the world to those of the texture; none for the
+    /// The rows of the rotation from world directions to texture directions; `None` for the
     /// identity.
     pub texture_from_world: Option<Box<[Vec3; 3]>>,
 }
 
-/// A triangle whose corners are not in line.
+/// A triangle whose corners are not collinear.
 #[derive(Clone, Debug)]
 pub struct Triangle {
     /// The corners; the normal is (v1 − v0) × (v2 − v0).
@@ -99,14 +99,14 @@ pub struct Quad {
 }
 
 impl Quad {
-    /// Whether all corners lie in one plane, to within 64 units of rounding.
+    /// Whether all corners are coplanar, to within 64 rounding errors.
     #[must_use]
     pub fn is_flat(&self) -> bool {
         is_flat(self.vertices)
     }
 }
 
-/// A mesh, placed in the world.
+/// A mesh placed in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Instance {
     /// An index into [`super::ValidScene::meshes`], in range.

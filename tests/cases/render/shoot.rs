@@ -41,7 +41,7 @@ pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
             .map_err(|error| error.to_string())?,
         tolerance: match scene.settings().mode {
             Mode::Path(_) => 1,
-            Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => 0,
+            Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => 0,
         },
     })
 }
@@ -130,7 +130,7 @@ fn colors(renderer: &Renderer, scene: &ValidScene, options: &Options) -> Picture
             let picture = world.denoised(path.samples.get(), &job, &|_| true, &|| ());
             picture.unwrap().film
         }
-        Mode::Path(_) | Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
+        Mode::Path(_) | Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => {
             renderer.render(&job, &|_| true).unwrap()
         }
     };

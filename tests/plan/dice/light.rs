@@ -14,7 +14,7 @@ impl Dice {
         match self.roll(4) {
             0 => Emitter::Sun { direction },
             1 => Emitter::Point { position, range },
-            2 => Emitter::Lamp {
+            2 => Emitter::Photometric {
                 position,
                 direction,
                 horizontal: self.pick(&[[1.0, 0.25, 0.125], [-2.0, 1.0, 0.5]]),

@@ -45,7 +45,7 @@ pub(super) fn load(
         return;
     }
     if let Some(Light::Punctual(Punctual { emitter, .. })) = lowered.scene.lights.get_mut(light)
-        && let Emitter::Lamp { photometry, .. } = emitter
+        && let Emitter::Photometric { photometry, .. } = emitter
     {
         let name = std::mem::take(&mut photometry.name);
         **photometry = Photometry {

@@ -80,7 +80,7 @@ fn own_light(own: Fields<'_, '_>, world: DAffine3) -> Option<Light> {
     };
     let axis = |axis: Vec3| unit(axis).unwrap_or(Vec3::ZERO);
     Some(Light::Punctual(Punctual {
-        emitter: Emitter::Lamp {
+        emitter: Emitter::Photometric {
             position,
             direction: (-axis(world.z_axis)).to_array(),
             horizontal: axis(world.x_axis).to_array(),

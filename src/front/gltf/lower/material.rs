@@ -250,7 +250,7 @@ impl Reader<'_, '_, '_, '_> {
             ks: own.number_or("ks", matt.ks),
             n: own.number_or("n", matt.n),
             kt: own.number_or("kt", matt.kt),
-            eta: own.number_or("eta", matt.eta),
+            ior: own.number_or("eta", matt.ior),
             glossy_samples: own.count_or("glossySamples", matt.glossy_samples),
             color_map: texture("colorMap"),
             specular_map: texture("specularMap"),

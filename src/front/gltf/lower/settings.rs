@@ -152,7 +152,7 @@ fn mode_of(word: &str, own: Fields<'_, '_>) -> Option<Mode> {
     let parameters = own.object(word);
     Some(match word {
         "phong" => Mode::Phong,
-        "zbuffer" => Mode::Zbuffer,
+        "zbuffer" => Mode::Depth,
         "normal" => Mode::Normal,
         "gooch" => {
             let number = |key| parameters.map_or(0.0, |own| own.number_or(key, 0.0));

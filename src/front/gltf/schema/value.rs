@@ -142,7 +142,7 @@ impl Walk<'_, '_, '_> {
                 .say(&codes::GLTF_TYPE, "TYPE_MISMATCH", node, message);
             return None;
         }
-        Some(self.report.json.whole(node))
+        Some(self.report.json.integer(node))
     }
 
     fn whole(&mut self, node: NodeId, min: u64, max: u64, name: &str) {
@@ -189,7 +189,7 @@ impl Walk<'_, '_, '_> {
 
     /// The index that an element of a list or map of indices is.
     fn item_index(&mut self, node: NodeId, name: &str) -> Option<u64> {
-        let number = self.report.json.whole(node);
+        let number = self.report.json.integer(node);
         if number.is_none() {
             let message = format!(
                 "`{name}` holds {}, which is no index",

@@ -1,69 +1,69 @@
-//! JSON text to nodes, strictly as RFC 8259 has it, bounded in depth, without recursion.
+//! Parses JSON text to nodes, strictly by RFC 8259, with bounded depth and without recursion.
 
 mod text;
 
 use super::pointer::PointerStep;
-use super::{Form, Node, NodeId, Tree, keys, to_u32};
+use super::{Node, NodeId, Syntax, Tree, keys, to_u32};
 use crate::FileId;
 
-/// How deep lists and maps may lie in each other.
+/// The maximum nesting depth.
 const MAX_DEPTH: usize = 512;
 
-/// Why a text is no tree, and where.
+/// Why a text is not JSON, and where.
 #[derive(Debug, PartialEq, Eq)]
-pub struct JsonFault {
-    /// The offset in the text of the first byte that can't be.
+pub struct JsonError {
+    /// The offset of the first invalid byte in the text.
     pub at: usize,
-    /// What is wrong.
-    pub what: &'static str,
+    /// The message.
+    pub message: &'static str,
 }
 
-impl From<(usize, &'static str)> for JsonFault {
-    fn from((at, what): (usize, &'static str)) -> Self {
-        Self { at, what }
+impl From<(usize, &'static str)> for JsonError {
+    fn from((at, message): (usize, &'static str)) -> Self {
+        Self { at, message }
     }
 }
 
-/// Parses `text`, which begins `base` bytes into `file`.
+/// Parses `text`, which starts `base` bytes into `file`.
 ///
 /// # Errors
-/// The first fault.
-pub fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, JsonFault> {
-    match begin(file, base, text) {
+/// The first error.
+pub fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, JsonError> {
+    match parse_prefix(file, base, text) {
         (tree, None) => Ok(tree),
-        (_, Some(fault)) => Err(fault),
+        (_, Some(error)) => Err(error),
     }
 }
 
-/// Parses `text` up to the first fault; what is open there ends there.
+/// Parses `text` up to the first error, where all open lists and maps end.
 #[must_use]
-pub fn begin(file: FileId, base: u32, text: &str) -> (Tree<'_>, Option<JsonFault>) {
+pub fn parse_prefix(file: FileId, base: u32, text: &str) -> (Tree<'_>, Option<JsonError>) {
     let mut scan = Scan {
         bytes: text.as_bytes(),
         at: 0,
         tree: Tree::new(file, base, text),
         open: Vec::new(),
     };
-    let fault = scan.document().err();
+    let error = scan.document().err();
     let end = to_u32(scan.at);
     let after = to_u32(scan.tree.nodes.len());
     for (index, _) in scan.open {
         let node = &mut scan.tree.nodes[index as usize];
         (node.end, node.link) = (end, after);
     }
-    (scan.tree, fault)
+    (scan.tree, error)
 }
 
 struct Scan<'s> {
     bytes: &'s [u8],
     at: usize,
     tree: Tree<'s>,
-    /// The lists and maps that are not closed yet, and how many values they have so far.
+    /// The open lists and maps with the number of their values so far.
     open: Vec<(u32, u32)>,
 }
 
 impl Scan<'_> {
-    fn document(&mut self) -> Result<(), JsonFault> {
+    fn document(&mut self) -> Result<(), JsonError> {
         loop {
             self.value()?;
             if self.close_all()? {
@@ -72,11 +72,11 @@ impl Scan<'_> {
         }
         match self.peek() {
             None => Ok(()),
-            Some(_) => Err(self.fault("something follows the end of the document")),
+            Some(_) => Err(self.error("something follows the end of the document")),
         }
     }
 
-    /// Skips white space; the byte after it.
+    /// Skips white space and returns the next byte.
     fn peek(&mut self) -> Option<u8> {
         while let Some(b' ' | b'\t' | b'\n' | b'\r') = self.bytes.get(self.at) {
             self.at += 1;
@@ -84,23 +84,23 @@ impl Scan<'_> {
         self.bytes.get(self.at).copied()
     }
 
-    fn fault(&self, what: &'static str) -> JsonFault {
-        JsonFault::from((self.at, what))
+    fn error(&self, message: &'static str) -> JsonError {
+        JsonError::from((self.at, message))
     }
 
-    /// Reads a value up to its end, or a list or map up to its first value.
-    fn value(&mut self) -> Result<(), JsonFault> {
+    /// Reads a scalar, or the beginning of a list or map up to its first scalar.
+    fn value(&mut self) -> Result<(), JsonError> {
         loop {
             match self.peek() {
-                None => return Err(self.fault("the text ends too early")),
+                None => return Err(self.error("the text ends too early")),
                 Some(b'[') => {
-                    self.open(Form::List)?;
+                    self.open(Syntax::List)?;
                     if self.peek() == Some(b']') {
                         return Ok(());
                     }
                 }
                 Some(b'{') => {
-                    self.open(Form::Map)?;
+                    self.open(Syntax::Map)?;
                     if self.peek() == Some(b'}') {
                         return Ok(());
                     }
@@ -108,35 +108,36 @@ impl Scan<'_> {
                 }
                 Some(b'"') => return self.quoted(false),
                 Some(b'-' | b'0'..=b'9') => return self.number(),
-                Some(_) => return self.word(),
+                Some(_) => return self.literal(),
             }
         }
     }
 
-    /// Closes what ends here, and goes to the next value. True if the document has ended.
-    fn close_all(&mut self) -> Result<bool, JsonFault> {
+    /// Closes lists and maps that end here and moves to the next value. True at the end of the
+    /// document.
+    fn close_all(&mut self) -> Result<bool, JsonError> {
         loop {
             let Some(&(parent, _)) = self.open.last() else {
                 return Ok(true);
             };
-            let form = self.tree.nodes[parent as usize].form;
-            match (self.peek(), form) {
-                (Some(b']'), Form::List) | (Some(b'}'), Form::Map) => self.close(),
+            let syntax = self.tree.nodes[parent as usize].syntax;
+            match (self.peek(), syntax) {
+                (Some(b']'), Syntax::List) | (Some(b'}'), Syntax::Map) => self.close(),
                 (Some(b','), _) => {
                     self.at += 1;
-                    if form == Form::Map {
+                    if syntax == Syntax::Map {
                         self.peek();
                         self.key()?;
                     }
                     return Ok(false);
                 }
-                (None, _) => return Err(self.fault("the text ends too early")),
-                (Some(_), _) => return Err(self.fault("expected a comma or the closing bracket")),
+                (None, _) => return Err(self.error("the text ends too early")),
+                (Some(_), _) => return Err(self.error("expected a comma or the closing bracket")),
             }
         }
     }
 
-    fn push(&mut self, form: Form, link: u32, end: usize, is_key: bool) {
+    fn push(&mut self, syntax: Syntax, link: u32, end: usize, is_key: bool) {
         let (parent, slot) = match self.open.last_mut() {
             Some((parent, count)) => {
                 let slot = *count;
@@ -150,17 +151,17 @@ impl Scan<'_> {
             start: to_u32(self.at),
             end: to_u32(end),
             link,
-            form,
+            syntax,
         });
         self.at = end;
     }
 
-    fn open(&mut self, form: Form) -> Result<(), JsonFault> {
+    fn open(&mut self, syntax: Syntax) -> Result<(), JsonError> {
         if self.open.len() == MAX_DEPTH {
-            return Err(self.fault("lists and objects lie too deep in each other"));
+            return Err(self.error("lists and objects lie too deep in each other"));
         }
         let index = to_u32(self.tree.nodes.len());
-        self.push(form, index + 1, self.at + 1, false);
+        self.push(syntax, index + 1, self.at + 1, false);
         self.open.push((index, 0));
         Ok(())
     }
@@ -173,62 +174,64 @@ impl Scan<'_> {
         let after = to_u32(self.tree.nodes.len());
         let node = &mut self.tree.nodes[index as usize];
         (node.end, node.link) = (to_u32(self.at), after);
-        if node.form == Form::Map {
+        if node.syntax == Syntax::Map {
             keys::close(&mut self.tree, NodeId(index));
         }
     }
 
-    fn key(&mut self) -> Result<(), JsonFault> {
+    fn key(&mut self) -> Result<(), JsonError> {
         if self.bytes.get(self.at) != Some(&b'"') {
-            return Err(self.fault("expected a key in quotes"));
+            return Err(self.error("expected a key in quotes"));
         }
         self.quoted(true)?;
         if self.peek() != Some(b':') {
-            return Err(self.fault("expected a colon after the key"));
+            return Err(self.error("expected a colon after the key"));
         }
         self.at += 1;
         Ok(())
     }
 
-    /// Reads a text in quotes.
-    fn quoted(&mut self, is_key: bool) -> Result<(), JsonFault> {
+    /// Reads a quoted string.
+    fn quoted(&mut self, is_key: bool) -> Result<(), JsonError> {
         let (end, has_escapes) = text::end(self.bytes, self.at)?;
         if has_escapes {
             let Tree { source, .. } = self.tree;
             let inside = source.get(self.at + 1..end - 1);
             let inside = inside.expect("quotes are characters");
-            let link = self.tree.cook(|said| text::resolve(inside, said));
-            self.push(Form::Cooked, link, end, is_key);
+            let link = self
+                .tree
+                .unescape_with(|value| text::resolve(inside, value));
+            self.push(Syntax::Unescaped, link, end, is_key);
         } else {
-            self.push(Form::Quoted, 0, end, is_key);
+            self.push(Syntax::Quoted, 0, end, is_key);
         }
         Ok(())
     }
 
-    fn word(&mut self) -> Result<(), JsonFault> {
-        let words = [
-            ("null", Form::Null),
-            ("true", Form::Bool),
-            ("false", Form::Bool),
+    fn literal(&mut self) -> Result<(), JsonError> {
+        let literals = [
+            ("null", Syntax::Null),
+            ("true", Syntax::Bool),
+            ("false", Syntax::Bool),
         ];
         let rest = &self.bytes[self.at..];
-        let Some((word, form)) = words
+        let Some((literal, syntax)) = literals
             .into_iter()
-            .find(|(word, _)| rest.starts_with(word.as_bytes()))
+            .find(|(literal, _)| rest.starts_with(literal.as_bytes()))
         else {
-            return Err(self.fault("expected a value"));
+            return Err(self.error("expected a value"));
         };
-        self.push(form, 0, self.at + word.len(), false);
+        self.push(syntax, 0, self.at + literal.len(), false);
         Ok(())
     }
 
-    fn number(&mut self) -> Result<(), JsonFault> {
+    fn number(&mut self) -> Result<(), JsonError> {
         let start = self.at;
         self.at += usize::from(self.bytes[self.at] == b'-');
         if self.bytes.get(self.at) == Some(&b'0') {
             self.at += 1;
             if self.bytes.get(self.at).is_some_and(u8::is_ascii_digit) {
-                return Err(self.fault("a number starts with a zero too many"));
+                return Err(self.error("a number starts with a zero too many"));
             }
         } else {
             self.digits()?;
@@ -243,18 +246,18 @@ impl Scan<'_> {
             self.digits()?;
         }
         let end = std::mem::replace(&mut self.at, start);
-        self.push(Form::Number, 0, end, false);
+        self.push(Syntax::Number, 0, end, false);
         Ok(())
     }
 
-    fn digits(&mut self) -> Result<(), JsonFault> {
+    fn digits(&mut self) -> Result<(), JsonError> {
         let count = self.bytes[self.at..]
             .iter()
             .take_while(|byte| byte.is_ascii_digit())
             .count();
         self.at += count;
         if count == 0 {
-            Err(self.fault("expected a digit"))
+            Err(self.error("expected a digit"))
         } else {
             Ok(())
         }

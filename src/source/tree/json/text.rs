@@ -1,10 +1,10 @@
-//! Texts of JSON: where one ends, and what it says with its escapes resolved.
+//! JSON strings: finds their end and resolves their escapes.
 
-/// The end of the text that starts with the quote at `start`, past its closing quote, and whether
-/// it has escapes.
+/// The end of the string that starts with the quote at `start`, after its closing quote, and
+/// whether it has escapes.
 ///
 /// # Errors
-/// Where the first byte is that can't be, with what is wrong.
+/// The offset of the first invalid byte, with a message.
 pub(super) fn end(text: &[u8], start: usize) -> Result<(usize, bool), (usize, &'static str)> {
     let (mut at, mut has_escapes) = (start + 1, false);
     loop {
@@ -33,21 +33,20 @@ fn escape(text: &[u8], at: usize) -> Result<usize, (usize, &'static str)> {
     }
 }
 
-/// Adds what a sound text says; `inside` is what stands between its quotes.
-pub(super) fn resolve(inside: &str, said: &mut String) {
-    said.reserve(inside.len());
+/// Appends the value of a valid string; `inside` is the text between its quotes.
+pub(super) fn resolve(inside: &str, value: &mut String) {
+    value.reserve(inside.len());
     let mut rest = inside;
     while let Some((before, escape)) = rest.split_once('\\') {
-        said.push_str(before);
+        value.push_str(before);
         let (character, after) = unescape(escape);
-        said.push(character);
+        value.push(character);
         rest = after;
     }
-    said.push_str(rest);
+    value.push_str(rest);
 }
 
-/// The character that an escape stands for, and what follows it; `escape` starts after the
-/// backslash.
+/// The character of an escape and the text after it; `escape` starts after the backslash.
 fn unescape(escape: &str) -> (char, &str) {
     let mut rest = escape.chars();
     let letter = rest
@@ -65,7 +64,7 @@ fn unescape(escape: &str) -> (char, &str) {
     }
 }
 
-/// The character that follows `\u`; half of a surrogate pair is the replacement character.
+/// The character of the escape `\u`; half of a surrogate pair becomes the replacement character.
 fn unicode(digits: &str) -> (char, &str) {
     let unit = |text| {
         let (hex, rest) = str::split_at_checked(text, 4)?;

@@ -1,15 +1,15 @@
-//! A comma that is missing between two values in brackets.
+//! Detects missing and surplus commas in brackets.
 
 use super::super::Tree;
 use super::Mistake;
-use super::slip::{slip, span};
+use super::typo::{span, typo};
 
-/// The comma that is missing before the place where the parser gave up, if one is: something that
-/// may end a value stands before what may begin the next.
+/// A missing comma before the position of a syntax error: a value ends before it and another begins
+/// there.
 pub(super) fn missing(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
     let source = tree.source;
     let (before, rest) = source.split_at_checked(at)?;
-    // Of a plain key only the colon behind it can't be.
+    // For a plain key, the error is at the colon after it.
     let start = match rest.starts_with(':') {
         true => before.trim_end().rfind(char::is_whitespace)? + 1,
         false => at,
@@ -29,7 +29,7 @@ pub(super) fn missing(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
     if end == start || !value.ends_with(ends) || !begins(first) {
         return None;
     }
-    Some(slip(
+    Some(typo(
         "a comma is missing".to_owned(),
         "before this".to_owned(),
         "what stands in brackets is separated by commas",
@@ -38,12 +38,11 @@ pub(super) fn missing(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
     ))
 }
 
-/// Whether the bracket at a place is closed further on: brackets in quotes and in comments do not
-/// count.
+/// Whether the bracket at a position is closed. Brackets in quotes and comments don't count.
 pub(super) fn is_closed(tree: &Tree<'_>, bracket: usize) -> bool {
     let mut depth = 0_usize;
-    signs(tree, bracket).any(|(_, sign)| {
-        match sign {
+    significant_characters(tree, bracket).any(|(_, character)| {
+        match character {
             '[' | '{' => depth += 1,
             ']' | '}' => depth = depth.saturating_sub(1),
             _ => {}
@@ -52,19 +51,20 @@ pub(super) fn is_closed(tree: &Tree<'_>, bracket: usize) -> bool {
     })
 }
 
-/// The second of two commas with nothing between them, behind a bracket that is closed.
+/// The second of two commas without a value between them, in a closed bracket.
 pub(super) fn doubled(tree: &Tree<'_>, bracket: usize) -> Option<Mistake<'static>> {
     if !is_closed(tree, bracket) {
         return None;
     }
     let mut before = ' ';
-    let second = signs(tree, bracket).filter(|(_, sign)| !sign.is_whitespace());
-    let (at, _) = second.into_iter().find(|(_, sign)| {
-        let last = std::mem::replace(&mut before, *sign);
-        *sign == ',' && matches!(last, ',' | '[' | '{')
+    let second =
+        significant_characters(tree, bracket).filter(|(_, character)| !character.is_whitespace());
+    let (at, _) = second.into_iter().find(|(_, character)| {
+        let last = std::mem::replace(&mut before, *character);
+        *character == ',' && matches!(last, ',' | '[' | '{')
     })?;
     let span = span(tree, at, at + 1);
-    Some(slip(
+    Some(typo(
         "a comma too many".to_owned(),
         "nothing stands before this".to_owned(),
         "remove it",
@@ -73,9 +73,12 @@ pub(super) fn doubled(tree: &Tree<'_>, bracket: usize) -> Option<Mistake<'static
     ))
 }
 
-/// The characters from a place on that are in no quotes and in no comment, each with where it is; a
-/// quote stands for what is in it.
-fn signs<'t>(tree: &'t Tree<'_>, from: usize) -> impl Iterator<Item = (usize, char)> + use<'t> {
+/// The characters from an offset on that are outside quotes and comments, with their offsets; a
+/// quoted string yields its opening quote only.
+fn significant_characters<'t>(
+    tree: &'t Tree<'_>,
+    from: usize,
+) -> impl Iterator<Item = (usize, char)> + use<'t> {
     let (mut quote, mut last) = (None, ' ');
     let mut is_comment = false;
     let text = tree.source.get(from..).unwrap_or_default();

@@ -1,11 +1,11 @@
-//! What the YAML parser refuses, in words a person who wrote the text understands.
+//! Converts errors of the YAML parser to messages for the author of the text.
 
 use super::super::{NodeId, Tree, to_u32};
-use super::{Mistake, comma, lookalike, slip};
+use super::{Mistake, comma, lookalike, typo};
 use crate::Span;
 use granit_parser::{ErrorKind, ScanError};
 
-/// The mistake in a text that is not YAML; `bracket` is the innermost one still open.
+/// The mistake in an invalid text; `bracket` is the innermost open bracket.
 pub(super) fn syntax(
     tree: &Tree<'_>,
     bracket: Option<NodeId>,
@@ -20,7 +20,7 @@ pub(super) fn syntax(
         ..tree.span(id)
     });
     let kind = error.kind();
-    let ran_on = |span: &Span| {
+    let spans_lines = |span: &Span| {
         tree.slice(span.start - tree.base..to_u32(at))
             .is_some_and(|text| text.contains('\n'))
     };
@@ -29,30 +29,32 @@ pub(super) fn syntax(
         runs_into,
         comment: comment_after(tree, bracket),
     };
-    if let Some(slip) = lookalike::near(tree, at).or_else(|| lookalike::comment_near(tree, at)) {
-        return slip;
+    if let Some(typo) = lookalike::near(tree, at).or_else(|| lookalike::comment_near(tree, at)) {
+        return typo;
     }
     let from = bracket.map_or(at, |bracket| (bracket.start - tree.base) as usize);
     let is_unclosed = matches!(kind, ErrorKind::UnclosedFlowCollection { .. }) || ends_early(kind);
-    if let Some(slip) = is_unclosed.then(|| comma::doubled(tree, from)).flatten() {
-        return slip;
+    if let Some(typo) = is_unclosed.then(|| comma::doubled(tree, from)).flatten() {
+        return typo;
     }
     match bracket {
         _ if matches!(kind, ErrorKind::RecursionLimitExceeded) => Mistake::TooDeep { span: here },
         _ if matches!(kind, ErrorKind::UnclosedFlowCollection { .. }) => unclosed(here, None),
         Some(bracket) if ends_early(kind) => unclosed(bracket, None),
-        Some(bracket) if runs_on(kind) && ran_on(&bracket) && !comma::is_closed(tree, from) => {
+        Some(bracket)
+            if runs_on(kind) && spans_lines(&bracket) && !comma::is_closed(tree, from) =>
+        {
             unclosed(bracket, Some(here))
         }
         bracket => {
             let missing = bracket.filter(|_| runs_on(kind) || trails(kind));
-            if let Some(slip) = missing.and_then(|_| comma::missing(tree, at)) {
-                return slip;
+            if let Some(typo) = missing.and_then(|_| comma::missing(tree, at)) {
+                return typo;
             }
-            if let Some(slip) = slip::find(tree, at, kind) {
-                return slip;
+            if let Some(typo) = typo::find(tree, at, kind) {
+                return typo;
             }
-            let (message, label, hint) = words(kind);
+            let (message, label, hint) = message_of(kind);
             Mistake::Syntax {
                 message,
                 label: label.to_owned(),
@@ -75,7 +77,7 @@ fn character_at(tree: &Tree<'_>, at: usize) -> Span {
     Span::new(tree.file, to_u32(at) + tree.base, to_u32(end) + tree.base)
 }
 
-/// The comment that begins in the line of a bracket, if one does: it may hide the other bracket.
+/// The comment after a bracket in its line, if any: it may hide the closing bracket.
 fn comment_after(tree: &Tree<'_>, bracket: Span) -> Option<Span> {
     let from = (bracket.start - tree.base) as usize;
     let line = tree.source.get(from..)?.lines().next()?;
@@ -97,7 +99,7 @@ fn ends_early(kind: &ErrorKind) -> bool {
     )
 }
 
-/// Something stands behind a text in quotes.
+/// Whether something follows a quoted string.
 fn trails(kind: &ErrorKind) -> bool {
     matches!(
         kind,
@@ -117,22 +119,22 @@ fn runs_on(kind: &ErrorKind) -> bool {
 }
 
 /// Message, label and hint.
-fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
-    let say = |message: &str, label, hint| (message.to_owned(), label, hint);
+fn message_of(kind: &ErrorKind) -> (String, &'static str, &'static str) {
+    let parts = |message: &str, label, hint| (message.to_owned(), label, hint);
     if matches!(kind, ErrorKind::UnknownAnchor) {
-        say(
+        parts(
             "an alias without an anchor",
             "no `&` with this name before",
             "put `&name` before the value it stands for",
         )
     } else if matches!(kind, ErrorKind::MappingValueNotAllowed) {
-        say(
+        parts(
             "a colon where no key can stand",
             "this colon",
             "write `key: value` on a line of its own, with a space after each colon, or put text with `: ` in quotes",
         )
     } else if matches!(kind, ErrorKind::SimpleKeyExpected) {
-        say(
+        parts(
             "a line that is no `key: value`",
             "no colon follows this",
             "write a colon and a space after the key",
@@ -141,13 +143,13 @@ fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
         kind,
         ErrorKind::ExpectedFlowMappingSeparator | ErrorKind::ExpectedFlowSequenceSeparator
     ) {
-        say(
+        parts(
             "a comma is missing",
             "before this",
             "what stands in brackets is separated by commas",
         )
     } else if matches!(kind, ErrorKind::MisplacedFlowCollectionEnd) {
-        say(
+        parts(
             "a bracket closes what was never opened",
             "closed here",
             "remove it, or open it before",
@@ -156,18 +158,18 @@ fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
         kind,
         ErrorKind::UnclosedQuotedScalar | ErrorKind::InvalidQuotedScalarIndent
     ) {
-        say(
+        parts(
             "a quote is never closed",
             "still inside quotes here",
             "close it with the same kind of quote",
         )
     } else {
-        words_with_signs(kind)
+        message_with_characters(kind)
     }
 }
 
-/// Message, label and hint, of what is told with the characters at the place.
-fn words_with_signs(kind: &ErrorKind) -> (String, &'static str, &'static str) {
+/// Message, label and hint, for messages that quote characters.
+fn message_with_characters(kind: &ErrorKind) -> (String, &'static str, &'static str) {
     if let ErrorKind::MismatchedFlowCollectionEnd { open, close } = kind {
         (
             format!("`{open}` is closed by `{close}`"),

@@ -1,12 +1,12 @@
-//! Characters that look like signs of YAML and are none, and comments of other languages: a word
-//! processor, a web page or a program for JSON leaves them behind.
+//! Detects characters that look like YAML indicators, and comments in the syntax of other
+//! languages: word processors, web pages and JSON with comments contain them.
 
 use super::super::Tree;
 use super::Mistake;
-use super::slip::{slip, span};
+use super::typo::{span, typo};
 
-/// A character that looks like one of ASCII: what it is called, and which.
-fn known(c: char) -> Option<(&'static str, &'static str)> {
+/// The name of a character that looks like an ASCII character, and that character.
+fn ascii_lookalike(c: char) -> Option<(&'static str, &'static str)> {
     Some(match c {
         '\u{a0}' | '\u{202f}' | '\u{2007}' => ("a no-break space", " "),
         '\u{3000}' => ("an ideographic space", " "),
@@ -26,7 +26,7 @@ fn known(c: char) -> Option<(&'static str, &'static str)> {
     })
 }
 
-/// The mistake in a plain word that has such a character where only a sign of YAML makes sense.
+/// A mistake in a plain scalar that has such a character where only a YAML indicator makes sense.
 pub(super) fn in_word(tree: &Tree<'_>, start: usize, end: usize) -> Option<Mistake<'static>> {
     let word = tree.source.get(start..end)?;
     if word.is_ascii() {
@@ -34,7 +34,7 @@ pub(super) fn in_word(tree: &Tree<'_>, start: usize, end: usize) -> Option<Mista
     }
     let after = tree.source.get(end..)?.trim_start_matches(' ');
     let (is_key, is_prose) = (after.starts_with(':'), word.split(' ').count() > PROSE);
-    // Any text may hold quotes and dashes, and prose whatever it likes.
+    // Any text may contain quotes and dashes, and prose any character.
     found(tree, start, word, |ascii| match ascii {
         " " | "" => is_key || !is_prose,
         "-" | "'" | "\"" => is_key,
@@ -42,10 +42,10 @@ pub(super) fn in_word(tree: &Tree<'_>, start: usize, end: usize) -> Option<Mista
     })
 }
 
-/// More words than this are prose.
+/// Texts of more words are prose.
 const PROSE: usize = 2;
 
-/// The same in the line of a place where the parser gave up, or in the one before.
+/// The same for the line of a syntax error, or the line before it.
 pub(super) fn near(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
     let (first, lines) = lines_around(tree, at)?;
     if lines.is_ascii() {
@@ -54,8 +54,8 @@ pub(super) fn near(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
     found(tree, first, lines, |_| true)
 }
 
-/// A comment of another language in the line of a place where the parser gave up, or in the one
-/// before.
+/// A comment in the syntax of another language, in the line of a syntax error or the line before
+/// it.
 pub(super) fn comment_near(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static>> {
     let (mut from, lines) = lines_around(tree, at)?;
     for line in lines.split_inclusive('\n') {
@@ -79,42 +79,45 @@ pub(super) fn comment_near(tree: &Tree<'_>, at: usize) -> Option<Mistake<'static
     None
 }
 
-/// The line of a place and the one before, and where they begin.
+/// The line of an offset and the line before it, with their start.
 fn lines_around<'s>(tree: &Tree<'s>, at: usize) -> Option<(usize, &'s str)> {
     let line = |before: usize| {
         let text = tree.source.get(..before).unwrap_or_default();
         text.rfind('\n').map_or(0, |end| end + 1)
     };
-    let own = line(at);
-    let first = line(own.saturating_sub(1));
-    let rest = tree.source.get(own..)?;
-    let end = own + rest.find('\n').unwrap_or(rest.len());
+    let found_text = line(at);
+    let first = line(found_text.saturating_sub(1));
+    let rest = tree.source.get(found_text..)?;
+    let end = found_text + rest.find('\n').unwrap_or(rest.len());
     Some((first, tree.source.get(first..end)?))
 }
 
-/// The first character of a text that stands where only a sign of YAML makes sense: beside another
-/// sign, or at an end of the text or of a line.
+/// The first character of a text that stands where only a YAML indicator makes sense: next to an
+/// indicator, or at an end of the text or of a line.
 fn found(
     tree: &Tree<'_>,
     start: usize,
     text: &str,
     matters: impl Fn(&str) -> bool,
 ) -> Option<Mistake<'static>> {
-    let is_sign = |c: Option<char>| {
+    let is_indicator = |c: Option<char>| {
         c.is_none_or(|c| matches!(c, ':' | ',' | '[' | ']' | '{' | '}' | '\n' | '\r'))
     };
     let mut before = None;
     for (offset, c) in text.char_indices() {
         let next = offset + c.len_utf8();
-        let ascii = known(c);
+        let ascii = ascii_lookalike(c);
         if let Some((name, ascii)) = ascii {
             let after = text.get(next..)?.trim_start_matches(' ').chars().next();
             let is_dash = ascii == "-";
-            // A minus before digits is a number's, which says so itself; a dash begins an item.
+            // A minus sign before digits belongs to a number, which reports it; a dash begins an
+            // item.
             let counts = match is_dash {
-                true => is_sign(before) && text.get(next..)?.starts_with(' '),
+                true => is_indicator(before) && text.get(next..)?.starts_with(' '),
                 false => {
-                    is_sign(before) || is_sign(after) || !matches!(ascii, " " | "" | "'" | "\"")
+                    is_indicator(before)
+                        || is_indicator(after)
+                        || !matches!(ascii, " " | "" | "'" | "\"")
                 }
             };
             if counts && matters(ascii) {
@@ -140,7 +143,7 @@ fn lookalike(
         " " | "" => "where YAML takes a space of ASCII",
         _ => "where YAML takes its sign of ASCII",
     };
-    slip(
+    typo(
         format!("{name} (U+{:04X}) stands {what}", u32::from(c)),
         name.to_owned(),
         "write",
@@ -149,34 +152,34 @@ fn lookalike(
     )
 }
 
-/// The comment of another language that a text begins with.
+/// The comment at the start of a text in the syntax of another language.
 fn comment(tree: &Tree<'_>, at: usize, text: &str) -> Option<Mistake<'static>> {
     let line = text.split(['\n', '\r']).next()?;
-    let (sign, end) = match text.get(..2)? {
+    let (opener, end) = match text.get(..2)? {
         "//" => ("//", line.len()),
         "/*" => ("/*", text.find("*/").map_or(line.len(), |end| end + 2)),
         _ => return None,
     };
     let span = span(tree, at, at + end);
-    let said = text.get(2..end)?.trim_end_matches("*/").trim();
+    let comment_text = text.get(2..end)?.trim_end_matches("*/").trim();
     if tree.source.trim_start().starts_with('{') {
-        return Some(slip(
-            format!("`{sign}` starts a comment in other languages: JSON has none"),
+        return Some(typo(
+            format!("`{opener}` starts a comment in other languages: JSON has none"),
             "no comment here".to_owned(),
             "leave it out, or say it in a key `comment`",
             span,
             (span, String::new()),
         ));
     }
-    let has_more_lines = said.contains('\n');
-    Some(slip(
-        format!("`{sign}` starts no comment in YAML"),
+    let has_more_lines = comment_text.contains('\n');
+    Some(typo(
+        format!("`{opener}` starts no comment in YAML"),
         "no comment here".to_owned(),
         "a comment begins with `#`",
         span,
         match has_more_lines {
             true => (span, String::new()),
-            false => (span, format!("# {said}")),
+            false => (span, format!("# {comment_text}")),
         },
     ))
 }

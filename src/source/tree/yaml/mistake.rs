@@ -1,17 +1,17 @@
-//! What is wrong with a YAML text, as those who report it need it.
+//! Errors in YAML texts, with what a report of them needs.
 
 use crate::Span;
 
-/// What stands between two items of a list.
+/// The missing separator of two list items.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Separator {
-    /// A dash, in place of the blanks here.
+    /// A dash, in place of these spaces.
     Dash(Span),
     /// `}, {`.
     Braces,
 }
 
-/// A mistake in a YAML text. All but tags and keys that only stand twice leave no tree.
+/// An error in a YAML text. All except tags and plain duplicate keys prevent a tree.
 #[derive(Debug)]
 pub enum Mistake<'t> {
     /// The file is UTF-16.
@@ -23,84 +23,84 @@ pub enum Mistake<'t> {
     NotUtf8 {
         /// The first byte that is not.
         byte: u8,
-        /// Where it is.
+        /// Its position.
         span: Span,
     },
-    /// A control character that no YAML text may hold.
+    /// A control character that YAML does not allow.
     Control {
         /// Its code point.
         character: u32,
-        /// Where it is.
+        /// Its position.
         span: Span,
     },
-    /// A word of more than a MiB.
+    /// A scalar of more than one MiB.
     TooLong {
         /// Its first byte.
         span: Span,
     },
-    /// There is nothing in the file.
+    /// The file has no content.
     Empty {
         /// Its end.
         span: Span,
     },
     /// A second document starts in the file.
     TwoDocuments {
-        /// Where it starts.
+        /// Its start.
         span: Span,
     },
     /// A tag, which is ignored.
     Tag {
-        /// What has the tag.
+        /// The node with the tag.
         span: Span,
     },
-    /// An alias refers to what it stands in.
+    /// An alias refers to a node that contains it.
     SelfAlias {
         /// The alias.
         span: Span,
-        /// From what it refers to up to the alias.
+        /// From the anchor to the alias.
         anchor: Span,
     },
-    /// Lists and maps lie deeper in each other than [`super::MAX_DEPTH`].
+    /// The nesting depth exceeds [`super::MAX_DEPTH`].
     TooDeep {
-        /// Where they do.
+        /// The position.
         span: Span,
     },
     /// A bracket is never closed.
     Unclosed {
         /// The bracket.
         bracket: Span,
-        /// What was taken to be inside.
+        /// Where its content seems to continue.
         runs_into: Option<Span>,
-        /// A comment in its line, which may hide the other bracket.
+        /// A comment in its line, which may hide the closing bracket.
         comment: Option<Span>,
     },
-    /// A key stands twice in its map.
+    /// A duplicate key.
     DuplicateKey {
         /// The key.
         key: &'t str,
-        /// Where it stands first.
+        /// The first occurrence.
         first: Span,
-        /// Where it stands again.
+        /// The second occurrence.
         second: Span,
         /// Whether both have the same value.
         is_same: bool,
-        /// What is missing before the second, if a new item of a list begins with it: all else that
-        /// stands twice in the map is of that item.
+        /// The missing separator before the second occurrence, if a new list item begins with it;
+        /// all other duplicate keys in the map then belong to that item.
         separator: Option<Separator>,
     },
-    /// Anything else that is not YAML.
+    /// Any other syntax error.
     Syntax {
-        /// What is wrong.
+        /// The message.
         message: String,
-        /// What is at the place.
+        /// The label of the position.
         label: String,
-        /// What to do.
+        /// The hint.
         hint: &'static str,
-        /// The text to put in place of another one, if that is known.
+        /// The range to replace and its new text, if known.
         replacement: Option<Box<(Span, String)>>,
-        /// The place.
+        /// The position.
         span: Span,
-        /// The innermost bracket that is still open there.
+        /// The innermost open bracket.
         bracket: Option<Span>,
     },
 }

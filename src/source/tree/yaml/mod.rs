@@ -1,4 +1,4 @@
-//! YAML text to nodes, from the events of the parser, bounded in depth. Only this folder names that
+//! Builds a tree from the events of the YAML parser, with bounded depth. Only this folder uses that
 //! parser.
 
 mod comma;
@@ -6,43 +6,44 @@ mod fault;
 mod layout;
 mod lookalike;
 mod mistake;
-mod slip;
 mod text;
+mod typo;
 
 pub use layout::{LayoutFault, layout};
 pub use mistake::{Mistake, Separator};
 
-use super::{Form, Node, NodeId, Tree, inside_quotes, keys, to_u32};
+use super::{Node, NodeId, Syntax, Tree, inside_quotes, keys, to_u32};
 use crate::{FileId, Span};
 use granit_parser::{Event, Parser, ScalarStyle, StructureStyle};
 use std::borrow::Cow;
 use std::ops::Range;
 use text::{MAX_WORD, text, too_long};
 
-/// How deep lists and maps may lie in each other.
+/// The maximum nesting depth.
 pub const MAX_DEPTH: usize = 128;
 
-/// Parses a file into a tree; mistakes go to `tell`, the last of them says why there is no tree.
+/// Parses a file to a tree. Mistakes go to `report`; if there is no tree, the last one is the
+/// reason.
 pub fn parse<'s>(
     file: FileId,
     bytes: &'s [u8],
-    tell: &mut dyn FnMut(Mistake<'_>),
+    report: &mut dyn FnMut(Mistake<'_>),
 ) -> Option<Tree<'s>> {
     let (source, base) = match text(file, bytes) {
         Ok(text) => text,
         Err(mistake) => {
-            tell(mistake);
+            report(mistake);
             return None;
         }
     };
-    let mut build = Build {
+    let mut builder = TreeBuilder {
         tree: Tree::new(file, base, source),
         open: Vec::new(),
         anchors: Vec::new(),
         ended: false,
         last_end: 0,
-        is_spoiled: false,
-        tell,
+        has_failed: false,
+        report,
     };
     let options = granit_parser::options! {
         flow_nesting_limit: MAX_DEPTH,
@@ -52,60 +53,60 @@ pub fn parse<'s>(
         let step = match event {
             Ok((event, span)) => {
                 let range = span.byte_range().unwrap_or_default();
-                build.event(event, to_u32(range.start), to_u32(range.end))
+                builder.event(event, to_u32(range.start), to_u32(range.end))
             }
-            Err(error) => Err(fault::syntax(&build.tree, build.open_bracket(), &error)),
+            Err(error) => Err(fault::syntax(&builder.tree, builder.open_bracket(), &error)),
         };
         if let Err(fault) = step {
-            // What was told before may be the cause.
-            if !build.is_spoiled {
-                (build.tell)(fault);
+            // An earlier mistake may be the cause of this one.
+            if !builder.has_failed {
+                (builder.report)(fault);
             }
             return None;
         }
     }
-    build.finish()
+    builder.finish()
 }
 
-/// A list or map whose end is still to come.
-struct Open {
+/// An open list or map.
+struct OpenCollection {
     node: NodeId,
     flow: bool,
 }
 
-struct Build<'s, 'k> {
+struct TreeBuilder<'s, 'k> {
     tree: Tree<'s>,
-    open: Vec<Open>,
-    /// Anchor numbers, rising, and their nodes.
+    open: Vec<OpenCollection>,
+    /// Anchor numbers, ascending, and their nodes.
     anchors: Vec<(usize, NodeId)>,
     ended: bool,
-    /// Where the last word or bracket ended: block lists and maps end there too.
+    /// The end of the last scalar or bracket: block lists and maps end there too.
     last_end: u32,
-    /// A mistake was told that leaves no tree.
-    is_spoiled: bool,
-    tell: &'k mut dyn FnMut(Mistake<'_>),
+    /// Whether a mistake was reported that prevents a tree.
+    has_failed: bool,
+    report: &'k mut dyn FnMut(Mistake<'_>),
 }
 
 type Step = Result<(), Mistake<'static>>;
 
-impl<'s> Build<'s, '_> {
+impl<'s> TreeBuilder<'s, '_> {
     fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> Step {
         if let Event::Scalar(value, style, anchor, tag) = event {
             self.tag(tag.is_some(), start, end);
             if style == ScalarStyle::Plain {
                 self.plain(start as usize, end as usize);
             }
-            let form = self.scalar(value, style, start, end)?;
-            self.word(form, anchor, start, end);
+            let syntax = self.scalar(value, style, start, end)?;
+            self.push_scalar(syntax, anchor, start, end);
             Ok(())
         } else if let Event::Alias(anchor) = event {
             self.alias(anchor, start, end)
         } else if let Event::SequenceStart(style, anchor, tag) = event {
             self.tag(tag.is_some(), start, end);
-            self.start(Form::List, style, anchor, start, end)
+            self.start(Syntax::List, style, anchor, start, end)
         } else if let Event::MappingStart(style, anchor, tag) = event {
             self.tag(tag.is_some(), start, end);
-            self.start(Form::Map, style, anchor, start, end)
+            self.start(Syntax::Map, style, anchor, start, end)
         } else if matches!(event, Event::SequenceEnd | Event::MappingEnd) {
             self.end(end);
             Ok(())
@@ -125,57 +126,61 @@ impl<'s> Build<'s, '_> {
     fn tag(&mut self, tagged: bool, start: u32, end: u32) {
         if tagged {
             let span = self.span(start, end.max(start + 1));
-            (self.tell)(Mistake::Tag { span });
+            (self.report)(Mistake::Tag { span });
         }
     }
 
-    /// Looks for characters in a plain word that only look like signs of YAML.
+    /// Checks a plain scalar for characters that look like YAML indicators.
     fn plain(&mut self, start: usize, end: usize) {
         if let Some(mistake) = lookalike::in_word(&self.tree, start, end) {
-            (self.tell)(mistake);
-            self.is_spoiled = true;
+            (self.report)(mistake);
+            self.has_failed = true;
         }
     }
 
-    /// What form of word this is, and its link. The style says so: a block may begin with a quote.
+    /// The syntax of a scalar and its link. The style decides, because a block scalar may begin
+    /// with a quote.
     fn scalar(
         &mut self,
         value: Cow<'s, str>,
         style: ScalarStyle,
         start: u32,
         end: u32,
-    ) -> Result<(Form, u32), Mistake<'static>> {
+    ) -> Result<(Syntax, u32), Mistake<'static>> {
         if value.len() > MAX_WORD {
             let at = start + self.tree.base;
             return Err(too_long(self.tree.file, at as usize));
         }
         let is_written = |range: Range<u32>| self.tree.slice(range) == Some(value.as_ref());
-        let form = match style {
-            ScalarStyle::Plain if start == end || is_written(start..end) => Form::Word,
+        let syntax = match style {
+            ScalarStyle::Plain if start == end || is_written(start..end) => Syntax::Word,
             ScalarStyle::SingleQuoted | ScalarStyle::DoubleQuoted
                 if is_written(inside_quotes(start, end)) =>
             {
-                Form::Quoted
+                Syntax::Quoted
             }
             ScalarStyle::Plain
             | ScalarStyle::SingleQuoted
             | ScalarStyle::DoubleQuoted
             | ScalarStyle::Literal
             | ScalarStyle::Folded => {
-                return Ok((Form::Cooked, self.tree.cook(|text| text.push_str(&value))));
+                return Ok((
+                    Syntax::Unescaped,
+                    self.tree.unescape_with(|text| text.push_str(&value)),
+                ));
             }
         };
-        Ok((form, 0))
+        Ok((syntax, 0))
     }
 
-    fn word(&mut self, (form, link): (Form, u32), anchor: usize, start: u32, end: u32) {
+    fn push_scalar(&mut self, (syntax, link): (Syntax, u32), anchor: usize, start: u32, end: u32) {
         self.last_end = end;
         self.push(
             Node {
                 start,
                 end,
                 link,
-                form,
+                syntax,
             },
             anchor,
         );
@@ -198,7 +203,7 @@ impl<'s> Build<'s, '_> {
                 start,
                 end,
                 link: target.0,
-                form: Form::Alias,
+                syntax: Syntax::Alias,
             },
             0,
         );
@@ -207,7 +212,7 @@ impl<'s> Build<'s, '_> {
 
     fn start(
         &mut self,
-        form: Form,
+        syntax: Syntax,
         style: StructureStyle,
         anchor: usize,
         start: u32,
@@ -223,11 +228,11 @@ impl<'s> Build<'s, '_> {
                 start,
                 end,
                 link: 0,
-                form,
+                syntax,
             },
             anchor,
         );
-        self.open.push(Open {
+        self.open.push(OpenCollection {
             node,
             flow: style == StructureStyle::Flow,
         });
@@ -235,7 +240,7 @@ impl<'s> Build<'s, '_> {
     }
 
     fn end(&mut self, end: u32) {
-        let Open { node: id, flow } = self
+        let OpenCollection { node: id, flow } = self
             .open
             .pop()
             .expect("the parser closes only what it opened");
@@ -243,7 +248,7 @@ impl<'s> Build<'s, '_> {
         let link = to_u32(self.tree.nodes.len());
         let node = &mut self.tree.nodes[id.0 as usize];
         (node.end, node.link) = (self.last_end, link);
-        if node.form == Form::Map {
+        if node.syntax == Syntax::Map {
             self.keys(id, flow);
         }
     }
@@ -251,7 +256,7 @@ impl<'s> Build<'s, '_> {
     fn push(&mut self, node: Node, anchor: usize) -> NodeId {
         let nodes = &mut self.tree.nodes;
         if nodes.len() == nodes.capacity() {
-            // Doubling would hold as much again as the tree of a large scene.
+            // Doubling the capacity would waste as much memory as the tree of a large scene.
             nodes.reserve_exact(nodes.len() / 4 + 64);
         }
         let id = NodeId(to_u32(nodes.len()));
@@ -262,14 +267,14 @@ impl<'s> Build<'s, '_> {
         id
     }
 
-    /// Looks at the keys of a map that has just closed.
+    /// Checks the keys of a map that was just closed.
     fn keys(&mut self, map: NodeId, flow: bool) {
         let known = self.tree.duplicate_keys().len();
         keys::close(&mut self.tree, map);
         for at in known..self.tree.duplicate_keys().len() {
             let (first, second) = self.tree.duplicate_keys()[at];
             let separator = self.separator(map, flow, [first, second]);
-            (self.tell)(Mistake::DuplicateKey {
+            (self.report)(Mistake::DuplicateKey {
                 key: self.tree.text(second).unwrap_or_default(),
                 first: self.tree.span(first),
                 second: self.tree.span(second),
@@ -277,14 +282,14 @@ impl<'s> Build<'s, '_> {
                 separator,
             });
             if separator.is_some() {
-                self.is_spoiled = true;
+                self.has_failed = true;
                 break;
             }
         }
     }
 
-    /// What is missing before the second of two keys, if that begins the next item: an item of a
-    /// list begins with the first key of a map, and has more than that.
+    /// The missing separator before the second of two equal keys, if it begins a new list item: an
+    /// item begins with the first key of the map and has more than one key.
     fn separator(
         &self,
         map: NodeId,
@@ -308,7 +313,7 @@ impl<'s> Build<'s, '_> {
         })
     }
 
-    /// The innermost bracket that is still open.
+    /// The innermost open bracket.
     fn open_bracket(&self) -> Option<NodeId> {
         self.open
             .iter()
@@ -321,9 +326,9 @@ impl<'s> Build<'s, '_> {
         if self.tree.nodes.is_empty() {
             let end = to_u32(self.tree.source.len()) + self.tree.base;
             let span = Span::new(self.tree.file, end, end);
-            (self.tell)(Mistake::Empty { span });
+            (self.report)(Mistake::Empty { span });
             return None;
         }
-        (!self.is_spoiled).then_some(self.tree)
+        (!self.has_failed).then_some(self.tree)
     }
 }

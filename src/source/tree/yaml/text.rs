@@ -1,13 +1,14 @@
-//! From bytes to text that is fit to parse: UTF-8, no control characters, no absurd word.
+//! Checks that bytes are text fit to parse: UTF-8, no control characters, no scalar that is too
+//! long.
 
 use super::super::to_u32;
 use super::Mistake;
 use crate::{FileId, Span};
 
-/// The longest run of bytes without a separator, and the longest word at all.
+/// The maximum length in bytes of a run without separators, and of a scalar.
 pub(super) const MAX_WORD: usize = 1 << 20;
 
-/// The text of a file and the offset its first byte has there; the byte order mark is skipped.
+/// The text of a file, without its byte order mark, and its offset in the file.
 pub(super) fn text(file: FileId, bytes: &[u8]) -> Result<(&str, u32), Mistake<'static>> {
     let text = decode(file, bytes)?;
     let body = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -32,7 +33,7 @@ fn decode(file: FileId, bytes: &[u8]) -> Result<&str, Mistake<'static>> {
     })
 }
 
-/// A byte order mark of UTF-16, or a zero byte in exactly one of the first two places.
+/// Whether it starts with a UTF-16 byte order mark, or exactly one of the first two bytes is zero.
 fn looks_like_utf16(bytes: &[u8]) -> bool {
     match *bytes {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
@@ -70,11 +71,11 @@ const fn classes() -> [Class; 256] {
     classes
 }
 
-/// The first character that no YAML text may hold, or the start of a word too long to be one.
+/// The first character that YAML does not allow, or the start of a scalar that is too long.
 fn unfit(file: FileId, text: &str, base: usize) -> Option<Mistake<'static>> {
     let bytes = text.as_bytes();
     let mut word_start = 0;
-    // In pieces, so that a word of many pieces is seen after two of them.
+    // In chunks, so that a scalar of many chunks is found after two of them.
     for (piece, start) in bytes.chunks(MAX_WORD).zip((0..).step_by(MAX_WORD)) {
         for (at, byte) in (start..).zip(piece) {
             match CLASSES[usize::from(*byte)] {
@@ -102,7 +103,7 @@ fn control(file: FileId, at: usize, length: usize, character: u32) -> Mistake<'s
     }
 }
 
-/// A word of more than a MiB starts at `at`.
+/// The error for a scalar of more than one MiB at `at`.
 pub(super) fn too_long(file: FileId, at: usize) -> Mistake<'static> {
     let at = to_u32(at);
     Mistake::TooLong {

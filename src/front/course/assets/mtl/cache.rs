@@ -61,7 +61,7 @@ impl MtlCache {
         let index = lowered.scene.materials.len();
         let material_ir = match lowered.scene.settings.mode {
             Mode::Path(_) => self.standard(loaded, material, id(index), lowered),
-            Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
+            Mode::Phong | Mode::Depth | Mode::Normal | Mode::Gooch(_) => {
                 Material::Phong(self.phong(loaded, material, lowered))
             }
         };

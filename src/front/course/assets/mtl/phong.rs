@@ -68,7 +68,7 @@ pub(super) fn phong(material: &MtlMaterial) -> Phong {
             .as_ref()
             .map_or(EXPONENT, |exponent| exponent.value),
         kt: 1.0 - opacity,
-        eta: if is_glass && opacity < 1.0 && index > 0.0 {
+        ior: if is_glass && opacity < 1.0 && index > 0.0 {
             index
         } else {
             1.0

@@ -56,7 +56,7 @@ pub(super) fn standard(material: &MtlMaterial) -> Standard {
         ks: color.ks,
         n: color.n,
         kt: 0.0,
-        eta: color.eta,
+        ior: color.ior,
     });
     // The base colour is that of `Tf` for glass.
     let glass = is_glass(m) && opacity(m) < 1.0;

@@ -1,52 +1,53 @@
-//! The layout of a YAML text: indentation, blanks and empty lines as the house writes them; words,
-//! their order and comments as they are.
+//! Formats YAML text: normalises indentation, spaces and empty lines; keeps scalars, their order
+//! and comments.
 //!
-//! What comes out is read again: it says the same, and all but blanks is the same, or there is none.
+//! The result is parsed again: it must be equal to the input in content and in all characters
+//! except white space, or formatting fails.
 
-mod pieces;
 #[cfg(test)]
 mod tests;
+mod tokens;
 mod write;
 
 use super::{Mistake, parse};
 use crate::FileId;
 
-/// Why a text is left as it is.
+/// Why a text is not formatted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayoutFault {
-    /// It is no YAML; the mistakes were told.
+    /// It is not valid YAML; the mistakes were reported.
     Mistakes,
-    /// It would say something else.
+    /// The result would differ.
     Differs,
 }
 
-/// The text with the layout of the house: two spaces a level, the dashes of a list below the key that
-/// has it, one space after `:`, `,` and `-`, none inside brackets, at most one empty line. Where a line
-/// ends stays as it is.
+/// Formats a text: two spaces per level, the dashes of a list in the column of its key, one space
+/// after `:`, `,` and `-`, none inside brackets, at most one empty line in a row. Line breaks stay.
 ///
 /// # Errors
-/// If it is no YAML, or holds what no layout of ours says so.
+/// If the text is not valid YAML, or the result would differ from it.
 pub fn layout(
     file: FileId,
     bytes: &[u8],
-    tell: &mut dyn FnMut(Mistake<'_>),
+    report: &mut dyn FnMut(Mistake<'_>),
 ) -> Result<String, LayoutFault> {
-    let tree = parse(file, bytes, tell).ok_or(LayoutFault::Mistakes)?;
+    let tree = parse(file, bytes, report).ok_or(LayoutFault::Mistakes)?;
     let source = tree.source.replace("\r\n", "\n").replace('\r', "\n");
-    let text = settled(&source).ok_or(LayoutFault::Differs)?;
+    let text = fixed_point(&source).ok_or(LayoutFault::Differs)?;
     let again = parse(file, text.as_bytes(), &mut |_| ()).ok_or(LayoutFault::Differs)?;
-    let is_same = tree.says_the_same(&again) && words(&source).eq(words(&text));
+    let is_same =
+        tree.is_equivalent(&again) && visible_characters(&source).eq(visible_characters(&text));
     is_same.then_some(text).ok_or(LayoutFault::Differs)
 }
 
-/// How often a text is laid out at most; once is enough for all that people write.
+/// The maximum number of passes; one suffices in practice.
 const PASSES: usize = 4;
 
-/// The layout that is its own layout; `None` if there is none near.
-fn settled(source: &str) -> Option<String> {
+/// Formats until nothing changes; `None` if that takes too many passes.
+fn fixed_point(source: &str) -> Option<String> {
     let mut text = source.to_owned();
     for _ in 0..PASSES {
-        let next = write::write(&text, &pieces::items(&text)?);
+        let next = write::write(&text, &tokens::items(&text)?);
         if next == text {
             return Some(text);
         }
@@ -55,7 +56,7 @@ fn settled(source: &str) -> Option<String> {
     None
 }
 
-/// All that is no blank.
-fn words(text: &str) -> impl Iterator<Item = char> {
+/// All characters except white space.
+fn visible_characters(text: &str) -> impl Iterator<Item = char> {
     text.chars().filter(|c| !matches!(c, ' ' | '\t' | '\n'))
 }

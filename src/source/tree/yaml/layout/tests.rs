@@ -1,20 +1,24 @@
-//! Layouts, each with what it was made of.
+//! Tests of the formatter: input and result.
 
 use super::*;
 use crate::SourceMap;
 use proptest::prelude::*;
 
-fn laid_out(text: &str) -> Result<String, LayoutFault> {
+fn formatted(text: &str) -> Result<String, LayoutFault> {
     let mut map = SourceMap::default();
     let file = map.add("t", text.as_bytes().to_vec());
     layout(file, text.as_bytes(), &mut |_| ())
 }
 
-/// The layout of a text, which is also that of itself.
+/// Checks the result, and that formatting the result changes nothing.
 #[track_caller]
-fn becomes(text: &str, wanted: &str) {
-    assert_eq!(laid_out(text).as_deref(), Ok(wanted));
-    assert_eq!(laid_out(wanted).as_deref(), Ok(wanted), "laid out twice");
+fn becomes(text: &str, expected: &str) {
+    assert_eq!(formatted(text).as_deref(), Ok(expected));
+    assert_eq!(
+        formatted(expected).as_deref(),
+        Ok(expected),
+        "laid out twice"
+    );
 }
 
 #[test]
@@ -53,7 +57,7 @@ fn comments_stay_with_what_they_stood_with() {
         "# first\n\na:\n      # of b\n      b: 1\n      # after b\n   # of a, too\n# of c\nc: [ # in c\n# also\n1]\n# last\n",
         "# first\n\na:\n  # of b\n  b: 1\n  # after b\n# of a, too\n# of c\nc: [ # in c\n  # also\n  1]\n# last\n",
     );
-    // A column of comments stays one.
+    // Aligned comments stay aligned.
     becomes(
         "l:\n    - a: [1,2]   # one\n      bb: [1,2]  # two\n",
         "l:\n- a: [1, 2]  # one\n  bb: [1, 2] # two\n",
@@ -102,11 +106,11 @@ fn texts_of_many_lines_say_the_same() {
 
 #[test]
 fn what_is_no_yaml_is_left_alone() {
-    assert_eq!(laid_out("a: [1, 2\n"), Err(LayoutFault::Mistakes));
-    assert_eq!(laid_out("a: 1\n---\nb: 2\n"), Err(LayoutFault::Mistakes));
+    assert_eq!(formatted("a: [1, 2\n"), Err(LayoutFault::Mistakes));
+    assert_eq!(formatted("a: 1\n---\nb: 2\n"), Err(LayoutFault::Mistakes));
 }
 
-/// What texts are made of; more of it is YAML than one would think.
+/// Fragments of generated texts.
 const PARTS: [&str; 24] = [
     "a: ", "b:", "- ", "-   ", "\n", "\n\n\n", "\n  ", "\n    ", "\n   ", "\n ", "[", "]", "{",
     "}", ", ", " # c", "'q \n r'", "x", "y z", "|\n", "&a ", "*a ", "? ", ": ",
@@ -115,13 +119,13 @@ const PARTS: [&str; 24] = [
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(40_000))]
 
-    /// Whatever is laid out is laid out the same again.
+    /// Formatting a result changes nothing.
     #[test]
     fn once_is_enough(parts in prop::collection::vec(prop::sample::select(&PARTS[..]), 1..16)) {
         let text = parts.concat();
-        match laid_out(&text) {
-            Ok(once) => prop_assert_eq!(laid_out(&once), Ok(once), "{:?}", text),
-            // The last line of a block may lack its end, which a file has.
+        match formatted(&text) {
+            Ok(once) => prop_assert_eq!(formatted(&once), Ok(once), "{:?}", text),
+            // The last line of a block scalar may lack its newline, which a file has.
             Err(fault) => prop_assert!(
                 fault == LayoutFault::Mistakes || text.contains('|'),
                 "{:?}",

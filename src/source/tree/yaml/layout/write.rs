@@ -1,27 +1,27 @@
-//! The pieces of a YAML text, written where they belong.
+//! Writes the tokens of a YAML text in their new positions.
 
-use super::pieces::{BlockKind, LayoutItem, Piece, PieceKind};
+use super::tokens::{BlockKind, LayoutItem, Token, TokenKind};
 
-/// Spaces a level.
+/// Spaces per level.
 const STEP: usize = 2;
 
-/// The text of the pieces, cut from `source`.
+/// The formatted text of the tokens of `source`.
 pub(super) fn write(source: &str, items: &[LayoutItem]) -> String {
     let mut writer = LayoutWriter {
         source,
-        opened_after: opened_after(items),
+        next_opened: next_opened(items),
         text: String::with_capacity(source.len()),
         column: 0,
         end: 0,
         last: None,
-        shift: (0, 0),
+        line_shift: (0, 0),
         levels: Vec::new(),
         brackets: Vec::new(),
         inside: None,
     };
     for (index, item) in items.iter().enumerate() {
         match item {
-            LayoutItem::Piece(piece) => writer.piece(index, piece),
+            LayoutItem::Token(token) => writer.token(index, token),
             LayoutItem::End => {
                 writer.levels.pop();
             }
@@ -33,9 +33,9 @@ pub(super) fn write(source: &str, items: &[LayoutItem]) -> String {
     writer.text
 }
 
-/// Of each item the list or map that is opened by the next one that is no comment, and where that
-/// starts.
-fn opened_after(items: &[LayoutItem]) -> Vec<Option<(usize, BlockKind)>> {
+/// For each item, the list or map that is opened by the next token that is not a comment, and its
+/// offset.
+fn next_opened(items: &[LayoutItem]) -> Vec<Option<(usize, BlockKind)>> {
     let mut next = None;
     let mut opened: Vec<_> = items
         .iter()
@@ -43,8 +43,8 @@ fn opened_after(items: &[LayoutItem]) -> Vec<Option<(usize, BlockKind)>> {
         .map(|item| {
             let after = next;
             match item {
-                LayoutItem::Piece(piece) if piece.kind == PieceKind::Comment => {}
-                LayoutItem::Piece(piece) => next = piece.opens.map(|kind| (piece.start, kind)),
+                LayoutItem::Token(token) if token.kind == TokenKind::Comment => {}
+                LayoutItem::Token(token) => next = token.opens.map(|kind| (token.start, kind)),
                 LayoutItem::End => next = None,
             }
             after
@@ -54,43 +54,43 @@ fn opened_after(items: &[LayoutItem]) -> Vec<Option<(usize, BlockKind)>> {
     opened
 }
 
-/// A list or map without brackets that is open.
+/// An open block list or map.
 struct Level {
     kind: BlockKind,
-    /// Where its dashes or keys stand now, and where they stood.
+    /// The column of its dashes or keys in the result, and in the source.
     column: usize,
-    stood: usize,
+    source_column: usize,
 }
 
 struct LayoutWriter<'s> {
     source: &'s str,
-    /// Of each item the list or map that is opened by what comes after it and after its comments.
-    opened_after: Vec<Option<(usize, BlockKind)>>,
+    /// For each item, the list or map that is opened by the next token that is not a comment.
+    next_opened: Vec<Option<(usize, BlockKind)>>,
     text: String,
-    /// Where the text has come to in its line.
+    /// The current column in the result.
     column: usize,
-    /// Where the last piece ended in the source.
+    /// The end of the last token in the source.
     end: usize,
-    last: Option<PieceKind>,
-    /// Where the line starts now, and where it started.
-    shift: (usize, usize),
+    last: Option<TokenKind>,
+    /// The column of the current line in the result, and in the source.
+    line_shift: (usize, usize),
     levels: Vec<Level>,
-    /// Of each open bracket, where the line that closes it starts.
+    /// For each open bracket, the column of the line that closes it.
     brackets: Vec<usize>,
-    /// Where the line starts, if that is inside a bracket.
+    /// The column of the current line, if it starts inside a bracket.
     inside: Option<usize>,
 }
 
 impl<'s> LayoutWriter<'s> {
-    fn piece(&mut self, index: usize, piece: &Piece) {
-        let before = self.source.get(self.end..piece.start).unwrap_or_default();
+    fn token(&mut self, index: usize, token: &Token) {
+        let before = self.source.get(self.end..token.start).unwrap_or_default();
         let breaks = before.matches('\n').count();
         let starts_line = self.last.is_none() || breaks > 0;
-        let column = if piece.kind == PieceKind::Block {
+        let column = if token.kind == TokenKind::Block {
             self.column
         } else if starts_line {
-            let column = self.line_column(index, piece);
-            self.shift = (column, self.stood(piece.start));
+            let column = self.line_column(index, token);
+            self.line_shift = (column, self.source_column(token.start));
             if self.last.is_some() {
                 self.text.push_str(if breaks > 1 { "\n\n" } else { "\n" });
             }
@@ -98,63 +98,63 @@ impl<'s> LayoutWriter<'s> {
             self.inside = self.brackets.last().map(|_| column);
             column
         } else {
-            self.column_in_line(piece)
+            self.column_in_line(token)
         };
         let missing = column.saturating_sub(self.column);
         self.text.extend(std::iter::repeat_n(' ', missing));
         self.column = column;
-        if let Some(kind) = piece.opens {
-            let stood = self.stood(piece.start);
+        if let Some(kind) = token.opens {
+            let source_column = self.source_column(token.start);
             self.levels.push(Level {
                 kind,
                 column,
-                stood,
+                source_column,
             });
         }
-        self.bracket(piece.kind, starts_line.then_some(column));
-        self.put(piece);
-        (self.end, self.last) = (piece.end, Some(piece.kind));
+        self.bracket(token.kind, starts_line.then_some(column));
+        self.put(token);
+        (self.end, self.last) = (token.end, Some(token.kind));
     }
 
-    /// Where the source has a place in its line.
-    fn stood(&self, at: usize) -> usize {
+    /// The column of an offset in the source.
+    fn source_column(&self, at: usize) -> usize {
         let before = self.source.get(..at).unwrap_or_default();
         before.chars().rev().take_while(|c| *c != '\n').count()
     }
 
-    /// Where a line starts that starts with a piece.
-    fn line_column(&self, index: usize, piece: &Piece) -> usize {
+    /// The column of a token that starts its line.
+    fn line_column(&self, index: usize, token: &Token) -> usize {
         let bracket = self.brackets.last();
         let level = self.levels.last();
-        match (piece.kind, bracket, level) {
-            (PieceKind::Directive | PieceKind::Marker, ..) => 0,
-            (PieceKind::Closing, Some(bracket), _) => *bracket,
+        match (token.kind, bracket, level) {
+            (TokenKind::Directive | TokenKind::Marker, ..) => 0,
+            (TokenKind::Closing, Some(bracket), _) => *bracket,
             (_, Some(bracket), _) => bracket + STEP,
-            (PieceKind::Comment, None, _) => self.comment_column(index, piece),
+            (TokenKind::Comment, None, _) => self.comment_column(index, token),
             (_, None, None) => 0,
-            (kind, None, Some(level)) => match piece.opens {
+            (kind, None, Some(level)) => match token.opens {
                 Some(opens) => self.opened(opens),
-                None if piece.is_key => level.column,
+                None if token.is_key => level.column,
                 None => match kind {
-                    PieceKind::Dash | PieceKind::Question | PieceKind::Colon => level.column,
-                    PieceKind::Directive
-                    | PieceKind::Marker
-                    | PieceKind::Comma
-                    | PieceKind::Opening
-                    | PieceKind::Closing
-                    | PieceKind::Property
-                    | PieceKind::Alias
-                    | PieceKind::Plain
-                    | PieceKind::Quoted
-                    | PieceKind::Header
-                    | PieceKind::Block
-                    | PieceKind::Comment => level.column + STEP,
+                    TokenKind::Dash | TokenKind::Question | TokenKind::Colon => level.column,
+                    TokenKind::Directive
+                    | TokenKind::Marker
+                    | TokenKind::Comma
+                    | TokenKind::Opening
+                    | TokenKind::Closing
+                    | TokenKind::Property
+                    | TokenKind::Alias
+                    | TokenKind::Plain
+                    | TokenKind::Quoted
+                    | TokenKind::Header
+                    | TokenKind::Block
+                    | TokenKind::Comment => level.column + STEP,
                 },
             },
         }
     }
 
-    /// Where a list or map stands that starts with a line.
+    /// The column of a list or map that starts on a new line.
     fn opened(&self, kind: BlockKind) -> usize {
         match (kind, self.levels.last()) {
             (_, None) => 0,
@@ -163,45 +163,48 @@ impl<'s> LayoutWriter<'s> {
         }
     }
 
-    /// Where a comment on a line of its own stands: with the list or map that it stood with, which may
-    /// be the one that follows.
-    fn comment_column(&self, index: usize, comment: &Piece) -> usize {
-        let stood = self.stood(comment.start);
-        if let Some((start, kind)) = self.opened_after[index]
-            && self.stood(start) <= stood
+    /// The column of a comment on its own line: that of the list or map that it was aligned with,
+    /// which may be the next one.
+    fn comment_column(&self, index: usize, comment: &Token) -> usize {
+        let source_column = self.source_column(comment.start);
+        if let Some((start, kind)) = self.next_opened[index]
+            && self.source_column(start) <= source_column
         {
             return self.opened(kind);
         }
         let levels = || self.levels.iter();
-        let own = levels().rev().find(|level| level.stood <= stood);
-        own.or_else(|| levels().next())
+        let found_text = levels()
+            .rev()
+            .find(|level| level.source_column <= source_column);
+        found_text
+            .or_else(|| levels().next())
             .map_or(0, |level| level.column)
     }
 
-    /// Where a piece stands that does not start its line.
-    fn column_in_line(&self, piece: &Piece) -> usize {
-        if piece.kind == PieceKind::Comment {
-            let (starts, started) = self.shift;
-            let moved = (self.stood(piece.start) + starts).saturating_sub(started);
+    /// The column of a token within its line.
+    fn column_in_line(&self, token: &Token) -> usize {
+        if token.kind == TokenKind::Comment {
+            let (starts, started) = self.line_shift;
+            let moved = (self.source_column(token.start) + starts).saturating_sub(started);
             return moved.max(self.column + 1);
         }
-        let is_close = match (self.last, piece.kind) {
-            // Together with a bracket or comma, these may be a word.
-            (Some(PieceKind::Question | PieceKind::Dash), _) => false,
-            (Some(PieceKind::Opening), _) | (_, PieceKind::Closing | PieceKind::Comma) => true,
+        let is_close = match (self.last, token.kind) {
+            // Without a space, these and a following bracket or comma could form a scalar.
+            (Some(TokenKind::Question | TokenKind::Dash), _) => false,
+            (Some(TokenKind::Opening), _) | (_, TokenKind::Closing | TokenKind::Comma) => true,
             // After an alias, the colon would belong to its name.
-            (Some(last), PieceKind::Colon) => matches!(
+            (Some(last), TokenKind::Colon) => matches!(
                 last,
-                PieceKind::Plain | PieceKind::Quoted | PieceKind::Closing
+                TokenKind::Plain | TokenKind::Quoted | TokenKind::Closing
             ),
             _ => false,
         };
         self.column + usize::from(!is_close)
     }
 
-    /// Notes a bracket that opens or closes; with the column if it starts its line.
-    fn bracket(&mut self, kind: PieceKind, column: Option<usize>) {
-        if kind == PieceKind::Opening {
+    /// Records an opening or closing bracket, with its column if it starts a line.
+    fn bracket(&mut self, kind: TokenKind, column: Option<usize>) {
+        if kind == TokenKind::Opening {
             let bracket = self.inside.or(self.brackets.last().copied());
             let around = match (bracket, self.levels.last()) {
                 (Some(bracket), _) => bracket,
@@ -210,19 +213,19 @@ impl<'s> LayoutWriter<'s> {
                 (None, None) => 0,
             };
             self.brackets.push(column.unwrap_or(around));
-        } else if kind == PieceKind::Closing {
+        } else if kind == TokenKind::Closing {
             self.brackets.pop();
         }
     }
 
-    fn put(&mut self, piece: &Piece) {
-        let text = self.source.get(piece.start..piece.end).unwrap_or_default();
-        if piece.kind == PieceKind::Block {
+    fn put(&mut self, token: &Token) {
+        let text = self.source.get(token.start..token.end).unwrap_or_default();
+        if token.kind == TokenKind::Block {
             return self.block(text);
         }
         let mut lines = text.split('\n');
         let first = lines.next().unwrap_or_default();
-        self.line(piece.kind, first);
+        self.line(token.kind, first);
         let column = match (self.brackets.last(), self.levels.last()) {
             (Some(bracket), _) => bracket + STEP,
             (None, Some(level)) => level.column + STEP,
@@ -235,14 +238,14 @@ impl<'s> LayoutWriter<'s> {
             if !line.is_empty() {
                 self.text.extend(std::iter::repeat_n(' ', column));
                 self.column = column;
-                self.line(piece.kind, line);
+                self.line(token.kind, line);
             }
         }
     }
 
-    /// One line of a piece: blanks at its end may count in quotes.
-    fn line(&mut self, kind: PieceKind, line: &str) {
-        let line = if kind == PieceKind::Quoted {
+    /// One line of a token. Trailing white space is significant in quotes.
+    fn line(&mut self, kind: TokenKind, line: &str) {
+        let line = if kind == TokenKind::Quoted {
             line
         } else {
             line.trim_end_matches([' ', '\t'])
@@ -251,25 +254,26 @@ impl<'s> LayoutWriter<'s> {
         self.column += line.chars().count();
     }
 
-    /// The lines below a header, moved as one.
+    /// The lines of a block scalar, shifted together.
     fn block(&mut self, lines: &'s str) {
         let level = self.levels.last();
-        let (column, stood) = level.map_or((0, 0), |level| (level.column, level.stood));
+        let (column, source_column) =
+            level.map_or((0, 0), |level| (level.column, level.source_column));
         let header = self.text.rsplit('\n').next().unwrap_or_default();
         let header = header.rsplit(" #").last().unwrap_or_default();
-        let told = header
+        let indentation_indicator = header
             .trim_end()
             .chars()
             .rev()
             .take(2)
             .find_map(|c| c.to_digit(10));
         let first = lines.split('\n').find(|line| !line.trim().is_empty());
-        // Blanks alone are an empty line, wherever they end.
+        // A line of white space is an empty line, whatever its length.
         let indent = first.map_or(usize::MAX, |line| {
             line.len() - line.trim_start_matches(' ').len()
         });
-        let (column, indent) = match told {
-            Some(digit) => (column + digit as usize, stood + digit as usize),
+        let (column, indent) = match indentation_indicator {
+            Some(digit) => (column + digit as usize, source_column + digit as usize),
             None => (column + STEP, indent),
         };
         for line in lines.split('\n') {

@@ -1,32 +1,28 @@
-//! Meshes in the making: sheets of vertices with normals.
+//! Builds meshes from grids of vertices with normals.
 
 use rtc_ir::{Column, Mesh};
 use rtc_math::{Vec3, cos_sin_turns};
 
-/// A point of a surface.
+/// A vertex.
 #[derive(Clone, Copy)]
-pub(super) struct DraftVertex {
+pub(super) struct GridVertex {
     pub(super) position: Vec3,
     /// Of any length but 0.
     pub(super) normal: Vec3,
     pub(super) uv: [f64; 2],
 }
 
-/// Vertices, and the triangles between them.
+/// Vertices and the triangles between them.
 #[derive(Default)]
-pub(super) struct MeshDraft {
-    vertices: Vec<DraftVertex>,
+pub(super) struct MeshBuilder {
+    vertices: Vec<GridVertex>,
     triangles: Vec<[u32; 3]>,
 }
 
-impl MeshDraft {
-    /// Adds a sheet of so many columns and rows: `at` says where the corners of its cells are, by
-    /// their numbers, the last ones included. Cells that close up in a point lose a triangle.
-    pub(super) fn sheet(
-        &mut self,
-        [columns, rows]: [u32; 2],
-        at: impl Fn(u32, u32) -> DraftVertex,
-    ) {
+impl MeshBuilder {
+    /// Adds a grid of cells; `at` is the vertex at a column and a row, both counted to the end
+    /// inclusive. A cell with two equal corners gets one triangle.
+    pub(super) fn grid(&mut self, [columns, rows]: [u32; 2], at: impl Fn(u32, u32) -> GridVertex) {
         let first = to_u32(self.vertices.len());
         let width = columns + 1;
         for row in 0..=rows {
@@ -43,7 +39,7 @@ impl MeshDraft {
         }
     }
 
-    /// Adds a triangle, turned so that its front is where its normals point.
+    /// Adds a triangle with the winding of its vertex normals.
     fn triangle(&mut self, corners: [u32; 3]) {
         let [a, b, c] = corners.map(|corner| self.vertices[corner as usize]);
         let front = (b.position - a.position).cross(c.position - a.position);
@@ -61,26 +57,26 @@ impl MeshDraft {
         });
     }
 
-    /// The mesh of the vertices that triangles use.
+    /// The mesh of the vertices that are used by triangles.
     pub(super) fn mesh(self, has_uvs: bool) -> Mesh {
         let Self {
             vertices,
             mut triangles,
         } = self;
-        let mut kept = Vec::with_capacity(vertices.len());
+        let mut used = Vec::with_capacity(vertices.len());
         let mut number = vec![None; vertices.len()];
         for corner in triangles.iter_mut().flatten() {
             let at = *corner as usize;
             *corner = *number[at].get_or_insert_with(|| {
-                kept.push(vertices[at]);
-                to_u32(kept.len() - 1)
+                used.push(vertices[at]);
+                to_u32(used.len() - 1)
             });
         }
-        let normal = |vertex: &DraftVertex| vertex.normal.normalize().to_array();
-        let uvs = kept.iter().filter(|_| has_uvs).map(|vertex| vertex.uv);
+        let normal = |vertex: &GridVertex| vertex.normal.normalize().to_array();
+        let uvs = used.iter().filter(|_| has_uvs).map(|vertex| vertex.uv);
         Mesh {
-            positions: Column::rounded(kept.iter().map(|vertex| vertex.position.to_array())),
-            normals: Column::rounded(kept.iter().map(normal)),
+            positions: Column::rounded(used.iter().map(|vertex| vertex.position.to_array())),
+            normals: Column::rounded(used.iter().map(normal)),
             uvs: Column::rounded(uvs),
             triangles: triangles.into(),
             ..Mesh::default()
@@ -88,8 +84,9 @@ impl MeshDraft {
     }
 }
 
-/// The cosine and sine of `step` of `steps` around a circle; the last step is the first.
-pub(super) fn turn(step: u32, steps: u32) -> [f64; 2] {
+/// Cosine and sine of the angle of `step` of `steps` around a circle; the last step equals the
+/// first.
+pub(super) fn circle_point(step: u32, steps: u32) -> [f64; 2] {
     let turns = (u128::from(step) << 64) / u128::from(steps.max(1));
     #[expect(
         clippy::cast_possible_truncation,
@@ -104,7 +101,7 @@ pub(super) fn fraction(step: u32, steps: u32) -> f64 {
     f64::from(step) / f64::from(steps.max(1))
 }
 
-/// A count of vertices, which was charged.
+/// A vertex count, which was charged to the budget.
 fn to_u32(count: usize) -> u32 {
     u32::try_from(count).unwrap_or(u32::MAX)
 }

@@ -1,19 +1,19 @@
-//! The material of glTF that stands for Phong's model.
+//! The approximation of the Phong model by the glTF material.
 
 use rtc_ir::{Map, Phong, Standard, TextureId};
 use rtc_tables::{PhongTerms, fit_phong};
 
-/// The material of glTF that comes nearest, as traced paths show Phong's model. But for what
-/// refracts, its index of refraction is that of glTF's dielectric: Phong's speaks of rays that go
-/// through, and where none do it would be a surface without highlights.
-pub(super) fn nearest(phong: &Phong) -> Standard {
+/// The glTF material with which path tracing approximates a Phong material. The index of refraction
+/// applies to refractive materials only; others get the default of glTF, because with the Phong
+/// default of 1 they would have no highlights.
+pub(super) fn approximate_phong(phong: &Phong) -> Standard {
     let fit = fit_phong(&PhongTerms {
         color: phong.color,
         kd: phong.kd,
         ks: phong.ks,
         n: phong.n,
         kt: phong.kt,
-        eta: phong.eta,
+        ior: phong.ior,
     });
     let [r, g, b] = fit.base_color;
     let map = |texture: Option<TextureId>| {
@@ -35,7 +35,7 @@ pub(super) fn nearest(phong: &Phong) -> Standard {
         transmission: fit.transmission,
         thickness: fit.thickness,
         ior: if refracts { fit.ior } else { default.ior },
-        // A volume has one side, and both of anything else are seen.
+        // A refractive solid is one-sided; everything else is two-sided.
         double_sided: !refracts,
         ..default
     }

@@ -1,73 +1,77 @@
-//! What was found about a scene, with no reference to it.
+//! Diagnostics about a scene, as owned values.
 
 use super::Severity;
-use rtc_diag::{self as diag, Diagnostic};
+use rtc_diag as diag;
 use rtc_source::{SourceMap, Span};
 use std::fmt;
 use std::ops::Range;
 
-/// One finding about a scene. It displays as text with the source and marks in it, as a compiler
-/// does.
+/// An error, a warning or a note about a scene. It displays as text with the marked source, like a
+/// compiler message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Finding {
-    /// The stable code, as `VA003`; `schema/diagnostics.md` lists them.
+pub struct Diagnostic {
+    /// The stable code, for example `VA003`; `schema/diagnostics.md` lists all codes.
     pub code: &'static str,
-    /// How bad it is.
+    /// The severity.
     pub severity: Severity,
-    /// What is wrong, in one sentence, lower case, without a full stop.
+    /// The message: one sentence, lower case, without a full stop.
     pub message: String,
-    /// The culprit, where it has a place.
+    /// The position of the fault, if it has one.
     pub primary: Option<Label>,
-    /// Other places that matter.
+    /// Related positions.
     pub secondary: Vec<Label>,
-    /// What to do about it.
+    /// How to fix it.
     pub hints: Vec<Hint>,
-    /// A JSON pointer to the culprit, for input that is JSON or has no text.
+    /// A JSON pointer to the value, for input that is JSON or has no text.
     pub pointer: Option<String>,
     text: String,
 }
 
-/// A place and what is there.
+/// The former name of [`Diagnostic`].
+#[deprecated(since = "0.1.0", note = "use `Diagnostic`")]
+pub type Finding = Diagnostic;
+
+/// A position with a short text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Label {
-    /// Where.
+    /// The position.
     pub location: Location,
-    /// What is here, in a few words; may be empty.
+    /// What is at this position, in a few words; may be empty.
     pub text: String,
 }
 
-/// A place in a file.
+/// A range of bytes in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Location {
     /// The name of the file, as it was opened or found.
     pub file: String,
-    /// Its bytes; empty for a place between two.
+    /// The byte range; empty for a position between two bytes.
     pub bytes: Range<usize>,
-    /// The line of the first byte, from 1; `None` where the file is not text.
+    /// The line of the first byte, from 1; `None` for a binary file.
     pub line: Option<u32>,
-    /// The column of the first byte in characters, from 1; `None` where the file is not text.
+    /// The column of the first byte in characters, from 1; `None` for a binary file.
     pub column: Option<u32>,
 }
 
-/// Advice, with the text that follows it where there is one.
+/// Advice, with a replacement if there is one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Hint {
-    /// In words.
+    /// The advice.
     pub text: String,
-    /// What to put where: the new text of a place.
+    /// The range to replace and its new text.
     pub replacement: Option<Label>,
 }
 
-/// Columns of the text.
+/// The width of the displayed text, in columns.
 const WIDTH: usize = 100;
 
-impl Finding {
-    pub(super) fn new(found: &Diagnostic, map: &SourceMap) -> Self {
-        let Diagnostic {
+impl Diagnostic {
+    pub(super) fn new(found: &diag::Diagnostic, map: &SourceMap) -> Self {
+        let diag::Diagnostic {
             code,
             severity,
             message,
@@ -98,7 +102,7 @@ impl Finding {
         }
     }
 
-    /// Code, place and message in one line, as `scene.yaml:3:5: error[VA003]: …`.
+    /// Position, code and message in one line, for example `scene.yaml:3:5: error[VA003]: …`.
     #[must_use]
     pub fn short(&self) -> String {
         let place = self.primary.as_ref().map(|label| &label.location);
@@ -111,7 +115,7 @@ impl Finding {
     }
 }
 
-impl fmt::Display for Finding {
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.text.trim_end())
     }

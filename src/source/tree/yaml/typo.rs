@@ -1,14 +1,14 @@
-//! Slips of the hand that the YAML parser notices late, or tells of in its own words: found in the
-//! text around the place, with the text that was meant.
+//! Detects typos that the YAML parser reports late or in its own terms, from the text around the
+//! error, with the suggested text.
 
 use super::super::{Tree, to_u32};
 use super::Mistake;
 use crate::Span;
 use granit_parser::ErrorKind;
 
-/// The slip that explains an error at a place, if one is found there.
+/// The typo that explains a syntax error, if one is found.
 pub(super) fn find(tree: &Tree<'_>, at: usize, kind: &ErrorKind) -> Option<Mistake<'static>> {
-    let text = Text { tree };
+    let text = SourceText { tree };
     let is_tab = matches!(
         kind,
         ErrorKind::TabNotAllowed | ErrorKind::TabInBlockIndentation | ErrorKind::TabInPlainScalar
@@ -29,13 +29,13 @@ pub(super) fn find(tree: &Tree<'_>, at: usize, kind: &ErrorKind) -> Option<Mista
     }
 }
 
-/// The text that a tree was to be made of.
-struct Text<'t, 's> {
+/// The text of a tree.
+struct SourceText<'t, 's> {
     tree: &'t Tree<'s>,
 }
 
-impl Text<'_, '_> {
-    /// A tab before the first word of the line, or of one after it.
+impl SourceText<'_, '_> {
+    /// A tab in the indentation of this line or a later one.
     fn tab(&self, at: usize) -> Option<Mistake<'static>> {
         let line = self.line(at);
         let found = self.after(line).find('\t')? + line;
@@ -43,7 +43,7 @@ impl Text<'_, '_> {
         let count = rest.len() - rest.trim_start_matches('\t').len();
         let span = self.span(found, found + count);
         let spaces = "  ".repeat(count);
-        Some(slip(
+        Some(typo(
             "a tab can't indent".to_owned(),
             "a tab".to_owned(),
             "indent with spaces",
@@ -52,7 +52,7 @@ impl Text<'_, '_> {
         ))
     }
 
-    /// A backslash in double quotes, as in the path of a file, that is taken for an escape.
+    /// A backslash in double quotes, for example in a file path, that is taken for an escape.
     fn backslash(&self, at: usize) -> Option<Mistake<'static>> {
         let line = self.after(at + 1).split(['\n', '\r']).next()?;
         let inside = line.split('"').next()?;
@@ -60,7 +60,7 @@ impl Text<'_, '_> {
             return None;
         }
         let span = self.span(at, at + inside.len() + 2);
-        Some(slip(
+        Some(typo(
             "a backslash in double quotes starts an escape".to_owned(),
             "no such escape in here".to_owned(),
             "in single quotes it is a backslash",
@@ -69,7 +69,7 @@ impl Text<'_, '_> {
         ))
     }
 
-    /// A line without a colon, or without the space after it.
+    /// A line without a colon, or without a space after it.
     fn colon(&self, at: usize) -> Option<Mistake<'static>> {
         let line = self.line(at);
         let words = self.after(line).lines().next()?;
@@ -86,7 +86,7 @@ impl Text<'_, '_> {
             _ => return None,
         };
         let span = self.span(first, first + key.len() + between.len());
-        Some(slip(
+        Some(typo(
             message.to_owned(),
             String::new(),
             "write a colon and a space after the key",
@@ -95,8 +95,8 @@ impl Text<'_, '_> {
         ))
     }
 
-    /// A quote that is never closed: the last one before a place that opens and does not close in its
-    /// line.
+    /// A quote that is never closed: the last quote before the error that opens and does not close
+    /// in its line.
     fn quote(&self, at: usize) -> Option<Mistake<'static>> {
         let mut end = self.line(at);
         while end > 0 {
@@ -134,7 +134,7 @@ impl Text<'_, '_> {
         let dash = start + before.len() - words.len();
         let span = self.span(dash, dash + 1);
         is_dash.then(|| {
-            slip(
+            typo(
                 "no space after a dash".to_owned(),
                 "begins no item".to_owned(),
                 "each item of a list begins with a dash and a space",
@@ -144,24 +144,30 @@ impl Text<'_, '_> {
         })
     }
 
-    /// A line that is indented a little more or less than those above that it seems to belong to.
+    /// A line whose indentation differs slightly from that of the lines above to which it seems to
+    /// belong.
     fn indentation(&self, at: usize) -> Option<Mistake<'static>> {
         let line = self.line(at);
-        let own = Indented::of(self.after(line).lines().next()?)?;
+        let found_text = Indented::of(self.after(line).lines().next()?)?;
         let lines = self.tree.source.get(..line)?.lines().rev();
-        let mut above = lines.filter_map(Indented::of).take(LOOKED_BACK).peekable();
-        // A key without a value on its line has the next lines for its value.
-        let is_value_of =
-            |before: &Indented<'_>| before.words.ends_with(':') && own.spaces > before.spaces;
+        let mut above = lines
+            .filter_map(Indented::of)
+            .take(MAX_LINES_BACK)
+            .peekable();
+        // A key without a value in its line has the following lines as its value.
+        let is_value_of = |before: &Indented<'_>| {
+            before.words.ends_with(':') && found_text.spaces > before.spaces
+        };
         let is_value = is_value_of(above.peek()?);
-        let apart = |column: usize| own.column().abs_diff(column);
-        let neighbours = above.filter_map(|other| Some((other.column_beside(&own)?, other.key())));
-        let (wanted, neighbour) = neighbours.min_by_key(|(column, _)| apart(*column))?;
-        let apart = apart(wanted);
-        if is_value || apart == 0 || apart > 3 || !own.words.contains(':') {
+        let distance = |column: usize| found_text.column().abs_diff(column);
+        let neighbours =
+            above.filter_map(|other| Some((other.sibling_column(&found_text)?, other.key())));
+        let (expected, neighbour) = neighbours.min_by_key(|(column, _)| distance(*column))?;
+        let distance = distance(expected);
+        if is_value || distance == 0 || distance > 3 || !found_text.words.contains(':') {
             return None;
         }
-        let (key, column) = (own.key(), own.column());
+        let (key, column) = (found_text.key(), found_text.column());
         let first = line + column;
         let spaces = |count: usize| match count {
             0 => "no space".to_owned(),
@@ -169,24 +175,24 @@ impl Text<'_, '_> {
             _ => format!("{count} spaces"),
         };
         let has = spaces(column);
-        Some(slip(
+        Some(typo(
             format!(
                 "`{key}` has {has} before it, and its neighbour `{neighbour}` {}",
-                spaces(wanted)
+                spaces(expected)
             ),
             format!("{has} before this"),
             "indent lines that belong together alike",
-            self.span(first, first + own.words.split(':').next()?.len()),
-            (self.span(line, first), " ".repeat(wanted)),
+            self.span(first, first + found_text.words.split(':').next()?.len()),
+            (self.span(line, first), " ".repeat(expected)),
         ))
     }
 
-    /// The text from a place on.
+    /// The text from an offset on.
     fn after(&self, at: usize) -> &str {
         self.tree.source.get(at..).unwrap_or_default()
     }
 
-    /// Where the line of a place starts.
+    /// The start of the line of an offset.
     fn line(&self, at: usize) -> usize {
         let before = self.tree.source.get(..at).unwrap_or_default();
         before.rfind('\n').map_or(0, |end| end + 1)
@@ -197,7 +203,7 @@ impl Text<'_, '_> {
     }
 }
 
-/// The span of some bytes of the text.
+/// The span of a byte range of the text.
 pub(super) fn span(tree: &Tree<'_>, start: usize, end: usize) -> Span {
     Span::new(
         tree.file,
@@ -206,7 +212,7 @@ pub(super) fn span(tree: &Tree<'_>, start: usize, end: usize) -> Span {
     )
 }
 
-pub(super) fn slip(
+pub(super) fn typo(
     message: String,
     label: String,
     hint: &'static str,
@@ -223,20 +229,21 @@ pub(super) fn slip(
     }
 }
 
-/// So many lines above one are looked at for those that it belongs to.
-const LOOKED_BACK: usize = 200;
+/// The number of lines above that are compared.
+const MAX_LINES_BACK: usize = 200;
 
-/// A line with words.
+/// An indented line.
 struct Indented<'t> {
-    /// How many spaces stand before its first key; the dash of an item and what follows it count.
+    /// The number of characters before its first key, including the dash of an item and the space
+    /// after it.
     spaces: usize,
-    /// How many stand before its dash, if it starts an item.
+    /// The column of its dash, if it starts an item.
     dash: Option<usize>,
     words: &'t str,
 }
 
 impl<'t> Indented<'t> {
-    /// A line, unless it is empty or a comment.
+    /// The line, unless it is empty or a comment.
     fn of(line: &'t str) -> Option<Self> {
         let words = line.trim();
         if words.is_empty() || words.starts_with('#') {
@@ -251,14 +258,13 @@ impl<'t> Indented<'t> {
         })
     }
 
-    /// Where it begins.
+    /// The column of its first character.
     fn column(&self) -> usize {
         self.dash.unwrap_or(self.spaces)
     }
 
-    /// Where a line would begin that stands beside this one: dashes stand below dashes, and keys
-    /// below keys.
-    fn column_beside(&self, other: &Self) -> Option<usize> {
+    /// The column of a line that is a sibling of this one: dashes below dashes, keys below keys.
+    fn sibling_column(&self, other: &Self) -> Option<usize> {
         match other.dash {
             Some(_) => self.dash,
             None => Some(self.spaces),

@@ -1,15 +1,15 @@
-//! Values that are allowed and yet hardly what was meant: no light in a scene that shows lit
-//! surfaces, colours that look like bytes, weights that look like percentages, pixels larger than
-//! what they show.
+//! Lints for values that are valid but probably unintended: no light in a scene of lit surfaces,
+//! colours that look like bytes, weights that look like percentages, pixels larger than the
+//! objects.
 
-use super::check::{Check, place};
+use super::check::Check;
 use super::inside;
 use rtc_diag::{Diagnostic, codes};
-use rtc_ir::{self as ir, EntityKind, Field};
+use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{Vec3, shortest};
 
-/// Warns of what is hardly meant, in a scene without errors: what could not be read is missing here.
-pub(super) fn suspicions(scene: &ir::Scene, check: &mut Check<'_>) {
+/// Runs the lints on a scene without errors. With errors, parts of the scene may be missing.
+pub(super) fn lints(scene: &ir::Scene, check: &mut Check<'_>) {
     if check.has_errors() {
         return;
     }
@@ -17,7 +17,7 @@ pub(super) fn suspicions(scene: &ir::Scene, check: &mut Check<'_>) {
     shadows_of_paths(scene, check);
     tiny_picture(scene, check);
     inside::eye(scene, check);
-    lost_parts(scene, check);
+    unsupported_features(scene, check);
     for (index, material) in scene.materials.iter().enumerate() {
         let Some(phong) = material.phong() else {
             continue;
@@ -35,11 +35,10 @@ pub(super) fn suspicions(scene: &ir::Scene, check: &mut Check<'_>) {
     }
 }
 
-/// A light may well have a colour of 10; one of this is more likely a byte.
+/// A light may well have a colour of 10; a value of at least this is more likely a byte.
 const BRIGHT: f64 = 100.0;
 
-/// Whether the channels of a colour are whole numbers up to 255, the largest of them at least
-/// `least`.
+/// Whether the channels of a colour are integers up to 255, the largest of them at least `least`.
 fn looks_like_bytes(color: [f64; 3], least: f64) -> bool {
     let is_byte = |channel: &f64| channel.fract() == 0.0 && (0.0..=255.0).contains(channel);
     color.iter().all(is_byte) && color.iter().any(|channel| *channel >= least)
@@ -47,19 +46,19 @@ fn looks_like_bytes(color: [f64; 3], least: f64) -> bool {
 
 fn bytes(color: [f64; 3], entity: EntityKind, index: usize, check: &mut Check<'_>) {
     let [r, g, b] = color.map(|channel| (channel / 255.0 * 1000.0).round() / 1000.0);
-    let finding = Diagnostic::new(
+    let diagnostic = Diagnostic::new(
         &codes::COLOR_OF_BYTES,
         "a colour looks like bytes from 0 to 255",
     );
-    let finding = finding.hint(format!("1 is full strength: `[{r}, {g}, {b}]`"));
+    let diagnostic = diagnostic.hint(format!("1 is full strength: `[{r}, {g}, {b}]`"));
     check.report(
-        place(entity, index, Field::Color),
+        ValuePath::new(entity, index, Field::Color),
         "far brighter than white",
-        finding,
+        diagnostic,
     );
 }
 
-/// A weight of 5 may be meant for effect; one of this is more likely a percentage.
+/// A weight of 5 may be intended; a value of at least this is more likely a percentage.
 const PERCENT: f64 = 10.0;
 
 /// Warns of weights that look like percentages.
@@ -79,48 +78,47 @@ fn weights(phong: &ir::Phong, index: usize, check: &mut Check<'_>) {
             shortest(weight / 100.0)
         );
         check.report(
-            place(EntityKind::Material, index, field),
+            ValuePath::new(EntityKind::Material, index, field),
             "so many times as bright as what is lit",
             Diagnostic::new(&codes::LARGE_WEIGHT, message).hint(hint),
         );
     }
 }
 
-/// So few pixels across, and so small a share of the picture, are all objects together where the
-/// camera was hardly meant so.
+/// The size of all objects in the picture below which the camera is probably wrong: in pixels, and
+/// as a fraction of the picture.
 const FEW_PIXELS: f64 = 8.0;
-const SMALL_SHARE: f64 = 1.0 / 16.0;
+const SMALL_FRACTION: f64 = 1.0 / 16.0;
 
-/// How much of the picture's height all objects take by the `up` that is proposed.
+/// The fraction of the picture's height that all objects take with the suggested `up`.
 const FILLED: f64 = 0.75;
 
-/// Warns of an `up`, as a text of the course has it, whose length makes pixels larger than what
-/// there is to see.
+/// Warns if the length of `up` makes pixels larger than the objects.
 fn tiny_picture(scene: &ir::Scene, check: &mut Check<'_>) {
-    let up = place(EntityKind::Camera, 0, Field::Up);
-    // An `Eye` has no `up` of its own.
-    let whole = check.span(place(EntityKind::Camera, 0, Field::Whole));
+    let up = ValuePath::new(EntityKind::Camera, 0, Field::Up);
+    // A camera without `up` has the span of its entity.
+    let whole = check.span(ValuePath::new(EntityKind::Camera, 0, Field::Whole));
     let span = check.span(up).filter(|span| Some(*span) != whole);
-    let (Some(span), Some(ball)) = (span, scene.bounding_sphere()) else {
+    let (Some(span), Some(sphere)) = (span, scene.bounding_sphere()) else {
         return;
     };
     let camera = &scene.camera;
     let [eye, center, step] = [camera.eye, camera.center, camera.up].map(Vec3::from_array);
-    let distance = eye.distance(ball.center);
+    let distance = eye.distance(sphere.center);
     let scale = match camera.projection {
         ir::Projection::Perspective => eye.distance(center) / distance,
         ir::Projection::Orthographic => 1.0,
     };
-    let across = 2.0 * ball.radius * scale;
+    let across = 2.0 * sphere.radius * scale;
     let pixels = across / step.length();
     let side = f64::from(camera.size[0].min(camera.size[1]));
-    let is_tiny = pixels < FEW_PIXELS && pixels < SMALL_SHARE * side;
-    if distance <= ball.radius || !is_tiny || pixels.is_nan() {
+    let is_tiny = pixels < FEW_PIXELS && pixels < SMALL_FRACTION * side;
+    if distance <= sphere.radius || !is_tiny || pixels.is_nan() {
         return;
     }
     let length = across / (FILLED * side);
-    let better = (camera.upright() * length).to_array().map(two_digits);
-    let better = format!("[{}]", better.map(shortest).join(", "));
+    let suggestion = (camera.upright() * length).to_array().map(two_digits);
+    let suggestion = format!("[{}]", suggestion.map(shortest).join(", "));
     let message = format!(
         "all objects together are {} of the picture",
         match pixels {
@@ -129,18 +127,18 @@ fn tiny_picture(scene: &ir::Scene, check: &mut Check<'_>) {
             _ => format!("{pixels:.0} pixels"),
         }
     );
-    let finding = Diagnostic::new(&codes::TINY_PICTURE, message)
-        .guess("write a shorter one", span, better)
+    let diagnostic = Diagnostic::new(&codes::TINY_PICTURE, message)
+        .guess("write a shorter one", span, suggestion)
         .hint("or give the angle that the picture spans, as `fov: 45`");
-    check.report(up, "its length is the size of a pixel", finding);
+    check.report(up, "its length is the size of a pixel", diagnostic);
 }
 
-/// A number by its first two digits.
+/// A number rounded to two digits.
 fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value) + 0.0
 }
 
-/// Warns of a scene that shows lit surfaces and has no light: all of it is black.
+/// Warns about lit surfaces without a light: the picture is black.
 fn no_light(scene: &ir::Scene, check: &mut Check<'_>) {
     let ir::Scene {
         settings,
@@ -151,34 +149,35 @@ fn no_light(scene: &ir::Scene, check: &mut Check<'_>) {
     let is_lit = matches!(settings.mode, ir::Mode::Phong | ir::Mode::Gooch(_));
     let has_own_light = settings.mode == ir::Mode::Phong && settings.ambient == ir::Ambient::Once;
     if is_lit && !has_own_light && lights.is_empty() && !surfaces.is_empty() {
-        let finding = Diagnostic::new(&codes::NO_LIGHT, "the scene has no light, so it is black")
-            .hint("a light is written as `Lights: [{position: [0, 0, 0], color: [1, 1, 1]}]`");
-        check.report_all(EntityKind::Light, "/lights", "no light here", finding);
+        let diagnostic =
+            Diagnostic::new(&codes::NO_LIGHT, "the scene has no light, so it is black")
+                .hint("a light is written as `Lights: [{position: [0, 0, 0], color: [1, 1, 1]}]`");
+        check.report_all(EntityKind::Light, "/lights", "no light here", diagnostic);
     }
 }
 
-/// Warns of surfaces without shadows in a scene of paths, which know only surfaces that cast them.
+/// Warns about surfaces without shadows in a path-traced scene, where every surface casts one.
 fn shadows_of_paths(scene: &ir::Scene, check: &mut Check<'_>) {
     let ir::Scene {
         settings, surfaces, ..
     } = scene;
     let first = surfaces.iter().position(|surface| surface.casts_no_shadow);
     if let (ir::Mode::Path(_), Some(index)) = (&settings.mode, first) {
-        let finding = Diagnostic::new(
+        let diagnostic = Diagnostic::new(
             &codes::SHADOW_IN_PATHS,
             "every object that paths meet casts a shadow",
         )
         .hint("`RenderMode: phong` takes `shadow: false` as it is written");
         check.report(
-            place(EntityKind::Surface, index, Field::Whole),
+            ValuePath::new(EntityKind::Surface, index, Field::Whole),
             "this one too, in spite of its `shadow: false`",
-            finding,
+            diagnostic,
         );
     }
 }
 
-/// Warns of what the integrator does not show of materials.
-fn lost_parts(scene: &ir::Scene, check: &mut Check<'_>) {
+/// Warns about material features that the integrator does not support.
+fn unsupported_features(scene: &ir::Scene, check: &mut Check<'_>) {
     let is_traced = matches!(scene.settings.mode, ir::Mode::Path(_));
     if !is_traced && !matches!(scene.settings.mode, ir::Mode::Phong | ir::Mode::Gooch(_)) {
         return;
@@ -202,23 +201,23 @@ fn lost_parts(scene: &ir::Scene, check: &mut Check<'_>) {
             ),
             ir::Material::Phong(_) | ir::Material::Standard(_) => continue,
         };
-        let finding = Diagnostic::new(&codes::LOST_PARTS, message).hint(hint);
+        let diagnostic = Diagnostic::new(&codes::LOST_PARTS, message).hint(hint);
         let label = "it says more than is shown";
         check.report(
-            place(EntityKind::Material, index, Field::Whole),
+            ValuePath::new(EntityKind::Material, index, Field::Whole),
             label,
-            finding,
+            diagnostic,
         );
     }
 }
 
-/// Whether a material of Phong's model has maps that its twin along paths has no place for.
+/// Whether a Phong material has maps that its path-traced equivalent lacks.
 fn has_hidden_maps(phong: &ir::Phong) -> bool {
     let bends = phong.bump.is_some() && phong.normal_map.is_none();
     bends || (phong.specular_map.is_some() && phong.ks > 0.0)
 }
 
-/// Whether a material of glTF says more than Phong's model takes of it.
+/// Whether a glTF material has features that the Phong model lacks.
 fn is_more_than_phong(standard: &ir::Standard) -> bool {
     let layers = [
         standard.transmission,

@@ -1,20 +1,20 @@
-//! A YAML text in pieces: what the scanner says is a word or a bracket, and what stands between.
+//! Tokens of a YAML text with comments, for the formatter.
 //!
-//! Between its tokens there are only blanks, comments, and the signs of block lists and maps. So a
-//! `#` there starts a comment, and nowhere else.
+//! Between the tokens of the scanner there are only white space, comments, and the indicators of
+//! block lists and maps. So a `#` there starts a comment, and nowhere else.
 
 use granit_parser::{ScalarStyle, Scanner, StrInput, TokenType};
 
-/// What a piece of the text is.
+/// The kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum PieceKind {
+pub(super) enum TokenKind {
     /// A line that starts with `%`.
     Directive,
     /// `---` or `...`.
     Marker,
-    /// The dash of an item.
+    /// The dash of a list item.
     Dash,
-    /// The question mark of a long key.
+    /// The question mark of an explicit key.
     Question,
     Colon,
     Comma,
@@ -27,43 +27,44 @@ pub(super) enum PieceKind {
     Alias,
     Plain,
     Quoted,
-    /// `|` or `>`, with what belongs to it.
+    /// `
+    /// ` or `>`, with its indicators.
     Header,
-    /// The lines below a header.
+    /// The lines of a block scalar.
     Block,
     Comment,
 }
 
-/// A list or map without brackets.
+/// A block list or block map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BlockKind {
     List,
     Map,
 }
 
-/// A piece of the text that stands in one.
+/// A token.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
-    pub(super) kind: PieceKind,
+pub(super) struct Token {
+    pub(super) kind: TokenKind,
     pub(super) start: usize,
     pub(super) end: usize,
-    /// The list or map that starts with it.
+    /// The block list or map that starts with it.
     pub(super) opens: Option<BlockKind>,
-    /// It starts a key.
+    /// Whether it starts a key.
     pub(super) is_key: bool,
 }
 
-/// What comes one after the other.
+/// An item of the token stream.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum LayoutItem {
-    Piece(Piece),
-    /// The innermost list or map without brackets ends.
+    Token(Token),
+    /// The innermost block list or map ends.
     End,
 }
 
-/// All pieces of a text that the parser takes; `None` if one is not understood.
+/// All tokens of a valid text; `None` if one is not understood.
 pub(super) fn items(source: &str) -> Option<Vec<LayoutItem>> {
-    let mut cut = Cutter {
+    let mut tokenizer = Tokenizer {
         source,
         at: 0,
         items: Vec::new(),
@@ -76,74 +77,75 @@ pub(super) fn items(source: &str) -> Option<Vec<LayoutItem>> {
     for token in Scanner::new(StrInput::new(source)) {
         let (span, kind) = token.ok()?.into_parts();
         let range = span.byte_range()?;
-        cut.token(range.start, range.end, &kind)?;
+        tokenizer.token(range.start, range.end, &kind)?;
     }
-    cut.between(source.len())?;
-    Some(cut.items)
+    tokenizer.between(source.len())?;
+    Some(tokenizer.items)
 }
 
-/// A list or map that is open, without brackets.
+/// An open block list or map.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum OpenBlock {
-    Told,
+    Explicit,
     Map,
-    /// A list that is indented no further than the key that has it: the scanner tells neither its
-    /// start nor its end.
-    Untold,
+    /// A list that is not indented more than its key: the scanner reports neither its start nor its
+    /// end.
+    Implicit,
 }
 
-struct Cutter<'s> {
+struct Tokenizer<'s> {
     source: &'s str,
-    /// All before is cut.
+    /// The end of the last token.
     at: usize,
     items: Vec<LayoutItem>,
     open: Vec<OpenBlock>,
     brackets: usize,
-    /// For the next piece.
+    /// For the next token.
     opens: Option<BlockKind>,
     is_key: bool,
-    /// Where the lines below a header start, and whether it keeps empty ones at its end.
+    /// The start of the lines after a block scalar header, and whether it keeps empty lines at its
+    /// end.
     block: Option<(usize, bool)>,
 }
 
-impl Cutter<'_> {
+impl Tokenizer<'_> {
     fn token(&mut self, start: usize, end: usize, kind: &TokenType<'_>) -> Option<()> {
         let is_block = matches!(
             kind,
             TokenType::Scalar(ScalarStyle::Literal | ScalarStyle::Folded, _)
         );
-        // One without lines may start before its header.
+        // A block scalar without lines may start before its header.
         self.between(if is_block { end } else { start })?;
         match kind {
-            TokenType::BlockSequenceStart => self.open(OpenBlock::Told, BlockKind::List),
+            TokenType::BlockSequenceStart => self.open(OpenBlock::Explicit, BlockKind::List),
             TokenType::BlockMappingStart => self.open(OpenBlock::Map, BlockKind::Map),
             TokenType::BlockEnd => {
-                self.end_untold();
+                self.end_implicit();
                 self.end();
             }
             TokenType::Key | TokenType::Value => {
-                self.end_untold();
+                self.end_implicit();
                 self.is_key |= matches!(kind, TokenType::Key);
             }
             TokenType::FlowSequenceStart | TokenType::FlowMappingStart => {
                 self.brackets += 1;
-                self.put(PieceKind::Opening, start, end);
+                self.put(TokenKind::Opening, start, end);
             }
             TokenType::FlowSequenceEnd | TokenType::FlowMappingEnd => {
                 self.brackets = self.brackets.checked_sub(1)?;
-                self.put(PieceKind::Closing, start, end);
+                self.put(TokenKind::Closing, start, end);
             }
-            TokenType::FlowEntry => self.put(PieceKind::Comma, start, end),
+            TokenType::FlowEntry => self.put(TokenKind::Comma, start, end),
             TokenType::DocumentStart | TokenType::DocumentEnd => {
-                self.put(PieceKind::Marker, start, end);
+                self.put(TokenKind::Marker, start, end);
             }
-            TokenType::Alias(_) => self.put(PieceKind::Alias, start, end),
+            TokenType::Alias(_) => self.put(TokenKind::Alias, start, end),
             TokenType::Anchor(_) | TokenType::Tag(..) => {
-                self.put(PieceKind::Property, start, end);
+                self.put(TokenKind::Property, start, end);
             }
-            TokenType::Scalar(ScalarStyle::Plain, _) => self.put(PieceKind::Plain, start, end),
+            TokenType::Scalar(ScalarStyle::Plain, _) => self.put(TokenKind::Plain, start, end),
             TokenType::Scalar(ScalarStyle::SingleQuoted | ScalarStyle::DoubleQuoted, _) => {
-                self.put(PieceKind::Quoted, start, end);
+                self.put(TokenKind::Quoted, start, end);
             }
             TokenType::Scalar(..) => self.block(end)?,
             TokenType::StreamStart
@@ -167,19 +169,19 @@ impl Cutter<'_> {
         self.items.push(LayoutItem::End);
     }
 
-    fn end_untold(&mut self) {
-        if self.brackets == 0 && self.open.last() == Some(&OpenBlock::Untold) {
+    fn end_implicit(&mut self) {
+        if self.brackets == 0 && self.open.last() == Some(&OpenBlock::Implicit) {
             self.end();
         }
     }
 
-    fn put(&mut self, kind: PieceKind, start: usize, end: usize) {
-        // A word without text, as of a key without a value.
+    fn put(&mut self, kind: TokenKind, start: usize, end: usize) {
+        // An empty scalar, for example of a key without a value.
         if start == end {
             return;
         }
-        let is_comment = kind == PieceKind::Comment;
-        self.items.push(LayoutItem::Piece(Piece {
+        let is_comment = kind == TokenKind::Comment;
+        self.items.push(LayoutItem::Token(Token {
             kind,
             start,
             end,
@@ -189,21 +191,21 @@ impl Cutter<'_> {
         self.at = end;
     }
 
-    /// Cuts what stands before a token.
+    /// Reads the indicators and comments before a token.
     fn between(&mut self, end: usize) -> Option<()> {
         while self.at < end && self.block.is_none() {
             let rest = self.source.get(self.at..end)?;
-            let words = rest.trim_start_matches([' ', '\t', '\n']);
-            self.at = end - words.len();
+            let visible_characters = rest.trim_start_matches([' ', '\t', '\n']);
+            self.at = end - visible_characters.len();
             let start = self.at;
-            let line = words.split('\n').next().unwrap_or_default();
-            match words.chars().next() {
+            let line = visible_characters.split('\n').next().unwrap_or_default();
+            match visible_characters.chars().next() {
                 None => {}
-                Some('#') => self.put(PieceKind::Comment, start, start + line.trim_end().len()),
-                Some('%') => self.put(PieceKind::Directive, start, start + line.trim_end().len()),
+                Some('#') => self.put(TokenKind::Comment, start, start + line.trim_end().len()),
+                Some('%') => self.put(TokenKind::Directive, start, start + line.trim_end().len()),
                 Some('-') => self.dash(start),
-                Some('?') => self.put(PieceKind::Question, start, start + 1),
-                Some(':') => self.put(PieceKind::Colon, start, start + 1),
+                Some('?') => self.put(TokenKind::Question, start, start + 1),
+                Some(':') => self.put(TokenKind::Colon, start, start + 1),
                 Some('|' | '>') => self.header(start, line),
                 Some(_) => return None,
             }
@@ -213,18 +215,18 @@ impl Cutter<'_> {
 
     fn dash(&mut self, start: usize) {
         if self.opens.is_none() && self.open.last() == Some(&OpenBlock::Map) {
-            self.open(OpenBlock::Untold, BlockKind::List);
+            self.open(OpenBlock::Implicit, BlockKind::List);
         }
-        self.put(PieceKind::Dash, start, start + 1);
+        self.put(TokenKind::Dash, start, start + 1);
     }
 
-    /// The header of a block of lines, and the comment that may follow it.
+    /// The header of a block scalar, and the comment that may follow it.
     fn header(&mut self, start: usize, line: &str) {
         let header = line.split([' ', '\t']).next().unwrap_or_default();
-        self.put(PieceKind::Header, start, start + header.len());
+        self.put(TokenKind::Header, start, start + header.len());
         if let Some(at) = line.find('#') {
             self.put(
-                PieceKind::Comment,
+                TokenKind::Comment,
                 start + at,
                 start + line.trim_end().len(),
             );
@@ -232,7 +234,7 @@ impl Cutter<'_> {
         self.block = Some((start + line.len() + 1, header.contains('+')));
     }
 
-    /// The lines below the header: without empty ones at the end, unless it keeps them.
+    /// The lines of a block scalar, without empty ones at the end unless it keeps them.
     fn block(&mut self, end: usize) -> Option<()> {
         let (start, keeps) = self.block.take()?;
         let lines = self.source.get(start..end).unwrap_or_default();
@@ -245,7 +247,7 @@ impl Cutter<'_> {
             }
         };
         self.at = self.at.max(start.min(end));
-        self.put(PieceKind::Block, start, start + length);
+        self.put(TokenKind::Block, start, start + length);
         Some(())
     }
 }

@@ -1,0 +1,73 @@
+//! Helpers for exporting to other renderers.
+
+use super::reporter::Reporter;
+use rtc_diag::codes;
+use rtc_ir::{EntityKind, Field, Material, Scene, Shape, ShapeKind, ValuePath};
+use rtc_math::shortest;
+use rtc_source::{Budget, Resource};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A scene for another renderer.
+#[derive(Debug)]
+pub struct ExportedScene {
+    /// The text of the scene file.
+    pub text: String,
+    /// The sidecar files, by their paths relative to the scene file, with `/`.
+    pub files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Reporter<'_> {
+    /// Reports a feature that the other renderer does not support exactly.
+    pub(super) fn unsupported(&mut self, message: &str, path: ValuePath) {
+        self.report(&codes::NO_TWIN, message, path);
+    }
+
+    /// Charges the bytes of a mesh file; `None` if they exceed the budget, which is reported.
+    pub(super) fn charge(&mut self, bytes: u64, budget: &Budget, path: ValuePath) -> Option<()> {
+        let charged = budget.charge(Resource::Memory, bytes);
+        charged
+            .map_err(|error| {
+                let message = format!("the mesh takes too much as a file: {error}");
+                self.report_error(&codes::OVER_LIMIT, &message, path);
+            })
+            .ok()
+    }
+}
+
+/// The materials that surfaces use, with their indices and paths.
+pub(super) fn used_materials(scene: &Scene) -> impl Iterator<Item = (usize, &Material, ValuePath)> {
+    let used_materials = scene
+        .surfaces
+        .iter()
+        .map(|surface| surface.material.0 as usize);
+    let used_materials: BTreeSet<_> = used_materials.collect();
+    let path = |index| ValuePath::new(EntityKind::Material, index, Field::Whole);
+    let material = move |index| Some((index, scene.materials.get(index)?, path(index)));
+    used_materials.into_iter().filter_map(material)
+}
+
+/// The shortest decimals of numbers that read back exactly, with a separator; −0 as 0.
+pub(super) fn joined(numbers: impl IntoIterator<Item = f64>, separator: &str) -> String {
+    let displayed: Vec<_> = numbers
+        .into_iter()
+        .map(|number| shortest(number + 0.0))
+        .collect();
+    displayed.join(separator)
+}
+
+/// The name of an unsupported shape: of quadrilaterals only bilinear patches are unsupported.
+pub(super) fn shape_name(shape: &Shape) -> &'static str {
+    if shape.kind() == ShapeKind::Quad {
+        return "bilinear patch";
+    }
+    shape.kind().name()
+}
+
+/// Phrases as an enumeration.
+pub(super) fn enumeration(parts: &[&str]) -> String {
+    match parts {
+        [] => String::new(),
+        [only] => (*only).to_owned(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}

@@ -1,0 +1,177 @@
+//! Tessellation: converts shapes that glTF lacks to meshes, within a tolerance.
+//!
+//! A round shape becomes a mesh in object coordinates that depends only on its kind and number of
+//! steps; the instance has its position and size. So all spheres share one mesh.
+//!
+//! - [`Tessellator`] converts shape by shape and charges vertices to the budget.
+//! - [`Tessellation`] computes the numbers of steps from the tolerance.
+//! - [`UnitShape`] is a round shape of radius 1; `round` and `flat` build the meshes with
+//!   [`MeshBuilder`].
+
+mod builder;
+mod flat;
+mod round;
+mod tolerance;
+
+use crate::flat::{around, side};
+use crate::reporter::Reporter;
+use glam::DAffine3;
+use round::UnitShape;
+use rtc_diag::codes;
+use rtc_ir::{
+    BoundingSphere, EntityKind, Field, Instance, Mesh, MeshId, Scene, Shape, ShapeKind, Surface,
+    ValuePath,
+};
+use rtc_math::shortest;
+use rtc_source::{Budget, Resource};
+use std::collections::BTreeMap;
+use tolerance::Tessellation;
+
+/// Bytes per vertex with normal and texture coordinates, as f64 and in the file, including its
+/// share of the triangles.
+const VERTEX: u64 = 160;
+
+/// The mesh of a shape.
+enum ShapeMesh {
+    /// A round shape and its transform.
+    Round(UnitShape, DAffine3),
+    /// A mesh in world coordinates.
+    World(Box<Mesh>),
+}
+
+/// The scene with meshes in place of all shapes; `None` if they exceed the budget, which is
+/// reported.
+pub(super) fn only_meshes(
+    scene: &Scene,
+    tolerance: Option<f64>,
+    budget: &Budget,
+    reporter: &mut Reporter<'_>,
+) -> Option<Scene> {
+    let mut tessellator = Tessellator {
+        tessellation: Tessellation::new(tolerance),
+        around: around(scene),
+        budget,
+        unit_meshes: BTreeMap::new(),
+        meshes: scene.meshes.clone(),
+    };
+    let mut surfaces = Vec::with_capacity(scene.surfaces.len());
+    for (index, surface) in scene.surfaces.iter().enumerate() {
+        let path = ValuePath::new(EntityKind::Surface, index, Field::Whole);
+        let instance = tessellator.instance(&surface.shape, path, reporter)?;
+        surfaces.push(Surface {
+            shape: Shape::Instance(instance),
+            ..surface.clone()
+        });
+    }
+    Some(Scene {
+        surfaces,
+        meshes: tessellator.meshes,
+        ..scene.clone()
+    })
+}
+
+/// Converts shapes to meshes.
+struct Tessellator<'m> {
+    tessellation: Tessellation,
+    around: BoundingSphere,
+    budget: &'m Budget,
+    /// The meshes of round shapes so far.
+    unit_meshes: BTreeMap<UnitShape, MeshId>,
+    meshes: Vec<Mesh>,
+}
+
+impl Tessellator<'_> {
+    fn instance(
+        &mut self,
+        shape: &Shape,
+        path: ValuePath,
+        reporter: &mut Reporter<'_>,
+    ) -> Option<Instance> {
+        let shape_mesh = match shape {
+            Shape::Instance(instance) => return Some(instance.clone()),
+            Shape::Sphere(sphere) => round::sphere(sphere, &self.tessellation),
+            Shape::Cylinder(cylinder) => round::cylinder(cylinder, &self.tessellation),
+            Shape::Cone(cone) => round::cone(cone, &self.tessellation),
+            Shape::Paraboloid(paraboloid) => round::paraboloid(paraboloid, &self.tessellation),
+            Shape::Torus(torus) => round::torus(torus, &self.tessellation),
+            Shape::Disc(disc) => round::disc(disc, &self.tessellation),
+            Shape::Plane(plane) => flat::plane(plane, self.around),
+            Shape::Triangle(triangle) => flat::triangle(triangle),
+            Shape::Quad(quad) => {
+                let steps = flat::steps(quad, &self.tessellation);
+                self.charge(u64::from(steps + 1).pow(2), path, reporter)?;
+                flat::quad(quad, steps)
+            }
+        };
+        self.report(shape.kind(), path, reporter);
+        let (mesh, world) = match shape_mesh {
+            ShapeMesh::World(mesh) => (self.add(*mesh), DAffine3::IDENTITY),
+            ShapeMesh::Round(unit_shape, world) => (self.round(unit_shape, path, reporter)?, world),
+        };
+        Some(Instance {
+            mesh,
+            world_from_object: world.to_cols_array_2d(),
+        })
+    }
+
+    fn round(
+        &mut self,
+        unit_shape: UnitShape,
+        path: ValuePath,
+        reporter: &mut Reporter<'_>,
+    ) -> Option<MeshId> {
+        if let Some(mesh) = self.unit_meshes.get(&unit_shape) {
+            return Some(*mesh);
+        }
+        self.charge(unit_shape.vertices(), path, reporter)?;
+        let id = self.add(unit_shape.mesh());
+        self.unit_meshes.insert(unit_shape, id);
+        Some(id)
+    }
+
+    fn add(&mut self, mesh: Mesh) -> MeshId {
+        self.meshes.push(mesh);
+        MeshId(u32::try_from(self.meshes.len() - 1).unwrap_or(u32::MAX))
+    }
+
+    /// Charges vertices; `None` if they exceed the budget, which is reported.
+    fn charge(&self, vertices: u64, path: ValuePath, reporter: &mut Reporter<'_>) -> Option<()> {
+        let memory = vertices.saturating_mul(VERTEX);
+        let charged = self.budget.charge(Resource::Vertices, vertices);
+        let charged = charged.and_then(|()| self.budget.charge(Resource::Memory, memory));
+        match charged {
+            Ok(()) if u32::try_from(vertices).is_ok() => return Some(()),
+            Ok(()) => {
+                let message = "the shape takes more vertices than a mesh of glTF counts";
+                reporter.report_error(&codes::GLTF_UNSAID, message, path);
+            }
+            Err(error) => {
+                let message = format!("the shape takes too many triangles: {error}");
+                reporter.report_error(&codes::OVER_LIMIT, &message, path);
+            }
+        }
+        None
+    }
+
+    fn report(&self, kind: ShapeKind, path: ValuePath, reporter: &mut Reporter<'_>) {
+        let message = match kind {
+            ShapeKind::Triangle | ShapeKind::Instance => return,
+            ShapeKind::Plane => format!(
+                "glTF has no plane: what is written is a square {} wide",
+                shortest(2.0 * side(self.around))
+            ),
+            ShapeKind::Sphere
+            | ShapeKind::Quad
+            | ShapeKind::Disc
+            | ShapeKind::Cylinder
+            | ShapeKind::Cone
+            | ShapeKind::Paraboloid
+            | ShapeKind::Torus => format!(
+                "glTF has no {}: what is written is a mesh {}",
+                kind.name(),
+                self.tessellation.describe()
+            ),
+        };
+        reporter.report(&codes::GLTF_NEARLY, &message, path);
+    }
+}
