@@ -1,5 +1,5 @@
-//! What files of the course's years mean where their programs differ: ambient light in JSON and
-//! YAML, and glass.
+//! What files of different years of the course mean: ambient light in JSON and YAML, glass, and keys
+//! that need another one.
 
 use crate::small::{WHOLE, film};
 use rtc::internals::diag::Sink;
@@ -7,7 +7,7 @@ use rtc::internals::ir::{Ambient, Scene};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::source::SourceMap;
 
-/// The scene of a text, and the codes of what is told of it.
+/// The scene of a text, and the codes of its findings.
 fn loaded(text: &str) -> (Scene, Vec<&'static str>) {
     let mut map = SourceMap::default();
     let file = map.add("scene", text.as_bytes().to_vec());
@@ -17,7 +17,7 @@ fn loaded(text: &str) -> (Scene, Vec<&'static str>) {
     (lowered.unwrap().scene, codes)
 }
 
-/// The middle of a picture of 400 × 400, in bytes.
+/// The middle pixel of an image of 400 × 400, in bytes.
 fn middle(scene: &Scene) -> [f64; 3] {
     let film = film(scene, &WHOLE, 1);
     film.image.pixels[200 * 400 + 200].map(|value| (value.min(1.0) * 255.0).floor())
@@ -132,4 +132,26 @@ fn what_is_transparent_keeps_its_own_ambient_and_diffuse_light() {
     let (scene, codes) = loaded(&ball(deep, r#""type": "refraction", "nt": 1.2"#));
     assert_eq!(middle(&scene), [0.0; 3]);
     assert!(codes.contains(&"SC011"), "{codes:?}");
+}
+
+#[test]
+fn keys_are_silent_if_the_settings_that_they_need_are_there() {
+    const SCENE: &str = "Camera: {eye: [0, 0, 10], center: [0, 0, 0], up: [0, 1, 0], \
+        viewSize: [8, 8], fov: 40, apertureRadius: 0.5, apertureSamples: 4}\n\
+        Shadows: true\nMaxRecursionDepth: 2\nLightSamples: 9\nLights:\n\
+        - {position: [0, 9, 9], color: [1, 1, 1], radius: 1}\nObjects:\n\
+        - {type: sphere, position: [0, 0, 0], radius: 1, shadow: false, material: \
+        {color: [1, 0, 0], ka: 0.2, kd: 0.8, ks: 0.5, n: 8, glossySamples: 9, specularMap: UV}}\n";
+    assert!(!loaded(SCENE).1.contains(&"SC011"));
+    for (needed, other) in [
+        ("Shadows: true", "Shadows: false"),
+        ("Depth: 2", "Depth: 0"),
+        (", radius: 1}", "}"),
+        ("apertureRadius: 0.5", "apertureRadius: 0"),
+        ("apertureSamples: 4", "apertureSamples: 1"),
+        ("ks: 0.5", "ks: 0"),
+    ] {
+        let codes = loaded(&SCENE.replace(needed, other)).1;
+        assert!(codes.contains(&"SC011"), "{other}: {codes:?}");
+    }
 }

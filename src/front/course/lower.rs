@@ -5,6 +5,7 @@ use super::assets::{PendingAsset, PendingMaterial};
 use super::camera;
 use super::decode::{Context, Value, ValueKey};
 use super::glass::Glass;
+use super::ineffective::DependentKeys;
 use super::object::sizing::Sizing;
 use super::object::torus::AmbiguousTorus;
 use super::record::FieldOutcome;
@@ -102,8 +103,10 @@ pub(super) struct Lowering {
     pub(super) sizings: Vec<Sizing>,
     /// The source of each mesh's material.
     pub(super) pending_materials: Vec<PendingMaterial>,
+    /// The keys whose effect depends on other settings.
+    pub(super) dependent: DependentKeys,
     /// The tori whose radii are interpreted by the entities around them.
-    pub(super) rims: Vec<AmbiguousTorus>,
+    pub(super) ambiguous_tori: Vec<AmbiguousTorus>,
     /// The spans of sizes of 0.
     pub(super) invisible: Vec<Span>,
     source_spans: SourceSpans,
@@ -131,7 +134,8 @@ impl Lowering {
             glass: Vec::new(),
             sizings,
             pending_materials: Vec::new(),
-            rims: Vec::new(),
+            dependent: DependentKeys::default(),
+            ambiguous_tori: Vec::new(),
             invisible: Vec::new(),
             source_spans: SourceSpans::default(),
         }
@@ -199,6 +203,7 @@ impl Lowering {
         self.resolve_mode(&scene);
         self.ambient(&scene, context);
         self.glass(context);
+        self.report_ineffective(&scene, context);
         self.show_uv(&scene);
     }
 
@@ -252,7 +257,8 @@ impl Lowering {
             files: NamedFiles { pending_assets, .. },
             sizings,
             pending_materials,
-            rims: _,
+            dependent: _,
+            ambiguous_tori: _,
             invisible: _,
             mut source_spans,
         } = self;

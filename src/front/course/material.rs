@@ -177,6 +177,7 @@ impl Lowering {
             None => report_index_without_weight(value, context),
         }
         self.report_mirror(value, context);
+        self.dependent.record_material(value, phong.ks);
         let lets_through = phong.kt > 0.0;
         let id = self.add_material(ir::Material::Phong(phong));
         if let (true, Some(span)) = (lets_through, glass) {

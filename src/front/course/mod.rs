@@ -43,6 +43,7 @@ mod display;
 mod environment;
 mod expression;
 mod glass;
+mod ineffective;
 mod keyword;
 mod layout;
 mod light;

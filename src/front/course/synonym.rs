@@ -173,7 +173,7 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
             "screenDistance",
             "d",
         ],
-        advice: "`focalDistance` is the distance of the image from the eye, `pixelSize` the size of pixels",
+        advice: "`focalDistance` is the distance of the image, `pixelSize` the size of its pixels",
     },
     ForeignKeys {
         record: "camera",
@@ -206,7 +206,7 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
     ForeignKeys {
         record: "scene",
         keys: &["Materials", "Material", "Textures", "Colors"],
-        advice: "materials are written in their objects; mark a shared one `&red` and refer to it by `*red`",
+        advice: "materials are written in objects; mark a shared one `&red` and refer to it by `*red`",
     },
     ForeignKeys {
         record: "scene",

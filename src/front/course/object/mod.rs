@@ -237,6 +237,7 @@ impl Lowering {
         context: &mut Context<'_>,
     ) -> Option<SurfaceProps> {
         let id = self.material(material, context)?;
+        self.dependent.record_shadow(shadow);
         Some(SurfaceProps {
             object_span: kind.span,
             material: id,

@@ -30,7 +30,7 @@ record! {
         /// The radii of the hole and of the outer rim. If that torus would contain more of the eye,
         /// the lights and the other objects, they are taken as the minor and the major radius:
         /// `alpha` and `radius`.
-        rims: [Spanned<Positive>; 2], optional,
+        inner_outer: [Spanned<Positive>; 2], optional,
             &[&["innerRadius", "outerRadius"]], json "innerRadius";
         /// The direction of the axis, of any length but 0.
         direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])),
@@ -40,7 +40,7 @@ record! {
         /// Whether it casts shadows, if the scene has `Shadows`. Path tracing ignores `false`.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
-    variants { [radius alpha] [radii] [rims] }
+    variants { [radius alpha] [radii] [inner_outer] }
 }
 
 impl Lower for Torus {
@@ -51,13 +51,13 @@ impl Lower for Torus {
             radii,
             radius,
             alpha,
-            rims,
+            inner_outer,
             direction,
             material,
             shadow,
         } = self;
         // The major and the minor radius, from one variant.
-        let (radius, alpha) = match (radius, alpha, radii, rims) {
+        let (radius, alpha) = match (radius, alpha, radii, inner_outer) {
             (FieldOutcome::Read(radius), FieldOutcome::Read(alpha), ..) => {
                 (radius.map(|radius| radius.0), alpha.map(|alpha| alpha.0))
             }
@@ -90,8 +90,10 @@ impl Lower for Torus {
         // Inner and outer radii are interpreted when all objects are known.
         let surface = lowering.scene.surfaces.len();
         lowering.add_surface(&props, ir::Shape::Torus(shape), &value_spans);
-        if let (FieldOutcome::Read(radii), true) = (rims, lowering.scene.surfaces.len() > surface) {
-            lowering.rims.push(AmbiguousTorus {
+        if let (FieldOutcome::Read(radii), true) =
+            (inner_outer, lowering.scene.surfaces.len() > surface)
+        {
+            lowering.ambiguous_tori.push(AmbiguousTorus {
                 surface,
                 radii: *radii,
             });
@@ -120,7 +122,7 @@ impl Lowering {
         for AmbiguousTorus {
             surface,
             radii: [inner, outer],
-        } in std::mem::take(&mut self.rims)
+        } in std::mem::take(&mut self.ambiguous_tori)
         {
             let others = self.points_outside(surface);
             let Some(ir::Shape::Torus(torus)) = self

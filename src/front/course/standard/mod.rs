@@ -133,8 +133,8 @@ macro_rules! material {
             pub(in crate::course) const RECORD: Record = Record {
                 name: "standard material",
                 doc: " A material: that of glTF 2.0 and of its extensions `KHR_materials_*`. \
-                      Colours are linear; a texture multiplies the number or colour beside it, in the \
-                      channels that glTF specifies.",
+                      Colours are linear; a texture multiplies the number or colour beside it, \
+                      in the channels that glTF specifies.",
                 fields: &[
                     FieldDeclaration {
                         name: "kind",

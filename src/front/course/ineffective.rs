@@ -1,0 +1,157 @@
+//! Reports keys that have no effect because another setting is missing.
+//!
+//! Each finding is reported once per scene, and only if the key has no effect anywhere in it.
+
+use super::decode::{Context, Spanned};
+use super::lower::Lowering;
+use super::material::PhongMaterial;
+use super::record::FieldOutcome;
+use super::settings::{Mode, Scene};
+use rtc_diag::{Severity, codes};
+use rtc_ir as ir;
+use rtc_source::Span;
+
+/// The keys of materials and objects whose effect depends on other settings.
+#[derive(Default)]
+pub(super) struct DependentKeys {
+    /// The first `glossySamples` above 1.
+    glossy_samples: Option<Span>,
+    /// The first `specularMap`, and whether any of them has a `ks` above 0.
+    specular_map: Option<(Span, bool)>,
+    /// The first `shadow: false`.
+    shadow: Option<Span>,
+}
+
+impl DependentKeys {
+    pub(super) fn record_material(&mut self, material: &PhongMaterial, ks: f64) {
+        let samples = &material.glossy_samples;
+        if samples.value.0 > 1 {
+            self.glossy_samples = self.glossy_samples.or(samples.span);
+        }
+        if let FieldOutcome::Read(Spanned {
+            span: Some(span), ..
+        }) = material.specular_map
+        {
+            let (first, has_effect) = self.specular_map.unwrap_or((span, false));
+            self.specular_map = Some((first, has_effect || ks > 0.0));
+        }
+    }
+
+    pub(super) fn record_shadow(&mut self, shadow: &Spanned<bool>) {
+        if !shadow.value {
+            self.shadow = self.shadow.or(shadow.span);
+        }
+    }
+}
+
+impl Lowering {
+    /// Reports keys that have no effect because another setting is missing. Call it after all
+    /// entities are lowered and the mode is resolved.
+    pub(super) fn report_ineffective(&self, scene: &Scene, context: &mut Context<'_>) {
+        let is_path = matches!(self.scene.settings.mode, ir::Mode::Path(_));
+        let is_phong = self.scene.settings.mode == ir::Mode::Phong && scene.mode.value != Mode::Uv;
+        if is_phong {
+            self.report_materials(context);
+            self.report_light_samples(scene, context);
+            if let (Some(span), false) = (self.dependent.shadow, self.scene.settings.shadows) {
+                let message = "`shadow: false` has no effect without `Shadows`";
+                let hint = "`Shadows: true` turns shadows on";
+                report(Some(span), message, hint, Severity::Note, context);
+            }
+        }
+        if !is_path {
+            report_lens(scene, context);
+            if let FieldOutcome::Read(paths) = &scene.paths {
+                let message = "`PathParameters` has no effect: the scene is not path traced";
+                let hint = "`RenderMode: path` selects path tracing";
+                report(paths.span, message, hint, Severity::Warning, context);
+            }
+        } else if scene.toon.value {
+            let message = "`Toon` has no effect on path tracing";
+            let hint = "`RenderMode: phong` has toon shading";
+            report(scene.toon.span, message, hint, Severity::Warning, context);
+        }
+    }
+
+    fn report_materials(&self, context: &mut Context<'_>) {
+        let is_glossy = |phong: &ir::Phong| phong.glossy_samples > 1 && phong.ks > 0.0;
+        let has_bounces = self.scene.settings.max_depth > 0;
+        let mut materials = self.scene.materials.iter().filter_map(ir::Material::phong);
+        if !(has_bounces && materials.any(is_glossy)) {
+            let message = "`glossySamples` has no effect without a mirror reflection";
+            let hint = match has_bounces {
+                true => "`ks` is the weight of the mirror reflection",
+                false => "`MaxRecursionDepth: 1` shows mirror reflections",
+            };
+            let span = self.dependent.glossy_samples;
+            report(span, message, hint, Severity::Warning, context);
+        }
+        if let Some((span, false)) = self.dependent.specular_map {
+            let message = "`specularMap` has no effect with a `ks` of 0";
+            let hint = "the map multiplies `ks`: write `ks: 1`";
+            report(Some(span), message, hint, Severity::Warning, context);
+        }
+    }
+
+    fn report_light_samples(&self, scene: &Scene, context: &mut Context<'_>) {
+        let mut points = self.scene.lights.iter().filter_map(ir::Light::point);
+        let is_off = scene
+            .soft_shadows
+            .read()
+            .is_some_and(|switch| !switch.value.0);
+        if is_off || points.any(|light| light.radius > 0.0) {
+            return;
+        }
+        if let Some(samples) = scene
+            .light_samples
+            .read()
+            .filter(|samples| samples.value.0 > 1)
+        {
+            let message = "`LightSamples` has no effect without a light that has a `radius`";
+            let hint = "a `radius` of a light makes its shadows soft";
+            report(samples.span, message, hint, Severity::Warning, context);
+        }
+    }
+}
+
+/// Reports a lens without a radius, and a radius with a single sample.
+fn report_lens(scene: &Scene, context: &mut Context<'_>) {
+    let FieldOutcome::Read(camera) = &scene.camera else {
+        return;
+    };
+    let (radius, samples) = (
+        &camera.value.aperture_radius,
+        &camera.value.aperture_samples,
+    );
+    if radius.value.0 == 0.0 && samples.value.0 > 1 {
+        let severity = match radius.span {
+            Some(_) => Severity::Note,
+            None => Severity::Warning,
+        };
+        let message = "`apertureSamples` has no effect without an `apertureRadius` above 0";
+        let hint = "`apertureRadius` is the radius of the lens in scene units";
+        report(samples.span, message, hint, severity, context);
+    }
+    if radius.value.0 > 0.0 && samples.value.0 == 1 {
+        let message = "`apertureRadius` has no effect with one sample of the lens";
+        let hint = "`apertureSamples: 16` blurs what is out of focus";
+        report(radius.span, message, hint, Severity::Warning, context);
+    }
+}
+
+fn report(
+    span: Option<Span>,
+    message: &str,
+    hint: &str,
+    severity: Severity,
+    context: &mut Context<'_>,
+) {
+    if let Some(span) = span {
+        context.report(
+            &codes::NO_EFFECT,
+            span,
+            || message.to_owned(),
+            |d| d.at(span, "no effect").severity(severity).hint(hint),
+        );
+    }
+}
