@@ -48,10 +48,10 @@ done
 
 # Scenes whose light is followed along all paths.
 picture vases scenes/vases.yaml --size 480x360 --spp 32 --denoise
-for name in fence lamp room sheen spots sun-and-sky; do
+for name in fence lamp lanterns room sheen spots sun-and-sky; do
     picture "$name" "$own/$name.yaml" --spp 32 --denoise
 done
-for name in anisotropy clearcoat dispersion iridescence lanterns metals transmission; do
+for name in anisotropy clearcoat dispersion iridescence metals transmission; do
     picture "$name" "$own/$name.yaml" --spp 72 --clamp 2
 done
 
