@@ -1,6 +1,6 @@
 //! The page of each code has an example that raises it, and the same example without the mistake.
 //!
-//! A block of a page is a file (`yaml`, `gltf`, `obj`, `mtl`, `ies`, `toml`) or a command
+//! A block of a page is a file (`yaml`, `gltf`, `obj`, `mtl`, `ies`, `xml`, `toml`) or a command
 //! (`console`; without one, the scene is checked). A scene leaves out what does not matter: it gets
 //! a camera, a light and a ball, a glTF asset a triangle. `whole` after the language leaves it alone.
 
@@ -85,6 +85,7 @@ fn lay_out(folder: &Path, blocks: &[Block]) -> Vec<String> {
             "yaml" => ("scene.yaml", whole_scene(text)),
             "yaml whole" => ("scene.yaml", (*text).to_owned()),
             "gltf" => ("scene.gltf", whole_asset(text)),
+            "xml" => ("scene.xml", (*text).to_owned()),
             "gltf whole" => ("scene.gltf", (*text).to_owned()),
             "json" => ("scene.json", (*text).to_owned()),
             "toml" => ("rtc.toml", (*text).to_owned()),
@@ -148,6 +149,7 @@ fn faults(code: &Code) -> Vec<String> {
     let scene = match example.iter().find(|(language, _)| *language != "console") {
         Some((language, _)) if language.starts_with("gltf") => "scene.gltf",
         Some(("json", _)) => "scene.json",
+        Some(("xml", _)) => "scene.xml",
         _ => "scene.yaml",
     };
     let check = vec![format!("rtc check {scene} -v")];

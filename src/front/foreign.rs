@@ -139,7 +139,6 @@ const FOREIGN: &[ForeignFile] = &[
 
 /// The XML formats: the name of the root element, the name of the format, and the hint.
 const XML: &[(&str, &str, &str)] = &[
-    ("scene", "a file of Mitsuba", EXPORT),
     ("COLLADA", "a COLLADA file", EXPORT),
     ("X3D", "an X3D file", EXPORT),
     ("svg", "an SVG drawing", CONVERT),
@@ -180,6 +179,17 @@ fn is_html(head: &[u8]) -> bool {
 
 /// The name and the hint of an XML document, if the file is one.
 fn xml(head: &[u8]) -> Option<(&'static str, &'static str)> {
+    let (name, is_declared) = xml_root(head)?;
+    if name == crate::mitsuba::ROOT.as_bytes() {
+        return None;
+    }
+    let known = XML.iter().find(|(root, ..)| root.as_bytes() == name);
+    let known = known.map(|(_, is, hint)| (*is, *hint));
+    known.or_else(|| is_declared.then_some(("a document of XML", EXPORT)))
+}
+
+/// The name of the root element of an XML document, and whether the document has a declaration.
+pub(crate) fn xml_root(head: &[u8]) -> Option<(&[u8], bool)> {
     let mut rest = text(head);
     if !rest.starts_with(b"<") {
         return None;
@@ -197,9 +207,7 @@ fn xml(head: &[u8]) -> Option<(&'static str, &'static str)> {
     let name = rest.strip_prefix(b"<")?;
     let is_end = |byte: &u8| !byte.is_ascii_alphanumeric() && !b":_-.".contains(byte);
     let name = &name[..name.iter().position(is_end).unwrap_or(name.len())];
-    let known = XML.iter().find(|(root, ..)| root.as_bytes() == name);
-    let known = known.map(|(_, format, hint)| (*format, *hint));
-    known.or_else(|| is_declared.then_some(("a document of XML", EXPORT)))
+    Some((name, is_declared))
 }
 
 /// The name of the first file of a ZIP archive.
@@ -335,11 +343,6 @@ mod tests {
                 b"version https://git-lfs.github.com/spec/v1\n",
                 "a pointer of Git LFS",
             ),
-            (
-                b"<?xml version=\"1.0\"?>\n<!-- a room -->\n<scene version=\"3.0.0\">",
-                "a file of Mitsuba",
-            ),
-            (b"<scene version=\"2.0.0\"/>", "a file of Mitsuba"),
             (
                 b"\xef\xbb\xbf<?xml version=\"1.0\"?><COLLADA xmlns=\"x\">",
                 "a COLLADA file",

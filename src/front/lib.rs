@@ -24,6 +24,7 @@ mod foreign;
 pub mod gltf;
 mod glyph;
 pub mod mesh;
+pub mod mitsuba;
 pub mod pixels;
 mod words;
 
@@ -60,7 +61,7 @@ pub struct FrontOptions {
 /// Whether a file with this extension is a scene, when folders are searched for scenes.
 #[must_use]
 pub fn is_scene_name(name: &str) -> bool {
-    const OTHERS: [&str; 6] = ["yaml", "yml", "json", "gltf", "glb", "rtir"];
+    const OTHERS: [&str; 7] = ["yaml", "yml", "json", "gltf", "glb", "rtir", "xml"];
     let extension = name.rsplit_once('.').map(|(_, last)| last.to_lowercase());
     extension.is_some_and(|extension| {
         let is = |known: &&str| *known == extension;

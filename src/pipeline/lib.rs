@@ -38,7 +38,7 @@ use rtc_codec as codec;
 use rtc_diag::{Diagnostic, FindingLevels, Sink, clip, codes};
 use rtc_front as front;
 use rtc_front::course::assets::{self, AssetTarget};
-use rtc_front::{course, gltf, mesh};
+use rtc_front::{course, gltf, mesh, mitsuba};
 use rtc_image::Layers;
 use rtc_ir::{EntityKind, Field, Lowered, Scene, SourceSpans, ValuePath};
 use rtc_math::BasisFault;
@@ -105,6 +105,10 @@ pub fn load(
             let lowered = assets::lower_standalone_mesh(file, &options.front, map, sink)?;
             map.release(file, 0);
             Some(lowered)
+        }
+        None if mitsuba::is_mitsuba(map.bytes(file)) => {
+            refuse_choices(&options.front, false, sink);
+            mitsuba::lower(file, map, &options.front, sink)
         }
         None => {
             let draft = course::lower(file, map, &options.front, sink)?;

@@ -13,6 +13,7 @@ mod container;
 mod exports;
 mod files;
 mod gltf;
+mod mitsuba;
 mod picture;
 mod references;
 mod shape;
@@ -23,6 +24,7 @@ pub use container::*;
 pub use exports::*;
 pub use files::*;
 pub use gltf::*;
+pub use mitsuba::*;
 pub use picture::*;
 pub use references::*;
 pub use shape::*;
@@ -104,7 +106,7 @@ use codes;
 
 /// Every code there is, family by family.
 pub fn all() -> impl Iterator<Item = &'static Code> {
-    [IO, SY, SC, RE, VA, GL, IR, RD, EX]
+    [IO, SY, SC, RE, VA, GL, MI, IR, RD, EX]
         .into_iter()
         .flatten()
         .copied()

@@ -1,0 +1,477 @@
+//! BSDFs and textures as the standard material.
+//!
+//! `diffuse`, `dielectric` and `mask` are exact, up to the quantization of pictures. For the others
+//! the closest standard material is used, with a warning that says how it differs: Schlick's
+//! approximation takes the place of the Fresnel equations of metals, and GGX that of Beckmann.
+
+use super::color::{self, metal, named_ior, normal_reflectance};
+use super::value::Transform;
+use super::xml::{Node, Text, Value};
+use super::{AssetTarget, Lowering};
+use rtc_ir::{
+    Alpha, EntityKind, Filter, Image, Map, Material, MaterialId, Pixels, Sampled, Standard,
+    Texture, TextureId, Wrap,
+};
+use rtc_source::Span;
+
+/// What distinguishes materials: the BSDF, the emitted radiance, and whether v points down.
+pub(super) type MaterialKey = (Option<Span>, [u64; 3], bool);
+
+/// The deepest nesting of BSDFs.
+const MAX_DEPTH: usize = 16;
+
+/// A colour that is a constant, or a map.
+struct Channel {
+    color: [f64; 3],
+    map: Option<Map>,
+}
+
+impl<'run> Lowering<'run> {
+    /// The material of a shape with its emission; `None` if light passes through the shape.
+    pub(super) fn material(
+        &mut self,
+        shape: &'run Node,
+        radiance: [f64; 3],
+        flip: bool,
+    ) -> Option<MaterialId> {
+        let is_bsdf = |node: &&'run Node| match node.tag.as_str() {
+            "bsdf" => true,
+            "ref" => self
+                .shared
+                .get(node.plugin.text.as_str())
+                .is_some_and(|target| target.tag == "bsdf"),
+            _ => false,
+        };
+        let node = shape.children.iter().find(is_bsdf);
+        let node = node.and_then(|node| self.resolve(node));
+        let key = (node.map(|node| node.span), radiance.map(f64::to_bits), flip);
+        if let Some(known) = self.materials.get(&key) {
+            return *known;
+        }
+        let standard = match node {
+            Some(node) => self.standard(node, flip, 0),
+            None => Some(matte([0.5; 3])),
+        };
+        let id = standard.map(|standard| {
+            let standard = Standard {
+                emissive: radiance,
+                ..standard
+            };
+            let index = self.scene.materials.len();
+            self.record(EntityKind::Material, index, key.0.unwrap_or(shape.span));
+            let material = Material::Standard(Box::new(standard));
+            self.scene.materials.push(material);
+            MaterialId(u32::try_from(index).unwrap_or(u32::MAX))
+        });
+        self.materials.insert(key, id);
+        id
+    }
+
+    /// A BSDF as a standard material; `None` for `null`.
+    fn standard(&mut self, node: &'run Node, flip: bool, depth: usize) -> Option<Standard> {
+        if depth >= MAX_DEPTH {
+            self.unsupported(node, "it is nested too deep, and grey takes its place");
+            return Some(matte([0.5; 3]));
+        }
+        Some(match node.plugin.text.as_str() {
+            "diffuse" | "lambertian" => {
+                self.ignored(node, &["reflectance"]);
+                let channel = self.channel(node, "reflectance", [0.5; 3], flip);
+                Standard {
+                    base_color_map: channel.map,
+                    ..matte(channel.color)
+                }
+            }
+            "roughdiffuse" => {
+                self.approximate(node.plugin.span, "`roughdiffuse` is shown as `diffuse`");
+                let channel = self.channel(node, "reflectance", [0.5; 3], flip);
+                Standard {
+                    base_color_map: channel.map,
+                    ..matte(channel.color)
+                }
+            }
+            "conductor" => self.conductor(node, 0.0, flip),
+            "roughconductor" => {
+                let roughness = self.roughness(node, flip);
+                self.conductor(node, roughness, flip)
+            }
+            "dielectric" => self.dielectric(node, 0.0, true, flip),
+            "thindielectric" => self.dielectric(node, 0.0, false, flip),
+            "roughdielectric" => {
+                let roughness = self.roughness(node, flip);
+                self.dielectric(node, roughness, true, flip)
+            }
+            "plastic" => self.plastic(node, 0.0, flip),
+            "roughplastic" => {
+                let roughness = self.roughness(node, flip);
+                self.plastic(node, roughness, flip)
+            }
+            "principled" => self.principled(node, flip),
+            "phong" | "ward" => {
+                self.unsupported(node, "its diffuse part takes its place");
+                let channel = self.channel(node, "diffuse_reflectance", [0.5; 3], flip);
+                Standard {
+                    base_color_map: channel.map,
+                    ..matte(channel.color)
+                }
+            }
+            "twosided" => return self.inner(node, flip, depth),
+            "mask" => {
+                let inner = self.inner(node, flip, depth)?;
+                self.mask(node, inner, flip)
+            }
+            "normalmap" => {
+                let inner = self.inner(node, flip, depth)?;
+                let normal_map = self.map(node, "normalmap", flip);
+                Standard {
+                    normal_map,
+                    ..inner
+                }
+            }
+            "bumpmap" => {
+                self.unsupported(node, "the surface is shown smooth");
+                return self.inner(node, flip, depth);
+            }
+            "blendbsdf" => {
+                let weight = node.number("weight").unwrap_or(0.5);
+                self.unsupported(node, "the BSDF of the larger weight takes its place");
+                let parts: Vec<_> = self.bsdf_children(node);
+                let part = parts.get(usize::from(weight > 0.5)).or(parts.first())?;
+                return self.standard(part, flip, depth + 1);
+            }
+            "null" => return None,
+            _ => {
+                self.unsupported(node, "diffuse grey takes its place");
+                matte([0.5; 3])
+            }
+        })
+    }
+
+    fn bsdf_children(&mut self, node: &'run Node) -> Vec<&'run Node> {
+        let children = node.children.iter();
+        let resolved = children.filter_map(|child| self.resolve(child));
+        resolved.filter(|child| child.tag == "bsdf").collect()
+    }
+
+    /// The BSDF inside another one.
+    fn inner(&mut self, node: &'run Node, flip: bool, depth: usize) -> Option<Standard> {
+        let children = self.bsdf_children(node);
+        if children.len() > 1 {
+            self.approximate(node.plugin.span, "the back has the BSDF of the front");
+        }
+        match children.first() {
+            Some(child) => self.standard(child, flip, depth + 1),
+            None => Some(matte([0.5; 3])),
+        }
+    }
+
+    /// The roughness of the standard material, √α.
+    fn roughness(&mut self, node: &'run Node, flip: bool) -> f64 {
+        let distribution = node.string("distribution");
+        if distribution.is_none_or(|name| name.text != "ggx") {
+            let span = distribution.map_or(node.plugin.span, |name| name.span);
+            self.approximate(span, "the Beckmann distribution is shown as GGX");
+        }
+        let anisotropic = node.number("alpha_u").zip(node.number("alpha_v"));
+        let alpha = match anisotropic {
+            Some((u, v)) => {
+                self.approximate(node.plugin.span, "`alpha_u` and `alpha_v` are averaged");
+                (u * v).max(0.0).sqrt()
+            }
+            None => node.number("alpha").unwrap_or(0.1),
+        };
+        if node.child("alpha").is_some() {
+            let _ = flip;
+            self.approximate(node.plugin.span, "a texture of `alpha` is left out");
+        }
+        alpha.clamp(0.0, 1.0).sqrt()
+    }
+
+    fn conductor(&mut self, node: &'run Node, roughness: f64, flip: bool) -> Standard {
+        let complex = node.color("eta").zip(node.color("k"));
+        let name = node
+            .string("material")
+            .map_or("none", |name| name.text.as_str());
+        let reflectance = match (complex, name) {
+            (Some(complex), _) => normal_reflectance(complex),
+            (None, "none") => [1.0; 3],
+            (None, name) => match metal(name) {
+                Some(complex) => normal_reflectance(complex),
+                None => {
+                    let message =
+                        format!("the metal `{name}` is not known: copper takes its place");
+                    self.approximate(node.plugin.span, message);
+                    metal("Cu").map_or([1.0; 3], normal_reflectance)
+                }
+            },
+        };
+        if reflectance != [1.0; 3] {
+            let message =
+                "Schlick's approximation takes the place of the Fresnel equations of metals";
+            self.approximate(node.plugin.span, message);
+        }
+        let tint = self.channel(node, "specular_reflectance", [1.0; 3], flip);
+        let color = std::array::from_fn(|channel| reflectance[channel] * tint.color[channel]);
+        Standard {
+            base_color: opaque(color),
+            base_color_map: tint.map,
+            metallic: 1.0,
+            roughness,
+            ..matte([1.0; 3])
+        }
+    }
+
+    /// An index of refraction: a number or the name of a material.
+    fn ior(&mut self, node: &Node, name: &str, default: f64) -> f64 {
+        match node.get(name) {
+            Some(Value::Number(number)) => *number,
+            Some(Value::String(material)) => named_ior(&material.text).unwrap_or_else(|| {
+                let message = format!("the material `{}` is not known", material.text);
+                self.approximate(material.span, message);
+                default
+            }),
+            _ => default,
+        }
+    }
+
+    /// The index of the inside over that of the outside, at least 1.
+    fn relative_ior(&mut self, node: &Node, default: f64) -> f64 {
+        let inside = self.ior(node, "int_ior", default);
+        let outside = self.ior(node, "ext_ior", 1.000_277);
+        let ratio = inside / outside;
+        if ratio < 1.0 {
+            let message = "an index of refraction below that of the outside is not supported: its \
+                           inverse takes its place";
+            self.approximate(node.plugin.span, message);
+            return 1.0 / ratio;
+        }
+        ratio
+    }
+
+    fn dielectric(
+        &mut self,
+        node: &'run Node,
+        roughness: f64,
+        is_solid: bool,
+        flip: bool,
+    ) -> Standard {
+        let ior = self.relative_ior(node, 1.5046);
+        let tint = self.channel(node, "specular_transmittance", [1.0; 3], flip);
+        if node.get("specular_reflectance").is_some() {
+            self.approximate(
+                node.plugin.span,
+                "`specular_reflectance` of glass is left out",
+            );
+        }
+        // The colour of a volume acts once on the way in and once on the way out.
+        Standard {
+            base_color: opaque(tint.color),
+            base_color_map: tint.map,
+            roughness,
+            ior,
+            specular: 1.0,
+            transmission: 1.0,
+            thickness: if is_solid { 1.0 } else { 0.0 },
+            ..matte([1.0; 3])
+        }
+    }
+
+    fn plastic(&mut self, node: &'run Node, roughness: f64, flip: bool) -> Standard {
+        let message = "the standard material takes the place of the layered plastic";
+        self.approximate(node.plugin.span, message);
+        let diffuse = self.channel(node, "diffuse_reflectance", [0.5; 3], flip);
+        Standard {
+            base_color_map: diffuse.map,
+            roughness,
+            ior: self.relative_ior(node, 1.49),
+            specular: 1.0,
+            ..matte(diffuse.color)
+        }
+    }
+
+    fn principled(&mut self, node: &'run Node, flip: bool) -> Standard {
+        let message = "the standard material takes the place of the principled BSDF";
+        self.approximate(node.plugin.span, message);
+        let base = self.channel(node, "base_color", [0.5; 3], flip);
+        let fraction =
+            |name: &str, default: f64| node.number(name).unwrap_or(default).clamp(0.0, 1.0);
+        // `specular` s stands for a reflectance of 0.08·s along the normal (Burley 2012, section 5.2).
+        let ior = match (node.number("eta"), node.number("specular")) {
+            (Some(eta), _) => eta.max(1.0),
+            (None, specular) => {
+                let root = (0.08 * specular.unwrap_or(0.5).clamp(0.0, 1.0)).sqrt();
+                (1.0 + root) / (1.0 - root)
+            }
+        };
+        let transmission = fraction("spec_trans", 0.0);
+        Standard {
+            base_color_map: base.map,
+            metallic: fraction("metallic", 0.0),
+            roughness: fraction("roughness", 0.5),
+            ior,
+            specular: 1.0,
+            clearcoat: fraction("clearcoat", 0.0),
+            clearcoat_roughness: 1.0 - fraction("clearcoat_gloss", 0.0),
+            anisotropy: fraction("anisotropic", 0.0),
+            sheen_color: [fraction("sheen", 0.0); 3],
+            transmission,
+            thickness: if transmission > 0.0 { 1.0 } else { 0.0 },
+            ..matte(base.color)
+        }
+    }
+
+    fn mask(&mut self, node: &'run Node, inner: Standard, flip: bool) -> Standard {
+        let opacity = node.number("opacity");
+        if let Some(map) = self.map(node, "opacity", flip) {
+            let _ = map;
+            self.approximate(node.plugin.span, "a texture of `opacity` is left out");
+        }
+        let [r, g, b, _] = inner.base_color;
+        match opacity {
+            Some(opacity) => Standard {
+                base_color: [r, g, b, opacity.clamp(0.0, 1.0)],
+                alpha: Alpha::Blend,
+                ..inner
+            },
+            None => inner,
+        }
+    }
+
+    /// A colour of a BSDF: a property or a texture.
+    fn channel(&mut self, node: &'run Node, name: &str, default: [f64; 3], flip: bool) -> Channel {
+        if let Some(color) = node.color(name) {
+            return Channel { color, map: None };
+        }
+        let Some(texture) = node.child(name).and_then(|child| self.resolve(child)) else {
+            return Channel {
+                color: default,
+                map: None,
+            };
+        };
+        match texture.plugin.text.as_str() {
+            "mesh_attribute" => Channel {
+                color: [1.0; 3],
+                map: None,
+            },
+            "uniform" | "srgb" => Channel {
+                color: texture
+                    .color("value")
+                    .or_else(|| texture.color("color"))
+                    .unwrap_or(default),
+                map: None,
+            },
+            _ => Channel {
+                color: [1.0; 3],
+                map: self.texture(texture, flip),
+            },
+        }
+    }
+
+    /// The map of a texture child.
+    fn map(&mut self, node: &'run Node, name: &str, flip: bool) -> Option<Map> {
+        let texture = node.child(name).and_then(|child| self.resolve(child));
+        let texture =
+            texture.or_else(|| node.children.iter().find(|child| child.tag == "texture"))?;
+        self.texture(texture, flip)
+    }
+
+    /// A texture as a map; `None` for one that is not supported.
+    fn texture(&mut self, node: &'run Node, flip: bool) -> Option<Map> {
+        let (image, filter) = match node.plugin.text.as_str() {
+            "bitmap" => {
+                self.ignored(
+                    node,
+                    &[
+                        "filename",
+                        "to_uv",
+                        "wrap_mode",
+                        "filter_type",
+                        "raw",
+                        "uscale",
+                        "vscale",
+                    ],
+                );
+                let path: &Text = node.string("filename")?;
+                let filter = match node.string("filter_type") {
+                    Some(name) if name.text == "nearest" => Filter::Nearest,
+                    _ => Filter::Linear,
+                };
+                (self.image(path, AssetTarget::Sampled), filter)
+            }
+            "checkerboard" => (self.checkerboard(node), Filter::Nearest),
+            _ => {
+                self.unsupported(node, "white takes its place");
+                return None;
+            }
+        };
+        let wrap = match node.string("wrap_mode").map(|name| name.text.as_str()) {
+            Some("mirror") => Wrap::Mirror,
+            Some("clamp") => Wrap::Clamp,
+            _ => Wrap::Repeat,
+        };
+        let scale = |name| node.number(name).unwrap_or(1.0);
+        let scaled = Transform::scale([scale("uscale"), scale("vscale"), 1.0]);
+        let Transform([x, y, _, origin]) = node.transform("to_uv").after(&scaled);
+        let row = |k: usize| match flip {
+            false => [x[k], y[k], origin[k]],
+            true => [x[k], -y[k], origin[k] + y[k]],
+        };
+        let rows = [row(0), row(1)];
+        self.scene.textures.push(Texture::Sampled(Sampled {
+            image,
+            wrap: [wrap; 2],
+            filter,
+        }));
+        let index = self.scene.textures.len() - 1;
+        self.record(EntityKind::Texture, index, node.span);
+        Some(Map {
+            texture: TextureId(u32::try_from(index).unwrap_or(u32::MAX)),
+            set: 0,
+            texture_from_surface: (rows != [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]).then_some(rows),
+        })
+    }
+
+    /// A checkerboard as an image of 2 × 2 texels: the diagonal has `color0`.
+    fn checkerboard(&mut self, node: &Node) -> rtc_ir::ImageId {
+        let first = node.color("color0").unwrap_or([0.4; 3]);
+        let second = node.color("color1").unwrap_or([0.2; 3]);
+        let texel = |color: [f64; 3]| color.map(encoded);
+        let pixels: Vec<u8> = [first, second, second, first]
+            .into_iter()
+            .flat_map(texel)
+            .collect();
+        let id = self.scene.add_image(Image {
+            name: String::new(),
+            width: 2,
+            height: 2,
+            kind: Pixels::Rgb8,
+            pixels: pixels.into(),
+        });
+        self.record(EntityKind::Image, id.0 as usize, node.span);
+        id
+    }
+}
+
+/// A linear value as a byte of sRGB: the one whose linear value is closest.
+fn encoded(value: f64) -> u8 {
+    let distance = |byte: &u8| (color::decode(f64::from(*byte) / 255.0) - value).abs();
+    (0..=255_u8)
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .unwrap_or(0)
+}
+
+fn opaque([r, g, b]: [f64; 3]) -> [f64; 4] {
+    [r, g, b, 1.0].map(|channel: f64| channel.clamp(0.0, 1.0))
+}
+
+/// A Lambertian surface with two sides.
+fn matte(color: [f64; 3]) -> Standard {
+    Standard {
+        base_color: opaque(color),
+        metallic: 0.0,
+        roughness: 1.0,
+        specular: 0.0,
+        double_sided: true,
+        ..Standard::default()
+    }
+}

@@ -1,0 +1,312 @@
+//! The scene format of Mitsuba (XML, versions 0.5 to 3) lowered to the IR.
+//!
+//! ```text
+//! bytes ─ xml ─▶ Node tree ─ sensor, bsdf, emitter, shape ─▶ UnfinishedScene ─ assets ─▶ Lowered
+//! ```
+//!
+//! - [`xml`] reads the text. It resolves `<default>`, `<include>` and `<ref>`, converts the names of
+//!   older versions (`toWorld`) to those of version 3 (`to_world`), and collects all mistakes. Each
+//!   [`Node`](xml::Node) keeps the spans of its element and of its properties.
+//! - [`value`] parses numbers, vectors and transforms, [`color`] colours and spectra.
+//! - [`sensor`], [`bsdf`], [`emitter`] and [`shape`] lower one kind of plugin each. A plugin that is
+//!   not supported is replaced by the closest one, and a property that has no effect is ignored, both
+//!   with a warning: the picture is made all the same.
+//! - Meshes, textures and environment maps become pending assets, which `course::assets` loads within
+//!   the limits and search paths of all scenes.
+//!
+//! Every Mitsuba scene is path-traced. Colours are linear Rec. 709; spectra are converted to it when
+//! they are read.
+
+mod bsdf;
+mod color;
+mod emitter;
+mod sensor;
+mod serialized;
+mod shape;
+mod tessellate;
+mod value;
+mod xml;
+
+use crate::course::UnfinishedScene;
+use crate::course::assets::{self, AssetTarget, PendingAsset};
+use crate::foreign::xml_root;
+use crate::{FrontOptions, over_limit};
+use rtc_diag::{Diagnostic, Sink, clip, clip_path, codes};
+use rtc_ir::{
+    EntityKind, Field, Image, ImageId, Lowered, MaterialId, Mesh, MeshId, Pixels, Scene, Settings,
+    SourceSpans, ValuePath,
+};
+use rtc_source::{FileId, Loader, Search, SourceMap, Span};
+use std::collections::BTreeMap;
+use xml::Node;
+
+/// The name of the root element.
+pub(crate) const ROOT: &str = "scene";
+
+/// Whether bytes are a scene of Mitsuba: an XML document whose root element is `scene`.
+#[must_use]
+pub fn is_mitsuba(bytes: &[u8]) -> bool {
+    let head = bytes.get(..4096).unwrap_or(bytes);
+    xml_root(head).is_some_and(|(name, _)| name == ROOT.as_bytes())
+}
+
+/// Lowers a scene. Files that it includes come into the map; meshes and pictures are loaded.
+///
+/// `None` if the text is not XML, or is not a scene; the sink says why.
+pub fn lower(
+    file: FileId,
+    map: &mut SourceMap,
+    options: &FrontOptions,
+    sink: &mut Sink,
+) -> Option<Lowered> {
+    let root = xml::read(file, map, options, sink)?;
+    let folder = map.folder(file);
+    let search = Search::new(folder, options.asset_root.as_deref())
+        .with_parent(folder, options.home.as_deref());
+    let mut lowering = Lowering::new(&root, search, map, sink);
+    lowering.scene(&root);
+    let draft = UnfinishedScene::new(
+        Lowered {
+            scene: lowering.scene,
+            source_spans: lowering.source_spans,
+        },
+        lowering.pending,
+    );
+    let mut lowered = assets::load(draft, file, options, map, sink);
+    lowered.source_spans.finish();
+    Some(lowered)
+}
+
+/// A scene while it is lowered.
+struct Lowering<'run> {
+    scene: Scene,
+    source_spans: SourceSpans,
+    pending: Vec<PendingAsset>,
+    search: Search,
+    map: &'run mut SourceMap,
+    sink: &'run mut Sink,
+    /// The shared elements: `<bsdf id="…">` and the like, by id.
+    shared: BTreeMap<&'run str, &'run Node>,
+    /// Materials that were lowered, by the span of their element and what else distinguishes them.
+    materials: BTreeMap<bsdf::MaterialKey, Option<MaterialId>>,
+    /// Images and meshes that are pending, by path.
+    images: BTreeMap<String, ImageId>,
+    meshes: BTreeMap<String, MeshId>,
+    /// The meshes of `.serialized` files, by path and index.
+    serialized: BTreeMap<(String, u32), Option<MeshId>>,
+    /// The meshes of shapes without a file, by name.
+    built: BTreeMap<&'static str, MeshId>,
+    has_sensor: bool,
+}
+
+impl<'run> Lowering<'run> {
+    fn new(
+        root: &'run Node,
+        search: Search,
+        map: &'run mut SourceMap,
+        sink: &'run mut Sink,
+    ) -> Self {
+        let mut shared = BTreeMap::new();
+        root.visit(&mut |node| {
+            if let Some(id) = &node.id {
+                shared.insert(id.text.as_str(), node);
+            }
+        });
+        Self {
+            scene: Scene::new(sensor::default_camera(), sensor::default_settings()),
+            source_spans: SourceSpans::default(),
+            pending: Vec::new(),
+            search,
+            map,
+            sink,
+            shared,
+            materials: BTreeMap::new(),
+            images: BTreeMap::new(),
+            meshes: BTreeMap::new(),
+            serialized: BTreeMap::new(),
+            built: BTreeMap::new(),
+            has_sensor: false,
+        }
+    }
+
+    /// Lowers the children of the root. The integrator comes first, as sensors hold samples.
+    fn scene(&mut self, root: &'run Node) {
+        self.record(EntityKind::Settings, 0, root.span);
+        for node in root.children.iter().filter(|node| node.tag == "integrator") {
+            self.integrator(node);
+        }
+        for node in &root.children {
+            match node.tag.as_str() {
+                "integrator" | "bsdf" | "texture" | "spectrum" => {}
+                "sensor" => self.sensor(node),
+                "emitter" => self.emitter(node),
+                "shape" => self.shape(node, value::Transform::IDENTITY),
+                "medium" | "phase" | "volume" => {
+                    self.unsupported(node, "participating media are left out");
+                }
+                _ => self.ignored_element(node),
+            }
+        }
+        if !self.has_sensor {
+            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, "the scene has no sensor");
+            self.sink.push(diagnostic.at(root.span, "add a `<sensor>`"));
+        }
+    }
+
+    fn record(&mut self, entity: EntityKind, index: usize, span: Span) {
+        let path = ValuePath::new(entity, index, Field::Whole);
+        self.source_spans.record(path, span);
+    }
+
+    /// Follows a reference to the shared element.
+    fn resolve(&mut self, node: &'run Node) -> Option<&'run Node> {
+        if node.tag != "ref" {
+            return Some(node);
+        }
+        let id = node.plugin.text.as_str();
+        let target = self.shared.get(id).copied();
+        if target.is_none() {
+            let message = format!("there is no element with the id `{}`", clip(id));
+            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+            self.sink
+                .push(diagnostic.at(node.plugin.span, "refers to nothing"));
+        }
+        target
+    }
+
+    /// Warns of a plugin that is left out or replaced.
+    fn unsupported(&mut self, node: &Node, consequence: &str) {
+        let message = match node.plugin.text.as_str() {
+            "" => format!("`<{}>` is not supported: {consequence}", clip(&node.tag)),
+            plugin => format!(
+                "the {} `{}` is not supported: {consequence}",
+                clip(&node.tag),
+                clip(plugin)
+            ),
+        };
+        let diagnostic = Diagnostic::new(&codes::MITSUBA_PLUGIN, message);
+        self.sink.push(diagnostic.at(node.plugin.span, ""));
+    }
+
+    /// Warns of a plugin that is shown approximately.
+    fn approximate(&mut self, span: Span, message: impl Into<String>) {
+        let diagnostic = Diagnostic::new(&codes::MITSUBA_APPROXIMATE, message);
+        self.sink.push(diagnostic.at(span, ""));
+    }
+
+    fn ignored_element(&mut self, node: &Node) {
+        let message = format!("`<{}>` has no effect here", clip(&node.tag));
+        let diagnostic = Diagnostic::new(&codes::MITSUBA_IGNORED, message);
+        self.sink.push(diagnostic.at(node.span, ""));
+    }
+
+    /// Warns of the properties that a plugin has beside those that were used.
+    fn ignored(&mut self, node: &Node, used: &[&str]) {
+        for property in &node.properties {
+            if !used.contains(&property.name.text.as_str()) {
+                let message = format!(
+                    "`{}` of the {} `{}` has no effect",
+                    clip(&property.name.text),
+                    node.tag,
+                    clip(&node.plugin.text)
+                );
+                let diagnostic = Diagnostic::new(&codes::MITSUBA_IGNORED, message);
+                self.sink.push(diagnostic.at(property.name.span, ""));
+            }
+        }
+    }
+
+    /// An image of one pixel that waits for its file.
+    fn image(&mut self, path: &xml::Text, target: fn(ImageId) -> AssetTarget) -> ImageId {
+        if let Some(id) = self.images.get(&path.text) {
+            return *id;
+        }
+        let id = self.scene.add_image(Image {
+            name: path.text.clone(),
+            width: 1,
+            height: 1,
+            kind: Pixels::Rgb8,
+            pixels: vec![128; 3].into(),
+        });
+        self.record(EntityKind::Image, id.0 as usize, path.span);
+        self.images.insert(path.text.clone(), id);
+        self.pending.push(PendingAsset {
+            target: target(id),
+            path: path.text.clone(),
+            span: Some(path.span),
+        });
+        id
+    }
+
+    /// An empty mesh that waits for its file.
+    fn mesh_file(&mut self, path: &xml::Text) -> MeshId {
+        if let Some(id) = self.meshes.get(&path.text) {
+            return *id;
+        }
+        let id = self.add_mesh(Mesh {
+            name: path.text.clone(),
+            ..Mesh::default()
+        });
+        self.record(EntityKind::Mesh, id.0 as usize, path.span);
+        self.meshes.insert(path.text.clone(), id);
+        self.pending.push(PendingAsset {
+            target: AssetTarget::Mesh(id),
+            path: path.text.clone(),
+            span: Some(path.span),
+        });
+        id
+    }
+
+    /// A mesh of a `.serialized` file.
+    fn serialized_mesh(&mut self, path: &xml::Text, index: u32) -> Option<MeshId> {
+        let key = (path.text.clone(), index);
+        if let Some(known) = self.serialized.get(&key) {
+            return *known;
+        }
+        let id = self.read_serialized(path, index).map(|mesh| {
+            let id = self.add_mesh(mesh);
+            self.record(EntityKind::Mesh, id.0 as usize, path.span);
+            id
+        });
+        self.serialized.insert(key, id);
+        id
+    }
+
+    fn read_serialized(&mut self, path: &xml::Text, index: u32) -> Option<Mesh> {
+        let name = clip_path(&path.text);
+        let diagnostic = match self.search.find(&path.text, &serialized::KIND) {
+            Err(_) => {
+                let message = format!("there is no file `{name}`");
+                Diagnostic::new(&codes::FILE_NOT_FOUND, message)
+            }
+            Ok(found) => match Loader.found(&found, serialized::MAX_BYTES, self.map) {
+                Err(error) => {
+                    let message = format!("can't read `{name}`: {error}");
+                    Diagnostic::new(&codes::CANNOT_READ, message)
+                }
+                Ok(bytes) => {
+                    self.map.budget().read(bytes.len());
+                    match serialized::read(&bytes, index, self.map.budget()) {
+                        Ok(mesh) => return Some(mesh),
+                        Err(serialized::Fault::Limit(fault)) => over_limit("the mesh", &fault),
+                        Err(serialized::Fault::Damaged(fault)) => {
+                            let message = format!("the mesh `{name}` cannot be read: {fault}");
+                            Diagnostic::new(&codes::BAD_MESH_FILE, message)
+                        }
+                    }
+                }
+            },
+        };
+        self.sink.push(diagnostic.at(path.span, "named here"));
+        None
+    }
+
+    fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
+        self.scene.meshes.push(mesh);
+        MeshId(u32::try_from(self.scene.meshes.len() - 1).unwrap_or(u32::MAX))
+    }
+
+    fn settings(&mut self) -> &mut Settings {
+        &mut self.scene.settings
+    }
+}

@@ -1,0 +1,243 @@
+//! Integrators, sensors, films and samplers.
+
+use super::Lowering;
+use super::value::Transform;
+use super::xml::Node;
+use rtc_diag::{Diagnostic, codes};
+use rtc_ir::{
+    Ambient, Camera, EntityKind, Lens, Mode, PathSettings, Pattern, Projection, Settings,
+};
+use rtc_math::{cos, sin};
+
+/// The bounces of paths without a limit: Russian roulette ends almost all of them long before.
+const UNLIMITED: u32 = 100;
+/// The size of a film without one, in pixels.
+const SIZE: [u32; 2] = [768, 576];
+/// The samples of a sampler without a count.
+const SAMPLES: u32 = 4;
+/// The points of a lens that a sample takes: one, as paths are many.
+const LENS_SAMPLES: u32 = 2;
+
+/// The camera before a sensor is read.
+pub(super) fn default_camera() -> Camera {
+    Camera {
+        eye: [0.0, 0.0, 0.0],
+        center: [0.0, 0.0, 1.0],
+        right: [-1.0 / f64::from(SIZE[0]), 0.0, 0.0],
+        up: [0.0, 1.0 / f64::from(SIZE[0]), 0.0],
+        size: SIZE,
+        lens: Lens {
+            radius: 0.0,
+            samples: 1,
+        },
+        projection: Projection::Perspective,
+    }
+}
+
+/// The settings before an integrator and a sampler are read.
+pub(super) fn default_settings() -> Settings {
+    Settings {
+        mode: Mode::Path(PathSettings {
+            samples: SAMPLES,
+            multiple_scattering: true,
+        }),
+        shadows: true,
+        max_depth: UNLIMITED,
+        supersampling: 1,
+        pattern: Pattern::Grid,
+        light_samples: 1,
+        toon: false,
+        ambient: Ambient::PerLight,
+    }
+}
+
+impl<'run> Lowering<'run> {
+    /// The depth of an integrator. A path of `max_depth` edges has `max_depth` − 1 bounces.
+    pub(super) fn integrator(&mut self, node: &'run Node) {
+        match node.plugin.text.as_str() {
+            "path" | "volpath" | "volpathmis" | "prb" | "volpath_simple" => {
+                let depth = node.number("max_depth").unwrap_or(-1.0);
+                if depth >= 0.0 {
+                    let depth = node.count("max_depth").unwrap_or(0);
+                    self.settings().max_depth = depth.saturating_sub(1);
+                }
+                self.ignored(node, &["max_depth", "rr_depth", "strict_normals"]);
+            }
+            // Its light and its samples of the BSDF end at the first surface.
+            "direct" => {
+                self.settings().max_depth = 1;
+            }
+            "moment" | "aov" | "stokes" => {
+                self.unsupported(node, "the picture of the integrator inside it is made");
+                for child in node
+                    .children
+                    .iter()
+                    .filter(|child| child.tag == "integrator")
+                {
+                    self.integrator(child);
+                }
+            }
+            _ => self.unsupported(node, "the scene is path-traced"),
+        }
+    }
+
+    /// The first sensor; further ones are other views of the same scene.
+    pub(super) fn sensor(&mut self, node: &'run Node) {
+        if self.has_sensor {
+            self.approximate(
+                node.span,
+                "a second sensor has no effect: the first one is used",
+            );
+            return;
+        }
+        self.has_sensor = true;
+        self.record(EntityKind::Camera, 0, node.span);
+        let film = node.children.iter().find(|child| child.tag == "film");
+        let size = film.map_or(SIZE, |film| self.film(film));
+        if let Some(sampler) = node.children.iter().find(|child| child.tag == "sampler") {
+            let samples = sampler.count("sample_count").unwrap_or(SAMPLES).max(1);
+            if let Mode::Path(path) = &mut self.settings().mode {
+                path.samples = samples;
+            }
+        }
+        let mut used = vec![
+            "to_world",
+            "near_clip",
+            "far_clip",
+            "fov",
+            "fov_axis",
+            "focal_length",
+        ];
+        let to_world = node.transform("to_world");
+        let camera = match node.plugin.text.as_str() {
+            "orthographic" => orthographic(&to_world, size),
+            "thinlens" => {
+                used.extend(["aperture_radius", "focus_distance"]);
+                self.perspective(node, &to_world, size)
+            }
+            "perspective" => {
+                used.extend([
+                    "principal_point_offset_x",
+                    "principal_point_offset_y",
+                    "focus_distance",
+                ]);
+                self.perspective(node, &to_world, size)
+            }
+            _ => {
+                self.unsupported(node, "a perspective camera takes its place");
+                self.perspective(node, &to_world, size)
+            }
+        };
+        self.ignored(node, &used);
+        match camera {
+            Some(camera) => self.scene.camera = camera,
+            None => {
+                let message = "the transform of the sensor has no direction";
+                let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+                self.sink.push(diagnostic.at(node.span, ""));
+            }
+        }
+    }
+
+    fn film(&mut self, film: &Node) -> [u32; 2] {
+        let side = |name, default| film.count(name).unwrap_or(default).max(1);
+        let filter = film.children.iter().find(|child| child.tag == "rfilter");
+        let filter_name = filter.map_or("gaussian", |filter| filter.plugin.text.as_str());
+        if filter_name != "box" {
+            let message = format!("the filter `{filter_name}` of the film is shown as `box`");
+            self.approximate(filter.map_or(film.span, |filter| filter.span), message);
+        }
+        if film.get("crop_width").is_some() {
+            self.approximate(
+                film.span,
+                "the crop of the film is left out: `--region` crops",
+            );
+        }
+        [side("width", SIZE[0]), side("height", SIZE[1])]
+    }
+
+    /// A perspective camera or a thin lens. The image plane is at the focus distance.
+    fn perspective(&mut self, node: &Node, to_world: &Transform, size: [u32; 2]) -> Option<Camera> {
+        let eye = &to_world.0[3];
+        let [left, up, forward] = to_world.orthonormal()?;
+        let [width, height] = size.map(f64::from);
+        let half_tangent = match (node.number("fov"), node.string("focal_length")) {
+            (Some(fov), _) => tangent(fov / 2.0),
+            // The diagonal of 35 mm film is that of 36 × 24 mm.
+            (None, Some(focal)) => {
+                let millimetres = focal
+                    .text
+                    .trim_end_matches("mm")
+                    .trim()
+                    .parse()
+                    .unwrap_or(50.0);
+                let diagonal = (36.0_f64 * 36.0 + 24.0 * 24.0).sqrt() / 2.0 / millimetres;
+                diagonal * width / (width * width + height * height).sqrt()
+            }
+            (None, None) => tangent(14.1),
+        };
+        let axis = node
+            .string("fov_axis")
+            .map_or("x", |axis| axis.text.as_str());
+        let span = match (axis, node.get("focal_length")) {
+            ("y", None) => height,
+            ("smaller", None) => width.min(height),
+            ("larger", None) => width.max(height),
+            ("diagonal", None) => (width * width + height * height).sqrt(),
+            _ => width,
+        };
+        let is_lens = node.plugin.text == "thinlens";
+        let focus = node
+            .number("focus_distance")
+            .filter(|_| is_lens)
+            .unwrap_or(1.0);
+        let pixel = 2.0 * half_tangent * focus / span;
+        let shift = |name, pixels: f64| node.number(name).unwrap_or(0.0) * pixels * pixel;
+        // A positive offset moves the picture to the right and down, so the view goes left and up.
+        let center = *eye
+            + forward * focus
+            + left * shift("principal_point_offset_x", width)
+            + up * shift("principal_point_offset_y", height);
+        let radius = node
+            .number("aperture_radius")
+            .filter(|_| is_lens)
+            .unwrap_or(0.0);
+        Some(Camera {
+            eye: eye.to_array(),
+            center: center.to_array(),
+            right: (-left * pixel).to_array(),
+            up: (up * pixel).to_array(),
+            size,
+            lens: Lens {
+                radius,
+                samples: if radius > 0.0 { LENS_SAMPLES } else { 1 },
+            },
+            projection: Projection::Perspective,
+        })
+    }
+}
+
+/// The tangent of an angle in degrees.
+fn tangent(degrees: f64) -> f64 {
+    let angle = degrees.to_radians();
+    sin(angle) / cos(angle)
+}
+
+/// The picture of an orthographic sensor is 2 wide, scaled by `to_world`.
+fn orthographic(to_world: &Transform, size: [u32; 2]) -> Option<Camera> {
+    let Transform([x, _, z, eye]) = to_world;
+    let [left, up, forward] = to_world.orthonormal()?;
+    let pixel = x.length() * 2.0 / f64::from(size[0]);
+    Some(Camera {
+        eye: eye.to_array(),
+        center: (*eye + forward * z.length()).to_array(),
+        right: (-left * pixel).to_array(),
+        up: (up * pixel).to_array(),
+        size,
+        lens: Lens {
+            radius: 0.0,
+            samples: 1,
+        },
+        projection: Projection::Orthographic,
+    })
+}

@@ -1,0 +1,194 @@
+//! Shapes: spheres and discs as they are, others as meshes.
+
+use super::Lowering;
+use super::tessellate;
+use super::value::Transform;
+use super::xml::Node;
+use rtc_ir::{
+    Disc, EntityKind, Instance, Material, MaterialId, Mesh, MeshId, Shape, Sphere, Surface,
+};
+use rtc_math::Vec3;
+
+/// The deepest nesting of shape groups.
+const MAX_DEPTH: usize = 8;
+
+impl<'run> Lowering<'run> {
+    /// A shape of the scene, placed by `outer`.
+    pub(super) fn shape(&mut self, node: &'run Node, outer: Transform) {
+        self.shape_at(node, &outer, 0);
+    }
+
+    fn shape_at(&mut self, node: &'run Node, outer: &Transform, depth: usize) {
+        let to_world = outer.after(&node.transform("to_world"));
+        match node.plugin.text.as_str() {
+            // A group is shown where an instance refers to it.
+            "shapegroup" => {}
+            "instance" => self.instance(node, &to_world, depth),
+            _ => self.surface(node, to_world),
+        }
+    }
+
+    fn instance(&mut self, node: &'run Node, to_world: &Transform, depth: usize) {
+        let group = node
+            .children
+            .iter()
+            .find_map(|child| match child.tag.as_str() {
+                "ref" => self.resolve(child),
+                "shape" => Some(child),
+                _ => None,
+            });
+        let group = group.filter(|group| group.plugin.text == "shapegroup");
+        let Some(group) = group.filter(|_| depth < MAX_DEPTH) else {
+            return self.unsupported(node, "it refers to no shape group, and is left out");
+        };
+        for shape in group.children.iter().filter(|child| child.tag == "shape") {
+            self.shape_at(shape, to_world, depth + 1);
+        }
+    }
+
+    fn surface(&mut self, node: &'run Node, to_world: Transform) {
+        let radiance = self.radiance(node);
+        let plugin = node.plugin.text.as_str();
+        let is_emissive = radiance != [0.0; 3];
+        // Mitsuba flips the v of OBJ files, so that v points down as in its pictures.
+        let flip = plugin == "obj" && node.flag("flip_tex_coords").unwrap_or(true)
+            || plugin == "ply" && node.flag("flip_tex_coords").unwrap_or(false);
+        let geometry = match plugin {
+            "sphere" => self.sphere(node, &to_world, is_emissive),
+            "disk" if !is_emissive && to_world.similarity().is_some() => {
+                self.ignored(node, &["to_world"]);
+                let Transform([x, _, z, center]) = to_world;
+                Some(Shape::Disc(Disc {
+                    center: center.to_array(),
+                    normal: z.to_array(),
+                    radius: x.length(),
+                }))
+            }
+            "disk" => self.built("disk", tessellate::disk, &to_world),
+            "rectangle" => self.built("rectangle", tessellate::rectangle, &to_world),
+            "cube" => self.built("cube", tessellate::cube, &to_world),
+            "cylinder" => self.cylinder(node, &to_world),
+            "obj" | "ply" | "serialized" => self.mesh(node, &to_world),
+            _ => {
+                self.unsupported(node, "it is left out");
+                None
+            }
+        };
+        let Some(shape) = geometry else { return };
+        let Some(material) = self.material(node, radiance, flip) else {
+            return;
+        };
+        let material = self.face_forward(node, material);
+        self.record(EntityKind::Surface, self.scene.surfaces.len(), node.span);
+        self.scene.surfaces.push(Surface {
+            shape,
+            material,
+            casts_no_shadow: false,
+        });
+    }
+
+    /// `face_normals` and `flip_normals` change nothing of what has two sides.
+    fn face_forward(&mut self, node: &Node, material: MaterialId) -> MaterialId {
+        let is_flipped = node.flag("flip_normals") == Some(true);
+        let transmits = match self.scene.materials.get(material.0 as usize) {
+            Some(Material::Standard(standard)) => standard.transmission > 0.0,
+            _ => false,
+        };
+        if is_flipped && transmits {
+            self.approximate(node.span, "`flip_normals` of glass has no effect");
+        }
+        material
+    }
+
+    fn mesh(&mut self, node: &'run Node, to_world: &Transform) -> Option<Shape> {
+        self.ignored(
+            node,
+            &[
+                "filename",
+                "to_world",
+                "face_normals",
+                "flip_normals",
+                "flip_tex_coords",
+                "shape_index",
+            ],
+        );
+        if node.flag("face_normals") == Some(true) {
+            self.approximate(
+                node.span,
+                "`face_normals` has no effect: the normals of the file count",
+            );
+        }
+        let Some(path) = node.string("filename") else {
+            self.unsupported(node, "it names no file, and is left out");
+            return None;
+        };
+        let mesh = match node.plugin.text.as_str() {
+            "serialized" => self.serialized_mesh(path, node.count("shape_index").unwrap_or(0))?,
+            _ => self.mesh_file(path),
+        };
+        Some(placed(mesh, to_world))
+    }
+
+    /// A shape that is a mesh made here, once for all its uses.
+    fn built(
+        &mut self,
+        name: &'static str,
+        make: fn() -> Mesh,
+        to_world: &Transform,
+    ) -> Option<Shape> {
+        let mesh = match self.built.get(name) {
+            Some(id) => *id,
+            None => {
+                let id = self.add_mesh(make());
+                self.built.insert(name, id);
+                id
+            }
+        };
+        Some(placed(mesh, to_world))
+    }
+
+    /// A sphere; one that is scaled unevenly, or that emits light and so has to be sampled, is a mesh.
+    fn sphere(
+        &mut self,
+        node: &'run Node,
+        to_world: &Transform,
+        is_emissive: bool,
+    ) -> Option<Shape> {
+        self.ignored(node, &["center", "radius", "to_world", "flip_normals"]);
+        let center = node.vector("center").unwrap_or([0.0; 3]);
+        let radius = node.number("radius").unwrap_or(1.0);
+        match to_world.similarity().filter(|_| !is_emissive) {
+            Some(scale) => Some(Shape::Sphere(Sphere {
+                center: to_world.point(Vec3::from_array(center)).to_array(),
+                radius: radius * scale,
+                texture_from_world: None,
+            })),
+            None => {
+                self.approximate(node.span, "the sphere is shown as a mesh of 4096 triangles");
+                let local = Transform::translation(center).after(&Transform::scale([radius; 3]));
+                self.built("sphere", tessellate::sphere, &to_world.after(&local))
+            }
+        }
+    }
+
+    /// A cylinder from `p0` to `p1`, open at both ends.
+    fn cylinder(&mut self, node: &'run Node, to_world: &Transform) -> Option<Shape> {
+        self.ignored(node, &["p0", "p1", "radius", "to_world", "flip_normals"]);
+        self.approximate(
+            node.span,
+            "the cylinder is shown as a mesh of 256 triangles",
+        );
+        let point = |name, default| Vec3::from_array(node.vector(name).unwrap_or(default));
+        let (p0, p1) = (point("p0", [0.0; 3]), point("p1", [0.0, 0.0, 1.0]));
+        let radius = node.number("radius").unwrap_or(1.0);
+        let local = tessellate::along(p0, p1, radius)?;
+        self.built("cylinder", tessellate::cylinder, &to_world.after(&local))
+    }
+}
+
+fn placed(mesh: MeshId, to_world: &Transform) -> Shape {
+    Shape::Instance(Instance {
+        mesh,
+        world_from_object: to_world.columns(),
+    })
+}

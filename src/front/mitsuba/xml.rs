@@ -1,0 +1,627 @@
+//! The XML of a Mitsuba scene as a tree of plugins with their properties.
+
+use super::color;
+use super::value::{self, Transform};
+use crate::{FrontOptions, over_limit};
+use roxmltree::{Document, ParsingOptions};
+use rtc_diag::{Diagnostic, Sink, clip, clip_words, codes};
+use rtc_source::{FileId, FileKind, Loader, Resource, Search, SourceMap, Span};
+use std::collections::BTreeMap;
+
+/// The deepest nesting of elements and of included files.
+const MAX_DEPTH: usize = 64;
+/// The largest included file, in bytes.
+const MAX_BYTES: u64 = 1 << 28;
+
+/// Included scenes.
+const SCENES: FileKind = FileKind {
+    extensions: &["xml"],
+    begins: |head| String::from_utf8_lossy(head).trim_start().starts_with('<'),
+};
+
+/// A string of the text and its span.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Text {
+    pub(super) text: String,
+    pub(super) span: Span,
+}
+
+/// An element that creates a plugin, or a reference to one (`ref`, whose plugin is the id).
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    /// `shape`, `bsdf`, `emitter`, …
+    pub(super) tag: String,
+    /// The `type`.
+    pub(super) plugin: Text,
+    /// The `id`.
+    pub(super) id: Option<Text>,
+    /// The `name`, which says what a parent uses it for.
+    pub(super) name: Option<String>,
+    pub(super) properties: Vec<Property>,
+    pub(super) children: Vec<Node>,
+    pub(super) span: Span,
+}
+
+/// A property of a plugin.
+#[derive(Clone, Debug)]
+pub(super) struct Property {
+    pub(super) name: Text,
+    pub(super) value: Value,
+}
+
+/// The value of a property.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    Bool(bool),
+    Number(f64),
+    String(Text),
+    Vector([f64; 3]),
+    Color([f64; 3]),
+    Transform(Transform),
+}
+
+impl Node {
+    /// Visits the node and all below it.
+    pub(super) fn visit<'n>(&'n self, visit: &mut dyn FnMut(&'n Self)) {
+        visit(self);
+        for child in &self.children {
+            child.visit(visit);
+        }
+    }
+
+    pub(super) fn get(&self, name: &str) -> Option<&Value> {
+        let mut properties = self.properties.iter();
+        properties
+            .find(|property| property.name.text == name)
+            .map(|property| &property.value)
+    }
+
+    pub(super) fn number(&self, name: &str) -> Option<f64> {
+        match self.get(name)? {
+            Value::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
+
+    /// A count: a number that is rounded and not negative.
+    pub(super) fn count(&self, name: &str) -> Option<u32> {
+        let number = self.number(name)?;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the cast saturates"
+        )]
+        Some(number.round() as u32)
+    }
+
+    pub(super) fn flag(&self, name: &str) -> Option<bool> {
+        match self.get(name)? {
+            Value::Bool(flag) => Some(*flag),
+            _ => None,
+        }
+    }
+
+    pub(super) fn string(&self, name: &str) -> Option<&Text> {
+        match self.get(name)? {
+            Value::String(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    pub(super) fn vector(&self, name: &str) -> Option<[f64; 3]> {
+        match self.get(name)? {
+            Value::Vector(vector) => Some(*vector),
+            _ => None,
+        }
+    }
+
+    /// A colour; a number is grey.
+    pub(super) fn color(&self, name: &str) -> Option<[f64; 3]> {
+        match self.get(name)? {
+            Value::Color(color) => Some(*color),
+            Value::Number(number) => Some([*number; 3]),
+            _ => None,
+        }
+    }
+
+    /// The transform `to_world`, or another one.
+    pub(super) fn transform(&self, name: &str) -> Transform {
+        match self.get(name) {
+            Some(Value::Transform(transform)) => *transform,
+            _ => Transform::IDENTITY,
+        }
+    }
+
+    /// The child that is used for `name`.
+    pub(super) fn child(&self, name: &str) -> Option<&Self> {
+        let mut children = self.children.iter();
+        children.find(|child| child.name.as_deref() == Some(name))
+    }
+}
+
+/// Reads a scene.
+pub(super) fn read(
+    file: FileId,
+    map: &mut SourceMap,
+    options: &FrontOptions,
+    sink: &mut Sink,
+) -> Option<Node> {
+    let folder = map.folder(file);
+    let search = Search::new(folder, options.asset_root.as_deref())
+        .with_parent(folder, options.home.as_deref());
+    let mut reader = Reader {
+        map,
+        sink,
+        search,
+        defaults: BTreeMap::new(),
+        version: 3,
+        depth: 0,
+        has_unset: false,
+    };
+    reader.file(file)
+}
+
+/// The state of reading: one for a scene and the files that it includes.
+struct Reader<'run> {
+    map: &'run mut SourceMap,
+    sink: &'run mut Sink,
+    search: Search,
+    /// The parameters `$name` and their values.
+    defaults: BTreeMap<String, String>,
+    /// The major version of the file.
+    version: u32,
+    /// How many files are open.
+    depth: usize,
+    /// Whether the last attribute has a parameter without a value.
+    has_unset: bool,
+}
+
+/// An element of the document in one file.
+type Element<'d, 'i> = roxmltree::Node<'d, 'i>;
+
+impl Reader<'_> {
+    fn file(&mut self, file: FileId) -> Option<Node> {
+        let Some(text) = self.map.text(file).map(str::to_owned) else {
+            let message = "the scene is not UTF-8 text";
+            let span = Span::new(file, 0, 0);
+            self.sink
+                .push(Diagnostic::new(&codes::NOT_UTF8, message).at(span, ""));
+            return None;
+        };
+        let limit = self.map.budget().left(Resource::Nodes);
+        let options = ParsingOptions {
+            allow_dtd: false,
+            nodes_limit: u32::try_from(limit).unwrap_or(u32::MAX),
+            ..ParsingOptions::default()
+        };
+        let document = match Document::parse_with_options(&text, options) {
+            Ok(document) => document,
+            Err(error) => {
+                self.not_xml(file, &text, &error);
+                return None;
+            }
+        };
+        let nodes = document.descendants().count() as u64;
+        if let Err(fault) = self.map.budget().charge(Resource::Nodes, nodes) {
+            self.sink
+                .push(over_limit("the scene", &fault).at(Span::new(file, 0, 0), ""));
+            return None;
+        }
+        let root = document.root_element();
+        if !root.has_tag_name(super::ROOT) {
+            let message = format!("the root element is `<{}>`", clip(root.tag_name().name()));
+            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+            self.sink
+                .push(diagnostic.at(span(file, &root), "a scene is a `<scene>`"));
+            return None;
+        }
+        let version = root.attribute("version").unwrap_or("3.0.0");
+        self.version = version
+            .split('.')
+            .next()
+            .and_then(|major| major.parse().ok())
+            .unwrap_or(3);
+        Some(self.node(file, root, 0))
+    }
+
+    /// Reports the first mistake of the syntax.
+    fn not_xml(&mut self, file: FileId, text: &str, error: &roxmltree::Error) {
+        let position = error.pos();
+        let line_start: usize = text
+            .split_inclusive('\n')
+            .take(position.row.saturating_sub(1) as usize)
+            .map(str::len)
+            .sum();
+        let line = text[line_start..].lines().next().unwrap_or_default();
+        let column: usize = line
+            .chars()
+            .take(position.col.saturating_sub(1) as usize)
+            .map(char::len_utf8)
+            .sum();
+        let at = offset(line_start + column);
+        let message = format!("the text is not XML: {}", clip_words(&error.to_string()));
+        let diagnostic = Diagnostic::new(&codes::MITSUBA_XML, message);
+        self.sink
+            .push(diagnostic.at(Span::new(file, at, at), "here"));
+    }
+
+    /// An element and all below it.
+    fn node(&mut self, file: FileId, element: Element<'_, '_>, depth: usize) -> Node {
+        let tag = match element.tag_name().name() {
+            // In version 0.5 every texture was a `<texture>`, and the sensor had another name.
+            "camera" => "sensor",
+            "luminaire" => "emitter",
+            name => name,
+        };
+        let element_span = span(file, &element);
+        let attribute = |reader: &mut Self, name: &str| reader.attribute(file, element, name);
+        let plugin = match tag {
+            "ref" => attribute(self, "id"),
+            _ => attribute(self, "type"),
+        };
+        let mut node = Node {
+            tag: tag.to_owned(),
+            plugin: plugin.unwrap_or(Text {
+                text: String::new(),
+                span: element_span,
+            }),
+            id: (tag != "ref").then(|| attribute(self, "id")).flatten(),
+            name: attribute(self, "name").map(|name| self.property_name(&name.text)),
+            properties: Vec::new(),
+            children: Vec::new(),
+            span: element_span,
+        };
+        if depth >= MAX_DEPTH {
+            let message = format!("elements are nested more than {MAX_DEPTH} deep");
+            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+            self.sink.push(diagnostic.at(element_span, ""));
+            return node;
+        }
+        for child in element.children().filter(Element::is_element) {
+            match child.tag_name().name() {
+                "default" => self.default_value(file, child),
+                "include" => node.children.extend(self.include(file, child)),
+                "alias" => self.alias(file, child, &mut node),
+                "path" => {}
+                "ref" | "shape" | "bsdf" | "emitter" | "luminaire" | "texture" | "sensor"
+                | "camera" | "integrator" | "film" | "sampler" | "rfilter" | "medium" | "phase"
+                | "volume" | "subsurface" => {
+                    node.children.push(self.node(file, child, depth + 1));
+                }
+                "spectrum" | "rgb" | "srgb" if child.has_attribute("type") => {
+                    node.children.push(self.node(file, child, depth + 1));
+                }
+                _ => node.properties.extend(self.property(file, child)),
+            }
+        }
+        node
+    }
+
+    /// `<alias id="…" as="…">`: another id for an element.
+    fn alias(&mut self, file: FileId, element: Element<'_, '_>, parent: &mut Node) {
+        let id = self.attribute(file, element, "id");
+        let name = self.attribute(file, element, "as");
+        let (Some(id), Some(name)) = (id, name) else {
+            return self.missing(file, element, "`id` and `as`");
+        };
+        let known = |node: &&Node| node.id.as_ref().is_some_and(|own| own.text == id.text);
+        if let Some(mut copy) = parent.children.iter().find(known).cloned() {
+            copy.id = Some(name);
+            // A second shape would be drawn twice.
+            if copy.tag != "shape" && copy.tag != "emitter" {
+                parent.children.push(copy);
+            }
+        }
+    }
+
+    fn default_value(&mut self, file: FileId, element: Element<'_, '_>) {
+        let (Some(name), Some(value)) = (element.attribute("name"), element.attribute("value"))
+        else {
+            return self.missing(file, element, "`name` and `value`");
+        };
+        // The first value counts: a scene that includes a file sets the parameters of that file.
+        self.defaults
+            .entry(name.to_owned())
+            .or_insert_with(|| value.to_owned());
+    }
+
+    /// The children of an included file.
+    fn include(&mut self, file: FileId, element: Element<'_, '_>) -> Vec<Node> {
+        let Some(path) = self.attribute(file, element, "filename") else {
+            self.missing(file, element, "`filename`");
+            return Vec::new();
+        };
+        if self.depth >= MAX_DEPTH {
+            let message = format!("files include each other more than {MAX_DEPTH} deep");
+            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+            self.sink.push(diagnostic.at(path.span, ""));
+            return Vec::new();
+        }
+        let found = match self.search.find(&path.text, &SCENES) {
+            Ok(found) => found,
+            Err(_) => {
+                let message = format!("there is no file `{}`", clip(&path.text));
+                let diagnostic = Diagnostic::new(&codes::FILE_NOT_FOUND, message);
+                self.sink.push(diagnostic.at(path.span, "included here"));
+                return Vec::new();
+            }
+        };
+        let bytes = match Loader.found(&found, MAX_BYTES, self.map) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let message = format!("can't read `{}`: {error}", found.shown.display());
+                let diagnostic = Diagnostic::new(&codes::CANNOT_READ, message);
+                self.sink.push(diagnostic.at(path.span, "included here"));
+                return Vec::new();
+            }
+        };
+        let included = self.map.add_found(&found, bytes);
+        let version = self.version;
+        self.depth += 1;
+        let root = self.file(included);
+        self.depth -= 1;
+        self.version = version;
+        root.map(|mut root| std::mem::take(&mut root.children))
+            .unwrap_or_default()
+    }
+
+    /// An attribute with its parameters replaced.
+    fn attribute(&mut self, file: FileId, element: Element<'_, '_>, name: &str) -> Option<Text> {
+        let attribute = element.attribute_node(name)?;
+        let range = attribute.range_value();
+        let span = Span::new(file, offset(range.start), offset(range.end));
+        let text = attribute.value();
+        if !text.contains('$') {
+            let text = text.to_owned();
+            return Some(Text { text, span });
+        }
+        let mut filled = String::new();
+        let mut rest = text;
+        while let Some(at) = rest.find('$') {
+            filled.push_str(&rest[..at]);
+            let after = &rest[at + 1..];
+            let end = after.find(|c: char| !(c.is_alphanumeric() || c == '_'));
+            let parameter = &after[..end.unwrap_or(after.len())];
+            match self.defaults.get(parameter) {
+                Some(value) => filled.push_str(value),
+                None => {
+                    let message = format!("the parameter `${}` has no value", clip(parameter));
+                    let diagnostic = Diagnostic::new(&codes::MITSUBA_IGNORED, message);
+                    let hint = "give it one by `<default name=\"…\" value=\"…\"/>`";
+                    let label = "this attribute is ignored";
+                    self.sink.push(diagnostic.at(span, label).hint(hint));
+                    self.has_unset = true;
+                    return None;
+                }
+            }
+            rest = &after[parameter.len()..];
+        }
+        filled.push_str(rest);
+        Some(Text { text: filled, span })
+    }
+
+    /// A name as version 3 spells it: `toWorld` is `to_world`.
+    fn property_name(&self, name: &str) -> String {
+        if self.version >= 2 {
+            return name.to_owned();
+        }
+        let mut converted = String::new();
+        let mut was_lower = false;
+        for c in name.chars() {
+            if c.is_uppercase() && was_lower {
+                converted.push('_');
+            }
+            was_lower = c.is_lowercase() || c.is_numeric();
+            converted.extend(c.to_lowercase());
+        }
+        match converted.as_str() {
+            "diffuse_ambient" => "reflectance".to_owned(),
+            _ => converted,
+        }
+    }
+
+    /// A property: `<float name="…" value="…"/>` and the like.
+    fn property(&mut self, file: FileId, element: Element<'_, '_>) -> Option<Property> {
+        let kind = element.tag_name().name();
+        let Some(name) = self.attribute(file, element, "name") else {
+            self.missing(file, element, "`name`");
+            return None;
+        };
+        let name = Text {
+            text: self.property_name(&name.text),
+            span: name.span,
+        };
+        let value = match kind {
+            "transform" | "animation" => Some(Value::Transform(self.transform(file, element))),
+            "point" | "vector" => self.vector(file, element).map(Value::Vector),
+            _ => self.value(file, element, kind),
+        }?;
+        Some(Property { name, value })
+    }
+
+    /// The value of a property with one attribute.
+    fn value(&mut self, file: FileId, element: Element<'_, '_>, kind: &str) -> Option<Value> {
+        let attribute = match kind {
+            "spectrum" if element.has_attribute("filename") => "filename",
+            _ => "value",
+        };
+        let Some(text) = self.attribute(file, element, attribute) else {
+            self.missing(file, element, "`value`");
+            return None;
+        };
+        let parsed = match kind {
+            "float" | "integer" => value::number(&text.text).map(Value::Number),
+            "boolean" => match text.text.as_str() {
+                "true" => Some(Value::Bool(true)),
+                "false" => Some(Value::Bool(false)),
+                _ => None,
+            },
+            "string" => return Some(Value::String(text)),
+            "rgb" => color::rgb(&text.text).map(Value::Color),
+            "srgb" => color::rgb(&text.text).map(|rgb| Value::Color(rgb.map(color::decode))),
+            "spectrum" if attribute == "filename" => None,
+            "spectrum" => color::spectrum(&text.text).map(Value::Color),
+            "blackbody" => None,
+            _ => {
+                let message = format!("`<{}>` has no meaning here", clip(kind));
+                let diagnostic = Diagnostic::new(&codes::MITSUBA_IGNORED, message);
+                self.sink.push(diagnostic.at(span(file, &element), ""));
+                return None;
+            }
+        };
+        if parsed.is_none() {
+            let message = match kind {
+                "blackbody" => "blackbody spectra are not supported".to_owned(),
+                "spectrum" if attribute == "filename" => {
+                    "spectra in files are not supported".to_owned()
+                }
+                _ => format!("`{}` is no value of a `<{kind}>`", clip(&text.text)),
+            };
+            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+            self.sink.push(diagnostic.at(text.span, ""));
+        }
+        parsed
+    }
+
+    /// A point or vector: `value="x, y, z"`, or `x`, `y` and `z`.
+    fn vector(&mut self, file: FileId, element: Element<'_, '_>) -> Option<[f64; 3]> {
+        self.components(file, element, 0.0)
+    }
+
+    /// Three numbers; those of `x`, `y` and `z` that are missing are `default`.
+    fn components(
+        &mut self,
+        file: FileId,
+        element: Element<'_, '_>,
+        default: f64,
+    ) -> Option<[f64; 3]> {
+        if let Some(text) = self.attribute(file, element, "value") {
+            let vector = value::vector(&text.text);
+            if vector.is_none() {
+                self.not_numbers(&text);
+            }
+            return vector;
+        }
+        let mut vector = [default; 3];
+        for (axis, name) in vector.iter_mut().zip(["x", "y", "z"]) {
+            if let Some(text) = self.attribute(file, element, name) {
+                match value::number(&text.text) {
+                    Some(number) => *axis = number,
+                    None => self.not_numbers(&text),
+                }
+            }
+        }
+        Some(vector)
+    }
+
+    fn not_numbers(&mut self, text: &Text) {
+        let message = format!("`{}` has the wrong numbers", clip(&text.text));
+        let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+        self.sink.push(diagnostic.at(text.span, ""));
+    }
+
+    /// The product of the elements of a `<transform>`: the first one is applied first.
+    fn transform(&mut self, file: FileId, element: Element<'_, '_>) -> Transform {
+        let mut product = Transform::IDENTITY;
+        for child in element.children().filter(Element::is_element) {
+            let name = child.tag_name().name();
+            let step = match name {
+                "translate" => self
+                    .components(file, child, 0.0)
+                    .map(Transform::translation),
+                "scale" => self.components(file, child, 1.0).map(Transform::scale),
+                "rotate" => self.rotation(file, child),
+                "lookat" | "lookAt" => self.look_at(file, child),
+                "matrix" => self.matrix(file, child),
+                // The keyframes of an animation: the first one is shown.
+                "transform" => Some(self.transform(file, child)),
+                _ => {
+                    let message = format!("`<{}>` is no transform", clip(name));
+                    let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+                    self.sink.push(diagnostic.at(span(file, &child), ""));
+                    None
+                }
+            };
+            product = step.unwrap_or(Transform::IDENTITY).after(&product);
+            if name == "transform" {
+                break;
+            }
+        }
+        product
+    }
+
+    fn rotation(&mut self, file: FileId, element: Element<'_, '_>) -> Option<Transform> {
+        let axis = self.components(file, element, 0.0)?;
+        let Some(angle) = self.attribute(file, element, "angle") else {
+            self.missing(file, element, "`angle`");
+            return None;
+        };
+        let degrees = value::number(&angle.text);
+        if degrees.is_none() {
+            self.not_numbers(&angle);
+        }
+        let rotation = Transform::rotation(axis, degrees?);
+        if rotation.is_none() {
+            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, "the axis has no length");
+            self.sink.push(diagnostic.at(span(file, &element), ""));
+        }
+        rotation
+    }
+
+    fn look_at(&mut self, file: FileId, element: Element<'_, '_>) -> Option<Transform> {
+        let mut point = |name: &str| -> Option<[f64; 3]> {
+            let text = self.attribute(file, element, name)?;
+            let vector = value::vector(&text.text);
+            if vector.is_none() {
+                self.not_numbers(&text);
+            }
+            vector
+        };
+        let (origin, target, up) = (point("origin"), point("target"), point("up"));
+        let (Some(origin), Some(target)) = (origin, target) else {
+            self.missing(file, element, "`origin` and `target`");
+            return None;
+        };
+        let transform = Transform::look_at(origin, target, up);
+        if transform.is_none() {
+            let message = "`origin`, `target` and `up` give no direction";
+            let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+            self.sink.push(diagnostic.at(span(file, &element), ""));
+        }
+        transform
+    }
+
+    fn matrix(&mut self, file: FileId, element: Element<'_, '_>) -> Option<Transform> {
+        let Some(text) = self.attribute(file, element, "value") else {
+            self.missing(file, element, "`value`");
+            return None;
+        };
+        let matrix = Transform::matrix(&text.text);
+        if matrix.is_none() {
+            self.not_numbers(&text);
+        }
+        matrix
+    }
+
+    fn missing(&mut self, file: FileId, element: Element<'_, '_>, what: &str) {
+        // The parameter without a value was reported.
+        if std::mem::take(&mut self.has_unset) {
+            return;
+        }
+        let name = element.tag_name().name();
+        let message = format!("`<{}>` lacks {what}", clip(name));
+        let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+        self.sink.push(diagnostic.at(span(file, &element), ""));
+    }
+}
+
+/// The span of the start of an element: its tag name.
+fn span(file: FileId, element: &Element<'_, '_>) -> Span {
+    let start = element.range().start;
+    let end = start + 1 + element.tag_name().name().len();
+    Span::new(file, offset(start), offset(end))
+}
+
+fn offset(at: usize) -> u32 {
+    u32::try_from(at).unwrap_or(u32::MAX)
+}
