@@ -20,6 +20,7 @@ mod hardcases;
 mod honest;
 mod ir_schema;
 mod laws;
+mod mitsuba;
 mod numbers;
 mod obj_oracle;
 mod pages;

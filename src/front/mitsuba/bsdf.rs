@@ -36,10 +36,7 @@ impl<'run> Lowering<'run> {
     ) -> Option<MaterialId> {
         let is_bsdf = |node: &&'run Node| match node.tag.as_str() {
             "bsdf" => true,
-            "ref" => self
-                .shared
-                .get(node.plugin.text.as_str())
-                .is_some_and(|target| target.tag == "bsdf"),
+            "ref" => self.refers_to(node, "bsdf"),
             _ => false,
         };
         let node = shape.children.iter().find(is_bsdf);

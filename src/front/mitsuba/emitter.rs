@@ -49,6 +49,9 @@ impl<'run> Lowering<'run> {
             node.plugin.span,
             "the edge of a spot falls off by the formula of glTF",
         );
+        if node.child("texture").is_some() {
+            self.approximate(node.span, "the texture of a spot is left out");
+        }
         let cutoff = node.number("cutoff_angle").unwrap_or(20.0);
         let beam = node.number("beam_width").unwrap_or(cutoff * 3.0 / 4.0);
         let axis = unit(to_world.vector(Vec3::Z)).unwrap_or(Vec3::Z);
@@ -101,7 +104,13 @@ impl<'run> Lowering<'run> {
 
     /// The radiance that a shape emits.
     pub(super) fn radiance(&mut self, shape: &'run Node) -> [f64; 3] {
-        let Some(node) = shape.children.iter().find(|child| child.tag == "emitter") else {
+        let is_emitter = |child: &&'run Node| match child.tag.as_str() {
+            "emitter" => true,
+            "ref" => self.refers_to(child, "emitter"),
+            _ => false,
+        };
+        let node = shape.children.iter().find(is_emitter);
+        let Some(node) = node.and_then(|node| self.resolve(node)) else {
             return [0.0; 3];
         };
         if node.plugin.text != "area" {

@@ -37,7 +37,7 @@ use rtc_ir::{
     SourceSpans, ValuePath,
 };
 use rtc_source::{FileId, Loader, Search, SourceMap, Span};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use xml::Node;
 
 /// The name of the root element.
@@ -65,6 +65,7 @@ pub fn lower(
         .with_parent(folder, options.home.as_deref());
     let mut lowering = Lowering::new(&root, search, map, sink);
     lowering.scene(&root);
+    let flat = std::mem::take(&mut lowering.flat);
     let draft = UnfinishedScene::new(
         Lowered {
             scene: lowering.scene,
@@ -73,6 +74,7 @@ pub fn lower(
         lowering.pending,
     );
     let mut lowered = assets::load(draft, file, options, map, sink);
+    shape::flatten(&mut lowered.scene, &flat);
     lowered.source_spans.finish();
     Some(lowered)
 }
@@ -96,6 +98,8 @@ struct Lowering<'run> {
     serialized: BTreeMap<(String, u32), Option<MeshId>>,
     /// The meshes of shapes without a file, by name.
     built: BTreeMap<&'static str, MeshId>,
+    /// The surfaces without vertex normals, by index.
+    flat: BTreeSet<usize>,
     has_sensor: bool,
 }
 
@@ -125,6 +129,7 @@ impl<'run> Lowering<'run> {
             meshes: BTreeMap::new(),
             serialized: BTreeMap::new(),
             built: BTreeMap::new(),
+            flat: BTreeSet::new(),
             has_sensor: false,
         }
     }
@@ -138,6 +143,8 @@ impl<'run> Lowering<'run> {
         for node in &root.children {
             match node.tag.as_str() {
                 "integrator" | "bsdf" | "texture" | "spectrum" => {}
+                // An area light that shapes refer to.
+                "emitter" if node.plugin.text == "area" => {}
                 "sensor" => self.sensor(node),
                 "emitter" => self.emitter(node),
                 "shape" => self.shape(node, value::Transform::IDENTITY),
@@ -156,6 +163,12 @@ impl<'run> Lowering<'run> {
     fn record(&mut self, entity: EntityKind, index: usize, span: Span) {
         let path = ValuePath::new(entity, index, Field::Whole);
         self.source_spans.record(path, span);
+    }
+
+    /// Whether a reference leads to an element of this kind.
+    fn refers_to(&self, reference: &Node, tag: &str) -> bool {
+        let target = self.shared.get(reference.plugin.text.as_str());
+        target.is_some_and(|target| target.tag == tag)
     }
 
     /// Follows a reference to the shared element.

@@ -15,6 +15,10 @@ const UNLIMITED: u32 = 100;
 const SIZE: [u32; 2] = [768, 576];
 /// The samples of a sampler without a count.
 const SAMPLES: u32 = 4;
+/// The diagonal of 35 mm film, 36 × 24 mm, in millimetres: √(36² + 24²).
+const FILM_DIAGONAL: f64 = 43.266_615_305_567_87;
+/// The focal length of a sensor without `fov` and `focal_length`, in millimetres.
+const FOCAL_LENGTH: f64 = 50.0;
 /// The points of a lens that a sample takes: one, as paths are many.
 const LENS_SAMPLES: u32 = 2;
 
@@ -161,30 +165,25 @@ impl<'run> Lowering<'run> {
         let eye = &to_world.0[3];
         let [left, up, forward] = to_world.orthonormal()?;
         let [width, height] = size.map(f64::from);
-        let half_tangent = match (node.number("fov"), node.string("focal_length")) {
-            (Some(fov), _) => tangent(fov / 2.0),
-            // The diagonal of 35 mm film is that of 36 × 24 mm.
-            (None, Some(focal)) => {
-                let millimetres = focal
-                    .text
-                    .trim_end_matches("mm")
-                    .trim()
-                    .parse()
-                    .unwrap_or(50.0);
-                let diagonal = (36.0_f64 * 36.0 + 24.0 * 24.0).sqrt() / 2.0 / millimetres;
-                diagonal * width / (width * width + height * height).sqrt()
-            }
-            (None, None) => tangent(14.1),
-        };
+        let diagonal = (width * width + height * height).sqrt();
         let axis = node
             .string("fov_axis")
             .map_or("x", |axis| axis.text.as_str());
-        let span = match (axis, node.get("focal_length")) {
-            ("y", None) => height,
-            ("smaller", None) => width.min(height),
-            ("larger", None) => width.max(height),
-            ("diagonal", None) => (width * width + height * height).sqrt(),
-            _ => width,
+        let (half_tangent, span) = match (node.number("fov"), axis) {
+            (Some(fov), "y") => (tangent(fov / 2.0), height),
+            (Some(fov), "smaller") => (tangent(fov / 2.0), width.min(height)),
+            (Some(fov), "larger") => (tangent(fov / 2.0), width.max(height)),
+            (Some(fov), "diagonal") => (tangent(fov / 2.0), diagonal),
+            (Some(fov), _) => (tangent(fov / 2.0), width),
+            (None, _) => {
+                let focal = node.string("focal_length").map(|focal| focal.text.as_str());
+                let focal = focal.map(|focal| focal.trim_end_matches("mm").trim());
+                let focal = focal.and_then(|focal| focal.parse::<f64>().ok());
+                (
+                    FILM_DIAGONAL / 2.0 / focal.unwrap_or(FOCAL_LENGTH),
+                    diagonal,
+                )
+            }
         };
         let is_lens = node.plugin.text == "thinlens";
         let focus = node

@@ -5,9 +5,11 @@ use super::tessellate;
 use super::value::Transform;
 use super::xml::Node;
 use rtc_ir::{
-    Disc, EntityKind, Instance, Material, MaterialId, Mesh, MeshId, Shape, Sphere, Surface,
+    Column, Disc, EntityKind, Instance, Material, MaterialId, Mesh, MeshId, Scene, Shape, Sphere,
+    Surface,
 };
 use rtc_math::Vec3;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The deepest nesting of shape groups.
 const MAX_DEPTH: usize = 8;
@@ -79,6 +81,9 @@ impl<'run> Lowering<'run> {
             return;
         };
         let material = self.face_forward(node, material);
+        if node.flag("face_normals") == Some(true) {
+            self.flat.insert(self.scene.surfaces.len());
+        }
         self.record(EntityKind::Surface, self.scene.surfaces.len(), node.span);
         self.scene.surfaces.push(Surface {
             shape,
@@ -112,12 +117,6 @@ impl<'run> Lowering<'run> {
                 "shape_index",
             ],
         );
-        if node.flag("face_normals") == Some(true) {
-            self.approximate(
-                node.span,
-                "`face_normals` has no effect: the normals of the file count",
-            );
-        }
         let Some(path) = node.string("filename") else {
             self.unsupported(node, "it names no file, and is left out");
             return None;
@@ -191,4 +190,47 @@ fn placed(mesh: MeshId, to_world: &Transform) -> Shape {
         mesh,
         world_from_object: to_world.columns(),
     })
+}
+
+/// Removes the vertex normals of the meshes of some surfaces. A mesh that other surfaces share is
+/// copied.
+pub(super) fn flatten(scene: &mut Scene, flat: &BTreeSet<usize>) {
+    let mesh_of = |surface: &Surface| match &surface.shape {
+        Shape::Instance(instance) => Some(instance.mesh),
+        _ => None,
+    };
+    let smooth: BTreeSet<u32> = scene
+        .surfaces
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| !flat.contains(index))
+        .filter_map(|(_, surface)| mesh_of(surface).map(|mesh| mesh.0))
+        .collect();
+    let mut copies = BTreeMap::new();
+    for index in flat {
+        let Some(MeshId(mesh)) = scene.surfaces.get(*index).and_then(mesh_of) else {
+            continue;
+        };
+        let Some(found) = scene.meshes.get_mut(mesh as usize) else {
+            continue;
+        };
+        if found.normals.is_empty() {
+            continue;
+        }
+        if !smooth.contains(&mesh) {
+            found.normals = Column::default();
+            continue;
+        }
+        let copy = Mesh {
+            normals: Column::default(),
+            ..found.clone()
+        };
+        let id = *copies.entry(mesh).or_insert_with(|| {
+            scene.meshes.push(copy);
+            MeshId(u32::try_from(scene.meshes.len() - 1).unwrap_or(u32::MAX))
+        });
+        if let Shape::Instance(instance) = &mut scene.surfaces[*index].shape {
+            instance.mesh = id;
+        }
+    }
 }

@@ -10,6 +10,12 @@ use std::collections::BTreeMap;
 
 /// The deepest nesting of elements and of included files.
 const MAX_DEPTH: usize = 64;
+/// The largest number of included files.
+const MAX_FILES: usize = 256;
+/// The longest attribute after its parameters are replaced, in bytes.
+const MAX_ATTRIBUTE: usize = 1 << 20;
+/// The memory of an element, in bytes, rounded up.
+const ELEMENT_BYTES: u64 = 512;
 /// The largest included file, in bytes.
 const MAX_BYTES: u64 = 1 << 28;
 
@@ -156,6 +162,7 @@ pub(super) fn read(
         defaults: BTreeMap::new(),
         version: 3,
         depth: 0,
+        files: 0,
         has_unset: false,
     };
     reader.file(file)
@@ -172,6 +179,8 @@ struct Reader<'run> {
     version: u32,
     /// How many files are open.
     depth: usize,
+    /// How many files were included.
+    files: usize,
     /// Whether the last attribute has a parameter without a value.
     has_unset: bool,
 }
@@ -202,7 +211,11 @@ impl Reader<'_> {
             }
         };
         let nodes = document.descendants().count() as u64;
-        if let Err(fault) = self.map.budget().charge(Resource::Nodes, nodes) {
+        let budget = self.map.budget();
+        let charged = budget
+            .charge(Resource::Nodes, nodes)
+            .and_then(|()| budget.charge(Resource::Memory, nodes * ELEMENT_BYTES));
+        if let Err(fault) = charged {
             self.sink
                 .push(over_limit("the scene", &fault).at(Span::new(file, 0, 0), ""));
             return None;
@@ -331,8 +344,12 @@ impl Reader<'_> {
             self.missing(file, element, "`filename`");
             return Vec::new();
         };
-        if self.depth >= MAX_DEPTH {
-            let message = format!("files include each other more than {MAX_DEPTH} deep");
+        self.files += 1;
+        if self.depth >= MAX_DEPTH || self.files > MAX_FILES {
+            let message = format!(
+                "more than {MAX_FILES} files are included, or they are nested more than \
+                 {MAX_DEPTH} deep"
+            );
             let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
             self.sink.push(diagnostic.at(path.span, ""));
             return Vec::new();
@@ -383,6 +400,13 @@ impl Reader<'_> {
             let end = after.find(|c: char| !(c.is_alphanumeric() || c == '_'));
             let parameter = &after[..end.unwrap_or(after.len())];
             match self.defaults.get(parameter) {
+                Some(value) if filled.len() + value.len() > MAX_ATTRIBUTE => {
+                    let message = format!("an attribute has more than {MAX_ATTRIBUTE} bytes");
+                    let diagnostic = Diagnostic::new(&codes::MITSUBA_ELEMENT, message);
+                    self.sink.push(diagnostic.at(span, "expanded here"));
+                    self.has_unset = true;
+                    return None;
+                }
                 Some(value) => filled.push_str(value),
                 None => {
                     let message = format!("the parameter `${}` has no value", clip(parameter));
@@ -397,6 +421,13 @@ impl Reader<'_> {
             rest = &after[parameter.len()..];
         }
         filled.push_str(rest);
+        let budget = self.map.budget();
+        if let Err(fault) = budget.charge(Resource::Memory, filled.len() as u64) {
+            self.sink
+                .push(over_limit("the scene", &fault).at(span, "expanded here"));
+            self.has_unset = true;
+            return None;
+        }
         Some(Text { text: filled, span })
     }
 
