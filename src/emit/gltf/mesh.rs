@@ -126,7 +126,15 @@ impl GltfWriter<'_> {
             of_vertices.tangent = Some(self.floats(&tangents, false));
         }
         if !colors.is_empty() {
-            let colors = self.rounded(colors, path)?;
+            let mut colors = self.rounded(colors, path)?;
+            // glTF 2.0, section 3.7.2.1: the components of COLOR_0 are from 0 to 1.
+            if colors.iter().flatten().any(|channel| *channel > 1.0) {
+                let message = "vertex colours above 1 are written as 1";
+                self.reporter.report(&codes::GLTF_UNSAID, message, path);
+                for channel in colors.iter_mut().flatten() {
+                    *channel = channel.min(1.0);
+                }
+            }
             of_vertices.color_0 = Some(self.floats(&colors, false));
         }
         let made = MeshAccessors {

@@ -197,7 +197,7 @@ impl Reader<'_> {
                 .push(Diagnostic::new(&codes::NOT_UTF8, message).at(span, ""));
             return None;
         };
-        let limit = self.map.budget().left(Resource::Nodes);
+        let limit = self.map.budget().remaining(Resource::Nodes);
         let options = ParsingOptions {
             allow_dtd: false,
             nodes_limit: u32::try_from(limit).unwrap_or(u32::MAX),
