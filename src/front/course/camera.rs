@@ -60,7 +60,7 @@ impl Keyword for ir::Projection {
 
 impl Camera {
     /// Whether the length of `up`, or `pixelSize`, is the size of a pixel.
-    fn has_own_pixels(&self) -> bool {
+    fn uses_up_length(&self) -> bool {
         !self.has_fov() && self.right.is_absent()
     }
 
@@ -137,7 +137,7 @@ impl Lowering {
             (Field::LensRadius, aperture_radius.span),
             (Field::LensSamples, aperture_samples.span),
         ] {
-            self.origin(ir::EntityKind::Camera, 0, field, span);
+            self.record_span(ir::EntityKind::Camera, 0, field, span);
         }
         let Some((right, up)) = basis else { return };
         // The camera of the IR.
@@ -170,14 +170,14 @@ impl Lowering {
             center: *center,
             up: up.map(|point| Vector(point.0)),
             right: FieldOutcome::Absent,
-            view_size: FieldOutcome::Read(Spanned::unwritten(size)),
+            view_size: FieldOutcome::Read(Spanned::without_span(size)),
             sides: FieldOutcome::Absent,
             focal_distance: FieldOutcome::Absent,
             pixel_size: FieldOutcome::Absent,
             fov: FieldOutcome::Absent,
-            projection: Spanned::unwritten(ir::Projection::Perspective),
-            aperture_radius: Spanned::unwritten(NonNegative(0.0)),
-            aperture_samples: Spanned::unwritten(Count(1)),
+            projection: Spanned::without_span(ir::Projection::Perspective),
+            aperture_radius: Spanned::without_span(NonNegative(0.0)),
+            aperture_samples: Spanned::without_span(Count(1)),
         };
         self.camera(
             &Spanned {
@@ -198,8 +198,8 @@ impl Lowering {
             size: size.0,
             ..placeholder()
         };
-        self.origin(ir::EntityKind::Camera, 0, Field::Whole, eye.span);
-        self.origin(ir::EntityKind::Camera, 0, Field::Eye, eye.span);
+        self.record_span(ir::EntityKind::Camera, 0, Field::Whole, eye.span);
+        self.record_span(ir::EntityKind::Camera, 0, Field::Eye, eye.span);
     }
 }
 
@@ -209,7 +209,7 @@ fn image_plane(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
     let (mut center, mut up) = (camera.center, camera.up);
     let [eye, at, upward] = [camera.eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
     let distance = camera.focal_distance.ok();
-    let size = camera.pixel_size.ok().filter(|_| camera.has_own_pixels());
+    let size = camera.pixel_size.ok().filter(|_| camera.uses_up_length());
     let size = size.map(|size| size.value.0);
     let size = size.or(distance.map(|_| 1.0));
     if let (Some(view_dir), Some(distance)) = (unit(at - eye), distance) {
@@ -224,7 +224,7 @@ fn image_plane(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
 /// Reports a `pixelSize` that another key overrides.
 fn report_pixel_size_without_effect(camera: &Camera, context: &mut Context<'_>) {
     let span = camera.pixel_size.read().and_then(|size| size.span);
-    if let (Some(span), false) = (span, camera.has_own_pixels()) {
+    if let (Some(span), false) = (span, camera.uses_up_length()) {
         let message = || "`pixelSize` has no effect beside `fov` or `right`".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {
             d.at(span, "ignored").severity(Severity::Warning)
@@ -328,8 +328,8 @@ fn report_parallel_up(
     span: Span,
     context: &mut Context<'_>,
 ) -> Option<Vec3> {
-    let better = fallback_up(view_dir, up);
-    let [x, y, z] = better.to_array().map(shortest);
+    let replacement = fallback_up(view_dir, up);
+    let [x, y, z] = replacement.to_array().map(shortest);
     let text = format!("[{x}, {y}, {z}]");
     let lenient = context.options.lenient;
     context.report(
@@ -345,5 +345,5 @@ fn report_parallel_up(
                 .severity(Severity::Warning),
         },
     );
-    lenient.then_some(better)
+    lenient.then_some(replacement)
 }

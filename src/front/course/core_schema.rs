@@ -91,7 +91,7 @@ fn is_decimal(scalar: &str) -> bool {
 }
 
 /// Whether a scalar is how programs other than YAML write NaN or infinity.
-pub(super) fn is_not_finite_elsewhere(scalar: &str) -> bool {
+pub(super) fn is_foreign_non_finite(scalar: &str) -> bool {
     const KEYWORDS: [&str; 3] = ["nan", "inf", "infinity"];
     let unsigned = scalar.trim_start_matches(['-', '+']);
     KEYWORDS

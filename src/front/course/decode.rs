@@ -39,7 +39,7 @@ pub(super) struct Spanned<T> {
 
 impl<T> Spanned<T> {
     /// A default.
-    pub(super) fn unwritten(value: T) -> Self {
+    pub(super) fn without_span(value: T) -> Self {
         Self { value, span: None }
     }
 

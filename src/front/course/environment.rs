@@ -64,7 +64,7 @@ impl Lowering {
             image,
             image_from_world: rotation_keys,
         });
-        self.origin(EntityKind::Environment, 0, Field::Whole, environment.span);
+        self.record_span(EntityKind::Environment, 0, Field::Whole, environment.span);
     }
 }
 

@@ -52,8 +52,8 @@ pub(super) fn keyword<T: Copy>(
                 .at(span, "unknown")
                 .hint(format!("it is one of {}", quoted_list(keywords())));
             match suggestion {
-                Some((suggestion, better)) => {
-                    d.guess(format!("did you mean `{suggestion}`?"), span, better)
+                Some((suggestion, replacement)) => {
+                    d.guess(format!("did you mean `{suggestion}`?"), span, replacement)
                 }
                 None => d,
             }

@@ -84,7 +84,7 @@ impl Lowering {
         report_unused(&light.value, kind, light_ir.point().is_none(), context);
         let index = self.scene.lights.len();
         self.scene.lights.push(light_ir);
-        self.origin(EntityKind::Light, index, Field::Whole, light.span);
+        self.record_span(EntityKind::Light, index, Field::Whole, light.span);
     }
 
     /// The light and its type, from the keys that are present.
@@ -116,9 +116,9 @@ impl Lowering {
             }
             (FieldOutcome::Read(position), FieldOutcome::Read(color), ..) => {
                 let (index, radius) = (self.scene.lights.len(), &light.radius);
-                self.origin(EntityKind::Light, index, Field::Position, position.span);
-                self.origin(EntityKind::Light, index, Field::Color, color.span);
-                self.origin(EntityKind::Light, index, Field::LightRadius, radius.span);
+                self.record_span(EntityKind::Light, index, Field::Position, position.span);
+                self.record_span(EntityKind::Light, index, Field::Color, color.span);
+                self.record_span(EntityKind::Light, index, Field::LightRadius, radius.span);
                 let (position, color, radius) = (position.value.0, color.value.0, radius.value.0);
                 let point = ir::PointLight {
                     position,

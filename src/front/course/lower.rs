@@ -142,7 +142,7 @@ impl Lowering {
     }
 
     /// Records the span of a value; a default has none.
-    pub(super) fn origin(
+    pub(super) fn record_span(
         &mut self,
         entity: EntityKind,
         index: usize,
@@ -177,7 +177,7 @@ impl Lowering {
             });
         if self.scene.lights.is_empty() {
             let path = scene.lights.span.unwrap_or_else(|| context.head(root));
-            self.origin(EntityKind::Light, 0, Field::Whole, Some(path));
+            self.record_span(EntityKind::Light, 0, Field::Whole, Some(path));
         }
         self.resolve_soft_lights(&scene, context);
         // Objects.

@@ -139,7 +139,7 @@ impl Lowering {
             Material::Standard(standard) => {
                 let lowered = self.standard(standard);
                 let id = self.add_material(lowered);
-                self.origin(
+                self.record_span(
                     EntityKind::Material,
                     id.0 as usize,
                     Field::Whole,
@@ -160,7 +160,7 @@ impl Lowering {
     ) -> Option<MaterialId> {
         let color = match (&value.color, &value.texture) {
             (FieldOutcome::Read(color), _) => *color,
-            (FieldOutcome::Absent, _) => Spanned::unwritten(Color([1.0; 3])),
+            (FieldOutcome::Absent, _) => Spanned::without_span(Color([1.0; 3])),
             (FieldOutcome::Broken, _) => return None,
         };
         let mut phong = self.phong(value, color.value);
@@ -183,7 +183,7 @@ impl Lowering {
         if let (true, Some(span)) = (lets_through, glass) {
             self.glass.push(Glass { id, span, is_clear });
         }
-        self.material_origins(id, value, span, color.span);
+        self.record_material_spans(id, value, span, color.span);
         Some(id)
     }
 
@@ -254,7 +254,7 @@ impl Lowering {
         }
     }
 
-    fn material_origins(
+    fn record_material_spans(
         &mut self,
         id: MaterialId,
         material: &PhongMaterial,
@@ -288,7 +288,7 @@ impl Lowering {
             (Field::Ior, eta.span),
             (Field::GlossySamples, glossy_samples.span),
         ] {
-            self.origin(EntityKind::Material, id.0 as usize, field, span);
+            self.record_span(EntityKind::Material, id.0 as usize, field, span);
         }
         for (field, file) in [
             (Field::ColorMap, texture),
@@ -297,7 +297,7 @@ impl Lowering {
             (Field::Bump, bump),
         ] {
             if let FieldOutcome::Read(file) = file {
-                self.origin(EntityKind::Material, id.0 as usize, field, file.span);
+                self.record_span(EntityKind::Material, id.0 as usize, field, file.span);
             }
         }
     }
@@ -332,5 +332,5 @@ fn refraction(kt: f64, eta: f64) -> (f64, f64) {
 
 /// The weight of the highlight; 1 if only a texture gives it.
 fn specular(ks: &FieldOutcome<Spanned<NonNegative>>) -> Spanned<NonNegative> {
-    ks.ok().unwrap_or(Spanned::unwritten(NonNegative(1.0)))
+    ks.ok().unwrap_or(Spanned::without_span(NonNegative(1.0)))
 }

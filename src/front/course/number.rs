@@ -3,7 +3,7 @@
 //! Each type names a range for the schema. The decoder rejects only what the IR cannot represent;
 //! the validator checks ranges, because a scene need not come from text.
 
-use super::core_schema::{ScalarNumber, is_not_finite_elsewhere, parse_number};
+use super::core_schema::{ScalarNumber, is_foreign_non_finite, parse_number};
 use super::decode::{Context, Value, describe};
 use super::schema::Definitions;
 use rtc_diag::clip;
@@ -41,7 +41,7 @@ pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Opt
     };
     let (key, span) = (context.key, tree.span(node));
     match parse_number(scalar) {
-        ScalarNumber::NoNumber if !quoted && is_not_finite_elsewhere(scalar) => {
+        ScalarNumber::NoNumber if !quoted && is_foreign_non_finite(scalar) => {
             not_finite(scalar, span, context);
             None
         }

@@ -6,8 +6,8 @@ use super::environment::Environment;
 use super::light::Light;
 use super::material::PhongMaterial;
 use super::object::{KINDS, ObjectKind};
-use super::path_settings::Paths;
-use super::record::{FieldDeclaration, Need, Record};
+use super::path_settings::PathParameters;
+use super::record::{FieldDeclaration, Presence, Record};
 use super::sampling::SamplingMap;
 use super::schema::Definitions;
 use super::settings::{Gooch, Scene};
@@ -42,7 +42,7 @@ pub fn page() -> String {
         ("`ImageSize` as a map", &SizeMap::RECORD),
         ("`SuperSampling`", &SamplingMap::RECORD),
         ("`GoochParameters`", &Gooch::RECORD),
-        ("`PathParameters`", &Paths::RECORD),
+        ("`PathParameters`", &PathParameters::RECORD),
         ("`Environment`", &Environment::RECORD),
         ("`Lights`", &Light::RECORD),
         ("`material`", &PhongMaterial::RECORD),
@@ -73,7 +73,7 @@ fn section(title: &str, record: &Record, page: &mut String) {
         doc,
         spellings,
         json,
-        need,
+        presence,
         schema,
     } in record.fields
     {
@@ -87,16 +87,16 @@ fn section(title: &str, record: &Record, page: &mut String) {
         let in_json = in_json.collect::<Vec<_>>().join("; ");
         let in_variant = record.variants.iter().any(|variant| variant.contains(name));
         // The default.
-        let default = match need {
-            Need::Required => "required".to_owned(),
-            Need::Unless(other) => {
+        let default = match presence {
+            Presence::Required => "required".to_owned(),
+            Presence::Unless(other) => {
                 let other = record.fields.iter().find(|field| field.name == *other);
                 let other = other.map_or_else(String::new, |field| code(field.spellings[0]));
                 format!("required without {other}")
             }
-            Need::Optional if in_variant => "see below".to_owned(),
-            Need::Optional => "none".to_owned(),
-            Need::Default(default) => format!("`{}`", default()),
+            Presence::Optional if in_variant => "see below".to_owned(),
+            Presence::Optional => "none".to_owned(),
+            Presence::Default(default) => format!("`{}`", default()),
         };
         let kind = kind(&schema(&mut Definitions::default()));
         let (key, others, meaning) = (code(canonical), others.join("; "), doc.trim());

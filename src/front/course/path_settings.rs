@@ -10,7 +10,7 @@ use rtc_ir as ir;
 
 record! {
     /// The settings of path tracing.
-    struct Paths, "path parameters" {
+    struct PathParameters, "path parameters" {
         /// The number of paths for each ray of `SuperSampling`. Without `PathParameters` it is 1;
         /// without both a pixel has 64 paths.
         samples: Spanned<Count>, default(Count(64)), keys!["samples"];
@@ -57,7 +57,7 @@ impl Lowering {
             .factor
             .0
             .saturating_mul(sampling.value.factor.0);
-        let usual = ir::PathSettings::default();
+        let default = ir::PathSettings::default();
         let settings = &mut self.scene.settings;
         settings.mode = ir::Mode::Path(match &scene.paths {
             FieldOutcome::Read(paths) => ir::PathSettings {
@@ -69,9 +69,9 @@ impl Lowering {
                 let samples = if sampling.span.is_some() {
                     rays
                 } else {
-                    usual.samples
+                    default.samples
                 };
-                ir::PathSettings { samples, ..usual }
+                ir::PathSettings { samples, ..default }
             }
         });
         // The default depth of path tracing.

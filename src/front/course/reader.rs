@@ -3,7 +3,7 @@
 
 use super::decode::{Context, MapEntry, ValueKey, describe};
 use super::material::is_material_key;
-use super::record::{FieldDeclaration, FieldOutcome, Need, Record, Slot};
+use super::record::{FieldDeclaration, FieldOutcome, FieldValue, Presence, Record};
 use super::spelling::{quoted_list, same_letters};
 use super::synonym::foreign_key_advice;
 use super::variant;
@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 const MAX_SUGGESTIONS: usize = 100;
 
 /// The largest number of keys in one spelling of a field.
-const MAX_ROW: usize = 6;
+const MAX_GROUP: usize = 6;
 
 /// The key of a comment. Every map may have it; it has no meaning.
 pub(super) const COMMENT: &str = "comment";
@@ -60,7 +60,7 @@ impl MapReader {
     }
 
     /// Reads the next field of the declaration.
-    pub(super) fn next<S: Slot>(&mut self, context: &mut Context<'_>) -> FieldOutcome<S> {
+    pub(super) fn next<S: FieldValue>(&mut self, context: &mut Context<'_>) -> FieldOutcome<S> {
         let field = &self.record.fields[self.rows.len()];
         let found = self.spelling(field, context);
         self.rows.push(found.map(|(spelling, _)| spelling));
@@ -86,7 +86,7 @@ impl MapReader {
         &self,
         field: &FieldDeclaration,
         context: &Context<'_>,
-    ) -> Option<(&'static [&'static str], [usize; MAX_ROW])> {
+    ) -> Option<(&'static [&'static str], [usize; MAX_GROUP])> {
         let entries = &context.entries[self.first_entry..];
         let find = |key: &str| {
             Some(
@@ -97,7 +97,7 @@ impl MapReader {
             )
         };
         field.spellings.iter().find_map(|spelling| {
-            let mut found = [find(spelling[0])?; MAX_ROW];
+            let mut found = [find(spelling[0])?; MAX_GROUP];
             for (slot, key) in found.iter_mut().zip(*spelling).skip(1) {
                 *slot = find(key)?;
             }
@@ -112,7 +112,7 @@ impl MapReader {
         for at in self.first_entry..context.entries.len() {
             let entry = context.entries[at];
             if !entry.claimed && entry.key != COMMENT {
-                partial |= self.report_unread(entry, context);
+                partial |= self.report_unused_key(entry, context);
             }
         }
         context.entries.truncate(self.first_entry);
@@ -125,10 +125,10 @@ impl MapReader {
                 .position(|field| field.name == name);
             at.is_some_and(|at| self.rows[at].is_some())
         };
-        let required = |field: &FieldDeclaration| match field.need {
-            Need::Required => true,
-            Need::Unless(other) => !has(other),
-            Need::Optional | Need::Default(_) => false,
+        let required = |field: &FieldDeclaration| match field.presence {
+            Presence::Required => true,
+            Presence::Unless(other) => !has(other),
+            Presence::Optional | Presence::Default(_) => false,
         };
         let absent = |at: &usize| self.rows[*at].is_none() && partial & (1 << at) == 0;
         let fields = self.record.fields.iter().enumerate();
@@ -153,7 +153,7 @@ impl MapReader {
 
     /// Reports a key that no field read. If the key belongs to an incomplete group of a field,
     /// returns the bit of that field.
-    fn report_unread(&self, entry: MapEntry<'_>, context: &mut Context<'_>) -> u64 {
+    fn report_unused_key(&self, entry: MapEntry<'_>, context: &mut Context<'_>) -> u64 {
         let Record {
             name: record_name,
             fields,
@@ -231,18 +231,20 @@ impl MapReader {
         let fields = fields.iter().enumerate();
         let unused = fields.filter(|(at, _)| advise && self.rows[*at].is_none());
         let unused = unused.map(|(_, field)| field);
-        let suggestion = nearest(entry.key, unused.flat_map(proposable));
+        let suggestion = nearest(entry.key, unused.flat_map(suggestible_keys));
         context
             .typos
             .extend(suggestion.map(|suggestion| (suggestion, span)));
-        let better = suggestion.map(|suggestion| {
+        let replacement = suggestion.map(|suggestion| {
             (
                 suggestion,
                 context.with_quotes_of(entry.key_node, suggestion),
             )
         });
-        unknown_key(record_name, entry, context, |d| match better {
-            Some((suggestion, better)) => proposed(d, entry.key, suggestion, span, better),
+        unknown_key(record_name, entry, context, |d| match replacement {
+            Some((suggestion, replacement)) => {
+                with_suggestion(d, entry.key, suggestion, span, replacement)
+            }
             None if entry.key.starts_with(|c: char| c.is_ascii_digit()) => d.hint(
                 "a comma starts the next key: decimals follow a point, lists are in `[` and `]`",
             ),
@@ -294,7 +296,7 @@ impl MapReader {
 
 /// The keys of a field that a suggestion may name. Other spellings of one or two letters are
 /// omitted, since they resemble too many words.
-fn proposable(field: &FieldDeclaration) -> impl Iterator<Item = &'static str> {
+fn suggestible_keys(field: &FieldDeclaration) -> impl Iterator<Item = &'static str> {
     let rows = field.spellings.iter().enumerate();
     rows.flat_map(|(at, spelling)| {
         let keys = spelling.iter().copied();
@@ -324,11 +326,17 @@ pub(super) fn missing_keys(
 
 /// Adds the suggested key to a finding. If it has the same letters and digits as the written key,
 /// the fix is certain.
-fn proposed(d: Diagnostic, key: &str, suggestion: &str, span: Span, better: String) -> Diagnostic {
+fn with_suggestion(
+    d: Diagnostic,
+    key: &str,
+    suggestion: &str,
+    span: Span,
+    replacement: String,
+) -> Diagnostic {
     let hint = format!("did you mean `{suggestion}`?");
     match same_letters(key, suggestion) {
-        true => d.replace(hint, span, better),
-        false => d.guess(hint, span, better),
+        true => d.replace(hint, span, replacement),
+        false => d.guess(hint, span, replacement),
     }
 }
 

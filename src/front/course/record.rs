@@ -15,7 +15,7 @@ use serde_json::{Value as Json, json};
 pub(super) type Spellings = &'static [&'static [&'static str]];
 
 /// Whether a field is required.
-pub(super) enum Need {
+pub(super) enum Presence {
     Required,
     Optional,
     /// Required, unless the field of this name is present.
@@ -31,7 +31,7 @@ pub(super) struct FieldDeclaration {
     pub(super) spellings: Spellings,
     /// The spellings in the JSON files of the course, by their first keys.
     pub(super) json: &'static [&'static str],
-    pub(super) need: Need,
+    pub(super) presence: Presence,
     /// The schema of each value of the field.
     pub(super) schema: fn(&mut Definitions) -> Json,
 }
@@ -60,7 +60,7 @@ macro_rules! record {
         struct $name:ident, $record_name:literal {
             $(
                 $(#[doc = $field_doc:literal])+
-                $field:ident: $type:ty, $need:ident $(($default:expr))?, $spellings:expr
+                $field:ident: $type:ty, $presence:ident $(($default:expr))?, $spellings:expr
                     $(, json $json:literal)*;
             )+
         }
@@ -69,7 +69,7 @@ macro_rules! record {
     ) => {
         $(#[doc = $doc])+
         pub(in crate::course) struct $name {
-            $($(#[doc = $field_doc])+ pub(in crate::course) $field: record!(@type $need $type),)+
+            $($(#[doc = $field_doc])+ pub(in crate::course) $field: record!(@type $presence $type),)+
         }
 
         impl $name {
@@ -83,8 +83,8 @@ macro_rules! record {
                     doc: concat!($($field_doc),+),
                     spellings: $spellings,
                     json: &[$($json),*],
-                    need: record!(@need $need $type $(, $default)?),
-                    schema: <$type as $crate::course::record::Slot>::schema,
+                    presence: record!(@presence $presence $type $(, $default)?),
+                    schema: <$type as $crate::course::record::FieldValue>::schema,
                 }),+],
                 variants: &[
                     $($(&[$(stringify!($member)),+]),+)?
@@ -103,7 +103,7 @@ macro_rules! record {
                     $crate::course::reader::MapReader::open(&Self::RECORD, node, context)?;
                 $(let $field = reader.next::<$type>(context);)+
                 reader.close(context).then_some(())?;
-                Some(Self { $($field: record!(@value $need $field $(, $default)?)),+ })
+                Some(Self { $($field: record!(@value $presence $field $(, $default)?)),+ })
             }
 
             fn schema(definitions: &mut $crate::course::schema::Definitions) -> serde_json::Value {
@@ -113,18 +113,18 @@ macro_rules! record {
     };
     (@type optional $type:ty) => { $crate::course::record::FieldOutcome<$type> };
     (@type unless $type:ty) => { $crate::course::record::FieldOutcome<$type> };
-    (@type $need:ident $type:ty) => { $type };
-    (@need required $type:ty) => { $crate::course::record::Need::Required };
-    (@need optional $type:ty) => { $crate::course::record::Need::Optional };
-    (@need unless $type:ty, $other:expr) => { $crate::course::record::Need::Unless($other) };
-    (@need default $type:ty, $default:expr) => {
-        $crate::course::record::Need::Default(|| $crate::course::decode::Value::json(&$default))
+    (@type $presence:ident $type:ty) => { $type };
+    (@presence required $type:ty) => { $crate::course::record::Presence::Required };
+    (@presence optional $type:ty) => { $crate::course::record::Presence::Optional };
+    (@presence unless $type:ty, $other:expr) => { $crate::course::record::Presence::Unless($other) };
+    (@presence default $type:ty, $default:expr) => {
+        $crate::course::record::Presence::Default(|| $crate::course::decode::Value::json(&$default))
     };
     (@value required $found:ident) => { $found.ok()? };
     (@value optional $found:ident) => { $found };
     (@value unless $found:ident, $other:expr) => { $found };
     (@value default $found:ident, $default:expr) => {
-        $found.ok().unwrap_or_else(|| $crate::course::decode::Spanned::unwritten($default))
+        $found.ok().unwrap_or_else(|| $crate::course::decode::Spanned::without_span($default))
     };
 }
 
@@ -167,7 +167,7 @@ impl<T> FieldOutcome<T> {
 }
 
 /// The content of a field: one value, or a group of values.
-pub(super) trait Slot: Sized {
+pub(super) trait FieldValue: Sized {
     /// Reads the values of the entries of these indices. `None` if one of them can't be read, which
     /// is reported.
     fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self>;
@@ -176,7 +176,7 @@ pub(super) trait Slot: Sized {
     fn schema(definitions: &mut Definitions) -> Json;
 }
 
-impl<T: Value> Slot for Spanned<T> {
+impl<T: Value> FieldValue for Spanned<T> {
     fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self> {
         let MapEntry {
             key: text,
@@ -212,7 +212,7 @@ impl<T: Value> Slot for Spanned<T> {
     }
 }
 
-impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
+impl<T: Value, const N: usize> FieldValue for [Spanned<T>; N] {
     fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self> {
         // Collected first, so that a mistake in one value does not hide those in others.
         let read: Vec<_> = entries

@@ -154,17 +154,9 @@ impl RotationKeys<'_> {
             }
             (None, Some(angle), Some(Angles(axis))) => Some(rotated_about(axis, angle.value.0)),
             (axis, angle, angles) => {
-                let lower_standalone_mesh = "`axis` and `angle` have an effect only together";
-                report_no_rotation(
-                    axis.and_then(|axis| axis.span),
-                    lower_standalone_mesh,
-                    context,
-                );
-                report_no_rotation(
-                    angle.and_then(|angle| angle.span),
-                    lower_standalone_mesh,
-                    context,
-                );
+                let message = "`axis` and `angle` have an effect only together";
+                report_no_rotation(axis.and_then(|axis| axis.span), message, context);
+                report_no_rotation(angle.and_then(|angle| angle.span), message, context);
                 Some(angles.map_or(Vec3::AXES, |angles| euler_axes(angles.0)))
             }
         }

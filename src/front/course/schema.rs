@@ -5,7 +5,7 @@
 
 use super::decode::Value;
 use super::reader::COMMENT;
-use super::record::{FieldDeclaration, Need, Record};
+use super::record::{FieldDeclaration, Presence, Record};
 use super::settings::Scene;
 use serde_json::{Map, Value as Json, json};
 
@@ -71,16 +71,16 @@ fn record_schema(record: &Record, definitions: &mut Definitions) -> Json {
     let mut required = Vec::new();
     let mut rules = Vec::new();
     for field in record.fields.iter().filter(|field| !in_variant(field)) {
-        match (&field.need, field.spellings) {
-            (Need::Required, [[key]]) => required.push(*key),
-            (Need::Required, _) => rules.push(one_row(field)),
-            (Need::Unless(other), _) => {
+        match (&field.presence, field.spellings) {
+            (Presence::Required, [[key]]) => required.push(*key),
+            (Presence::Required, _) => rules.push(one_row(field)),
+            (Presence::Unless(other), _) => {
                 let other = record.fields.iter().find(|field| field.name == *other);
                 let either = [Some(field), other].into_iter().flatten().map(one_row);
                 rules.push(json!({ "anyOf": either.collect::<Vec<_>>() }));
             }
-            (Need::Optional | Need::Default(_), [[_]]) => {}
-            (Need::Optional | Need::Default(_), _) => {
+            (Presence::Optional | Presence::Default(_), [[_]]) => {}
+            (Presence::Optional | Presence::Default(_), _) => {
                 rules.push(json!({ "anyOf": [one_row(field), absent(field)] }))
             }
         }
@@ -117,7 +117,7 @@ fn field_properties(
     let value = (field.schema)(definitions);
     let canonical = field.spellings.first().copied().unwrap_or_default();
     for row in field.spellings {
-        for (key, meant) in row.iter().zip(canonical) {
+        for (key, canonical_key) in row.iter().zip(canonical) {
             if properties.contains_key(*key) {
                 continue;
             }
@@ -130,16 +130,19 @@ fn field_properties(
             let doc = if is_canonical {
                 doc.to_owned()
             } else {
-                format!("{doc} Better written `{meant}`.")
+                format!("{doc} Better written `{canonical_key}`.")
             };
             property.insert("description".to_owned(), json!(doc));
             // Editors insert keys with a default when they complete an object, so only one key of
             // each field has it.
-            match field.need {
-                Need::Default(default) if is_canonical => {
+            match field.presence {
+                Presence::Default(default) if is_canonical => {
                     drop(property.insert("default".to_owned(), default()))
                 }
-                Need::Required | Need::Optional | Need::Unless(_) | Need::Default(_) => {}
+                Presence::Required
+                | Presence::Optional
+                | Presence::Unless(_)
+                | Presence::Default(_) => {}
             }
             if !is_canonical {
                 property.insert("deprecated".to_owned(), json!(true));

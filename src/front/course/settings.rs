@@ -8,7 +8,7 @@ use super::light::Light;
 use super::lower::Lowering;
 use super::number::{Count, Natural, Real, Stops, plain_number};
 use super::object::Object;
-use super::path_settings::Paths;
+use super::path_settings::PathParameters;
 use super::record::{FieldOutcome, keys, record};
 use super::sampling::SuperSampling;
 use super::schema::Definitions;
@@ -72,7 +72,7 @@ record! {
         /// The colours of `RenderMode: gooch`.
         gooch: Spanned<Gooch>, optional, keys!["GoochParameters"];
         /// The settings of path tracing.
-        paths: Spanned<Paths>, optional, keys!["PathParameters"];
+        paths: Spanned<PathParameters>, optional, keys!["PathParameters"];
         /// The tone map of a PNG: `none`, linear values; `srgb`, clamped to 1 and sRGB-encoded;
         /// `agx`, AgX; `pbr-neutral`, Khronos PBR Neutral. The default is `srgb` for path tracing,
         /// else `none`. An EXR has linear values.
@@ -193,7 +193,9 @@ impl Lowering {
             light_samples,
             ..
         } = scene;
-        let light_samples = light_samples.ok().unwrap_or(Spanned::unwritten(Count(1)));
+        let light_samples = light_samples
+            .ok()
+            .unwrap_or(Spanned::without_span(Count(1)));
         report_unused(scene, context);
         self.display(scene);
         self.scene.settings = ir::Settings {
@@ -206,11 +208,11 @@ impl Lowering {
             toon: scene.toon.value,
             ambient: ir::Ambient::PerLight,
         };
-        self.origin(EntityKind::Settings, 0, Field::Mode, mode.span);
-        self.origin(EntityKind::Settings, 0, Field::MaxDepth, depth.span);
+        self.record_span(EntityKind::Settings, 0, Field::Mode, mode.span);
+        self.record_span(EntityKind::Settings, 0, Field::MaxDepth, depth.span);
         let factor = sampling.value.factor_span.or(sampling.span);
-        self.origin(EntityKind::Settings, 0, Field::Supersampling, factor);
-        self.origin(
+        self.record_span(EntityKind::Settings, 0, Field::Supersampling, factor);
+        self.record_span(
             EntityKind::Settings,
             0,
             Field::LightSamples,
@@ -300,10 +302,10 @@ impl Lowering {
 
     fn gooch(&mut self, gooch: &Gooch) -> ir::Gooch {
         let Gooch { b, y, alpha, beta } = gooch;
-        self.origin(EntityKind::Settings, 0, Field::GoochB, b.span);
-        self.origin(EntityKind::Settings, 0, Field::GoochY, y.span);
-        self.origin(EntityKind::Settings, 0, Field::GoochAlpha, alpha.span);
-        self.origin(EntityKind::Settings, 0, Field::GoochBeta, beta.span);
+        self.record_span(EntityKind::Settings, 0, Field::GoochB, b.span);
+        self.record_span(EntityKind::Settings, 0, Field::GoochY, y.span);
+        self.record_span(EntityKind::Settings, 0, Field::GoochAlpha, alpha.span);
+        self.record_span(EntityKind::Settings, 0, Field::GoochBeta, beta.span);
         ir::Gooch {
             b: b.value.0,
             y: y.value.0,

@@ -123,10 +123,10 @@ fn color(text: &str) -> Option<String> {
 
 /// The hint for a material that is given by a name instead of a map.
 fn material_by_name(name: &str) -> String {
-    let call = "a material is a map; mark a shared one";
+    let advice = "a material is a map; mark a shared one";
     match color(name) {
         Some(color) => format!("a material is a map, with `color: {color}` among its keys"),
-        None => format!("{call} `&{name}` and refer to it by `*{name}`"),
+        None => format!("{advice} `&{name}` and refer to it by `*{name}`"),
     }
 }
 
@@ -235,7 +235,7 @@ mod tests {
 
     #[test]
     fn numbers_and_colours_are_read_as_people_write_them() {
-        let meant = |text: &str| number(text).and_then(|(_, meant)| meant);
+        let suggested = |text: &str| number(text).and_then(|(_, suggested)| suggested);
         for (text, expected) in [
             ("0,2", Some("0.2")),
             ("-1,25", Some("-1.25")),
@@ -256,7 +256,7 @@ mod tests {
             ("3;", Some("3")),
             ("3 // the radius", Some("3 # the radius")),
         ] {
-            assert_eq!(meant(text).as_deref(), expected, "{text}");
+            assert_eq!(suggested(text).as_deref(), expected, "{text}");
         }
         assert_eq!(color("#1e90ff").as_deref(), Some("[0.118, 0.565, 1]"));
         assert_eq!(color("#f00").as_deref(), Some("[1, 0, 0]"));

@@ -1,7 +1,7 @@
 //! The variants of a record: sets of fields, of which exactly one must be present.
 
 use super::decode::Context;
-use super::record::{FieldDeclaration, Need, Record};
+use super::record::{FieldDeclaration, Presence, Record};
 use super::spelling::quoted_list;
 use rtc_diag::{Severity, codes};
 use rtc_source::Span;
@@ -30,10 +30,10 @@ pub(super) fn check(
     }
     // A required field counts as present: if it is missing, that was reported. A field with a
     // default belongs to no variant.
-    let present = |at: usize, field: &FieldDeclaration| match field.need {
-        Need::Required => true,
-        Need::Optional | Need::Unless(_) => is_there(at),
-        Need::Default(_) => false,
+    let present = |at: usize, field: &FieldDeclaration| match field.presence {
+        Presence::Required => true,
+        Presence::Optional | Presence::Unless(_) => is_there(at),
+        Presence::Default(_) => false,
     };
     let in_variants =
         |field: &FieldDeclaration| variants.iter().any(|variant| variant.contains(&field.name));
@@ -42,17 +42,17 @@ pub(super) fn check(
         .enumerate()
         .filter(|(at, field)| present(*at, field) && in_variants(field));
     // Nearly every record has a valid variant, so this check does not allocate.
-    let is_it = |variant: &&[&str]| {
+    let is_variant = |variant: &&[&str]| {
         let within = present.clone().try_fold(0, |count, (_, field)| {
             variant.contains(&field.name).then_some(count + 1)
         });
         within == Some(variant.len())
     };
-    if variants.iter().any(is_it) {
+    if variants.iter().any(is_variant) {
         return true;
     }
     let present: Vec<_> = present.map(|(_, field)| field.name).collect();
-    if context.options.lenient && is_only_turned(record, &present) {
+    if context.options.lenient && differs_only_by_rotation(record, &present) {
         let message = || format!("the {name} has no `rotation` with these keys");
         context.report(&codes::NO_EFFECT, head, message, |d| {
             d.at(head, "the `rotation` is ignored")
@@ -65,12 +65,12 @@ pub(super) fn check(
 }
 
 /// Whether the present fields without the rotation are one of the variants.
-fn is_only_turned(record: &Record, present: &[&str]) -> bool {
+fn differs_only_by_rotation(record: &Record, present: &[&str]) -> bool {
     let rest = || present.iter().filter(|name| **name != ROTATION);
-    let is_it = |variant: &&[&str]| {
+    let is_variant = |variant: &&[&str]| {
         rest().count() == variant.len() && rest().all(|name| variant.contains(name))
     };
-    record.variants.iter().any(is_it)
+    record.variants.iter().any(is_variant)
 }
 
 /// Reports that the present fields are not one of the variants.
@@ -95,9 +95,10 @@ fn report(
     };
     let in_variants =
         |field: &&FieldDeclaration| variants.iter().any(|variant| variant.contains(&field.name));
-    let meant = record.fields.iter().filter(in_variants);
-    let meant = meant.flat_map(|field| field.spellings.iter().copied().flatten().copied());
-    let cause = context.typo_for(&meant.collect::<Vec<_>>(), first_typo);
+    let candidates = record.fields.iter().filter(in_variants);
+    let candidates =
+        candidates.flat_map(|field| field.spellings.iter().copied().flatten().copied());
+    let cause = context.typo_for(&candidates.collect::<Vec<_>>(), first_typo);
     let alternatives: Vec<_> = variants
         .iter()
         .map(|variant| keys(record, variant))

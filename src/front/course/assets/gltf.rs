@@ -244,13 +244,13 @@ impl ImportedAsset {
                 ValuePath::new(EntityKind::Light, scene.lights.len(), Field::Whole),
                 pending.span,
             );
-            scene.lights.push(placed(light, world));
+            scene.lights.push(transformed(light, world));
         }
     }
 }
 
 /// A light transformed by `world`. As in glTF, its intensity and range are not scaled.
-fn placed(light: &Light, world: DAffine3) -> Light {
+fn transformed(light: &Light, world: DAffine3) -> Light {
     let Light::Punctual(Punctual { emitter, intensity }) = light else {
         return light.clone();
     };

@@ -87,7 +87,7 @@ impl MeshFile {
             return None;
         }
         // Load the libraries.
-        let libraries = self.read(loader);
+        let libraries = self.read_libraries(loader);
         if libraries.is_empty() {
             return None;
         }
@@ -121,7 +121,7 @@ impl MeshFile {
         materials.iter().any(Option::is_some).then_some(materials)
     }
 
-    fn read(&self, loader: &mut AssetLoader<'_>) -> Vec<LoadedLibrary> {
+    fn read_libraries(&self, loader: &mut AssetLoader<'_>) -> Vec<LoadedLibrary> {
         let pending_assets: Vec<_> = self.libraries(loader).map(|(pending, _)| pending).collect();
         if let (true, Some(named)) = (
             pending_assets.is_empty(),

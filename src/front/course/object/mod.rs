@@ -120,7 +120,7 @@ impl Value for Object {
                 let name = tree.text(*key);
                 name.is_some_and(|name| nearest(name, ["type"].into_iter()).is_some())
             };
-            if is_named_by_key(node, context) {
+            if report_type_as_key(node, context) {
                 return None;
             }
             let typo = tree.pairs(node).map(|(key, _)| key).find(is_typo);
@@ -161,7 +161,7 @@ impl Value for Object {
 }
 
 /// Reports an object whose type is written as a key, as in `- sphere:`.
-fn is_named_by_key(node: NodeId, context: &mut Context<'_>) -> bool {
+fn report_type_as_key(node: NodeId, context: &mut Context<'_>) -> bool {
     let tree = context.tree;
     let is_kind = |name: &str| KINDS.iter().any(|kind| kind.names.contains(&name));
     let named = tree
@@ -206,7 +206,9 @@ fn report_unknown_type(name: &str, node: NodeId, context: &mut Context<'_>) {
                 false => d.at(span, "no such type"),
             };
             match meant {
-                Some((meant, better)) => d.guess(format!("did you mean `{meant}`?"), span, better),
+                Some((meant, replacement)) => {
+                    d.guess(format!("did you mean `{meant}`?"), span, replacement)
+                }
                 None if lenient => d,
                 None => {
                     let kinds = quoted_list(KINDS.iter().map(|kind| kind.names[0]));
@@ -285,12 +287,12 @@ impl Lowering {
             material,
             casts_no_shadow: !casts_shadow,
         });
-        self.origin(EntityKind::Surface, index, Field::Whole, object_span);
+        self.record_span(EntityKind::Surface, index, Field::Whole, object_span);
         for (path, span) in value_spans {
             let field = Field::of_shape(kind, path);
-            self.origin(EntityKind::Surface, index, field, *span);
+            self.record_span(EntityKind::Surface, index, field, *span);
         }
-        self.origin(EntityKind::Surface, index, Field::Material, span);
+        self.record_span(EntityKind::Surface, index, Field::Material, span);
     }
 
     /// Omits an object of size 0 and records its span.

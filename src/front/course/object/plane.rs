@@ -281,7 +281,7 @@ mod tests {
             [1e200, 0.0, 0.0, 1e200],
         ] {
             let (point, normal) =
-                plane_of_equation(&[a, b, c, d].map(|x| Spanned::unwritten(Real(x))));
+                plane_of_equation(&[a, b, c, d].map(|x| Spanned::without_span(Real(x))));
             assert_eq!(normal.value, [a, b, c]);
             let [x, y, z] = point.value;
             let rest = a * x + b * y + c * z + d;

@@ -46,7 +46,7 @@ pub(in crate::course) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut
         let transform = Field::of_shape(ir::ShapeKind::Instance, TRANSFORM);
         let span = source_spans.span(ValuePath::new(EntityKind::Surface, surface, transform));
         if !hides_view(
-            placed_box(instance.world_from_object, [min, max]),
+            transformed_box(instance.world_from_object, [min, max]),
             &scene.camera,
         ) {
             sink.push(report_size_as_factor(size, span));
@@ -66,7 +66,7 @@ pub(in crate::course) fn apply(sizing: Sizing, lowered: &mut Lowered, sink: &mut
 const SIZE_PER_FIT: f64 = 1.5;
 
 /// The axis-aligned bounding box of a transformed box.
-fn placed_box(transform: [[f64; 3]; 4], ends: [Vec3; 2]) -> [Vec3; 2] {
+fn transformed_box(transform: [[f64; 3]; 4], ends: [Vec3; 2]) -> [Vec3; 2] {
     let [x, y, z, origin] = transform.map(Vec3::from_array);
     let corners = (0..8_usize).map(|index| {
         let of = |axis: usize| ends[(index >> axis) & 1][axis];

@@ -253,47 +253,47 @@ impl Lowering {
         span: Option<Span>,
         context: &mut Context<'_>,
     ) {
-        let add_polyhedron = Polyhedron {
+        let polyhedron = Polyhedron {
             name: "box",
             corners,
             faces: BOX,
             edges: [1, 2, 4].map(|far| corners[far] - corners[0]),
         };
-        self.add_polyhedron(props, &add_polyhedron, span, context);
+        self.add_polyhedron(props, &polyhedron, span, context);
     }
 
     /// Adds the faces of a polyhedron as triangles, counter-clockwise as seen from outside.
     fn add_polyhedron(
         &mut self,
         props: &SurfaceProps,
-        add_polyhedron: &Polyhedron<'_>,
+        polyhedron: &Polyhedron<'_>,
         span: Option<Span>,
         context: &mut Context<'_>,
     ) {
         // Only the sign of the volume is used. Edges are scaled so that it does not underflow.
-        let [x, y, z] = add_polyhedron
+        let [x, y, z] = polyhedron
             .edges
             .map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
         let volume = x.cross(y).dot(z);
-        if add_polyhedron.edges == [Vec3::ZERO; 3] {
+        if polyhedron.edges == [Vec3::ZERO; 3] {
             self.invisible(span);
             return;
         }
         if volume == 0.0 {
             span.into_iter()
-                .for_each(|span| report_flat(add_polyhedron.name, span, context));
+                .for_each(|span| report_flat(polyhedron.name, span, context));
             return;
         }
         // A fan of triangles for each face, reversed if the volume is negative.
         let value_spans = VERTICES.map(|field| (field, span));
-        for face in add_polyhedron.faces {
+        for face in polyhedron.faces {
             for k in 1..face.len() - 1 {
                 let at = if volume > 0.0 {
                     [0, k, k + 1]
                 } else {
                     [0, k + 1, k]
                 };
-                let vertices = at.map(|k| add_polyhedron.corners[face[k]].to_array());
+                let vertices = at.map(|k| polyhedron.corners[face[k]].to_array());
                 let uvs = (face.len() == 4).then(|| at.map(|k| UNIT_SQUARE[k]));
                 self.add_surface(
                     props,

@@ -3,7 +3,7 @@
 //! `rtc_tables::parameters!` lists the parameters with their kinds and defaults. The macros here
 //! turn each row into a field of the record [`StandardMaterial`]: the key is the name of the row in
 //! camel case, the kind of the row selects the type of the value (`written!`), its default
-//! (`need!`) and its lowering (`lowered!`). A parameter that is added to the table is decoded,
+//! (`presence!`) and its lowering (`lowered!`). A parameter that is added to the table is decoded,
 //! documented and lowered without a change here.
 //!
 //! `texture` has the record of a texture, with the placement and sampling of glTF; `value` has the
@@ -19,7 +19,7 @@ use super::decode::{Context, Spanned, Value};
 use super::lower::Lowering;
 use super::number::{NonNegative, Positive, Real};
 use super::reader::MapReader;
-use super::record::{FieldDeclaration, FieldOutcome, Need, Record, Slot};
+use super::record::{FieldDeclaration, FieldOutcome, FieldValue, Presence, Record};
 use super::schema::{self, Definitions};
 use super::value::{AnyScalar, Color, DisplayName};
 use rtc_ir::{self as ir, Alpha};
@@ -79,21 +79,21 @@ macro_rules! written {
 }
 
 /// The default for each kind of parameter.
-macro_rules! need {
+macro_rules! presence {
     (map, $default:expr) => {
-        Need::Optional
+        Presence::Optional
     };
     (distance, $default:expr) => {
-        Need::Optional
+        Presence::Optional
     };
     (some_fractions, $default:expr) => {
-        Need::Optional
+        Presence::Optional
     };
     (flag, $default:expr) => {
-        Need::Default(|| Value::json(&$default))
+        Presence::Default(|| Value::json(&$default))
     };
     ($kind:ident, $default:expr) => {
-        Need::Default(|| Value::json(&<written!($kind)>::from($default)))
+        Presence::Default(|| Value::json(&<written!($kind)>::from($default)))
     };
 }
 
@@ -141,24 +141,24 @@ macro_rules! material {
                         doc: " `standard`: which material this is.",
                         spellings: &[&["type"]],
                         json: &[],
-                        need: Need::Required,
-                        schema: <Spanned<AnyScalar> as Slot>::schema,
+                        presence: Presence::Required,
+                        schema: <Spanned<AnyScalar> as FieldValue>::schema,
                     },
                     FieldDeclaration {
                         name: "name",
                         doc: " A name for people to read.",
                         spellings: &[&["name"]],
                         json: &[],
-                        need: Need::Optional,
-                        schema: <Spanned<DisplayName> as Slot>::schema,
+                        presence: Presence::Optional,
+                        schema: <Spanned<DisplayName> as FieldValue>::schema,
                     },
                     $(FieldDeclaration {
                         name: stringify!($field),
                         doc: concat!($($about),*),
                         spellings: &[&[camel_case!($field)]],
                         json: &[],
-                        need: need!($kind, $default),
-                        schema: <Spanned<written!($kind)> as Slot>::schema,
+                        presence: presence!($kind, $default),
+                        schema: <Spanned<written!($kind)> as FieldValue>::schema,
                     },)*
                 ],
                 variants: &[],

@@ -44,9 +44,9 @@ impl Value for MapOrFile {
         let value = FileName::decode(node, context)?;
         Some(Self(TextureMap {
             file: Spanned { value, span },
-            set: Spanned::unwritten(SetIndex(0)),
-            wrap: Spanned::unwritten(WrapModes([Wrap::Repeat; 2])),
-            filter: Spanned::unwritten(Filter::Linear),
+            set: Spanned::without_span(SetIndex(0)),
+            wrap: Spanned::without_span(WrapModes([Wrap::Repeat; 2])),
+            filter: Spanned::without_span(Filter::Linear),
             transform: FieldOutcome::Absent,
         }))
     }

@@ -240,7 +240,7 @@ impl BakedMap {
                 let pixel = |[x, y]: [u32; 2]| {
                     let right = height_at(x + 1, y) - height_at(x + width - 1, y);
                     let up = height_at(x, y + rows - 1) - height_at(x, y + 1);
-                    coded([-height * right / 2.0, -height * up / 2.0, 1.0])
+                    encode_normal([-height * right / 2.0, -height * up / 2.0, 1.0])
                 };
                 (Pixels::Rgb8, positions.flat_map(pixel).collect())
             }
@@ -261,7 +261,7 @@ impl BakedMap {
     clippy::cast_sign_loss,
     reason = "from 0 to 255"
 )]
-fn coded(direction: [f64; 3]) -> [u8; 3] {
+fn encode_normal(direction: [f64; 3]) -> [u8; 3] {
     let square: f64 = direction
         .iter()
         .map(|component| component * component)
