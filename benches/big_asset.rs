@@ -149,11 +149,11 @@ fn start(path: &str) {
     let read = begin.elapsed();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
     let loaded = begin.elapsed();
-    let proven = pipeline::validate(&lowered, &options, &mut sink).unwrap();
+    let validated = pipeline::validate(&lowered, &options, &mut sink).unwrap();
     let checked = begin.elapsed();
-    let plan = Plan::new(&proven, Rules::ALL);
+    let plan = Plan::new(&validated, Rules::ALL);
     let planned = begin.elapsed();
-    let world = World::<Shape>::prepare(&proven, &plan);
+    let world = World::<Shape>::prepare(&validated, &plan);
     let built = begin.elapsed();
     drop(world);
     let steps = [

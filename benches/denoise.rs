@@ -62,9 +62,9 @@ impl Case {
             is_stopped: &|| false,
         };
         setup.light(&mut subject, &mut input, &observer).unwrap();
-        let window = setup.window(&subject.proven.lowered.scene).unwrap();
+        let window = setup.window(&subject.validated.lowered.scene).unwrap();
         let order = setup.order(&subject, window, None);
-        let proof = &subject.proven.scene;
+        let proof = &subject.validated.scene;
         let world = AnyWorld::prepare(proof, &Plan::new(proof, Rules::ALL));
         Self { world, order }
     }

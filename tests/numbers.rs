@@ -33,7 +33,7 @@ fn job() -> Job {
     }
 }
 
-fn proven(text: &str) -> ValidScene {
+fn validated(text: &str) -> ValidScene {
     let (scene, sink) = read(text);
     scene.unwrap_or_else(|| panic!("{:?}\n{text}", sink.kept()))
 }
@@ -46,7 +46,7 @@ fn film(scene: &ValidScene, rules: Rules) -> Film {
 
 /// That the scene is drawn with and without the rules alike, and the bits of its picture.
 fn lawful(text: &str) -> Vec<u64> {
-    let scene = proven(text);
+    let scene = validated(text);
     let pruned = film(&scene, Rules::ALL);
     assert!(
         bits(&pruned) == bits(&film(&scene, Rules::NONE)),

@@ -11,7 +11,7 @@ use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Film, Geometry, Job, Shape, World, camera_ray, image_point};
 use rtc::internals::valid::{self, ValidScene};
 
-fn proven(scene: Scene) -> ValidScene {
+fn validated(scene: Scene) -> ValidScene {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered {
         scene,
@@ -94,7 +94,7 @@ fn earth() -> Scene {
 
 #[test]
 fn the_outline_of_a_far_planet_is_exact_to_the_pixel() {
-    let scene = proven(earth());
+    let scene = validated(earth());
     let world = World::<Shape>::prepare(&scene, &Plan::new(&scene, Rules::ALL));
     let camera = &world.camera;
     let valid::Shape::Sphere(sphere) = &scene.surfaces()[0].shape else {
@@ -122,7 +122,7 @@ fn the_outline_of_a_far_planet_is_exact_to_the_pixel() {
 
 #[test]
 fn the_day_side_of_a_far_planet_is_lit_all_over() {
-    let scene = proven(earth());
+    let scene = validated(earth());
     let world = World::<Shape>::prepare(&scene, &Plan::new(&scene, Rules::ALL));
     let camera = &world.camera;
     let film = film(&scene);

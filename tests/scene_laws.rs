@@ -7,7 +7,7 @@ use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{self, Lowered, Scene, SourceSpans};
 use rtc::internals::math::ldexp;
-use rtc::internals::pipeline::{self, Input, LaidOutFault, Options};
+use rtc::internals::pipeline::{self, Input, LayoutError, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Geometry, Shear, World, camera_ray, image_point};
 use std::path::Path;
@@ -42,7 +42,7 @@ pub(crate) fn is_the_same_laid_out(path: &Path) {
     let text = match Input::file(path, options()).lay_out() {
         Ok(text) => text,
         // It is no YAML.
-        Err(LaidOutFault::Findings) => return,
+        Err(LayoutError::Findings) => return,
         Err(fault) => panic!("{}: {fault:?}", path.display()),
     };
     let again = edited(&text).lay_out();

@@ -71,7 +71,7 @@ pub(crate) const WHOLE: Job = Job {
     clamp: None,
 };
 
-pub(crate) fn proven(scene: &Scene) -> ValidScene {
+pub(crate) fn validated(scene: &Scene) -> ValidScene {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered {
         scene: scene.clone(),
@@ -81,7 +81,7 @@ pub(crate) fn proven(scene: &Scene) -> ValidScene {
 }
 
 pub(crate) fn film(scene: &Scene, job: &Job, threads: usize) -> Film {
-    let valid = proven(scene);
+    let valid = validated(scene);
     pipeline::render(
         &valid,
         &Plan::new(&valid, Rules::ALL),

@@ -55,7 +55,7 @@ impl Scene {
 
     pub(super) fn new(mut input: Input) -> Result<Self, Error> {
         let loaded = input.load();
-        let found = input.take_findings();
+        let found = input.take_diagnostics();
         if !input.is_read() {
             let diagnostics = found.kept().iter();
             let diagnostics = diagnostics.map(|found| Diagnostic::new(found, input.map()));
@@ -85,7 +85,7 @@ impl Scene {
     /// As [`Scene::render`].
     pub fn effects(&mut self, options: &Options) -> Result<Vec<Effect>, Error> {
         let subject = self.validate(options, &mut options.setup()?)?;
-        let plan = Plan::new(&subject.proven.scene, Rules::ALL);
+        let plan = Plan::new(&subject.validated.scene, Rules::ALL);
         Ok(plan.statuses.iter().map(Effect::new).collect())
     }
 
@@ -139,8 +139,8 @@ impl Scene {
         let rays = options.rays.unwrap_or(self.input.rays());
         let made = setup.light(&mut subject, &mut self.input, &observer);
         let made = made.and_then(|()| {
-            let window = setup.window(&subject.proven.lowered.scene)?;
-            setup.find_room(&mut subject, window)?;
+            let window = setup.window(&subject.validated.lowered.scene)?;
+            setup.check_memory(&mut subject, window)?;
             let order = (window, rays);
             let (film, error) = if options.target_error.is_some() {
                 let grown = setup.approach(&mut subject, order, &observer)?;
@@ -161,8 +161,8 @@ impl Scene {
             Ok((picture, counts, error))
         });
         let (picture, counts, error) = made.map_err(|error| self.error(error))?;
-        let origin = setup.origin(&subject.proven.lowered.scene);
-        let look = setup.look.settled(&subject.proven.scene.settings().mode);
+        let origin = setup.origin(&subject.validated.lowered.scene);
+        let look = setup.look.resolve(&subject.validated.scene.settings().mode);
         Ok(Picture::new(
             (picture, look, origin),
             options.format,
@@ -179,23 +179,23 @@ impl Scene {
     ) -> Result<RenderSubject, Error> {
         self.restart();
         self.input.stage(options.stage());
-        let proven = match self.loaded.clone() {
+        let validated = match self.loaded.clone() {
             Some(loaded) => setup.validate(loaded, &mut self.input),
             None => Ok(None),
         };
-        let proven = proven.map_err(|error| self.error(error))?;
-        proven.ok_or_else(|| Error::Invalid(self.diagnostics()))
+        let validated = validated.map_err(|error| self.error(error))?;
+        validated.ok_or_else(|| Error::Invalid(self.diagnostics()))
     }
 
     /// Discards the diagnostics that are not from reading.
     fn restart(&mut self) {
-        self.input.take_findings();
-        self.input.put_findings(self.found.clone());
+        self.input.take_diagnostics();
+        self.input.restore_diagnostics(self.found.clone());
     }
 
     /// The diagnostics so far.
     fn diagnostics(&mut self) -> Vec<Diagnostic> {
-        let mut found = self.input.take_findings();
+        let mut found = self.input.take_diagnostics();
         found.sort();
         let public = |found: &rtc_diag::Diagnostic| Diagnostic::new(found, self.input.map());
         found.kept().iter().map(public).collect()

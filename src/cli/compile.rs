@@ -13,7 +13,7 @@ use rtc_codec::{self as codec, Encoding};
 use rtc_emit as emit;
 use rtc_emit::course::WrittenScene;
 use rtc_image::{BackgroundFill, FileFormat};
-use rtc_pipeline::{Input, Observer, OutputTransform, PictureSetup, Proven};
+use rtc_pipeline::{Input, Observer, OutputTransform, PictureSetup, Validated};
 use std::path::Path;
 
 /// Compiles the scene and writes it.
@@ -38,17 +38,17 @@ fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure>
     if emit == Emit::Yaml {
         return carry_out_text(args, input, talk);
     }
-    let proven = input::require(&mut input, talk, input::fill)?;
-    explain(args, &proven, &input)?;
+    let validated = input::require(&mut input, talk, input::fill)?;
+    explain(args, &validated, &input)?;
     let Some(target) = target(args) else {
         return Ok(());
     };
-    let scene = &proven.lowered.scene;
+    let scene = &validated.lowered.scene;
     let encoding = match emit {
         Emit::Ir | Emit::Yaml => Encoding::Json,
         Emit::IrBin => Encoding::Binary,
-        Emit::Glb | Emit::Gltf => return write_gltf(args, emit, target, &proven, (input, talk)),
-        Emit::Mitsuba | Emit::Pov => return write_twin(emit, target, &proven, (input, talk)),
+        Emit::Glb | Emit::Gltf => return write_gltf(args, emit, target, &validated, (input, talk)),
+        Emit::Mitsuba | Emit::Pov => return write_twin(emit, target, &validated, (input, talk)),
     };
     let encoded = codec::prepare(encoding, scene);
     let encoded = encoded.map_err(|codec::NotFinite| cannot(&input, "a number is not finite"))?;
@@ -61,12 +61,12 @@ fn write_gltf(
     args: &Compile,
     emit: Emit,
     target: &Path,
-    proven: &Proven,
+    validated: &Validated,
     (mut input, talk): (Input, &mut Talk),
 ) -> Result<(), Failure> {
     let output = Output::open(target, &input)?;
     let folder = folder_of((emit == Emit::Gltf).then_some(target), &output, &input)?;
-    let asset = input.gltf(&proven.lowered, args.tolerance, folder.as_deref());
+    let asset = input.gltf(&validated.lowered, args.tolerance, folder.as_deref());
     let asset = input::unless_refused(asset, &mut input, talk)?;
     let interrupt = Interrupt::listen()?;
     let companions = put_beside(target, asset.files(), &interrupt)?;
@@ -82,12 +82,12 @@ const NO_FOLDER: &str = "its vertices and pictures are to be files beside the te
 fn write_twin(
     emit: Emit,
     target: &Path,
-    proven: &Proven,
+    validated: &Validated,
     (mut input, talk): (Input, &mut Talk),
 ) -> Result<(), Failure> {
     let output = Output::open(target, &input)?;
     let folder = folder_of((emit == Emit::Mitsuba).then_some(target), &output, &input)?;
-    let twin = input.twin(&proven.lowered, folder.as_deref());
+    let twin = input.export(&validated.lowered, folder.as_deref());
     let twin = input::unless_refused(twin, &mut input, talk)?;
     let interrupt = Interrupt::listen()?;
     let files = twin.files.iter();
@@ -139,17 +139,17 @@ fn carry_out_text(args: &Compile, mut input: Input, talk: &mut Talk) -> Result<(
     };
     setup.light(&mut subject, &mut input, &observer)?;
     input::tell(&mut input, talk)?;
-    let mut proven = subject.proven;
-    proven.lowered.scene.display = setup.look.as_display();
-    explain(args, &proven, &input)?;
+    let mut validated = subject.validated;
+    validated.lowered.scene.display = setup.look.as_display();
+    explain(args, &validated, &input)?;
     match target(args) {
-        Some(target) => write_text(target, &proven, &input, &interrupt),
+        Some(target) => write_text(target, &validated, &input, &interrupt),
         None => Ok(()),
     }
 }
 
 /// Tells the plan, if that is asked for.
-fn explain(args: &Compile, proven: &Proven, input: &Input) -> Result<(), Failure> {
+fn explain(args: &Compile, validated: &Validated, input: &Input) -> Result<(), Failure> {
     let Some(form) = args.explain else {
         return Ok(());
     };
@@ -158,21 +158,21 @@ fn explain(args: &Compile, proven: &Proven, input: &Input) -> Result<(), Failure
     } else {
         form
     };
-    output::to_stdout(PlanReport::new(proven, input)?.print(form).as_bytes())
+    output::to_stdout(PlanReport::new(validated, input)?.print(form).as_bytes())
 }
 
 /// Writes the scene in its canonical spelling, and beside it the files that it needs: those of a
 /// scene text without assets are there.
 fn write_text(
     target: &Path,
-    proven: &Proven,
+    validated: &Validated,
     input: &Input,
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
-    let scene = &proven.lowered.scene;
+    let scene = &validated.lowered.scene;
     let output = Output::open(target, input)?;
     let refuse = |reason: String| cannot(input, &reason);
-    if input.has_files_of_its_own(&proven.lowered) {
+    if input.has_original_files(&validated.lowered) {
         let text = emit::course::emit(scene).map_err(refuse)?;
         return output.commit(text.as_bytes(), interrupt);
     }

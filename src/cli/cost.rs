@@ -50,7 +50,7 @@ fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<()
     // A study has its own measure of work, and reports on settings that take more than anyone
     // renders.
     input.lift_rays();
-    let proven = input::require(input, talk, input::fill)?;
+    let validated = input::require(input, talk, input::fill)?;
     let interrupt = Interrupt::listen()?;
     let output = Output::open(&args.output, input)?;
     let page = args
@@ -61,9 +61,9 @@ fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<()
     if let Some(folder) = &args.maps {
         make_folder(folder)?;
     }
-    let about = about(input.name(), &proven.lowered.scene);
+    let about = about(input.name(), &validated.lowered.scene);
     let journal = journal(args, &about, input)?;
-    let study = measure(args, (about, journal), &proven.lowered.scene, &interrupt)?;
+    let study = measure(args, (about, journal), &validated.lowered.scene, &interrupt)?;
     let report = match args.format {
         StudyFormat::Table => study::table(&study),
         StudyFormat::Csv => study::csv(&study),

@@ -57,7 +57,7 @@ fn tell(name: &str, fixed: &FixedText, is_shown: bool) {
     let FixedText {
         text: _,
         changes: made,
-        refused,
+        rejected: refused,
         guesses,
     } = *fixed;
     if made > 0 {

@@ -3,7 +3,7 @@
 use super::args::Fmt;
 use super::talk::{self, Talk};
 use super::{Failure, edit, files, input, output};
-use rtc_pipeline::{Input, LaidOutFault, Options};
+use rtc_pipeline::{Input, LayoutError, Options};
 use std::path::Path;
 
 /// Lays out the files, or tells which are not laid out.
@@ -57,14 +57,14 @@ fn one(path: &Path, args: &Fmt, talk: &mut Talk) -> Result<(), Failure> {
 }
 
 /// Why a scene is left as it is.
-fn refusal(input: &Input, fault: LaidOutFault) -> Failure {
+fn refusal(input: &Input, fault: LayoutError) -> Failure {
     let name = input.name();
     Failure::Input(match fault {
-        LaidOutFault::Findings => return Failure::Findings,
-        LaidOutFault::NoText => {
+        LayoutError::Findings => return Failure::Findings,
+        LayoutError::NoText => {
             format!("`{name}` is left as it is: only scene texts, YAML and JSON, are laid out")
         }
-        LaidOutFault::Differs => {
+        LayoutError::Differs => {
             format!("`{name}` is left as it is: laid out, it would say something else")
         }
     })

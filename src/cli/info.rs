@@ -7,7 +7,7 @@ use indicatif::{BinaryBytes, HumanCount};
 use rtc_front::gltf::AssetSummary;
 use rtc_ir::{Light, Mesh, Mode, Projection, Scene, Shape};
 use rtc_math::{Vec3, shortest};
-use rtc_pipeline::{Input, Proven};
+use rtc_pipeline::{Input, Validated};
 use rtc_plan::{Plan, Rule, Rules};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -33,10 +33,10 @@ fn carry_out(args: &Info, input: &mut Input, talk: &mut Talk) -> Result<(), Fail
     let asset = input.asset();
     let loaded = input.load();
     let content = loaded.as_ref().map(|own| content(&own.lowered.scene));
-    let proven = loaded.and_then(|own| input.validate(own, input::fill));
-    let proven = input::unless_refused(proven, input, talk)?;
+    let validated = loaded.and_then(|own| input.validate(own, input::fill));
+    let validated = input::unless_refused(validated, input, talk)?;
     let mut facts = json!({ "schema": SCHEMA, "file": input.name() });
-    for part in [content.unwrap_or_default(), picture(&proven)] {
+    for part in [content.unwrap_or_default(), picture(&validated)] {
         extend(&mut facts, part);
     }
     extend(
@@ -150,10 +150,10 @@ fn bounds(scene: &Scene) -> Value {
 }
 
 /// How the scene is shown, and what that needs.
-fn picture(proven: &Proven) -> Value {
+fn picture(validated: &Validated) -> Value {
     let Scene {
         camera, settings, ..
-    } = &proven.lowered.scene;
+    } = &validated.lowered.scene;
     let (mode, samples) = match &settings.mode {
         Mode::Phong => ("phong", None),
         Mode::Depth => ("zbuffer", None),
@@ -162,7 +162,7 @@ fn picture(proven: &Proven) -> Value {
         Mode::Path(path) => ("path", Some(path.samples)),
     };
     let grid = u64::from(settings.supersampling).pow(2);
-    let plan = Plan::new(&proven.scene, Rules::ALL);
+    let plan = Plan::new(&validated.scene, Rules::ALL);
     let whole = plan.statuses.iter().filter(|status| status.of.is_none());
     let effects = whole.map(|status| {
         json!({

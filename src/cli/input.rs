@@ -9,7 +9,7 @@ use rtc_ir::Lowered;
 use rtc_passes::{
     self as passes, EnvironmentOverride, FillLight, StudioChoice, View, ViewAndLight,
 };
-use rtc_pipeline::{Input, Options, PictureSetup, Proven, Provenance, RenderSubject};
+use rtc_pipeline::{Input, Options, PictureSetup, Provenance, RenderSubject, Validated};
 use rtc_source::EditedFiles;
 use rtc_valid as valid;
 use std::io;
@@ -129,7 +129,7 @@ pub(super) fn set_stage(mut input: Input, stage: &args::StageArgs) -> Result<Inp
 
 /// Tells what was found since the last time, and whether the input is fit for use.
 pub(super) fn tell(input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
-    let sink = input.take_findings();
+    let sink = input.take_diagnostics();
     let verdict = match input.is_read() {
         false => Err(Failure::Unreadable),
         true if sink.has_errors() => Err(Failure::Findings),
@@ -144,11 +144,11 @@ pub(super) fn require(
     input: &mut Input,
     talk: &mut Talk,
     change: impl FnOnce(&mut Lowered, &Provenance),
-) -> Result<Proven, Failure> {
-    let proven = input
+) -> Result<Validated, Failure> {
+    let validated = input
         .load()
         .and_then(|loaded| input.validate(loaded, change));
-    unless_refused(proven, input, talk)
+    unless_refused(validated, input, talk)
 }
 
 /// Whether a file is a picture, by its name.

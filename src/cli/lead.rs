@@ -122,11 +122,11 @@ fn scene(kept: &[OsString]) -> Option<Option<Scene>> {
         return Some(None);
     }
     let input = input::staged(file, reading, stage).ok();
-    let proven = input.and_then(|mut input| {
+    let validated = input.and_then(|mut input| {
         let loaded = input.load()?;
         input.validate(loaded, |_, _| ())
     });
-    Some(proven.map(|proven| proven.lowered.scene))
+    Some(validated.map(|validated| validated.lowered.scene))
 }
 
 /// The flag for so many samples of a pixel.

@@ -7,7 +7,7 @@ use super::render::kind;
 use super::talk::{self, Talk};
 use super::{Failure, progress};
 use rtc_diag::Sink;
-use rtc_pipeline::{PartError, PicturePart};
+use rtc_pipeline::{RenderShard, ShardError};
 use rtc_source::{Limits, Loader, Resource, SourceMap};
 use std::fmt;
 use std::path::Path;
@@ -50,9 +50,9 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
 }
 
 /// All parts as one.
-fn merged(args: &Merge, map: &SourceMap) -> Result<PicturePart, Failure> {
+fn merged(args: &Merge, map: &SourceMap) -> Result<RenderShard, Failure> {
     let max_pixels = map.budget().limit(Resource::Pixels);
-    let mut all: Option<PicturePart> = None;
+    let mut all: Option<RenderShard> = None;
     for path in &args.parts {
         let part = read_part(path, max_pixels, map)?;
         match &mut all {
@@ -68,10 +68,10 @@ pub(super) fn read_part(
     path: &Path,
     max_pixels: u64,
     map: &SourceMap,
-) -> Result<PicturePart, Failure> {
+) -> Result<RenderShard, Failure> {
     let bytes = Loader.bytes(path, MAX_BYTES, map);
     let bytes = bytes.map_err(|error| Failure::Trouble(said_of(path, &error)))?;
-    PicturePart::load(&bytes, max_pixels).map_err(|error| unfit(path, &error))
+    RenderShard::load(&bytes, max_pixels).map_err(|error| unfit(path, &error))
 }
 
 /// What to say of a part that is not as it should be.
@@ -84,7 +84,7 @@ fn said_of(path: &Path, error: &dyn fmt::Display) -> String {
 }
 
 /// Refuses to write a picture of another kind than that which the parts are of.
-fn refuse_other_kind(args: &Merge, merged: &PicturePart) -> Result<(), Failure> {
+fn refuse_other_kind(args: &Merge, merged: &RenderShard) -> Result<(), Failure> {
     let asked = kind(&args.output, None)?;
     let ((is, own), (_, other)) = (merged.look().kind.names(), asked.names());
     if own == other {
@@ -96,18 +96,18 @@ fn refuse_other_kind(args: &Merge, merged: &PicturePart) -> Result<(), Failure> 
 }
 
 /// What to say of parts that make no picture.
-fn refused(error: PartError, merged: &PicturePart) -> Failure {
+fn refused(error: ShardError, merged: &RenderShard) -> Failure {
     let words = match &error {
-        PartError::Missing(shares, _) => {
+        ShardError::Missing(shares, _) => {
             let first = shares.first().copied().unwrap_or(1);
             format!("{error}\nhelp: `{}` renders it", merged.command(first))
         }
-        PartError::NotAPart
-        | PartError::Version(_)
-        | PartError::Damaged(_)
-        | PartError::Film(_)
-        | PartError::OtherPicture(_)
-        | PartError::Overlap(_) => error.to_string(),
+        ShardError::NotAPart
+        | ShardError::Version(_)
+        | ShardError::Damaged(_)
+        | ShardError::Film(_)
+        | ShardError::OtherPicture(_)
+        | ShardError::Overlap(_) => error.to_string(),
     };
     Failure::Input(words)
 }

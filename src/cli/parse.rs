@@ -3,7 +3,7 @@
 use super::args::BackgroundArg;
 use rtc_image::BackgroundFill;
 use rtc_passes::{Orbit, Sun};
-use rtc_pipeline::{Exposure, MOST_SHARES};
+use rtc_pipeline::{Exposure, MAX_SHARDS};
 use rtc_plan::Rule;
 use rtc_render::Crop;
 use rtc_source::Resource;
@@ -26,8 +26,8 @@ pub(super) fn share(text: &str) -> Result<[u32; 2], String> {
     let numbers = text.split_once('/');
     let numbers = numbers.and_then(|(i, n)| Some([i.parse().ok()?, n.parse().ok()?]));
     numbers
-        .filter(|[index, count]| (1..=*count).contains(index) && *count <= MOST_SHARES)
-        .ok_or_else(|| format!("expected a share and their number, at most {MOST_SHARES}, as 3/8"))
+        .filter(|[index, count]| (1..=*count).contains(index) && *count <= MAX_SHARDS)
+        .ok_or_else(|| format!("expected a share and their number, at most {MAX_SHARDS}, as 3/8"))
 }
 
 /// The first and the last of some frames, from 1 on.

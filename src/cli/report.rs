@@ -7,7 +7,7 @@
 use super::Failure;
 use super::args::Explanation;
 use indicatif::HumanCount;
-use rtc_pipeline::{self as pipeline, Input, Proven};
+use rtc_pipeline::{self as pipeline, Input, Validated};
 use rtc_plan::{Caustics, EffectStatus, PathPlan, Plan, Rule, Rules, State};
 use rtc_render::{Counts, Job, KERNELS, PATH_KERNELS, Stride, choose, choose_for_paths};
 use rtc_valid::{Mode, ValidScene};
@@ -104,13 +104,13 @@ impl Row {
     fn new(
         status: &EffectStatus,
         [costs, saves]: [u64; 2],
-        proven: &Proven,
+        validated: &Validated,
         input: &Input,
     ) -> Self {
         let spans = status
             .facts
             .iter()
-            .filter_map(|place| proven.lowered.source_spans.span(*place));
+            .filter_map(|place| validated.lowered.source_spans.span(*place));
         let lines = spans.map(|span| input.line(span));
         let mut places: Vec<_> = lines.map(|(file, line)| at(file, line)).collect();
         places.dedup();
@@ -157,9 +157,9 @@ impl Row {
 
 impl PlanReport {
     /// Plans the picture and counts rays.
-    pub(super) fn new(proven: &Proven, input: &Input) -> Result<Self, Failure> {
-        let plan = Plan::new(&proven.scene, Rules::ALL);
-        let counter = Counter::new(&proven.scene);
+    pub(super) fn new(validated: &Validated, input: &Input) -> Result<Self, Failure> {
+        let plan = Plan::new(&validated.scene, Rules::ALL);
+        let counter = Counter::new(&validated.scene);
         let planned = counter.count(Rules::ALL)?;
         let unpruned = counter.count(Rules::NONE)?;
         let row = |status: &EffectStatus| {
@@ -174,7 +174,7 @@ impl PlanReport {
             } else {
                 0
             };
-            Ok(Row::new(status, [costs, saves], proven, input))
+            Ok(Row::new(status, [costs, saves], validated, input))
         };
         Ok(Self {
             kernel: kernel(&plan),
@@ -191,9 +191,9 @@ impl PlanReport {
     }
 
     /// The verdicts of a plan as a table, without counts.
-    pub(super) fn statuses(proven: &Proven, input: &Input) -> String {
-        let plan = Plan::new(&proven.scene, Rules::ALL);
-        let row = |status: &EffectStatus| Row::new(status, [0; 2], proven, input);
+    pub(super) fn statuses(validated: &Validated, input: &Input) -> String {
+        let plan = Plan::new(&validated.scene, Rules::ALL);
+        let row = |status: &EffectStatus| Row::new(status, [0; 2], validated, input);
         let lines = plan.statuses.iter().map(|status| row(status).lines(""));
         lines.collect()
     }

@@ -3,7 +3,7 @@
 use super::Failure;
 use rtc_ir::{Camera, Scene};
 use rtc_math::{Vec3, unit};
-use rtc_pipeline::Proven;
+use rtc_pipeline::Validated;
 use std::f64::consts::TAU;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -66,7 +66,7 @@ impl Turntable {
 
     /// Shows the scene as it is in one frame, from 0; the camera goes round anticlockwise, seen
     /// from above.
-    pub(super) fn turn(&self, proven: &mut Proven, frame: u32) -> Result<(), Failure> {
+    pub(super) fn turn(&self, validated: &mut Validated, frame: u32) -> Result<(), Failure> {
         let angle = TAU * f64::from(frame) / f64::from(self.count);
         let camera = match frame {
             0 => self.camera.clone(),
@@ -78,8 +78,8 @@ impl Turntable {
                 frame + 1
             ))
         };
-        proven.scene = proven.scene.seen_by(&camera).ok_or_else(unsound)?;
-        proven.lowered.scene.camera = camera;
+        validated.scene = validated.scene.seen_by(&camera).ok_or_else(unsound)?;
+        validated.lowered.scene.camera = camera;
         Ok(())
     }
 }

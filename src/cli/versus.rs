@@ -44,7 +44,7 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], talk: &mut Talk) -> Result<()
     let [first, second] = files.map(|file| input::staged(file, &args.reading, &args.stage));
     let mut inputs = [first?, second?];
     let [first, second] = &mut inputs;
-    let (first, second) = (proven(first, talk)?, proven(second, talk)?);
+    let (first, second) = (validated(first, talk)?, validated(second, talk)?);
     let interrupt = Interrupt::listen()?;
     let [a, b] = [&first.1, &second.1].map(|scene| scene.camera.size);
     if a != b {
@@ -75,10 +75,10 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], talk: &mut Talk) -> Result<()
 }
 
 /// A scene, proven, and what is told of it.
-fn proven(input: &mut Input, talk: &mut Talk) -> Result<(About, Scene), Failure> {
+fn validated(input: &mut Input, talk: &mut Talk) -> Result<(About, Scene), Failure> {
     input.lift_rays();
-    let proven = input::require(input, talk, input::fill)?;
-    let scene = proven.lowered.scene.clone();
+    let validated = input::require(input, talk, input::fill)?;
+    let scene = validated.lowered.scene.clone();
     Ok((about(input.name(), &scene), scene))
 }
 

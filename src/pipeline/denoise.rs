@@ -1,15 +1,15 @@
-//! Denoised pictures, with their errors: of traced paths alone, of two samples a pixel at least.
+//! Denoised pictures and their errors; path tracing only, with at least two samples per pixel.
 
 use super::{PictureSetup, RayCounter, RenderError, RenderSubject, Renderer};
 use rtc_render::{DenoisedFilm, Film, Job, OnPixel};
 use rtc_study::{Order, ProbedError, probe};
 use rtc_valid::{Mode, ValidScene};
 
-/// A picture in the setting of its scene.
+/// A picture rendered with the settings of its scene.
 pub struct Traced {
-    /// The picture, and all rays.
+    /// The picture, with the counts of all rays.
     pub film: Film,
-    /// Of a denoised picture, its error.
+    /// The error of a denoised picture.
     pub probed: Option<ProbedError>,
 }
 
@@ -20,47 +20,49 @@ impl From<Film> for Traced {
 }
 
 impl PictureSetup {
-    /// The denoised picture and its error; `None` if `on_pixel`, which counts on `meter`, said stop.
+    /// The denoised picture and its error; `None` if `on_pixel`, which counts rays on `counter`,
+    /// stopped it.
     pub(super) fn denoised(
         &self,
         subject: &mut RenderSubject,
         job: &Job,
-        (on_pixel, meter): (&OnPixel<'_>, &RayCounter),
+        (on_pixel, counter): (&OnPixel<'_>, &RayCounter),
     ) -> Result<Option<Traced>, RenderError> {
-        let samples = paths(&subject.proven.scene, "--denoise")?;
+        let samples = paths(&subject.validated.scene, "--denoise")?;
         if samples < 2 {
-            let words = "`--denoise` takes at least `--spp 2`";
-            return Err(RenderError::Refused(words.to_owned()));
+            let message = "`--denoise` takes at least `--spp 2`";
+            return Err(RenderError::Refused(message.to_owned()));
         }
         let window = match job.crop {
             Some(crop) => crop,
-            None => self.window(&subject.proven.lowered.scene)?,
+            None => self.window(&subject.validated.lowered.scene)?,
         };
         let order = self.order(subject, window, None);
         let (_, renderer) = self.renderer(subject)?;
-        Ok(renderer.denoised(samples, (job, &order), (on_pixel, meter)))
+        Ok(renderer.denoised(samples, (job, &order), (on_pixel, counter)))
     }
 
-    /// The bytes of a pixel that a denoiser holds beside the film.
+    /// The memory of the denoiser in bytes per pixel, in addition to the film.
     pub(super) fn denoiser_memory(&self) -> usize {
-        /// A second film, guides by three sets of rays and how they are gathered, variance, picture; less
-        /// than those is the film of probes, which comes when guides have gone.
+        /// A second film, three sets of guide buffers with their accumulators, variance, and the
+        /// result. The film of the error estimate is smaller and is allocated after the guide
+        /// buffers are freed.
         const DENOISED: usize = 40 + 3 * 64 * 2 + 2 * 24;
         if self.denoise { DENOISED } else { 0 }
     }
 }
 
 impl Renderer {
-    /// Renders a denoised picture of traced paths, of so many samples a pixel, at least 2, and finds its
-    /// error. `None` if `on_pixel` said stop.
+    /// Renders a denoised path-traced picture with `samples` (at least 2) per pixel and estimates
+    /// its error. `None` if `on_pixel` stopped it.
     fn denoised(
         &self,
         samples: u32,
         (job, order): (&Job, &Order),
-        (on_pixel, meter): (&OnPixel<'_>, &RayCounter),
+        (on_pixel, counter): (&OnPixel<'_>, &RayCounter),
     ) -> Option<Traced> {
         self.threads.install(|| {
-            let between = || meter.begin_round();
+            let between = || counter.begin_round();
             let picture = self.world.denoised(samples, job, on_pixel, &between)?;
             between();
             let probed = probe(&self.world, order, &picture, samples, on_pixel)?;
@@ -72,12 +74,12 @@ impl Renderer {
     }
 }
 
-/// Refuses an option that needs traced paths for a scene without.
+/// Rejects an option that needs path tracing for other scenes.
 pub(super) fn require_paths(scene: &ValidScene, option: &str) -> Result<(), RenderError> {
     paths(scene, option).map(drop)
 }
 
-/// The paths a pixel of a scene, for an option that needs paths.
+/// The paths per pixel, for an option that needs path tracing.
 fn paths(scene: &ValidScene, option: &str) -> Result<u32, RenderError> {
     match scene.settings().mode {
         Mode::Path(path) => Ok(path.samples.get()),

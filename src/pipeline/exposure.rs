@@ -1,8 +1,7 @@
-//! What the light of a scene shows of it: how bright it is to be shown, if its lights are in lux and
-//! candela, and how much of it is seen.
+//! Measures the light of a scene: its automatic exposure, and how much of the scene is visible.
 //!
-//! That is found by a small render of the whole view, always of the same size and samples, so that it
-//! does not depend on those of the picture, nor on the part of it that is rendered.
+//! Both come from a small render of the whole view, always with the same size and number of
+//! samples, so they do not depend on those of the picture nor on its crop window.
 
 use super::Renderer;
 use rtc_color::luminance;
@@ -12,41 +11,41 @@ use rtc_passes::emissive_surfaces;
 use rtc_render::{Aov, Background, Film, Job, OnPixel, Values};
 use rtc_valid::{ValidScene, revalidate};
 
-/// The small render: its sides in pixels, and the paths of each.
+/// The side of the small render in pixels, and its paths per pixel.
 const SIDE: u32 = 64;
 const PATHS: u32 = 16;
-/// What is lit is shown as a grey card in the mean of the logarithms of its luminance.
+/// The geometric mean of the luminance of illuminated pixels is exposed to a grey card.
 const GREY: f64 = 0.18;
-/// So much of what is lit is at most white in all channels.
+/// The fraction of illuminated pixels that stay below white in all channels.
 const UNCLIPPED: f64 = 0.95;
-/// Pixels darker than this part of the bright ones count as if they were as bright.
-const DARK: f64 = 1e-3;
+/// Pixels darker than this fraction of the bright ones count as if they had this fraction.
+const DARKEST: f64 = 1e-3;
 
-/// Of what is darker than this, nothing is seen: 9 % of white as a display shows it.
-const SEEN: f64 = 0.01;
+/// Darker pixels count as not visible: 9 % of white on a display.
+const VISIBLE: f64 = 0.01;
 
-/// What the light of a scene shows of it.
+/// The result of measuring the light of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OwnLight {
-    /// The exposure that shows it, in whole thirds of a stop; 0 if its surfaces are dark.
+pub struct LightMeasurement {
+    /// The automatic exposure, in whole thirds of a stop; 0 if all surfaces are dark.
     pub stops: f64,
-    /// The part of its surfaces that is seen then, of those in the picture that don't glow
-    /// themselves, in [0, 1].
-    pub seen: f64,
+    /// The fraction of the non-emissive surface pixels that are visible at this exposure, in [0,
+    /// 1].
+    pub visible: f64,
 }
 
 impl Renderer {
-    /// What the light of a proven scene shows to a camera, exposed by as much as that asks for, or as
-    /// it is. The scene is that of the renderer, but for its camera and settings. `None` if
-    /// `on_pixel` said stop.
-    pub fn own_light(
+    /// Measures the light of a valid scene for a camera, with automatic exposure if `exposes`. The
+    /// scene is that of the renderer, except for camera and settings. `None` if `on_pixel` stopped
+    /// it.
+    pub fn measure_light(
         &mut self,
         scene: &Scene,
         camera: &Camera,
         exposes: bool,
         on_pixel: &OnPixel<'_>,
-    ) -> Option<OwnLight> {
-        let own = self.world.scene().clone();
+    ) -> Option<LightMeasurement> {
+        let scene_before = self.world.scene().clone();
         self.change(small(scene, camera));
         let job = Job {
             values: Values::Linear,
@@ -55,7 +54,7 @@ impl Renderer {
         };
         let film = self.render(&job, on_pixel);
         let numbers = self.layers(&[Aov::Instance], &job, &|| true);
-        self.change(own);
+        self.change(scene_before);
         let (film, numbers) = (film?, numbers?);
         let stops = if exposes { stops(&film) } else { 0.0 };
         let glowing = emissive_surfaces(scene);
@@ -64,14 +63,15 @@ impl Renderer {
             clippy::cast_sign_loss,
             reason = "surfaces are counted from 1"
         )]
-        let glows = |number: &f32| glowing.get((*number as usize).wrapping_sub(1)) == Some(&true);
-        let glows: Vec<bool> = numbers.values.iter().map(glows).collect();
-        let seen = seen(&film, &glows, stops);
-        Some(OwnLight { stops, seen })
+        let is_emissive =
+            |number: &f32| glowing.get((*number as usize).wrapping_sub(1)) == Some(&true);
+        let is_emissive: Vec<bool> = numbers.values.iter().map(is_emissive).collect();
+        let visible = visible(&film, &is_emissive, stops);
+        Some(LightMeasurement { stops, visible })
     }
 }
 
-/// The scene as the small render shows it.
+/// The scene with the settings of the small render.
 fn small(scene: &Scene, camera: &Camera) -> ValidScene {
     let mut scene = scene.clone();
     let [width, height] = camera.size.map(|side| f64::from(side) / f64::from(SIDE));
@@ -89,10 +89,13 @@ fn small(scene: &Scene, camera: &Camera) -> ValidScene {
 
 /// The exposure at which the surfaces of a film are neither too dark nor too bright.
 fn stops(film: &Film) -> f64 {
-    let shown = surfaces(film).map(|(_, pixel)| pixel);
+    let surface_pixels = surfaces(film).map(|(_, pixel)| pixel);
     let is_lit = |pixel: &[f64; 3]| luminance(*pixel) > 0.0 && luminance(*pixel).is_finite();
-    let lit: Vec<[f64; 3]> = shown.filter(is_lit).collect();
-    let mut brightest: Vec<f64> = lit.iter().map(|[r, g, b]| r.max(*g).max(*b)).collect();
+    let illuminated: Vec<[f64; 3]> = surface_pixels.filter(is_lit).collect();
+    let mut brightest: Vec<f64> = illuminated
+        .iter()
+        .map(|[r, g, b]| r.max(*g).max(*b))
+        .collect();
     brightest.sort_unstable_by(f64::total_cmp);
     #[expect(
         clippy::cast_possible_truncation,
@@ -104,38 +107,38 @@ fn stops(film: &Film) -> f64 {
         return 0.0;
     };
     // The geometric mean of the luminance.
-    let logarithms = lit
+    let logarithms = illuminated
         .iter()
-        .map(|pixel| ln(luminance(*pixel).max(DARK * bright)));
-    let mean = exp(logarithms.sum::<f64>() / lit.len() as f64);
+        .map(|pixel| ln(luminance(*pixel).max(DARKEST * bright)));
+    let mean = exp(logarithms.sum::<f64>() / illuminated.len() as f64);
     let factor = (GREY / mean).min(1.0 / bright);
     let stops = ln(factor) / std::f64::consts::LN_2;
     (3.0 * stops).round() / 3.0
 }
 
-/// The part of the surfaces of a film that is seen at an exposure, of the pixels that don't glow;
-/// all if there are no others.
-fn seen(film: &Film, glows: &[bool], stops: f64) -> f64 {
-    let least = SEEN * pow(2.0, -stops);
-    let lit = surfaces(film).filter(|(index, _)| glows.get(*index) != Some(&true));
-    let (all, seen) = lit.fold((0_u32, 0_u32), |(all, seen), (_, pixel)| {
-        (all + 1, seen + u32::from(luminance(pixel) >= least))
+/// The fraction of non-emissive surface pixels that are visible at an exposure; 1 if there are
+/// none.
+fn visible(film: &Film, is_emissive: &[bool], stops: f64) -> f64 {
+    let least = VISIBLE * pow(2.0, -stops);
+    let illuminated = surfaces(film).filter(|(index, _)| is_emissive.get(*index) != Some(&true));
+    let (all, visible) = illuminated.fold((0_u32, 0_u32), |(all, visible), (_, pixel)| {
+        (all + 1, visible + u32::from(luminance(pixel) >= least))
     });
     if all == 0 {
         1.0
     } else {
-        f64::from(seen) / f64::from(all)
+        f64::from(visible) / f64::from(all)
     }
 }
 
-/// The pixels of a film that show a surface, by their indices. What covers a pixel in part is as
-/// bright as if it covered it whole.
+/// The pixels of a film that show a surface, with their indices. A partly covered pixel has the
+/// brightness of its covered part.
 fn surfaces(film: &Film) -> impl Iterator<Item = (usize, [f64; 3])> {
     let pixels = film.image.pixels.iter().zip(&film.coverage).enumerate();
     let covered = pixels.filter(|(_, (_, covered))| **covered > 0.0);
     covered.map(|(index, (pixel, covered))| {
-        let whole = pixel.map(|value| value / f64::from(*covered));
-        (index, whole)
+        let uncovered = pixel.map(|value| value / f64::from(*covered));
+        (index, uncovered)
     })
 }
 
@@ -165,7 +168,7 @@ mod tests {
             let expected = third(-ln(radiance / GREY) / std::f64::consts::LN_2);
             let found = exposed(vec![[radiance; 3]; 40], vec![1.0; 40]);
             assert!((found - expected).abs() < 1e-9, "{radiance}: {found}");
-            // Half covered, and beside a background that is no surface.
+            // Half covered, and next to a background without surfaces.
             let mut half = vec![[radiance / 2.0; 3]; 40];
             half.extend([[0.0; 3]; 60]);
             let coverage = [vec![0.5; 40], vec![0.0; 60]].concat();
@@ -203,13 +206,13 @@ mod tests {
             counts,
         };
         assert_eq!(
-            [0.0, 3.0, -2.0].map(|stops| seen(&film, &[], stops)),
+            [0.0, 3.0, -2.0].map(|stops| visible(&film, &[], stops)),
             [0.25, 1.0, 0.0]
         );
-        // Of the ten bright ones five glow, and then all that are there.
-        let glows = |count: usize| (0..100).map(|index| index < count).collect::<Vec<_>>();
-        let seen = |count| seen(&film, &glows(count), 0.0);
-        assert_eq!([5, 40].map(seen), [1.0 / 7.0, 1.0]);
+        // Of the ten bright pixels five are emissive, then all covered ones.
+        let is_emissive = |count: usize| (0..100).map(|index| index < count).collect::<Vec<_>>();
+        let visible = |count| visible(&film, &is_emissive(count), 0.0);
+        assert_eq!([5, 40].map(visible), [1.0 / 7.0, 1.0]);
     }
 
     #[test]

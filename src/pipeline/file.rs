@@ -1,32 +1,33 @@
-//! The one writer of files: a file appears whole or not at all, and so does a folder of them.
+//! Writes files atomically: a file appears complete or not at all, and so does a folder of files.
 //!
-//! It is written beside its target under another name, synced and renamed. What is unfinished is
-//! removed. A link that is the last part of its path is replaced, not followed; what is edited may
-//! be one that stays in its folder.
+//! A file is written next to its target under a temporary name, synced and renamed; unfinished
+//! files are removed. A link at the end of the path is replaced, not followed, except that an
+//! edited file may be a link within its folder.
 
 use std::fs::{self, File, Permissions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{NamedTempFile, TempDir};
 
-/// A file that is to appear, fit to be written.
+/// A file to be written.
 pub struct NewFile {
-    /// Where it is to be, free of links.
+    /// The path, with a canonical folder.
     target: PathBuf,
-    /// Those of the file that is there already.
+    /// The permissions of the file that it replaces.
     permissions: Option<Permissions>,
 }
 
-/// Who looks on while a file is written.
+/// Observes the writing of a file.
 pub trait WriteObserver {
     /// Whether to stop.
     fn is_stopped(&self) -> bool;
 
-    /// The draft that is not to stay behind if the process ends now; `None` if there is none.
+    /// Receives the path of the temporary file, which must be deleted if the process ends now;
+    /// `None` if there is none.
     fn draft(&self, path: Option<&Path>);
 }
 
-/// Nobody looks on.
+/// Does nothing.
 struct Unobserved;
 
 impl WriteObserver for Unobserved {
@@ -38,39 +39,39 @@ impl WriteObserver for Unobserved {
 }
 
 impl NewFile {
-    /// Writes a file of these bytes at `path`, which nobody looks on.
+    /// Writes a file with these bytes at `path`, without an observer.
     ///
     /// # Errors
-    /// What the system says, or that there is no regular file at `path`.
+    /// An error of the system, or if `path` is not a regular file.
     pub fn save(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let stream = || io::Error::other("it is no regular file");
         let file = Self::at(path)?.ok_or_else(stream)?;
         file.write(&|out| out.write_all(bytes), &Unobserved)
     }
 
-    /// Writes these bytes in place of those of the file at `path`, which nobody looks on.
+    /// Replaces the content of the file at `path`, without an observer.
     ///
     /// # Errors
-    /// What the system says, or that the file is a link that leaves its folder.
+    /// An error of the system, or if the file is a link that leaves its folder.
     pub fn edit(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let target = path.canonicalize()?;
         if !target.starts_with(folder_of(path).canonicalize()?) {
-            let words = "it is a link that leaves its folder; name the file that it leads to";
-            return Err(io::Error::other(words));
+            let message = "it is a link that leaves its folder; name the file that it leads to";
+            return Err(io::Error::other(message));
         }
         Self::save(&target, bytes)
     }
 
-    /// Looks whether the file at `path` can be written. `None` if there is a device or a pipe, which
-    /// cannot be replaced.
+    /// Checks that the file at `path` can be written. `None` for a device or a pipe, which can't be
+    /// replaced.
     ///
     /// # Errors
-    /// If it can't.
+    /// If it can't be written.
     pub fn at(path: &Path) -> io::Result<Option<Self>> {
         if fs::metadata(path).is_ok_and(|meta| meta.is_dir()) {
             return Err(ErrorKind::IsADirectory.into());
         }
-        let target = place_of(path)?;
+        let target = resolved_path(path)?;
         let present = fs::symlink_metadata(&target).ok();
         let permissions = match &present {
             Some(meta) if meta.is_symlink() && is_stream(&target) => return Ok(None),
@@ -83,7 +84,7 @@ impl NewFile {
             None => None,
         };
         let folder = folder_of(&target);
-        // Its errors name the draft, which means nothing to the user: the kind says it.
+        // The errors name the temporary file, which means nothing to the user; their kind suffices.
         draft(folder).map_err(|error| io::Error::from(error.kind()))?;
         Ok(Some(Self {
             target,
@@ -91,10 +92,10 @@ impl NewFile {
         }))
     }
 
-    /// Writes a file beside its target and puts it in place, unless the observer says stop before.
+    /// Writes the file to a temporary file and renames it, unless the observer stops it.
     ///
     /// # Errors
-    /// What the system says, or that someone said stop.
+    /// An error of the system, or if it was stopped.
     pub fn write(
         &self,
         write: &dyn Fn(&mut dyn Write) -> io::Result<()>,
@@ -103,10 +104,10 @@ impl NewFile {
         self.write_slowly(&mut |file| write(file), observer)
     }
 
-    /// The same with a file that is written while work goes on, and not from its beginning to its end.
+    /// The same for a file that is written incrementally, with random access.
     ///
     /// # Errors
-    /// What the system says, or that someone said stop.
+    /// An error of the system, or if it was stopped.
     pub fn write_slowly(
         &self,
         write: &mut dyn FnMut(&mut File) -> io::Result<()>,
@@ -129,7 +130,7 @@ impl NewFile {
         if let Some(permissions) = &self.permissions {
             draft.as_file().set_permissions(permissions.clone())?;
         }
-        // By the file itself: the errors of its wrapper name the draft.
+        // The inner file: errors of its wrapper name the temporary file.
         write(draft.as_file_mut())?;
         draft.as_file().sync_all()?;
         if observer.is_stopped() {
@@ -140,18 +141,18 @@ impl NewFile {
     }
 }
 
-/// A folder that is to appear whole, with all its files, or not at all.
+/// A folder that appears complete with all its files, or not at all.
 pub struct NewFolder {
     target: PathBuf,
-    /// Where it is until then, beside its target; gone when dropped.
+    /// The temporary folder next to the target; deleted when dropped.
     draft: TempDir,
 }
 
 impl NewFolder {
-    /// Looks whether there can be a folder at `path`: there is nothing, or an empty one.
+    /// Checks that a folder can be made at `path`: nothing is there, or an empty folder.
     ///
     /// # Errors
-    /// If there can't.
+    /// If it can't be made.
     pub fn at(path: &Path) -> io::Result<Self> {
         match fs::read_dir(path).map(|mut entries| entries.next().is_some()) {
             Ok(true) => return Err(ErrorKind::DirectoryNotEmpty.into()),
@@ -161,7 +162,7 @@ impl NewFolder {
         if path.is_symlink() {
             return Err(io::Error::other("it is a link"));
         }
-        let target = path.canonicalize().or_else(|_| place_of(path))?;
+        let target = path.canonicalize().or_else(|_| resolved_path(path))?;
         let folder = folder_of(&target);
         let mut builder = tempfile::Builder::new();
         builder.prefix(".rtc-").suffix(".tmp");
@@ -172,7 +173,7 @@ impl NewFolder {
         Ok(Self { target, draft })
     }
 
-    /// Writes one of its files, unless the observer says stop before.
+    /// Writes one of its files, unless the observer stops it.
     ///
     /// # Errors
     /// As [`NewFile::write`].
@@ -186,33 +187,33 @@ impl NewFolder {
         file.ok_or(ErrorKind::AlreadyExists)?.write(write, observer)
     }
 
-    /// Puts it in place, unless the observer says stop before.
+    /// Renames the temporary folder, unless the observer stops it.
     ///
     /// # Errors
-    /// What the system says, as when there is something by now, or that someone said stop.
+    /// An error of the system, for example if the target exists by now, or if it was stopped.
     #[expect(clippy::disallowed_methods, reason = "this is the one writer")]
     pub fn place(self, observer: &dyn WriteObserver) -> io::Result<()> {
         if observer.is_stopped() {
             return Err(ErrorKind::Interrupted.into());
         }
-        // Only an empty folder goes so.
+        // Only an empty folder can be removed this way.
         if self.target.is_dir() {
             fs::remove_dir(&self.target)?;
         }
         fs::rename(self.draft.path(), &self.target)?;
-        // There is nothing left of the draft.
+        // The temporary folder no longer exists.
         let _ = self.draft.keep();
         Ok(())
     }
 }
 
-/// A path whose folder, which must be there, is free of links.
-fn place_of(path: &Path) -> io::Result<PathBuf> {
+/// A path with a canonical folder, which must exist.
+fn resolved_path(path: &Path) -> io::Result<PathBuf> {
     let name = path.file_name().ok_or(ErrorKind::IsADirectory)?;
     Ok(folder_of(path).canonicalize()?.join(name))
 }
 
-/// Whether a link is one that the system keeps for a stream, as `/dev/stdout`.
+/// Whether a link is a stream of the system, for example `/dev/stdout`.
 fn is_stream(link: &Path) -> bool {
     let folder = folder_of(link);
     folder == Path::new("/dev") || folder.starts_with("/proc")
@@ -225,7 +226,7 @@ fn folder_of(target: &Path) -> &Path {
         .unwrap_or(Path::new("."))
 }
 
-/// An empty file with the permissions of any new one, gone when dropped.
+/// An empty temporary file with the permissions of a new file; deleted when dropped.
 fn draft(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".rtc-").suffix(".tmp");

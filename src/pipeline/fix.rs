@@ -1,11 +1,11 @@
-//! What findings propose, put into the text of a scene where that makes it better and nothing worse.
+//! Applies suggested fixes to the text of a scene where they improve it.
 //!
-//! A changed text is checked in the place of the file before it is taken. It is better if each finding
-//! that is obeyed is gone, there is no error that was not there before, and no warning either unless
-//! an error is gone: behind errors, warnings are not seen. A change that puts in a key without a
-//! meaning is never better, for the setting below it would be lost. What one change brings to light
-//! may be mended by the next, so that a few are tried on. Where all changes together are not
-//! better, each half of them is tried, and so on: few that are refused cost few checks.
+//! A changed text is checked in place of the file before it is accepted. It is an improvement if
+//! each fixed diagnostic is gone, and there is no new error, and no new warning either unless an
+//! error is gone (errors hide warnings). A change that inserts an unknown key is never accepted,
+//! because the setting below it would be lost. Errors that a change reveals may be fixed by the
+//! next round, so a few rounds are tried. If all changes together are no improvement, each half is
+//! tried, and so on; so a few bad fixes cost few checks.
 
 use super::{Input, Options};
 use rtc_diag::{Diagnostic, Severity, codes};
@@ -13,70 +13,70 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
-/// The most bytes of text that are checked, and how often the largest text is none the less.
-const MOST_BYTES: usize = 2 << 20;
-const FEWEST_CHECKS: usize = 8;
+/// The maximum number of bytes that are checked, and the minimum number of checks of a large text.
+const MAX_BYTES: usize = 2 << 20;
+const MIN_CHECKS: usize = 8;
 
-/// The most times that a text is checked.
-const MOST_CHECKS: usize = 200;
+/// The maximum number of checks.
+const MAX_CHECKS: usize = 200;
 
-/// So often what a change brought to light is mended, too, before it is given up.
-const FOLLOWED: usize = 4;
+/// The maximum number of rounds for errors that a change reveals.
+const MAX_ROUNDS: usize = 4;
 
-/// A text after what its findings propose.
+/// A text with fixes applied.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FixedText {
     /// The text.
     pub text: String,
-    /// How many changes are in it; none if it is as it was.
+    /// The number of changes; 0 if it is unchanged.
     pub changes: usize,
-    /// How many were proposed for it and are not in it: they would make it no better.
-    pub refused: usize,
-    /// How many are guesses that were not wanted.
+    /// The number of fixes that were not applied because they would not improve the text.
+    pub rejected: usize,
+    /// The number of guesses that were not requested.
     pub guesses: usize,
 }
 
-/// Which of the changes that are proposed are wanted.
+/// Which fixes are requested.
 #[derive(Clone, Debug, Default)]
 pub struct FixFilter {
-    /// Also those that only guess what was meant.
+    /// Whether to apply guesses as well.
     pub guesses: bool,
-    /// Those for findings like this one alone.
+    /// Apply only fixes of diagnostics like this one.
     pub only: Option<DiagnosticRef>,
 }
 
-/// Obeys what is proposed for a text that stands at `path`, as far as it is wanted. Nothing is written.
+/// Applies the requested fixes to a text whose path is `path`. Nothing is written.
 #[must_use]
-pub fn fix(path: &Path, text: &str, options: &Options, wish: &FixFilter) -> FixedText {
-    Workshop::new(path, text, options, wish).fixed(text)
+pub fn fix(path: &Path, text: &str, options: &Options, filter: &FixFilter) -> FixedText {
+    FixSession::new(path, text, options, filter).fixed(text)
 }
 
-/// What says what is wrong, wherever it is: severity, code and message.
+/// Identifies a diagnostic independently of its position: severity, code and message.
 pub type DiagnosticRef = (Severity, &'static str, String);
 
-/// A text and what was found in it.
-struct FixDraft {
+/// A text and its diagnostics.
+struct Candidate {
     text: String,
-    /// How many changes led to it.
+    /// The number of changes that led to it.
     changes: usize,
-    /// How often there is each complaint.
-    complaints: BTreeMap<DiagnosticRef, usize>,
-    /// Not all findings were kept.
+    /// The number of occurrences of each diagnostic.
+    occurrences: BTreeMap<DiagnosticRef, usize>,
+    /// Whether some diagnostics were dropped.
     is_flooded: bool,
-    /// What is proposed for it, from its beginning on; no two at one place.
+    /// The fixes for it, sorted and without overlaps.
     edits: Vec<Edit>,
-    /// How many guesses are proposed that were not wanted.
+    /// The number of guesses that were not requested.
     guesses: usize,
-    /// Where keys stand that mean nothing: what stands below them is lost.
-    lost: Vec<Range<usize>>,
+    /// The unknown keys: settings below them are lost.
+    unknown_keys: Vec<Range<usize>>,
 }
 
 /// A text with changes.
 struct EditedText {
     text: String,
-    /// How many there are by now.
+    /// The total number of changes.
     changes: usize,
-    /// Where the last of them put something in.
+    /// The ranges that the last changes inserted.
     added: Vec<Range<usize>>,
 }
 
@@ -86,138 +86,148 @@ struct Edit {
     start: usize,
     end: usize,
     text: String,
-    /// What it is to mend.
-    complaint: DiagnosticRef,
+    /// The diagnostic that it fixes.
+    diagnostic_ref: DiagnosticRef,
 }
 
-struct Workshop<'w> {
+struct FixSession<'w> {
     path: &'w Path,
     options: &'w Options,
-    wish: &'w FixFilter,
-    /// So many more checks are made.
+    filter: &'w FixFilter,
+    /// The number of checks that remain.
     checks: usize,
 }
 
-impl<'w> Workshop<'w> {
-    fn new(path: &'w Path, text: &str, options: &'w Options, wish: &'w FixFilter) -> Self {
+impl<'w> FixSession<'w> {
+    fn new(path: &'w Path, text: &str, options: &'w Options, filter: &'w FixFilter) -> Self {
         Self {
             path,
             options,
-            wish,
-            checks: (MOST_BYTES / text.len().max(1)).clamp(FEWEST_CHECKS, MOST_CHECKS),
+            filter,
+            checks: (MAX_BYTES / text.len().max(1)).clamp(MIN_CHECKS, MAX_CHECKS),
         }
     }
 
     fn fixed(&mut self, text: &str) -> FixedText {
         let mut best = self.check(text.to_owned(), 0);
-        while let Some(better) = self.improve(&best) {
-            best = better;
+        while let Some(improved) = self.improve(&best) {
+            best = improved;
         }
         FixedText {
             changes: best.changes,
-            refused: best.edits.len(),
+            rejected: best.edits.len(),
             guesses: best.guesses,
             text: best.text,
         }
     }
 
-    fn check(&mut self, text: String, changes: usize) -> FixDraft {
+    fn check(&mut self, text: String, changes: usize) -> Candidate {
         self.checks = self.checks.saturating_sub(1);
         let bytes = text.clone().into_bytes();
         let mut input = Input::edited(self.path, bytes, self.options.clone());
         if let Some(loaded) = input.load() {
             input.validate(loaded, |_, _| ());
         }
-        let sink = input.take_findings();
-        let mut draft = FixDraft {
+        let sink = input.take_diagnostics();
+        let mut candidate = Candidate {
             text,
             changes,
-            complaints: BTreeMap::new(),
+            occurrences: BTreeMap::new(),
             is_flooded: sink.dropped() > 0,
             edits: Vec::new(),
             guesses: 0,
-            lost: Vec::new(),
+            unknown_keys: Vec::new(),
         };
-        for finding in sink.kept() {
-            *draft.complaints.entry(complaint(finding)).or_default() += 1;
-            let place = finding.primary.as_ref().map(|label| label.span);
-            let place = place.filter(|span| Some(span.file) == input.file_id());
-            let lost = place.filter(|_| finding.code.id == codes::UNKNOWN_KEY.id);
-            draft
-                .lost
-                .extend(lost.map(|span| span.start as usize..span.end as usize));
-            self.propose(finding, &input, &mut draft);
+        for diagnostic in sink.kept() {
+            *candidate
+                .occurrences
+                .entry(diagnostic_ref(diagnostic))
+                .or_default() += 1;
+            let span = diagnostic.primary.as_ref().map(|label| label.span);
+            let span = span.filter(|span| Some(span.file) == input.file_id());
+            let unknown_keys = span.filter(|_| diagnostic.code.id == codes::UNKNOWN_KEY.id);
+            candidate
+                .unknown_keys
+                .extend(unknown_keys.map(|span| span.start as usize..span.end as usize));
+            self.add_fix(diagnostic, &input, &mut candidate);
         }
-        draft.edits.sort_by_key(|edit| (edit.start, edit.end));
-        draft
+        candidate.edits.sort_by_key(|edit| (edit.start, edit.end));
+        candidate
             .edits
             .dedup_by(|next, last| next.start < last.end || next.start == last.start);
-        draft
+        candidate
     }
 
-    /// Adds what a finding proposes for the text itself: the first that is wanted.
-    fn propose(&self, finding: &Diagnostic, input: &Input, draft: &mut FixDraft) {
-        let complaint = complaint(finding);
-        if self.wish.only.as_ref().is_some_and(|own| *own != complaint) {
+    /// Adds the first requested fix of a diagnostic that applies to the text itself.
+    fn add_fix(&self, diagnostic: &Diagnostic, input: &Input, candidate: &mut Candidate) {
+        let diagnostic_ref = diagnostic_ref(diagnostic);
+        if self
+            .filter
+            .only
+            .as_ref()
+            .is_some_and(|only| *only != diagnostic_ref)
+        {
             return;
         }
-        let proposed = finding.hints.iter();
-        let mut proposed = proposed
+        let replacements = diagnostic.hints.iter();
+        let mut replacements = replacements
             .filter_map(|hint| hint.replacement.as_ref())
             .filter(|change| Some(change.span.file) == input.file_id())
             .peekable();
-        let is_any = proposed.peek().is_some();
-        let wanted = proposed.find(|change| self.wish.guesses || !change.is_guess);
-        draft.guesses += usize::from(is_any && wanted.is_none());
-        draft.edits.extend(wanted.map(|change| Edit {
+        let is_any = replacements.peek().is_some();
+        let requested = replacements.find(|change| self.filter.guesses || !change.is_guess);
+        candidate.guesses += usize::from(is_any && requested.is_none());
+        candidate.edits.extend(requested.map(|change| Edit {
             start: change.span.start as usize,
             end: change.span.end as usize,
             text: change.text.clone(),
-            complaint: complaint.clone(),
+            diagnostic_ref: diagnostic_ref.clone(),
         }));
     }
 
-    /// A better text, by all that is proposed or by the largest part that is found.
-    fn improve(&mut self, draft: &FixDraft) -> Option<FixDraft> {
-        let mut parts = vec![draft.edits.as_slice()];
-        while !parts.is_empty() && self.checks > 0 {
-            let better = parts.iter().find_map(|part| self.follow(draft, part));
-            if better.is_some() {
-                return better;
+    /// An improved text, with all fixes or with the largest subset that is found.
+    fn improve(&mut self, candidate: &Candidate) -> Option<Candidate> {
+        let mut subsets = vec![candidate.edits.as_slice()];
+        while !subsets.is_empty() && self.checks > 0 {
+            let improved = subsets
+                .iter()
+                .find_map(|subset| self.apply_and_follow(candidate, subset));
+            if improved.is_some() {
+                return improved;
             }
-            parts = parts
+            subsets = subsets
                 .into_iter()
-                .filter(|part| part.len() > 1)
-                .flat_map(|part| <[_; 2]>::from(part.split_at(part.len() / 2)))
+                .filter(|subset| subset.len() > 1)
+                .flat_map(|subset| <[_; 2]>::from(subset.split_at(subset.len() / 2)))
                 .collect();
         }
         None
     }
 
-    /// A better text by these changes, and those that they lead to.
-    fn follow(&mut self, draft: &FixDraft, edits: &[Edit]) -> Option<FixDraft> {
-        let mut next = draft.edited(edits);
-        for _ in 0..FOLLOWED {
+    /// An improved text with these changes and with fixes of what they reveal.
+    fn apply_and_follow(&mut self, candidate: &Candidate, edits: &[Edit]) -> Option<Candidate> {
+        let mut next = candidate.edited(edits);
+        for _ in 0..MAX_ROUNDS {
             let EditedText {
                 text,
                 changes,
                 added,
             } = next.filter(|_| self.checks > 0)?;
-            let found = self.check(text, changes);
-            if found.loses(&added) {
+            let next_candidate = self.check(text, changes);
+            if next_candidate.inserts_unknown_key(&added) {
                 return None;
             }
-            if found.is_better(draft, edits) {
-                return Some(found);
+            if next_candidate.is_better(candidate, edits) {
+                return Some(next_candidate);
             }
-            next = found.edited(&found.edits);
+            next = next_candidate.edited(&next_candidate.edits);
         }
         None
     }
 }
 
-impl FixDraft {
-    /// The text with these changes; `None` without any.
+impl Candidate {
+    /// The text with these changes; `None` if nothing changes.
     fn edited(&self, edits: &[Edit]) -> Option<EditedText> {
         let mut text = String::with_capacity(self.text.len());
         let mut added = Vec::with_capacity(edits.len());
@@ -237,27 +247,36 @@ impl FixDraft {
         })
     }
 
-    /// Whether what was put in is a key that means nothing, so that a setting is lost.
-    fn loses(&self, added: &[Range<usize>]) -> bool {
-        let touch = |a: &Range<usize>, b: &Range<usize>| a.start < b.end && b.start < a.end;
-        let mut lost = self.lost.iter();
-        lost.any(|lost| added.iter().any(|added| touch(lost, added)))
+    /// Whether an inserted key is unknown, so that a setting is lost.
+    fn inserts_unknown_key(&self, added: &[Range<usize>]) -> bool {
+        let overlap = |a: &Range<usize>, b: &Range<usize>| a.start < b.end && b.start < a.end;
+        let mut unknown_keys = self.unknown_keys.iter();
+        unknown_keys.any(|unknown_keys| added.iter().any(|added| overlap(unknown_keys, added)))
     }
 
     fn is_better(&self, before: &Self, edits: &[Edit]) -> bool {
-        let of = |draft: &Self, complaint: &DiagnosticRef| {
-            draft.complaints.get(complaint).copied().unwrap_or(0)
+        let of = |candidate: &Self, diagnostic_ref: &DiagnosticRef| {
+            candidate
+                .occurrences
+                .get(diagnostic_ref)
+                .copied()
+                .unwrap_or(0)
         };
         let is_gone = |edit: &Edit| {
-            let mended = edits
+            let fixed_by_edits = edits
                 .iter()
-                .filter(|other| other.complaint == edit.complaint);
-            of(self, &edit.complaint) + mended.count() <= of(before, &edit.complaint)
+                .filter(|other| other.diagnostic_ref == edit.diagnostic_ref);
+            of(self, &edit.diagnostic_ref) + fixed_by_edits.count()
+                <= of(before, &edit.diagnostic_ref)
         };
         let has_new = |severity| {
-            let own = self.complaints.iter().filter(|((s, ..), _)| *s == severity);
-            own.into_iter()
-                .any(|(complaint, count)| *count > of(before, complaint))
+            let counts = self
+                .occurrences
+                .iter()
+                .filter(|((s, ..), _)| *s == severity);
+            counts
+                .into_iter()
+                .any(|(diagnostic_ref, count)| *count > of(before, diagnostic_ref))
         };
         let has_fewer_errors = self.errors() < before.errors();
         !self.is_flooded
@@ -268,17 +287,22 @@ impl FixDraft {
     }
 
     fn errors(&self) -> usize {
-        let own = self.complaints.iter();
-        own.filter(|((severity, ..), _)| *severity == Severity::Error)
+        let counts = self.occurrences.iter();
+        counts
+            .filter(|((severity, ..), _)| *severity == Severity::Error)
             .map(|(_, count)| count)
             .sum()
     }
 }
 
-/// What a finding says is wrong.
+/// The identity of a diagnostic.
 #[must_use]
-pub fn complaint(finding: &Diagnostic) -> DiagnosticRef {
-    (finding.severity, finding.code.id, finding.message.clone())
+pub fn diagnostic_ref(diagnostic: &Diagnostic) -> DiagnosticRef {
+    (
+        diagnostic.severity,
+        diagnostic.code.id,
+        diagnostic.message.clone(),
+    )
 }
 
 #[cfg(test)]
@@ -289,9 +313,8 @@ mod tests {
     const HEAD: &str = "Camera: {eye: [0, 1, 6], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8]}\n\
                         Lights: []\nObjects:\n";
 
-    /// A text of some objects, each of them misspelt, and each `every`th so that no fix makes it
-    /// better.
-    fn slips(count: usize, every: usize) -> String {
+    /// A text of objects with a misspelt key each; every `every`th can't be improved by the fix.
+    fn with_typos(count: usize, every: usize) -> String {
         let mut text = HEAD.to_owned();
         for at in 0..count {
             let radius = if at % every == 0 { "-1" } else { "1" };
@@ -303,30 +326,30 @@ mod tests {
         text
     }
 
-    /// How much is checked, in bytes, and what comes of it.
+    /// The number of bytes checked, and the result.
     fn work(text: &str) -> (usize, FixedText) {
         let (options, path) = (Options::default(), Path::new("nowhere/a.yaml"));
-        let wish = FixFilter {
+        let filter = FixFilter {
             guesses: true,
             only: None,
         };
-        let mut workshop = Workshop::new(path, text, &options, &wish);
-        let before = workshop.checks;
-        let fixed = workshop.fixed(text);
-        ((before - workshop.checks) * text.len(), fixed)
+        let mut session = FixSession::new(path, text, &options, &filter);
+        let before = session.checks;
+        let fixed = session.fixed(text);
+        ((before - session.checks) * text.len(), fixed)
     }
 
     #[test]
     fn what_is_checked_does_not_grow_with_the_square_of_the_text() {
-        let [once, twice, four] = [500, 1000, 2000].map(|count| work(&slips(count, 7)).0);
-        assert!(once <= MOST_BYTES, "{once}");
-        assert!(twice <= MOST_BYTES && four <= MOST_BYTES, "{twice} {four}");
+        let [once, twice, four] = [500, 1000, 2000].map(|count| work(&with_typos(count, 7)).0);
+        assert!(once <= MAX_BYTES, "{once}");
+        assert!(twice <= MAX_BYTES && four <= MAX_BYTES, "{twice} {four}");
     }
 
-    /// Halves are better, though the whole is not.
+    /// A half is an improvement although the whole is not.
     #[test]
     fn one_that_is_refused_keeps_few_others_out() {
-        let (_, fixed) = work(&slips(40, 64));
+        let (_, fixed) = work(&with_typos(40, 64));
         assert!(fixed.changes >= 39, "{}", fixed.changes);
     }
 }

@@ -1,4 +1,4 @@
-//! A picture that grows until it is as good as was asked.
+//! Renders until the picture reaches a target error.
 
 use super::{Observer, PictureSetup, RayCounter, RenderError, RenderSubject};
 use rtc_render::Crop;
@@ -6,10 +6,10 @@ use rtc_study::{Goal, Order, TargetResult, Watch};
 use std::time::Duration;
 
 impl PictureSetup {
-    /// What a part of a picture with a goal is to be, given the time that is left for it.
+    /// The target of a picture or a part of it, with the remaining time.
     #[must_use]
     pub fn order(&self, subject: &RenderSubject, crop: Crop, time: Option<Duration>) -> Order {
-        let mode = &subject.proven.scene.settings().mode;
+        let mode = &subject.validated.scene.settings().mode;
         Order {
             goal: Goal { time, ..self.goal },
             crop,
@@ -21,11 +21,11 @@ impl PictureSetup {
         }
     }
 
-    /// Takes samples until the error asked for is reached, with so many rays at most; no clock is looked
-    /// at.
+    /// Takes samples until the target error is reached, with at most `rays` rays; does not read the
+    /// clock.
     ///
     /// # Errors
-    /// If there is none.
+    /// If there is no picture.
     pub fn approach(
         &self,
         subject: &mut RenderSubject,
@@ -33,20 +33,20 @@ impl PictureSetup {
         observer: &Observer<'_>,
     ) -> Result<TargetResult, RenderError> {
         let order = self.order(subject, window, None);
-        let meter = RayCounter::new(rays, window);
+        let counter = RayCounter::new(rays, window);
         let watch = Watch {
             on_pixel: &|step| {
                 (observer.on_step)(step);
-                !(observer.is_stopped)() && meter.step(step)
+                !(observer.is_stopped)() && counter.step(step)
             },
             is_stopped: observer.is_stopped,
             elapsed: &|| Duration::ZERO,
-            round: &|_| meter.begin_round(),
+            round: &|_| counter.begin_round(),
         };
-        let (proven, renderer) = self.renderer(subject)?;
-        let reached = renderer.approach(&proven.lowered.scene, &order, &watch, None);
-        match subject.ran_out(&meter, observer) {
-            Some(finding) => Err(RenderError::RanOut(finding)),
+        let (validated, renderer) = self.renderer(subject)?;
+        let reached = renderer.approach(&validated.lowered.scene, &order, &watch, None);
+        match subject.ran_out(&counter, observer) {
+            Some(diagnostic) => Err(RenderError::RanOut(diagnostic)),
             None => reached.map_err(|_| RenderError::Stopped),
         }
     }

@@ -1,4 +1,4 @@
-//! A scene from its files to its proof, with what was found about it on the way.
+//! A scene from its files to validation, with the diagnostics on the way.
 
 use super::{Options, load, stage, validate};
 use rtc_codec as codec;
@@ -13,11 +13,11 @@ use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
-/// The largest picture of surroundings that is read, in bytes: one of 32-bit floats with every
-/// pixel allowed.
+/// The maximum size of an environment image in bytes: that of 32-bit floats with the maximum number
+/// of pixels.
 const MAX_ENVIRONMENT: u64 = 1 << 29;
 
-/// A scene that was read, or could not be.
+/// A scene that was read, or could not be read.
 pub struct Input {
     /// The name of the scene in messages.
     name: String,
@@ -25,38 +25,38 @@ pub struct Input {
     sink: Sink,
     file: Option<FileId>,
     options: Options,
-    /// Its view and light; none for a scene that is not to be shown.
+    /// The overrides of view and light; `None` for a scene that is not rendered.
     stage: Option<ViewAndLight>,
 }
 
-/// A scene that was lowered, before its view and light are set.
+/// A lowered scene, before overrides of view and light.
 #[derive(Clone)]
 pub struct Loaded {
-    /// The scene and where its values were written.
+    /// The scene with its source spans.
     pub lowered: Lowered,
-    /// It is an asset: glTF, or a mesh.
+    /// Whether it is an asset: glTF, or a mesh.
     is_asset: bool,
 }
 
-/// A scene that was proven, and that from which it was.
-pub struct Proven {
-    /// The scene and where its values were written.
+/// A scene that was validated, with the IR that it was validated from.
+pub struct Validated {
+    /// The IR with its source spans.
     pub lowered: Lowered,
-    /// The proof.
+    /// The valid scene.
     pub scene: ValidScene,
 }
 
-/// Where a scene comes from, and what was chosen for it.
+/// The origin of a scene, and what was chosen for it.
 pub struct Provenance {
-    /// It is an asset: glTF, or a mesh.
+    /// Whether it is an asset: glTF, or a mesh.
     pub is_asset: bool,
-    /// It is one with lights of its own, and they are not left out.
+    /// Whether it is an asset with lights that are not removed.
     pub is_lit_asset: bool,
-    /// It is one of colours that no light changes.
+    /// Whether all its materials are unlit.
     pub is_unlit: bool,
-    /// Whether the studio is still to fill in, beside its own light.
+    /// Whether the studio may still add light to its own.
     pub fill: FillLight,
-    /// How its view was found, if it has none of its own.
+    /// How its view was chosen, if it has none.
     pub framing: Option<Framing>,
 }
 
@@ -68,20 +68,20 @@ impl Input {
         Self::new(name, options, |_, map| Loader.file(path, map))
     }
 
-    /// Takes these bytes as if they were those of the file at `path`.
+    /// Reads these bytes as the content of the file at `path`.
     #[must_use]
     pub fn edited(path: &Path, bytes: Vec<u8>, options: Options) -> Self {
         let name = path.display().to_string();
         Self::new(name, options, |_, map| Ok(map.add_from(path, bytes)))
     }
 
-    /// Reads all of `reader`, for instance standard input, under the name given.
+    /// Reads all of `reader`, for example standard input, under a name.
     #[must_use]
     pub fn reader(name: String, reader: impl Read, options: Options) -> Self {
         Self::new(name, options, |name, map| Loader.reader(name, reader, map))
     }
 
-    /// Takes the scene at `path` of files in memory; it may name the others.
+    /// Reads the scene at `path` from files in memory; it may refer to the others.
     #[must_use]
     pub fn memory(path: &str, files: MemoryFiles, options: Options) -> Self {
         let files = Arc::new(files);
@@ -111,15 +111,15 @@ impl Input {
         }
     }
 
-    /// The surroundings in a file; what is wrong in it is a finding.
+    /// Reads an environment image; errors in it become diagnostics.
     ///
     /// # Errors
-    /// If the file can't be read, in words.
+    /// A message, if the file can't be read.
     pub fn environment(&mut self, path: &Path) -> Result<Option<EnvironmentOverride>, String> {
         let name = path.display().to_string();
         let bytes = Loader.bytes(path, MAX_ENVIRONMENT, &self.map);
         let bytes = bytes.map_err(|error| format!("can't read `{name}`: {error}"))?;
-        // Where the file lies is no part of the scene.
+        // The path is not part of the scene.
         let file = path.file_name().unwrap_or_default().to_string_lossy();
         let picture = pixels::environment(&file, &bytes, self.map.budget());
         Ok(picture
@@ -128,58 +128,58 @@ impl Input {
             .ok())
     }
 
-    /// Has it shown in the view and the light given.
+    /// Sets overrides of view and light.
     pub fn stage(&mut self, stage: ViewAndLight) {
         self.stage = Some(stage);
     }
 
-    /// Has it not shown.
+    /// Removes the overrides of view and light.
     pub fn unstage(&mut self) {
         self.stage = None;
     }
 
-    /// Changes how it is shown.
+    /// Changes the overrides of view and light.
     pub fn restage(&mut self, change: impl FnOnce(&mut ViewAndLight)) {
         self.stage.as_mut().map(change);
     }
 
-    /// Loads it with so many threads, 0 for one per core.
+    /// Sets the number of threads for loading, 0 for one per core.
     pub fn use_threads(&mut self, threads: usize) {
         self.options.front.threads = threads;
     }
 
-    /// Lowers the scene, once: loading may release the bytes of its files.
+    /// Lowers the scene. Call it once: loading may release the bytes of its files.
     pub fn load(&mut self) -> Option<Loaded> {
-        // What a file is, is seen from all of it.
+        // The whole file decides what it is.
         let is_asset = self.is_asset();
         let lowered = load(self.file?, &mut self.map, &self.options, &mut self.sink)?;
-        // What says how its picture is made is shown so, as a scene text is.
+        // An asset with its own settings is rendered like a scene text.
         let settings = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
         let is_asset = is_asset && lowered.source_spans.span(settings).is_none();
         Some(Loaded { lowered, is_asset })
     }
 
-    /// Whether the input is an asset by itself, glTF or a mesh.
+    /// Whether the input is an asset: glTF, or a mesh.
     fn is_asset(&self) -> bool {
-        let recognise = |file| {
+        let is_asset_file = |file| {
             let (name, bytes) = (self.map.name(file), self.map.bytes(file));
-            gltf::recognise(name, bytes) || mesh::recognise(name, bytes)
+            gltf::is_gltf(name, bytes) || mesh::is_mesh_file(name, bytes)
         };
-        self.file.is_some_and(recognise)
+        self.file.is_some_and(is_asset_file)
     }
 
-    /// Whether it is a scene text whose images and meshes came from files that it names: none is of
-    /// an asset.
+    /// Whether it is a scene text whose images and meshes come from files that it refers to, not
+    /// from an asset.
     #[must_use]
-    pub fn has_files_of_its_own(&self, lowered: &Lowered) -> bool {
-        let Some(own) = self.file.filter(|_| !self.is_asset()) else {
+    pub fn has_original_files(&self, lowered: &Lowered) -> bool {
+        let Some(file) = self.file.filter(|_| !self.is_asset()) else {
             return false;
         };
-        let is_ir = codec::detect_format(self.map.bytes(own)).is_some();
-        let is_asset = |file| gltf::recognise(self.map.name(file), self.map.bytes(file));
+        let is_ir = codec::detect_format(self.map.bytes(file)).is_some();
+        let is_asset = |file| gltf::is_gltf(self.map.name(file), self.map.bytes(file));
         let of_asset = |entity, count| {
-            let places = (0..count).map(move |index| ValuePath::new(entity, index, Field::Whole));
-            let mut spans = places.filter_map(|place| lowered.source_spans.span(place));
+            let paths = (0..count).map(move |index| ValuePath::new(entity, index, Field::Whole));
+            let mut spans = paths.filter_map(|path| lowered.source_spans.span(path));
             spans.any(|span| is_asset(span.file))
         };
         let Scene {
@@ -194,12 +194,12 @@ impl Input {
             && !of_asset(EntityKind::Material, materials.len())
     }
 
-    /// Sets the stage of a scene that was loaded, lets `change` change it, and proves it.
+    /// Applies the overrides to a loaded scene, lets `change` modify it, and validates it.
     pub fn validate(
         &mut self,
         loaded: Loaded,
         change: impl FnOnce(&mut Lowered, &Provenance),
-    ) -> Option<Proven> {
+    ) -> Option<Validated> {
         let Loaded {
             mut lowered,
             is_asset,
@@ -207,7 +207,7 @@ impl Input {
         let provenance = self.set_stage(&mut lowered, is_asset);
         change(&mut lowered, &provenance);
         let scene = validate(&lowered, &self.options, &mut self.sink)?;
-        Some(Proven { lowered, scene })
+        Some(Validated { lowered, scene })
     }
 
     fn set_stage(&mut self, lowered: &mut Lowered, is_asset: bool) -> Provenance {
@@ -218,10 +218,10 @@ impl Input {
             fill: FillLight::Never,
             framing: None,
         };
-        let Some(wanted) = &self.stage else {
+        let Some(overrides) = &self.stage else {
             return provenance;
         };
-        // An asset without a camera is seen by one that we choose.
+        // An asset without a camera gets a default camera.
         let camera = lowered
             .source_spans
             .span(ValuePath::new(EntityKind::Camera, 0, Field::Whole));
@@ -230,11 +230,11 @@ impl Input {
             (true, Some(_)) => SceneKind::Asset,
             (true, None) => SceneKind::BareAsset,
         };
-        provenance.is_lit_asset &= !wanted.without_lights;
-        if let Some(staged) = stage(lowered, wanted, kind, &mut self.sink) {
-            // A scene that says how it is lit is shown as it says.
-            let is_meant = staged.fill == FillLight::IfDim && !is_asset;
-            provenance.fill = if is_meant {
+        provenance.is_lit_asset &= !overrides.without_lights;
+        if let Some(staged) = stage(lowered, overrides, kind, &mut self.sink) {
+            // A scene text that has its own light keeps it.
+            let has_own_light = staged.fill == FillLight::IfDim && !is_asset;
+            provenance.fill = if has_own_light {
                 FillLight::Never
             } else {
                 staged.fill
@@ -244,8 +244,8 @@ impl Input {
         provenance
     }
 
-    /// The scene as glTF, in one file or with others in a folder; `None` if that is not possible, with
-    /// a finding that says why.
+    /// The scene as glTF, in one file or with sidecar files in `folder`; `None` if it can't be
+    /// exported, with an error diagnostic.
     pub fn gltf(
         &mut self,
         lowered: &Lowered,
@@ -269,9 +269,9 @@ impl Input {
         )
     }
 
-    /// The scene as one of Mitsuba, whose meshes are files in the folder, or without a folder as one of
-    /// POV-Ray; `None` if that is not possible, with a finding that says why.
-    pub fn twin(&mut self, lowered: &Lowered, folder: Option<&str>) -> Option<ExportedScene> {
+    /// The scene as a Mitsuba scene with meshes in `folder`, or without a folder as a POV-Ray
+    /// scene; `None` if it can't be exported, with an error diagnostic.
+    pub fn export(&mut self, lowered: &Lowered, folder: Option<&str>) -> Option<ExportedScene> {
         let (
             Lowered {
                 scene,
@@ -287,13 +287,13 @@ impl Input {
         }
     }
 
-    /// What was found since the last time.
-    pub fn take_findings(&mut self) -> Sink {
+    /// The diagnostics since the last call.
+    pub fn take_diagnostics(&mut self) -> Sink {
         std::mem::replace(&mut self.sink, self.options.sink())
     }
 
-    /// Puts what was found before in place of what was found since.
-    pub fn put_findings(&mut self, found: Sink) {
+    /// Replaces the diagnostics by earlier ones.
+    pub fn restore_diagnostics(&mut self, found: Sink) {
         self.sink = found;
     }
 
@@ -303,54 +303,54 @@ impl Input {
         self.file.is_some()
     }
 
-    /// The scene as text; none if it could not be read, or is no UTF-8.
+    /// The text of the scene; `None` if it could not be read or is not UTF-8.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
         self.map.text(self.file?)
     }
 
-    /// What the text of an asset says that it holds, for before it is loaded; none of other scenes.
+    /// A summary of an asset before it is loaded; `None` for other scenes.
     #[must_use]
     pub fn asset(&self) -> Option<gltf::AssetSummary> {
         let file = self.file?;
-        let is_asset = gltf::recognise(self.map.name(file), self.map.bytes(file))
+        let is_asset = gltf::is_gltf(self.map.name(file), self.map.bytes(file))
             && codec::detect_format(self.map.bytes(file)).is_none();
         is_asset.then(|| gltf::summary(file, &self.map))?
     }
 
-    /// Whether a span is of the text of the scene itself, not of a file that it names.
+    /// Whether a span belongs to the text of the scene itself, not to a file that it refers to.
     #[must_use]
     pub fn is_own(&self, span: Span) -> bool {
         self.file == Some(span.file) && self.text().is_some()
     }
 
-    /// Adds a text that is no part of the scene, for findings about it.
+    /// Adds a text that is not part of the scene, for diagnostics about it.
     pub fn add_text(&mut self, path: &Path, bytes: Vec<u8>) -> FileId {
         self.map.add(path.display().to_string(), bytes)
     }
 
-    /// The file of the scene, unless it could not be read.
+    /// The file of the scene, if it could be read.
     pub fn file_id(&self) -> Option<FileId> {
         self.file
     }
 
-    /// Adds a finding.
+    /// Adds a diagnostic.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.sink.push(diagnostic);
     }
 
-    /// How many rays a picture may take.
+    /// The limit on the rays of a picture.
     #[must_use]
     pub fn rays(&self) -> u64 {
         self.options.valid.limits.of(Resource::Rays, 0)
     }
 
-    /// Lets pictures take any number of rays.
+    /// Removes the limit on rays.
     pub fn lift_rays(&mut self) {
         self.options.valid.limits.set(Resource::Rays, u64::MAX);
     }
 
-    /// The file and the line at which a span begins.
+    /// The file and the line at which a span starts.
     #[must_use]
     pub fn line(&self, span: Span) -> (&str, u32) {
         (
@@ -359,7 +359,7 @@ impl Input {
         )
     }
 
-    /// Whether the file at a path was read: the scene, or what it names.
+    /// Whether the file at a path was read: the scene, or a file that it refers to.
     #[must_use]
     pub fn has_read(&self, path: &Path) -> bool {
         self.map.has_read(path)
@@ -371,7 +371,7 @@ impl Input {
         &self.name
     }
 
-    /// Its files.
+    /// The source map.
     #[must_use]
     pub fn map(&self) -> &SourceMap {
         &self.map

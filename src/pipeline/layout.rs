@@ -1,4 +1,4 @@
-//! The text of a scene as it is laid out; scenes that are no texts of people are not.
+//! Formats the text of a scene; other kinds of scenes are rejected.
 
 use super::Input;
 use rtc_codec as codec;
@@ -7,21 +7,21 @@ use rtc_front::course;
 use rtc_front::{self as front, gltf, mesh};
 use rtc_source::tree::yaml::LayoutFault;
 
-/// Why a scene is not laid out.
+/// Why a scene is not formatted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LaidOutFault {
-    /// What is wrong with it is among the findings.
+pub enum LayoutError {
+    /// It has errors, which are among the diagnostics.
     Findings,
     /// It is an asset, a mesh or IR.
     NoText,
-    /// It would say something else.
+    /// The result would differ.
     Differs,
 }
 
-/// What kind of scene a text is.
+/// The kind of a scene file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SourceKind {
-    /// One that people write, YAML or JSON.
+    /// A text of the course, YAML or JSON.
     Scene,
     /// IR.
     Ir,
@@ -30,10 +30,10 @@ pub enum SourceKind {
 }
 
 impl SourceKind {
-    /// That of a file of this name and these bytes.
+    /// The kind of a file with this name and content.
     #[must_use]
     pub fn of(name: &str, bytes: &[u8]) -> Self {
-        let is_asset = || gltf::recognise(name, bytes) || mesh::recognise(name, bytes);
+        let is_asset = || gltf::is_gltf(name, bytes) || mesh::is_mesh_file(name, bytes);
         match codec::detect_format(bytes) {
             Some(_) => Self::Ir,
             None if is_asset() => Self::Other,
@@ -43,28 +43,28 @@ impl SourceKind {
 }
 
 impl Input {
-    /// The text in the layout of the house. Nothing is written.
+    /// The formatted text. Nothing is written.
     ///
     /// # Errors
-    /// If it has none.
-    pub fn lay_out(&mut self) -> Result<String, LaidOutFault> {
-        let file = self.file_id().ok_or(LaidOutFault::Findings)?;
+    /// If it can't be formatted.
+    pub fn lay_out(&mut self) -> Result<String, LayoutError> {
+        let file = self.file_id().ok_or(LayoutError::Findings)?;
         let (name, bytes) = (self.map().name(file), self.map().bytes(file));
-        if let Some(finding) = front::foreign(name, bytes) {
-            self.push(finding);
-            return Err(LaidOutFault::Findings);
+        if let Some(diagnostic) = front::foreign(name, bytes) {
+            self.push(diagnostic);
+            return Err(LayoutError::Findings);
         }
         if SourceKind::of(name, bytes) != SourceKind::Scene {
-            return Err(LaidOutFault::NoText);
+            return Err(LayoutError::NoText);
         }
         let mut sink = diag::Sink::default();
         let laid_out = course::lay_out(file, self.map(), &mut sink);
-        for finding in sink.kept() {
-            self.push(finding.clone());
+        for diagnostic in sink.kept() {
+            self.push(diagnostic.clone());
         }
-        laid_out.map_err(|fault| match fault {
-            LayoutFault::Mistakes => LaidOutFault::Findings,
-            LayoutFault::Differs => LaidOutFault::Differs,
+        laid_out.map_err(|error| match error {
+            LayoutFault::Mistakes => LayoutError::Findings,
+            LayoutFault::Differs => LayoutError::Differs,
         })
     }
 }

@@ -1,37 +1,56 @@
-//! The doors the stages are joined by: bytes to scene, scene to proof, proof to film. Nothing here
-//! prints or exits.
+//! Joins the stages: bytes to scene, scene to [`ValidScene`], valid scene to film, film to file.
+//! Nothing here prints, exits or reads the environment.
+//!
+//! # Overview
+//! - [`Input`] reads a scene, lowers it ([`load`]), applies overrides ([`stage`]) and validates it
+//!   ([`validate`]), and collects the diagnostics of all stages in a sink.
+//! - [`PictureSetup`] has the options of a render: overrides, arithmetic, [`OutputTransform`]
+//!   (format, tone map, exposure, background, layers). It renders a [`RenderSubject`], which is a
+//!   valid scene with its [`Renderer`].
+//! - [`Renderer`] is a prepared world with its threads.
+//! - [`RayCounter`] limits the rays of a render, deterministically.
+//! - [`ShardPlan`] divides a picture among several renders; each makes a [`RenderShard`], which can
+//!   be saved, resumed and merged.
+//! - [`fix()`] applies suggested fixes; [`Input::lay_out`] formats a text.
+//! - [`NewFile`] writes files atomically; no other code writes files.
+//! - [`trial`] has the entry points of the fuzz targets.
+//!
+//! # Guarantees
+//! - Errors in a scene are diagnostics in the sink, never `Err`; [`RenderError`] is for renders
+//!   that can't be made.
+//! - A picture has the same bytes for any number of threads, in strips, and merged from shards.
 
 mod denoise;
 mod exposure;
 #[cfg(not(target_family = "wasm"))]
 mod file;
-mod findings;
 mod fix;
 mod goal;
 mod input;
 mod layer;
 mod layout;
 mod light;
-mod look;
-mod meter;
-mod part;
+mod output_transform;
+mod picture_diagnostics;
+mod ray_counter;
 mod setup;
-mod share;
+mod shard;
+mod shard_plan;
 mod strips;
 pub mod trial;
 
 pub use denoise::Traced;
-pub use exposure::OwnLight;
+pub use exposure::LightMeasurement;
 #[cfg(not(target_family = "wasm"))]
 pub use file::{NewFile, NewFolder, WriteObserver};
-pub use fix::{DiagnosticRef, FixFilter, FixedText, complaint, fix};
-pub use input::{Input, Loaded, Proven, Provenance};
-pub use layout::{LaidOutFault, SourceKind};
-pub use look::{Exposure, OutputTransform, ResolvedOutputTransform};
-pub use meter::RayCounter;
-pub use part::{MOST as MOST_SHARES, PartError, PicturePart, hash_of_file};
+pub use fix::{DiagnosticRef, FixFilter, FixedText, diagnostic_ref, fix};
+pub use input::{Input, Loaded, Provenance, Validated};
+pub use layout::{LayoutError, SourceKind};
+pub use output_transform::{Exposure, OutputTransform, ResolvedOutputTransform};
+pub use ray_counter::RayCounter;
 pub use setup::{Observer, PictureSetup, RenderError, RenderSubject};
-pub use share::{ShardPlan, SharedBy};
+pub use shard::{MAX_SHARES as MAX_SHARDS, RenderShard, ShardError, hash_of_file};
+pub use shard_plan::{ShardBy, ShardPlan};
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use rtc_codec as codec;
@@ -53,16 +72,16 @@ use rtc_valid::{self as valid, Surface, ValidScene};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// How strict the check is.
+/// Options of reading and checking a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// What the front end lets pass.
+    /// Options of the front ends.
     pub front: front::FrontOptions,
-    /// What the proof lets pass.
+    /// Options of the validation.
     pub valid: valid::ValidationOptions,
-    /// What is made of findings.
+    /// Severity overrides of diagnostics.
     pub levels: FindingLevels,
-    /// What is read in place of files that scenes name.
+    /// Texts that replace files to which scenes refer.
     pub edited: EditedFiles,
 }
 
@@ -73,21 +92,21 @@ impl Options {
     }
 }
 
-/// Reads a scene in any form: the course's YAML, glTF, a mesh, or the text or binary form of the IR,
-/// told apart by content. The files a YAML names come into the map.
+/// Reads a scene of any format, detected by its content: YAML of the course, glTF, a mesh, or
+/// either encoding of the IR. The files to which it refers are added to the map.
 pub fn load(
     file: FileId,
     map: &mut SourceMap,
     options: &Options,
     sink: &mut Sink,
 ) -> Option<Lowered> {
-    if let Some(finding) = front::foreign(map.name(file), map.bytes(file)) {
-        sink.push(finding);
+    if let Some(diagnostic) = front::foreign(map.name(file), map.bytes(file)) {
+        sink.push(diagnostic);
         return None;
     }
     match codec::detect_format(map.bytes(file)) {
         Some(encoding) => {
-            refuse_choices(&options.front, false, sink);
+            report_unused_choices(&options.front, false, sink);
             let scene = codec::decode(encoding, file, map, sink)?;
             map.release(file, 0);
             Some(Lowered {
@@ -95,19 +114,19 @@ pub fn load(
                 source_spans: SourceSpans::default(),
             })
         }
-        None if gltf::recognise(map.name(file), map.bytes(file)) => {
+        None if gltf::is_gltf(map.name(file), map.bytes(file)) => {
             let lowered = gltf::lower(file, map, &options.front, sink)?;
             gltf::release(file, map);
             Some(lowered)
         }
-        None if mesh::recognise(map.name(file), map.bytes(file)) => {
-            refuse_choices(&options.front, false, sink);
+        None if mesh::is_mesh_file(map.name(file), map.bytes(file)) => {
+            report_unused_choices(&options.front, false, sink);
             let lowered = assets::lower_standalone_mesh(file, &options.front, map, sink)?;
             map.release(file, 0);
             Some(lowered)
         }
         None if mitsuba::is_mitsuba(map.bytes(file)) => {
-            refuse_choices(&options.front, false, sink);
+            report_unused_choices(&options.front, false, sink);
             mitsuba::lower(file, map, &options.front, sink)
         }
         None => {
@@ -116,15 +135,15 @@ pub fn load(
                 .pending_assets
                 .iter()
                 .any(|pending| matches!(pending.target, AssetTarget::Gltf(_)));
-            refuse_choices(&options.front, has_assets, sink);
+            report_unused_choices(&options.front, has_assets, sink);
             Some(assets::load(draft, file, &options.front, map, sink))
         }
     }
 }
 
-/// Refuses to choose by name where there is no choice: outside glTF assets, of which a scene may
-/// hold some. A time to be chosen there shows nothing else.
-fn refuse_choices(options: &front::FrontOptions, has_assets: bool, sink: &mut Sink) {
+/// Reports choices of animation, variant or camera that have no effect, because the scene has no
+/// glTF asset; a time without an asset gets a note.
+fn report_unused_choices(options: &front::FrontOptions, has_assets: bool, sink: &mut Sink) {
     let front::FrontOptions {
         camera,
         animation,
@@ -149,8 +168,8 @@ fn refuse_choices(options: &front::FrontOptions, has_assets: bool, sink: &mut Si
     }
 }
 
-/// Puts view and light into a scene that was read, and what has no light into the studio. `None` if
-/// that is not possible; the sink says why.
+/// Applies overrides of view and light to a scene, and adds the studio to a scene without light.
+/// `None` if that is impossible; the sink has the error.
 pub fn stage(
     lowered: &mut Lowered,
     stage: &ViewAndLight,
@@ -187,65 +206,65 @@ pub fn stage(
     None
 }
 
-/// Proves a scene, and warns of what no ray meets. `None` if it or what was read before has errors;
-/// the sink says which.
+/// Validates a scene and warns about objects that no ray hits. `None` if it or an earlier stage has
+/// errors; the sink has them.
 pub fn validate(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<ValidScene> {
-    let proof = valid::validate(&lowered.scene, &lowered.source_spans, &options.valid, sink);
-    let proof = proof.filter(|_| !sink.has_errors())?;
-    unseen(&proof, lowered, sink);
-    Some(proof)
+    let valid_scene = valid::validate(&lowered.scene, &lowered.source_spans, &options.valid, sink);
+    let valid_scene = valid_scene.filter(|_| !sink.has_errors())?;
+    unseen(&valid_scene, lowered, sink);
+    Some(valid_scene)
 }
 
-/// Warns of the objects that no ray meets. An object is all surfaces written at one place.
+/// Warns about objects that no ray hits. An object is all surfaces with one span.
 fn unseen(scene: &ValidScene, lowered: &Lowered, sink: &mut Sink) {
     let unseen = plan::invisible_surfaces(scene);
     if unseen.is_empty() {
         return;
     }
-    let place = |index: usize| ValuePath::new(EntityKind::Surface, index, Field::Whole);
-    let object = |index: usize| match lowered.source_spans.span(place(index)) {
+    let path = |index: usize| ValuePath::new(EntityKind::Surface, index, Field::Whole);
+    let object = |index: usize| match lowered.source_spans.span(path(index)) {
         Some(span) => Ok(span),
         None => Err(index),
     };
     let is_unseen: BTreeSet<_> = unseen.into_iter().collect();
     let mut objects = BTreeMap::new();
     for Surface { index, .. } in scene.surfaces() {
-        let hidden = objects.entry(object(*index)).or_insert((*index, true));
-        hidden.1 &= is_unseen.contains(index);
+        let is_hidden = objects.entry(object(*index)).or_insert((*index, true));
+        is_hidden.1 &= is_unseen.contains(index);
     }
     let objects: Vec<_> = objects
         .into_values()
-        .filter(|(_, hidden)| *hidden)
+        .filter(|(_, is_hidden)| *is_hidden)
         .collect();
     let more = objects.len().saturating_sub(MAX_UNSEEN);
     for (at, (index, _)) in objects.iter().take(MAX_UNSEEN).enumerate() {
         let message = "no ray of any pixel meets this object";
-        let mut finding = Diagnostic::new(&codes::NEVER_SEEN, message);
+        let mut diagnostic = Diagnostic::new(&codes::NEVER_SEEN, message);
         if more > 0 && at + 1 == MAX_UNSEEN {
-            finding = finding.hint(format!("and {more} more like it"));
+            diagnostic = diagnostic.hint(format!("and {more} more like it"));
         }
-        let finding = finding.at(
-            lowered.source_spans.span(place(*index)),
+        let diagnostic = diagnostic.at(
+            lowered.source_spans.span(path(*index)),
             "not in the picture",
         );
-        sink.push(finding.pointer(place(*index).to_string()));
+        sink.push(diagnostic.pointer(path(*index).to_string()));
     }
 }
 
-/// No more objects than this that no ray meets have a warning of their own.
+/// The maximum number of objects with their own warning.
 const MAX_UNSEEN: usize = 10;
 
-/// A scene prepared as planned, and the threads that render it.
+/// A prepared scene and the threads that render it.
 pub struct Renderer {
     world: AnyWorld,
     threads: Threads,
 }
 
 impl Renderer {
-    /// Prepares a proven scene, for `threads` threads, 0 for one per core.
+    /// Prepares a valid scene for `threads` threads, 0 for one per core.
     ///
     /// # Errors
-    /// If the system gives no threads.
+    /// If the threads can't be started.
     pub fn new(
         scene: &ValidScene,
         plan: &Plan,
@@ -254,10 +273,10 @@ impl Renderer {
         Self::at_level(scene, plan, threads, SimdLevel::best())
     }
 
-    /// As [`Renderer::new`], with the vector instructions of a level: pictures are the same bytes.
+    /// As [`Renderer::new`], for a SIMD level; it does not change pictures.
     ///
     /// # Errors
-    /// If the system gives no threads.
+    /// If the threads can't be started.
     pub fn at_level(
         scene: &ValidScene,
         plan: &Plan,
@@ -269,35 +288,33 @@ impl Renderer {
         Ok(Self { world, threads })
     }
 
-    /// Shows another scene, which differs from the one before in its camera and settings alone.
+    /// Replaces the scene by one that differs only in camera and settings.
     pub fn change(&mut self, scene: ValidScene) {
         self.threads.install(|| self.world.change(scene));
     }
 
-    /// Whether there is memory for so many bytes: they are asked for, and given back at once. A
-    /// picture is asked for so before it is made, for who runs out of memory on the way can say
-    /// nothing any more.
+    /// Whether `bytes` of memory can be allocated; they are freed at once. Checked before a picture
+    /// is rendered, because running out of memory later aborts the process.
     #[must_use]
-    pub fn has_room(&self, bytes: usize) -> bool {
-        // A thread that takes its first byte takes room for more.
+    pub fn has_memory(&self, bytes: usize) -> bool {
+        // Each thread allocates its arena with its first allocation.
         self.threads
             .each(|| drop(std::hint::black_box(Box::new(0_u8))));
         Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
     }
 
-    /// Renders a picture. `None` if `on_pixel` said stop.
+    /// Renders a picture. `None` if `on_pixel` stopped it.
     ///
-    /// `on_pixel` is called from all threads, after each pixel and within long ones.
+    /// All threads call `on_pixel`, after each pixel and during long ones.
     #[must_use]
     pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
         self.threads.install(|| self.world.render(job, on_pixel))
     }
 
-    /// Renders the scene that it was made of until a goal is reached, and keeps what is done on the way
-    /// where that is asked for.
+    /// Renders the scene until a target is reached; `keep` receives checkpoints.
     ///
     /// # Errors
-    /// If someone said stop.
+    /// If it was stopped.
     pub fn approach(
         &mut self,
         scene: &Scene,
@@ -309,11 +326,11 @@ impl Renderer {
         threads.install(|| study::approach_keeping(world, scene, order, watch, keep))
     }
 
-    /// Renders a part of a picture: the tiles of the job, and of traced paths only the range of
-    /// samples given, if any. `None` if `on_pixel` said stop.
+    /// Renders a shard of a picture: the tiles of the job, and for path tracing only the given
+    /// range of samples. `None` if `on_pixel` stopped it.
     ///
     /// # Errors
-    /// If the samples are not whole blocks, or no paths are traced.
+    /// If the samples are not whole blocks, or the scene is not path-traced.
     pub fn render_part(
         &self,
         job: &Job,
@@ -324,23 +341,23 @@ impl Renderer {
             .install(|| self.world.render_part(job, samples, on_pixel))
     }
 
-    /// Renders layers of the pixels that a job asks for. `None` if `on_pixel` said stop.
+    /// Renders layers for the pixels of a job. `None` if `on_pixel` stopped it.
     #[must_use]
     pub fn layers(
         &self,
-        wanted: &[Aov],
+        aovs: &[Aov],
         job: &Job,
         on_pixel: &(dyn Fn() -> bool + Sync),
     ) -> Option<Layers> {
         self.threads
-            .install(|| self.world.layers(wanted, job, &|_| on_pixel()))
+            .install(|| self.world.layers(aovs, job, &|_| on_pixel()))
     }
 }
 
-/// Renders one picture of a proven scene; see [`Renderer::render`].
+/// Renders one picture of a valid scene; see [`Renderer::render`].
 ///
 /// # Errors
-/// If the system gives no threads.
+/// If the threads can't be started.
 pub fn render(
     scene: &ValidScene,
     plan: &Plan,
@@ -351,11 +368,10 @@ pub fn render(
     Ok(Renderer::new(scene, plan, threads)?.render(job, on_pixel))
 }
 
-/// Renders on `threads` threads as planned and once more with everything that was left out, and
-/// compares.
+/// Renders with the plan and again without omissions, and compares.
 ///
 /// # Errors
-/// If the system gives no threads; within, if something that was left out would show.
+/// If the threads can't be started; the inner error if an omission changes the picture.
 pub fn verify(
     scene: &ValidScene,
     plan: &Plan,
@@ -366,22 +382,22 @@ pub fn verify(
     Ok(Threads::new(threads)?.install(|| render::verify(scene, plan, job, on_pixel)))
 }
 
-/// The hash of a proven scene's IR, by which a picture or a report says what it is of: that of its
-/// `.rtir` file, but for how values are shown.
+/// The hash of the IR of a valid scene, which identifies it in pictures and reports: that of its
+/// `.rtir` file with default display settings.
 ///
 /// # Panics
-/// If a number of the scene is not finite, so never if it is proven.
+/// If a number is not finite, which a valid scene excludes.
 #[must_use]
 pub fn hash(scene: &Scene) -> String {
-    let hash = codec::hash(scene).expect("a proven scene holds finite numbers only");
+    let hash = codec::hash(scene).expect("a valid scene has only finite numbers");
     format!("xxh3:{hash:032x}")
 }
 
-/// The threads that render; where the system has none to give, as in a browser, the calling one.
+/// The threads that render; the calling thread where the system has none, as in a browser.
 struct Threads(Option<ThreadPool>);
 
 impl Threads {
-    /// So many threads, 0 for one per core.
+    /// Starts threads, 0 for one per core.
     fn new(threads: usize) -> Result<Self, ThreadPoolBuildError> {
         if cfg!(target_family = "wasm") {
             return Ok(Self(None));
@@ -390,7 +406,7 @@ impl Threads {
         Ok(Self(Some(pool)))
     }
 
-    /// Does a piece of work on them.
+    /// Runs `work` on the threads.
     fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         match &self.0 {
             Some(pool) => pool.install(work),
@@ -398,7 +414,7 @@ impl Threads {
         }
     }
 
-    /// Does the same on each of them.
+    /// Runs `work` once on each thread.
     fn each(&self, work: impl Fn() + Sync) {
         match &self.0 {
             Some(pool) => drop(pool.broadcast(|_| work())),

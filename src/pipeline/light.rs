@@ -1,39 +1,38 @@
-//! The light of a picture: how it is exposed, and whether the studio fills in beside the light that
-//! the scene brings.
+//! Finds the exposure of a picture, and decides whether the studio adds light to the scene.
 
 use super::setup::{Observer, PictureSetup, RenderError, RenderSubject};
-use super::{Input, OwnLight, findings};
+use super::{Input, LightMeasurement, picture_diagnostics};
 use rtc_ir::Camera;
 use rtc_passes::{self as passes, FillLight};
 use rtc_valid::revalidate;
 
-/// The light of a scene shows most of it if that part of its surfaces is seen.
-const MOST: f64 = 0.5;
-/// What glows was hardly made to light the rest, so without lights all but that is to be seen.
-const ALL: f64 = 0.95;
+/// The visible fraction of the surfaces below which the lights of a scene need the studio.
+const MIN_VISIBLE_LIT: f64 = 0.5;
+/// The same for a scene lit only by emissive surfaces, which are rarely meant to light the rest.
+const MIN_VISIBLE_EMISSIVE: f64 = 0.95;
 
-/// The view by which the light of all pictures is found.
+/// The view from which exposure and light are measured, for all pictures.
 pub(super) struct FirstView {
     pub(super) camera: Camera,
-    /// It is of a glTF asset with lights of its own.
+    /// Whether it is a glTF asset with lights.
     pub(super) is_lit_asset: bool,
     pub(super) fill: FillLight,
 }
 
 impl PictureSetup {
-    /// Finds the exposure of all pictures by the first view, whatever the size of the picture, and
-    /// lets the studio fill in where the light of the scene shows little of it.
+    /// Measures the light from the first view, independent of the picture size; sets the exposure
+    /// and adds the studio if too little is visible.
     ///
     /// # Errors
-    /// If someone said stop, or the system gives no threads.
+    /// If it was stopped, or the threads can't be started.
     pub fn light(
         &mut self,
         subject: &mut RenderSubject,
         input: &mut Input,
         observer: &Observer<'_>,
     ) -> Result<(), RenderError> {
-        let remarks = subject.remarks.drain(..);
-        remarks.for_each(|remark| input.push(remark));
+        let pending = subject.pending.drain(..);
+        pending.for_each(|remark| input.push(remark));
         let FirstView {
             is_lit_asset, fill, ..
         } = subject.first;
@@ -43,7 +42,7 @@ impl PictureSetup {
         }
         self.renderer(subject)?;
         let RenderSubject {
-            proven,
+            validated,
             renderer,
             first,
             ..
@@ -51,29 +50,33 @@ impl PictureSetup {
         let on_pixel = |_| !(observer.is_stopped)();
         let exposes = finds_exposure || is_lit_asset;
         let light = renderer.as_mut().and_then(|renderer| {
-            renderer.own_light(&proven.lowered.scene, &first.camera, exposes, &on_pixel)
+            renderer.measure_light(&validated.lowered.scene, &first.camera, exposes, &on_pixel)
         });
-        let OwnLight { stops, seen } = light.ok_or(RenderError::Stopped)?;
-        let least = if is_lit_asset { MOST } else { ALL };
-        if fill == FillLight::Always || (fill == FillLight::IfDim && seen < least) {
-            passes::fill(&mut proven.lowered.scene, stops);
-            proven.scene = revalidate(&proven.lowered.scene);
+        let LightMeasurement { stops, visible } = light.ok_or(RenderError::Stopped)?;
+        let least = if is_lit_asset {
+            MIN_VISIBLE_LIT
+        } else {
+            MIN_VISIBLE_EMISSIVE
+        };
+        if fill == FillLight::Always || (fill == FillLight::IfDim && visible < least) {
+            passes::fill(&mut validated.lowered.scene, stops);
+            validated.scene = revalidate(&validated.lowered.scene);
             subject.renderer = None;
-            input.push(findings::filled(seen));
+            input.push(picture_diagnostics::filled(visible));
             self.is_filled = true;
         }
         if finds_exposure {
             self.look.expose(stops);
             if stops != 0.0 {
-                input.push(findings::exposed(stops));
+                input.push(picture_diagnostics::exposed(stops));
             }
         }
         Ok(())
     }
 
-    /// What is said of it beside a picture.
+    /// A summary for the message about a picture.
     #[must_use]
-    pub fn light_told(&self) -> String {
+    pub fn light_summary(&self) -> String {
         let exposed = self.look.found_exposure();
         let exposed = exposed.map(|stops| format!("exposed by {stops:+.2} stops, "));
         let filled = self

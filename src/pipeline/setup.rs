@@ -1,10 +1,11 @@
-//! A picture as it is asked for: from a scene that was loaded to a film, and to the picture that a
-//! file holds.
+//! The options of a picture, and the steps from a loaded scene to the file: validate, render,
+//! develop, encode.
 
 use super::denoise::{Traced, require_paths};
 use super::light::FirstView;
 use super::{
-    Input, Loaded, OutputTransform, Proven, Provenance, RayCounter, Renderer, findings, hash,
+    Input, Loaded, OutputTransform, Provenance, RayCounter, Renderer, Validated, hash,
+    picture_diagnostics,
 };
 use rayon::ThreadPoolBuildError;
 use rtc_diag::Diagnostic;
@@ -16,51 +17,51 @@ use rtc_render::{Counts, Crop, Job, SimdLevel, Step};
 use rtc_study::Goal;
 use rtc_valid::ValidScene;
 
-/// How a picture is made, beside what its scene says.
+/// Options of a picture in addition to its scene.
 #[derive(Clone, Debug)]
 pub struct PictureSetup {
-    /// How it looks.
+    /// The output transform.
     pub look: OutputTransform,
-    /// The settings that replace those of the scene.
+    /// Overrides of the scene's settings.
     pub overrides: Overrides,
-    /// Settings of the IR by their names there, which replace those of the scene last of all.
+    /// IR settings by name and value, applied last.
     pub set: Vec<(String, String)>,
-    /// How rays meet shapes.
+    /// The arithmetic of intersections.
     pub arithmetic: plan::Arithmetic,
-    /// The part that is rendered; all of it without.
+    /// The crop window; `None` for the whole picture.
     pub crop: Option<Crop>,
-    /// When it is good enough; as the scene says without.
+    /// The target error and time; by default the samples of the scene.
     pub goal: Goal,
-    /// Threads, 0 for one per core.
+    /// The number of threads, 0 for one per core.
     pub threads: usize,
-    /// Vector instructions.
+    /// The SIMD level.
     pub simd: SimdLevel,
-    /// The rules that may leave something out.
+    /// The optimization rules that may be applied.
     pub rules: Rules,
-    /// Whether what was left out is simulated too, and compared.
+    /// Whether to render without optimizations as well, and compare.
     pub verify: bool,
-    /// Whether the picture is denoised.
+    /// Whether to denoise.
     pub denoise: bool,
-    /// The radiance that a traced path brings at most after its first bounce.
+    /// The clamp for indirect radiance of path tracing.
     pub clamp: Option<f64>,
-    /// Whether the studio was found to fill in beside the light of the scene.
+    /// Whether the studio was added to the light of the scene.
     pub is_filled: bool,
 }
 
-/// What pictures are taken of: a proven scene, and its renderer from the first picture on.
+/// A valid scene, with its renderer once it was made.
 pub struct RenderSubject {
     /// The scene.
-    pub proven: Proven,
+    pub validated: Validated,
     pub(super) renderer: Option<Renderer>,
-    /// The view by which its light is found.
+    /// The view from which its light is measured.
     pub(super) first: FirstView,
-    /// What is still to be said of it.
-    pub(super) remarks: Vec<Diagnostic>,
+    /// Diagnostics that were not reported yet.
+    pub(super) pending: Vec<Diagnostic>,
 }
 
-/// Who looks on while a picture is rendered, on all its threads.
+/// Observes a render; called from all threads.
 pub struct Observer<'a> {
-    /// Called after each pixel and within long ones.
+    /// Called after each pixel and during long ones.
     pub on_step: &'a (dyn Fn(Step) + Sync),
     /// Whether to stop.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
@@ -69,22 +70,22 @@ pub struct Observer<'a> {
 /// Why there is no picture.
 #[derive(Debug)]
 pub enum RenderError {
-    /// The observer said stop.
+    /// The observer stopped it.
     Stopped,
-    /// The limit on rays was reached; the finding says where.
+    /// The limit on rays was exceeded; the diagnostic says where.
     RanOut(Box<Diagnostic>),
-    /// It can't be made, for this reason.
+    /// It can't be rendered, for this reason.
     Refused(String),
 }
 
 impl From<ThreadPoolBuildError> for RenderError {
-    fn from(fault: ThreadPoolBuildError) -> Self {
-        Self::Refused(format!("can't start threads: {fault}"))
+    fn from(error: ThreadPoolBuildError) -> Self {
+        Self::Refused(format!("can't start threads: {error}"))
     }
 }
 
 impl PictureSetup {
-    /// A picture of this look, all else as the scene says.
+    /// The options for this output transform, with defaults for the rest.
     #[must_use]
     pub fn new(look: OutputTransform) -> Self {
         Self {
@@ -104,17 +105,18 @@ impl PictureSetup {
         }
     }
 
-    /// Proves a scene with the settings asked for. `None` if it has errors; the findings say which.
+    /// Applies the settings to a scene and validates it. `None` if it has errors, which are among
+    /// the diagnostics.
     ///
     /// # Errors
-    /// If a setting has no such name or value.
+    /// If a setting has an unknown name or an invalid value.
     pub fn validate(
         &mut self,
         loaded: Loaded,
         input: &mut Input,
     ) -> Result<Option<RenderSubject>, RenderError> {
         let (mut set, mut first, mut fitted) = (Ok(()), None, None);
-        let proven = input.validate(loaded, |lowered, provenance| {
+        let validated = input.validate(loaded, |lowered, provenance| {
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
             first = Some(FirstView {
                 camera: lowered.scene.camera.clone(),
@@ -131,20 +133,20 @@ impl PictureSetup {
                 passes::set(&mut lowered.scene.settings, name, value)
             });
         });
-        let Some((proven, first)) = proven.zip(first) else {
+        let Some((validated, first)) = validated.zip(first) else {
             return Ok(None);
         };
-        set.map_err(|words| RenderError::Refused(format!("--set: {words}")))?;
-        let imprecise = findings::imprecise(&proven, self.arithmetic);
+        set.map_err(|message| RenderError::Refused(format!("--set: {message}")))?;
+        let imprecise = picture_diagnostics::imprecise(&validated, self.arithmetic);
         Ok(Some(RenderSubject {
-            proven,
+            validated,
             renderer: None,
             first,
-            remarks: imprecise.into_iter().chain(fitted).collect(),
+            pending: imprecise.into_iter().chain(fitted).collect(),
         }))
     }
 
-    /// The part of the picture that is rendered.
+    /// The crop window, clipped to the picture.
     ///
     /// # Errors
     /// If it is empty.
@@ -167,12 +169,16 @@ impl PictureSetup {
         Ok(window)
     }
 
-    /// Refuses a picture that there is no memory for.
+    /// Checks that there is enough memory for a picture.
     ///
     /// # Errors
-    /// If there is none, or the system gives no threads.
-    pub fn find_room(&self, subject: &mut RenderSubject, window: Crop) -> Result<(), RenderError> {
-        /// A pixel of a film, with what is counted of it; and of one that grows.
+    /// If there is not, or the threads can't be started.
+    pub fn check_memory(
+        &self,
+        subject: &mut RenderSubject,
+        window: Crop,
+    ) -> Result<(), RenderError> {
+        /// Bytes per pixel of a film with its counts, and of a progressive one.
         const FILM: [usize; 2] = [40, 320];
         let Crop { width, height, .. } = window;
         let pixel = FILM[usize::from(self.goal != Goal::default())]
@@ -181,7 +187,7 @@ impl PictureSetup {
         let bytes = (width as usize)
             .saturating_mul(height as usize)
             .saturating_mul(pixel);
-        if self.renderer(subject)?.1.has_room(bytes) {
+        if self.renderer(subject)?.1.has_memory(bytes) {
             return Ok(());
         }
         let size = bytes.div_ceil(1 << 20);
@@ -191,10 +197,10 @@ impl PictureSetup {
         )))
     }
 
-    /// The picture in the setting of the scene, or where its rays, at most so many, ran out.
+    /// Renders the picture with the settings of the scene, with at most `rays` rays.
     ///
     /// # Errors
-    /// If there is none.
+    /// If there is no picture.
     pub fn trace(
         &self,
         subject: &mut RenderSubject,
@@ -203,40 +209,41 @@ impl PictureSetup {
     ) -> Result<Traced, RenderError> {
         let job = Job {
             crop: Some(window),
-            values: self.look.values(&subject.proven.scene.settings().mode),
+            values: self.look.values(&subject.validated.scene.settings().mode),
             background: self.look.background(),
             clamp: self.clamp,
             ..Job::default()
         };
         if self.clamp.is_some() {
-            require_paths(&subject.proven.scene, "--clamp")?;
+            require_paths(&subject.validated.scene, "--clamp")?;
         }
-        let meter = RayCounter::of_each(rays, window, 1 + usize::from(self.verify));
+        let counter = RayCounter::of_each(rays, window, 1 + usize::from(self.verify));
         let on_pixel = |step| {
             (observer.on_step)(step);
-            !(observer.is_stopped)() && meter.step(step)
+            !(observer.is_stopped)() && counter.step(step)
         };
         let traced = if self.verify {
-            let scene = &subject.proven.scene;
+            let scene = &subject.validated.scene;
             super::verify(scene, &self.plan(scene), &job, self.threads, &on_pixel)?
                 .map(|film| film.map(Traced::from))
         } else if self.denoise {
-            self.denoised(subject, &job, (&on_pixel, &meter))?.map(Ok)
+            self.denoised(subject, &job, (&on_pixel, &counter))?.map(Ok)
         } else {
             let film = self.renderer(subject)?.1.render(&job, &on_pixel);
             film.map(|film| Ok(film.into()))
         };
-        if let Some(finding) = subject.ran_out(&meter, observer) {
-            return Err(RenderError::RanOut(finding));
+        if let Some(diagnostic) = subject.ran_out(&counter, observer) {
+            return Err(RenderError::RanOut(diagnostic));
         }
-        let refused = |mismatch| RenderError::Refused(findings::left_out(&mismatch));
-        traced.ok_or(RenderError::Stopped)?.map_err(refused)
+        let rejected =
+            |mismatch| RenderError::Refused(picture_diagnostics::verification_failure(&mismatch));
+        traced.ok_or(RenderError::Stopped)?.map_err(rejected)
     }
 
-    /// The picture of a film, and what is found in it.
+    /// The picture of a film. Diagnostics about it go to `input`.
     ///
     /// # Errors
-    /// If someone said stop.
+    /// If it was stopped.
     pub fn develop(
         &self,
         subject: &mut RenderSubject,
@@ -244,21 +251,23 @@ impl PictureSetup {
         input: &mut Input,
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Picture, RenderError> {
-        self.look_for_hits(subject, counts, input);
+        self.report_empty_picture(subject, counts, input);
         let job = Job {
-            crop: Some(self.window(&subject.proven.lowered.scene)?),
+            crop: Some(self.window(&subject.validated.lowered.scene)?),
             ..Job::default()
         };
         let layers = self.layers(subject, &job, is_stopped)?;
-        let look = self.look.settled(&subject.proven.scene.settings().mode);
+        let look = self.look.resolve(&subject.validated.scene.settings().mode);
         let film = (image, coverage, counts.unnumbered);
         let (picture, found) = look.finish(film, layers, self.arithmetic);
-        found.into_iter().for_each(|finding| input.push(finding));
+        found
+            .into_iter()
+            .for_each(|diagnostic| input.push(diagnostic));
         Ok(picture)
     }
 
-    /// Remarks that the picture is empty, if it is.
-    pub(super) fn look_for_hits(
+    /// Reports an empty picture.
+    pub(super) fn report_empty_picture(
         &self,
         subject: &RenderSubject,
         counts: &Counts,
@@ -266,12 +275,12 @@ impl PictureSetup {
     ) {
         if self.crop.is_none() && counts.hits == 0 {
             let camera = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
-            let camera = subject.proven.lowered.source_spans.span(camera);
-            input.push(findings::nothing_in_view(camera));
+            let camera = subject.validated.lowered.source_spans.span(camera);
+            input.push(picture_diagnostics::nothing_in_view(camera));
         }
     }
 
-    /// The layers asked for, of the pixels of a job.
+    /// The requested layers, for the pixels of a job.
     pub(super) fn layers(
         &self,
         subject: &mut RenderSubject,
@@ -289,45 +298,47 @@ impl PictureSetup {
     /// The bytes of the file of a picture.
     ///
     /// # Errors
-    /// If the picture is larger than the format can hold.
+    /// If the picture is larger than the format allows.
     pub fn encode(
         &self,
         picture: &Picture,
         subject: &RenderSubject,
     ) -> Result<Vec<u8>, RenderError> {
-        let origin = || self.origin(&subject.proven.lowered.scene);
-        let look = self.look.settled(&subject.proven.scene.settings().mode);
+        let origin = || self.origin(&subject.validated.lowered.scene);
+        let look = self.look.resolve(&subject.validated.scene.settings().mode);
         let bytes = look.encode(picture, origin);
         bytes.map_err(|error| RenderError::Refused(error.to_string()))
     }
 
-    /// What a scene needs for its picture.
+    /// The plan of a scene.
     fn plan(&self, scene: &ValidScene) -> Plan {
         Plan::with_arithmetic(self.arithmetic, scene, self.rules)
     }
 
-    /// A scene and its renderer, which is made when it is first asked for.
+    /// The scene and its renderer, which is made on first use.
     ///
     /// # Errors
-    /// If the system gives no threads.
+    /// If the threads can't be started.
     pub fn renderer<'s>(
         &self,
         subject: &'s mut RenderSubject,
-    ) -> Result<(&'s Proven, &'s mut Renderer), ThreadPoolBuildError> {
+    ) -> Result<(&'s Validated, &'s mut Renderer), ThreadPoolBuildError> {
         let RenderSubject {
-            proven, renderer, ..
+            validated,
+            renderer,
+            ..
         } = subject;
         let made = match renderer.take() {
             Some(made) => made,
             None => {
-                let plan = self.plan(&proven.scene);
-                Renderer::at_level(&proven.scene, &plan, self.threads, self.simd)?
+                let plan = self.plan(&validated.scene);
+                Renderer::at_level(&validated.scene, &plan, self.threads, self.simd)?
             }
         };
-        Ok((proven, renderer.insert(made)))
+        Ok((validated, renderer.insert(made)))
     }
 
-    /// Enough to make the same picture again: which rtc, which scene, which part of it.
+    /// The metadata that identifies the picture: rtc version, scene, settings.
     #[must_use]
     pub fn origin(&self, scene: &Scene) -> Origin {
         let mut settings = serde_json::json!({
@@ -360,23 +371,27 @@ impl PictureSetup {
 }
 
 impl RenderSubject {
-    /// Shows it as it is now, which differs from before in its camera alone.
+    /// Updates the renderer after the camera of the scene was changed.
     pub fn turn(&mut self) {
         if let Some(renderer) = &mut self.renderer {
-            renderer.change(self.proven.scene.clone());
+            renderer.change(self.validated.scene.clone());
         }
     }
 
-    /// What to say if the rays ran out, unless the observer ended the render.
+    /// The diagnostic if the limit on rays was exceeded, unless the observer stopped the render.
     #[must_use]
-    pub fn ran_out(&self, meter: &RayCounter, observer: &Observer<'_>) -> Option<Box<Diagnostic>> {
-        let pixel = meter.ran_out().filter(|_| !(observer.is_stopped)())?;
-        Some(Box::new(meter.finding(&self.proven.lowered, pixel)))
+    pub fn ran_out(
+        &self,
+        counter: &RayCounter,
+        observer: &Observer<'_>,
+    ) -> Option<Box<Diagnostic>> {
+        let pixel = counter.ran_out().filter(|_| !(observer.is_stopped)())?;
+        Some(Box::new(counter.diagnostic(&self.validated.lowered, pixel)))
     }
 }
 
-/// Gives the view of an asset a picture of another size: it shows no less than before; what is to be
-/// said of that. Other scenes keep their height.
+/// Changes the picture size. The view of an asset shows at least what it showed before, which may
+/// give a diagnostic; other scenes keep their vertical field of view.
 fn resize(
     scene: &mut Scene,
     size: Option<[u32; 2]>,
@@ -387,7 +402,7 @@ fn resize(
         (Some(size), None) if provenance.is_asset => {
             let before = scene.camera.size;
             scene.camera.fit(size);
-            return findings::fitted(before, size);
+            return picture_diagnostics::fitted(before, size);
         }
         _ => {}
     }

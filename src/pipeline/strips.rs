@@ -1,7 +1,7 @@
-//! A picture rendered strip by strip, each some rows from the top, written and let go before the next:
-//! it takes the memory of a strip, and its file is that of the whole, byte for byte.
+//! Renders a picture strip by strip: each strip is written before the next is rendered. This needs
+//! the memory of one strip, and the file is the same, byte for byte.
 
-use super::look::{Losses, ResolvedOutputTransform};
+use super::output_transform::{Losses, ResolvedOutputTransform};
 use super::{Input, Observer, PictureSetup, RayCounter, RenderError, RenderSubject};
 use rtc_image::{BLOCK_ROWS, FileFormat, Picture, StripSource};
 use rtc_render::{Counts, Crop, Film, Job};
@@ -10,10 +10,10 @@ use rtc_valid::Mode;
 use std::borrow::Cow;
 use std::io::{self, BufWriter, Seek, Write};
 
-/// The pixels of a strip, unless its rows are given: a film of 60 MiB.
+/// The default number of pixels of a strip: a film of 60 MiB.
 const PIXELS: u32 = 1 << 20;
 
-/// What is written at once.
+/// The size of the write buffer in bytes.
 const BUFFER: usize = 1 << 20;
 
 /// Why a picture can't be rendered in strips.
@@ -26,14 +26,14 @@ const DISTANCES: &str = "the brightness of a distance depends on all others, so 
 const VERIFY: &str = "`--verify-effects` compares whole pictures, and has no strips; verify a smaller \
      picture, by `--size` or `--crop`";
 
-/// A render in strips under way.
+/// The state of a render in strips.
 struct StripRender<'r> {
     setup: &'r PictureSetup,
     subject: &'r mut RenderSubject,
     observer: &'r Observer<'r>,
     look: &'r ResolvedOutputTransform,
-    meter: RayCounter,
-    /// The strip to be rendered next; of no height after the last.
+    counter: RayCounter,
+    /// The next strip; its height is 0 after the last.
     next: Crop,
     /// The row after the last.
     end: u32,
@@ -42,8 +42,8 @@ struct StripRender<'r> {
 }
 
 impl PictureSetup {
-    /// The first of the strips of a part of the picture, of about so many rows; without, of those
-    /// that take little memory.
+    /// The first strip of a window, with about `rows` rows; by default as many as need little
+    /// memory.
     #[must_use]
     pub fn first_strip(window: Crop, rows: Option<u32>) -> Crop {
         let rows = rows.unwrap_or_else(|| PIXELS / window.width.max(1) / BLOCK_ROWS * BLOCK_ROWS);
@@ -54,12 +54,12 @@ impl PictureSetup {
         }
     }
 
-    /// Refuses to render in strips what must be known as a whole.
+    /// Checks that the picture can be rendered in strips.
     ///
     /// # Errors
-    /// If it is such a picture.
-    pub fn refuse_strips(&self, subject: &RenderSubject) -> Result<(), RenderError> {
-        let is_distances = matches!(subject.proven.scene.settings().mode, Mode::Depth);
+    /// If it must be known as a whole.
+    pub fn check_strips(&self, subject: &RenderSubject) -> Result<(), RenderError> {
+        let is_distances = matches!(subject.validated.scene.settings().mode, Mode::Depth);
         let is_whole = matches!(self.look.kind, FileFormat::Jpeg | FileFormat::Webp);
         let reasons = [
             (is_whole, WHOLE),
@@ -73,11 +73,11 @@ impl PictureSetup {
         }
     }
 
-    /// Renders a part of the picture in strips as high as the first, with so many rays at most, and
-    /// writes its file as they come; what is found in it, and the rays it took.
+    /// Renders a window in strips of the height of the first, with at most `rays` rays, and writes
+    /// the file incrementally. Returns the ray counts; diagnostics go to `input`.
     ///
     /// # Errors
-    /// If the file can't be written; within, if there is no picture.
+    /// If the file can't be written; the inner error if there is no picture.
     pub fn render_strips(
         &self,
         subject: &mut RenderSubject,
@@ -86,68 +86,70 @@ impl PictureSetup {
         observer: &Observer<'_>,
         out: impl Write + Seek,
     ) -> io::Result<Result<Counts, RenderError>> {
-        let look = self.look.settled(&subject.proven.scene.settings().mode);
-        let origin = || self.origin(&subject.proven.lowered.scene);
+        let look = self.look.resolve(&subject.validated.scene.settings().mode);
+        let origin = || self.origin(&subject.validated.lowered.scene);
         let head = look.head([window.width, window.height], &self.look.aovs, origin);
         let mut render = StripRender {
             setup: self,
             subject,
             observer,
             look: &look,
-            meter: RayCounter::new(rays, first),
+            counter: RayCounter::new(rays, first),
             next: first,
             end: window.y + window.height,
             counts: Counts::default(),
             losses: Losses::default(),
         };
-        let mut fault = None;
+        let mut render_error = None;
         let mut next = || match render.next_strip() {
             Ok(strip) => Ok(Cow::Owned(strip)),
             Err(error) => {
-                fault = Some(error);
+                render_error = Some(error);
                 Err(io::ErrorKind::Other.into())
             }
         };
         let mut out = BufWriter::with_capacity(BUFFER, out);
         let written = head.write(&mut out, StripSource::new(&mut next));
         let written = written.and_then(|()| out.flush());
-        if let Some(fault) = fault {
-            return Ok(Err(fault));
+        if let Some(error) = render_error {
+            return Ok(Err(error));
         }
         written?;
         let StripRender { counts, losses, .. } = render;
-        self.look_for_hits(subject, &counts, input);
-        let found = losses.findings(counts.unnumbered, look.kind, self.arithmetic);
-        found.into_iter().for_each(|finding| input.push(finding));
+        self.report_empty_picture(subject, &counts, input);
+        let found = losses.picture_diagnostics(counts.unnumbered, look.kind, self.arithmetic);
+        found
+            .into_iter()
+            .for_each(|diagnostic| input.push(diagnostic));
         Ok(Ok(counts))
     }
 }
 
 impl StripRender<'_> {
-    /// The next strip of the picture.
+    /// Renders the next strip.
     fn next_strip(&mut self) -> Result<Picture, RenderError> {
         let Self {
             setup,
             subject,
             observer,
             look,
-            meter,
+            counter,
             ..
         } = self;
         let job = Job {
             crop: Some(self.next),
-            values: setup.look.values(&subject.proven.scene.settings().mode),
+            values: setup.look.values(&subject.validated.scene.settings().mode),
             background: setup.look.background(),
             ..Job::default()
         };
-        meter.go_on(self.next);
+        counter.next_strip(self.next);
         let on_pixel = |step| {
             (observer.on_step)(step);
-            !(observer.is_stopped)() && meter.step(step)
+            !(observer.is_stopped)() && counter.step(step)
         };
         let film = setup.renderer(subject)?.1.render(&job, &on_pixel);
-        if let Some(finding) = subject.ran_out(meter, observer) {
-            return Err(RenderError::RanOut(finding));
+        if let Some(diagnostic) = subject.ran_out(counter, observer) {
+            return Err(RenderError::RanOut(diagnostic));
         }
         let Film {
             image,

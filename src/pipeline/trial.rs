@@ -1,9 +1,9 @@
-//! The stages on bytes nobody vouches for: what the fuzz targets call, and the suite with what they
-//! found.
+//! The stages on untrusted bytes: the entry points of the fuzz targets, also run by the test suite
+//! on regression inputs.
 //!
-//! None may panic, whatever the bytes are. What a stage promises beyond that is asserted here.
+//! None may panic for any bytes. What a stage guarantees beyond that is asserted here.
 
-use super::{FixFilter, Input, Options, PicturePart, load, render, validate};
+use super::{FixFilter, Input, Options, RenderShard, load, render, validate};
 use arbitrary::{Arbitrary, Unstructured};
 use rtc_codec::{self as codec, Encoding};
 use rtc_color::Tone;
@@ -18,13 +18,13 @@ use rtc_study::{Goal, Order, ProgressiveRender};
 use rtc_valid as valid;
 use std::path::Path;
 
-/// The most of anything a scene under trial is rendered with.
+/// The limit on counts of a scene that is rendered here.
 const TINY: u32 = 4;
 
-/// Lowers a text of the course's format, and lays it out.
+/// Lowers a text of the course and formats it.
 ///
 /// # Panics
-/// If the text is refused without an error, or is laid out otherwise the second time.
+/// If the text is rejected without an error, or formatting is not idempotent.
 pub fn lower(bytes: &[u8]) {
     let (map, file) = source(bytes);
     if let Ok(text) = course::lay_out(file, &map, &mut Sink::default()) {
@@ -40,16 +40,16 @@ pub fn lower(bytes: &[u8]) {
     );
 }
 
-/// Takes a scene in any form from bytes to its proof.
+/// Reads and validates a scene of any format.
 ///
 /// # Panics
-/// If there is neither a proof nor an error, or both, or a proven scene is another one after
-/// encoding and decoding.
+/// If there is neither a valid scene nor an error, or both, or encoding and decoding changes a
+/// valid scene.
 pub fn check(bytes: &[u8]) {
     check_as("trial", bytes);
 }
 
-/// The same, of a glTF asset in text.
+/// The same for a glTF asset as JSON.
 ///
 /// # Panics
 /// As [`check`].
@@ -57,7 +57,7 @@ pub fn gltf(bytes: &[u8]) {
     check_as("trial.gltf", bytes);
 }
 
-/// The same, of a glTF asset in its container.
+/// The same for a binary glTF asset.
 ///
 /// # Panics
 /// As [`check`].
@@ -68,22 +68,22 @@ pub fn glb(bytes: &[u8]) {
 fn check_as(name: &str, bytes: &[u8]) {
     let mut map = SourceMap::default();
     let file = map.add(name, bytes.to_vec());
-    is_proven_or_refused(file, &mut map);
+    is_valid_or_rejected(file, &mut map);
 }
 
-/// Takes a scene from its file, with the files that it names, to its proof and a few pixels, and
-/// prints what was found.
+/// Reads and validates a scene file with the files it refers to, renders a few pixels, and prints
+/// its diagnostics.
 ///
 /// # Panics
-/// As [`check`] and [`picture`], or if a text about the findings could command a terminal.
+/// As [`check`] and [`picture`], or if printed text contains control characters.
 pub fn file(path: &Path) {
     let mut map = SourceMap::default();
     let Ok(file) = Loader.file(path, &mut map) else {
         return;
     };
-    let (sink, scene) = is_proven_or_refused(file, &mut map);
+    let (sink, scene) = is_valid_or_rejected(file, &mut map);
     let name = map.name(file).to_owned();
-    // SARIF says what JSON says, after a long table that is always the same.
+    // SARIF has the content of JSON after a long constant table.
     for format in [Format::Human, Format::Short, Format::Json, Format::Github] {
         let options = diag::PrintOptions {
             color: false,
@@ -101,38 +101,38 @@ pub fn file(path: &Path) {
     scene.into_iter().for_each(is_picture);
 }
 
-/// What was found, and the scene if it was proven.
-fn is_proven_or_refused(file: FileId, map: &mut SourceMap) -> (Sink, Option<Scene>) {
+/// The diagnostics, and the scene if it is valid.
+fn is_valid_or_rejected(file: FileId, map: &mut SourceMap) -> (Sink, Option<Scene>) {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = load(file, map, &options, &mut sink);
-    let proven = lowered
+    let validated = lowered
         .as_ref()
         .and_then(|lowered| validate(lowered, &options, &mut sink));
     assert_eq!(
-        proven.is_none(),
+        validated.is_none(),
         sink.has_errors(),
         "a proof or an error, never both"
     );
     let scene = lowered
-        .filter(|_| proven.is_some())
+        .filter(|_| validated.is_some())
         .map(|lowered| lowered.scene);
     scene.iter().for_each(round_trips);
     (sink, scene)
 }
 
-/// Reads a part of a picture, as it is and with checksums that fit.
+/// Reads a shard, as it is and with corrected checksums.
 ///
 /// # Panics
-/// If one that is read is another one after it was saved, or has grown to something else.
+/// If saving and reading changes it.
 pub fn part(bytes: &[u8]) {
-    /// Larger pictures take longer than a trial may.
+    /// Larger pictures would take too long.
     const MOST: u64 = 1 << 12;
-    for bytes in [bytes.to_vec(), super::part::mended(bytes)] {
-        let Ok(part) = PicturePart::load(&bytes, MOST) else {
+    for bytes in [bytes.to_vec(), super::shard::with_valid_checksums(bytes)] {
+        let Ok(part) = RenderShard::load(&bytes, MOST) else {
             continue;
         };
         let saved = part.save();
-        let again = PicturePart::load(&saved, MOST).map(|part| part.save());
+        let again = RenderShard::load(&saved, MOST).map(|part| part.save());
         assert!(again.as_ref() == Ok(&saved), "what is saved can be read");
         let _ = part.develop();
         let _ = part.command(1);
@@ -140,8 +140,8 @@ pub fn part(bytes: &[u8]) {
     }
 }
 
-/// Reads how far a picture has grown.
-fn has_grown(mut part: PicturePart) {
+/// Checks that the progressive state survives reading and saving.
+fn has_grown(mut part: RenderShard) {
     let order = Order {
         goal: Goal::default(),
         crop: part.window(),
@@ -157,10 +157,10 @@ fn has_grown(mut part: PicturePart) {
     }
 }
 
-/// Decodes bytes in both forms of the IR.
+/// Decodes bytes in both encodings of the IR.
 ///
 /// # Panics
-/// If there is neither a scene nor an error, or a scene is another one after encoding and decoding.
+/// If there is neither a scene nor an error, or encoding and decoding changes a scene.
 pub fn decode(bytes: &[u8]) {
     let (map, file) = source(bytes);
     for encoding in [Encoding::Json, Encoding::Binary] {
@@ -175,30 +175,30 @@ pub fn decode(bytes: &[u8]) {
     }
 }
 
-/// Proves the scene that the bytes stand for.
+/// Validates the scene that `Arbitrary` makes of the bytes.
 ///
 /// # Panics
-/// If there is neither a proof nor an error, or both.
+/// If there is neither a valid scene nor an error, or both.
 pub fn validate_any(bytes: &[u8]) {
     let Ok(scene) = Scene::arbitrary(&mut Unstructured::new(bytes)) else {
         return;
     };
     let mut sink = Sink::default();
-    let proven = valid::validate(
+    let validated = valid::validate(
         &scene,
         &SourceSpans::default(),
         &Options::default().valid,
         &mut sink,
     );
     assert_eq!(
-        proven.is_none(),
+        validated.is_none(),
         sink.has_errors(),
         "a proof or an error, never both"
     );
 }
 
-/// Writes a scene in any form, and the one that the bytes stand for, in the forms that are read
-/// again.
+/// Exports a scene of any format, and the scene that `Arbitrary` makes of the bytes, to the formats
+/// that can be read again.
 ///
 /// # Panics
 /// As [`is_written`].
@@ -213,12 +213,11 @@ pub fn written(bytes: &[u8]) {
     scenes.for_each(is_written);
 }
 
-/// Writes a scene, if it is proven, as glTF and, if it needs no other file, as a text of the
-/// course's format.
+/// Exports a valid scene as glTF and, if it needs no sidecar files, as text of the course.
 ///
 /// # Panics
-/// If what is written is refused when it is read, or it is not written and no error says why, or the text is
-/// written otherwise the second time.
+/// If the result is rejected when read, or there is neither a result nor an error, or exporting the
+/// text again changes it.
 pub fn is_written(scene: Scene) {
     let source_spans = SourceSpans::default();
     let lowered = Lowered {
@@ -250,25 +249,25 @@ pub fn is_written(scene: Scene) {
     }
 }
 
-/// The scene in what was written, which must be sound.
+/// Reads an exported scene, which must be valid.
 fn is_accepted(name: &str, bytes: Vec<u8>) -> Scene {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = map.add(name, bytes);
     let lowered = load(file, &mut map, &options, &mut sink);
-    let proven = lowered.filter(|lowered| validate(lowered, &options, &mut sink).is_some());
-    let is_error = |finding: &&diag::Diagnostic| finding.severity == Severity::Error;
+    let validated = lowered.filter(|lowered| validate(lowered, &options, &mut sink).is_some());
+    let is_error = |diagnostic: &&diag::Diagnostic| diagnostic.severity == Severity::Error;
     let errors: Vec<_> = sink.kept().iter().filter(is_error).collect();
-    proven
+    validated
         .unwrap_or_else(|| panic!("{name}: {errors:#?}"))
         .scene
 }
 
-/// Puts what is proposed for a text into it, guesses left out and in.
+/// Applies the suggested fixes of a text, without and with guesses.
 ///
 /// # Panics
-/// If it has more errors then.
+/// If it has more errors afterwards.
 pub fn fix(bytes: &[u8]) {
-    // No folder is there, so that no file is.
+    // The folder does not exist, so no other file is found.
     let (path, options) = (Path::new("nowhere/trial.yaml"), Options::default());
     let Ok(text) = std::str::from_utf8(bytes) else {
         return;
@@ -278,8 +277,8 @@ pub fn fix(bytes: &[u8]) {
         if let Some(loaded) = input.load() {
             input.validate(loaded, |_, _| ());
         }
-        let sink = input.take_findings();
-        let is_error = |finding: &&diag::Diagnostic| finding.severity == Severity::Error;
+        let sink = input.take_diagnostics();
+        let is_error = |diagnostic: &&diag::Diagnostic| diagnostic.severity == Severity::Error;
         sink.kept().iter().filter(is_error).count()
     };
     for guesses in [false, true] {
@@ -293,7 +292,7 @@ pub fn fix(bytes: &[u8]) {
     }
 }
 
-/// Renders a scene in any form, a few pixels of it.
+/// Renders a few pixels of a scene of any format.
 ///
 /// # Panics
 /// If a pixel is not in [0, 1].
@@ -311,12 +310,12 @@ fn is_picture(mut scene: Scene) {
         scene,
         source_spans: SourceSpans::default(),
     };
-    let Some(proven) = validate(&lowered, &Options::default(), &mut Sink::default()) else {
+    let Some(validated) = validate(&lowered, &Options::default(), &mut Sink::default()) else {
         return;
     };
     let film = render(
-        &proven,
-        &Plan::new(&proven, Rules::ALL),
+        &validated,
+        &Plan::new(&validated, Rules::ALL),
         &Job::default(),
         1,
         &|_| true,

@@ -56,11 +56,11 @@ fn scene_in(file: FileId, mut map: SourceMap) -> Scene {
     let mut sink = Sink::default();
     let name = map.name(file).to_owned();
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
-    let proven = lowered
+    let validated = lowered
         .as_ref()
         .and_then(|lowered| pipeline::validate(lowered, &Options::default(), &mut sink));
     assert!(
-        proven.is_some() && sink.kept().is_empty(),
+        validated.is_some() && sink.kept().is_empty(),
         "{name}: {:#?}",
         sink.kept()
     );

@@ -2,7 +2,7 @@
 
 use super::parts::{bytes, scenes, told};
 use super::*;
-use rtc::internals::pipeline::PicturePart;
+use rtc::internals::pipeline::RenderShard;
 use std::process::Child;
 use std::thread::sleep;
 use std::time::Duration;
@@ -76,7 +76,7 @@ fn a_render_that_is_killed_goes_on_to_the_same_bytes() {
         child.wait().unwrap();
         // What is there is a sound part, if anything is.
         if folder.path().join("a.rtp").exists() {
-            PicturePart::load(&bytes(&folder, "a.rtp"), 1 << 20).unwrap();
+            RenderShard::load(&bytes(&folder, "a.rtp"), 1 << 20).unwrap();
         }
     }
     told(&folder, &SLOW);
@@ -172,7 +172,7 @@ fn where_the_folder_becomes_read_only_the_render_goes_on_and_what_was_saved_stay
     );
     assert!(bytes(&folder, "a.png") == whole);
     let kept = if is_read_only { &saves } else { &gone };
-    PicturePart::load(&fs::read(kept.join("a.rtp")).unwrap(), 1 << 20).unwrap();
+    RenderShard::load(&fs::read(kept.join("a.rtp")).unwrap(), 1 << 20).unwrap();
     fs::set_permissions(kept, fs::Permissions::from_mode(0o755)).unwrap();
 }
 

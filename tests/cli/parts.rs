@@ -1,7 +1,7 @@
 //! Parts of a picture, merged: the bytes of one process, whatever is shared out and however.
 
 use super::*;
-use rtc::internals::pipeline::PicturePart;
+use rtc::internals::pipeline::RenderShard;
 
 /// The words of a render of a scene, and the name of its picture.
 pub(super) const PICTURES: [(&[&str], &str); 6] = [
@@ -200,7 +200,7 @@ fn a_part_that_was_changed_is_refused() {
     let words = ["paths.json", "--aov", "depth"];
     let parts = render(&folder, &words, "a.exr", ("tiles", 1), [1]);
     let sound = bytes(&folder, &parts[0]);
-    let load = |bytes: &[u8]| PicturePart::load(bytes, 1 << 20);
+    let load = |bytes: &[u8]| RenderShard::load(bytes, 1 << 20);
     assert_eq!(load(&sound).unwrap().save(), sound);
     for at in (0..sound.len()).step_by(97).chain(0..64) {
         let mut changed = sound.clone();
@@ -209,7 +209,7 @@ fn a_part_that_was_changed_is_refused() {
         assert!(load(&sound[..at]).is_err(), "{at} bytes");
     }
     assert_eq!(
-        PicturePart::load(&sound, 100).unwrap_err().to_string(),
+        RenderShard::load(&sound, 100).unwrap_err().to_string(),
         "it is damaged: its shares can't be those of a picture"
     );
 }

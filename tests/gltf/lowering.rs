@@ -24,13 +24,13 @@ fn lower(bytes: Vec<u8>, front: front::FrontOptions) -> Scene {
         ..Options::default()
     };
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
-    let proven = lowered
+    let validated = lowered
         .as_ref()
         .and_then(|lowered| pipeline::validate(lowered, &options, &mut sink));
     let is_small =
         |finding: &Diagnostic| finding.severity == Severity::Note || finding.code.id == "GL034";
     assert!(
-        proven.is_some() && sink.kept().iter().all(is_small),
+        validated.is_some() && sink.kept().iter().all(is_small),
         "{sink:#?}"
     );
     lowered.unwrap().scene
@@ -288,9 +288,9 @@ fn picture(mut scene: Scene) -> Vec<[u64; 3]> {
         source_spans: SourceSpans::default(),
     };
     let (options, mut sink) = (Options::default(), Sink::default());
-    let proven = pipeline::validate(&lowered, &options, &mut sink).unwrap();
-    let plan = Plan::new(&proven, Rules::ALL);
-    let film = pipeline::render(&proven, &plan, &Job::default(), 1, &|_| true)
+    let validated = pipeline::validate(&lowered, &options, &mut sink).unwrap();
+    let plan = Plan::new(&validated, Rules::ALL);
+    let film = pipeline::render(&validated, &plan, &Job::default(), 1, &|_| true)
         .unwrap()
         .unwrap();
     film.image

@@ -1,7 +1,7 @@
 //! Cases that are decisions: which code a fault gets, and what must never happen.
 
 use super::random::Random;
-use super::scenes::{check, plane, proven, scene, sphere, triangle, white, world};
+use super::scenes::{check, plane, scene, sphere, triangle, validated, white, world};
 use super::truth::{Report, all, id};
 use rtc::internals::diag::codes;
 use rtc::internals::ir::{self, Light, Material, MaterialId, Phong, PointLight};
@@ -14,7 +14,7 @@ fn film(scene: &ir::Scene) -> Film {
         values: Values::Linear,
         ..Job::default()
     };
-    let scene = proven(scene);
+    let scene = validated(scene);
     render(&scene, &Plan::new(&scene, Rules::ALL), &job, &|_| true).unwrap()
 }
 

@@ -56,7 +56,7 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
 }
 
 /// The proof of a scene; what the proof says otherwise is the panic's message.
-pub(crate) fn proven(scene: &ir::Scene) -> ValidScene {
+pub(crate) fn validated(scene: &ir::Scene) -> ValidScene {
     check(scene).unwrap_or_else(|codes| panic!("refused: {codes:?}"))
 }
 
@@ -77,7 +77,7 @@ pub(crate) fn world(shapes: impl IntoIterator<Item = ir::Shape>) -> World {
 }
 
 pub(crate) fn prepare(scene: &ir::Scene) -> World {
-    let scene = proven(scene);
+    let scene = validated(scene);
     World::prepare(&scene, &Plan::new(&scene, Rules::NONE))
 }
 

@@ -133,9 +133,9 @@ pub(crate) fn world(scene: &Scene) -> AnyWorld {
         scene: scene.clone(),
         source_spans: SourceSpans::default(),
     };
-    let proven = pipeline::validate(&lowered, &Options::default(), &mut Sink::default())
+    let validated = pipeline::validate(&lowered, &Options::default(), &mut Sink::default())
         .expect("the scene is sound");
-    AnyWorld::prepare(&proven, &Plan::new(&proven, Rules::ALL))
+    AnyWorld::prepare(&validated, &Plan::new(&validated, Rules::ALL))
 }
 
 /// All of the picture.

@@ -1,6 +1,6 @@
 //! A picture made in parts is, byte for byte, the picture made at once.
 
-use crate::small::{bits, paths, proven, small};
+use crate::small::{bits, paths, small, validated};
 use rtc::internals::ir::{Mode, PathSettings, Scene};
 use rtc::internals::passes::Overrides;
 use rtc::internals::plan::{Plan, Rules};
@@ -14,7 +14,7 @@ const SAMPLES: u32 = 100;
 const MAX_PIXELS: u64 = 1 << 12;
 
 fn world(scene: &Scene) -> AnyWorld {
-    let proof = proven(scene);
+    let proof = validated(scene);
     AnyWorld::prepare(&proof, &Plan::new(&proof, Rules::ALL))
 }
 

@@ -4,7 +4,7 @@
 //! differs is what changed.
 
 use super::dice::Dice;
-use super::{proven, root};
+use super::{root, validated};
 use rtc::internals::ir::{Cone, Cylinder, Disc, Scene, Shape, Sphere, Torus};
 use rtc::internals::plan::{Arithmetic, Plan, Rule, Rules, State, loss};
 use std::fmt::Write as _;
@@ -44,7 +44,7 @@ fn scene(seed: u64) -> Scene {
 }
 
 fn line(seed: u64) -> String {
-    let scene = proven(&scene(seed));
+    let scene = validated(&scene(seed));
     let plan = Plan::new(&scene, Rules::ALL);
     let is_other = |rule: &Rule| (*rule as u64 ^ seed).is_multiple_of(2);
     let others = Rule::ALL
@@ -105,7 +105,7 @@ fn plans_are_as_approved() {
 /// A hash names no culprit: what people read is said in full.
 #[test]
 fn effects_and_states_are_named_as_in_the_books() {
-    let plan = Plan::new(&proven(&Dice::new(0).scene()), Rules::ALL);
+    let plan = Plan::new(&validated(&Dice::new(0).scene()), Rules::ALL);
     let mut names = plan
         .statuses
         .iter()

@@ -1,7 +1,7 @@
 //! Counters: the class of rays of an effect that was left out is 0.
 
 use super::dice::Dice;
-use super::{film, proven};
+use super::{film, validated};
 use crate::told::lies;
 use rtc::internals::plan::{Effect, Plan, Rules, State};
 use rtc::internals::render::Values;
@@ -9,7 +9,7 @@ use rtc::internals::render::Values;
 #[test]
 fn what_is_told_absent_is_never_simulated() {
     for seed in 0..400 {
-        let scene = proven(&Dice::new(seed).scene());
+        let scene = validated(&Dice::new(seed).scene());
         let counts = film(&scene, Rules::ALL, Values::Linear).counts;
         let mut lies = lies(&scene, &counts);
         // Where all corners of a triangle have one normal, that is looked up and counted too.
@@ -22,7 +22,7 @@ fn what_is_told_absent_is_never_simulated() {
 #[test]
 fn an_effect_that_is_not_needed_traces_no_ray() {
     for seed in 0..400 {
-        let scene = proven(&Dice::new(seed).scene());
+        let scene = validated(&Dice::new(seed).scene());
         let plan = Plan::new(&scene, Rules::ALL);
         let counts = film(&scene, Rules::ALL, Values::Linear).counts;
         let silent = |effect, rays: u64| {

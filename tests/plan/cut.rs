@@ -1,7 +1,7 @@
 //! Where bounces are cut off: once all that is left is below half a level of 8 bits, and no sooner.
 
-use super::proven;
 use super::scenes::{ball, first_light, material, matt, texture, with};
+use super::validated;
 use rtc::internals::ir::{Phong, Scene, Texture, TextureId};
 use rtc::internals::plan::{Plan, Rule, Rules};
 
@@ -25,7 +25,7 @@ fn mirrors() -> Scene {
 }
 
 fn depth(scene: &Scene) -> u32 {
-    Plan::new(&proven(scene), Rules::ALL.with(Rule::Cut)).max_depth
+    Plan::new(&validated(scene), Rules::ALL.with(Rule::Cut)).max_depth
 }
 
 /// That as many bounces are left as keep the rest below half a level: Σ weightⁱ over all i above

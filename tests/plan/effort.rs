@@ -31,7 +31,7 @@ fn too_many_surfaces_are_kept_without_asking() {
     let plan = |count, lights| {
         let mut scene = many(count, 0);
         scene.lights = vec![scene.lights[0].clone(); lights];
-        Plan::new(&super::proven(&scene), Rules::ALL)
+        Plan::new(&super::validated(&scene), Rules::ALL)
     };
     let is_asked = |plan: &Plan| !status(plan, Effect::Shadows).reason.contains("too many");
     assert!(is_asked(&plan(500, 2)), "500 times 500 times 2");
@@ -43,7 +43,7 @@ fn too_many_surfaces_are_kept_without_asking() {
 #[test]
 fn too_many_mirrors_are_followed_without_asking() {
     let reason = |count, mirrors| {
-        let plan = Plan::new(&super::proven(&many(count, mirrors)), Rules::ALL);
+        let plan = Plan::new(&super::validated(&many(count, mirrors)), Rules::ALL);
         status(&plan, Effect::Depth).reason.clone()
     };
     assert_eq!(reason(1000, 500), "2 bounces: mirrors show mirrors");
@@ -59,7 +59,7 @@ fn a_large_picture_is_looked_at_in_coarse_cells() {
     let mut scene = with(&[(ball([0.0; 3], 1.0), matt())]);
     (scene.camera.size, scene.camera.right, scene.camera.up) =
         ([2400, 2000], [2.5e-3, 0.0, 0.0], [0.0, 2.5e-3, 0.0]);
-    let pixel_classes = Plan::new(&super::proven(&scene), Rules::ALL).pixel_classes;
+    let pixel_classes = Plan::new(&super::validated(&scene), Rules::ALL).pixel_classes;
     let sights = [[0, 0], [1200, 1000], [2399, 1999], [2399, 1000]]
         .map(|pixel| pixel_classes.class_of(pixel));
     assert_eq!(

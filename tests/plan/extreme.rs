@@ -3,7 +3,7 @@
 //! others where `RTC_SCENES` names them, as 0..2000.
 
 use super::dice::Dice;
-use super::{bits, film, proven};
+use super::{bits, film, validated};
 use rtc::internals::codec::{self, Encoding};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Light, Lowered, Material, Phong, Scene, SourceSpans};
@@ -30,7 +30,7 @@ fn decoded(encoding: Encoding, scene: &Scene) -> Scene {
 
 /// The first law that a sound scene breaks.
 fn broken(scene: &Scene) -> Option<String> {
-    let valid = proven(scene);
+    let valid = validated(scene);
     let unpruned = film(&valid, Rules::NONE, Values::Linear);
     if let Some(index) = unpruned
         .image
@@ -85,7 +85,7 @@ fn broken(scene: &Scene) -> Option<String> {
         .into_iter()
         .find(|encoding| {
             let other = decoded(*encoding, scene);
-            other != *scene || bits(&film(&proven(&other), Rules::ALL, Values::Linear)) != wanted
+            other != *scene || bits(&film(&validated(&other), Rules::ALL, Values::Linear)) != wanted
         });
     other.map(|encoding| format!("the IR as {encoding:?} is another scene"))
 }

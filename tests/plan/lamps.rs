@@ -3,7 +3,7 @@
 use super::dice::Dice;
 use super::path_rules::{traced, white};
 use super::scenes::disc;
-use super::{film, proven};
+use super::{film, validated};
 use rtc::internals::ir::{Emitter, Light, Punctual, Scene};
 use rtc::internals::math::Vec3;
 use rtc::internals::plan::Rules;
@@ -46,7 +46,11 @@ fn the_light_of_every_emitter_follows_its_profile() {
     for seed in 0..400 {
         let mut dice = Dice::new(seed);
         let emitter = dice.emitter_above();
-        let found = film(&proven(&floor(emitter.clone())), Rules::ALL, Values::Linear);
+        let found = film(
+            &validated(&floor(emitter.clone())),
+            Rules::ALL,
+            Values::Linear,
+        );
         let expected = expected(&emitter);
         for (found, intensity) in found.image.pixels[0].into_iter().zip([3.0, 2.0, 4.0]) {
             let difference = (found - intensity * expected).abs();

@@ -3,7 +3,7 @@
 
 use super::dice::Dice;
 use super::scenes::{ball, disc, first_light, matt, shiny, with};
-use super::{bits, file_name, files, film, proven, scene, small};
+use super::{bits, file_name, files, film, scene, small, validated};
 use proptest::prelude::*;
 use rtc::internals::ir::Scene;
 use rtc::internals::plan::{Plan, Rule, Rules};
@@ -21,7 +21,7 @@ fn sets() -> Vec<(String, Rules)> {
 
 /// The sets under which the film differs from that without rules, or takes more rays.
 fn faults(scene: &Scene, sets: &[(String, Rules)]) -> Vec<String> {
-    let scene = proven(scene);
+    let scene = validated(scene);
     let mut faults = Vec::new();
     // What is clamped can only hide a difference; one set shows that it is clamped alike.
     let kinds: &[Values] = if sets.len() == 1 {
@@ -114,7 +114,7 @@ fn each_rule_leaves_something_out_of_some_scene() {
     let mut idle = Rule::ALL.to_vec();
     idle.retain(|rule| !BY_RAYS.contains(rule) && !rule.name().starts_with("P-"));
     for seed in 0..1000 {
-        let plan = Plan::new(&proven(&Dice::new(seed).scene()), Rules::ALL);
+        let plan = Plan::new(&validated(&Dice::new(seed).scene()), Rules::ALL);
         let fired = |rule: &Rule| {
             plan.statuses
                 .iter()
@@ -139,7 +139,7 @@ fn the_rules_of_single_rays_leave_out_rays_of_their_kind() {
         (ball([1.0, 0.0, 1.5], 1.0), shiny()),
         (disc([0.0; 3], 1.5), shiny()),
     ]);
-    let counts = |scene: &Scene, rules| film(&proven(scene), rules, Values::Linear).counts;
+    let counts = |scene: &Scene, rules| film(&validated(scene), rules, Values::Linear).counts;
     let saved = |scene: &Scene, rule| {
         let (less, more) = (
             counts(scene, Rules::NONE.with(rule)),
@@ -184,9 +184,9 @@ fn a_world_that_shows_another_view_keeps_the_law() {
         (ball([0.0; 3], 1.0), matt()),
         (disc([0.0, 0.0, 30.0], 2.0), matt()),
     ]);
-    let first = proven(&scene);
+    let first = validated(&scene);
     scene.camera.eye = [0.0, 0.0, 60.0];
-    let second = proven(&scene);
+    let second = validated(&scene);
     let plans = [&first, &second].map(|scene| Plan::new(scene, Rules::ALL));
     assert_ne!(plans[0].surfaces, plans[1].surfaces);
     let mut world = AnyWorld::prepare(&first, &plans[0]);

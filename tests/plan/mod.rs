@@ -29,7 +29,7 @@ mod validation;
 mod written;
 
 use crate::repo::root;
-use crate::small::{bits, proven};
+use crate::small::{bits, validated};
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::Scene;
 use rtc::internals::passes::Overrides;
@@ -98,7 +98,7 @@ fn status(plan: &Plan, effect: Effect) -> &EffectStatus {
 
 /// What became of an effect, and by which rule.
 fn fate(scene: &Scene, effect: Effect) -> (State, Option<Rule>) {
-    let plan = Plan::new(&proven(scene), Rules::ALL);
+    let plan = Plan::new(&validated(scene), Rules::ALL);
     let EffectStatus { state, rule, .. } = status(&plan, effect);
     (*state, *rule)
 }

@@ -340,7 +340,7 @@ fn a_light_that_is_not_finite_is_reported_whatever_it_is_multiplied_by() {
 
 #[test]
 fn pixels_that_show_nothing_are_traced_where_no_rule_may_leave_them_out() {
-    let scene = super::proven(&with(&[(ball([0.0; 3], 1.0), matt())]));
+    let scene = super::validated(&with(&[(ball([0.0; 3], 1.0), matt())]));
     let pixel_classes = |rules| Plan::new(&scene, rules).pixel_classes;
     let (some, none) = (
         pixel_classes(Rules::ALL),
@@ -368,7 +368,7 @@ fn materials_that_show_no_highlight_are_named_and_the_others_are_not() {
         (ball([-1.2, 0.0, 0.0], 1.0), matt()),
         (ball([1.2, 0.0, 0.0], 1.0), shiny()),
     ]);
-    let plan = Plan::new(&super::proven(&scene), Rules::ALL);
+    let plan = Plan::new(&super::validated(&scene), Rules::ALL);
     for effect in [Effect::Highlight, Effect::Mirror] {
         let named = plan
             .statuses

@@ -2,8 +2,8 @@
 //! and no other. The picture shows just these, and the kernel has just their features.
 
 use super::path_rules::{lamp, traced, white};
-use super::proven;
 use super::scenes::{ball, disc};
+use super::validated;
 use crate::told::{film, lies};
 use rtc::internals::ir::{Alpha, Scene, Standard};
 use rtc::internals::plan::{Effect, Layer, PathFeatures, Plan, Rules, State};
@@ -21,7 +21,7 @@ pub(super) fn lit(material: &Standard) -> Scene {
 /// The effects that a scene needs, and the features of its kernel. The picture shows these effects
 /// and no others.
 pub(super) fn needs(scene: &Scene) -> (Vec<Effect>, PathFeatures) {
-    let proof = proven(scene);
+    let proof = validated(scene);
     let lies = lies(&proof, &film(&proof, Rules::ALL).counts);
     assert!(lies.is_empty(), "{lies:?}");
     let plan = Plan::new(&proof, Rules::ALL);

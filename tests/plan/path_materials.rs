@@ -2,8 +2,8 @@
 //! rule holds, and one where a single number is another.
 
 use super::path_rules::{across, add, fires, lamp, placed, traced, white};
-use super::proven;
 use super::scenes::ball;
+use super::validated;
 use crate::told::film;
 use rtc::internals::ir::{
     self, Alpha, ImageId, Map, Mode, Pixels, Punctual, Scene, Standard, Texture, TextureId,
@@ -103,7 +103,7 @@ fn maps_left_after(bounces: u32, change: impl Fn(&mut Standard, Option<Map>)) ->
     add(&mut scene, &shape, &material);
     // The picture keeps its bits.
     fires(Rule::PathMapUnseen, &scene);
-    let plan = Plan::new(&proven(&scene), Rules::ALL);
+    let plan = Plan::new(&validated(&scene), Rules::ALL);
     plan.paths.unwrap().materials[0].maps().count()
 }
 
@@ -257,7 +257,7 @@ fn an_unlit_material_keeps_its_colour_its_alpha_and_its_sides() {
         });
         scene.meshes[0].triangles = vec![[0, 2, 1]].into();
         assert!(fires(Rule::PathUnlitMaterial, &scene));
-        film(&proven(&scene), Rules::ALL).image.pixels
+        film(&validated(&scene), Rules::ALL).image.pixels
     };
     let (both, one) = (unlit(|_| ()), unlit(|m| m.double_sided = false));
     assert_ne!(both, one, "its back is before the camera");
@@ -278,7 +278,7 @@ fn a_texture_is_opaque_where_all_its_texels_are() {
     };
     assert!(fires(Rule::PathOpaque, &veil(255)));
     assert!(!fires(Rule::PathOpaque, &veil(254)));
-    let plan = Plan::new(&proven(&veil(255)), Rules::ALL);
+    let plan = Plan::new(&validated(&veil(255)), Rules::ALL);
     assert!(plan.statuses.iter().all(|status| !status.reason.is_empty()));
     let mut statuses = plan.statuses.iter();
     let textures = statuses.find(|status| status.effect == Effect::Textures);

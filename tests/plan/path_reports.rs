@@ -5,7 +5,7 @@ use super::path_effects::lit;
 use super::path_materials::FIRST;
 use super::path_rules::white;
 use super::path_scenes::{cover, path, sky, standard};
-use super::proven;
+use super::validated;
 use rtc::internals::ir::{self, Alpha, Emitter, ImageId, Punctual, Scene, Standard, Texture};
 use rtc::internals::plan::{EffectStatus, Plan, Rule, Rules, State};
 
@@ -19,7 +19,7 @@ fn told(scene: &Scene, state: State) -> String {
         let (effect, reason) = (status.effect.name(), &status.reason);
         format!("{effect}: {rule} {reason};{}", places.collect::<String>())
     };
-    let plan = Plan::new(&proven(scene), Rules::ALL);
+    let plan = Plan::new(&validated(scene), Rules::ALL);
     let statuses = plan.statuses.iter().filter(|status| status.state == state);
     statuses.map(line).collect::<Vec<_>>().join("\n")
 }

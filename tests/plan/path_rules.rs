@@ -1,8 +1,8 @@
 //! Each rule for paths by two scenes: one where it holds, and one as near to it as can be where it
 //! does not. The first is told so, the second is not, and the picture of neither changes a bit.
 
-use super::proven;
 use super::scenes::{ball, base_scene, disc};
+use super::validated;
 use crate::told::{difference, film};
 use rtc::internals::ir::{
     self, Alpha, Emitter, Environment, ImageId, Material, MaterialId, Mode, PathSettings, Pixels,
@@ -88,7 +88,7 @@ pub(super) fn across() -> ir::Mesh {
 /// Whether a rule removes an effect from a scene. The picture by it, and by all rules, keeps its
 /// bits in any case.
 pub(super) fn fires(rule: Rule, scene: &Scene) -> bool {
-    let proof = proven(scene);
+    let proof = validated(scene);
     let unpruned = film(&proof, Rules::NONE);
     for rules in [Rules::NONE.with(rule), Rules::ALL] {
         assert_eq!(difference(&proof, &unpruned, rules), None, "{rule:?}");
@@ -160,7 +160,7 @@ fn an_environment_of_one_value_is_looked_up_once_and_a_black_one_never() {
     let (even, uneven) = (around(color, color), around(color, [200, 150, 101, 255]));
     assert!(fires(Rule::PathEvenSky, &even) && !fires(Rule::PathEvenSky, &uneven));
     let looked_up = |scene| {
-        film(&proven(scene), Rules::ALL)
+        film(&validated(scene), Rules::ALL)
             .counts
             .of(Effect::EnvironmentMap)
     };
@@ -247,7 +247,7 @@ fn light_comes_through_glass_where_no_ray_goes_on() {
     scene.settings.max_depth = 1;
     scene.lights = vec![lamp([0.5, 0.0, -3.0])];
     assert!(fires(Rule::PathLast, &scene));
-    let picture = film(&proven(&scene), Rules::ALL).image;
+    let picture = film(&validated(&scene), Rules::ALL).image;
     assert!(picture.pixels.iter().any(|pixel| *pixel != [0.0; 3]));
 }
 
@@ -269,7 +269,7 @@ fn veils_dim_a_light_alike_with_a_veiled_solid_that_is_left_out() {
     }
     scene.settings.max_depth = 1;
     scene.lights = vec![lamp([0.5, 0.0, 12.0])];
-    let plan = Plan::new(&proven(&scene), Rules::ALL);
+    let plan = Plan::new(&validated(&scene), Rules::ALL);
     assert!(
         !plan.surfaces[1],
         "it is out of view, and off the way of the light"
@@ -315,7 +315,7 @@ fn a_lens_sees_what_is_out_of_the_view_of_a_pinhole() {
         ]);
         scene.camera.lens = ir::Lens { radius, samples: 4 };
         fires(Rule::PathCull, &scene);
-        Plan::new(&proven(&scene), Rules::ALL).surfaces[1]
+        Plan::new(&validated(&scene), Rules::ALL).surfaces[1]
     };
     assert!(!seen_by(0.0) && seen_by(1.0));
 }
@@ -336,7 +336,7 @@ fn half_a_million_pairs_are_tested_and_no_more() {
             };
             add(&mut scene, &ball([x, 0.0, z], 1e-4), &white());
         }
-        let plan = Plan::new(&proven(&scene), Rules::ALL);
+        let plan = Plan::new(&validated(&scene), Rules::ALL);
         plan.surfaces.iter().filter(|is_left| !**is_left).count()
     };
     assert_eq!(leaves_out(1000, 500), 500);

@@ -2,7 +2,7 @@
 //! and an explanation names no effect that the picture shows as absent.
 
 use super::dice::Dice;
-use super::{file_name, files, proven, scene};
+use super::{file_name, files, scene, validated};
 use crate::told::{difference, film, lies, traced, unmet};
 use rtc::internals::ir::Scene;
 use rtc::internals::plan::{Plan, Rule, Rules, State};
@@ -16,7 +16,7 @@ fn scenes() -> u64 {
 /// The sets of rules that a scene is tried with: each alone that leaves something out of it, and
 /// all of them.
 fn sets(scene: &Scene) -> Vec<(String, Rules)> {
-    let plan = Plan::new(&proven(scene), Rules::ALL);
+    let plan = Plan::new(&validated(scene), Rules::ALL);
     let mut applied: Vec<_> = plan
         .statuses
         .iter()
@@ -35,7 +35,7 @@ fn no_rule_changes_a_bit_of_a_made_up_scene() {
     // In scene 658 two maps of one texture have different sets of coordinates.
     for seed in (0..scenes()).chain([658]) {
         let scene = Dice::new(seed).path_scene();
-        let proof = proven(&scene);
+        let proof = validated(&scene);
         let unpruned = film(&proof, Rules::NONE);
         for (name, rules) in sets(&scene) {
             let difference = difference(&proof, &unpruned, rules);
@@ -47,7 +47,7 @@ fn no_rule_changes_a_bit_of_a_made_up_scene() {
 #[test]
 fn what_is_told_absent_is_never_simulated() {
     for seed in 0..scenes() {
-        let proof = proven(&Dice::new(seed).path_scene());
+        let proof = validated(&Dice::new(seed).path_scene());
         let mut lies = lies(&proof, &film(&proof, Rules::ALL).counts);
         lies.retain(|(_, state, _)| *state != State::Needed);
         assert!(lies.is_empty(), "scene {seed}: {lies:?}");
@@ -59,7 +59,7 @@ fn the_scenes_of_the_repo_obey_the_law_and_show_what_they_are_told_to_need() {
     let mut all = Vec::new();
     for path in files("scenes") {
         let Some(scene) = scene(&path) else { continue };
-        let proof = proven(&traced(scene));
+        let proof = validated(&traced(scene));
         let difference = difference(&proof, &film(&proof, Rules::NONE), Rules::ALL);
         assert_eq!(difference, None, "{}", file_name(&path));
         all.extend(unmet(&file_name(&path), &proof));
@@ -75,7 +75,7 @@ fn each_rule_for_paths_leaves_something_out_of_some_scene() {
         if idle.is_empty() {
             break;
         }
-        let plan = Plan::new(&proven(&Dice::new(seed).path_scene()), Rules::ALL);
+        let plan = Plan::new(&validated(&Dice::new(seed).path_scene()), Rules::ALL);
         idle.retain(|rule| {
             plan.statuses
                 .iter()

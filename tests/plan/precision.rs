@@ -1,7 +1,7 @@
 //! What the plain arithmetics lose: estimates worked out by hand, of each shape and each symptom.
 
-use super::proven;
 use super::scenes::{ball, first_light, material, matt, plane, with};
+use super::validated;
 use rtc::internals::ir::{self, Mode, Phong, Scene, Shape, Surface};
 use rtc::internals::plan::{Arithmetic, Loss, MIN_HIT_DISTANCE, Symptom, loss};
 
@@ -13,7 +13,7 @@ fn one(shape: Shape) -> Scene {
 }
 
 fn lost(scene: &Scene) -> Option<Loss> {
-    loss(&proven(scene), Arithmetic::F32)
+    loss(&validated(scene), Arithmetic::F32)
 }
 
 fn is_near(found: f64, wanted: f64) {
@@ -125,7 +125,7 @@ fn points_are_off_by_the_rounding_of_their_coordinates_and_of_the_polynomial_ove
     }
     is_near(lost(&instance(DEEP)).unwrap().error, 1990.0 * UNIT);
     let precise = loss(
-        &proven(&one(ball([0.0, 0.0, -1e6], 1e-3))),
+        &validated(&one(ball([0.0, 0.0, -1e6], 1e-3))),
         Arithmetic::Plain,
     )
     .unwrap();
@@ -134,7 +134,7 @@ fn points_are_off_by_the_rounding_of_their_coordinates_and_of_the_polynomial_ove
         precise.error,
         (1e6 + distance * distance / 1e-3) * f64::EPSILON / 2.0,
     );
-    assert!(loss(&proven(&one(ball(DEEP, 50.0))), Arithmetic::Robust).is_none());
+    assert!(loss(&validated(&one(ball(DEEP, 50.0))), Arithmetic::Robust).is_none());
 }
 
 #[test]

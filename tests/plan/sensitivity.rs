@@ -4,7 +4,7 @@
 use super::scenes::{
     ball, disc, first_light, light, material, matt, plane, shiny, square, texture, with,
 };
-use super::{bits, fate, film, proven};
+use super::{bits, fate, film, validated};
 use rtc::internals::ir::{Mode, Scene};
 use rtc::internals::plan::{Effect, Plan, Rule, Rules, State};
 use rtc::internals::render::Values;
@@ -22,7 +22,7 @@ fn flips(effect: Effect, scene: &Scene, change: impl FnOnce(&mut Scene)) {
     let mut changed = scene.clone();
     change(&mut changed);
     assert_eq!(fate(&changed, effect).0, State::Needed, "after");
-    let picture = |scene| bits(&film(&proven(scene), Rules::ALL, Values::Linear));
+    let picture = |scene| bits(&film(&validated(scene), Rules::ALL, Values::Linear));
     assert!(
         picture(scene) != picture(&changed),
         "{effect:?}: the change does not show"
@@ -79,7 +79,7 @@ fn a_light_is_asked_of_those_alone_that_may_hide_it() {
         (plane(20.0), matt()),
     ]);
     let asked = |scene: &Scene, rules: Rules| {
-        let plan = Plan::new(&proven(scene), rules);
+        let plan = Plan::new(&validated(scene), rules);
         let may_occlude = |receiver: usize| {
             let occluders =
                 (0..5).filter(|occluder| plan.lights[0].may_occlude(*occluder, receiver));
@@ -265,7 +265,7 @@ fn a_ball_that_comes_into_view_brings_what_it_needs() {
 fn a_second_light_behind_the_disc_is_left_out_alone() {
     let mut scene = with(&[(disc([0.0; 3], 2.0), matt())]);
     scene.lights.push(light([0.0, 0.0, -3.0]));
-    let plan = rtc::internals::plan::Plan::new(&proven(&scene), Rules::ALL);
+    let plan = rtc::internals::plan::Plan::new(&validated(&scene), Rules::ALL);
     assert_eq!(
         [plan.lights[0].direct, plan.lights[1].direct],
         [true, false]

@@ -3,14 +3,14 @@
 
 use super::dice::Dice;
 use super::scenes::{ball, disc, matt, shiny, with};
-use super::{file_name, files, proven, scene, small};
+use super::{file_name, files, scene, small, validated};
 use proptest::prelude::*;
 use rtc::internals::ir::Scene;
 use rtc::internals::plan::{Effect, Plan, Rule, Rules};
 use rtc::internals::render::{Job, Mismatch, verify};
 
 fn validate(scene: &Scene, change: impl FnOnce(&mut Plan)) -> Result<(), Mismatch> {
-    let scene = proven(scene);
+    let scene = validated(scene);
     let mut plan = Plan::new(&scene, Rules::ALL);
     change(&mut plan);
     verify(&scene, &plan, &Job::default(), &|_| true)
@@ -83,7 +83,7 @@ fn what_is_cut_off_is_too_small_to_see() {
         (ball([1.2, 0.0, 0.0], 1.0), shiny()),
     ]);
     scene.settings.max_depth = 60;
-    let scene = proven(&scene);
+    let scene = validated(&scene);
     let exact = Plan::new(&scene, Rules::ALL);
     let cut = Plan::new(&scene, Rules::ALL.with(Rule::Cut));
     assert_eq!((exact.max_depth, cut.max_depth), (60, 10));

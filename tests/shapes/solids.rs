@@ -92,7 +92,7 @@ fn lowered(text: &str) -> Lowered {
     lowered.unwrap_or_else(|| panic!("{text}\n{:?}", sink.kept()))
 }
 
-fn proven(lowered: &Lowered) -> ValidScene {
+fn validated(lowered: &Lowered) -> ValidScene {
     let mut sink = Sink::default();
     let proof = pipeline::validate(lowered, &Options::default(), &mut sink);
     proof.unwrap_or_else(|| panic!("{:?}", sink.kept()))
@@ -100,7 +100,7 @@ fn proven(lowered: &Lowered) -> ValidScene {
 
 /// A solid alone in a world.
 fn world<S: Prepare>(solid: &Solid, place: &ValuePath) -> World<S> {
-    let proof = proven(&lowered(&scene_of(&[(solid.words)(place)])));
+    let proof = validated(&lowered(&scene_of(&[(solid.words)(place)])));
     World::prepare(&proof, &Plan::new(&proof, Rules::NONE))
 }
 
@@ -221,7 +221,7 @@ proptest! {
     fn no_rule_changes_a_bit(places in prop::collection::vec(place(), 3)) {
         for (solid, next) in SOLIDS.iter().zip(SOLIDS.iter().cycle().skip(1)) {
             let words = [(solid.words)(&places[0]), (solid.words)(&places[1]), (next.words)(&places[2])];
-            let proof = proven(&lowered(&scene_of(&words)));
+            let proof = validated(&lowered(&scene_of(&words)));
             let film = |rules| {
                 let plan = Plan::new(&proof, rules);
                 let film = pipeline::render(&proof, &plan, &Job::default(), 1, &|_| true);

@@ -1,7 +1,7 @@
 //! What the scenes of the course call for, read off their text by hand: effects needed, and those
 //! left out with the rule.
 
-use super::scenes::{course, proven};
+use super::scenes::{course, validated};
 use libtest_mimic::Trial;
 use rtc::internals::plan::{Effect, EffectStatus, Plan, Rules, State};
 use rtc::internals::valid::ValidScene;
@@ -124,7 +124,7 @@ pub(crate) fn trials() -> Vec<Trial> {
     let trial = |(name, needed, pruned): &Row| {
         let (needed, pruned) = (*needed, *pruned);
         course("plan: effects", name, move |scene| {
-            it_calls_for(&proven(scene), needed, pruned);
+            it_calls_for(&validated(scene), needed, pruned);
         })
     };
     SCENES.iter().map(trial).collect()

@@ -1,7 +1,7 @@
 //! Paths through the assets of glTF: no rule changes a bit, and what is told of a picture is what
 //! is counted.
 
-use super::scenes::{accepted, each, proven};
+use super::scenes::{accepted, each, validated};
 use crate::suite::{files, needs};
 use crate::told::{difference, film, traced, unmet};
 use libtest_mimic::Trial;
@@ -21,7 +21,7 @@ pub(crate) fn trials() -> Vec<Trial> {
 /// All rules together change no bit, and cost no ray.
 fn obeys_the_law(path: &Path) {
     let Some(scene) = accepted(path) else { return };
-    let proof = proven(traced(scene));
+    let proof = validated(traced(scene));
     let unpruned = film(&proof, Rules::NONE);
     assert_eq!(difference(&proof, &unpruned, Rules::ALL), None);
 }
@@ -33,7 +33,10 @@ fn is_told_rightly(folder: &Path) {
         let Some(scene) = accepted(&path) else {
             continue;
         };
-        all.extend(unmet(&path.display().to_string(), &proven(traced(scene))));
+        all.extend(unmet(
+            &path.display().to_string(),
+            &validated(traced(scene)),
+        ));
     }
     assert!(all.len() <= 3, "needed, but not met:\n{}", all.join("\n"));
 }

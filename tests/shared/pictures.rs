@@ -1,6 +1,6 @@
 //! The curved shapes of the course show neither acne nor cracks.
 
-use super::scenes::{at, course, proven, whole};
+use super::scenes::{at, course, validated, whole};
 use crate::suite::trial;
 use libtest_mimic::Trial;
 use rtc::internals::image::Image;
@@ -51,7 +51,7 @@ fn shows_neither_acne_nor_cracks(scene: Scene) {
     // Reflections of the rings in themselves are finer than a pixel; nine rays tell such a line
     // from acne.
     let scene = at(scene, [800, 800 * height / width], 3);
-    assert_eq!(outliers(&whole(&proven(scene))), 0, "isolated pixels");
+    assert_eq!(outliers(&whole(&validated(scene))), 0, "isolated pixels");
 }
 
 fn one_wrong_pixel_is_counted() {

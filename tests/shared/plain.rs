@@ -1,7 +1,7 @@
 //! The plain arithmetics on the scenes of the course: what differs is warned of, and what is equal
 //! is not.
 
-use super::scenes::{COURSE, at, course, each, film, proven, read};
+use super::scenes::{COURSE, at, course, each, film, read, validated};
 use libtest_mimic::Trial;
 use rtc::internals::color::quantize8;
 use rtc::internals::ir::Scene;
@@ -29,7 +29,7 @@ pub(crate) fn trials() -> Vec<Trial> {
 fn small(scene: Scene, side: u32) -> ValidScene {
     let [width, height] = scene.camera.size;
     let size = [width, height].map(|pixels| (pixels * side).div_ceil(width.max(height)));
-    proven(at(scene, size, 1))
+    validated(at(scene, size, 1))
 }
 
 fn by(scene: &ValidScene, arithmetic: Arithmetic) -> Film {

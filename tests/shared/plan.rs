@@ -2,7 +2,7 @@
 //! pictures or costs a ray, and that what is left out adds nothing.
 
 use super::oracle;
-use super::scenes::{COURSE, accepted, course, each, film, proven, whole};
+use super::scenes::{COURSE, accepted, course, each, film, validated, whole};
 use crate::small::bits;
 use libtest_mimic::Trial;
 use rtc::internals::ir::Scene;
@@ -49,7 +49,7 @@ fn small(path: &Path) -> Option<ValidScene> {
     .apply(&mut scene);
     scene.camera.lens.samples = scene.camera.lens.samples.min(3);
     scene.settings.light_samples = scene.settings.light_samples.min(4);
-    Some(proven(scene))
+    Some(validated(scene))
 }
 
 /// All rules together change no bit, and cost no ray.
@@ -84,14 +84,14 @@ fn takes_the_rays_counted_elsewhere(mut scene: Scene) {
     // its own.
     scene.camera.size = [200, 200];
     (scene.settings.supersampling, scene.settings.max_depth) = (4, 1);
-    let scene = proven(scene);
+    let scene = validated(scene);
     let plan = Plan::new(&scene, Rules::AT_HITS);
     let counts = film(&scene, &plan, &Job::default()).counts;
     assert_eq!(counts.rays(), 2_200_208);
 }
 
 fn takes_rays_of_the_camera_alone(scene: Scene) {
-    let counts = whole(&proven(scene)).counts;
+    let counts = whole(&validated(scene)).counts;
     assert_eq!(counts.rays(), counts.camera);
     assert!(
         counts.camera < 160_000,

@@ -63,7 +63,7 @@ pub(crate) fn at(mut scene: Scene, size: [u32; 2], supersampling: u32) -> Scene 
     scene
 }
 
-pub(crate) fn proven(scene: Scene) -> ValidScene {
+pub(crate) fn validated(scene: Scene) -> ValidScene {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered {
         scene,

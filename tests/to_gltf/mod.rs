@@ -30,7 +30,7 @@ pub(crate) fn trials() -> Vec<Trial> {
 }
 
 /// A scene that was proven; none if it has errors.
-fn proven(mut map: SourceMap, file: FileId) -> Option<Lowered> {
+fn validated(mut map: SourceMap, file: FileId) -> Option<Lowered> {
     let (options, mut sink) = (Options::default(), Sink::default());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink)?;
     pipeline::validate(&lowered, &options, &mut sink).map(|_| lowered)
@@ -40,14 +40,14 @@ fn proven(mut map: SourceMap, file: FileId) -> Option<Lowered> {
 fn open(path: &Path) -> Option<Lowered> {
     let mut map = SourceMap::default();
     let file = Loader.file(path, &mut map).unwrap();
-    proven(map, file)
+    validated(map, file)
 }
 
 /// The scene in a text.
 fn scene(text: &str) -> Lowered {
     let mut map = SourceMap::default();
     let file = map.add("scene.yaml", text.as_bytes().to_vec());
-    proven(map, file).unwrap()
+    validated(map, file).unwrap()
 }
 
 /// A scene as .glb, with what is found.

@@ -1,6 +1,6 @@
 //! Where surfaces lie in one place, the first of the scene is seen.
 
-use super::{film, noise, proven, random, scene};
+use super::{film, noise, random, scene, validated};
 use rtc::internals::ir::{self, Scene};
 use rtc::internals::math::{U, Vec3, pow};
 use rtc::internals::plan::{Plan, Rules};
@@ -10,7 +10,7 @@ use rtc::internals::render::{Film, Geometry, Ray, Shape, World};
 const MATERIAL: &str = "material: {color: [1, 1, 1], ka: 1, kd: 0, ks: 0, n: 1}";
 
 fn world(scene: &Scene) -> World<Shape> {
-    let proof = proven(scene);
+    let proof = validated(scene);
     World::prepare(&proof, &Plan::new(&proof, Rules::NONE))
 }
 

@@ -7,7 +7,7 @@ mod closed;
 mod coplanar;
 mod glass;
 
-use crate::small::proven;
+use crate::small::validated;
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::Scene;
 use rtc::internals::math::Vec3;
@@ -29,7 +29,7 @@ fn scene(text: &str) -> Scene {
 }
 
 fn film(scene: &Scene, rules: Rules) -> Film {
-    let proof = proven(scene);
+    let proof = validated(scene);
     render(
         &proof,
         &Plan::new(&proof, rules),

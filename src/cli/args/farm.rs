@@ -3,7 +3,7 @@
 use super::super::parse::{frames, rate};
 use super::{LookArgs, Reading, SharedByArg, StageArgs, TalkArgs, WantedArgs};
 use clap::{Args, ValueEnum, ValueHint};
-use rtc_pipeline::MOST_SHARES;
+use rtc_pipeline::MAX_SHARDS;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -22,7 +22,7 @@ pub(crate) struct Farm {
     #[arg(long, value_name = "NAME", default_value = "picture.png")]
     pub(crate) picture: String,
     /// How many parts a picture has
-    #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SHARES)))]
+    #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SHARDS)))]
     pub(crate) parts: u32,
     /// What is shared out: tiles, or the samples of traced paths
     #[arg(long, value_enum, default_value_t, value_name = "WHAT")]

@@ -3,7 +3,7 @@
 use super::super::parse::{frames, interval, levels, radiance, rule, seconds, share};
 use super::{LookArgs, Reading, StageArgs, TalkArgs, WantedArgs};
 use clap::{Args, ValueEnum, ValueHint};
-use rtc_pipeline::SharedBy;
+use rtc_pipeline::ShardBy;
 use rtc_plan::Rule;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -127,7 +127,7 @@ pub(crate) enum SharedByArg {
     Samples,
 }
 
-impl From<SharedByArg> for SharedBy {
+impl From<SharedByArg> for ShardBy {
     fn from(by: SharedByArg) -> Self {
         match by {
             SharedByArg::Tiles => Self::Tiles,

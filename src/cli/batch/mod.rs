@@ -34,7 +34,7 @@ pub(super) fn run(args: &Farm) -> Result<(), Failure> {
         let input = first.take().map_or_else(|| staged(args, time), Ok);
         let subject = input.and_then(|input| settled(args, input, &mut talk, &interrupt));
         let written = subject.and_then(|subject| {
-            let scene = &subject.proven.lowered.scene;
+            let scene = &subject.validated.lowered.scene;
             hashes.push(hash(scene));
             let written = codec::prepare(Encoding::Binary, scene)
                 .map_err(|codec::NotFinite| io::Error::other("a number is not finite"))
@@ -87,7 +87,7 @@ fn settled(
     let settled = project::picture(&args.file, &args.reading, Goal::default())?;
     setup.overrides = setup.overrides.or(settled);
     let mut subject = input::subject(&mut setup, &mut input, talk)?;
-    let scene = &subject.proven.lowered.scene;
+    let scene = &subject.validated.lowered.scene;
     setup.window(scene)?;
     setup.separable(scene, args.parts_by.into())?;
     let observer = Observer {
@@ -97,7 +97,7 @@ fn settled(
     setup.light(&mut subject, &mut input, &observer)?;
     input::tell(&mut input, talk)?;
     if !setup.look.kind.is_linear() {
-        subject.proven.lowered.scene.display = setup.look.as_display();
+        subject.validated.lowered.scene.display = setup.look.as_display();
     }
     Ok(subject)
 }

@@ -96,7 +96,7 @@ impl Side {
     }
 
     fn scene(&self) -> &Scene {
-        &self.subject.proven.lowered.scene
+        &self.subject.validated.lowered.scene
     }
 
     fn size(&self) -> [u32; 2] {
@@ -105,13 +105,13 @@ impl Side {
 
     /// Lets another camera, of the same size, look at it.
     fn see_by(&mut self, camera: &Camera) -> Result<(), Failure> {
-        let proven = &mut self.subject.proven;
+        let validated = &mut self.subject.validated;
         let unseen = || {
             let words = "the camera of the new scene can't see the old one";
             Failure::Trouble(words.to_owned())
         };
-        proven.scene = proven.scene.seen_by(camera).ok_or_else(unseen)?;
-        proven.lowered.scene.camera = camera.clone();
+        validated.scene = validated.scene.seen_by(camera).ok_or_else(unseen)?;
+        validated.lowered.scene.camera = camera.clone();
         self.subject.turn();
         Ok(())
     }
@@ -128,8 +128,8 @@ impl Side {
             is_stopped: &|| interrupt.is_raised(),
         };
         setup.light(subject, input, &observer)?;
-        let window = setup.window(&subject.proven.lowered.scene)?;
-        setup.find_room(subject, window)?;
+        let window = setup.window(&subject.validated.lowered.scene)?;
+        setup.check_memory(subject, window)?;
         let rays = input.rays();
         let film = setup.trace(subject, (window, rays), &observer);
         let Film {

@@ -162,14 +162,14 @@ impl OpenText {
             project.tell(&mut input);
         }
         let loaded = input.load();
-        let proven = loaded.and_then(|loaded| input.validate(loaded, |_, _| ()));
-        let lowered = proven.map(|proven| {
-            let mut lowered = proven.lowered;
+        let validated = loaded.and_then(|loaded| input.validate(loaded, |_, _| ()));
+        let lowered = validated.map(|validated| {
+            let mut lowered = validated.lowered;
             // What may be large is not told of.
             (lowered.scene.meshes, lowered.scene.images) = (Vec::new(), Vec::new());
             lowered
         });
-        let mut sink = input.take_findings();
+        let mut sink = input.take_diagnostics();
         sink.sort();
         let kept = sink.kept().iter();
         let findings = kept.filter(|finding| finding.severity != Severity::Note);

@@ -62,13 +62,15 @@ impl Against {
         let setup = shots::setup(args)?;
         let mut scene = ReadScene::read(input, args, setup.threads);
         let mut talk = Talk::beside_result(&args.talk);
-        let proven = scene.validate(&setup, &Manner::default());
-        let proven = match proven {
-            Ok(proven) => input::unless_refused(proven, &mut scene.input, &mut talk).map(drop),
+        let validated = scene.validate(&setup, &Manner::default());
+        let validated = match validated {
+            Ok(validated) => {
+                input::unless_refused(validated, &mut scene.input, &mut talk).map(drop)
+            }
             Err(error) => input::tell(&mut scene.input, &mut talk).and(Err(error.into())),
         };
         talk.finish()?;
-        proven?;
+        validated?;
         let (shown, seen) = (None, None);
         Ok(Some(Self::Scene(Box::new(OtherScene {
             scene,

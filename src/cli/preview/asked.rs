@@ -17,7 +17,7 @@ impl Session<'_> {
             return;
         }
         if let (Some(scene), Some((_, subject))) = (&self.scene, &self.shown) {
-            let effects = PlanReport::statuses(&subject.proven, &scene.input);
+            let effects = PlanReport::statuses(&subject.validated, &scene.input);
             self.board.show(|state| state.effects = Some(effects));
         }
     }
@@ -64,19 +64,19 @@ impl Session<'_> {
         };
         if manner == work.manner {
             let (setup, subject) = self.shown.as_ref()?;
-            return Some((setup.clone(), subject.proven.lowered.scene.clone()));
+            return Some((setup.clone(), subject.validated.lowered.scene.clone()));
         }
-        let found = scene.input.take_findings();
-        let proven = scene.validate(&self.setup, &manner).ok().flatten();
-        let lit = proven.and_then(|(mut setup, mut subject)| {
+        let found = scene.input.take_diagnostics();
+        let validated = scene.validate(&self.setup, &manner).ok().flatten();
+        let lit = validated.and_then(|(mut setup, mut subject)| {
             let observer = Observer {
                 on_step: &|_| (),
                 is_stopped: &|| self.board.is_stale(work.age),
             };
             let lit = setup.light(&mut subject, &mut scene.input, &observer);
-            lit.ok().map(|()| (setup, subject.proven.lowered.scene))
+            lit.ok().map(|()| (setup, subject.validated.lowered.scene))
         });
-        scene.input.put_findings(found);
+        scene.input.restore_diagnostics(found);
         lit
     }
 

@@ -22,7 +22,7 @@ pub(super) fn render(
     input: &mut Input,
     observer: &Observer<'_>,
 ) -> Result<Option<Shot>, RenderError> {
-    let scene = &mut subject.proven.lowered.scene;
+    let scene = &mut subject.validated.lowered.scene;
     let Crop { width, height, .. } = setup.window(scene)?;
     let (camera, settings) = (scene.camera.clone(), scene.settings.clone());
     let k = coarsen(scene);
@@ -38,9 +38,9 @@ pub(super) fn render(
     let rendered = match proof {
         None => Ok(None),
         Some(proof) => {
-            let whole = std::mem::replace(&mut subject.proven.scene, proof);
+            let whole = std::mem::replace(&mut subject.validated.scene, proof);
             let rendered = trace(&coarse(setup, k), subject, input, observer);
-            subject.proven.scene = whole;
+            subject.validated.scene = whole;
             rendered.map(|shot| {
                 Some(Shot {
                     full: [width, height],
@@ -50,7 +50,7 @@ pub(super) fn render(
             })
         }
     };
-    let scene = &mut subject.proven.lowered.scene;
+    let scene = &mut subject.validated.lowered.scene;
     (scene.camera, scene.settings) = (camera, settings);
     subject.turn();
     rendered
@@ -63,12 +63,12 @@ fn trace(
     observer: &Observer<'_>,
 ) -> Result<Shot, RenderError> {
     subject.turn();
-    let window = setup.window(&subject.proven.lowered.scene)?;
+    let window = setup.window(&subject.validated.lowered.scene)?;
     let Traced { film, .. } = setup.trace(subject, (window, input.rays()), observer)?;
     // What is found in it is told of the finished one.
-    let found = input.take_findings();
+    let found = input.take_diagnostics();
     let shot = shot(setup, subject, film, input, observer);
-    input.put_findings(found);
+    input.restore_diagnostics(found);
     shot
 }
 

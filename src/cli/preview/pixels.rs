@@ -3,7 +3,7 @@
 
 use rtc_image::{Image, Layers};
 use rtc_ir::{EntityKind, Field, ValuePath};
-use rtc_pipeline::{Input, Proven};
+use rtc_pipeline::{Input, Validated};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -19,14 +19,19 @@ pub(super) struct PixelTable {
 
 impl PixelTable {
     /// That of a picture, by its values before the tone map and its layers `instance.X` and `depth.Z`.
-    pub(super) fn new(image: &Image, layers: &Layers, proven: &Proven, input: &Input) -> Self {
+    pub(super) fn new(
+        image: &Image,
+        layers: &Layers,
+        validated: &Validated,
+        input: &Input,
+    ) -> Self {
         let hit = |pair: &[f32; 2]| (pair[0] as u32, pair[1]);
         let (pairs, _) = layers.values.as_chunks::<2>();
         let hits: Vec<_> = pairs.iter().map(hit).collect();
         let mut surfaces = BTreeMap::new();
         for (number, _) in &hits {
             if let Some(index) = number.checked_sub(1) {
-                let told = || surface(index as usize, proven, input);
+                let told = || surface(index as usize, validated, input);
                 surfaces.entry(*number).or_insert_with(told);
             }
         }
@@ -64,12 +69,12 @@ impl PixelTable {
 }
 
 /// What a surface is called, else its shape; and where it was written.
-fn surface(index: usize, proven: &Proven, input: &Input) -> [String; 2] {
-    let scene = &proven.lowered.scene;
+fn surface(index: usize, validated: &Validated, input: &Input) -> [String; 2] {
+    let scene = &validated.lowered.scene;
     let name = scene.names.get(index).filter(|name| !name.is_empty());
     let shape = scene.surfaces.get(index).map(|own| own.shape.kind().name());
     let place = ValuePath::new(EntityKind::Surface, index, Field::Whole);
-    let span = proven.lowered.source_spans.span(place);
+    let span = validated.lowered.source_spans.span(place);
     let line = span.map(|span| input.line(span));
     [
         name.cloned()

@@ -184,10 +184,10 @@ fn wish(read: &ReadState, order: &FixOrder) -> Option<FixFilter> {
     let Some(index) = order.finding else {
         return Some(FixFilter::default());
     };
-    let (complaint, is_guess) = read.findings.get(index)?.fix.as_ref()?;
+    let (diagnostic_ref, is_guess) = read.findings.get(index)?.fix.as_ref()?;
     Some(FixFilter {
         guesses: *is_guess,
-        only: Some(complaint.clone()),
+        only: Some(diagnostic_ref.clone()),
     })
 }
 

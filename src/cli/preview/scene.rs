@@ -38,7 +38,7 @@ impl ReadScene {
             .as_ref()
             .and_then(|loaded| view::keys(&loaded.lowered, input.map(), input.name()));
         Self {
-            found: input.take_findings(),
+            found: input.take_diagnostics(),
             can_write: own.is_some() && input.text().is_some(),
             sight: None,
             input,
@@ -60,13 +60,13 @@ impl ReadScene {
         let integrator = manner.choice.integrator().or(self.integrator);
         self.input
             .restage(|stage| (stage.view, stage.integrator) = (view, integrator));
-        self.input.put_findings(self.found.clone());
+        self.input.restore_diagnostics(self.found.clone());
         let mut setup = manner.choice.settle(setup);
         let Some(loaded) = self.loaded.clone() else {
             return Ok(None);
         };
-        let proven = setup.validate(loaded, &mut self.input)?;
-        Ok(proven.map(|subject| (setup, subject)))
+        let validated = setup.validate(loaded, &mut self.input)?;
+        Ok(validated.map(|subject| (setup, subject)))
     }
 
     /// A crude picture of what was rendered before, of which but the camera was changed; what is found
@@ -76,9 +76,9 @@ impl ReadScene {
         (setup, subject): &mut ShownScene,
         observer: &Observer<'_>,
     ) -> Result<Option<Shot>, RenderError> {
-        let found = self.input.take_findings();
+        let found = self.input.take_diagnostics();
         let shot = crude::render(setup, subject, &mut self.input, observer);
-        self.input.put_findings(found);
+        self.input.restore_diagnostics(found);
         shot
     }
 }
@@ -91,10 +91,10 @@ pub(super) fn of_file(args: &args::Preview, threads: usize) -> Result<ReadScene,
 
 /// Lets another camera look at a scene, if it takes pictures of the same size.
 pub(super) fn see_by(subject: &mut RenderSubject, camera: &Camera) {
-    let proven = &mut subject.proven;
-    if let Some(seen) = proven.scene.seen_by(camera) {
-        proven.scene = seen;
-        proven.lowered.scene.camera = camera.clone();
+    let validated = &mut subject.validated;
+    if let Some(seen) = validated.scene.seen_by(camera) {
+        validated.scene = seen;
+        validated.lowered.scene.camera = camera.clone();
         subject.turn();
     }
 }

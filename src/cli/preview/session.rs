@@ -158,7 +158,7 @@ impl<'a> Session<'a> {
         let Some((mut setup, mut subject)) = scene.validate(&self.setup, &work.manner)? else {
             return Ok(false);
         };
-        setup.window(&subject.proven.lowered.scene)?;
+        setup.window(&subject.validated.lowered.scene)?;
         let input = &mut scene.input;
         let observer = Observer {
             on_step: &|_| (),
@@ -187,7 +187,7 @@ impl<'a> Session<'a> {
         let Some(scene) = &mut self.scene else {
             return false;
         };
-        if !gaze.aim(&mut shown.1.proven.lowered) {
+        if !gaze.aim(&mut shown.1.validated.lowered) {
             return false;
         }
         let is_stopped = || self.board.is_stale(work.age);
@@ -200,7 +200,7 @@ impl<'a> Session<'a> {
             Ok(None) | Err(RenderError::Stopped) => {}
             Err(RenderError::RanOut(_) | RenderError::Refused(_)) => return false,
         }
-        let camera = &shown.1.proven.lowered.scene.camera;
+        let camera = &shown.1.validated.lowered.scene.camera;
         if let Some(Against::Scene(other)) = &mut self.against
             && let Ok(Some(shot)) = other.glance(camera, &observer)
         {
@@ -219,7 +219,7 @@ impl<'a> Session<'a> {
             on_step: &|_| (),
             is_stopped,
         };
-        let camera = &subject.proven.lowered.scene.camera;
+        let camera = &subject.validated.lowered.scene.camera;
         match other.shot(&self.setup, (&work.manner, camera), &observer) {
             Ok(Some(shot)) => self.board.put_against(shot, work.age),
             Ok(None) => {}
@@ -235,7 +235,7 @@ impl<'a> Session<'a> {
         let Some(scene) = &mut self.scene else {
             return;
         };
-        let mut found = scene.input.take_findings();
+        let mut found = scene.input.take_diagnostics();
         found.sort();
         let least = match self.args.talk.verbose {
             true => Severity::Note,
@@ -248,10 +248,10 @@ impl<'a> Session<'a> {
             .take(self.args.talk.max_errors as usize)
             .map(|finding| told(finding, &scene.input))
             .collect();
-        scene.input.put_findings(found);
+        scene.input.restore_diagnostics(found);
         let text = scene.input.text().map(Arc::from);
         let sight = shown.map(|subject| {
-            let camera = &subject.proven.lowered.scene.camera;
+            let camera = &subject.validated.lowered.scene.camera;
             let (own, gaze) = (scene.sight.as_ref(), manner.gaze.as_ref());
             let sight = Sight::new(camera, gaze, scene.can_write, own);
             if gaze.is_none() {
@@ -290,7 +290,7 @@ impl<'a> Session<'a> {
         let Some(scene) = &mut self.scene else {
             return Ok(());
         };
-        let found = scene.input.take_findings();
+        let found = scene.input.take_diagnostics();
         if found.kept() == self.told {
             return Ok(());
         }
@@ -328,7 +328,7 @@ fn told(finding: &Diagnostic, input: &Input) -> ToldFinding {
     ToldFinding {
         severity: finding.severity.name(),
         text: diag::one(finding, input.map(), WIDTH),
-        fix: is_guess.map(|is_guess| (pipeline::complaint(finding), is_guess)),
+        fix: is_guess.map(|is_guess| (pipeline::diagnostic_ref(finding), is_guess)),
     }
 }
 

@@ -30,7 +30,7 @@ pub(super) fn finish(
     input: &mut Input,
     observer: &Observer<'_>,
 ) -> Result<(Shot, PixelTable), RenderError> {
-    let window = setup.window(&subject.proven.lowered.scene)?;
+    let window = setup.window(&subject.validated.lowered.scene)?;
     let film = trace(setup, subject, window, input, observer)?;
     let job = Job {
         crop: Some(window),
@@ -41,7 +41,7 @@ pub(super) fn finish(
     let (_, renderer) = setup.renderer(subject)?;
     let layers = renderer.layers(&[Aov::Instance, Aov::Depth], &job, &is_going);
     let layers = layers.ok_or(RenderError::Stopped)?;
-    let pixels = PixelTable::new(&film.image, &layers, &subject.proven, input);
+    let pixels = PixelTable::new(&film.image, &layers, &subject.validated, input);
     let shot = shot(setup, subject, film, input, observer)?;
     Ok((shot, pixels))
 }
@@ -53,7 +53,7 @@ pub(super) fn whole(
     input: &mut Input,
     observer: &Observer<'_>,
 ) -> Result<Shot, RenderError> {
-    let window = setup.window(&subject.proven.lowered.scene)?;
+    let window = setup.window(&subject.validated.lowered.scene)?;
     let film = trace(setup, subject, window, input, observer)?;
     shot(setup, subject, film, input, observer)
 }
@@ -66,7 +66,7 @@ pub(super) fn pixel(
     input: &Input,
     observer: &Observer<'_>,
 ) -> Result<Option<Counts>, RenderError> {
-    let window = setup.window(&subject.proven.lowered.scene)?;
+    let window = setup.window(&subject.validated.lowered.scene)?;
     if x >= window.width || y >= window.height {
         return Ok(None);
     }
@@ -92,7 +92,7 @@ fn trace(
     input: &Input,
     observer: &Observer<'_>,
 ) -> Result<Film, RenderError> {
-    setup.find_room(subject, window)?;
+    setup.check_memory(subject, window)?;
     Ok(setup.trace(subject, (window, input.rays()), observer)?.film)
 }
 

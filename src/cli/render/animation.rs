@@ -66,16 +66,16 @@ impl RenderSetup {
         (input, talk, interrupt): Desk<'_>,
         file: &mut File,
     ) -> Result<(), FrameError> {
-        let table = Turntable::new(&subject.proven.lowered.scene, self.up, views.count);
+        let table = Turntable::new(&subject.validated.lowered.scene, self.up, views.count);
         let frames = u32::try_from(views.shown.len()).unwrap_or(u32::MAX);
         let mut begun: Option<Animation<'_>> = None;
         let mut file = Some(file);
         for frame in views.shown.clone() {
-            table.turn(&mut subject.proven, frame)?;
+            table.turn(&mut subject.validated, frame)?;
             subject.turn();
-            let window = self.picture.window(&subject.proven.lowered.scene);
+            let window = self.picture.window(&subject.validated.lowered.scene);
             let window = window.map_err(Failure::from)?;
-            let room = self.picture.find_room(subject, window);
+            let room = self.picture.check_memory(subject, window);
             room.map_err(Failure::from)?;
             let desk = (&mut *input, &mut *talk, interrupt);
             let (picture, made) = self.take(subject, &self.output, window, desk)?;

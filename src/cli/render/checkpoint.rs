@@ -9,8 +9,8 @@ use super::shot::{KeptGrowth, workers};
 use super::{MadePicture, RenderSetup, halted};
 use rtc_image::Picture;
 use rtc_pipeline::{
-    Input, MOST_SHARES, NewFile, Observer, PicturePart, RenderError, RenderSubject, ShardPlan,
-    SharedBy, hash_of_file,
+    Input, MAX_SHARDS, NewFile, Observer, RenderError, RenderShard, RenderSubject, ShardBy,
+    ShardPlan, hash_of_file,
 };
 use rtc_render::{Crop, Tiles};
 use rtc_source::{Resource, SourceMap};
@@ -47,7 +47,7 @@ pub(super) struct Saving<'c> {
     /// The hashes of the pictures that were finished before it.
     pub(super) finished: Vec<String>,
     /// What was saved, until it is gone on from.
-    pub(super) saved: Option<PicturePart>,
+    pub(super) saved: Option<RenderShard>,
 }
 
 /// Findings, talk, and whether to stop.
@@ -89,7 +89,7 @@ impl Checkpoint {
     }
 
     /// What was saved, if anything is to be gone on from.
-    fn read(&self, input: &Input) -> Result<Option<PicturePart>, Failure> {
+    fn read(&self, input: &Input) -> Result<Option<RenderShard>, Failure> {
         if self.restarts || !self.file.exists() {
             return Ok(None);
         }
@@ -100,7 +100,7 @@ impl Checkpoint {
     }
 
     /// Saves what is done, whole or not at all, and says so if that fails: the render goes on.
-    fn try_save(&self, part: &PicturePart) -> bool {
+    fn try_save(&self, part: &RenderShard) -> bool {
         try_save(&self.file, &part.save())
     }
 }
@@ -142,7 +142,7 @@ impl RenderSetup {
         saving: &mut Saving<'_>,
         subject: &mut RenderSubject,
         window: Crop,
-    ) -> Result<PicturePart, Failure> {
+    ) -> Result<RenderShard, Failure> {
         let nobody = Observer {
             on_step: &|_| (),
             is_stopped: &|| false,
@@ -161,7 +161,7 @@ impl RenderSetup {
         &self,
         saving: &Saving<'_>,
         subject: &mut RenderSubject,
-        done: &mut PicturePart,
+        done: &mut RenderShard,
         (window, rays): (Crop, u64),
         (input, talk, interrupt): Desk<'_>,
     ) -> Result<(Picture, MadePicture), Failure> {
@@ -189,7 +189,7 @@ impl RenderSetup {
         &self,
         saving: &Saving<'_>,
         subject: &mut RenderSubject,
-        done: &mut PicturePart,
+        done: &mut RenderShard,
         order: (Crop, u64),
         (input, talk, interrupt): Desk<'_>,
     ) -> Result<(Picture, MadePicture), Failure> {
@@ -229,7 +229,7 @@ impl RenderSetup {
         &self,
         checkpoint: &Checkpoint,
         subject: &mut RenderSubject,
-        done: &mut PicturePart,
+        done: &mut RenderShard,
         (window, rays): (Crop, u64),
         (interrupt, progress): (&Interrupt, &RenderProgress),
     ) -> Result<(), RenderError> {
@@ -274,18 +274,18 @@ fn has_goal(goal: Goal) -> bool {
 
 /// Shares of a picture of about one tile each.
 fn shares(window: Crop, [first, last]: [u32; 2]) -> ShardPlan {
-    let count = u32::try_from(Tiles::of(window).count()).unwrap_or(MOST_SHARES);
+    let count = u32::try_from(Tiles::of(window).count()).unwrap_or(MAX_SHARDS);
     ShardPlan {
-        by: SharedBy::Tiles,
+        by: ShardBy::Tiles,
         first,
         last,
-        count: count.clamp(1, MOST_SHARES),
+        count: count.clamp(1, MAX_SHARDS),
     }
 }
 
 impl Checkpoint {
     /// Saves before the end, and says how to go on.
-    fn end(&self, part: &PicturePart) {
+    fn end(&self, part: &RenderShard) {
         let (shares, count) = part.shares();
         let (shares, finished) = (shares.len(), part.finished().len());
         if shares + finished > 0 && self.try_save(part) {
@@ -324,7 +324,7 @@ pub(crate) fn try_save(file: &Path, bytes: &[u8]) -> bool {
 }
 
 /// The first shares that are missing, side by side, at most so many: the first and the last of them.
-fn next(done: &PicturePart, most: u32) -> Option<[u32; 2]> {
+fn next(done: &RenderShard, most: u32) -> Option<[u32; 2]> {
     let mut missing = done.missing();
     let first = missing.next()?;
     let last = missing

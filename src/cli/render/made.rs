@@ -71,7 +71,7 @@ impl MadePicture {
             output: output.to_owned(),
             size,
             exposure: setup.look.found_exposure(),
-            light: setup.light_told(),
+            light: setup.light_summary(),
             counts,
             elapsed,
             is_denoised: setup.denoise,

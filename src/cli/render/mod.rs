@@ -171,7 +171,7 @@ impl RenderSetup {
                 return Err(error.into());
             }
         };
-        let scene = &subject.proven.lowered.scene;
+        let scene = &subject.validated.lowered.scene;
         let idle = lead::idle(&self.asked, &scene.settings.mode);
         idle.filter(|_| !talk.is_quiet())
             .into_iter()
@@ -214,7 +214,7 @@ impl RenderSetup {
         talk: &mut Talk,
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
-        let table = Turntable::new(&subject.proven.lowered.scene, self.up, views.count);
+        let table = Turntable::new(&subject.validated.lowered.scene, self.up, views.count);
         let path = |frame| match &self.part {
             Some(_) => self.output.clone(),
             None => turntable::name(&self.output, frame),
@@ -222,7 +222,7 @@ impl RenderSetup {
         let mut frames = views.shown.clone();
         frames.try_for_each(|frame| Output::open(&path(frame), input).map(drop))?;
         for frame in views.shown.clone() {
-            table.turn(&mut subject.proven, frame)?;
+            table.turn(&mut subject.validated, frame)?;
             subject.turn();
             match &self.part {
                 Some(part) => self.shoot_part(part, subject, input, talk, interrupt)?,
@@ -239,8 +239,8 @@ impl RenderSetup {
         path: &Path,
         input: &Input,
     ) -> Result<(Crop, Output), Failure> {
-        let window = self.picture.window(&subject.proven.lowered.scene)?;
-        self.picture.find_room(subject, window)?;
+        let window = self.picture.window(&subject.validated.lowered.scene)?;
+        self.picture.check_memory(subject, window)?;
         Ok((window, Output::open(path, input)?))
     }
 

@@ -3,7 +3,7 @@
 use super::super::progress::{self, RenderProgress};
 use super::super::{Failure, args, interrupt::Interrupt, talk, talk::Talk, typed};
 use super::{RenderSetup, beside_here, halted};
-use rtc_pipeline::{Input, Observer, RenderSubject, ShardPlan, SharedBy};
+use rtc_pipeline::{Input, Observer, RenderSubject, ShardBy, ShardPlan};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -84,8 +84,8 @@ impl RenderSetup {
             by, first, count, ..
         } = part.shares;
         let pixels = match by {
-            SharedBy::Tiles => window.pixels() as u64 / u64::from(count),
-            SharedBy::Samples => window.pixels() as u64,
+            ShardBy::Tiles => window.pixels() as u64 / u64::from(count),
+            ShardBy::Samples => window.pixels() as u64,
         };
         let progress = RenderProgress::start(pixels, talk.is_quiet());
         let observer = Observer {

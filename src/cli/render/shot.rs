@@ -175,8 +175,8 @@ impl RenderSetup {
             },
         };
         let reached = setup.renderer(subject);
-        let reached = reached.map(|(proven, renderer)| {
-            renderer.approach(&proven.lowered.scene, &order, &watch, keep)
+        let reached = reached.map(|(validated, renderer)| {
+            renderer.approach(&validated.lowered.scene, &order, &watch, keep)
         });
         let ran_out = subject.ran_out(&meter, &observer);
         let elapsed = progress.finish();

@@ -19,10 +19,10 @@ impl RenderSetup {
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let setup = &self.picture;
-        setup.refuse_strips(subject)?;
-        let window = setup.window(&subject.proven.lowered.scene)?;
+        setup.check_strips(subject)?;
+        let window = setup.window(&subject.validated.lowered.scene)?;
         let strip = PictureSetup::first_strip(window, rows);
-        setup.find_room(subject, strip)?;
+        setup.check_memory(subject, strip)?;
         let output = Output::open(path, input)?;
         let progress = RenderProgress::start(window.pixels() as u64, talk.is_quiet());
         let observer = Observer {

@@ -22,13 +22,13 @@ impl RenderSetup {
         subject: &mut RenderSubject,
         (input, talk, interrupt): Desk<'_>,
     ) -> Result<(), Failure> {
-        let table = Turntable::new(&subject.proven.lowered.scene, self.up, views.count);
+        let table = Turntable::new(&subject.validated.lowered.scene, self.up, views.count);
         let path = |frame| turntable::name(&self.output, frame);
         let mut frames = views.shown.clone();
         let Range { start, end } = frames;
         frames.try_for_each(|frame| Output::open(&path(frame), input).map(drop))?;
         let turn = |subject: &mut RenderSubject, frame| {
-            table.turn(&mut subject.proven, frame)?;
+            table.turn(&mut subject.validated, frame)?;
             subject.turn();
             Ok::<(), Failure>(())
         };
@@ -42,7 +42,7 @@ impl RenderSetup {
         if saving.saved.is_some() {
             // What was saved is of this scene, before a frame is done.
             turn(subject, begun)?;
-            let window = self.picture.window(&subject.proven.lowered.scene)?;
+            let window = self.picture.window(&subject.validated.lowered.scene)?;
             saving.saved = Some(self.begun(&mut saving, subject, window)?);
         }
         for (frame, hash) in

@@ -82,7 +82,7 @@ const BOM: &str = "\u{feff}";
 /// True if the bytes are a glTF asset: a `.glb`, or a JSON object that is not the IR. `name` is
 /// that of the file.
 #[must_use]
-pub fn recognise(name: &str, bytes: &[u8]) -> bool {
+pub fn is_gltf(name: &str, bytes: &[u8]) -> bool {
     let says_so = || memchr::memmem::find(bytes, b"\"asset\"").is_some();
     container::is_glb(name, bytes) || name.ends_with(".gltf") || (opens_object(bytes) && says_so())
 }

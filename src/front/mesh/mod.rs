@@ -108,7 +108,7 @@ pub const EXTENSIONS: &[&str] = &["obj", "off", "stl", "ply", "xyz"];
 
 /// Whether a file of this name and these bytes is a mesh.
 #[must_use]
-pub fn recognise(name: &str, bytes: &[u8]) -> bool {
+pub fn is_mesh_file(name: &str, bytes: &[u8]) -> bool {
     let extension = name.rsplit_once('.').map(|(_, last)| last.to_lowercase());
     extension.is_some_and(|extension| EXTENSIONS.contains(&&*extension)) || is_mesh(bytes)
 }

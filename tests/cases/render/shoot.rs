@@ -55,15 +55,15 @@ fn validate(case: &Path, options: &Options) -> Result<ValidScene, Failed> {
         ..pipeline::Options::default()
     };
     let lowered = pipeline::load(file, &mut map, &reading, &mut sink);
-    let proven = lowered.map(|mut lowered| -> Result<_, Failed> {
+    let validated = lowered.map(|mut lowered| -> Result<_, Failed> {
         stage(&mut lowered, case, options, &map, &mut sink)?;
         options.overrides.apply(&mut lowered.scene);
         Ok(pipeline::validate(&lowered, &reading, &mut sink))
     });
-    let proven = proven.transpose()?.flatten();
+    let validated = validated.transpose()?.flatten();
     let codes = sink.kept().iter().map(|finding| finding.code.id.to_owned());
     let codes: BTreeSet<_> = codes.collect();
-    match proven {
+    match validated {
         Some(scene) if codes == options.finds.iter().cloned().collect() => Ok(scene),
         _ => {
             let found = sink.kept().iter();

@@ -94,7 +94,7 @@ fn add_asset(
     pending: &PendingAsset,
     loader: &mut AssetLoader<'_>,
 ) -> Option<FileId> {
-    if gltf::recognise("", &bytes) {
+    if gltf::is_gltf("", &bytes) {
         return Some(loader.map.add_found(found, bytes));
     }
     let message = format!("`{}` is no glTF asset", found.shown.display());

@@ -1,12 +1,12 @@
-//! In what two parts are of different pictures.
+//! Describes how two shards belong to different pictures.
 
-use super::super::SharedBy;
-use super::PartHead;
+use super::super::ShardBy;
+use super::ShardHeader;
 use serde_json::Value;
 use std::fmt;
 
-impl PartHead {
-    /// The first thing in which two parts are of different pictures, in words.
+impl ShardHeader {
+    /// The first difference between the pictures of two shards, as a message.
     pub(super) fn difference(&self, other: &Self) -> Option<String> {
         let of = |name: &str, here: &dyn fmt::Display, there: &dyn fmt::Display| {
             Some(format!("{name}: {here} here, {there} there"))
@@ -22,12 +22,12 @@ impl PartHead {
         }
         if (self.by, self.count) != (other.by, other.count) {
             let shares = |head: &Self| match head.by {
-                SharedBy::Tiles => format!("{} by tiles", head.count),
-                SharedBy::Samples => format!("{} by samples", head.count),
+                ShardBy::Tiles => format!("{} by tiles", head.count),
+                ShardBy::Samples => format!("{} by samples", head.count),
             };
             return of("shares", &shares(other), &shares(self));
         }
-        let rest = |head: &Self| {
+        let other_settings = |head: &Self| {
             (
                 head.look.clone(),
                 head.arithmetic,
@@ -35,12 +35,12 @@ impl PartHead {
                 head.layers.clone(),
             )
         };
-        let differ = rest(self) != rest(other);
+        let differ = other_settings(self) != other_settings(other);
         differ.then(|| "its look, its arithmetic or its layers".to_owned())
     }
 }
 
-/// The first member in which two maps differ, with its value in both.
+/// The first member in which two JSON objects differ, with both values.
 fn differing(here: &Value, there: &Value) -> Option<(String, String, String)> {
     if here == there {
         return None;

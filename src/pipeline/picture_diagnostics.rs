@@ -1,7 +1,7 @@
-//! What is found in a picture: nothing, numbers that give way, values that no file holds, a rule that
-//! was wrong.
+//! Diagnostics about a rendered picture: an empty picture, imprecise arithmetic, values that the
+//! file can't hold, a failed verification.
 
-use super::Proven;
+use super::Validated;
 use rtc_diag::{Diagnostic, codes};
 use rtc_image::{FileFormat, RangeClipping};
 use rtc_ir::{EntityKind, Field, ValuePath};
@@ -9,14 +9,14 @@ use rtc_plan::{self as plan, Rule, Symptom};
 use rtc_render::Mismatch;
 use rtc_source::Span;
 
-/// Remarks that the picture is empty.
+/// A note that the picture is empty.
 pub(super) fn nothing_in_view(camera: Option<Span>) -> Diagnostic {
     Diagnostic::new(&codes::NOTHING_IN_VIEW, "no ray of the camera hit anything")
         .at(camera, "this camera sees only the background")
         .hint("check where the camera stands and looks, and where the objects are")
 }
 
-/// Remarks that a picture is shown brighter or darker than its values, in stops.
+/// A note that the picture was exposed automatically, by this many stops.
 pub(super) fn exposed(stops: f64) -> Diagnostic {
     let message =
         format!("the picture is exposed by {stops:+.2} stops, to show what its lights light");
@@ -26,13 +26,14 @@ pub(super) fn exposed(stops: f64) -> Diagnostic {
     Diagnostic::new(&codes::EXPOSED, message).hint(hint)
 }
 
-/// Says that the camera of an asset sees a picture of another shape than the one asked for, so that
-/// more is shown at two sides.
-pub(super) fn fitted(own: [u32; 2], asked: [u32; 2]) -> Option<Diagnostic> {
-    /// Shapes that differ by less, as by a rounded pixel, are the same.
+/// A note that the requested aspect ratio differs from that of the camera of an asset, so that more
+/// is visible at two sides.
+pub(super) fn fitted(before: [u32; 2], requested: [u32; 2]) -> Option<Diagnostic> {
+    /// The relative difference below which aspect ratios count as equal, for example after
+    /// rounding.
     const SAME: f64 = 0.01;
     let aspect = |[width, height]: [u32; 2]| f64::from(width) / f64::from(height);
-    let ratio = aspect(asked) / aspect(own);
+    let ratio = aspect(requested) / aspect(before);
     if (ratio - 1.0).abs() < SAME {
         return None;
     }
@@ -42,12 +43,12 @@ pub(super) fn fitted(own: [u32; 2], asked: [u32; 2]) -> Option<Diagnostic> {
         "above and below"
     };
     let message = format!("the camera of the asset sees another shape; more is shown {sides}");
-    let [width, height] = own;
+    let [width, height] = before;
     let hint = format!("its own picture is {width}×{height}, or any size of that shape");
     Some(Diagnostic::new(&codes::FITTED, message).hint(hint))
 }
 
-/// Says that the studio fills in beside the light of a scene.
+/// A note that the studio adds light to the scene.
 pub(super) fn filled(seen: f64) -> Diagnostic {
     let message = format!(
         "the scene's own light shows {:.0} % of what is in the picture, so the dimmed studio fills in",
@@ -58,11 +59,11 @@ pub(super) fn filled(seen: f64) -> Diagnostic {
     )
 }
 
-/// Warns of what the arithmetic chosen loses; none of the robust one.
-pub(super) fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option<Diagnostic> {
-    let loss = plan::loss(&proven.scene, arithmetic)?;
+/// A warning about the errors of the chosen arithmetic; `None` for the robust one.
+pub(super) fn imprecise(validated: &Validated, arithmetic: plan::Arithmetic) -> Option<Diagnostic> {
+    let loss = plan::loss(&validated.scene, arithmetic)?;
     let option = arithmetic.name();
-    let (fault, label) = match loss.symptom {
+    let (problem, label) = match loss.symptom {
         Symptom::SelfHit => {
             let off = format!(
                 "rays start about {:.0e} off this surface and meet it again",
@@ -79,29 +80,29 @@ pub(super) fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option
             "hardly larger than the 1e-5 that rays skip".to_owned(),
         ),
     };
-    let surface = proven.scene.surfaces()[loss.surface].index;
-    let span = proven.lowered.source_spans.span(ValuePath::new(
+    let surface = validated.scene.surfaces()[loss.surface].index;
+    let span = validated.lowered.source_spans.span(ValuePath::new(
         EntityKind::Surface,
         surface,
         Field::Whole,
     ));
-    let finding = Diagnostic::new(
+    let diagnostic = Diagnostic::new(
         &codes::IMPRECISE,
-        format!("in {option} this picture will be wrong: {fault}"),
+        format!("in {option} this picture will be wrong: {problem}"),
     );
     let others = match loss.surfaces - 1 {
         0 => String::new(),
         others => format!("; {others} more such surfaces"),
     };
     Some(
-        finding
+        diagnostic
             .at(span, format!("{label}{others}"))
             .hint(format!("leave out `--arithmetic {option}`")),
     )
 }
 
-/// Warns of what the file can't hold.
-pub(super) fn unholdable(
+/// Warnings about values that the file can't hold.
+pub(super) fn out_of_range(
     RangeClipping { unnumbered, beyond }: &RangeClipping,
     form: FileFormat,
     arithmetic: plan::Arithmetic,
@@ -112,18 +113,18 @@ pub(super) fn unholdable(
         .collect::<Vec<_>>()
         .join(", ");
     let beyond = (!beyond.is_empty()).then(|| {
-        let finding = Diagnostic::new(
+        let diagnostic = Diagnostic::new(
             &codes::BEYOND_FLOAT,
             format!("values beyond what the file holds in {names}"),
         );
-        finding.hint(if form == FileFormat::ExrHalf {
+        diagnostic.hint(if form == FileFormat::ExrHalf {
             "the file has its largest number there, 65504 in 16 bits; leave out `--bits 16`"
         } else {
             "the file has 3.4e38 there; a smaller scene makes the same picture"
         })
     });
     let unnumbered = (*unnumbered > 0).then(|| {
-        let finding = Diagnostic::new(
+        let diagnostic = Diagnostic::new(
             &codes::UNNUMBERED,
             format!("pixels that are no number: {unnumbered}"),
         );
@@ -133,13 +134,13 @@ pub(super) fn unholdable(
                 format!("leave out `--arithmetic {}`", coarse.name())
             }
         };
-        finding.hint(format!("they are black in the file; {advice}"))
+        diagnostic.hint(format!("they are black in the file; {advice}"))
     });
     beyond.into_iter().chain(unnumbered).collect()
 }
 
-/// What to say of a rule that was wrong.
-pub(super) fn left_out(mismatch: &Mismatch) -> String {
+/// The message of a failed verification.
+pub(super) fn verification_failure(mismatch: &Mismatch) -> String {
     let Mismatch {
         pixel: [x, y],
         effect,

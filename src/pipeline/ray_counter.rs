@@ -1,34 +1,34 @@
-//! The meter: counts the rays of a picture while they are traced, and says where they run out.
+//! Counts the rays of a picture while it is rendered, and finds where they exceed the limit.
 //!
-//! That is the first pixel, in the order of rows, up to which the pixels take more rays than the
-//! limit: the same on any number of threads. A thread that is ahead of that pixel works on until
-//! those behind have come there, so that in all no more is traced than the limit for each thread.
+//! That is the first pixel in row order at which the sum of rays exceeds the limit, which does not
+//! depend on the number of threads. A thread ahead of that pixel continues until the pixels before
+//! it are done, so the total is at most the limit per thread.
 
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{EntityKind, Field, Light, Lowered, Material, Mode, ValuePath};
 use rtc_render::{Crop, Step};
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering};
 
-/// Branches that a path may put off: so many of them never end within a limit, and each takes
-/// memory.
-const MOST_OPEN: usize = 1 << 16;
+/// The maximum number of deferred branches of a path: more would never end within a limit, and each
+/// needs memory.
+const MAX_DEFERRED: usize = 1 << 16;
 
-/// Counts the rays of one part of a picture.
+/// Counts the rays of a part of a picture.
 pub struct RayCounter {
     limit: u64,
     crop: Crop,
     /// The rays of the rounds before this one.
     before: AtomicU64,
-    /// Those of this round.
+    /// The rays of this round.
     total: AtomicU64,
-    /// The pixel was come to at which they run out: all threads stop.
+    /// Whether the pixel at which the limit is exceeded is known: all threads stop.
     has_run_out: AtomicBool,
     rows: Vec<Row>,
     /// The rays of each pixel, row by row, and [`DONE`].
     pixels: Vec<AtomicU64>,
-    /// How many pixels are done of all renders.
+    /// The number of pixels done, over all renders.
     done: AtomicUsize,
-    /// How many renders there will be.
+    /// The number of renders.
     renders: usize,
 }
 
@@ -38,19 +38,19 @@ const DONE: u64 = 1 << 63;
 #[derive(Default)]
 struct Row {
     rays: AtomicU64,
-    /// How many of its pixels are done.
+    /// The number of its pixels that are done.
     done: AtomicU32,
 }
 
 impl RayCounter {
-    /// A meter of a part of a picture; 8 bytes a pixel, unless there is no limit.
+    /// A counter for a part of a picture; it needs 8 bytes per pixel, unless there is no limit.
     #[must_use]
     pub fn new(limit: u64, crop: Crop) -> Self {
         Self::of_each(limit, crop, 1)
     }
 
-    /// A meter of so many renders of it, one after another: each may take as many rays. The next
-    /// begins when all pixels of one are done.
+    /// A counter for several renders in sequence, each with the full limit. The next render begins
+    /// when all pixels of the previous one are done.
     #[must_use]
     pub fn of_each(limit: u64, crop: Crop, renders: usize) -> Self {
         let crop = if limit == u64::MAX {
@@ -64,7 +64,7 @@ impl RayCounter {
         };
         let pixels = crop.width as usize * crop.height as usize;
         Self {
-            // Room for rays that are counted beyond it.
+            // Avoids overflow of the sums.
             limit: limit.min(u64::MAX / 4),
             crop,
             before: AtomicU64::new(0),
@@ -77,23 +77,23 @@ impl RayCounter {
         }
     }
 
-    /// Begins another round over all pixels; nobody renders meanwhile.
+    /// Begins another round over all pixels; no render may be running.
     pub fn begin_round(&self) {
         self.before
             .fetch_add(self.total.load(Ordering::Relaxed), Ordering::Relaxed);
         self.clear();
     }
 
-    /// Goes on to the next strip of the picture, whose rays come on top of those before: it is as wide as
-    /// the part that this meter was made for, and no higher.
-    pub fn go_on(&mut self, strip: Crop) {
+    /// Continues with the next strip, whose rays are added to those before. It has the width of the
+    /// first strip and at most its height.
+    pub fn next_strip(&mut self, strip: Crop) {
         self.begin_round();
         if !self.rows.is_empty() {
             self.crop = strip;
         }
     }
 
-    /// Forgets the rays of this round.
+    /// Discards the rays of this round.
     fn clear(&self) {
         self.total.store(0, Ordering::Relaxed);
         self.pixels
@@ -105,7 +105,7 @@ impl RayCounter {
         }
     }
 
-    /// Counts a step; false if the rays have run out.
+    /// Counts a step; false if the limit is exceeded.
     pub fn step(&self, step: Step) -> bool {
         let Step {
             rays,
@@ -120,7 +120,7 @@ impl RayCounter {
         if x >= self.crop.width || y >= self.crop.height {
             return true;
         }
-        let rays = if open > MOST_OPEN {
+        let rays = if open > MAX_DEFERRED {
             self.limit + 1
         } else {
             rays
@@ -145,8 +145,8 @@ impl RayCounter {
         !self.has_run_out.load(Ordering::Relaxed)
     }
 
-    /// Takes down that a pixel is done. Behind the last of a render the rays of the next are
-    /// counted from none; no other thread renders then.
+    /// Records that a pixel is done. After the last pixel of a render the count restarts; no other
+    /// thread renders then.
     fn end_render(&self) {
         let done = self.done.fetch_add(1, Ordering::AcqRel) + 1;
         if !done.is_multiple_of(self.pixels.len()) {
@@ -159,32 +159,32 @@ impl RayCounter {
         }
     }
 
-    /// Whether it is known at which pixel the rays run out: all before it are done.
+    /// Whether the pixel at which the limit is exceeded is known: all pixels before it are done.
     fn is_certain(&self) -> bool {
         let width = self.crop.width;
-        let mut sum = self.before.load(Ordering::Relaxed);
+        let mut total_so_far = self.before.load(Ordering::Relaxed);
         let is_whole = |row: &&Row| row.done.load(Ordering::Acquire) >= width;
         let whole = self.rows.iter().take_while(is_whole);
         let first = whole
-            .map(|row| sum = sum.saturating_add(row.rays.load(Ordering::Relaxed)))
+            .map(|row| total_so_far = total_so_far.saturating_add(row.rays.load(Ordering::Relaxed)))
             .count();
         for pixel in self.pixels.iter().skip(first * width as usize) {
             let rays = pixel.load(Ordering::Acquire);
-            sum = sum.saturating_add(rays & !DONE);
-            if sum > self.limit || rays & DONE == 0 {
+            total_so_far = total_so_far.saturating_add(rays & !DONE);
+            if total_so_far > self.limit || rays & DONE == 0 {
                 break;
             }
         }
-        sum > self.limit
+        total_so_far > self.limit
     }
 
-    /// The pixel at which the rays ran out, if they did; to be asked when the render has ended.
+    /// The pixel at which the limit was exceeded, if any; valid after the render.
     #[must_use]
     pub fn ran_out(&self) -> Option<[u32; 2]> {
-        let mut sum = self.before.load(Ordering::Relaxed);
+        let mut total_so_far = self.before.load(Ordering::Relaxed);
         let at = self.pixels.iter().position(|rays| {
-            sum = sum.saturating_add(rays.load(Ordering::Relaxed) & !DONE);
-            sum > self.limit
+            total_so_far = total_so_far.saturating_add(rays.load(Ordering::Relaxed) & !DONE);
+            total_so_far > self.limit
         })?;
         let at = u32::try_from(at).unwrap_or(u32::MAX);
         Some([
@@ -193,11 +193,11 @@ impl RayCounter {
         ])
     }
 
-    /// What to say of a scene whose rays ran out at a pixel: it points at the key that makes them
-    /// so many.
+    /// The diagnostic for a scene that exceeded the limit at a pixel; it points to the key that
+    /// multiplies the rays most.
     #[must_use]
-    pub fn finding(&self, lowered: &Lowered, pixel: [u32; 2]) -> Diagnostic {
-        let ([x, y], RayKey { place, name, value }) = (pixel, key(lowered));
+    pub fn diagnostic(&self, lowered: &Lowered, pixel: [u32; 2]) -> Diagnostic {
+        let ([x, y], RayKey { path, name, value }) = (pixel, key(lowered));
         let message = format!(
             "the picture takes more than {} rays: they run out at pixel {x}, {y}",
             self.limit
@@ -205,7 +205,7 @@ impl RayCounter {
         let camera = ValuePath::new(EntityKind::Camera, 0, Field::Whole);
         let span = lowered
             .source_spans
-            .span(place)
+            .span(path)
             .or_else(|| lowered.source_spans.span(camera));
         Diagnostic::new(&codes::RAYS_RAN_OUT, message)
             .at(span, format!("`{name}` is {value}"))
@@ -217,16 +217,16 @@ impl RayCounter {
 
 /// A key of a scene that multiplies rays.
 struct RayKey {
-    place: ValuePath,
+    path: ValuePath,
     name: &'static str,
     value: u32,
 }
 
-/// The key that multiplies rays most: by branching, if it does so at all.
+/// The key that multiplies rays most, preferably one that makes rays branch.
 fn key(lowered: &Lowered) -> RayKey {
     let settings = &lowered.scene.settings;
     let setting = |field, name, value| RayKey {
-        place: ValuePath::new(EntityKind::Settings, 0, field),
+        path: ValuePath::new(EntityKind::Settings, 0, field),
         name,
         value,
     };
@@ -249,9 +249,9 @@ fn key(lowered: &Lowered) -> RayKey {
     };
     let glossy = phongs().filter_map(|(index, phong)| {
         let phong = phong.filter(|phong| phong.ks > 0.0 && phong.glossy_samples > 1)?;
-        let place = ValuePath::new(EntityKind::Material, index, Field::GlossySamples);
+        let path = ValuePath::new(EntityKind::Material, index, Field::GlossySamples);
         Some(RayKey {
-            place,
+            path,
             name: "glossySamples",
             value: phong.glossy_samples,
         })
@@ -305,19 +305,19 @@ mod tests {
         let first = [step(5, 7, 2), step(6, 7, 2), step(7, 7, 2)];
         let second = [step(5, 8, 2), step(6, 8, 2), step(7, 8, 2)];
         let run = |steps: &[Step]| {
-            let meter = RayCounter::new(7, CROP);
-            let stopped = steps.iter().position(|step| !meter.step(*step));
-            (stopped, meter.ran_out())
+            let counter = RayCounter::new(7, CROP);
+            let stopped = steps.iter().position(|step| !counter.step(*step));
+            (stopped, counter.ran_out())
         };
         assert_eq!(run(&[first, second].concat()), (Some(3), Some([5, 8])));
-        // The second row goes on until the first is done.
+        // The second row continues until the first is done.
         assert_eq!(run(&[second, first].concat()), (Some(5), Some([5, 8])));
-        // What the first row finds out stops the second.
+        // The first row finds out and stops the second.
         assert_eq!(
             run(&[step(5, 8, 9), step(5, 7, 8), step(6, 8, 1)]),
             (Some(1), Some([5, 7]))
         );
-        // A row whose last pixel is done need not be.
+        // A row whose last pixel is done may have others that are not.
         let late = [first[2], second[0], second[1], first[0], first[1]];
         assert_eq!(run(&late), (Some(4), Some([5, 8])));
         assert_eq!(run(&first), (None, None));
@@ -325,12 +325,12 @@ mod tests {
 
     #[test]
     fn rounds_add_up() {
-        let meter = RayCounter::new(7, CROP);
-        assert!(meter.step(step(5, 7, 3)) && meter.step(step(6, 7, 1)));
-        meter.begin_round();
-        assert!(meter.step(step(5, 7, 3)) && meter.ran_out().is_none());
-        assert!(!meter.step(step(6, 7, 1)));
-        assert_eq!(meter.ran_out(), Some([6, 7]));
+        let counter = RayCounter::new(7, CROP);
+        assert!(counter.step(step(5, 7, 3)) && counter.step(step(6, 7, 1)));
+        counter.begin_round();
+        assert!(counter.step(step(5, 7, 3)) && counter.ran_out().is_none());
+        assert!(!counter.step(step(6, 7, 1)));
+        assert_eq!(counter.ran_out(), Some([6, 7]));
     }
 
     #[test]
@@ -339,7 +339,7 @@ mod tests {
         let rows = [[2, 2, 2], [0, 3, 1]];
         let mut strips = RayCounter::new(7, Crop { height: 1, ..CROP });
         for (y, row) in (7..).zip(rows) {
-            strips.go_on(Crop {
+            strips.next_strip(Crop {
                 y,
                 height: 1,
                 ..CROP
@@ -358,30 +358,30 @@ mod tests {
         let all: Vec<_> = (7..9)
             .flat_map(|y| (5..8).map(move |x| step(x, y, 1)))
             .collect();
-        let meter = RayCounter::of_each(6, CROP, 2);
-        assert!(all.iter().chain(&all).all(|step| meter.step(*step)));
-        assert_eq!(meter.ran_out(), None);
-        let meter = RayCounter::of_each(6, CROP, 2);
-        assert!(all.iter().all(|step| meter.step(*step)) && meter.step(step(5, 7, 2)));
-        assert!(all[1..5].iter().all(|step| meter.step(*step)) && !meter.step(all[5]));
-        assert_eq!(meter.ran_out(), Some([7, 8]));
+        let counter = RayCounter::of_each(6, CROP, 2);
+        assert!(all.iter().chain(&all).all(|step| counter.step(*step)));
+        assert_eq!(counter.ran_out(), None);
+        let counter = RayCounter::of_each(6, CROP, 2);
+        assert!(all.iter().all(|step| counter.step(*step)) && counter.step(step(5, 7, 2)));
+        assert!(all[1..5].iter().all(|step| counter.step(*step)) && !counter.step(all[5]));
+        assert_eq!(counter.ran_out(), Some([7, 8]));
     }
 
     #[test]
     fn a_pixel_that_puts_off_too_much_has_no_end() {
-        let meter = RayCounter::new(1 << 32, CROP);
-        assert!(meter.step(step(5, 7, 1)));
-        assert!(!meter.step(Step {
-            open: MOST_OPEN + 1,
+        let counter = RayCounter::new(1 << 32, CROP);
+        assert!(counter.step(step(5, 7, 1)));
+        assert!(!counter.step(Step {
+            open: MAX_DEFERRED + 1,
             is_done: false,
             ..step(6, 7, 1)
         }));
-        assert_eq!(meter.ran_out(), Some([6, 7]));
+        assert_eq!(counter.ran_out(), Some([6, 7]));
     }
 
     #[test]
     fn without_a_limit_nothing_runs_out() {
-        let meter = RayCounter::new(u64::MAX, CROP);
-        assert!(meter.step(step(5, 7, u64::MAX)) && meter.ran_out().is_none());
+        let counter = RayCounter::new(u64::MAX, CROP);
+        assert!(counter.step(step(5, 7, u64::MAX)) && counter.ran_out().is_none());
     }
 }

@@ -1,13 +1,13 @@
-//! A part as a file, `.rtp`: 8 bytes magic, version and length of the header (u32 each), length of the
-//! film (u64), the header in JSON, the film, the numbers of the layers, how far it has grown as a whole, and
-//! the xxh3 of all before. Numbers are little-endian.
+//! The file format of shards, `.rtp`: 8 bytes of magic, version and header length (u32 each), film
+//! length (u64), the header as JSON, the film, the layer values, the progressive state, and the
+//! XXH3 of everything before. Numbers are little-endian.
 
-use super::{PartError, PartHead, PicturePart};
+use super::{RenderShard, ShardError, ShardHeader};
 use rtc_render::{Crop, PartialFilm};
 use std::collections::BTreeMap;
 use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
 
-/// What a part begins with; whatever takes it for text changes it.
+/// The magic; any conversion as text changes it.
 const MAGIC: [u8; 8] = *b"\x89RTP\r\n\x1a\n";
 
 /// The version of the format.
@@ -16,11 +16,11 @@ const VERSION: u32 = 2;
 /// The bytes before the header: magic, version, and the lengths of header and film.
 const PREAMBLE: usize = 24;
 
-impl PicturePart {
-    /// The part as bytes; equal parts are equal bytes.
+impl RenderShard {
+    /// The shard as bytes; equal shards have equal bytes.
     ///
     /// # Panics
-    /// If the words of its command take more than 4 GiB.
+    /// If the header exceeds 4 GiB.
     #[must_use]
     pub fn save(&self) -> Vec<u8> {
         let head = serde_json::to_vec(&self.head).expect("maps with string keys, lists, numbers");
@@ -39,35 +39,37 @@ impl PicturePart {
         bytes
     }
 
-    /// The part of such bytes, of a picture of at most `max_pixels` pixels. No memory is taken that
-    /// the bytes do not fill.
+    /// Reads a shard of a picture with at most `max_pixels` pixels. Allocates memory in proportion
+    /// to the bytes only.
     ///
     /// # Errors
-    /// If the bytes are of something else, of another version, or damaged.
-    pub fn load(bytes: &[u8], max_pixels: u64) -> Result<Self, PartError> {
+    /// If the bytes are not a shard, of another version, or damaged.
+    pub fn load(bytes: &[u8], max_pixels: u64) -> Result<Self, ShardError> {
         if !bytes.starts_with(&MAGIC) {
-            return Err(PartError::NotAPart);
+            return Err(ShardError::NotAPart);
         }
         let version = number(bytes, MAGIC.len())?;
         if version != VERSION {
-            return Err(PartError::Version(version));
+            return Err(ShardError::Version(version));
         }
-        let (rest, sum) = bytes.split_last_chunk().ok_or(SHORT)?;
-        if xxh3_64(rest) != u64::from_le_bytes(*sum) {
-            return Err(PartError::Damaged("its checksum does not fit"));
+        let (remaining, sum) = bytes.split_last_chunk().ok_or(SHORT)?;
+        if xxh3_64(remaining) != u64::from_le_bytes(*sum) {
+            return Err(ShardError::Damaged("its checksum does not fit"));
         }
-        let length = number(rest, 12)? as usize;
-        let film = rest
+        let length = number(remaining, 12)? as usize;
+        let film = remaining
             .get(16..PREAMBLE)
             .and_then(|bytes| bytes.try_into().ok());
         let film = film.map(u64::from_le_bytes).ok_or(SHORT)?;
         let film = usize::try_from(film).map_err(|_| SHORT)?;
-        let (head, rest) = rest[PREAMBLE..].split_at_checked(length).ok_or(SHORT)?;
-        let (film, layers) = rest.split_at_checked(film).ok_or(SHORT)?;
-        let head: PartHead = serde_json::from_slice(head)
-            .map_err(|_| PartError::Damaged("its header is not as it should be"))?;
+        let (head, remaining) = remaining[PREAMBLE..]
+            .split_at_checked(length)
+            .ok_or(SHORT)?;
+        let (film, layers) = remaining.split_at_checked(film).ok_or(SHORT)?;
+        let head: ShardHeader = serde_json::from_slice(head)
+            .map_err(|_| ShardError::Damaged("its header is not as it should be"))?;
         head.check(max_pixels)?;
-        let film = PartialFilm::load(film, max_pixels).map_err(PartError::Film)?;
+        let film = PartialFilm::load(film, max_pixels).map_err(ShardError::Film)?;
         head.check_pixels(film.crop())?;
         let growth = usize::try_from(head.growth.unwrap_or(0)).map_err(|_| SHORT)?;
         let border = layers.len().checked_sub(growth).ok_or(SHORT)?;
@@ -88,9 +90,8 @@ pub fn hash_of_file(bytes: &[u8]) -> String {
     format!("xxh3:{:032x}", xxh3_128(bytes))
 }
 
-/// The same bytes with checksums that fit, where they are long enough to have some: so that a trial comes to
-/// what lies behind them.
-pub(crate) fn mended(bytes: &[u8]) -> Vec<u8> {
+/// The bytes with corrected checksums, so that a fuzz test reaches the code behind them.
+pub(crate) fn with_valid_checksums(bytes: &[u8]) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     let film = |bytes: &[u8]| {
         let length = number(bytes, 12).ok()? as usize;
@@ -104,28 +105,28 @@ pub(crate) fn mended(bytes: &[u8]) -> Vec<u8> {
     {
         *sum = crc32fast::hash(film).to_le_bytes();
     }
-    if let Some((rest, sum)) = bytes.split_last_chunk_mut() {
-        *sum = xxh3_64(rest).to_le_bytes();
+    if let Some((remaining, sum)) = bytes.split_last_chunk_mut() {
+        *sum = xxh3_64(remaining).to_le_bytes();
     }
     bytes
 }
 
-/// The most shares of a picture.
-pub const MOST: u32 = 65_536;
+/// The maximum number of shares.
+pub const MAX_SHARES: u32 = 65_536;
 
-const SHORT: PartError = PartError::Damaged("its end is missing");
+const SHORT: ShardError = ShardError::Damaged("its end is missing");
 
-/// The number of 32 bits at a place.
-fn number(bytes: &[u8], at: usize) -> Result<u32, PartError> {
+/// The u32 at an offset.
+fn number(bytes: &[u8], at: usize) -> Result<u32, ShardError> {
     let bytes = bytes
         .get(at..at + 4)
         .and_then(|bytes| bytes.try_into().ok());
     bytes.map(u32::from_le_bytes).ok_or(SHORT)
 }
 
-impl PartHead {
-    /// Refuses shares and windows that no program writes.
-    fn check(&self, max_pixels: u64) -> Result<(), PartError> {
+impl ShardHeader {
+    /// Rejects invalid shares and windows.
+    fn check(&self, max_pixels: u64) -> Result<(), ShardError> {
         let [x, y, width, height] = self.window;
         let is_window = x.checked_add(width).is_some()
             && y.checked_add(height).is_some()
@@ -139,35 +140,37 @@ impl PartHead {
             (1..self.layers.len()).all(|at| !self.layers[..at].contains(&self.layers[at]));
         let is_begun =
             !self.shares.is_empty() || !self.finished.is_empty() || self.growth.is_some();
-        let is_count = (1..=MOST).contains(&self.count) && is_begun;
+        let is_count = (1..=MAX_SHARES).contains(&self.count) && is_begun;
         (is_window && is_count && ascend && are_in_range && are_once)
             .then_some(())
-            .ok_or(PartError::Damaged("its shares can't be those of a picture"))
+            .ok_or(ShardError::Damaged(
+                "its shares can't be those of a picture",
+            ))
     }
 
-    /// Refuses a film of other pixels than those wanted.
-    fn check_pixels(&self, film: Crop) -> Result<(), PartError> {
+    /// Rejects a film whose pixels differ from the window.
+    fn check_pixels(&self, film: Crop) -> Result<(), ShardError> {
         let window = self.crop();
         let is_whole = (film.x, film.y) == (0, 0);
         let is_inside = window.within(film.width, film.height) == window;
         (film == window || (is_whole && is_inside))
             .then_some(())
-            .ok_or(PartError::Damaged("its film has other pixels"))
+            .ok_or(ShardError::Damaged("its film has other pixels"))
     }
 
-    /// The numbers of the layers, tile by tile.
-    fn layers(&self, bytes: &[u8]) -> Result<BTreeMap<usize, Vec<f32>>, PartError> {
-        const WRONG: PartError = PartError::Damaged("its layers have another size");
-        let mut rest = bytes;
+    /// The layer values by tile.
+    fn layers(&self, bytes: &[u8]) -> Result<BTreeMap<usize, Vec<f32>>, ShardError> {
+        const WRONG: ShardError = ShardError::Damaged("its layers have another size");
+        let mut remaining = bytes;
         let mut layers = BTreeMap::new();
         for (tile, area) in self.tiles() {
             let length = area.pixels() * self.channels() * 4;
-            let (own, after) = rest.split_at_checked(length).ok_or(WRONG)?;
-            let (numbers, _) = own.as_chunks();
+            let (tile_values, after) = remaining.split_at_checked(length).ok_or(WRONG)?;
+            let (numbers, _) = tile_values.as_chunks();
             let numbers = numbers.iter().copied().map(f32::from_le_bytes);
             layers.insert(tile, numbers.collect());
-            rest = after;
+            remaining = after;
         }
-        rest.is_empty().then_some(layers).ok_or(WRONG)
+        remaining.is_empty().then_some(layers).ok_or(WRONG)
     }
 }

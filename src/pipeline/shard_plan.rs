@@ -1,53 +1,53 @@
-//! Shares of a picture: which of its tiles, or which of its samples, one of several renders takes.
-//! Together they are all of it, and no two have anything in common.
+//! Divides a picture among several renders, by tiles or by samples. The shares are disjoint and
+//! together are the whole picture.
 
 use rtc_render::{SAMPLES_OF_BLOCK, Tiles};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// How a picture is shared out.
+/// How a picture is divided.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub enum SharedBy {
-    /// Each share is some of its tiles, with all their samples.
+pub enum ShardBy {
+    /// Each share has some of the tiles, with all their samples.
     #[default]
     Tiles,
-    /// Each share is some blocks of the samples of all pixels, where paths are traced.
+    /// Each share has some blocks of the samples of all pixels; path tracing only.
     Samples,
 }
 
-/// Some of the shares of a picture, one after another.
+/// A range of shares of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShardPlan {
-    /// How it is shared out.
-    pub by: SharedBy,
-    /// The first of them, from 1 on.
+    /// How the picture is divided.
+    pub by: ShardBy,
+    /// The first share, from 1.
     pub first: u32,
-    /// The last of them, at most `count`; below the first if there are none.
+    /// The last share, at most `count`; less than the first if there are none.
     pub last: u32,
-    /// How many the picture has.
+    /// The number of shares of the picture.
     pub count: u32,
 }
 
 impl ShardPlan {
-    /// The tiles of the shares: those whose rank, a hash of their place, lies in these of `count` equal
-    /// stretches.
+    /// The tiles of the shares: those whose rank, a hash of their position, is in these of `count`
+    /// equal intervals.
     #[must_use]
     pub fn tiles(&self) -> Tiles {
         Tiles::shares([self.first, self.last], self.count)
     }
 
-    /// The number of the share, of `count`, that has the tile whose upper left pixel is given.
+    /// The index of the share, of `count`, that has the tile with this upper left pixel.
     #[must_use]
     pub fn of_tile(count: u32, [x, y]: [u32; 2]) -> u32 {
         let rank = Tiles::rank(0, [x, y].map(|at| at / Tiles::SIDE));
-        // The last share whose border is not above the rank.
+        // The last share whose lower bound does not exceed the rank.
         let before = ((u128::from(rank) + 1) * u128::from(count.max(1)) - 1) >> 64;
         u32::try_from(before).map_or(count, |before| before + 1)
     }
 
-    /// The samples of the shares, of so many a pixel: whole blocks of them; none if there are more
-    /// shares than blocks.
+    /// The samples of the shares, of `all` samples per pixel, in whole blocks; empty if there are
+    /// more shares than blocks.
     #[must_use]
     pub fn samples(&self, all: u32) -> Range<u32> {
         let blocks = u64::from(all.div_ceil(SAMPLES_OF_BLOCK));
@@ -64,7 +64,7 @@ impl ShardPlan {
 mod tests {
     use super::*;
 
-    fn one(by: SharedBy, index: u32, count: u32) -> ShardPlan {
+    fn one(by: ShardBy, index: u32, count: u32) -> ShardPlan {
         ShardPlan {
             by,
             first: index,
@@ -73,18 +73,18 @@ mod tests {
         }
     }
 
-    fn shares(by: SharedBy, count: u32) -> impl Iterator<Item = ShardPlan> {
+    fn shares(by: ShardBy, count: u32) -> impl Iterator<Item = ShardPlan> {
         (1..=count).map(move |index| one(by, index, count))
     }
 
     #[test]
     fn each_tile_is_in_one_share() {
         for count in [1, 2, 3, 7, 64, u32::MAX] {
-            let last = one(SharedBy::Tiles, count, count);
+            let last = one(ShardBy::Tiles, count, count);
             assert_eq!(last.tiles().last, u64::MAX, "of {count}");
         }
         for count in [1, 2, 3, 7, 64] {
-            let tiles: Vec<Tiles> = shares(SharedBy::Tiles, count)
+            let tiles: Vec<Tiles> = shares(ShardBy::Tiles, count)
                 .map(|share| share.tiles())
                 .collect();
             assert_eq!(tiles[0].first, 0);
@@ -99,7 +99,7 @@ mod tests {
         for count in [1, 2, 7, 64, 1000] {
             for tile in (0..20).flat_map(|x| (0..20).map(move |y| [16 * x, 16 * y])) {
                 let index = ShardPlan::of_tile(count, tile);
-                let share = one(SharedBy::Tiles, index, count);
+                let share = one(ShardBy::Tiles, index, count);
                 assert!((1..=count).contains(&index) && share.tiles().contain(tile));
             }
         }
@@ -108,7 +108,7 @@ mod tests {
     #[test]
     fn each_block_of_samples_is_in_one_share() {
         for (all, count) in [(64, 1), (64, 4), (100, 7), (16, 64), (1, 2), (u32::MAX, 3)] {
-            let samples = shares(SharedBy::Samples, count).map(|share| share.samples(all));
+            let samples = shares(ShardBy::Samples, count).map(|share| share.samples(all));
             let end = samples.fold(0, |end, samples| {
                 assert_eq!(samples.start, end, "of {count}");
                 assert!(samples.end == all || samples.end.is_multiple_of(16));

@@ -1,17 +1,17 @@
-//! What a picture on its way knows beside its shares: the pictures that were finished before it, and how far
-//! it has grown as a whole.
+//! State for resuming a render in addition to its shares: finished pictures, and the progressive
+//! state.
 
-use super::PicturePart;
+use super::RenderShard;
 use rtc_render::Crop;
 
-impl PicturePart {
-    /// The pixels of its picture that are wanted.
+impl RenderShard {
+    /// The crop window.
     #[must_use]
     pub fn window(&self) -> Crop {
         self.head.crop()
     }
 
-    /// The part, after so many pictures that were finished, by the hashes of their files.
+    /// Sets the hashes of the files of finished pictures.
     #[must_use]
     pub fn after(mut self, finished: Vec<String>) -> Self {
         self.head.finished = finished;
@@ -24,13 +24,13 @@ impl PicturePart {
         &self.head.finished
     }
 
-    /// The part, as far as its picture has grown as a whole.
+    /// Sets the progressive state.
     pub fn grow(&mut self, growth: Vec<u8>) {
         self.head.growth = Some(growth.len() as u64);
         self.growth = growth;
     }
 
-    /// How far its picture has grown as a whole, which it forgets.
+    /// Takes the progressive state out.
     #[must_use]
     pub fn take_growth(&mut self) -> Vec<u8> {
         self.head.growth = None;

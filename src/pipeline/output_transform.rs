@@ -1,6 +1,6 @@
-//! From film to file: which kind of file, which values the film must hold for it, and the bytes.
+//! From film to file: the file format, the values that the film must hold for it, and the bytes.
 
-use super::findings;
+use super::picture_diagnostics;
 use rtc_color::Tone;
 use rtc_diag::Diagnostic;
 use rtc_image::{
@@ -16,39 +16,39 @@ use serde::{Deserialize, Serialize};
 /// An exposure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exposure {
-    /// By what is seen.
+    /// Automatic.
     Auto,
     /// In stops.
     Stops(f64),
 }
 
-/// The look of a picture, as asked for.
+/// The output transform of a picture, as requested.
 #[derive(Clone, Debug)]
 pub struct OutputTransform {
-    /// The kind of file that it is for.
+    /// The file format.
     pub kind: FileFormat,
-    /// The tone map asked for.
+    /// The requested tone map.
     tone: Option<Tone>,
-    /// The exposure asked for.
-    asked: Option<Exposure>,
-    /// The exposure in stops; that of the scene until an automatic one is found.
+    /// The requested exposure.
+    requested: Option<Exposure>,
+    /// The exposure in stops; that of the scene until the automatic one is found.
     stops: f64,
     background: BackgroundFill,
-    /// The layers wanted, each once.
+    /// The requested layers, without duplicates.
     pub aovs: Vec<Aov>,
-    /// Whether a PNG or an EXR says what made it.
+    /// Whether a PNG or an EXR contains metadata about its origin.
     pub has_metadata: bool,
 }
 
 impl OutputTransform {
-    /// A look for a kind of file: tone map, exposure, background, layers.
+    /// An output transform for a file format: tone map, exposure, background, layers.
     ///
     /// # Errors
-    /// What the kind of file does not hold.
+    /// If the format does not support one of them.
     pub fn new(
         kind: FileFormat,
         tone: Option<Tone>,
-        asked: Option<Exposure>,
+        requested: Option<Exposure>,
         background: BackgroundFill,
         layers: &[Aov],
     ) -> Result<Self, &'static str> {
@@ -56,7 +56,7 @@ impl OutputTransform {
         if is_linear && tone.is_some_and(|tone| tone != Tone::None) {
             return Err("`--tonemap` is for PNG; an EXR holds linear values");
         }
-        if is_linear && asked == Some(Exposure::Auto) {
+        if is_linear && requested == Some(Exposure::Auto) {
             return Err("`--exposure auto` is for PNG; an EXR holds linear values");
         }
         if kind == FileFormat::Jpeg && background == BackgroundFill::Transparent {
@@ -71,8 +71,8 @@ impl OutputTransform {
         Ok(Self {
             kind,
             tone,
-            asked,
-            stops: match asked {
+            requested,
+            stops: match requested {
                 Some(Exposure::Stops(stops)) => stops,
                 Some(Exposure::Auto) | None => 0.0,
             },
@@ -82,26 +82,26 @@ impl OutputTransform {
         })
     }
 
-    /// Shows a glTF asset by itself, unless another tone map is asked for: its whites keep their
-    /// shades, and its colours stay those that its maker chose.
+    /// Uses the default tone map for a glTF asset, unless another is requested: it keeps highlights
+    /// and base colours.
     pub fn show_asset(&mut self) {
         if !self.kind.is_linear() {
             self.tone = self.tone.or(Some(Tone::PbrNeutral));
         }
     }
 
-    /// Shows a scene as it asks for, where nothing else is asked for.
+    /// Uses the display settings of a scene where nothing is requested.
     pub fn show_as(&mut self, display: &Display) {
         let Display { exposure, tone } = display;
         if !self.kind.is_linear() {
             self.tone = self.tone.or(*tone);
-            if self.asked.is_none() {
+            if self.requested.is_none() {
                 self.stops = *exposure;
             }
         }
     }
 
-    /// The same as a scene asks for it, with all that was found.
+    /// The current exposure and tone map as display settings.
     #[must_use]
     pub fn as_display(&self) -> Display {
         Display {
@@ -110,29 +110,29 @@ impl OutputTransform {
         }
     }
 
-    /// Whether the exposure is to be found: if it is asked for, or for the PNG of an asset with
-    /// lights of its own.
+    /// Whether the exposure must be measured: if requested, or for the display image of an asset
+    /// with lights.
     pub fn finds_exposure(&self, is_lit_asset: bool) -> bool {
-        match self.asked {
+        match self.requested {
             Some(Exposure::Auto) => true,
             Some(Exposure::Stops(_)) => false,
             None => is_lit_asset && !self.kind.is_linear(),
         }
     }
 
-    /// Sets the exposure that was found, in stops.
+    /// Sets the measured exposure, in stops.
     pub fn expose(&mut self, stops: f64) {
         self.stops = stops;
     }
 
-    /// The exposure in stops, if nobody asked for it here and it changes the picture; never that of an
-    /// EXR.
+    /// The exposure in stops, if it was not requested and is not 0.
     pub fn found_exposure(&self) -> Option<f64> {
-        let is_asked = matches!(self.asked, Some(Exposure::Stops(_)));
+        let is_asked = matches!(self.requested, Some(Exposure::Stops(_)));
         (!is_asked && self.stops != 0.0).then_some(self.stops)
     }
 
-    /// How values are shown, and what they are multiplied by before; linear ones as sRGB shows them.
+    /// The tone map and the exposure factor for displaying the picture; linear values are displayed
+    /// as sRGB.
     pub fn display(&self, mode: &Mode) -> (Tone, f64) {
         let tone = match self.tone(mode) {
             Tone::None | Tone::Srgb => Tone::Srgb,
@@ -150,11 +150,10 @@ impl OutputTransform {
         }
     }
 
-    /// Which values a film of this mode must hold.
+    /// The values that the film must hold.
     pub fn values(&self, mode: &Mode) -> Values {
         let is_plain = !self.kind.is_linear() && self.stops == 0.0;
-        // Display values of the course are clamped sample by sample, as only its untouched pictures
-        // want it.
+        // Display values of the course are clamped per sample, as its unmodified pictures require.
         if is_plain && mode.tone() == Tone::None && self.tone(mode) == Tone::None {
             Values::Display
         } else {
@@ -162,7 +161,7 @@ impl OutputTransform {
         }
     }
 
-    /// What the film must show behind all surfaces.
+    /// The background that the film must hold.
     pub fn background(&self) -> Background {
         if self.background == BackgroundFill::Film {
             Background::Environment
@@ -171,7 +170,7 @@ impl OutputTransform {
         }
     }
 
-    /// Adds the settings of the look that differ from the default to the origin of a picture.
+    /// Adds the settings that are not defaults to the metadata of a picture.
     pub fn describe(&self, settings: &mut serde_json::Value) {
         if self.stops != 0.0 {
             settings["exposure"] = self.stops.into();
@@ -186,8 +185,8 @@ impl OutputTransform {
         }
     }
 
-    /// The most bytes that a pixel takes on its way into the file: as numbers, packed, and in the
-    /// file, which grows by doubling.
+    /// The maximum number of bytes per pixel while encoding: as numbers, packed, and in the growing
+    /// file.
     pub fn memory(&self) -> usize {
         let channel = match self.kind {
             FileFormat::Png8 | FileFormat::Jpeg | FileFormat::Webp => 1,
@@ -198,9 +197,9 @@ impl OutputTransform {
         4 * channel * (4 + layers)
     }
 
-    /// The look as it is for a scene of this mode, with all that was found.
+    /// The output transform for this mode, with everything resolved.
     #[must_use]
-    pub fn settled(&self, mode: &Mode) -> ResolvedOutputTransform {
+    pub fn resolve(&self, mode: &Mode) -> ResolvedOutputTransform {
         ResolvedOutputTransform {
             kind: self.kind,
             stops: self.stops,
@@ -211,16 +210,16 @@ impl OutputTransform {
     }
 }
 
-/// A look of which nothing is still to be found.
+/// An output transform in which everything is resolved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct ResolvedOutputTransform {
-    /// The kind of file that it is for.
+    /// The file format.
     pub kind: FileFormat,
     stops: f64,
     tone: Tone,
     background: BackgroundFill,
-    /// Whether the file says what made it.
+    /// Whether the file contains metadata about its origin.
     has_metadata: bool,
 }
 
@@ -240,8 +239,8 @@ impl ResolvedOutputTransform {
         .develop(film, coverage, association)
     }
 
-    /// The picture of a film, given with its coverage and how many values are no numbers, and of its
-    /// layers; and what is found in it.
+    /// The picture of a film with its coverage, its number of NaN values and its layers; and the
+    /// diagnostics about it.
     #[must_use]
     pub fn finish(
         &self,
@@ -251,11 +250,13 @@ impl ResolvedOutputTransform {
     ) -> (Picture, Vec<Diagnostic>) {
         let mut losses = Losses::default();
         let picture = self.show(image, coverage, layers, &mut losses);
-        (picture, losses.findings(unnumbered, self.kind, arithmetic))
+        (
+            picture,
+            losses.picture_diagnostics(unnumbered, self.kind, arithmetic),
+        )
     }
 
-    /// The picture of a film or of some rows of one, with its coverage and layers; what its file can't
-    /// hold is counted.
+    /// The picture of a film or of some of its rows; values that the file can't hold are counted.
     pub(super) fn show(
         &self,
         image: Image,
@@ -266,25 +267,25 @@ impl ResolvedOutputTransform {
         losses.film += image.unnumbered();
         let mut picture = self.develop(image, coverage);
         picture.layers = layers;
-        let RangeClipping { unnumbered, beyond } = self.lost(&picture);
-        losses.shown.unnumbered += unnumbered;
-        let known = std::mem::take(&mut losses.shown.beyond);
-        let names = ["R", "G", "B"].into_iter();
-        let names = names.chain(picture.layers.names.iter().copied());
+        let RangeClipping { unnumbered, beyond } = self.clipping(&picture);
+        losses.picture.unnumbered += unnumbered;
+        let known = std::mem::take(&mut losses.picture.beyond);
+        let channel_names = ["R", "G", "B"].into_iter();
+        let channel_names = channel_names.chain(picture.layers.names.iter().copied());
         let is_beyond = |name: &&'static str| known.contains(name) || beyond.contains(name);
-        losses.shown.beyond = names.filter(is_beyond).collect();
+        losses.picture.beyond = channel_names.filter(is_beyond).collect();
         picture
     }
 
-    /// What the file can't hold; a PNG clamps all colours alike.
-    fn lost(&self, picture: &Picture) -> RangeClipping {
-        let lost = picture.lost(self.kind);
+    /// The values that the file can't hold. For PNG, clamping of colours is normal and not counted.
+    fn clipping(&self, picture: &Picture) -> RangeClipping {
+        let clipping = picture.lost(self.kind);
         if self.kind.is_linear() {
-            lost
+            clipping
         } else {
             RangeClipping {
                 beyond: Vec::new(),
-                ..lost
+                ..clipping
             }
         }
     }
@@ -292,7 +293,7 @@ impl ResolvedOutputTransform {
     /// The bytes of the file.
     ///
     /// # Errors
-    /// If the picture is larger than the format can hold.
+    /// If the picture is larger than the format allows.
     pub fn encode(
         &self,
         picture: &Picture,
@@ -305,7 +306,7 @@ impl ResolvedOutputTransform {
         head.encode(picture)
     }
 
-    /// What is known of the file before any pixel is, given its size and the layers wanted.
+    /// What is known about the file before rendering, given its size and layers.
     pub(super) fn head(
         &self,
         size: [u32; 2],
@@ -326,7 +327,7 @@ impl ResolvedOutputTransform {
         }
     }
 
-    /// What the file says of where it came from.
+    /// The metadata of the file.
     pub(super) fn origin(&self, origin: Origin) -> Origin {
         if self.has_metadata {
             origin
@@ -336,29 +337,28 @@ impl ResolvedOutputTransform {
     }
 }
 
-/// What files of a picture don't show as it is, counted strip by strip.
+/// Counts of values that the file can't hold, accumulated over strips.
 #[derive(Default)]
 pub(super) struct Losses {
-    /// Pixels of the film that are no number.
+    /// Pixels of the film that are NaN.
     film: u64,
-    /// What is lost of the picture.
-    shown: RangeClipping,
+    /// Losses of the picture.
+    picture: RangeClipping,
 }
 
 impl Losses {
-    /// What to say of it, given how many values of rays are no number.
-    pub(super) fn findings(
+    /// The diagnostics, given the number of NaN values of rays.
+    pub(super) fn picture_diagnostics(
         self,
         unnumbered: u64,
         form: FileFormat,
         arithmetic: Arithmetic,
     ) -> Vec<Diagnostic> {
-        // Where samples are clamped, and where a tone map follows, no more is seen of what is no
-        // number.
-        let lost = RangeClipping {
-            unnumbered: self.shown.unnumbered.max(self.film).max(unnumbered),
-            ..self.shown
+        // Clamping and tone mapping can hide NaN values.
+        let clipping = RangeClipping {
+            unnumbered: self.picture.unnumbered.max(self.film).max(unnumbered),
+            ..self.picture
         };
-        findings::unholdable(&lost, form, arithmetic)
+        picture_diagnostics::out_of_range(&clipping, form, arithmetic)
     }
 }

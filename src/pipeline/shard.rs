@@ -1,15 +1,16 @@
-//! A part of a picture: the sums and layers of some shares, and what they are shares of. Parts of one
-//! picture are merged in any order; together they are the picture of one render, bit for bit.
+//! A shard of a picture: the film and layers of some shares of the work, with a description of the
+//! picture. Shards of one picture can be merged in any order; together they equal one render, bit
+//! for bit.
 
 mod difference;
 mod file;
 mod render;
 mod resume;
 
-pub(super) use file::mended;
-pub use file::{MOST, hash_of_file};
+pub(super) use file::with_valid_checksums;
+pub use file::{MAX_SHARES, hash_of_file};
 
-use super::{ResolvedOutputTransform, ShardPlan, SharedBy, findings};
+use super::{ResolvedOutputTransform, ShardBy, ShardPlan, picture_diagnostics};
 use rtc_diag::Diagnostic;
 use rtc_image::{Layers, Origin, Picture, WorldToCamera};
 use rtc_plan::Arithmetic;
@@ -20,10 +21,10 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 
-/// What a part is of, and which shares it holds.
+/// The description of a shard.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-struct PartHead {
+struct ShardHeader {
     /// The program and its version.
     software: String,
     /// The hash of the scene.
@@ -35,64 +36,63 @@ struct PartHead {
     world_to_camera: Option<WorldToCamera>,
     look: ResolvedOutputTransform,
     arithmetic: Arithmetic,
-    /// The part of the picture wanted: x, y, width, height.
+    /// The crop window: x, y, width, height.
     window: [u32; 4],
     layers: Vec<Aov>,
-    by: SharedBy,
-    /// How many shares the picture has.
+    by: ShardBy,
+    /// The number of shares of the picture.
     count: u32,
-    /// Those that are here, ascending.
+    /// The shares in this shard, ascending.
     shares: Vec<u32>,
-    /// The words of the command that made it, but for share and output.
+    /// The arguments of the command that made it, without shard and output.
     command: Vec<String>,
-    /// The hashes of the pictures that were finished before, of one that is one of many.
+    /// The hashes of the pictures that were finished before, in a sequence.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     finished: Vec<String>,
-    /// How many bytes say how far it has grown, of one that grows as a whole.
+    /// The length in bytes of the progressive state, for a picture that is refined as a whole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     growth: Option<u64>,
 }
 
-/// What a part was made by.
-pub(super) struct Made<'a> {
+/// The settings that a shard was rendered with.
+pub(super) struct ShardSource<'a> {
     pub(super) origin: Origin,
     pub(super) look: ResolvedOutputTransform,
     pub(super) arithmetic: Arithmetic,
     pub(super) aovs: &'a [Aov],
 }
 
-/// A part of a picture.
+/// A shard of a picture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PicturePart {
-    head: PartHead,
+pub struct RenderShard {
+    head: ShardHeader,
     film: PartialFilm,
-    /// The values of the layers in the tiles of the shares, by the number of the tile, pixel after
-    /// pixel; none without layers.
+    /// The values of the layers by tile index, pixel after pixel; empty without layers.
     layers: BTreeMap<usize, Vec<f32>>,
-    /// How far it has grown, of one that grows as a whole.
+    /// The progressive state, for a picture that is refined as a whole.
     growth: Vec<u8>,
 }
 
-/// Why a part can't be read, or parts not be merged.
+/// Why a shard can't be read or merged.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PartError {
-    /// The bytes are something else.
+pub enum ShardError {
+    /// The bytes are not a shard.
     NotAPart,
-    /// The bytes are of another version of the format.
+    /// The format version is not supported.
     Version(u32),
     /// The bytes are damaged.
     Damaged(&'static str),
-    /// The film within can't be read or added.
+    /// The film can't be read or added.
     Film(FilmError),
-    /// The parts are of different pictures; in this they differ.
+    /// The shards belong to different pictures, with the difference.
     OtherPicture(String),
-    /// These shares are in both, beside others that are not.
+    /// These shares are in both, and others are not.
     Overlap(Vec<u32>),
-    /// These shares are missing, of so many.
+    /// These shares are missing, and the number of all.
     Missing(Vec<u32>, u32),
 }
 
-impl fmt::Display for PartError {
+impl fmt::Display for ShardError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotAPart => write!(f, "it is no part of a picture"),
@@ -106,42 +106,46 @@ impl fmt::Display for PartError {
     }
 }
 
-impl std::error::Error for PartError {}
+impl std::error::Error for ShardError {}
 
-/// A word as a shell reads it.
-fn quoted(word: &str) -> String {
+/// An argument quoted for a shell.
+fn quoted(argument: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+%@".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.to_owned()
+    if !argument.is_empty() && argument.chars().all(is_plain) {
+        argument.to_owned()
     } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
+        format!("'{}'", argument.replace('\'', "'\\''"))
     }
 }
 
-/// Numbers and a verb that fits.
+/// Numbers with the matching verb.
 fn are(shares: &[u32]) -> String {
-    /// No more than so many are named.
-    const MOST: usize = 12;
-    let words: Vec<String> = shares.iter().take(MOST).map(u32::to_string).collect();
+    /// The maximum number of shares that are listed.
+    const MAX_SHARES: usize = 12;
+    let arguments: Vec<String> = shares.iter().take(MAX_SHARES).map(u32::to_string).collect();
     match shares {
         [one] => format!("{one} is"),
-        _ if shares.len() > MOST => {
-            format!("{} and {} more are", words.join(", "), shares.len() - MOST)
+        _ if shares.len() > MAX_SHARES => {
+            format!(
+                "{} and {} more are",
+                arguments.join(", "),
+                shares.len() - MAX_SHARES
+            )
         }
-        _ => format!("{} are", words.join(", ")),
+        _ => format!("{} are", arguments.join(", ")),
     }
 }
 
-impl PicturePart {
-    /// The part of some shares, as rendered; `layers` are those of the whole window, of which their
-    /// tiles count.
+impl RenderShard {
+    /// The shard of some shares, as rendered. `layers` covers the whole window; only the tiles of
+    /// the shares are used.
     pub(super) fn new(
-        made: Made<'_>,
+        made: ShardSource<'_>,
         (shares, window): (ShardPlan, Crop),
         film: PartialFilm,
         layers: &Layers,
     ) -> Self {
-        let Made {
+        let ShardSource {
             origin:
                 Origin {
                     software,
@@ -160,7 +164,7 @@ impl PicturePart {
             width,
             height,
         } = window;
-        let head = PartHead {
+        let head = ShardHeader {
             software,
             scene,
             settings: serde_json::from_str(&settings).unwrap_or(Value::String(settings)),
@@ -189,36 +193,36 @@ impl PicturePart {
         }
     }
 
-    /// The part, as made by a command: its words, but for the share and the output.
+    /// Sets the arguments of the command that made it, without shard and output.
     #[must_use]
-    pub fn made_by(mut self, words: Vec<String>) -> Self {
-        self.head.command = words;
+    pub fn made_by(mut self, arguments: Vec<String>) -> Self {
+        self.head.command = arguments;
         self
     }
 
-    /// The command that makes a share, for a shell.
+    /// The shell command that renders a share.
     #[must_use]
     pub fn command(&self, share: u32) -> String {
-        let words = self.head.command.iter().map(|word| quoted(word));
-        let words: Vec<String> = words.collect();
+        let arguments = self.head.command.iter().map(|argument| quoted(argument));
+        let arguments: Vec<String> = arguments.collect();
         let count = self.head.count;
-        let words = words.join(" ");
-        format!("rtc {words} --part {share}/{count} -o part-{share}.rtp")
+        let arguments = arguments.join(" ");
+        format!("rtc {arguments} --part {share}/{count} -o part-{share}.rtp")
     }
 
-    /// The rays of its shares.
+    /// The ray counts.
     #[must_use]
     pub fn counts(&self) -> Counts {
         self.film.counts()
     }
 
-    /// The kind of picture that it is a part of.
+    /// The output transform of the picture.
     #[must_use]
     pub fn look(&self) -> &ResolvedOutputTransform {
         &self.head.look
     }
 
-    /// Enough to make the same picture again.
+    /// The metadata that identifies the picture.
     #[must_use]
     pub fn origin(&self) -> Origin {
         Origin {
@@ -230,26 +234,26 @@ impl PicturePart {
         }
     }
 
-    /// The numbers of the shares that it holds, ascending, and of how many.
+    /// The indices of the shares in this shard, ascending, and the number of all.
     #[must_use]
     pub fn shares(&self) -> (&[u32], u32) {
         (&self.head.shares, self.head.count)
     }
 
-    /// The numbers of the shares that it does not hold, ascending.
+    /// The indices of the missing shares, ascending.
     pub fn missing(&self) -> impl Iterator<Item = u32> {
         let is_missing = |share: &u32| self.head.shares.binary_search(share).is_err();
         (1..=self.head.count).filter(is_missing)
     }
 
-    /// Adds another part of the same picture; one whose shares are here already changes nothing.
+    /// Merges another shard of the same picture; one whose shares are all present changes nothing.
     ///
     /// # Errors
-    /// If it is of another picture, or if some of its shares are here and others not. Then this part
-    /// is as before.
-    pub fn add(&mut self, other: Self) -> Result<(), PartError> {
+    /// If it belongs to another picture, or only some of its shares are present. Then this shard is
+    /// unchanged.
+    pub fn add(&mut self, other: Self) -> Result<(), ShardError> {
         if let Some(what) = self.head.difference(&other.head) {
-            return Err(PartError::OtherPicture(what));
+            return Err(ShardError::OtherPicture(what));
         }
         if !other.growth.is_empty() {
             self.grow(other.growth);
@@ -260,30 +264,30 @@ impl PicturePart {
             return Ok(());
         }
         if !both.is_empty() {
-            return Err(PartError::Overlap(both));
+            return Err(ShardError::Overlap(both));
         }
-        self.film.add(other.film).map_err(PartError::Film)?;
+        self.film.add(other.film).map_err(ShardError::Film)?;
         self.layers.extend(other.layers);
         self.head.shares.extend(other.head.shares);
         self.head.shares.sort_unstable();
         Ok(())
     }
 
-    /// The picture of all parts, its rays, and what is found in it.
+    /// The picture, its ray counts and its diagnostics.
     ///
     /// # Errors
-    /// If parts are missing.
-    pub fn develop(&self) -> Result<(Picture, Counts, Vec<Diagnostic>), PartError> {
+    /// If shares are missing.
+    pub fn develop(&self) -> Result<(Picture, Counts, Vec<Diagnostic>), ShardError> {
         let head = &self.head;
         let missing: Vec<u32> = self.missing().collect();
         if !missing.is_empty() {
-            return Err(PartError::Missing(missing, head.count));
+            return Err(ShardError::Missing(missing, head.count));
         }
-        let film = self.film.develop().map_err(PartError::Film)?;
+        let film = self.film.develop().map_err(ShardError::Film)?;
         let film = film.cut(head.crop());
         let mut found = Vec::new();
         if head.settings["crop"].is_null() && film.counts.hits == 0 {
-            found.push(findings::nothing_in_view(None));
+            found.push(picture_diagnostics::nothing_in_view(None));
         }
         let sums = (film.image, film.coverage, film.counts.unnumbered);
         let (picture, lost) = head.look.finish(sums, self.whole_layers(), head.arithmetic);
@@ -313,7 +317,7 @@ impl PicturePart {
     }
 }
 
-impl PartHead {
+impl ShardHeader {
     fn crop(&self) -> Crop {
         let [x, y, width, height] = self.window;
         Crop {
@@ -324,13 +328,13 @@ impl PartHead {
         }
     }
 
-    /// How many numbers the layers have for each pixel.
+    /// The number of layer values per pixel.
     fn channels(&self) -> usize {
         self.layers.iter().map(|aov| aov.channels().len()).sum()
     }
 
-    /// The tiles whose layers are here, with their numbers; none if there are no layers. They are
-    /// shared out by tiles, even where samples are not.
+    /// The tiles whose layers are here, with their indices; none without layers. Layers are divided
+    /// by tiles even if samples are not.
     fn tiles(&self) -> impl Iterator<Item = (usize, Crop)> {
         let is_here = |area: &Crop| {
             let share = ShardPlan::of_tile(self.count, [area.x, area.y]);
@@ -340,7 +344,7 @@ impl PartHead {
         all.filter(move |(_, area)| is_here(area))
     }
 
-    /// Where the numbers of each row of a tile stand among those of the whole window.
+    /// The range of each row of a tile in the values of the whole window.
     fn rows(&self, area: Crop) -> impl Iterator<Item = Range<usize>> {
         let (window, channels) = (self.crop(), self.channels());
         let left = (area.x - window.x) as usize;

@@ -1,42 +1,41 @@
-//! Shares of a picture rendered, and what says of which picture they are.
+//! Renders shards.
 
 use super::super::{
-    Observer, PicturePart, PictureSetup, RayCounter, RenderError, RenderSubject, ShardPlan,
-    SharedBy,
+    Observer, PictureSetup, RayCounter, RenderError, RenderShard, RenderSubject, ShardBy, ShardPlan,
 };
-use super::Made;
+use super::ShardSource;
 use rtc_ir::{self as ir, Scene};
 use rtc_render::{Crop, Job};
 use rtc_valid as valid;
 
-/// Why a picture has no parts by samples.
+/// The message for a picture that can't be divided by samples.
 const INSEPARABLE: &str = "only pictures of traced paths have parts by samples; \
      `--parts-by tiles` shares out any picture";
 
 impl PictureSetup {
-    /// Refuses to share out what has no shares of that kind.
+    /// Checks that the picture can be divided this way.
     ///
     /// # Errors
-    /// If no paths are traced whose samples could be shared out.
-    pub fn separable(&self, scene: &Scene, by: SharedBy) -> Result<(), RenderError> {
+    /// If it is not path-traced and is to be divided by samples.
+    pub fn separable(&self, scene: &Scene, by: ShardBy) -> Result<(), RenderError> {
         match (by, &scene.settings.mode) {
-            (SharedBy::Tiles, _) | (SharedBy::Samples, ir::Mode::Path(_)) => Ok(()),
-            (SharedBy::Samples, _) => Err(RenderError::Refused(INSEPARABLE.to_owned())),
+            (ShardBy::Tiles, _) | (ShardBy::Samples, ir::Mode::Path(_)) => Ok(()),
+            (ShardBy::Samples, _) => Err(RenderError::Refused(INSEPARABLE.to_owned())),
         }
     }
 
-    /// Some shares of the picture, or where its rays ran out, of which there may be so many.
+    /// Renders some shares of the picture, with at most `rays` rays.
     ///
     /// # Errors
-    /// If there is none, or no paths are traced whose samples could be shared out.
+    /// If there is no picture, or it can't be divided by samples.
     pub fn part(
         &self,
         subject: &mut RenderSubject,
         (shares, window, rays): (ShardPlan, Crop, u64),
         observer: &Observer<'_>,
-    ) -> Result<PicturePart, RenderError> {
-        let settings = subject.proven.scene.settings();
-        let look = self.look.settled(&settings.mode);
+    ) -> Result<RenderShard, RenderError> {
+        let settings = subject.validated.scene.settings();
+        let look = self.look.resolve(&settings.mode);
         let whole = Job {
             crop: Some(window),
             values: self.look.values(&settings.mode),
@@ -44,38 +43,38 @@ impl PictureSetup {
             ..Job::default()
         };
         let (job, samples) = match (shares.by, &settings.mode) {
-            (SharedBy::Tiles, _) => {
+            (ShardBy::Tiles, _) => {
                 let tiles = Some(shares.tiles());
                 (Job { tiles, ..whole }, None)
             }
-            (SharedBy::Samples, valid::Mode::Path(path)) => {
+            (ShardBy::Samples, valid::Mode::Path(path)) => {
                 (whole, Some(shares.samples(path.samples.get())))
             }
-            (SharedBy::Samples, _) => return Err(RenderError::Refused(INSEPARABLE.to_owned())),
+            (ShardBy::Samples, _) => return Err(RenderError::Refused(INSEPARABLE.to_owned())),
         };
-        let meter = RayCounter::new(rays, window);
+        let counter = RayCounter::new(rays, window);
         let on_pixel = |step| {
             (observer.on_step)(step);
-            !(observer.is_stopped)() && meter.step(step)
+            !(observer.is_stopped)() && counter.step(step)
         };
         let film = self
             .renderer(subject)?
             .1
             .render_part(&job, samples, &on_pixel);
-        if let Some(finding) = subject.ran_out(&meter, observer) {
-            return Err(RenderError::RanOut(finding));
+        if let Some(diagnostic) = subject.ran_out(&counter, observer) {
+            return Err(RenderError::RanOut(diagnostic));
         }
         let film = film.map_err(|error| RenderError::Refused(error.to_string()))?;
         let film = film.ok_or(RenderError::Stopped)?;
         let tiles = Some(shares.tiles());
         let layers = self.layers(subject, &Job { tiles, ..job }, observer.is_stopped)?;
-        let origin = self.origin(&subject.proven.lowered.scene);
-        let made = Made {
+        let origin = self.origin(&subject.validated.lowered.scene);
+        let made = ShardSource {
             origin,
             look,
             arithmetic: self.arithmetic,
             aovs: &self.look.aovs,
         };
-        Ok(PicturePart::new(made, (shares, window), film, &layers))
+        Ok(RenderShard::new(made, (shares, window), film, &layers))
     }
 }
