@@ -59,7 +59,7 @@ fn emissive_brightness(scene: &Scene) -> f64 {
     let emissive_surfaces: Vec<_> = emissive_surfaces
         .filter(|(_, emission)| *emission > 0.0)
         .collect();
-    let Some(ball) = scene
+    let Some(sphere) = scene
         .bounding_sphere()
         .filter(|_| !emissive_surfaces.is_empty())
     else {
@@ -69,7 +69,7 @@ fn emissive_brightness(scene: &Scene) -> f64 {
         .iter()
         .map(|(surface, emission)| emission * area(scene, &surface.shape))
         .sum();
-    power / (2.0 * TAU * ball.radius * ball.radius)
+    power / (2.0 * TAU * sphere.radius * sphere.radius)
 }
 
 /// The mean emitted radiance of a material, by the strongest channel.

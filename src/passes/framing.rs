@@ -58,7 +58,7 @@ impl Framing {
     /// spans 85 % of the picture in one direction. A scene without bounded surfaces keeps its
     /// camera.
     pub fn apply(&self, scene: &mut Scene) {
-        let Some(ball) = scene.bounding_sphere() else {
+        let Some(sphere) = scene.bounding_sphere() else {
             return;
         };
         let axes = self.orbit.axes();
@@ -68,7 +68,7 @@ impl Framing {
         let aspect = f64::from(size[0]) / f64::from(size[1]);
         let tangents = [tangent * aspect, tangent];
         let mut fit = Fit::new(axes, tangents.map(|tangent| tangent * SUBJECT_FRACTION));
-        Subject::of(scene, self.ground).corners(&mut |corner| fit.add(corner - ball.center));
+        Subject::of(scene, self.ground).corners(&mut |corner| fit.add(corner - sphere.center));
         let Some((eye, depth)) = fit.eye() else {
             return;
         };
@@ -79,8 +79,8 @@ impl Framing {
             (axis * (2.0 * tangent * distance / f64::from(count))).to_array()
         };
         scene.camera = Camera {
-            eye: (ball.center + eye).to_array(),
-            center: (ball.center + eye - z * distance).to_array(),
+            eye: (sphere.center + eye).to_array(),
+            center: (sphere.center + eye - z * distance).to_array(),
             right: step(x, tangents[0], size[0]),
             up: step(y, tangents[1], size[1]),
             size,

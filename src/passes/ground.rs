@@ -10,9 +10,9 @@ use std::f64::consts::TAU;
 
 /// Its radius, and the radius within which it is opaque, in half diagonals of the subject.
 const RADIUS: f64 = 4.0;
-const SOLID: f64 = 1.0;
+const OPAQUE_RADIUS: f64 = 1.0;
 /// Its reflectance: in the studio it is about as bright as the lower half of the room.
-const GREY: f64 = 0.15;
+const REFLECTANCE: f64 = 0.15;
 /// Its distance below the subject, as a fraction of the half diagonal, so that no face lies in its
 /// plane.
 const GAP: f64 = 1e-3;
@@ -38,7 +38,7 @@ pub(super) fn add_ground(scene: &mut Scene, [low, high]: [Vec3; 2]) -> Option<us
     scene.meshes.push(disc());
     scene.materials.push(Material::Standard(Box::new(Standard {
         name: "ground".to_owned(),
-        base_color: [GREY, GREY, GREY, 1.0],
+        base_color: [REFLECTANCE, REFLECTANCE, REFLECTANCE, 1.0],
         metallic: 0.0,
         alpha: Alpha::Blend,
         ..Standard::default()
@@ -95,7 +95,7 @@ fn disc() -> Mesh {
 /// The alpha of the ground at a fraction of its radius: 1 in the middle, 0 at the edge, a
 /// smoothstep between.
 fn alpha(radius: f64) -> f64 {
-    smooth((1.0 - radius) / (1.0 - SOLID / RADIUS))
+    smooth((1.0 - radius) / (1.0 - OPAQUE_RADIUS / RADIUS))
 }
 
 #[cfg(test)]

@@ -238,7 +238,7 @@ impl View {
         let middle = self
             .eye
             .and_then(|_| scene.bounding_sphere())
-            .map_or(scene.camera.center, |ball| ball.center.to_array());
+            .map_or(scene.camera.center, |sphere| sphere.center.to_array());
         let camera = &mut scene.camera;
         let eye = Vec3::from_array(self.eye.unwrap_or(camera.eye));
         let center = Vec3::from_array(self.center.unwrap_or(middle));
@@ -342,27 +342,27 @@ fn replace_physical_lights(scene: &mut Scene) {
     if scene.lights.iter().all(|light| light.point().is_some()) {
         return;
     }
-    let ball = scene.bounding_sphere().unwrap_or(BoundingSphere {
+    let sphere = scene.bounding_sphere().unwrap_or(BoundingSphere {
         center: Vec3::ZERO,
         radius: 1.0,
     });
     for light in &mut scene.lights {
         if let Light::Punctual(punctual) = light {
-            *light = Light::Point(as_point(punctual, ball));
+            *light = Light::Point(equivalent_point_light(punctual, sphere));
         }
     }
 }
 
 /// The point light without falloff that gives the centre of the scene the same irradiance as a
 /// physical light.
-fn as_point(light: &Punctual, ball: BoundingSphere) -> PointLight {
+fn equivalent_point_light(light: &Punctual, sphere: BoundingSphere) -> PointLight {
     let (position, irradiance) = if let Some(position) = light.emitter.position() {
-        let square = Vec3::from_array(position).distance_squared(ball.center);
-        (position, 1.0 / square.max(ball.radius * ball.radius))
+        let square = Vec3::from_array(position).distance_squared(sphere.center);
+        (position, 1.0 / square.max(sphere.radius * sphere.radius))
     } else {
         let direction = light.emitter.direction().map(Vec3::from_array);
         let direction = direction.and_then(unit).unwrap_or(Vec3::Y);
-        let position = ball.center + direction * (SUN_DISTANCE * ball.radius);
+        let position = sphere.center + direction * (SUN_DISTANCE * sphere.radius);
         (position.to_array(), 1.0)
     };
     // A white surface that faces the light has the light's colour with a course light, and

@@ -79,7 +79,7 @@ effects! {
 
 impl Effect {
     /// The effects that only the Whitted integrator has.
-    pub const OF_THE_COURSE: [Self; 6] = [
+    pub const OF_WHITTED: [Self; 6] = [
         Self::DepthBuffer,
         Self::NormalBuffer,
         Self::SoftLight,

@@ -48,7 +48,7 @@ impl Features {
     pub const SAMPLED: Self = Self(1 << 7);
     /// Work that the rules of [`Rules::AT_HITS`](super::Rules::AT_HITS) skip, for plans without
     /// these rules.
-    pub const NAIVE: Self = Self(1 << 8);
+    pub const UNPRUNED: Self = Self(1 << 8);
     /// All of them.
     pub const EVERYTHING: Self = Self((1 << 9) - 1);
 
@@ -106,7 +106,7 @@ mod tests {
             Features::SHADOW,
             Features::BOUNCE,
             Features::SAMPLED,
-            Features::NAIVE,
+            Features::UNPRUNED,
         ];
         assert!(single.iter().all(|feature| feature.count() == 1));
         assert_eq!(

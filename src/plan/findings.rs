@@ -228,7 +228,7 @@ impl Findings<'_> {
         add(Features::SHADOW, self.casts_shadows());
         add(Features::BOUNCE, self.max_depth > 0);
         add(Features::SAMPLED, self.is_soft() || self.is_glossy());
-        add(Features::NAIVE, !rules.contains_all(Rules::AT_HITS));
+        add(Features::UNPRUNED, !rules.contains_all(Rules::AT_HITS));
         features
     }
 }

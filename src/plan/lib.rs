@@ -67,7 +67,7 @@ pub use rules::{Rule, Rules};
 
 use findings::{Facts, Findings};
 use light::LightFindings;
-use path::Planned;
+use path::PlannedPaths;
 use projection::{ScreenProjection, ScreenRect};
 use rtc_math::Vec3;
 use rtc_valid::{Mode, PathSettings, Projection, Shape, ValidScene};
@@ -225,7 +225,7 @@ impl Plan {
 
     /// Plans path tracing.
     fn of_paths(scene: &ValidScene, path: PathSettings, rules: Rules) -> Self {
-        let Planned {
+        let PlannedPaths {
             plan,
             surfaces,
             max_depth,

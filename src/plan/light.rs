@@ -113,7 +113,7 @@ impl LightFindings {
             source,
             receiver,
         } = *pair;
-        let mut falls = false;
+        let mut is_shadowed = false;
         for occluder in facts.occluders() {
             let may_cast = if occluder == receiver {
                 !facts.cannot_self_shadow(receiver, visibility.sides[receiver], &source)
@@ -124,7 +124,7 @@ impl LightFindings {
             };
             if may_cast {
                 self.occludes[occluder] = true;
-                falls = true;
+                is_shadowed = true;
                 self.shadow.get_or_insert(Shadow {
                     light,
                     occluder,
@@ -137,7 +137,7 @@ impl LightFindings {
                 *bits &= !(1 << occluder);
             }
         }
-        falls
+        is_shadowed
     }
 }
 
@@ -217,10 +217,10 @@ impl Facts<'_> {
         light: &CourseLight,
     ) -> bool {
         let (bounds, summary) = (&self.surface_bounds[surface], &self.summaries[surface]);
-        let gated = self.scene.settings().shadows || !summary.is_specular;
+        let is_zero_behind = self.scene.settings().shadows || !summary.is_specular;
         let behind = || match bounds.class {
             ShapeClass::Planar(plane)
-                if gated && !summary.has_shading_normals() && seen_from != Sides::BOTH =>
+                if is_zero_behind && !summary.has_shading_normals() && seen_from != Sides::BOTH =>
             {
                 plane.sides(&extent(light)) == seen_from.opposite()
             }
@@ -235,7 +235,7 @@ impl Facts<'_> {
     /// Whether a surface certainly does not shadow itself where N·L > 0.
     fn cannot_self_shadow(&self, surface: usize, seen_from: Sides, light: &Bounds) -> bool {
         let (bounds, summary) = (&self.surface_bounds[surface], &self.summaries[surface]);
-        let spares = match bounds.class {
+        let is_convex_or_off_plane = match bounds.class {
             ShapeClass::Planar(plane) => plane.sides(light) != Sides::BOTH,
             ShapeClass::Sphere(..) | ShapeClass::Convex => {
                 seen_from == Sides::FRONT
@@ -244,7 +244,7 @@ impl Facts<'_> {
             }
             ShapeClass::Other => false,
         };
-        spares && self.rules.contains(Rule::ShadowConvex)
+        is_convex_or_off_plane && self.rules.contains(Rule::ShadowConvex)
     }
 
     /// Whether shadow rays from a surface need not be tested against an occluder, given whether it

@@ -134,13 +134,13 @@ pub(crate) mod tests {
     use super::*;
 
     /// Asserts that a statement holds with the margin but not with a slightly smaller one.
-    pub(crate) fn has_margin(margin: f64, is_sure: impl Fn(f64) -> bool) {
+    pub(crate) fn has_margin(margin: f64, is_certain: impl Fn(f64) -> bool) {
         assert!(
-            !is_sure((1.0 - 1e-5) * margin),
+            !is_certain((1.0 - 1e-5) * margin),
             "the margin is smaller than {margin:e}"
         );
         assert!(
-            is_sure((1.0 + 1e-5) * margin),
+            is_certain((1.0 + 1e-5) * margin),
             "the margin is larger than {margin:e}"
         );
     }
@@ -206,8 +206,8 @@ pub(crate) mod tests {
     }
 
     /// The boxes of a test with permuted and reflected axes.
-    fn turned(boxes: [Bounds; 3], axis: usize, mirror: bool) -> [Bounds; 3] {
-        let turn = |v: Vec3| {
+    fn permuted(boxes: [Bounds; 3], axis: usize, mirror: bool) -> [Bounds; 3] {
+        let permute = |v: Vec3| {
             [
                 Vec3::new(v.x, v.y, v.z),
                 Vec3::new(v.z, v.x, v.y),
@@ -217,8 +217,8 @@ pub(crate) mod tests {
         boxes.map(|Bounds { min, max }| {
             let [min, max] = if mirror { [-max, -min] } else { [min, max] };
             Bounds {
-                min: turn(min),
-                max: turn(max),
+                min: permute(min),
+                max: permute(max),
             }
         })
     }
@@ -230,7 +230,7 @@ pub(crate) mod tests {
         are_apart: impl Fn([Bounds; 3]) -> bool,
     ) {
         for (axis, mirror) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
-            has_margin(margin, |gap| are_apart(turned(boxes(gap), axis, mirror)));
+            has_margin(margin, |gap| are_apart(permuted(boxes(gap), axis, mirror)));
         }
     }
 
@@ -252,17 +252,17 @@ pub(crate) mod tests {
             span([0.0, -10.0, 0.0], [0.0, -10.0, 0.0]),
         );
         let boxes = |gap| [near, far, span([-7.0, 1.0 + gap, -7.0], [7.0, 2.0, 7.0])];
-        let hides = |[start, end, other]: [Bounds; 3]| start.segment_may_hit(&end, &other);
+        let occludes = |[start, end, other]: [Bounds; 3]| start.segment_may_hit(&end, &other);
         // The start has the size 3 and the other 7; twice, as both are expanded.
-        have_margin(20.0 * MARGIN, boxes, |boxes| !hides(boxes));
+        have_margin(20.0 * MARGIN, boxes, |boxes| !occludes(boxes));
         // The end and the start have the sizes 3 and 10, the start and the other 10 and 7.
         have_margin(30.0 * MARGIN, boxes, |[start, end, other]| {
-            !hides([end, start, other])
+            !occludes([end, start, other])
         });
         let [[start, end, _], [_, _, at_start], [_, _, at_end]] =
             [0.0, 20.0 * MARGIN, 30.0 * MARGIN].map(boxes);
         assert!(
-            hides([start, end, at_start]) && hides([end, start, at_end]),
+            occludes([start, end, at_start]) && occludes([end, start, at_end]),
             "in doubt it does"
         );
     }

@@ -196,14 +196,14 @@ fn edges(polygon: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> {
 /// The polygon with its interior to the left of each edge, or `None` if it is not convex or smaller
 /// than a pixel.
 fn convex(mut polygon: Vec<[f64; 2]>) -> Option<Vec<[f64; 2]>> {
-    let whole = edges(&polygon)
+    let signed_area = edges(&polygon)
         .map(|edge| area(edge, polygon[0]))
         .sum::<f64>();
-    if whole < 0.0 {
+    if signed_area < 0.0 {
         polygon.reverse();
     }
     let turns_left = |edge| polygon.iter().all(|corner| area(edge, *corner) >= 0.0);
-    let is_convex = edges(&polygon).all(turns_left) && whole.abs() > 2.0;
+    let is_convex = edges(&polygon).all(turns_left) && signed_area.abs() > 2.0;
     is_convex.then_some(polygon)
 }
 
@@ -354,15 +354,15 @@ mod tests {
                 [3.0, 2.0 + side],
             ]
         };
-        let turned = |side: f64| square(side).into_iter().rev().collect::<Vec<_>>();
-        for polygon in [square(4.0), turned(4.0)] {
+        let reversed = |side: f64| square(side).into_iter().rev().collect::<Vec<_>>();
+        for polygon in [square(4.0), reversed(4.0)] {
             let polygon = convex(polygon).unwrap();
             assert!(
                 edges(&polygon).all(|edge| area(edge, [5.0, 4.0]) == 8.0),
                 "the middle is to the left"
             );
         }
-        assert!(convex(square(1.0)).is_none() && convex(turned(1.0)).is_none());
-        assert!(convex(square(1.01)).is_some() && convex(turned(1.01)).is_some());
+        assert!(convex(square(1.0)).is_none() && convex(reversed(1.0)).is_none());
+        assert!(convex(square(1.01)).is_some() && convex(reversed(1.01)).is_some());
     }
 }

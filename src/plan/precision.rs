@@ -14,10 +14,10 @@ pub const MIN_HIT_DISTANCE: f64 = 1e-5;
 
 /// The largest relative error of hit points on a curved surface that does not change its shading in
 /// 8 bits.
-const VISIBLE: f64 = 1.0 / 512.0;
+const MAX_INVISIBLE_ERROR: f64 = 1.0 / 512.0;
 
 /// The largest fraction of the size of a surface that may be skipped without visible effect.
-const SKIPPED: f64 = 1.0 / 100.0;
+const MAX_SKIPPED_FRACTION: f64 = 1.0 / 100.0;
 
 /// The visible symptom of a precision loss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,7 +55,7 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
         Arithmetic::F32 => f64::from(f32::EPSILON) / 2.0,
     };
     // Find the worst symptom of each surface.
-    let is_lit = scene.settings().shadows && !facts::light::course(scene.lights()).is_empty();
+    let has_shadows = scene.settings().shadows && !facts::light::course(scene.lights()).is_empty();
     let losses = scene
         .surfaces()
         .iter()
@@ -63,8 +63,9 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
         .filter_map(|(index, surface)| {
             let measure = HitAccuracy::of(scene, surface);
             let symptoms = [Symptom::SelfHit, Symptom::Shape, Symptom::Skipped];
-            let excess = symptoms
-                .map(|symptom| measure.excess(symptom, unit, sends_rays(scene, surface, is_lit)));
+            let excess = symptoms.map(|symptom| {
+                measure.excess(symptom, unit, sends_rays(scene, surface, has_shadows))
+            });
             let worst = (0..3).max_by(|a, b| excess[*a].total_cmp(&excess[*b]))?;
             let (symptom, excess) = (symptoms[worst], excess[worst]);
             (excess > 1.0).then(|| Loss {
@@ -89,8 +90,8 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
     })
 }
 
-/// Whether rays start on a surface; `is_lit` says whether lights cast shadows.
-fn sends_rays(scene: &ValidScene, surface: &Surface, is_lit: bool) -> bool {
+/// Whether rays start on a surface; `has_shadows` says whether lights cast shadows.
+fn sends_rays(scene: &ValidScene, surface: &Surface, has_shadows: bool) -> bool {
     let settings = scene.settings();
     match settings.mode {
         Mode::Phong => {}
@@ -98,7 +99,7 @@ fn sends_rays(scene: &ValidScene, surface: &Surface, is_lit: bool) -> bool {
         Mode::Normal | Mode::Gooch(_) | Mode::Depth => return false,
     }
     let Phong { ks, kt, .. } = facts::material::phong(&scene.materials()[surface.material]);
-    is_lit || settings.max_depth > 0 && (ks.get() > 0.0 || kt.get() > 0.0)
+    has_shadows || settings.max_depth > 0 && (ks.get() > 0.0 || kt.get() > 0.0)
 }
 
 /// The sizes that determine the accuracy of hits on a surface.
@@ -169,9 +170,11 @@ impl HitAccuracy {
         match symptom {
             Symptom::SelfHit if sends_rays => self.error(unit) / MIN_HIT_DISTANCE,
             Symptom::Shape if !matches!(self.equation, EquationKind::Linear(_)) => {
-                self.error(unit) / (VISIBLE * self.size())
+                self.error(unit) / (MAX_INVISIBLE_ERROR * self.size())
             }
-            Symptom::Skipped if sends_rays => MIN_HIT_DISTANCE / (SKIPPED * self.size()),
+            Symptom::Skipped if sends_rays => {
+                MIN_HIT_DISTANCE / (MAX_SKIPPED_FRACTION * self.size())
+            }
             Symptom::SelfHit | Symptom::Shape | Symptom::Skipped => 0.0,
         }
     }

@@ -2,7 +2,7 @@
 //! intersection equation.
 
 use super::margin::OrientedPlane;
-use super::path::Area;
+use super::path::UvRect;
 use super::precision::EquationKind;
 use super::surface_bounds::{
     Extent, ShapeClass, SurfaceBounds, circle_bounds, instance_bounds, triangle_plane,
@@ -36,8 +36,8 @@ pub(super) trait ShapeFacts {
     }
 
     /// The bounds of the texture coordinates for both sets; the unit square for a parametric shape.
-    fn uv_areas(&self, scene: &ValidScene) -> [Option<Area>; 2] {
-        [self.has_uv(scene).then_some(Area::UNIT), None]
+    fn uv_areas(&self, scene: &ValidScene) -> [Option<UvRect>; 2] {
+        [self.has_uv(scene).then_some(UvRect::UNIT), None]
     }
 }
 
@@ -121,9 +121,9 @@ impl ShapeFacts for Triangle {
         self.uvs.is_some()
     }
 
-    fn uv_areas(&self, _: &ValidScene) -> [Option<Area>; 2] {
+    fn uv_areas(&self, _: &ValidScene) -> [Option<UvRect>; 2] {
         let corners = self.uvs.as_deref();
-        [corners.map(|uvs| Area::of(uvs.iter().copied())), None]
+        [corners.map(|uvs| UvRect::of(uvs.iter().copied())), None]
     }
 }
 
@@ -289,9 +289,9 @@ impl ShapeFacts for Instance {
         !scene.meshes()[self.mesh].uvs.is_empty()
     }
 
-    fn uv_areas(&self, scene: &ValidScene) -> [Option<Area>; 2] {
+    fn uv_areas(&self, scene: &ValidScene) -> [Option<UvRect>; 2] {
         let mesh = &scene.meshes()[self.mesh];
-        [&mesh.uvs, &mesh.second_uvs].map(|uvs| (!uvs.is_empty()).then(|| Area::of(uvs.iter())))
+        [&mesh.uvs, &mesh.second_uvs].map(|uvs| (!uvs.is_empty()).then(|| UvRect::of(uvs.iter())))
     }
 }
 

@@ -49,11 +49,11 @@ impl SurfaceBounds {
     /// Expands the bounds by the error of its points. If that error is not small against the
     /// thickness, the shape class is no longer valid.
     fn grow(&mut self, error_bound: f64, thickness: f64) {
-        const SMALL: f64 = 1.0 / 1024.0;
+        const MAX_RELATIVE_ERROR: f64 = 1.0 / 1024.0;
         if let Extent::Within(aabb) = &mut self.extent {
             *aabb = aabb.widened(error_bound);
         }
-        if error_bound > SMALL * thickness {
+        if error_bound > MAX_RELATIVE_ERROR * thickness {
             self.class = ShapeClass::Other;
         }
     }
@@ -118,11 +118,11 @@ pub(crate) fn surface_bounds(scene: &ValidScene) -> Vec<SurfaceBounds> {
 /// The plane of a triangle, unless the triangle is too thin for a reliable normal.
 pub(crate) fn triangle_plane([a, b, c]: [Vec3; 3]) -> ShapeClass {
     /// The minimum sine between two edges: the error of the normal is then below 2⁻³⁶.
-    const SLIVER: f64 = 1.0 / 65536.0;
+    const MIN_SINE: f64 = 1.0 / 65536.0;
     let normal = || {
         let (first, second) = (unit(b - a)?, unit(c - a)?);
         let normal = cross(first, second);
-        (normal.length() > SLIVER).then(|| normal.normalize())
+        (normal.length() > MIN_SINE).then(|| normal.normalize())
     };
     normal().map_or(ShapeClass::Other, |normal| {
         ShapeClass::Planar(OrientedPlane { point: a, normal })
@@ -130,9 +130,11 @@ pub(crate) fn triangle_plane([a, b, c]: [Vec3; 3]) -> ShapeClass {
 }
 
 /// The bounding box of a circle about an axis, or of the torus with this tube radius.
-pub(crate) fn circle_bounds(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Bounds {
+pub(crate) fn circle_bounds(center: Vec3, axis: Vec3, radius: f64, minor_radius: f64) -> Bounds {
     let axis = unit(axis).unwrap_or(Vec3::ZERO);
-    let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + MARGIN * (radius + tube);
+    let reach = |n: f64| {
+        radius * (1.0 - n * n).max(0.0).sqrt() + minor_radius + MARGIN * (radius + minor_radius)
+    };
     Bounds::about(
         center,
         Vec3::new(reach(axis.x), reach(axis.y), reach(axis.z)),
@@ -238,13 +240,13 @@ mod tests {
             matches!(triangle_plane(corners(sine)), ShapeClass::Planar(_))
         });
         // The sine is 2⁻¹⁶.
-        let slim = [
+        let sliver = [
             Vec3::ZERO,
             Vec3::X * 3.0,
             Vec3::new((1.0 - MARGIN).sqrt(), 1.0 / 65536.0, 0.0),
         ];
         assert!(
-            matches!(triangle_plane(slim), ShapeClass::Other),
+            matches!(triangle_plane(sliver), ShapeClass::Other),
             "in doubt it is"
         );
         let ShapeClass::Planar(plane) = triangle_plane(corners(1.0)) else {

@@ -159,14 +159,14 @@ fn longest_chain(targets: &[Vec<usize>]) -> Option<u32> {
     #[derive(Clone, Copy, PartialEq)]
     enum Chain {
         Unknown,
-        Open,
+        InProgress,
         Known(u32),
     }
     fn from(mirror: usize, targets: &[Vec<usize>], chains: &mut [Chain]) -> Option<u32> {
         match chains[mirror] {
             Chain::Known(chain) => return Some(chain),
-            Chain::Open => return None,
-            Chain::Unknown => chains[mirror] = Chain::Open,
+            Chain::InProgress => return None,
+            Chain::Unknown => chains[mirror] = Chain::InProgress,
         }
         let mut longest = 0;
         for target in &targets[mirror] {

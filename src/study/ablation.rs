@@ -139,13 +139,13 @@ fn lights(scene: &Scene) -> Vec<Candidate> {
         .filter(emits)
         .take(MAX_PER_KIND)
         .map(light);
-    let surroundings = Candidate {
+    let environment = Candidate {
         kind: Ablation::Light,
         name: "surroundings".to_owned(),
         remove: Box::new(|scene| scene.environment = None),
     };
-    let surroundings = scene.environment.is_some().then_some(surroundings);
-    surroundings.into_iter().chain(lights).collect()
+    let environment = scene.environment.is_some().then_some(environment);
+    environment.into_iter().chain(lights).collect()
 }
 
 /// Surfaces that form one object.

@@ -8,7 +8,7 @@ use rtc_math::pow;
 use rtc_plan::Arithmetic;
 
 /// An invisible error, in grey levels.
-const ENOUGH: f64 = 0.5;
+const INVISIBLE: f64 = 0.5;
 
 /// The advice of a study: one sentence per line, the main advice first.
 #[must_use]
@@ -18,7 +18,11 @@ pub fn advice(study: &Study) -> Vec<String> {
         return Vec::new();
     };
     let mut lines = vec![best(study, &front[chosen..])];
-    lines.extend(study.scene_row().map(|own| about_own(study, own, &front)));
+    lines.extend(
+        study
+            .scene_row()
+            .map(|scene_row| about_scene_setting(study, scene_row, &front)),
+    );
     lines.extend(about_paths(study));
     lines.extend(study.bounces.as_ref().and_then(about_more));
     if study.rows.iter().any(|row| !row.is_resolved) {
@@ -38,7 +42,7 @@ fn front(study: &Study) -> Vec<&Row> {
 fn chosen(front: &[&Row]) -> Option<usize> {
     front
         .iter()
-        .position(|row| row.errors.rmse_high <= ENOUGH)
+        .position(|row| row.errors.rmse_high <= INVISIBLE)
         .or(front.len().checked_sub(1))
 }
 
@@ -52,15 +56,15 @@ pub fn recommended(study: &Study) -> Option<&Row> {
 /// The command that renders the scene in the recommended setting.
 pub(super) fn command(study: &Study) -> Option<String> {
     let row = recommended(study)?;
-    let own = study.scene_row()?.setting;
-    let is_plain = |letter: char| letter.is_alphanumeric() || "._-".contains(letter);
+    let scene_row = study.scene_row()?.setting;
+    let is_shell_safe = |letter: char| letter.is_alphanumeric() || "._-".contains(letter);
     let name = match study.about.scene.as_str() {
         "" => "SCENE",
-        name if name.chars().all(is_plain) => name,
+        name if name.chars().all(is_shell_safe) => name,
         _ => "SCENE",
     };
     let flags = study.used().into_iter();
-    let flags = flags.filter(|parameter| row.setting.get(*parameter) != own.get(*parameter));
+    let flags = flags.filter(|parameter| row.setting.get(*parameter) != scene_row.get(*parameter));
     let flags =
         flags.map(|parameter| format!(" {}", parameter.argument(row.setting.get(parameter))));
     Some(format!("rtc render {name}{}", flags.collect::<String>()))
@@ -72,13 +76,13 @@ fn about_paths(study: &Study) -> Option<String> {
     let parameters = &mut study.parameters.iter();
     let paths = parameters
         .find(|report| report.parameter == Parameter::Paths && report.not_applicable.is_none())?;
-    let (own, delta) = (study.scene_row()?, study.scene_row()?.errors.delta_e);
+    let (scene_row, delta) = (study.scene_row()?, study.scene_row()?.errors.delta_e);
     let exponent = paths.law.map_or(0.5, |law| law.p.value.clamp(0.25, 1.0));
-    let wanted = f64::from(own.setting.paths) * pow(delta, 1.0 / exponent);
+    let requested = f64::from(scene_row.setting.paths) * pow(delta, 1.0 / exponent);
     (delta > 0.0).then(|| {
-        let [wanted, own] = [two_digits(wanted), f64::from(own.setting.paths)];
+        let [requested, scene_row] = [two_digits(requested), f64::from(scene_row.setting.paths)];
         format!(
-            "An error of 1 ΔE (the mean distance in CIELAB) takes about `--spp {wanted}`; the scene's own {own} have {} ΔE.",
+            "An error of 1 ΔE (the mean distance in CIELAB) takes about `--spp {requested}`; the scene's own {scene_row} have {} ΔE.",
             digits(delta)
         )
     })
@@ -96,11 +100,11 @@ fn two_digits(value: f64) -> f64 {
 /// The effect of more bounces, if it is visible.
 fn about_more(bounces: &MoreBounces) -> Option<String> {
     let most = bounces.deeper.last()?;
-    let (own, depth) = (bounces.own, most.depth);
-    (most.difference > ENOUGH).then(|| {
+    let (scene_row, depth) = (bounces.scene_depth, most.depth);
+    (most.difference > INVISIBLE).then(|| {
         let (times, difference) = (most.ray_ratio, digits(most.difference));
         format!(
-            "Errors are of the scene's own depth, {own}; depth {depth} shows another picture, {difference} grey levels \
+            "Errors are of the scene's own depth, {scene_row}; depth {depth} shows another picture, {difference} grey levels \
              away, for {times:.2}× the rays."
         )
     })
@@ -110,7 +114,7 @@ fn about_more(bounces: &MoreBounces) -> Option<String> {
 /// difference may be timing noise.
 fn stabilised<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
     /// A ratio that is certainly below 1.
-    const CLEAR: f64 = 0.95;
+    const CLEARLY_CHEAPER: f64 = 0.95;
     let robust = Setting {
         precision: Arithmetic::Robust,
         ..row.setting
@@ -119,7 +123,7 @@ fn stabilised<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
         .precision
         .iter()
         .find(|cost| cost.arithmetic == row.setting.precision);
-    let is_clear = cost.is_some_and(|cost| cost.ratio.high < CLEAR);
+    let is_clear = cost.is_some_and(|cost| cost.ratio.high < CLEARLY_CHEAPER);
     study
         .rows
         .iter()
@@ -130,10 +134,10 @@ fn stabilised<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
 /// The recommended row, and the cost of better ones.
 fn best(study: &Study, rows: &[&Row]) -> String {
     let (chosen, better) = (rows[0], &rows[1..]);
-    let words = |row: &Row| row.setting.words(&study.used());
+    let label = |row: &Row| row.setting.label(&study.used());
     let line = format!(
         "{}: {} for {}",
-        words(chosen),
+        label(chosen),
         error(chosen),
         seconds(chosen.seconds.value)
     );
@@ -145,49 +149,49 @@ fn best(study: &Study, rows: &[&Row]) -> String {
             let times = half.seconds.value / chosen.seconds.value;
             format!(
                 "{line}; {} halves the error for {times:.1}× the time.",
-                words(half)
+                label(half)
             )
         }
         None => format!("{line}."),
     }
 }
 
-fn about_own(study: &Study, own: &Row, front: &[&Row]) -> String {
-    let words = own.setting.words(&study.used());
+fn about_scene_setting(study: &Study, scene_row: &Row, front: &[&Row]) -> String {
+    let label = scene_row.setting.label(&study.used());
     // The same setting with the other arithmetic may be on the front in its place.
-    let is_on_front = own.front || front.iter().any(|row| row.setting == own.setting);
+    let is_on_front = scene_row.front || front.iter().any(|row| row.setting == scene_row.setting);
     if is_on_front {
-        let bargain =
-            |row: &&&Row| row.ratio.value <= 1.05 && row.errors.rmse <= 0.8 * own.errors.rmse;
-        let line = format!("The scene's own setting, {words}, is on the front");
-        return match front.iter().rfind(bargain) {
-            Some(row) => format!("{line}, but {}.", instead(study, row, own)),
+        let is_better_value =
+            |row: &&&Row| row.ratio.value <= 1.05 && row.errors.rmse <= 0.8 * scene_row.errors.rmse;
+        let line = format!("The scene's own setting, {label}, is on the front");
+        return match front.iter().rfind(is_better_value) {
+            Some(row) => format!("{line}, but {}.", improvement(study, row, scene_row)),
             None => line + ".",
         };
     }
     let better = front
         .iter()
-        .rfind(|row| row.seconds.value <= own.seconds.high);
+        .rfind(|row| row.seconds.value <= scene_row.seconds.high);
     let better = better.or(front.first());
     match better {
         Some(row) => format!(
-            "The scene's own setting, {words}, is off the front: {}.",
-            instead(study, row, own)
+            "The scene's own setting, {label}, is off the front: {}.",
+            improvement(study, row, scene_row)
         ),
-        None => format!("The scene's own setting is {words}."),
+        None => format!("The scene's own setting is {label}."),
     }
 }
 
 /// The advantage of a row over the scene's own setting.
-fn instead(study: &Study, row: &Row, own: &Row) -> String {
-    let (words, times) = (row.setting.words(&study.used()), row.ratio.value);
-    if digits(row.errors.rmse) == digits(own.errors.rmse) {
-        return format!("{words} has the same error for {times:.2}× the time");
+fn improvement(study: &Study, row: &Row, scene_row: &Row) -> String {
+    let (label, times) = (row.setting.label(&study.used()), row.ratio.value);
+    if digits(row.errors.rmse) == digits(scene_row.errors.rmse) {
+        return format!("{label} has the same error for {times:.2}× the time");
     }
     format!(
-        "{words} has {} instead of {} for {times:.2}× the time",
+        "{label} has {} instead of {} for {times:.2}× the time",
         error(row),
-        digits(own.errors.rmse)
+        digits(scene_row.errors.rmse)
     )
 }
 
@@ -259,7 +263,7 @@ mod tests {
                 .join(" "),
             "0 1e-4 0.012 0.46 4.56 45.6 457"
         );
-        let words = [0.0123, 1.234, 75.0, 600.0, 9000.0].map(seconds).join(", ");
-        assert_eq!(words, "12.3 ms, 1.23 s, 75.0 s, 10 min, 2.5 h");
+        let label = [0.0123, 1.234, 75.0, 600.0, 9000.0].map(seconds).join(", ");
+        assert_eq!(label, "12.3 ms, 1.23 s, 75.0 s, 10 min, 2.5 h");
     }
 }

@@ -14,7 +14,7 @@ pub struct WorkBatch {
 
 impl WorkBatch {
     /// The maximum duration of a batch: longer ones lose more work and gain nothing.
-    const LONGEST: Duration = Duration::from_secs(10);
+    const MAX_DURATION: Duration = Duration::from_secs(10);
 
     /// The first batch for a number of threads and a checkpoint interval.
     #[must_use]
@@ -23,7 +23,7 @@ impl WorkBatch {
         Self {
             shards: least,
             least,
-            time: (every / 4).min(Self::LONGEST),
+            time: (every / 4).min(Self::MAX_DURATION),
         }
     }
 
@@ -36,13 +36,13 @@ impl WorkBatch {
     /// Adapts the size to the duration of the last batch.
     pub fn adapt(&mut self, shards: u32, took: Duration) {
         let ratio = self.time.as_secs_f64() / took.as_secs_f64().max(1e-6);
-        let wanted = f64::from(shards) * ratio.clamp(0.25, 4.0);
+        let requested = f64::from(shards) * ratio.clamp(0.25, 4.0);
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "a positive number, saturated"
         )]
-        let wanted = wanted as u32;
-        self.shards = wanted.max(self.least);
+        let requested = requested as u32;
+        self.shards = requested.max(self.least);
     }
 }

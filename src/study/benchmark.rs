@@ -36,12 +36,12 @@ pub(super) struct Benchmark {
     pub(super) wall_over_cpu: f64,
 }
 
-const FEWEST_ROUNDS: u64 = 3;
-const MOST_ROUNDS: u64 = 9;
+const MIN_ROUNDS: u64 = 3;
+const MAX_ROUNDS: u64 = 9;
 
 /// The maximum number of renders of a case in a round. A render of a few milliseconds is too short
 /// to be timed alone.
-const MOST_REPEATS: u64 = 8;
+const MAX_REPEATS: u64 = 8;
 
 /// Times all cases in at least three rounds, with about `budget` rays in all. Cases with few rays
 /// run in more rounds, and several times in each. With a reference, each render of a case after the
@@ -54,11 +54,11 @@ pub(super) fn benchmark(
 ) -> Result<Benchmark, Stopped> {
     // Run the cases in rounds, each in a new random order.
     let mut timings: Vec<_> = cases.iter().map(|_| Timings::default()).collect();
-    for round in 0..MOST_ROUNDS {
+    for round in 0..MAX_ROUNDS {
         let mut order: Vec<_> = (0..cases.len())
             .filter(|index| timings[*index].rounds > round || *index == 0)
             .collect();
-        if round >= FEWEST_ROUNDS && order.len() < 2 {
+        if round >= MIN_ROUNDS && order.len() < 2 {
             break;
         }
         rng.shuffle(&mut order);
@@ -108,8 +108,8 @@ impl Subject<'_> {
     /// The approximate cost of preparing a render, in rays: a triangle costs as much as a ray, and
     /// so do 512 texels of images or, if only tiles are rendered, 8 pixels of the picture.
     fn preparation_rays(&self) -> u64 {
-        const PIXELS: u64 = 512;
-        const SHOWN: u64 = 8;
+        const TEXELS_PER_RAY: u64 = 512;
+        const PIXELS_PER_RAY: u64 = 8;
         let triangles = self
             .scene
             .meshes
@@ -120,9 +120,11 @@ impl Subject<'_> {
         let shown = if self.is_whole() {
             0
         } else {
-            width * height / SHOWN
+            width * height / PIXELS_PER_RAY
         };
-        triangles.sum::<u64>() + self.scene.images.iter().map(pixels).sum::<u64>() / PIXELS + shown
+        triangles.sum::<u64>()
+            + self.scene.images.iter().map(pixels).sum::<u64>() / TEXELS_PER_RAY
+            + shown
     }
 }
 
@@ -145,7 +147,7 @@ impl Default for Timings {
             times: Vec::new(),
             squares: Vec::new(),
             is_resumed: false,
-            rounds: FEWEST_ROUNDS,
+            rounds: MIN_ROUNDS,
             repeats: 1,
         }
     }
@@ -170,8 +172,8 @@ impl Timings {
                 if is_first {
                     let work = subject.preparation_rays() + rendered.counts.rays();
                     let fair = budget / work.max(1);
-                    self.repeats = (fair / MOST_ROUNDS).clamp(1, MOST_REPEATS);
-                    self.rounds = (fair / self.repeats).clamp(FEWEST_ROUNDS, MOST_ROUNDS);
+                    self.repeats = (fair / MAX_ROUNDS).clamp(1, MAX_REPEATS);
+                    self.rounds = (fair / self.repeats).clamp(MIN_ROUNDS, MAX_ROUNDS);
                 }
                 self.repeats
             },

@@ -6,7 +6,7 @@ use super::progressive::ProgressiveRender;
 use super::rounds::next_round;
 use super::subject::Stopped;
 use super::target::{
-    Order, Progress, TAIL, TargetResult, Watch, begin, first_round, light_samples,
+    Order, Progress, TAIL, TargetResult, Watch, first_round, light_samples, new_render,
 };
 use super::target::{set_sampling, tail_of};
 use rtc_ir::Scene;
@@ -52,7 +52,7 @@ pub(super) fn render_within(
     watch: &Watch<'_>,
     time: Duration,
 ) -> Result<TargetResult, Stopped> {
-    let progressive = begin(scene.settings.light_samples, order);
+    let progressive = new_render(scene.settings.light_samples, order);
     set_sampling(world, scene, progressive.light_samples);
     let mut timed = TimedRender {
         world,
@@ -95,7 +95,7 @@ impl TimedRender<'_, '_> {
                 (index % width).is_multiple_of(block) && (index / width).is_multiple_of(block)
             };
             let all = 0..self.progressive.film.len();
-            self.progressive.wanted = all.map(|index| [u32::from(is_one(index)), 0]).collect();
+            self.progressive.requested = all.map(|index| [u32::from(is_one(index)), 0]).collect();
             let is_coarsest = block == BLOCKS[0];
             let end = self.pass(!is_coarsest)?;
             if is_coarsest && end == Pass::Interrupted {
@@ -121,11 +121,11 @@ impl TimedRender<'_, '_> {
     fn choose_lights(&mut self, scene: &Scene, order: &Order) -> Result<(), Stopped> {
         /// The maximum number of samples for this search, at one light sample each.
         const SAMPLES: f64 = 1e5;
-        const PART: f64 = 0.1;
+        const MAX_FRACTION: f64 = 0.1;
         let passed = self.elapsed();
         let remaining = self.time.saturating_sub(passed).as_secs_f64();
-        let a_sample = passed.as_secs_f64() / self.progressive.film.samples() as f64;
-        if a_sample * SAMPLES < PART * remaining {
+        let seconds_per_sample = passed.as_secs_f64() / self.progressive.film.samples() as f64;
+        if seconds_per_sample * SAMPLES < MAX_FRACTION * remaining {
             let (count, tried) = light_samples(self.world, scene, order, self.watch)?;
             self.progressive.light_samples = count;
             self.progressive.film.counts = self.progressive.film.counts.plus(tried);
@@ -153,12 +153,12 @@ impl TimedRender<'_, '_> {
         let undersampled = order.undersampled(self.world);
         // If only the time ends the render, no early stop biases the error bound.
         let tail = |rounds| order.goal.error.map_or(TAIL, |_| tail_of(rounds));
-        let (mut shown, mut error) = (1, None);
+        let (mut replicate, mut error) = (1, None);
         // Refine until the error or the time is reached.
         loop {
-            let wanted = if shown < first || self.progressive.wanted[0][1] == 0 {
-                shown = first.min(2 * shown);
-                vec![[shown, pilot.min(shown.max(2))]; self.progressive.film.len()]
+            let requested = if replicate < first || self.progressive.requested[0][1] == 0 {
+                replicate = first.min(2 * replicate);
+                vec![[replicate, pilot.min(replicate.max(2))]; self.progressive.film.len()]
             } else {
                 let noise = Noise::of(&self.progressive.film, &undersampled);
                 let tail = tail(self.progressive.rounds);
@@ -168,11 +168,11 @@ impl TimedRender<'_, '_> {
                 let samples = (self.progressive.film.samples() - before) as f64;
                 let most = samples * remaining / took.max(1e-9);
                 match next_round(&self.progressive.film, &noise, tail, order.goal.error, most) {
-                    Some(wanted) => wanted,
+                    Some(requested) => requested,
                     None => break,
                 }
             };
-            self.progressive.wanted = wanted;
+            self.progressive.requested = requested;
             self.progressive.rounds += 1;
             let pixels = self.progressive.film.len() as u64;
             (self.watch.round)(Progress { pixels, error });

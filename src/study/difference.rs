@@ -72,15 +72,15 @@ impl Difference {
         let width = test.size()[0] as usize;
         // Sum the differences of all pixels.
         for index in 0..test.pixels() {
-            let [shown, wanted] = [test, reference].map(|picture| picture.display(index));
-            square += channel_pairs(shown, wanted)
+            let [displayed, expected] = [test, reference].map(|picture| picture.display(index));
+            square += channel_pairs(displayed, expected)
                 .map(|(x, r)| (x - r) * (x - r))
                 .sum::<f64>();
             let light = test.light(index).zip(reference.light(index));
-            let (own, other) = light.unwrap_or((shown, wanted));
-            found.relative_mse += channel_pairs(own, other).map(relative).sum::<f64>();
+            let (value, other) = light.unwrap_or((displayed, expected));
+            found.relative_mse += channel_pairs(value, other).map(relative).sum::<f64>();
             let opacity = (test.opacity(index) - reference.opacity(index)).abs();
-            let off = channel_pairs(shown, wanted).map(|(x, r)| (x - r).abs());
+            let off = channel_pairs(displayed, expected).map(|(x, r)| (x - r).abs());
             let off = off.fold(opacity, f64::max) * LEVELS;
             // By rounding, values of an 8-bit file are not exact multiples of a grey level.
             over += u64::from(off > levels + 1e-9);
@@ -136,8 +136,11 @@ fn by_tiles(test: &ShownPicture, reference: &ShownPicture, on_flip: &mut dyn FnM
         let flips = flip(&a, &b, PIXELS_PER_DEGREE);
         for row in top..(top + TILE).min(height) {
             for column in left..(left + TILE).min(width) {
-                let own = (row - y) as usize * across as usize + (column - x) as usize;
-                on_flip(row as usize * width as usize + column as usize, flips[own]);
+                let value = (row - y) as usize * across as usize + (column - x) as usize;
+                on_flip(
+                    row as usize * width as usize + column as usize,
+                    flips[value],
+                );
             }
         }
     }
@@ -177,7 +180,7 @@ mod tests {
     use super::*;
     use rtc_image::{FileFormat, Picture};
 
-    fn shown(values: &[f64]) -> ShownPicture {
+    fn displayed(values: &[f64]) -> ShownPicture {
         ShownPicture::of(Image {
             width: 2,
             height: u32::try_from(values.len() / 2).unwrap(),
@@ -187,7 +190,10 @@ mod tests {
 
     #[test]
     fn differences_by_hand() {
-        let (a, b) = (shown(&[0.0, 0.2, 0.4, 1.0]), shown(&[0.0, 0.2, 0.6, 0.8]));
+        let (a, b) = (
+            displayed(&[0.0, 0.2, 0.4, 1.0]),
+            displayed(&[0.0, 0.2, 0.6, 0.8]),
+        );
         let (found, flips) = Difference::mapped(&a, &b, 51.0);
         assert!((found.rmse - (2.0 * 51.0 * 51.0 / 12.0_f64).sqrt()).abs() < 1e-9);
         assert!((found.max - 51.0).abs() < 1e-9 && found.max_at == Some([0, 1]));

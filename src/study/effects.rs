@@ -37,7 +37,7 @@ pub struct EffectCost {
 const RENDERS: u64 = 3 + 2;
 
 /// The minimum number of tiles.
-const FEWEST: usize = 8;
+const MIN_TILES: usize = 8;
 
 /// The cost of each ablation of a scene, near a setting, as far as the ray budget allows.
 pub(super) fn costs(
@@ -103,7 +103,7 @@ fn affordable<'a>(
     setting: Setting,
     (budget, requested): (u64, usize),
 ) -> Result<Option<(Subject<'a>, usize)>, Stopped> {
-    let pilot = subject.keep(FEWEST);
+    let pilot = subject.keep(MIN_TILES);
     let rays = pilot.render(setting, independent(1))?.counts.rays();
     let of_tile = RENDERS as f64 * rays as f64 / pilot.count() as f64;
     let renders = budget as f64 / of_tile.max(1.0);

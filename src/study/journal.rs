@@ -144,8 +144,8 @@ impl JournalHead {
             ("effort", &other.effort.0, &self.effort.0),
             ("seed", &other.seed, &self.seed),
         ];
-        let words = pairs.map(|(name, here, there)| (name, here.to_string(), there.to_string()));
-        let differing = words.iter().find(|(_, here, there)| here != there);
+        let label = pairs.map(|(name, here, there)| (name, here.to_string(), there.to_string()));
+        let differing = label.iter().find(|(_, here, there)| here != there);
         differing.map(|(name, here, there)| format!("{name}: {here} here, {there} there"))
     }
 }

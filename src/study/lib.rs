@@ -272,31 +272,33 @@ impl Scope {
     /// Selects the tiles that the budget allows, with a good reference and in the scene's setting.
     fn subject_within_budget<'a>(&self, subject: &Subject<'a>) -> Result<Subject<'a>, Stopped> {
         /// The samples per pixel of a good reference, for a budget in rays.
-        const GOOD: [f64; 2] = [1024.0, 4e8];
+        const GOOD_REFERENCE: [f64; 2] = [1024.0, 4e8];
         /// Fewer tiles do not represent a picture: this many are used, if the scene's setting can
         /// be afforded for them, even if the reference becomes worse.
-        const ENOUGH: usize = 32;
-        const FEWEST: usize = 4;
+        const MIN_REPRESENTATIVE: usize = 32;
+        const MIN_TILES: usize = 4;
         if self.sampling.is_empty() {
             return Ok(subject.clone());
         }
-        let pilot = subject.keep(2 * FEWEST);
+        let pilot = subject.keep(2 * MIN_TILES);
         let setting = self.at(2);
         let counts = pilot.render(setting, reference::independent(1))?.counts;
         let rays = counts.rays() as f64 / counts.camera.max(1) as f64;
-        let samples = GOOD[0] * (self.rays as f64 / GOOD[1]).sqrt();
+        let samples = GOOD_REFERENCE[0] * (self.rays as f64 / GOOD_REFERENCE[1]).sqrt();
         let of_reference = self.hundredths(FOR_REFERENCE) as f64 / (3.0 * samples * rays);
         let of_own =
             self.hundredths(FOR_ROWS) as f64 / (6.0 * self.scene_setting.camera_rays() * rays);
         let tiles = |pixels: f64| pixels / pilot.pixels() as f64 * pilot.count() as f64;
-        let fraction = tiles(of_reference).max(ENOUGH as f64).min(tiles(of_own));
+        let fraction = tiles(of_reference)
+            .max(MIN_REPRESENTATIVE as f64)
+            .min(tiles(of_own));
         let enough = (0..subject.count())
             .take_while(|count| (*count as f64) < fraction)
             .count();
         Ok(if enough * 4 > subject.count() * 3 {
             subject.clone()
         } else {
-            subject.keep(enough.max(FEWEST))
+            subject.keep(enough.max(MIN_TILES))
         })
     }
 

@@ -22,7 +22,7 @@ pub struct StudyMap {
     /// The file name without extension, for example `rays-own`.
     pub name: String,
     /// The caption.
-    pub words: String,
+    pub label: String,
     /// The unit of its values.
     pub unit: &'static str,
     /// The value of the brightest colour; the darkest is 0, and the scale is linear. Both settings
@@ -45,7 +45,7 @@ pub(super) fn count(study: &Study, subject: &Subject<'_>) -> Result<Vec<PixelRay
 /// The mapped rows with their names.
 fn mapped(study: &Study) -> Vec<(&'static str, &Row)> {
     let own = study.scene_row().map(|row| ("own", row));
-    let best = advice::recommended(study).filter(|row| !row.own);
+    let best = advice::recommended(study).filter(|row| !row.is_scene_setting);
     own.into_iter()
         .chain(best.map(|row| ("recommended", row)))
         .collect()
@@ -74,10 +74,10 @@ pub fn maps(study: &Study) -> Vec<StudyMap> {
     for (kind, title, unit, values) in kinds {
         let most = upper_limit(study, &values);
         for ((which, row), values) in rows.iter().zip(values) {
-            let setting = row.setting.words(&study.used());
+            let setting = row.setting.label(&study.used());
             maps.push(StudyMap {
                 name: format!("{kind}-{which}"),
-                words: format!("{title}, {which} setting: {setting}"),
+                label: format!("{title}, {which} setting: {setting}"),
                 unit,
                 most,
                 image: image(study, &values, most),
@@ -101,40 +101,40 @@ fn errors(study: &Study, row: &Row) -> Vec<f64> {
         let pairs = test.pixels.iter().zip(&reference_tiles.pixels).enumerate();
         for (index, (x, r)) in pairs {
             let (column, line) = (index % test.width as usize, index / test.width as usize);
-            let place = (area.y as usize + line) * width + area.x as usize + column;
+            let index = (area.y as usize + line) * width + area.x as usize + column;
             let squares = x.iter().zip(r).map(|(x, r)| (x - r) * (x - r));
-            values[place] = (squares.sum::<f64>() / 3.0).sqrt() * LEVELS;
+            values[index] = (squares.sum::<f64>() / 3.0).sqrt() * LEVELS;
         }
     }
     values
 }
 
 /// Whether each pixel was rendered.
-fn seen(study: &Study) -> Vec<bool> {
+fn rendered_pixels(study: &Study) -> Vec<bool> {
     let [width, height] = study.part.size.map(|side| side as usize);
-    let mut seen = vec![false; width * height];
+    let mut rendered_pixels = vec![false; width * height];
     for area in &study.areas {
         for line in area.y..area.y + area.height {
             let start = line as usize * width + area.x as usize;
-            seen[start..start + area.width as usize].fill(true);
+            rendered_pixels[start..start + area.width as usize].fill(true);
         }
     }
-    seen
+    rendered_pixels
 }
 
 /// The upper end of the scale: the smallest of 1, 2, 5, 10 …, or of their tenths and hundredths,
 /// that is not exceeded by 99 % of the pixels of all maps.
 fn upper_limit(study: &Study, maps: &[Vec<f64>]) -> f64 {
     const FRACTION: f64 = 0.99;
-    let seen = seen(study);
-    let values = maps.iter().flat_map(|map| map.iter().zip(&seen));
+    let rendered_pixels = rendered_pixels(study);
+    let values = maps.iter().flat_map(|map| map.iter().zip(&rendered_pixels));
     let mut values: Vec<_> = values
-        .filter(|(_, seen)| **seen)
+        .filter(|(_, rendered_pixels)| **rendered_pixels)
         .map(|(value, _)| *value)
         .collect();
     values.sort_unstable_by(f64::total_cmp);
-    let place = (FRACTION * values.len() as f64) as usize;
-    let value = values.get(place).or(values.last()).copied().unwrap_or(0.0);
+    let index = (FRACTION * values.len() as f64) as usize;
+    let value = values.get(index).or(values.last()).copied().unwrap_or(0.0);
     let mut unit = 0.01;
     loop {
         let steps = [1.0, 2.0, 5.0].map(|step| step * unit);
@@ -148,11 +148,11 @@ fn upper_limit(study: &Study, maps: &[Vec<f64>]) -> f64 {
 /// The heat map of values from 0 to `most`, hatched grey outside the rendered tiles.
 fn image(study: &Study, values: &[f64], most: f64) -> Image {
     const HATCH: [f64; 2] = [0.35, 0.45];
-    let shares: Vec<_> = values.iter().map(|value| value / most).collect();
-    let mut image = heat_map(study.part.size, &shares);
+    let fractions: Vec<_> = values.iter().map(|value| value / most).collect();
+    let mut image = heat_map(study.part.size, &fractions);
     let width = image.width as usize;
-    for (index, seen) in seen(study).into_iter().enumerate() {
-        if !seen {
+    for (index, rendered_pixels) in rendered_pixels(study).into_iter().enumerate() {
+        if !rendered_pixels {
             let stripe = (index % width + index / width) / 4 % 2;
             image.pixels[index] = [HATCH[stripe]; 3];
         }

@@ -96,7 +96,7 @@ pub(super) struct Bound {
 }
 
 /// The maximum length of a replicate.
-const LONGEST: u32 = 1 << 24;
+const MAX_LENGTH: u32 = 1 << 24;
 
 /// The fraction of the mean deviation that is added to each pixel, so that features that the pilots
 /// missed still get samples.
@@ -142,7 +142,7 @@ impl SampleAllocation {
 
     /// The samples of each replicate and of the pilot of each pixel for a mean square error of
     /// `square`.
-    pub(super) fn wanted(&self, film: &ProgressiveFilm, square: f64) -> Vec<[u32; 2]> {
+    pub(super) fn requested(&self, film: &ProgressiveFilm, square: f64) -> Vec<[u32; 2]> {
         let replicate: Vec<_> = (0..film.len())
             .map(|index| self.replicate(film, index, square))
             .collect();
@@ -177,7 +177,7 @@ impl SampleAllocation {
 
 /// Doubles a count if more samples are needed.
 pub(super) fn doubled_if(count: u32, needs_more: bool) -> u32 {
-    if needs_more && count < LONGEST {
+    if needs_more && count < MAX_LENGTH {
         2 * count
     } else {
         count
@@ -189,22 +189,23 @@ pub(super) fn doubled_if(count: u32, needs_more: bool) -> u32 {
 /// missed is found.
 fn smoothed(film: &ProgressiveFilm) -> Vec<f64> {
     /// The weights of the neighbours and of the whole picture, in samples.
-    const NEAR: f64 = 2.0;
-    const FAR: f64 = 0.25;
-    let own: Vec<_> = film.pixels().map(Replicates::variance_of_samples).collect();
-    let far = own.iter().sum::<f64>() / own.len().max(1) as f64;
+    const NEIGHBOUR_WEIGHT: f64 = 2.0;
+    const PICTURE_WEIGHT: f64 = 0.25;
+    let variances: Vec<_> = film.pixels().map(Replicates::variance_of_samples).collect();
+    let far = variances.iter().sum::<f64>() / variances.len().max(1) as f64;
     let (width, height) = (film.crop().width as usize, film.crop().height as usize);
     let around = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);
     let of = |index: usize| {
         let (x, y) = (index % width, index / width);
-        let rows = around(y, height).map(|y| &own[y * width..][around(x, width)]);
+        let rows = around(y, height).map(|y| &variances[y * width..][around(x, width)]);
         let (sum, count) = rows.flatten().fold((0.0, 0.0), |(sum, count), variance| {
             (sum + variance, count + 1.0)
         });
-        let near = (sum - own[index]).max(0.0) / f64::max(count - 1.0, 1.0);
+        let near = (sum - variances[index]).max(0.0) / f64::max(count - 1.0, 1.0);
         let [_, pilot] = film.pixel(index).counts();
         let freedom = (f64::from(pilot) - 1.0).max(0.0);
-        (freedom * own[index] + NEAR * near + FAR * far) / (freedom + NEAR + FAR)
+        (freedom * variances[index] + NEIGHBOUR_WEIGHT * near + PICTURE_WEIGHT * far)
+            / (freedom + NEIGHBOUR_WEIGHT + PICTURE_WEIGHT)
     };
-    (0..own.len()).map(of).collect()
+    (0..variances.len()).map(of).collect()
 }

@@ -59,7 +59,8 @@ pub struct ReferenceReport {
 #[serde(rename_all = "camelCase")]
 pub struct MoreBounces {
     /// The depth of the scene.
-    pub own: u32,
+    #[serde(rename = "own")]
+    pub scene_depth: u32,
     /// How the search for deeper paths ended.
     pub end: DepthEnd,
     /// Each greater depth that was tried.
@@ -143,7 +144,8 @@ pub struct Row {
     /// The setting.
     pub setting: Setting,
     /// Whether it is the scene's setting.
-    pub own: bool,
+    #[serde(rename = "own")]
+    pub is_scene_setting: bool,
     /// Whether it is on the Pareto front: its error is certainly below that of all cheaper rows on
     /// the front.
     pub front: bool,
@@ -230,6 +232,6 @@ impl Study {
     /// The row of the scene's setting.
     #[must_use]
     pub fn scene_row(&self) -> Option<&Row> {
-        self.rows.iter().find(|row| row.own)
+        self.rows.iter().find(|row| row.is_scene_setting)
     }
 }

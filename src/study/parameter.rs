@@ -116,7 +116,7 @@ impl Parameter {
 
     /// A value with its unit, for example "4×4" or "16 aperture samples".
     #[must_use]
-    pub fn words(self, value: u32) -> String {
+    pub fn label(self, value: u32) -> String {
         match self {
             Self::Supersampling => format!("{value}×{value}"),
             Self::Aperture | Self::Lights | Self::Glossy | Self::Paths => {
@@ -216,9 +216,9 @@ pub(super) fn not_applicable_in(
     scene: &Scene,
     is_whole: bool,
 ) -> Option<String> {
-    let is_cut = parameter == Parameter::Denoise && !is_whole;
+    let is_only_tiles = parameter == Parameter::Denoise && !is_whole;
     let tiles = "a picture is denoised as a whole, and only tiles were looked at";
-    not_applicable(parameter, scene).or_else(|| is_cut.then(|| tiles.to_owned()))
+    not_applicable(parameter, scene).or_else(|| is_only_tiles.then(|| tiles.to_owned()))
 }
 
 /// The reason why the plan prunes the effect of a parameter, if it does.

@@ -7,13 +7,13 @@ use super::sweep::Model;
 use rtc_math::ln;
 
 /// A new row must reduce the error to this fraction or less.
-const WORTH: f64 = 0.99;
+const MIN_GAIN: f64 = 0.99;
 
 /// Errors within a thousandth count as equal: rounding of hits at edges causes as much.
-pub(super) const SAME: f64 = 1.001;
+pub(super) const EQUAL_ERROR: f64 = 1.001;
 
 /// Ray counts within this factor count as equal, unless the times differ clearly.
-const SAME_COST: f64 = 1.02;
+const EQUAL_COST: f64 = 1.02;
 
 /// Settings in ascending order of work. Each step raises the parameter with the best reduction of
 /// error per work in the model, until the rays exceed `most_rays` or the error falls below
@@ -39,7 +39,7 @@ pub(super) fn candidates(
             Some(now.with(*parameter, value))
         });
         let affordable = raised
-            .filter(|next| model.rays(*next) <= most_rays && model.error(*next) < WORTH * error);
+            .filter(|next| model.rays(*next) <= most_rays && model.error(*next) < MIN_GAIN * error);
         let gain = |next: &Setting| {
             ln(error / model.error(*next)) / ln(model.rays(*next) / rays).max(1e-6)
         };
@@ -56,7 +56,7 @@ pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
     let mut others = model
         .measured_values(Parameter::Precision)
         .map(|value| setting.with(Parameter::Precision, value));
-    let enough = others.find(|other| WORTH * model.error(*other) <= model.error(setting));
+    let enough = others.find(|other| MIN_GAIN * model.error(*other) <= model.error(setting));
     enough.filter(|other| *other != setting)
 }
 
@@ -76,7 +76,7 @@ impl Point {
 
     /// Whether its cost is not distinguishable from that of an earlier point.
     fn costs_the_same(&self, before: &Self) -> bool {
-        !before.is_clearly_cheaper(self) && self.rays as f64 <= SAME_COST * before.rays as f64
+        !before.is_clearly_cheaper(self) && self.rays as f64 <= EQUAL_COST * before.rays as f64
     }
 }
 
@@ -87,34 +87,34 @@ pub(super) fn ranking(
     is_better: impl Fn(usize, usize) -> bool,
 ) -> Vec<(usize, bool)> {
     let (mut order, mut front) = (Vec::new(), Vec::<usize>::new());
-    for place in by_cost(points) {
-        let point = &points[place];
-        order.push(place);
-        if front.last().is_none_or(|last| is_better(place, *last)) {
+    for index in by_cost(points) {
+        let point = &points[index];
+        order.push(index);
+        if front.last().is_none_or(|last| is_better(index, *last)) {
             front.pop_if(|last| point.costs_the_same(&points[*last]));
-            front.push(place);
+            front.push(index);
         }
     }
     order
         .into_iter()
-        .map(|place| (place, front.contains(&place)))
+        .map(|index| (index, front.contains(&index)))
         .collect()
 }
 
 /// The indices of the points in ascending order of cost: no point comes before one that is clearly
 /// cheaper; ties are ordered by rays.
 fn by_cost(points: &[Point]) -> impl Iterator<Item = usize> {
-    let mut left: Vec<_> = (0..points.len()).collect();
+    let mut remaining: Vec<_> = (0..points.len()).collect();
     std::iter::from_fn(move || {
-        let is_next = |place: usize| {
-            !left
+        let is_next = |index: usize| {
+            !remaining
                 .iter()
-                .any(|other| points[*other].is_clearly_cheaper(&points[place]))
+                .any(|other| points[*other].is_clearly_cheaper(&points[index]))
         };
-        let next = (0..left.len())
-            .filter(|index| is_next(left[*index]))
-            .min_by_key(|index| points[left[*index]].rays);
-        next.map(|index| left.remove(index))
+        let next = (0..remaining.len())
+            .filter(|index| is_next(remaining[*index]))
+            .min_by_key(|index| points[remaining[*index]].rays);
+        next.map(|index| remaining.remove(index))
     })
 }
 
@@ -131,13 +131,13 @@ mod tests {
     /// The indices of the points in ascending order of cost, those off the front as −1 − index.
     fn ranked(rows: &[(Point, f64)]) -> Vec<isize> {
         let points: Vec<_> = rows.iter().map(|row| row.0).collect();
-        ranking(&points, |a, b| SAME * rows[a].1 < rows[b].1)
+        ranking(&points, |a, b| EQUAL_ERROR * rows[a].1 < rows[b].1)
             .into_iter()
-            .map(|(place, front)| {
+            .map(|(index, front)| {
                 if front {
-                    place as isize
+                    index as isize
                 } else {
-                    -1 - place as isize
+                    -1 - index as isize
                 }
             })
             .collect()

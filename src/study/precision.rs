@@ -33,7 +33,7 @@ pub struct PrecisionCost {
 #[cfg(feature = "cli")]
 impl PrecisionCost {
     /// Its name, and whether there is a warning.
-    pub(super) fn words(&self) -> String {
+    pub(super) fn label(&self) -> String {
         format!(
             "{}{}",
             self.arithmetic.name(),

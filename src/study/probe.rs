@@ -36,18 +36,18 @@ const SPACING: usize = 16;
 
 /// The minimum number of probes for a picture of at least four times as many pixels, and for
 /// smaller pictures (with fewer probes the bound holds too rarely), and the maximum.
-const LEAST: usize = 1024;
-const FEWEST: usize = 256;
-const MOST: usize = 1 << 14;
+const MIN_PROBES: usize = 1024;
+const MIN_PROBES_SMALL: usize = 256;
+const MAX_PROBES: usize = 1 << 14;
 
 /// The maximum number of samples of a mean.
-const LONGEST: u32 = 1 << 20;
+const MAX_LENGTH: u32 = 1 << 20;
 
 /// The fraction of probes with uniform density; the others are placed where denoising changed much.
-const ANYWHERE: f64 = 0.5;
+const UNIFORM_FRACTION: f64 = 0.5;
 
 /// The minimum number of degrees of freedom: with fewer, the quantile is infinite.
-const FREEDOM: f64 = 8.0;
+const MIN_FREEDOM: f64 = 8.0;
 
 /// Estimates the error of a denoised picture with `samples` samples per pixel; `None` if `on_pixel`
 /// stopped it. The seed of the order is that of the probes.
@@ -62,11 +62,11 @@ pub fn probe(
     let probabilities = probabilities(picture, order);
     let probes = Probes::spread(&probabilities, order.seed);
     // Replicates of a power of two are stratified.
-    let length = samples.min(LONGEST).next_power_of_two();
+    let length = samples.min(MAX_LENGTH).next_power_of_two();
     let mut film = ProgressiveFilm::new(order.crop, order.seed);
     (film.background, film.display) = (order.background, order.display);
-    let wanted = |index: usize| [if probes.hits[index] > 0 { length } else { 0 }, 0];
-    if !world.grow(&mut film, &wanted, on_pixel) {
+    let requested = |index: usize| [if probes.hits[index] > 0 { length } else { 0 }, 0];
+    if !world.grow(&mut film, &requested, on_pixel) {
         return None;
     }
     let found = probes.found(&film, picture, &probabilities);
@@ -110,7 +110,7 @@ fn probabilities(picture: &DenoisedFilm, order: &Order) -> Vec<f64> {
         1.0 / changed.len().max(1) as f64,
     );
     let probability = |changed: f64| match all > 0.0 {
-        true => ANYWHERE * even + (1.0 - ANYWHERE) * changed / all,
+        true => UNIFORM_FRACTION * even + (1.0 - UNIFORM_FRACTION) * changed / all,
         false => even,
     };
     changed.into_iter().map(probability).collect()
@@ -128,8 +128,8 @@ impl Probes {
     /// cumulative distribution over the pixels in row order.
     fn spread(probabilities: &[f64], seed: u64) -> Self {
         let pixels = probabilities.len();
-        let least = LEAST.min(pixels / 4).max(FEWEST.min(pixels));
-        let count = (pixels / SPACING).clamp(least, MOST);
+        let least = MIN_PROBES.min(pixels / 4).max(MIN_PROBES_SMALL.min(pixels));
+        let count = (pixels / SPACING).clamp(least, MAX_PROBES);
         let mut hits = vec![0; pixels];
         let (mut index, mut sum) = (0, probabilities[0]);
         for probe in 0..count {
@@ -188,9 +188,9 @@ fn mean_and_bound(found: &[ProbeResult]) -> (f64, f64) {
     let variance = if variance > 0.0 {
         variance
     } else {
-        mean * mean * 2.0 / FREEDOM
+        mean * mean * 2.0 / MIN_FREEDOM
     };
-    let freedom = (2.0 * mean * mean / variance.max(f64::MIN_POSITIVE)).max(FREEDOM);
+    let freedom = (2.0 * mean * mean / variance.max(f64::MIN_POSITIVE)).max(MIN_FREEDOM);
     let factor = fisher_quantile(TAIL, 1e12, freedom);
     let deviations = (factor - 1.0) * (freedom / 2.0).sqrt();
     (mean, mean.max(0.0) + deviations * variance.sqrt())
@@ -226,7 +226,7 @@ mod tests {
     #[test]
     fn the_bound_holds_as_often_as_it_says_where_few_pixels_have_most_of_the_error() {
         let truth = 0.95 + 0.05 * 100.0;
-        for count in [FEWEST, LEAST] {
+        for count in [MIN_PROBES_SMALL, MIN_PROBES] {
             let mut rng = Rng::new(count as u64);
             let held = (0..400).filter(|_| {
                 let found: Vec<_> = (0..count).map(|_| once(square(&mut rng))).collect();

@@ -11,7 +11,7 @@ use std::time::Duration;
 pub struct ProgressiveRender {
     pub(super) film: ProgressiveFilm,
     /// For each pixel, the samples of each replicate and of the pilot after the current round.
-    pub(super) wanted: Vec<[u32; 2]>,
+    pub(super) requested: Vec<[u32; 2]>,
     /// The number of completed rounds.
     pub(super) rounds: u32,
     /// Samples of each area light at a hit.
@@ -61,7 +61,12 @@ impl<'a> Checkpointer<'a> {
     }
 
     /// Adapts the batch size to the time of the last batch, and saves if it is time.
-    fn took(&mut self, progressive: &ProgressiveRender, tiles: u32, resumed_from: Duration) {
+    fn record_batch(
+        &mut self,
+        progressive: &ProgressiveRender,
+        tiles: u32,
+        resumed_from: Duration,
+    ) {
         let now = (self.sink.elapsed)();
         self.batch.adapt(tiles, now.saturating_sub(resumed_from));
         if now.saturating_sub(self.saved) >= self.sink.every {
@@ -86,8 +91,8 @@ impl ProgressiveRender {
         checkpointer: Option<&mut Checkpointer<'_>>,
     ) -> bool {
         let Some(checkpointer) = checkpointer else {
-            let wanted = |index: usize| self.wanted[index];
-            return world.grow(&mut self.film, &wanted, on_pixel);
+            let requested = |index: usize| self.requested[index];
+            return world.grow(&mut self.film, &requested, on_pixel);
         };
         let count = Tiles::of(self.film.crop()).count();
         let count = u32::try_from(count).unwrap_or(u32::MAX);
@@ -96,14 +101,14 @@ impl ProgressiveRender {
             let last = count.min(done.saturating_add(checkpointer.batch.shards()));
             let resumed_from = (checkpointer.sink.elapsed)();
             self.film.tiles = Some(Tiles::shares([done + 1, last], count));
-            let wanted = |index: usize| self.wanted[index];
-            let is_done = world.grow(&mut self.film, &wanted, on_pixel);
+            let requested = |index: usize| self.requested[index];
+            let is_done = world.grow(&mut self.film, &requested, on_pixel);
             self.film.tiles = None;
             if !is_done {
                 checkpointer.save(self);
                 return false;
             }
-            checkpointer.took(self, last - done, resumed_from);
+            checkpointer.record_batch(self, last - done, resumed_from);
             done = last;
         }
         true
@@ -127,10 +132,10 @@ impl ProgressiveRender {
     /// samples, the film.
     #[must_use]
     pub fn save(&self) -> Vec<u8> {
-        let wanted = self.wanted.iter().flatten();
+        let requested = self.requested.iter().flatten();
         let keeps = u32::from(self.keeps_lights);
         let numbers = [self.rounds, self.light_samples, keeps, 0].into_iter();
-        let numbers = numbers.chain(wanted.copied());
+        let numbers = numbers.chain(requested.copied());
         let mut bytes: Vec<u8> = numbers.flat_map(u32::to_le_bytes).collect();
         bytes.extend(self.film.save());
         bytes
@@ -142,8 +147,8 @@ impl ProgressiveRender {
     /// If the bytes belong to another render or version, or are corrupt.
     pub fn load(bytes: &[u8], order: &Order) -> Result<Self, FilmError> {
         /// The maximum number of rounds.
-        const MOST: u32 = 1 << 16;
-        const LONGEST: u32 = 1 << 24;
+        const MAX_ROUNDS: u32 = 1 << 16;
+        const MAX_LENGTH: u32 = 1 << 24;
         const SHORT: FilmError = FilmError::Corrupt("its end is missing");
         const WRONG: FilmError = FilmError::Corrupt("its rounds can't be");
         // Split the bytes into numbers and film.
@@ -160,25 +165,25 @@ impl ProgressiveRender {
         if pairs.next() != Some([u32::from(order.keep_lights), 0]) {
             return Err(FilmError::OtherPicture);
         }
-        let wanted: Vec<[u32; 2]> = pairs.collect();
+        let requested: Vec<[u32; 2]> = pairs.collect();
         // Check the numbers against the film.
-        let is_consistent = |(wanted, index): (&[u32; 2], usize)| {
-            let counts = film.pixel(index).counts().into_iter().zip(wanted);
-            counts.into_iter().all(|(count, &wanted)| {
+        let is_consistent = |(requested, index): (&[u32; 2], usize)| {
+            let counts = film.pixel(index).counts().into_iter().zip(requested);
+            counts.into_iter().all(|(count, &requested)| {
                 // A round doubles the samples; the first starts from none.
-                let is_taken = count == wanted || 2 * count == wanted;
+                let is_taken = count == requested || 2 * count == requested;
                 (is_taken || (rounds == 0 && count == 0))
-                    && wanted.is_power_of_two()
-                    && wanted <= LONGEST
+                    && requested.is_power_of_two()
+                    && requested <= MAX_LENGTH
             })
         };
-        let are_consistent = wanted.iter().zip(0..).all(is_consistent);
-        if rounds > MOST || light_samples == 0 || !are_consistent {
+        let are_consistent = requested.iter().zip(0..).all(is_consistent);
+        if rounds > MAX_ROUNDS || light_samples == 0 || !are_consistent {
             return Err(WRONG);
         }
         Ok(Self {
             film,
-            wanted,
+            requested,
             rounds,
             light_samples,
             keeps_lights: order.keep_lights,

@@ -114,15 +114,15 @@ pub(super) fn depths(
         renders.push(render(start.depth)?);
     }
     // Compare each depth with that of the scene.
-    let depth = |place: usize| match u32::try_from(place) {
-        Ok(depth) if place <= last => depth,
+    let depth = |index: usize| match u32::try_from(index) {
+        Ok(depth) if index <= last => depth,
         _ => start.depth,
     };
-    let own = (renders.len() - 1).min(start.depth as usize);
-    let level = |(place, rendered): (usize, &DepthProbe)| {
-        let error = rendered.error(&renders[own]);
+    let scene_index = (renders.len() - 1).min(start.depth as usize);
+    let level = |(index, rendered): (usize, &DepthProbe)| {
+        let error = rendered.error(&renders[scene_index]);
         Level {
-            value: depth(place),
+            value: depth(index),
             error,
             resolved: error > 0.0,
             rays: rendered.rays(),
@@ -130,15 +130,15 @@ pub(super) fn depths(
     };
     let mut levels: Vec<_> = renders.iter().enumerate().map(level).collect();
     // Report the greater depths separately.
-    let own_rays = renders[own].rays().max(1) as f64;
-    let deeper = levels.split_off(own + 1).into_iter();
+    let scene_rays = renders[scene_index].rays().max(1) as f64;
+    let deeper = levels.split_off(scene_index + 1).into_iter();
     let cost = |level: Level| BounceCost {
         depth: level.value,
-        ray_ratio: level.rays as f64 / own_rays,
+        ray_ratio: level.rays as f64 / scene_rays,
         difference: level.error,
     };
     let more = MoreBounces {
-        own: start.depth,
+        scene_depth: start.depth,
         end,
         deeper: deeper.map(cost).collect(),
     };
@@ -155,12 +155,12 @@ fn search_depths(
     let end = loop {
         let depth = u32::try_from(renders.len()).unwrap_or(MAX_DEPTH);
         if let [.., before, last] = renders.as_slice() {
-            let grows = last.rays() as f64 / before.rays() as f64;
+            let growth = last.rays() as f64 / before.rays() as f64;
             if last.secondary() == before.secondary() {
                 renders.pop();
                 break DepthEnd::Exact;
             }
-            if depth > MAX_DEPTH || spent as f64 + last.rays() as f64 * grows > budget as f64 {
+            if depth > MAX_DEPTH || spent as f64 + last.rays() as f64 * growth > budget as f64 {
                 break DepthEnd::Open;
             }
         }

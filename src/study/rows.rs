@@ -64,7 +64,7 @@ impl Scope {
             let errors = Errors::of(&run.rendered.tiles, &reference.tiles, subject.fraction());
             Row {
                 setting: case.setting,
-                own: case.setting == self.scene_setting,
+                is_scene_setting: case.setting == self.scene_setting,
                 front: false,
                 rays: run.rendered.counts.into(),
                 seconds: run.seconds,
@@ -92,7 +92,8 @@ fn ranked(rows: Vec<Row>, reference: &Reference, fraction: f64) -> Vec<Row> {
     let points: Vec<_> = rows.iter().map(Row::point).collect();
     let errors = |row: &Row| TileErrors::of(&row.tiles, &reference.tiles, fraction);
     let errors: Vec<_> = rows.iter().map(errors).collect();
-    let is_better = |a: usize, b: usize| errors[a].is_clearly_below(&errors[b], pareto::SAME);
+    let is_better =
+        |a: usize, b: usize| errors[a].is_clearly_below(&errors[b], pareto::EQUAL_ERROR);
     let mut rows: Vec<_> = rows.into_iter().map(Some).collect();
     let ranked = pareto::ranking(&points, is_better).into_iter();
     let ranked = ranked.filter_map(|(place, front)| {

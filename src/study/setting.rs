@@ -137,17 +137,17 @@ impl Setting {
     /// Formats the given parameters: "4×4 with 16 aperture samples, depth 3". The robust arithmetic
     /// and a picture without denoising are not mentioned.
     #[must_use]
-    pub fn words(&self, parameters: &[Parameter]) -> String {
+    pub fn label(&self, parameters: &[Parameter]) -> String {
         let is_named = |parameter: &&Parameter| {
             (**parameter != Parameter::Precision || self.precision != Arithmetic::Robust)
                 && (**parameter != Parameter::Denoise || self.denoise)
         };
-        let words: Vec<_> = parameters
+        let label: Vec<_> = parameters
             .iter()
             .filter(is_named)
-            .map(|parameter| parameter.words(self.get(*parameter)))
+            .map(|parameter| parameter.label(self.get(*parameter)))
             .collect();
-        match words.split_first() {
+        match label.split_first() {
             Some((first, [])) => first.clone(),
             Some((first, rest))
                 if parameters[0] == Parameter::Supersampling
@@ -155,7 +155,7 @@ impl Setting {
             {
                 format!("{first} with {}", rest.join(", "))
             }
-            Some(_) => words.join(", "),
+            Some(_) => label.join(", "),
             None => "the scene as it is".to_owned(),
         }
     }
@@ -181,9 +181,9 @@ mod tests {
             paths: 32,
             ..setting(4, 16, 3)
         };
-        let words = |parameters: &[Parameter]| setting.words(parameters);
+        let label = |parameters: &[Parameter]| setting.label(parameters);
         assert_eq!(
-            words(&[
+            label(&[
                 Parameter::Supersampling,
                 Parameter::Aperture,
                 Parameter::Depth
@@ -191,20 +191,20 @@ mod tests {
             "4×4 with 16 aperture samples, depth 3"
         );
         assert_eq!(
-            words(&[Parameter::Supersampling, Parameter::Lights]),
+            label(&[Parameter::Supersampling, Parameter::Lights]),
             "4×4 with 1 light sample"
         );
         assert_eq!(
-            words(&[Parameter::Supersampling, Parameter::Depth]),
+            label(&[Parameter::Supersampling, Parameter::Depth]),
             "4×4, depth 3"
         );
         assert_eq!(
-            words(&[Parameter::Paths, Parameter::Depth]),
+            label(&[Parameter::Paths, Parameter::Depth]),
             "32 paths, depth 3"
         );
-        assert_eq!(words(&[]), "the scene as it is");
+        assert_eq!(label(&[]), "the scene as it is");
         assert_eq!(
-            words(&[Parameter::Supersampling, Parameter::Precision]),
+            label(&[Parameter::Supersampling, Parameter::Precision]),
             "4×4"
         );
         let plain = Setting {
@@ -212,7 +212,7 @@ mod tests {
             ..setting
         };
         assert_eq!(
-            plain.words(&[Parameter::Depth, Parameter::Precision]),
+            plain.label(&[Parameter::Depth, Parameter::Precision]),
             "depth 3, plain arithmetic"
         );
     }
@@ -236,8 +236,8 @@ mod tests {
         let setting = setting(1, 1, 3)
             .with(Parameter::Paths, 16)
             .with(Parameter::Denoise, 1);
-        let words = setting.words(&[Parameter::Paths, Parameter::Denoise, Parameter::Depth]);
-        assert_eq!(words, "16 paths, denoised, depth 3");
+        let label = setting.label(&[Parameter::Paths, Parameter::Denoise, Parameter::Depth]);
+        assert_eq!(label, "16 paths, denoised, depth 3");
         assert_eq!(Parameter::Denoise.argument(1), "--denoise");
     }
 

@@ -62,9 +62,9 @@ impl<'runtime> Subject<'runtime> {
 
     /// The same with the first `count` tiles only, at least one.
     pub(super) fn keep(&self, count: usize) -> Self {
-        let mut fewer = self.clone();
-        fewer.tiles.truncate(count.max(1));
-        fewer
+        let mut reduced = self.clone();
+        reduced.tiles.truncate(count.max(1));
+        reduced
     }
 
     /// The same part of another scene's picture.

@@ -171,9 +171,9 @@ fn in_rounds(
         Some(resumed_from) => resumed_from,
         None => {
             let (light_samples, tried) = light_samples(world, scene, order, watch)?;
-            let mut progressive = begin(light_samples, order);
+            let mut progressive = new_render(light_samples, order);
             progressive.film.counts = tried;
-            progressive.wanted = vec![first_round(scene, order, world); progressive.film.len()];
+            progressive.requested = vec![first_round(scene, order, world); progressive.film.len()];
             progressive
         }
     };
@@ -191,13 +191,14 @@ fn in_rounds(
         let tail = tail_of(progressive.rounds + 1);
         let bound = noise.bound(tail, order.goal.error);
         let goal = order.goal.error;
-        let Some(wanted) = next_round(&progressive.film, &noise, tail, goal, f64::INFINITY) else {
+        let Some(requested) = next_round(&progressive.film, &noise, tail, goal, f64::INFINITY)
+        else {
             checkpointer
                 .iter()
                 .for_each(|checkpointer| checkpointer.save(&progressive));
             return Ok(progressive.result(bound, order.values));
         };
-        (progressive.wanted, error) = (wanted, Some(bound.error));
+        (progressive.requested, error) = (requested, Some(bound.error));
         progressive.rounds += 1;
     }
 }
@@ -210,10 +211,10 @@ pub(super) fn tail_of(rounds: u32) -> f64 {
 }
 
 /// A render without samples yet.
-pub(super) fn begin(light_samples: u32, order: &Order) -> ProgressiveRender {
+pub(super) fn new_render(light_samples: u32, order: &Order) -> ProgressiveRender {
     ProgressiveRender {
         film: order.film(),
-        wanted: Vec::new(),
+        requested: Vec::new(),
         rounds: 0,
         light_samples,
         keeps_lights: order.keep_lights,
@@ -338,7 +339,7 @@ pub(super) fn light_samples(
         last,
     };
     let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
-    let wanted: Vec<_> = pixels
+    let requested: Vec<_> = pixels
         .map(|pixel| [if some.contain(pixel) { LENGTH } else { 0 }, 0])
         .collect();
     // Try larger numbers while noise times rays decreases.
@@ -349,7 +350,7 @@ pub(super) fn light_samples(
             pixels: film.len() as u64,
             error: None,
         });
-        if !world.grow(&mut film, &|index| wanted[index], watch.on_pixel) {
+        if !world.grow(&mut film, &|index| requested[index], watch.on_pixel) {
             return Err(Stopped);
         }
         tried = tried.plus(film.counts);

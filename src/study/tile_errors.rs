@@ -33,10 +33,10 @@ impl TileErrors {
     /// distributed evenly, less if few tiles have most of the error.
     ///
     /// The interval is symmetric on a logarithmic scale. Its upper end includes an additional tile
-    /// with `WORSE` times the worst error, because sampled errors are too small more often than too
+    /// with `WORST_FACTOR` times the worst error, because sampled errors are too small more often than too
     /// large.
     pub(super) fn interval(&self) -> [f64; 2] {
-        const WORSE: f64 = 2.0;
+        const WORST_FACTOR: f64 = 2.0;
         let mean = self.mean();
         if self.fraction >= 1.0 || mean == 0.0 {
             return [mean, mean];
@@ -46,7 +46,7 @@ impl TileErrors {
         }
         let worst = self.squares.iter().copied().fold(0.0, f64::max);
         let mut more = self.clone();
-        more.squares.push(WORSE * worst);
+        more.squares.push(WORST_FACTOR * worst);
         more.weights.push(1.0);
         // The error of a channel is at most 1.
         let high = (more.mean() * more.factor()).clamp(mean, mean.max(1.0));

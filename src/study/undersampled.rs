@@ -12,7 +12,7 @@ const EXPECTED_HITS: f64 = 3.0;
 const TARGET_FRACTION: f64 = 0.25;
 
 /// The maximum number of samples per replicate that are taken only for undersampled features.
-const MOST: u32 = 256;
+const MAX_SAMPLES: u32 = 256;
 
 /// The error bound of undersampled features of a film.
 #[derive(Clone, Copy, Debug)]
@@ -89,7 +89,7 @@ impl Undersampled {
     /// many.
     pub(super) fn least(&self, error: f64) -> u32 {
         let counts = std::iter::successors(Some(1), |count| Some(2 * count));
-        let mut counts = counts.take_while(|count| *count <= MOST);
+        let mut counts = counts.take_while(|count| *count <= MAX_SAMPLES);
         counts
             .find(|count| self.square(*count) <= allowance(error))
             .unwrap_or(1)

@@ -32,7 +32,7 @@ const RENDERS: f64 = 8.0 + ROUNDS + 1.0;
 const PILOT: u64 = 0x5EED;
 
 /// The minimum number of tiles.
-const FEWEST: usize = 8;
+const MIN_TILES: usize = 8;
 
 /// The probability that any tile is reported as different if none is.
 const FALSE_ALARM: f64 = 0.05;
@@ -156,12 +156,12 @@ pub fn versus(
 fn affordable(subjects: [&Subject<'_>; 2], budget: f64) -> Result<usize, Stopped> {
     let mut rays = 0.0;
     for subject in subjects {
-        let pilot = subject.keep(FEWEST);
+        let pilot = subject.keep(MIN_TILES);
         let rendered = pilot.render(Setting::of(&subject.scene), independent(PILOT))?;
         rays += rendered.counts.rays() as f64 / pilot.count() as f64;
     }
     let tiles = (budget / (RENDERS * rays)).min(subjects[0].count() as f64);
-    Ok((tiles as usize).max(FEWEST))
+    Ok((tiles as usize).max(MIN_TILES))
 }
 
 /// The replicates of a scene.
@@ -192,12 +192,12 @@ impl SampledScene {
                     .for_each(|(sum, tile)| add(sum, tile)),
             }
         }
-        let part = f64::from(REPLICATES / 2).recip();
+        let scale = f64::from(REPLICATES / 2).recip();
         let all = halves
             .iter_mut()
             .flatten()
             .flat_map(|tile| &mut tile.pixels);
-        all.flatten().for_each(|value| *value *= part);
+        all.flatten().for_each(|value| *value *= scale);
         Ok(Self { halves, means })
     }
 

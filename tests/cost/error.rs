@@ -168,7 +168,7 @@ fn the_scenes_own_depth_is_no_error() {
         let bounces = study.bounces.as_ref().unwrap();
         let most = bounces.deeper.last().unwrap();
         let at = |depth| [picture(&flat, fine.with(Parameter::Depth, depth))];
-        let difference = study::rmse(&at(bounces.own), &at(most.depth));
+        let difference = study::rmse(&at(bounces.scene_depth), &at(most.depth));
         assert!(
             bounces.end == DepthEnd::Exact && (most.difference / difference - 1.0).abs() < 0.2,
             "{bounces:?}, but {difference}"

@@ -234,6 +234,8 @@ fn precision_is_turned_where_that_adds_no_error() {
 fn a_scene_without_knobs_has_one_row_without_error() {
     let study = study_of(&scene(&[("\"phong\",", "\"zbuffer\",")]), 1_000_000, 0);
     assert_eq!(study.rows.len(), 1, "{}", study::table(&study));
-    assert!(study.rows[0].front && study.rows[0].own && study.rows[0].errors.rmse == 0.0);
+    assert!(
+        study.rows[0].front && study.rows[0].is_scene_setting && study.rows[0].errors.rmse == 0.0
+    );
     assert!(study::html(&study).contains("</html>"));
 }

@@ -235,7 +235,7 @@ fn the_recommended_setting_has_a_command() {
     }
     let used = WHOLE.used();
     assert!(
-        WHOLE.advice[0].starts_with(&format!("{}:", setting.words(&used))),
+        WHOLE.advice[0].starts_with(&format!("{}:", setting.label(&used))),
         "{command}"
     );
     assert!(
@@ -279,9 +279,14 @@ fn what_is_recommended_is_never_told_to_be_off_the_front() {
     for row in &mut study.rows {
         row.front = false;
     }
-    let own = study.rows.iter().find(|row| row.own).unwrap().clone();
+    let own = study
+        .rows
+        .iter()
+        .find(|row| row.is_scene_setting)
+        .unwrap()
+        .clone();
     let mut twin = own.clone();
-    (twin.own, twin.front) = (false, true);
+    (twin.is_scene_setting, twin.front) = (false, true);
     twin.setting.precision = Arithmetic::Plain;
     study.rows.push(twin);
     assert_eq!(study::recommended(&study).unwrap().setting, own.setting);

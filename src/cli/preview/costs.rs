@@ -33,7 +33,7 @@ fn told(study: &Study, own: &Setting) -> Value {
         let values: BTreeMap<_, _> = values.map(|knob| (knob, setting.get(*knob))).collect();
         json!({
             "values": values,
-            "words": setting.words(&used),
+            "words": setting.label(&used),
             "seconds": row.seconds.value,
             "ratio": row.ratio.value,
             "error": row.errors.rmse,

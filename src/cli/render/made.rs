@@ -122,7 +122,7 @@ impl MadePicture {
 
 /// How often each effect was simulated: its rays, or its evaluations.
 pub(crate) fn effects(counts: &Counts) -> impl Iterator<Item = (&'static str, u64)> {
-    let effects = Effect::OF_PATHS.into_iter().chain(Effect::OF_THE_COURSE);
+    let effects = Effect::OF_PATHS.into_iter().chain(Effect::OF_WHITTED);
     let counted = effects.map(|effect| (effect.name(), counts.of(effect)));
     counted.filter(|(_, count)| *count > 0)
 }

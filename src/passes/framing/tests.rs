@@ -130,11 +130,11 @@ fn a_subject_spans_85_percent_and_stands_in_the_middle() {
 
 #[test]
 fn a_wide_ground_is_no_subject_but_a_floor_alone_is() {
-    let ball = [[-1.0, 0.0, -1.0], [1.0, 2.0, 1.0]];
+    let sphere = [[-1.0, 0.0, -1.0], [1.0, 2.0, 1.0]];
     let ground = [[-90.0, -0.01, -90.0], [90.0, 0.0, 90.0]];
     let (alone, on_ground) = (
-        framed(&[ball], Framing::default()),
-        framed(&[ball, ground], Framing::default()),
+        framed(&[sphere], Framing::default()),
+        framed(&[sphere, ground], Framing::default()),
     );
     let distance = |scene: &Scene| scene.camera.distance();
     assert!((distance(&alone) - distance(&on_ground)).abs() < 1e-9);
@@ -144,8 +144,8 @@ fn a_wide_ground_is_no_subject_but_a_floor_alone_is() {
         [[-90.0, 5.0, -90.0], [90.0, 5.1, 90.0]],
         [[-1.5, -0.01, -1.5], [1.5, 0.0, 1.5]],
     );
-    assert!(distance(&framed(&[ball, roof], Framing::default())) > 100.0);
-    assert!(distance(&framed(&[ball, floor], Framing::default())) > 1.05 * distance(&alone));
+    assert!(distance(&framed(&[sphere, roof], Framing::default())) > 100.0);
+    assert!(distance(&framed(&[sphere, floor], Framing::default())) > 1.05 * distance(&alone));
 }
 
 #[test]

@@ -39,7 +39,7 @@ mod tests {
 
     #[test]
     fn each_integrator_sees_its_lights_in_the_order_of_the_scene() {
-        let lamp = |x: f64| {
+        let course_light = |x: f64| {
             Light::Course(CourseLight {
                 position: Vec3::X * x,
                 color: Vec3::ONE,
@@ -50,7 +50,7 @@ mod tests {
             direction: Vec3::Z,
             irradiance: Vec3::ONE,
         }));
-        let lights = [lamp(1.0), sun, lamp(2.0)];
+        let lights = [course_light(1.0), sun, course_light(2.0)];
         let places = course(&lights)
             .iter()
             .map(|light| light.position.x)

@@ -53,8 +53,16 @@ fn standard_of_phong(phong: &Phong) -> Standard {
     let [r, g, b] = fit.base_color.map(UnitInterval::saturating);
     Standard {
         base_color: [r, g, b, UnitInterval::ONE],
-        base_color_map: phong.maps.as_ref().and_then(|maps| maps.color).map(whole),
-        normal_map: phong.maps.as_ref().and_then(|maps| maps.normal).map(whole),
+        base_color_map: phong
+            .maps
+            .as_ref()
+            .and_then(|maps| maps.color)
+            .map(untransformed_map),
+        normal_map: phong
+            .maps
+            .as_ref()
+            .and_then(|maps| maps.normal)
+            .map(untransformed_map),
         metallic: UnitInterval::saturating(fit.metallic),
         roughness: UnitInterval::saturating(fit.roughness),
         specular: UnitInterval::saturating(fit.specular),
@@ -66,7 +74,7 @@ fn standard_of_phong(phong: &Phong) -> Standard {
 }
 
 /// A map with untransformed texture coordinates.
-fn whole(texture: usize) -> Map {
+fn untransformed_map(texture: usize) -> Map {
     Map {
         texture,
         set: UvSet::First,
@@ -88,7 +96,7 @@ mod tests {
     use super::*;
     use rtc_valid::Maps;
 
-    fn matt() -> Phong {
+    fn diffuse_material() -> Phong {
         phong_of_standard(&WHITE)
     }
 
@@ -98,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_white_wall_is_one_in_both_models() {
-        let wall = matt();
+        let wall = diffuse_material();
         assert_eq!(
             (wall.color, wall.kd.get(), wall.ks.get()),
             (Vec3::ONE, 1.0, 0.0)
@@ -129,7 +137,7 @@ mod tests {
                 ks: number(ks),
                 n: number(30.0),
                 ior: Positive::new(1.75).unwrap(),
-                ..matt()
+                ..diffuse_material()
             })
         };
         let weights = [(0.5, 0.5), (0.5, 0.25), (0.5, 0.75)];
@@ -143,7 +151,10 @@ mod tests {
     #[test]
     fn what_neither_scatters_nor_mirrors_is_black() {
         let kd = NonNegative::ZERO;
-        let black = standard_of_phong(&Phong { kd, ..matt() });
+        let black = standard_of_phong(&Phong {
+            kd,
+            ..diffuse_material()
+        });
         assert_eq!(
             black.base_color.map(UnitInterval::get),
             [0.0, 0.0, 0.0, 1.0]
@@ -157,7 +168,7 @@ mod tests {
             color: Vec3::new(0.3, 0.2, 0.1),
             kd: NonNegative::ZERO,
             ks: number(0.75),
-            ..matt()
+            ..diffuse_material()
         };
         let metal = standard_of_phong(&mirror);
         let [r, g, b, alpha] = metal.base_color.map(UnitInterval::get);
@@ -179,7 +190,7 @@ mod tests {
                 normal: None,
                 bump: None,
             })),
-            ..matt()
+            ..diffuse_material()
         };
         let seen = standard_of_phong(&glass);
         assert_eq!((seen.transmission.get(), seen.thickness.get()), (1.0, 1.0));

@@ -70,7 +70,7 @@ pub enum EnvironmentUse {
 }
 
 /// A rule that was applied.
-pub(super) struct Applied {
+pub(super) struct AppliedRule {
     pub(super) rule: &'static PathRule,
     /// The effects that are no longer required after this rule.
     pub(super) removed_effects: Vec<Effect>,
@@ -80,20 +80,20 @@ pub(super) struct Applied {
 
 impl PlanBuilder<'_> {
     /// Applies a rule; `None` if it changes nothing.
-    pub(super) fn apply(&mut self, rule: &'static PathRule) -> Option<Applied> {
+    pub(super) fn apply(&mut self, rule: &'static PathRule) -> Option<AppliedRule> {
         let before = Effect::OF_PATHS.map(|effect| self.requires(effect));
         let places = (rule.apply)(self);
         if places.is_empty() {
             return None;
         }
-        let gone =
+        let no_longer_required =
             |(effect, before): (Effect, bool)| (before && !self.requires(effect)).then_some(effect);
         let removed_effects = Effect::OF_PATHS
             .into_iter()
             .zip(before)
-            .filter_map(gone)
+            .filter_map(no_longer_required)
             .collect();
-        Some(Applied {
+        Some(AppliedRule {
             rule,
             removed_effects,
             places,

@@ -21,12 +21,12 @@ impl PathPlan {
     pub fn caustics(&self) -> Option<Caustics> {
         let has_punctual = self.has_punctual();
         let shines = |m: &Standard| !m.unlit && m.emissive != Vec3::ZERO;
-        let has_wide = self.environment != EnvironmentUse::Nothing;
-        let has_light = has_punctual || has_wide || self.materials.iter().any(shines);
-        let is_thrown = has_light && self.materials.iter().any(casts_caustics);
+        let has_environment = self.environment != EnvironmentUse::Nothing;
+        let has_light = has_punctual || has_environment || self.materials.iter().any(shines);
+        let has_caustics = has_light && self.materials.iter().any(casts_caustics);
         let is_exact = |m: &Standard| casts_caustics(m) && m.roughness == UnitInterval::ZERO;
         let is_missed = has_punctual && self.materials.iter().any(is_exact);
-        is_thrown.then_some(match is_missed {
+        has_caustics.then_some(match is_missed {
             true => Caustics::LeftOut,
             false => Caustics::ByChance,
         })
@@ -63,8 +63,8 @@ impl Caustics {
 /// Whether a material reflects or refracts most light into nearly one direction.
 fn casts_caustics(m: &Standard) -> bool {
     /// At this roughness, light is spread over tens of degrees.
-    const ROUGH: f64 = 0.4;
-    m.roughness.get() < ROUGH && reflects_or_refracts(m)
+    const MAX_ROUGHNESS: f64 = 0.4;
+    m.roughness.get() < MAX_ROUGHNESS && reflects_or_refracts(m)
 }
 
 /// Whether a material reflects or refracts most light.

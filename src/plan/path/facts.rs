@@ -1,7 +1,7 @@
 //! Facts about a scene before any rule is applied: the surfaces of each material, their texture
 //! coordinates, and the texture values there.
 
-use super::texture::{Area, TextureValues};
+use super::texture::{TextureValues, UvRect};
 use crate::Layer;
 use crate::shape::shape_facts;
 use rtc_math::UnitInterval;
@@ -15,7 +15,7 @@ pub(super) struct MaterialUses {
     /// For each set of texture coordinates, which surfaces have it.
     sets: [Presence; 2],
     /// For each set, the bounding rectangle of all coordinates.
-    areas: [Area; 2],
+    areas: [UvRect; 2],
     /// Whether any surface has vertex colours. Rounding in the interpolation may leave an alpha
     /// just below those of the vertices.
     pub(super) has_colors: bool,
@@ -46,7 +46,7 @@ impl MaterialUses {
         let unused = Self {
             surfaces: Vec::new(),
             sets: [Presence::Never; 2],
-            areas: [Area::NONE; 2],
+            areas: [UvRect::NONE; 2],
             has_colors: false,
         };
         let mut uses = vec![unused; scene.materials().len()];
@@ -67,11 +67,11 @@ impl MaterialUses {
         uses
     }
 
-    fn add(&mut self, surface: usize, areas: [Option<Area>; 2]) {
+    fn add(&mut self, surface: usize, areas: [Option<UvRect>; 2]) {
         let is_first = self.surfaces.is_empty();
         for (set, area) in areas.into_iter().enumerate() {
             self.sets[set] = self.sets[set].and(area.is_some(), is_first);
-            self.areas[set] = self.areas[set].around(area.unwrap_or(Area::NONE));
+            self.areas[set] = self.areas[set].around(area.unwrap_or(UvRect::NONE));
         }
         self.surfaces.push(surface);
     }

@@ -24,7 +24,7 @@ mod texture;
 
 pub use builder::{EnvironmentUse, LightUse};
 pub use caustics::Caustics;
-pub(super) use texture::Area;
+pub(super) use texture::UvRect;
 
 use super::effect::{Effect, EffectStatus};
 use super::facts as facts_seen;
@@ -33,7 +33,7 @@ use super::layer::Layer;
 use super::projection::{ScreenProjection, ScreenRect};
 use super::rules::Rules;
 use super::surface_bounds::surface_bounds;
-use builder::{Applied, PlanBuilder};
+use builder::{AppliedRule, PlanBuilder};
 use facts::MaterialUses;
 use rtc_math::Vec3;
 use rtc_valid::{Map, PathSettings, Projection, Standard, UvSet, ValidScene};
@@ -67,7 +67,7 @@ impl PathPlan {
 }
 
 /// The scene after the rules.
-pub(super) struct Planned {
+pub(super) struct PlannedPaths {
     pub(super) plan: PathPlan,
     /// For each surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
@@ -77,7 +77,7 @@ pub(super) struct Planned {
 }
 
 /// Plans path tracing of a scene.
-pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Planned {
+pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> PlannedPaths {
     // Gather the facts.
     let (uses, surface_bounds, textures) = (
         MaterialUses::of(scene),
@@ -125,33 +125,33 @@ pub(super) fn plan(scene: &ValidScene, path: PathSettings, rules: Rules) -> Plan
         shadows: true,
     };
     // Apply the rules, and derive the status of each effect.
-    let mut left = requested.clone();
-    let applied = apply(&mut left, rules);
-    let statuses = status::statuses(&requested, &left, &applied);
+    let mut reduced = requested.clone();
+    let applied = apply(&mut reduced, rules);
+    let statuses = status::statuses(&requested, &reduced, &applied);
     // Take the plan from what remains.
     let folded = |(index, material): (usize, &Standard)| {
-        let maps = material.maps().filter(|map| left.is_folded(index, map));
+        let maps = material.maps().filter(|map| reduced.is_folded(index, map));
         maps.map(|map| (map.texture, map.set)).collect()
     };
     let plan = PathPlan {
-        folded: left.materials.iter().enumerate().map(folded).collect(),
-        features: features(&left, rules),
-        lights: left.lights,
-        environment: left.environment,
-        last_ray: left.last_ray,
-        materials: left.materials,
+        folded: reduced.materials.iter().enumerate().map(folded).collect(),
+        features: features(&reduced, rules),
+        lights: reduced.lights,
+        environment: reduced.environment,
+        last_ray: reduced.last_ray,
+        materials: reduced.materials,
     };
-    Planned {
+    PlannedPaths {
         plan,
-        surfaces: left.surfaces,
-        max_depth: left.max_depth,
+        surfaces: reduced.surfaces,
+        max_depth: reduced.max_depth,
         statuses,
     }
 }
 
 /// Applies the rules until none changes anything. Every change removes something, so the loop
 /// terminates.
-fn apply(builder: &mut PlanBuilder<'_>, rules: Rules) -> Vec<Applied> {
+fn apply(builder: &mut PlanBuilder<'_>, rules: Rules) -> Vec<AppliedRule> {
     let mut applied = Vec::new();
     loop {
         let before = applied.len();

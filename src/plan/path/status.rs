@@ -1,6 +1,6 @@
 //! The status of each effect of path tracing, derived from the final [`PlanBuilder`].
 
-use super::builder::{Applied, PlanBuilder, material_requires};
+use super::builder::{AppliedRule, PlanBuilder, material_requires};
 use crate::effect::{Effect, EffectStatus, State};
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_valid::Standard;
@@ -11,20 +11,20 @@ const MAX_FACTS: usize = 3;
 /// The status of each effect that path tracing may have.
 pub(super) fn statuses(
     requested: &PlanBuilder<'_>,
-    left: &PlanBuilder<'_>,
-    applied: &[Applied],
+    reduced: &PlanBuilder<'_>,
+    applied: &[AppliedRule],
 ) -> Vec<EffectStatus> {
     Effect::OF_PATHS
         .into_iter()
-        .map(|effect| status(effect, requested, left, applied))
+        .map(|effect| status(effect, requested, reduced, applied))
         .collect()
 }
 
 fn status(
     effect: Effect,
     requested: &PlanBuilder<'_>,
-    left: &PlanBuilder<'_>,
-    applied: &[Applied],
+    reduced: &PlanBuilder<'_>,
+    applied: &[AppliedRule],
 ) -> EffectStatus {
     // Needed if still required; pruned if a rule removed it; otherwise absent.
     let removed_effects = || {
@@ -32,10 +32,10 @@ fn status(
             .iter()
             .find(|applied| applied.removed_effects.contains(&effect))
     };
-    let (state, rule, reason, mut facts) = if left.requires(effect) {
-        let (reason, places) = left.need(effect);
+    let (state, rule, reason, mut facts) = if reduced.requires(effect) {
+        let (reason, places) = reduced.need(effect);
         (State::Needed, None, reason, places)
-    } else if let Some(Applied { rule, places, .. }) =
+    } else if let Some(AppliedRule { rule, places, .. }) =
         removed_effects().filter(|_| requested.requires(effect))
     {
         (
@@ -107,15 +107,15 @@ impl PlanBuilder<'_> {
     /// Like [`Self::need`], for an effect that no single material requires.
     fn need_of_scene(&self, effect: Effect) -> (String, Vec<ValuePath>) {
         let at = |entity, field| vec![ValuePath::new(entity, 0, field)];
-        let says = |reason: &str, entity| (reason.to_owned(), at(entity, Field::Whole));
+        let reason_at = |reason: &str, entity| (reason.to_owned(), at(entity, Field::Whole));
         match effect {
             Effect::Surfaces => {
-                let left = self
+                let reduced = self
                     .surfaces
                     .iter()
                     .filter(|is_in_world| **is_in_world)
                     .count();
-                let reason = format!("{left} of {} can be hit by a ray", self.surfaces.len());
+                let reason = format!("{reduced} of {} can be hit by a ray", self.surfaces.len());
                 (reason, at(EntityKind::Surface, Field::Whole))
             }
             Effect::Supersampling => {
@@ -135,22 +135,28 @@ impl PlanBuilder<'_> {
                 let reason = "there is multiple scattering between microfacets";
                 (reason.to_owned(), at(EntityKind::Settings, Field::Mode))
             }
-            Effect::Environment => says(
+            Effect::Environment => reason_at(
                 "paths that leave the scene hit the environment light",
                 EntityKind::Environment,
             ),
-            Effect::EnvironmentMap => says("the environment has an image", EntityKind::Environment),
-            Effect::DirectLight => says(
+            Effect::EnvironmentMap => {
+                reason_at("the environment has an image", EntityKind::Environment)
+            }
+            Effect::DirectLight => reason_at(
                 "a surface is illuminated by a light that can be sampled",
                 EntityKind::Light,
             ),
-            Effect::Shadows => says("a surface may shadow another or itself", EntityKind::Light),
-            Effect::Mis => says(
+            Effect::Shadows => {
+                reason_at("a surface may shadow another or itself", EntityKind::Light)
+            }
+            Effect::Mis => reason_at(
                 "light sampling and BSDF sampling find the same light",
                 EntityKind::Light,
             ),
-            Effect::NormalInterpolation => says("a mesh has vertex normals", EntityKind::Surface),
-            Effect::VertexColors => says("a mesh has vertex colours", EntityKind::Surface),
+            Effect::NormalInterpolation => {
+                reason_at("a mesh has vertex normals", EntityKind::Surface)
+            }
+            Effect::VertexColors => reason_at("a mesh has vertex colours", EntityKind::Surface),
             Effect::NormalMapping => ("a material has a normal map".to_owned(), self.with_maps()),
             Effect::Textures => ("a material has a texture".to_owned(), self.with_maps()),
             Effect::Emission
@@ -166,7 +172,7 @@ impl PlanBuilder<'_> {
             | Effect::SoftLight
             | Effect::Highlight
             | Effect::Mirror
-            | Effect::GlossyReflection => says("", EntityKind::Surface),
+            | Effect::GlossyReflection => reason_at("", EntityKind::Surface),
         }
     }
 

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// A rectangle of texture coordinates, from minimum to maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Area([[f64; 2]; 2]);
+pub(crate) struct UvRect([[f64; 2]; 2]);
 
 /// The margin in texels, for rounding and for the neighbours that filtering reads.
 const MARGIN: f64 = 2.0;
@@ -15,7 +15,7 @@ const MARGIN: f64 = 2.0;
 /// An area with more repetitions than this counts as the whole image.
 const MAX_REPEATS: f64 = 1e6;
 
-impl Area {
+impl UvRect {
     /// The empty area.
     pub(super) const NONE: Self = Self([[f64::INFINITY, f64::NEG_INFINITY]; 2]);
 
@@ -82,7 +82,7 @@ impl<'scene> TextureValues<'scene> {
     /// The value of a channel (red, green, blue, alpha) of a map on an area, if it is constant
     /// there; colours are not decoded, bytes are divided by 255. Filtering equal texels gives that
     /// value.
-    pub(super) fn value(&self, map: &Map, area: Area, channel: usize) -> Option<f64> {
+    pub(super) fn value(&self, map: &Map, area: UvRect, channel: usize) -> Option<f64> {
         let texture = &self.scene.textures()[map.texture];
         let Some(image) = image_of(texture) else {
             return UV[channel];
@@ -99,7 +99,7 @@ impl<'scene> TextureValues<'scene> {
     pub(super) fn all(
         &self,
         map: &Map,
-        area: Area,
+        area: UvRect,
         channel: usize,
         holds: impl Fn(f64) -> bool,
     ) -> bool {
@@ -114,7 +114,12 @@ impl<'scene> TextureValues<'scene> {
     }
 
     /// The texels that a lookup of a texture on an area may read.
-    fn region(&self, texture: &Texture, image: usize, Area([us, vs]): Area) -> ImageRegion<'scene> {
+    fn region(
+        &self,
+        texture: &Texture,
+        image: usize,
+        UvRect([us, vs]): UvRect,
+    ) -> ImageRegion<'scene> {
         let image = &self.scene.images()[image];
         let [width, height] = [image.width.get(), image.height.get()];
         let (columns, rows) = match texture {
@@ -251,14 +256,14 @@ mod tests {
         assert_eq!(texels([1e7, 1e7], 64, Wrap::Clamp), 0..64);
         assert_eq!(texels([-MAX_REPEATS, 0.0], 64, Wrap::Clamp), 0..64);
         assert_eq!(texels([0.5, MAX_REPEATS], 64, Wrap::Clamp), 0..64);
-        let Area([none, _]) = Area::NONE;
+        let UvRect([none, _]) = UvRect::NONE;
         assert_eq!(texels(none, 64, Wrap::Clamp), 0..64, "no place known");
     }
 
     #[test]
     fn an_affine_map_turns_and_moves_an_area() {
-        let turned = Area::UNIT.mapped(&[[0.0, 2.0, 1.0], [-1.0, 0.0, 0.0]]);
-        assert_eq!(turned, Area([[1.0, 3.0], [-1.0, 0.0]]));
+        let turned = UvRect::UNIT.mapped(&[[0.0, 2.0, 1.0], [-1.0, 0.0, 0.0]]);
+        assert_eq!(turned, UvRect([[1.0, 3.0], [-1.0, 0.0]]));
     }
 
     fn image(width: u32, texels: &[[u8; 3]]) -> Image {

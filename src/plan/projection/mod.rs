@@ -185,7 +185,7 @@ impl ScreenProjection {
         error_bound: f64,
     ) -> ([f64; 2], f64) {
         /// The camera's axes are perpendicular up to this error.
-        const RIGHT_ANGLE: f64 = 1e-9;
+        const MAX_SKEW: f64 = 1e-9;
         let Camera {
             center, right, up, ..
         } = &self.camera;
@@ -195,7 +195,7 @@ impl ScreenProjection {
         let across = on_plane.dot(*right) / (across_step * across_step);
         let upward = on_plane.dot(*up) / (upward_step * upward_step);
         let error = (error_bound / depth + 16.0 * U) * away.length() + 16.0 * U * self.reach;
-        let skew = RIGHT_ANGLE * (across.abs() + upward.abs()) * (across_step + upward_step);
+        let skew = MAX_SKEW * (across.abs() + upward.abs()) * (across_step + upward_step);
         let at = [across + self.size[0] / 2.0, self.size[1] / 2.0 - upward];
         (at, (error + skew) / across_step.min(upward_step))
     }

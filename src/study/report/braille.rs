@@ -41,8 +41,8 @@ fn drawn(points: &[(f64, f64)], steps: &[(f64, f64)]) -> Option<String> {
     let mut canvas = Canvas([[0; COLUMNS]; LINES]);
     let place = |(x, y): (f64, f64)| {
         let at = |value: f64, (low, high): (f64, f64), most: usize| {
-            let share = (ln(value) - ln(low)) / (ln(high) - ln(low));
-            (share.clamp(0.0, 1.0) * most as f64).round() as usize
+            let fraction = (ln(value) - ln(low)) / (ln(high) - ln(low));
+            (fraction.clamp(0.0, 1.0) * most as f64).round() as usize
         };
         let (right, top) = (2 * COLUMNS - 2, 4 * LINES - 2);
         [at(x, xs, right), top - at(y, ys, top)]

@@ -99,7 +99,7 @@ pub(super) fn measured(row: &Row, used: &[Parameter]) -> String {
             spread.renders
         ),
     };
-    let setting = row.setting.words(used);
+    let setting = row.setting.label(used);
     format!("{time} ± {off:.1} %, error {limit}{error}{interval} grey levels{over} ({setting})")
 }
 
@@ -111,6 +111,6 @@ fn power_of_ten(decade: i32) -> f64 {
 pub(super) fn best_within(study: &Study, (time, row): &(f64, &Row)) -> String {
     let limit = if row.is_resolved { "" } else { "≤ " };
     let (time, error) = (seconds(*time), digits(row.errors.rmse));
-    let (interval, setting) = (interval(&row.errors), row.setting.words(&study.used()));
+    let (interval, setting) = (interval(&row.errors), row.setting.label(&study.used()));
     format!("in {time}: error {limit}{error}{interval} grey levels ({setting})")
 }

@@ -24,7 +24,7 @@ type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 struct Mark {
     /// The position, in units of the plot.
     at: (i32, i32),
-    words: String,
+    label: String,
 }
 
 /// A range of positive values for a logarithmic axis.
@@ -65,14 +65,14 @@ pub(super) fn front(study: &Study) -> String {
         let mut labels = Vec::new();
         for row in &rows {
             draw_row(&mut chart, row)?;
-            if row.front || row.own {
+            if row.front || row.is_scene_setting {
                 draw_label(&mut chart, row, &used, &mut labels)?;
             }
         }
         // Add tooltips.
         let mark_of = |row: &&Row| Mark {
             at: chart.backend_coord(&(row.seconds.value, row.errors.rmse)),
-            words: captions::measured(row, &used),
+            label: captions::measured(row, &used),
         };
         Ok(rows.iter().map(mark_of).collect())
     })
@@ -139,7 +139,7 @@ fn draw_label(
         .iter()
         .map(|parameter| parameter.cell(row.setting.get(*parameter)))
         .collect();
-    let own = if row.own { " (own)" } else { "" };
+    let own = if row.is_scene_setting { " (own)" } else { "" };
     let label = Text::new(format!("{}{own}", values.join("·")), (6, up), font(11));
     chart.draw_series([EmptyElement::at(at) + label])?;
     Ok(())
@@ -198,7 +198,7 @@ pub(super) fn parameter(report: &ParameterReport) -> String {
         // Add tooltips.
         let mark_of = |(x, level): &(f64, &Level)| Mark {
             at: chart.backend_coord(&(*x, level.error)),
-            words: format!(
+            label: format!(
                 "{name} {}: error {} grey levels",
                 report.parameter.cell(level.value),
                 digits(level.error)
@@ -242,11 +242,11 @@ fn plot(
 
 /// A plot with its marks on top, and a line below it for the values of the last one.
 fn with_marks(svg: &str, marks: &[Mark]) -> String {
-    let mark_of = |Mark { at: (x, y), words }: &Mark| {
-        let words = escaped(words);
+    let mark_of = |Mark { at: (x, y), label }: &Mark| {
+        let label = escaped(label);
         format!(
             "<circle class=\"spot\" cx=\"{x}\" cy=\"{y}\" r=\"10\" tabindex=\"0\" role=\"img\" \
-             aria-label=\"{words}\"><title>{words}</title></circle>\n"
+             aria-label=\"{label}\"><title>{label}</title></circle>\n"
         )
     };
     let marks: String = marks.iter().map(mark_of).collect();

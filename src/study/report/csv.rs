@@ -21,7 +21,7 @@ pub fn csv(study: &Study) -> String {
 fn line(row: &Row) -> String {
     let Row {
         setting,
-        own,
+        is_scene_setting,
         front,
         rays,
         seconds,
@@ -34,7 +34,7 @@ fn line(row: &Row) -> String {
         tiles: _,
     } = row;
     let parameters = Parameter::ALL.map(|parameter| parameter.cell(setting.get(parameter)));
-    let flags = [own, front, is_resolved].map(ToString::to_string);
+    let flags = [is_scene_setting, front, is_resolved].map(ToString::to_string);
     let rays =
         [rays.camera, rays.shadow, rays.mirror, rays.refracted].map(|count| count.to_string());
     let times = [seconds, ratio]

@@ -27,12 +27,12 @@ pub fn html(study: &Study) -> String {
         precision(study),
         maps::section(study),
         pictures(study),
-        fine_print(study),
+        notes(study),
     ];
     let lines = study.advice.iter().map(|line| paragraph(&escaped(line)));
     let command = study.command.iter().map(|command| {
-        let words = "One click marks the command of the first line, to be copied:";
-        paragraph(&format!("{words} <code>{}</code>", escaped(command)))
+        let label = "One click marks the command of the first line, to be copied:";
+        paragraph(&format!("{label} <code>{}</code>", escaped(command)))
     });
     let advice: String = lines.chain(command).collect();
     let advice = format!("<div class=\"advice\">\n{advice}</div>\n");
@@ -130,7 +130,7 @@ fn times(study: &Study) -> String {
 
 fn cells(row: &Row, used: &[Parameter], fraction: f64) -> Vec<String> {
     let star = if row.front { "★" } else { "" };
-    let own = if row.own { " own" } else { "" };
+    let own = if row.is_scene_setting { " own" } else { "" };
     let limit = if row.is_resolved { "" } else { "≤ " };
     let parameters = used
         .iter()
@@ -172,18 +172,18 @@ fn parameters(study: &Study) -> String {
     let mut figures = String::new();
     let mut not_applicable = String::new();
     for report in &study.parameters {
-        let words = escaped(&table::knob_line(report, study.bounces.as_ref()));
+        let label = escaped(&table::parameter_line(report, study.bounces.as_ref()));
         let has_points = report.levels.iter().any(|level| level.error > 0.0);
         if report.not_applicable.is_some()
             || report.parameter == Parameter::Precision
             || !has_points
         {
-            let _ = writeln!(not_applicable, "<li>{words}</li>");
+            let _ = writeln!(not_applicable, "<li>{label}</li>");
         } else {
             let plot = chart::parameter(report);
             let _ = writeln!(
                 figures,
-                "<figure>{plot}<figcaption>{words}</figcaption></figure>"
+                "<figure>{plot}<figcaption>{label}</figcaption></figure>"
             );
         }
     }
@@ -250,7 +250,7 @@ fn precision(study: &Study) -> String {
             &cost.difference,
         );
         let cells = [
-            cost.words(),
+            cost.label(),
             format!("{time:.2} ± {off:.1} %"),
             digits(difference.rmse),
             digits(difference.max),
@@ -278,16 +278,20 @@ fn pictures(study: &Study) -> String {
     let shown: Vec<_> = study
         .rows
         .iter()
-        .filter(|row| row.front || row.own)
+        .filter(|row| row.front || row.is_scene_setting)
         .collect();
     let step = shown.len().div_ceil(PICTURES).max(1);
     // Draw each picture beside its FLIP map.
     let mut figures = figure(&[picture::tiles(&study.reference_tiles)], "The reference");
     for row in shown.into_iter().step_by(step) {
-        let own = if row.own { ", the scene's own" } else { "" };
-        let words = format!(
+        let own = if row.is_scene_setting {
+            ", the scene's own"
+        } else {
+            ""
+        };
+        let label = format!(
             "{}{own}: error {}{}",
-            row.setting.words(&study.used()),
+            row.setting.label(&study.used()),
             digits(row.errors.rmse),
             interval(&row.errors)
         );
@@ -296,7 +300,7 @@ fn pictures(study: &Study) -> String {
                 picture::tiles(&row.tiles),
                 picture::heat(&row.tiles, &study.reference_tiles),
             ],
-            &words,
+            &label,
         );
     }
     let what = if study.part.tiles == 0 {
@@ -310,18 +314,18 @@ fn pictures(study: &Study) -> String {
     )
 }
 
-fn figure(images: &[String], words: &str) -> String {
+fn figure(images: &[String], label: &str) -> String {
     let images: String = images
         .iter()
         .map(|uri| format!("<img alt=\"\" src=\"{uri}\">"))
         .collect();
     format!(
         "<figure><div class=\"pair\">{images}</div><figcaption>{}</figcaption></figure>\n",
-        escaped(words)
+        escaped(label)
     )
 }
 
-fn fine_print(study: &Study) -> String {
+fn notes(study: &Study) -> String {
     let about = &study.about;
     let busy = format!(
         "wall time was {:.2} times processor time",

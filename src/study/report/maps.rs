@@ -24,18 +24,18 @@ pub(super) fn section(study: &Study) -> String {
     let mut figures = String::new();
     for map in &maps {
         let StudyMap {
-            words,
+            label,
             unit,
             most,
             image,
             name: _,
         } = map;
-        let (words, most, picture) = (escaped(words), digits(*most), wide(image));
+        let (label, most, picture) = (escaped(label), digits(*most), wide(image));
         let _ = writeln!(
             figures,
-            "<figure><img alt=\"{words}\" src=\"{picture}\">\n<img class=\"bar\" alt=\"\" src=\"{bar}\">\
+            "<figure><img alt=\"{label}\" src=\"{picture}\">\n<img class=\"bar\" alt=\"\" src=\"{bar}\">\
              <div class=\"ends\"><span>0</span><span>{unit}</span><span>{most} and more</span></div>\
-             <figcaption>{words}</figcaption></figure>"
+             <figcaption>{label}</figcaption></figure>"
         );
     }
     let hatched = match study.part.tiles {

@@ -10,7 +10,7 @@ use serde_json::Value;
 use std::fmt::Write;
 
 /// The maximum number of scene differences on the page.
-const MOST: usize = 500;
+const MAX_CHANGES: usize = 500;
 
 /// Two pictures and their difference.
 pub struct SliderPage<'a> {
@@ -87,12 +87,12 @@ fn changed(page: &SliderPage<'_>) -> String {
         return String::new();
     };
     let mut rows = String::new();
-    for Change { path, new, old } in changes.iter().take(MOST) {
+    for Change { path, new, old } in changes.iter().take(MAX_CHANGES) {
         let cell = |value: &Option<Value>| escaped(&value_text(value.as_ref()));
         let (path, old, new) = (escaped(path), cell(old), cell(new));
         let _ = writeln!(rows, "<tr><td>{path}</td><td>{old}</td><td>{new}</td></tr>");
     }
-    let more = match changes.len().saturating_sub(MOST) {
+    let more = match changes.len().saturating_sub(MAX_CHANGES) {
         0 => String::new(),
         more => format!("<p>and {more} more</p>\n"),
     };
@@ -108,9 +108,9 @@ fn changed(page: &SliderPage<'_>) -> String {
 /// A value of a scene as short text; a dash for none.
 #[must_use]
 pub fn value_text(value: Option<&Value>) -> String {
-    const MOST: usize = 60;
+    const MAX_CHANGES: usize = 60;
     let text = value.map_or_else(|| "–".to_owned(), Value::to_string);
-    match text.char_indices().nth(MOST) {
+    match text.char_indices().nth(MAX_CHANGES) {
         None => text,
         Some((end, _)) => format!("{}…", text.split_at(end).0),
     }

@@ -42,7 +42,7 @@ pub fn table(study: &Study) -> String {
     study
         .parameters
         .iter()
-        .for_each(|parameter| text += &wrapped(&knob_line(parameter, study.bounces.as_ref())));
+        .for_each(|parameter| text += &wrapped(&parameter_line(parameter, study.bounces.as_ref())));
     // Write bounces, ablations and arithmetics.
     text += &more_bounces(study.bounces.as_ref());
     text += &effects(study);
@@ -97,8 +97,8 @@ fn more_bounces(bounces: Option<&MoreBounces>) -> String {
 pub(super) fn steps(bounces: &MoreBounces) -> Vec<BounceCost> {
     let last = bounces.deeper.len().saturating_sub(1);
     let all = bounces.deeper.iter().enumerate();
-    let kept = all.filter(|(place, _)| (place + 1).is_power_of_two() || *place == last);
-    kept.map(|(_, cost)| *cost).collect()
+    let listed = all.filter(|(place, _)| (place + 1).is_power_of_two() || *place == last);
+    listed.map(|(_, cost)| *cost).collect()
 }
 
 /// The cost of effects and arithmetics.
@@ -118,7 +118,7 @@ fn effects(study: &Study) -> String {
     text += "\narithmetic                time  picture differs by\n";
     for cost in &study.precision {
         let (name, time, visible) = (
-            cost.words(),
+            cost.label(),
             cost.ratio.value,
             digits(100.0 * cost.difference.visible),
         );
@@ -132,10 +132,10 @@ fn effects(study: &Study) -> String {
 
 /// Truncates a name to its column.
 fn clipped(name: &str) -> String {
-    const ROOM: usize = 30;
+    const MAX_NAME: usize = 30;
     match name.chars().count() {
-        ..=ROOM => name.to_owned(),
-        _ => name.chars().take(ROOM - 1).chain(['…']).collect(),
+        ..=MAX_NAME => name.to_owned(),
+        _ => name.chars().take(MAX_NAME - 1).chain(['…']).collect(),
     }
 }
 
@@ -208,7 +208,7 @@ fn line(row: &Row, used: &[Parameter], (columns, fraction): (&[usize], f64)) -> 
             if row.resumed { "†" } else { "" }
         ),
         format!("{:.1}", 100.0 * row.ratio.relative()),
-        if row.own {
+        if row.is_scene_setting {
             "own".to_owned()
         } else {
             digits(row.ratio.value)
@@ -270,7 +270,7 @@ pub(super) fn part(study: &Study) -> String {
 
 /// The reference, and the unit of errors.
 pub(super) fn reference(study: &Study) -> String {
-    let setting = study.reference.setting.words(&study.used());
+    let setting = study.reference.setting.label(&study.used());
     let floor = digits(study.reference.floor);
     format!(
         "Reference: twice {setting}, off by {floor} grey levels itself. Errors are root mean squares in grey levels, of \
@@ -279,7 +279,7 @@ pub(super) fn reference(study: &Study) -> String {
 }
 
 /// The result for a parameter, in one sentence.
-pub(super) fn knob_line(report: &ParameterReport, bounces: Option<&MoreBounces>) -> String {
+pub(super) fn parameter_line(report: &ParameterReport, bounces: Option<&MoreBounces>) -> String {
     let name = report.parameter.name();
     let last = report.levels.last().map_or(0, |level| level.value);
     if let Some(reason) = &report.not_applicable {
@@ -301,13 +301,13 @@ pub(super) fn knob_line(report: &ParameterReport, bounces: Option<&MoreBounces>)
         ),
         (None, Parameter::Precision, _) => {
             let robust = report.levels.len().saturating_sub(1);
-            let words: Vec<_> = report.levels[..robust]
+            let label: Vec<_> = report.levels[..robust]
                 .iter()
                 .map(|level| report.parameter.cell(level.value))
                 .collect();
             format!(
                 "{name}: rows are by {} arithmetic too where that adds no error",
-                words.join(" or ")
+                label.join(" or ")
             )
         }
         (None, _, _) => format!("{name}: no law: too few values stand out from the noise"),
@@ -317,8 +317,12 @@ pub(super) fn knob_line(report: &ParameterReport, bounces: Option<&MoreBounces>)
 /// The scene's depth, and the effect of greater depths. The search went to `last` if it did not go
 /// beyond the scene's depth.
 fn depth_line(bounces: &MoreBounces, last: u32) -> String {
-    let MoreBounces { own, end, deeper } = bounces;
-    let words = match deeper.last() {
+    let MoreBounces {
+        scene_depth,
+        end,
+        deeper,
+    } = bounces;
+    let label = match deeper.last() {
         Some(most) => format!(
             "depth {} would change the picture by {} grey levels, ",
             most.depth,
@@ -327,12 +331,12 @@ fn depth_line(bounces: &MoreBounces, last: u32) -> String {
         None => String::new(),
     };
     let last = deeper.last().map_or(last, |most| most.depth);
-    let words = match end {
-        DepthEnd::Exact => format!("{words}no path goes deeper than {last}"),
-        DepthEnd::Still => format!("{words}nothing shows from {last} on"),
-        DepthEnd::Open => format!("{words}paths go deeper than {last}, as far as the study went"),
+    let label = match end {
+        DepthEnd::Exact => format!("{label}no path goes deeper than {last}"),
+        DepthEnd::Still => format!("{label}nothing shows from {last} on"),
+        DepthEnd::Open => format!("{label}paths go deeper than {last}, as far as the study went"),
     };
-    format!("depth: errors are against the scene's own, {own}; {words}")
+    format!("depth: errors are against the scene's own, {scene_depth}; {label}")
 }
 
 /// Formats a number of rays, for example 1.23 M.

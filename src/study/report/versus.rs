@@ -6,7 +6,7 @@ use super::table::count;
 use std::fmt::Write;
 
 /// The maximum number of listed tiles.
-const NAMED: usize = 5;
+const MAX_LISTED: usize = 5;
 
 /// The comparison as text.
 #[must_use]
@@ -17,14 +17,14 @@ pub fn versus_table(versus: &Versus) -> String {
         let _ = writeln!(text, "{which}  {}  {}", about.hash, about.scene);
     }
     let [width, height] = versus.part.size;
-    let looked = match versus.part.tiles {
+    let coverage = match versus.part.tiles {
         0 => String::new(),
         tiles => format!(
             ", of which {tiles} random tiles are looked at ({} %)",
             digits(100.0 * versus.part.fraction)
         ),
     };
-    let _ = writeln!(text, "{width}×{height} pixels{looked}\n");
+    let _ = writeln!(text, "{width}×{height} pixels{coverage}\n");
     // Write time, rays and noise of both scenes.
     text += "             scene      reference  ratio\n";
     let fraction = versus.part.fraction;
@@ -45,8 +45,8 @@ pub fn versus_table(versus: &Versus) -> String {
             "  grey levels, of one render with random samples".to_owned(),
         ),
     ];
-    for (name, [scene, reference], ratio, words) in rows {
-        let _ = writeln!(text, "{name:13}{scene:11}{reference:11}{ratio:.2}×{words}");
+    for (name, [scene, reference], ratio, label) in rows {
+        let _ = writeln!(text, "{name:13}{scene:11}{reference:11}{ratio:.2}×{label}");
     }
     // Write the difference.
     text += &format!("\n{}{}", difference(versus), tiles(versus));
@@ -81,13 +81,13 @@ fn tiles(versus: &Versus) -> String {
     }
     let mut text = format!(
         "{count} of {all} tiles surely differ (5 % false alarms for all together){}\n",
-        if count > NAMED {
+        if count > MAX_LISTED {
             "; the most different:"
         } else {
             ":"
         }
     );
-    for tile in versus.different.iter().take(NAMED) {
+    for tile in versus.different.iter().take(MAX_LISTED) {
         let DifferentTile {
             at: [x, y],
             size: [width, height],

@@ -23,7 +23,7 @@ pub(super) const ZERO_INTENSITY: PathRule = PathRule {
     reason: "all lights have intensity 0",
     apply: |builder| {
         let lights = builder.punctual;
-        let is_black = |light: &usize| is_dark(&lights[*light]);
+        let is_black = |light: &usize| has_zero_intensity(&lights[*light]);
         reduce_lights(builder, LightUse::Nothing, is_black)
     },
 };
@@ -159,24 +159,24 @@ fn casts_no_self_shadow(builder: &PlanBuilder<'_>, surface: usize) -> bool {
         builder.scene.camera().eye,
         Vec3::splat(builder.scene.camera().lens.radius.get()),
     );
-    let keeps_rays_out = !is_transmissive(material) && material.alpha == Alpha::Opaque;
-    let is_dark = material.emissive == Vec3::ZERO;
+    let is_opaque = !is_transmissive(material) && material.alpha == Alpha::Opaque;
+    let has_no_emission = material.emissive == Vec3::ZERO;
     let is_perspective = builder.scene.camera().projection == rtc_valid::Projection::Perspective;
-    let spares = match bounds.class {
+    let is_unshadowed = match bounds.class {
         ShapeClass::Planar(plane) => {
             let mut lights = builder.punctual.iter();
             !builder.has_extended_light() && lights.all(|light| is_off_plane(light, &plane))
         }
         ShapeClass::Sphere(..) | ShapeClass::Convex => {
-            let mut places = builder.punctual.iter().filter_map(position);
-            bounds.is_disjoint_from(&eye) && places.all(|at| bounds.is_disjoint_from(&point(at)))
+            let mut positions = builder.punctual.iter().filter_map(position);
+            bounds.is_disjoint_from(&eye) && positions.all(|at| bounds.is_disjoint_from(&point(at)))
         }
         // A closed convex mesh may shadow itself: a ray that starts near an edge starts a few
         // rounding errors off its face, and the edge functions of the next face have errors of the
         // same size, larger at grazing angles.
         ShapeClass::Other => false,
     };
-    keeps_rays_out && is_dark && is_perspective && spares
+    is_opaque && has_no_emission && is_perspective && is_unshadowed
 }
 
 /// Whether a light is certainly off a plane. A ray within the plane may be rounded to either side.
@@ -197,7 +197,7 @@ fn is_black(texels: &Texels) -> bool {
 }
 
 /// Whether a light has intensity 0 in all directions.
-fn is_dark(light: &Punctual) -> bool {
+fn has_zero_intensity(light: &Punctual) -> bool {
     match light {
         Punctual::Directional(sun) => sun.irradiance == Vec3::ZERO,
         Punctual::Point(light) => light.intensity == Vec3::ZERO || light.profile.is_dark(),

@@ -16,7 +16,7 @@ fn depth() -> ValuePath {
 }
 
 /// Whether a scattered ray may hit an emissive surface or an environment that is not black.
-fn finds_light(builder: &PlanBuilder<'_>) -> bool {
+fn may_hit_emitter(builder: &PlanBuilder<'_>) -> bool {
     let is_emissive = |material: &Standard| material.unlit || material.emissive != Vec3::ZERO;
     builder.requires(Effect::Environment)
         || builder
@@ -31,8 +31,8 @@ pub(super) const NO_EMISSION: PathRule = PathRule {
            first hit: none is continued.",
     reason: "there is no light",
     apply: |builder| {
-        let is_lit = builder.lights.contains(&LightUse::All) || finds_light(builder);
-        end_paths(builder, !is_lit)
+        let has_light = builder.lights.contains(&LightUse::All) || may_hit_emitter(builder);
+        end_paths(builder, !has_light)
     },
 };
 
@@ -54,7 +54,7 @@ pub(super) const LAST_RAY: PathRule = PathRule {
            surface nor the environment emits light, the last ray is not traced.",
     reason: "a ray after the last bounce cannot hit an emitter",
     apply: |builder| {
-        if !builder.last_ray || builder.max_depth == 0 || finds_light(builder) {
+        if !builder.last_ray || builder.max_depth == 0 || may_hit_emitter(builder) {
             return Vec::new();
         }
         builder.last_ray = false;
@@ -99,7 +99,7 @@ pub(super) const CULL_SHADOW: PathRule = PathRule {
 
 /// Whether the sampling probabilities of punctual lights depend on the size of the scene.
 fn depends_on_scene_size(builder: &PlanBuilder<'_>) -> bool {
-    let is_chosen = |(_, left): &(&Punctual, &LightUse)| **left != LightUse::Nothing;
+    let is_chosen = |(_, light_use): &(&Punctual, &LightUse)| **light_use != LightUse::Nothing;
     let chosen = || {
         builder
             .punctual
@@ -107,18 +107,18 @@ fn depends_on_scene_size(builder: &PlanBuilder<'_>) -> bool {
             .zip(&builder.lights)
             .filter(is_chosen)
     };
-    let is_by_size = |(light, _): (&Punctual, &LightUse)| match light {
+    let depends_on_size = |(light, _): (&Punctual, &LightUse)| match light {
         Punctual::Directional(_) => true,
         Punctual::Point(light) => matches!(light.falloff, Falloff::None),
     };
-    chosen().count() > 1 && chosen().any(is_by_size)
+    chosen().count() > 1 && chosen().any(depends_on_size)
 }
 
 /// The surfaces outside the view that certainly no shadow ray of a visible surface hits; `None` if
 /// that is unknown.
 fn missed_by_shadow_rays(builder: &PlanBuilder<'_>) -> Option<Vec<usize>> {
     let (seen, unseen) = split(builder);
-    let is_in_world = |(_, left): &(&Punctual, &LightUse)| **left == LightUse::All;
+    let is_in_world = |(_, light_use): &(&Punctual, &LightUse)| **light_use == LightUse::All;
     let lights = || {
         builder
             .punctual
@@ -164,8 +164,8 @@ fn end(light: &Punctual, start: &Bounds, other: &Bounds) -> Bounds {
 
 /// The surfaces of the world that a camera ray may hit, and the others.
 fn split(builder: &PlanBuilder<'_>) -> (Vec<usize>, Vec<usize>) {
-    let left = (0..builder.surfaces.len()).filter(|surface| builder.surfaces[*surface]);
-    left.partition(|surface| builder.screen_rects[*surface] != ScreenRect::Outside)
+    let light_use = (0..builder.surfaces.len()).filter(|surface| builder.surfaces[*surface]);
+    light_use.partition(|surface| builder.screen_rects[*surface] != ScreenRect::Outside)
 }
 
 /// Removes surfaces from the world; returns their paths.

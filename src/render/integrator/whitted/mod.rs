@@ -92,7 +92,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// Whether a rule that decides hit by hit applies: always, but for the naive tracer.
     #[inline]
     pub(crate) fn applies(&self, rule: Rule) -> bool {
-        !Self::can(Features::NAIVE) || self.world.plan.rules.contains(rule)
+        !Self::can(Features::UNPRUNED) || self.world.plan.rules.contains(rule)
     }
 
     /// Reports a fault of the plan under validation, if there is one and `is_fault` finds it.
@@ -102,7 +102,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         what: &'static str,
         is_fault: impl FnOnce(&Plan) -> bool,
     ) {
-        if Self::can(Features::NAIVE)
+        if Self::can(Features::UNPRUNED)
             && !self.weightless
             && let Some(verify) = &self.world.verify
             && is_fault(&verify.plan)
@@ -128,7 +128,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             kind: BranchKind::Mirrored,
         };
         loop {
-            if Self::can(Features::NAIVE) {
+            if Self::can(Features::UNPRUNED) {
                 self.weightless = path.beta == 0.0;
             }
             let bounces = depth - path.bounces_left;

@@ -58,7 +58,7 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
         };
         let sample = self.trace(ray, key);
         self.verify_sample(id.pixel, &sample);
-        if Self::can(Features::NAIVE) {
+        if Self::can(Features::UNPRUNED) {
             self.pixel.last = Some(sample);
         }
         sample

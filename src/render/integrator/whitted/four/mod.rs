@@ -56,7 +56,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// Whether the integrator has all its features in lanes.
     const HAS_LANES: bool = {
         let others = Features::MAPS
-            .with(Features::NAIVE)
+            .with(Features::UNPRUNED)
             .with(Features::SAMPLED)
             .with(Features::GOOCH);
         S::HAS_LANES && Self::can(Features::CAMERA) && F & others.0 == 0
