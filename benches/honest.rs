@@ -1,6 +1,6 @@
-//! Renders families of scenes to an error, many times each, and prints how many pictures keep what
-//! is said of them, as tables in Markdown. Arguments are how many pictures a family has at least,
-//! and the families, all without. `benches/honest.sh` runs it.
+//! Renders families of scenes to a target error, many times each, and prints how many pictures keep
+//! the reported error bound, as tables in Markdown. Arguments: the minimum number of pictures of a
+//! family, and the families (by default all). `benches/honest.sh` runs it.
 
 #![expect(clippy::print_stdout, reason = "it prints what it measured")]
 
@@ -15,24 +15,24 @@ mod scenes;
 
 use families::{Family, Truth};
 
-/// The share of pictures that keep what is said of them.
+/// The promised fraction of pictures that keep the bound.
 const PROMISE: f64 = 0.9;
 
-/// What became of the pictures of a scene.
+/// The results of the pictures of a scene.
 #[derive(Default)]
 struct Tally {
     pictures: u64,
-    /// So many more have no bound, and are counted nowhere else.
+    /// The number of pictures without a bound, which no other field counts.
     unbounded: u64,
-    /// So many have an error within the one said.
+    /// The number of pictures with an error within the bound.
     kept: u64,
-    /// So many have an error within the target.
+    /// The number of pictures with an error within the target.
     under: u64,
-    /// The sums of the true and of the said errors, squared.
+    /// The sums of the squared true errors and of the squared bounds.
     squares: [f64; 2],
-    /// The largest error over the one said.
+    /// The largest ratio of error to bound.
     worst: f64,
-    /// The sum of the samples a pixel.
+    /// The sum of the mean samples per pixel.
     samples: f64,
 }
 
@@ -47,7 +47,7 @@ impl Tally {
         self.samples += other.samples;
     }
 
-    /// Of the pictures of a scene, one for each seed.
+    /// Renders a scene once for each seed.
     fn of(scene: &families::Case, target: f64, seeds: u64) -> Self {
         let references = match scene.reference {
             Truth::Known(_) => None,

@@ -1,4 +1,5 @@
-//! The families of scenes: ordinary ones, patterns as fine as pixels, and light that few samples meet.
+//! The families of scenes: ordinary scenes, patterns as fine as pixels, and light that few samples
+//! hit.
 
 use super::patterns::{Pattern, grains, grid, quad};
 use super::scenes::{lowered, scene};
@@ -7,7 +8,7 @@ use rtc::internals::diag::Sink;
 use rtc::internals::ir::Scene;
 use rtc::internals::source::SourceMap;
 
-/// Scenes of one kind, and to which error in grey levels they are rendered.
+/// Scenes of one kind, and their target error in grey levels.
 pub(crate) struct Family {
     pub(crate) name: &'static str,
     pub(crate) target: f64,
@@ -20,10 +21,10 @@ pub(crate) struct Case {
     pub(crate) reference: Truth,
 }
 
-/// What a scene is compared with.
+/// The reference of a scene.
 pub(crate) enum Truth {
     Known(Box<Pattern>),
-    /// References of a quarter of the error.
+    /// Two references with a quarter of the error.
     Rendered(Box<Scene>),
 }
 
@@ -102,9 +103,9 @@ fn wires() -> Vec<Case> {
     wires.into_iter().map(case).collect()
 }
 
-/// Wires of a width at a distance from one another, with a unit vector across them.
+/// Wires with a width, a pitch and a unit normal.
 fn wire(side: u32, width: f64, pitch: f64, [a, b]: [f64; 2]) -> Pattern {
-    /// Points along a side of a pixel that its coverage is counted by.
+    /// The points per side of a pixel for counting its coverage.
     const POINTS: u32 = 256;
     let (mut text, half) = (String::new(), f64::from(side) / 2.0);
     let count = (1.5 * half / pitch) as i32 + 1;
@@ -141,7 +142,7 @@ fn dust() -> Vec<Case> {
     dust.into_iter().map(case).collect()
 }
 
-/// Few and tiny discs: most are met by no sample of a picture of few samples.
+/// Few and tiny discs: a picture with few samples misses most of them.
 fn rare() -> Vec<Case> {
     let rare = [(0.03, 0.2), (0.05, 0.05), (0.1, 0.02), (0.2, 0.01)];
     let case = |(radius, share)| {
@@ -192,7 +193,7 @@ fn checker(side: u32, square: f64, shift: [f64; 2]) -> Pattern {
     })
 }
 
-/// Paths: two balls, of plastic or metal, under a shining disc, large or small.
+/// Path tracing: two spheres of plastic or metal under an emissive disc, large or small.
 fn caustics() -> Vec<Case> {
     let caustics = [
         (0.5, 2.0, 1.0),
@@ -223,8 +224,8 @@ fn balls(roughness: f64, radius: f64, light: f64) -> Scene {
         .unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
-/// Paths: a room with a ball of rough glass under a lamp without size, which paths from the walls
-/// find through it by chance.
+/// Path tracing: a room with a sphere of rough glass under a punctual light, which paths from the
+/// walls find through the glass only by chance.
 fn lamps() -> Vec<Case> {
     let spot = "type: spot, direction: [0, -1, 0], outerAngle: 0.3, innerAngle: 0.1";
     let lamps = [
@@ -242,7 +243,7 @@ fn lamps() -> Vec<Case> {
     lamps.into_iter().map(case).collect()
 }
 
-/// Five white walls about the ball.
+/// Five white walls around the sphere.
 fn room(roughness: f64, lamp: &str) -> Scene {
     let wall = |corner: &str, up: &str, side: &str| {
         format!(

@@ -1,9 +1,10 @@
-//! What counts of successes say of their probability.
+//! Confidence limits of a probability from counts of successes.
 
-/// The probability of at most `kept` of `all`, each kept with the probability `p` in (0, 1).
+/// The binomial probability of at most `kept` successes of `all`, each with probability `p` in (0,
+/// 1).
 pub(crate) fn at_most(kept: u64, all: u64, p: f64) -> f64 {
     let (mut term, mut sum) = (1.0_f64, 0.0);
-    // From none kept on, scaled so that the terms do not vanish.
+    // Sum from 0 successes on, scaled so that the terms do not underflow.
     let mut scale = 1.0;
     for k in 0..=all {
         if k <= kept {
@@ -15,13 +16,13 @@ pub(crate) fn at_most(kept: u64, all: u64, p: f64) -> f64 {
     sum / scale
 }
 
-/// The one-sided lower limit of 95 % of the probability of which `kept` of `all` were seen (Clopper
-/// and Pearson, Biometrika 26 (1934)).
+/// The one-sided lower 95 % confidence limit of the probability, from `kept` successes of `all`
+/// (Clopper and Pearson, Biometrika 26 (1934)).
 pub(crate) fn lower(kept: u64, all: u64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
-        // So many or more are seen with 5 % at the limit.
+        // At the limit, this number or more has a probability of 5 %.
         let more = if kept == 0 {
             1.0
         } else {
@@ -36,8 +37,8 @@ pub(crate) fn lower(kept: u64, all: u64) -> f64 {
     low
 }
 
-/// How many of several tests are significant at 5 % together (Holm, Scandinavian Journal of
-/// Statistics 6 (1979)).
+/// The number of tests that are significant at a family-wise level of 5 % (Holm, Scandinavian
+/// Journal of Statistics 6 (1979)).
 pub(crate) fn holm(mut chances: Vec<f64>) -> usize {
     chances.sort_by(f64::total_cmp);
     let count = chances.len();

@@ -1,5 +1,5 @@
-//! Passes: transformations of the IR before validation. Each takes a scene and changes it as one run
-//! requests; the result is a scene like any other.
+//! Passes: transformations of the IR before validation. Each takes a scene and changes it as one
+//! run requests; the result is a scene like any other.
 //!
 //! - [`Overrides`]: numbers that replace those of the scene: picture size, sample counts, depth.
 //! - [`set`]: one setting, by its name in the text form of the IR.
@@ -11,8 +11,8 @@
 //! - [`emissive_surfaces`]: which surfaces emit light.
 //!
 //! Passes know neither files nor the command line, and they do not validate: scenes may still have
-//! invalid indices or numbers, so every access is checked. A pass that replaces lights or the camera
-//! also removes their source spans, so that later findings do not point at replaced values.
+//! invalid indices or numbers, so every access is checked. A pass that replaces lights or the
+//! camera also removes their source spans, so that later findings do not point at replaced values.
 
 mod emission;
 mod framing;

@@ -24,8 +24,8 @@
 //! exactly zero: a term with a factor of 0 whose other factors are finite (validation bounds every
 //! number by 1e60, so each local term is), a ray that cannot hit anything, a sample that equals its
 //! neighbour. The order of summation does not change. Random numbers are keyed by pixel, sample and
-//! path, so removing one sample does not shift the others. The only exception is [`Rule::Cut`], which
-//! is off by default.
+//! path, so removing one sample does not shift the others. The only exception is [`Rule::Cut`],
+//! which is off by default.
 //!
 //! All geometric proofs are conservative: they hold with a margin far above the rounding error of
 //! rays ([`margin`]). They hold for the robust arithmetic and for perspective cameras; for others,

@@ -105,9 +105,9 @@ impl Journal {
     /// # Errors
     /// If the bytes are not a journal, belong to another study or version, or are corrupt.
     pub fn load(mut self, bytes: &[u8]) -> Result<Self, String> {
-        const SHORT: &str = "it is damaged: its end is missing";
+        const SHORT: &str = "it is corrupt: its end is missing";
         if !bytes.starts_with(&MAGIC) {
-            return Err("it holds no renders of a study".to_owned());
+            return Err("it contains no renders of a study".to_owned());
         }
         let (bytes, sum) = bytes.split_last_chunk().ok_or(SHORT)?;
         let mut reader = ByteReader(bytes.get(MAGIC.len()..).ok_or(SHORT)?);
@@ -116,15 +116,15 @@ impl Journal {
             return Err(format!("version {version} of its format is unknown"));
         }
         if xxh3_64(bytes) != u64::from_le_bytes(*sum) {
-            return Err("it is damaged: its checksum does not fit".to_owned());
+            return Err("it is corrupt: its checksum is wrong".to_owned());
         }
         let length = reader.number().ok_or(SHORT)? as usize;
         let head: Option<JournalHead> = reader
             .take(length)
             .and_then(|head| serde_json::from_slice(head).ok());
-        let head = head.ok_or("it is damaged: its header is not as it should be")?;
+        let head = head.ok_or("it is corrupt: its header is invalid")?;
         if let Some(what) = self.head.difference(&head) {
-            return Err(format!("it is of another study: {what}"));
+            return Err(format!("it belongs to another study: {what}"));
         }
         while !reader.0.is_empty() {
             self.entries.push(reader.entry().ok_or(SHORT)?);

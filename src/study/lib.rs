@@ -1,6 +1,7 @@
 //! The cost of accuracy: one scene in many settings, each with its error and its time, and the
 //! settings on the Pareto front (`rtc cost`); rendering to a target error or within a time budget
-//! (`rtc render --target-error`, `--time-budget`); comparison of pictures and scenes (`rtc diff`, `rtc cost` with a reference scene).
+//! (`rtc render --target-error`, `--time-budget`); comparison of pictures and scenes (`rtc diff`,
+//! `rtc cost` with a reference scene).
 //!
 //! # A study
 //!
@@ -29,14 +30,14 @@
 //!
 //! # Comparison
 //!
-//! [`Difference`] measures two pictures ([`metrics`], [`mod@flip`]); [`versus()`] compares two scenes
-//! with a statistical test ([`statistics`]).
+//! [`Difference`] measures two pictures ([`metrics`], [`mod@flip`]); [`versus()`] compares two
+//! scenes with a statistical test ([`statistics`]).
 //!
 //! # Guarantees
 //!
-//! Nothing here prints or reads files: clocks, thread pools and the functions that save come in with
-//! the [`StudyRuntime`] or the [`Watch`]. A picture with only a target error is the same for any
-//! number of threads, and for a resumed render.
+//! Nothing here prints or reads files: clocks, thread pools and the functions that save come in
+//! with the [`StudyRuntime`] or the [`Watch`]. A picture with only a target error is the same for
+//! any number of threads, and for a resumed render.
 
 mod ablation;
 mod advice;

@@ -217,7 +217,7 @@ pub(super) fn not_applicable_in(
     is_whole: bool,
 ) -> Option<String> {
     let is_only_tiles = parameter == Parameter::Denoise && !is_whole;
-    let tiles = "a picture is denoised as a whole, and only tiles were looked at";
+    let tiles = "only whole pictures can be denoised, and only tiles were rendered";
     not_applicable(parameter, scene).or_else(|| is_only_tiles.then(|| tiles.to_owned()))
 }
 
@@ -257,7 +257,7 @@ fn pruned_reason(parameter: Parameter, scene: &Scene) -> Option<String> {
 fn unused_reason(parameter: Parameter, scene: &Scene) -> Option<&'static str> {
     let mode = &scene.settings.mode;
     let (phong, paths) = (*mode == Mode::Phong, matches!(mode, Mode::Path(_)));
-    let per_path = (paths, "each path takes a sample of its own");
+    let per_path = (paths, "each path takes its own sample");
     let weights = || scene.materials.iter().filter_map(Material::phong);
     let is_matte = |phong: &Phong| phong.ks == 0.0 && phong.kt == 0.0;
     let is_robust = |arithmetic: &Arithmetic| {
@@ -267,16 +267,22 @@ fn unused_reason(parameter: Parameter, scene: &Scene) -> Option<&'static str> {
     let cases: &[(bool, &'static str)] = match parameter {
         Parameter::Supersampling => &[
             per_path,
-            (*mode == Mode::Depth, "the z-buffer takes one ray a pixel"),
+            (
+                *mode == Mode::Depth,
+                "the z-buffer takes one ray per pixel",
+            ),
         ],
         Parameter::Aperture => &[
             per_path,
-            (*mode == Mode::Depth, "the z-buffer takes one ray a pixel"),
+            (
+                *mode == Mode::Depth,
+                "the z-buffer takes one ray per pixel",
+            ),
             (scene.camera.lens.radius == 0.0, "the lens has no radius"),
         ],
         Parameter::Lights => &[
             per_path,
-            (!phong, "the mode asks only the middle of a light"),
+            (!phong, "the mode samples only the centre of a light"),
             (
                 scene
                     .lights
@@ -288,27 +294,30 @@ fn unused_reason(parameter: Parameter, scene: &Scene) -> Option<&'static str> {
         ],
         Parameter::Glossy => &[
             per_path,
-            (!phong, "the mode follows no mirror"),
+            (!phong, "the mode has no reflection"),
             (
                 weights().all(|phong| phong.glossy_samples == 1),
                 "no material is glossy",
             ),
         ],
-        Parameter::Paths => &[(!paths, "the mode follows rays from the eye alone")],
-        Parameter::Denoise => &[(tries_none, "no paths are traced, or too few to try fewer")],
+        Parameter::Paths => &[(!paths, "the mode does not trace paths")],
+        Parameter::Denoise => &[(
+            tries_none,
+            "the mode does not trace paths, or they are too few to reduce",
+        )],
         Parameter::Depth => &[
             (
                 !phong && !paths,
-                "the mode follows no mirror and no refraction",
+                "the mode has no reflection and no refraction",
             ),
             (
                 phong && weights().all(is_matte),
-                "no material mirrors or lets light through",
+                "no material reflects or transmits light",
             ),
         ],
         Parameter::Precision => &[(
             Arithmetic::ALL.iter().all(is_robust),
-            "what any but the robust arithmetic loses would show",
+            "every other arithmetic would have a visible loss",
         )],
     };
     cases

@@ -40,7 +40,7 @@ impl PrecisionCost {
             if self.is_tolerated {
                 ""
             } else {
-                " (warned of)"
+                " (with a warning)"
             }
         )
     }

@@ -150,7 +150,7 @@ impl ProgressiveRender {
         const MAX_ROUNDS: u32 = 1 << 16;
         const MAX_LENGTH: u32 = 1 << 24;
         const SHORT: FilmError = FilmError::Corrupt("its end is missing");
-        const WRONG: FilmError = FilmError::Corrupt("its rounds can't be");
+        const WRONG: FilmError = FilmError::Corrupt("its number of rounds is invalid");
         // Split the bytes into numbers and film.
         let length = 8 * (order.crop.pixels() + 2);
         let (numbers, film) = bytes.split_at_checked(length).ok_or(SHORT)?;

@@ -37,8 +37,8 @@ impl Missing {
     }
 }
 
-/// The samples of all pixels after the next round, with at most `max_samples` additional samples; `None`
-/// if the goal, in grey levels, is reached or nothing fits.
+/// The samples of all pixels after the next round, with at most `max_samples` additional samples;
+/// `None` if the goal, in grey levels, is reached or nothing fits.
 pub(super) fn next_round(
     film: &ProgressiveFilm,
     noise: &Noise,

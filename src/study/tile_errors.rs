@@ -33,8 +33,8 @@ impl TileErrors {
     /// distributed evenly, less if few tiles have most of the error.
     ///
     /// The interval is symmetric on a logarithmic scale. Its upper end includes an additional tile
-    /// with `WORST_FACTOR` times the worst error, because sampled errors are too small more often than too
-    /// large.
+    /// with `WORST_FACTOR` times the worst error, because sampled errors are too small more often
+    /// than too large.
     pub(super) fn interval(&self) -> [f64; 2] {
         const WORST_FACTOR: f64 = 2.0;
         let mean = self.mean();

@@ -337,6 +337,7 @@ fn a_study_goes_on_from_its_renders_with_the_seconds_measured() {
     assert!(!anew.iter().any(is_marked));
     let other = rtc(&folder, &[&cost[..], &["--seed", "2"]].concat());
     assert_eq!(code(&other), 1);
-    let words = "`c.rtc`: it is of another study: seed: 1 here, 2 there; `--restart` begins anew";
+    let words =
+        "`c.rtc`: it belongs to another study: seed: 1 here, 2 there; `--restart` begins anew";
     assert!(stderr(&other).contains(words), "{}", stderr(&other));
 }

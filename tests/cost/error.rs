@@ -1,4 +1,4 @@
-//! Errors: what a study says of them, and of its reference, is what finer renders show.
+//! Errors: those that a study reports, also for its reference, agree with finer renders.
 
 use super::*;
 
@@ -65,7 +65,7 @@ fn rows_that_the_reference_cannot_judge_say_so() {
     );
 }
 
-/// The reference is right: it is where renders with ever more samples go.
+/// The reference is correct: renders with more and more samples converge to it.
 #[test]
 fn the_error_told_is_the_distance_to_a_finer_render() {
     let scene = scene(&[]);
@@ -101,7 +101,7 @@ pub(super) fn film(scene: &Scene) -> Image {
     .image
 }
 
-/// A grid that is not centred would look so: more samples stop to help.
+/// A grid that is not centred would not converge.
 #[test]
 fn a_planted_defect_shows_as_a_floor() {
     let scene = scene(&[]);
@@ -148,8 +148,8 @@ fn what_is_left_out_of_the_depth_ends_at_the_scenes_own() {
     );
 }
 
-/// A scene that wants no bounce is not told that it is wrong: what bounces would add is told apart,
-/// as it is.
+/// A scene without bounces has no error for that: the effect of more bounces is reported
+/// separately.
 #[test]
 fn the_scenes_own_depth_is_no_error() {
     let flat = scene(&[("\"maxDepth\": 1", "\"maxDepth\": 0")]);
@@ -174,7 +174,7 @@ fn the_scenes_own_depth_is_no_error() {
             "{bounces:?}, but {difference}"
         );
         assert!(study::table(study).contains("more bounces"), "{table}");
-        assert!(study::html(study).contains("What more bounces would add"));
+        assert!(study::html(study).contains("The effect of more bounces"));
     }
     assert!(
         study
@@ -186,8 +186,8 @@ fn the_scenes_own_depth_is_no_error() {
     );
 }
 
-/// Forty looks at some tiles of a picture that has its errors at a few outlines: the true error lies in
-/// the interval told nine times out of ten at least.
+/// Forty studies of random tiles of a picture with errors at a few outlines: the true error lies in
+/// at least nine of ten intervals.
 #[test]
 fn the_interval_of_a_part_holds_the_error_of_the_whole() {
     const SIZE: [u32; 2] = [240, 160];
@@ -243,7 +243,8 @@ fn tile(image: &Image, [x, y]: [u32; 2]) -> Image {
     }
 }
 
-/// Of 16 paths there is one denoised row, of four, with less noise than the plain one and the rays of guides.
+/// With 16 paths there is one denoised row, with four paths, less noise than without denoising, and
+/// the rays of the guide images.
 fn a_quarter_of_the_paths_is_denoised(study: &Study) {
     let table = study::table(study);
     let (denoised, plain): (Vec<_>, Vec<_>) =
@@ -261,7 +262,7 @@ fn a_quarter_of_the_paths_is_denoised(study: &Study) {
     );
 }
 
-/// Two balls under a disc that shines and a sky, by paths.
+/// Two spheres under an emissive disc and an environment, path-traced.
 #[test]
 fn paths_have_a_ladder_and_a_law_of_their_own() {
     let scene = decoded(include_str!("../honest/paths.json").to_owned());

@@ -1,5 +1,5 @@
-//! What a study says of accuracy and time, with a clock that ticks once a ray: no machine is too
-//! busy for these.
+//! Studies of accuracy and time, with a clock that ticks once per ray, so that the tests do not
+//! depend on the machine.
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -26,7 +26,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{LazyLock, Mutex};
 use std::time::Duration;
 
-/// A mirror ball and a dull one above a floor, with shadows.
+/// A reflective sphere and a diffuse one above a floor, with shadows.
 const BALLS: &str = r#"{
   "irVersion": 1,
   "camera": {"eye": [0, 10, 60], "center": [0, 2, 0], "right": [0.8, 0, 0], "up": [0, 0.8, 0], "size": [48, 32],
@@ -51,7 +51,7 @@ fn scene(changes: &[(&str, &str)]) -> Scene {
     decoded(text)
 }
 
-/// A scene of its IR in text.
+/// A scene from the text form of its IR.
 fn decoded(text: String) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("scene", text.into_bytes());
@@ -59,12 +59,12 @@ fn decoded(text: String) -> Scene {
         .unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
-/// A study by a clock that ticks once a ray.
+/// A study with a clock that ticks once per ray.
 fn study_of(scene: &Scene, rays: u64, threads: usize) -> Study {
     study_by(scene, rays, threads, || 1.0)
 }
 
-/// A study by a clock that ticks so often a ray, another number each time it is read.
+/// A study with a clock whose ticks per ray change at each reading.
 fn study_by(scene: &Scene, rays: u64, threads: usize, pace: impl FnMut() -> f64 + Send) -> Study {
     let about = About {
         scene: "<balls> & \"floor\"".to_owned(),
@@ -76,7 +76,7 @@ fn study_by(scene: &Scene, rays: u64, threads: usize, pace: impl FnMut() -> f64 
     study.unwrap()
 }
 
-/// Works on a bench with such a clock.
+/// Runs with a runtime that has such a clock.
 fn on_bench<T>(
     threads: usize,
     mut pace: impl FnMut() -> f64 + Send,
@@ -102,7 +102,7 @@ fn on_bench<T>(
 
 static WHOLE: LazyLock<Study> = LazyLock::new(|| study_of(&scene(&[]), 8_000_000, 0));
 
-/// With depth of field, and so large that only a part can be looked at.
+/// With depth of field, and so large that only tiles can be rendered.
 static PART: LazyLock<Study> = LazyLock::new(|| {
     let wide = [
         ("\"size\": [48, 32]", "\"size\": [160, 112]"),
@@ -115,13 +115,13 @@ static PART: LazyLock<Study> = LazyLock::new(|| {
     study_of(&scene(&wide), 24_000_000, 0)
 });
 
-/// Whether a row is no worse than another, as far as a part of the picture tells.
+/// Whether a row is not significantly worse than another.
 fn dominates(a: &Row, b: &Row) -> bool {
     let no_worse = a.errors.rmse <= 1.001 * b.errors.rmse_high && a.rays.all() <= b.rays.all();
     no_worse && (a.errors.rmse, a.rays) != (b.errors.rmse, b.rays)
 }
 
-/// Whether each row of the front has less error than those of the front before it.
+/// Whether the errors of the front's rows decrease.
 fn falls(study: &Study) -> bool {
     study
         .rows

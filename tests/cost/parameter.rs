@@ -1,4 +1,4 @@
-//! What of a scene can be turned, and what its effects and its arithmetic cost.
+//! The parameters of a scene, and the cost of its effects and arithmetics.
 
 use super::error::{film, picture};
 use super::*;
@@ -35,7 +35,7 @@ fn knobs_that_change_nothing_say_why() {
     );
 }
 
-/// If a knob is idle the picture is the same for all its values.
+/// If a parameter does not apply, the picture is the same for all its values.
 #[test]
 fn idle_knobs_change_no_bit() {
     let mut one_ball = scene(&[]);
@@ -106,7 +106,7 @@ fn effects_are_what_the_scene_has() {
     assert_eq!(camera(sharp) * 4, camera(blurred));
 }
 
-/// Lights, objects and materials are left out one at a time, the largest first.
+/// Lights, objects and materials are removed one at a time, the largest first.
 #[test]
 fn parts_of_the_scene_have_their_costs() {
     let named = |kind| {
@@ -124,13 +124,14 @@ fn parts_of_the_scene_have_their_costs() {
         objects.iter().all(|(_, cost)| cost.difference > 1.0),
         "{objects:?}"
     );
-    // The floor has no mirror; that of both balls is their material's.
+    // The floor is not reflective; both spheres have the reflective material.
     let materials = named(Ablation::Material);
     assert_eq!(names(&materials), ["material 1, matt instead"]);
     assert!(materials[0].1.rays.mirror == 0 && materials[0].1.difference > 1.0);
 }
 
-/// Surfaces of one name are one object; those after the last name have none.
+/// Consecutive surfaces with the same name are one object; surfaces after the last name are
+/// unnamed.
 #[test]
 fn objects_go_by_their_names() {
     let mut scene = scene(&[]);
@@ -161,8 +162,8 @@ fn precision_is_told_against_the_robust_arithmetic() {
     assert_eq!(WHOLE.precision[0].ratio.value, 1.0);
 }
 
-/// Each arithmetic follows the same paths to the same lights, shining triangles among them: what
-/// differs is the arithmetic, not the noise.
+/// Each arithmetic traces the same paths to the same lights, emissive triangles among them:
+/// pictures differ by the arithmetic, not by noise.
 #[test]
 fn precision_is_told_without_noise() {
     let disc = "{\"disc\": {\"center\": [1, 5, 1], \"normal\": [0, -1, 0], \"radius\": 2}}";
@@ -180,8 +181,8 @@ fn precision_is_told_without_noise() {
     );
 }
 
-/// Rows are by a plainer arithmetic only where the plan expects nothing to show, and the error
-/// stays what it was.
+/// Rows use a non-robust arithmetic only where no visible loss is expected, and the error stays the
+/// same.
 #[test]
 fn precision_is_turned_where_that_adds_no_error() {
     let dull = [

@@ -1,4 +1,4 @@
-//! What a study is written as, and the advice in it.
+//! The reports of a study, and its advice.
 
 use super::*;
 
@@ -38,8 +38,8 @@ fn the_table_fits_a_terminal() {
     }
 }
 
-/// What is sampled at random errs by other amounts in other renders; a grid errs by the same each time, and has no
-/// columns for that.
+/// The error of random samples differs between renders; the error of a grid does not, so the report
+/// has no columns for it.
 #[test]
 fn errors_are_told_over_renders_where_renders_differ() {
     for row in &WHOLE.rows {
@@ -79,7 +79,7 @@ fn errors_are_told_over_renders_where_renders_differ() {
         );
     }
     let (table, page) = (study::table(&study), study::html(&study));
-    assert!(table.contains("σ%: how far") && page.contains("<dt>over renders</dt>"));
+    assert!(table.contains("σ%: the standard") && page.contains("<dt>over renders</dt>"));
     assert!(page.contains(" renders ("), "{page}");
     let csv = study::csv(&study);
     assert!(
@@ -90,7 +90,7 @@ fn errors_are_told_over_renders_where_renders_differ() {
     );
 }
 
-/// Each mark of the plot of the front says its values to the pointer and to the keyboard.
+/// Each mark of the plot of the front shows its values on hover and on keyboard focus.
 #[test]
 fn marks_of_plots_say_their_values() {
     let page = study::html(&WHOLE);
@@ -101,20 +101,20 @@ fn marks_of_plots_say_their_values() {
         .iter()
         .filter(|row| row.errors.rmse > 0.0)
         .count();
-    let marks = plot.matches("<circle class=\"spot\"").count();
+    let marks = plot.matches("<circle class=\"mark\"").count();
     assert_eq!(
         (marks, plot.matches("tabindex=\"0\"").count()),
         (shown, shown)
     );
-    // Renders without random numbers are all alike, of which nothing is said.
+    // Renders without random numbers are identical, so their spread is not mentioned.
     assert!(
         plot.contains(" grey levels (") && !plot.contains(" renders ("),
         "{plot}"
     );
 }
 
-/// Each column of the table is explained under it and on the page, and what a time buys is a row of the front that
-/// is done in that time.
+/// Each column of the table is explained below it and in the HTML report, and the best setting
+/// within a time is a row of the front that takes at most that time.
 #[test]
 fn columns_are_explained_and_times_buy_rows() {
     for study in [&*WHOLE, &*PART] {
@@ -154,7 +154,7 @@ fn the_page_needs_nobody_else() {
             || page.contains("color-scheme: light dark")
     );
     assert!(
-        page.contains("What accuracy costs: &lt;balls&gt; &amp; &quot;floor&quot;")
+        page.contains("The cost of accuracy: &lt;balls&gt; &amp; &quot;floor&quot;")
             && !page.contains("<balls>")
     );
     assert!(
@@ -163,8 +163,8 @@ fn the_page_needs_nobody_else() {
     assert!(page.contains("<text"), "text of plots stays text");
 }
 
-/// Maps are as large as the picture, grey and hatched but for the tiles looked at, and one scale holds for both
-/// settings; the rays of all pixels are those of the row.
+/// Maps have the size of the picture, are hatched grey outside the rendered tiles, and have the
+/// same scale for both settings; the rays of all pixels sum to those of the row.
 #[test]
 fn maps_have_the_size_of_the_picture_and_mark_the_tiles() {
     for study in [&*WHOLE, &*PART] {
@@ -191,7 +191,7 @@ fn maps_have_the_size_of_the_picture_and_mark_the_tiles() {
         let page = study::maps_page(study);
         assert!(page.contains("grey levels") && page.contains(" and more"));
         assert_eq!(page.contains("Hatched grey"), study.part.tiles > 0);
-        assert!(study::html(study).contains("Where time goes"));
+        assert!(study::html(study).contains("Maps of rays and of errors"));
     }
     let read: Study = serde_json::from_str(&study::json(&WHOLE)).unwrap();
     assert!(
@@ -215,7 +215,8 @@ fn advice_names_a_row_and_judges_the_scenes_own() {
     );
 }
 
-/// The command of the main advice names what is other than in the scene, and is one line of table and page.
+/// The command of the main advice names what differs from the scene, and is one line of the table
+/// and of the HTML report.
 #[test]
 fn the_recommended_setting_has_a_command() {
     let command = WHOLE.command.as_ref().unwrap();
@@ -246,8 +247,8 @@ fn the_recommended_setting_has_a_command() {
     assert!(study::html(&WHOLE).contains(&format!("<code>{command}</code>")));
 }
 
-/// Twenty studies by clocks that are off by up to a half recommend the same row, as they would by a
-/// clock that is right, and none has a front that rises.
+/// Twenty studies with clocks that are off by up to a half recommend the same row as an exact
+/// clock, and their fronts decrease.
 #[test]
 fn advice_keeps_still_on_a_noisy_clock() {
     let recommended = |study: &Study| study.advice[0].split(':').next().unwrap().to_owned();
@@ -271,8 +272,8 @@ fn advice_keeps_still_on_a_noisy_clock() {
     assert!(other.len() <= 1, "{right}, but {other:?}");
 }
 
-/// A setting that is recommended is told to be on the front, though the row of the front has
-/// another arithmetic: the difference between them may be noise.
+/// A recommended setting is reported as on the front, although the row of the front has another
+/// arithmetic: their difference may be noise.
 #[test]
 fn what_is_recommended_is_never_told_to_be_off_the_front() {
     let mut study = WHOLE.clone();

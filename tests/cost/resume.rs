@@ -1,11 +1,11 @@
-//! A study that is interrupted goes on from what it has rendered, to the same errors.
+//! An interrupted study resumes from its journal and gives the same errors.
 
 use super::*;
 use rtc::internals::study::Journal;
 
 const RAYS: u64 = 300_000;
 
-/// Goes on with a study until so many more rays are traced; what is rendered of it then.
+/// Resumes a study until a number of further rays is traced; returns its journal.
 fn go_on(scene: &Scene, kept: &[u8], most: u64) -> (Result<Study, Stopped>, Vec<u8>) {
     let traced = AtomicU64::new(0);
     let clock = || Duration::from_micros(traced.load(Ordering::Relaxed));
@@ -29,7 +29,7 @@ fn go_on(scene: &Scene, kept: &[u8], most: u64) -> (Result<Study, Stopped>, Vec<
     (study, saved.into_inner().unwrap())
 }
 
-/// All that no clock has to do with.
+/// Everything that does not depend on a clock.
 fn timeless(study: &Study) -> String {
     let mut rows: Vec<String> = study
         .rows
@@ -70,7 +70,7 @@ fn an_interrupted_study_has_the_same_errors_and_says_which_rows_were_timed_befor
     assert_eq!(timeless(&study), timeless(&whole));
     let marked = study.rows.iter().filter(|row| row.resumed).count();
     assert!(marked > 0 && study::table(&study).contains('†'));
-    // Of a finished study nothing is rendered again: its seconds are those measured.
+    // A finished study renders nothing again: its seconds are the recorded ones.
     let (again, after) = go_on(&scene, &kept, 1);
     let again = again.unwrap();
     assert!(after == kept && again.rows.iter().all(|row| row.resumed));
@@ -85,7 +85,7 @@ fn renders_of_another_study_or_damaged_ones_are_refused() {
     let refused = |journal: Journal, bytes: &[u8]| journal.load(bytes).err().unwrap();
     assert_eq!(
         refused(other(RAYS, 2), &kept),
-        "it is of another study: seed: 1 here, 2 there"
+        "it belongs to another study: seed: 1 here, 2 there"
     );
     assert!(refused(other(7, 1), &kept).contains("effort: 300000 here, 7 there"));
     let short = &kept[..kept.len() - 1];

@@ -1,10 +1,10 @@
-//! A scene against its reference.
+//! Comparisons of a scene with its reference.
 
 use super::error::picture;
 use super::*;
 use rtc::internals::study::Versus;
 
-/// The balls in a picture of 96 × 64, the right one of the second material, which is a colour.
+/// The spheres in a picture of 96 × 64 pixels, the right one with the second material, in a colour.
 fn balls(supersampling: u32, color: [f64; 3]) -> Scene {
     let size = ("\"size\": [48, 32]", "\"size\": [96, 64]");
     let mut scene = scene(&[size, ("0.8", "0.4")]);
@@ -53,7 +53,7 @@ fn a_scene_does_not_differ_from_itself() {
     assert!(table.contains("the same, to the last bit") && table.contains("No tile of 24"));
 }
 
-/// With more samples pictures have other noise and no other mean: of ten comparisons one may see more.
+/// More samples change the noise but not the mean: one of ten comparisons may report a difference.
 #[test]
 fn other_noise_is_no_difference() {
     let (few, many) = (balls(1, BLUE), balls(3, BLUE));
@@ -75,7 +75,8 @@ fn other_noise_is_no_difference() {
     assert!(alarms <= 1, "{alarms} of 10");
 }
 
-/// The right ball is a little darker: what is told is told where it is, and is the true difference.
+/// The right sphere is a little darker: the reported tiles are there, and the difference is the
+/// true one.
 #[test]
 fn a_change_is_seen_where_it_is() {
     let (before, after) = (balls(2, BLUE), balls(2, [0.5, 0.55, 0.7]));
@@ -88,7 +89,7 @@ fn a_change_is_seen_where_it_is() {
         };
         study::rmse(&fine(&after), &fine(&before))
     };
-    // Of ten intervals of 95 % two may miss it.
+    // Two of ten 95 % intervals may miss it.
     let all: Vec<_> = (1..=10)
         .map(|seed| against(&after, &before, seed))
         .collect();
@@ -98,7 +99,7 @@ fn a_change_is_seen_where_it_is() {
     assert!(held >= 8, "{reference}: {errors:?}");
     let found = &all[0];
     assert!(found.error.relative() < 0.3, "{found:?}");
-    // The ball most of all, and more tiles by what mirrors show of it; the far corners stay.
+    // The sphere differs most, and other tiles by its reflections; the far corners do not differ.
     let [x, y] = found.different[0].at;
     assert!(
         (48..=64).contains(&x) && (16..=32).contains(&y),

@@ -1,4 +1,4 @@
-//! A time is kept, whatever it is too short for. The clock is one that rays advance.
+//! A time budget is kept, however short it is. The clock is advanced by rays.
 
 use super::patterns::grid;
 use super::scenes::{error, order, references, scene, world};
@@ -8,7 +8,7 @@ use rtc::internals::study::{Goal, TargetResult, Watch, approach};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::Duration;
 
-/// With a clock that a ray advances by a microsecond, and that shows so many at the start.
+/// With a clock that a ray advances by a microsecond, and that starts at `start` microseconds.
 fn with_clock(scene: &Scene, goal: Goal, start: u64) -> TargetResult {
     let rays = AtomicU64::new(start);
     let watch = Watch {
@@ -50,7 +50,7 @@ fn a_time_is_kept_and_more_of_it_is_less_error() {
     );
 }
 
-/// A round that the time cuts short counts as far as it came.
+/// The completed tiles of an interrupted round count.
 #[test]
 fn the_error_said_is_kept_wherever_the_time_ends() {
     let scene = scene(5, SIZE);
@@ -77,7 +77,7 @@ fn an_error_reached_before_the_time_ends_the_render() {
     );
 }
 
-/// Without time for a sample in each pixel, those of a block show one of them.
+/// Without time for a sample in each pixel, all pixels of a block have the value of one.
 #[test]
 fn a_crude_picture_is_better_than_none() {
     let pattern = grid(32, 0.5, 0.25);
@@ -89,7 +89,7 @@ fn a_crude_picture_is_better_than_none() {
     let coarse = late.coarse.unwrap();
     assert!(coarse.block == 8 && late.error.is_infinite());
     assert_eq!(late.samples.most, 2);
-    // 16 of 1024 pixels took 32 camera rays, all of which meet a quad or not.
+    // 16 of 1024 pixels took 32 camera rays, which all hit a quad or all miss.
     assert_eq!(late.counts.camera, 32);
     let whole = coarse.complete_after.as_micros();
     assert!(

@@ -1,4 +1,4 @@
-//! A target takes about as many samples as it needs, whatever few lucky samples met.
+//! A target takes about as many samples as it needs, even with outliers.
 
 use super::rare::under;
 use super::scenes::{distance, lowered, references, render};
@@ -7,7 +7,7 @@ use rtc::internals::image::Image;
 use rtc::internals::ir::{Mode, PathSettings, Scene};
 use rtc::internals::render::{Job, Seeds, Values};
 
-/// Tiny lamps far out of the focus of a lens, in a dim sky.
+/// Tiny emitters far out of focus, in a dim environment.
 fn lamps(size: [u32; 2]) -> Scene {
     let [width, height] = size;
     let places = [
@@ -40,7 +40,7 @@ fn lamps(size: [u32; 2]) -> Scene {
     lowered("lamps", text)
 }
 
-/// The samples a pixel that the noise of a target needs: errors go as 1/√n.
+/// The samples per pixel that a target needs: errors are proportional to 1/√n.
 fn needed(scene: &Scene, target: f64, references: &[Image; 2]) -> f64 {
     const SAMPLES: u32 = 1024;
     const SEEDS: u64 = 8;
@@ -66,7 +66,7 @@ fn needed(scene: &Scene, target: f64, references: &[Image; 2]) -> f64 {
     f64::from(SAMPLES) * mean / (target * target)
 }
 
-/// Pictures that met no lamp at all say that there is no bound.
+/// Pictures without a sample on an emitter report no bound.
 #[test]
 fn rare_light_takes_no_more_than_a_few_times_the_samples_that_a_target_needs() {
     for (size, targets) in [([8, 7], [4.0, 9.0])] {
@@ -78,7 +78,7 @@ fn rare_light_takes_no_more_than_a_few_times_the_samples_that_a_target_needs() {
             let taken: Vec<_> = renders.collect();
             let mean = taken.iter().sum::<f64>() / taken.len() as f64;
             let told = format!("{size:?} to {target}: needed {needed:.0}, taken {taken:.0?}");
-            // Eight pictures, and what is needed is measured, too.
+            // The tolerance covers eight pictures and the measured need.
             assert!(mean <= 6.0 * needed.max(160.0), "{told}");
         }
     }

@@ -1,4 +1,4 @@
-//! The error told of a denoised picture is the true one, and its bound is kept.
+//! The error estimate of a denoised picture is accurate, and its bound is kept.
 
 use super::on;
 use super::paths::balls;
@@ -10,7 +10,7 @@ use rtc::internals::study::{Goal, LEVELS, Order, ProbedError, probe};
 
 const SAMPLES: u32 = 16;
 
-/// A denoised picture by a seed, linear, and what is told of it.
+/// A denoised picture of a seed in linear values, and its estimated error.
 fn denoised(world: &AnyWorld, order: &Order, seed: u64) -> (Image, ProbedError) {
     let job = Job {
         seeds: Seeds {
@@ -21,7 +21,7 @@ fn denoised(world: &AnyWorld, order: &Order, seed: u64) -> (Image, ProbedError) 
         ..Job::default()
     };
     let picture = world.denoised(SAMPLES, &job, &|_| true, &|| ()).unwrap();
-    // Replicates of other seeds than the picture's.
+    // Probes with other seeds than the picture.
     let order = Order {
         seed: 1000 * seed,
         ..*order
@@ -40,7 +40,7 @@ fn square(image: &Image, [a, b]: &[Image; 2]) -> f64 {
     products.sum::<f64>() / (3 * image.pixels.len()) as f64 * LEVELS * LEVELS
 }
 
-/// Of 20 pictures fewer than 15 keep a bound of 90 of 100 by chance once in 400.
+/// If the bound holds with probability 0.9, fewer than 15 of 20 pictures keep it once in 400 runs.
 #[test]
 fn the_error_told_is_the_true_one_and_the_bound_is_kept() {
     let scene = balls();

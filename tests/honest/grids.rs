@@ -1,10 +1,10 @@
-//! The error said is kept where all pixels show the same that few samples meet: a choice of samples
-//! by the values that are shown favours pixels that have missed it, and says nothing of them.
+//! The error bound is kept where all pixels have a feature that few samples hit: sample allocation
+//! by the displayed values would prefer pixels that have missed it.
 
 use super::patterns::grid;
 use super::scenes::render;
 
-/// Of 16 pictures fewer than 12 keep the bound of 90 of 100 by chance once in 300.
+/// If the bound holds with probability 0.9, fewer than 12 of 16 pictures keep it once in 300 runs.
 #[test]
 fn the_error_said_is_kept_by_grids_in_step_with_pixels() {
     let (mut kept, mut told) = (0, Vec::new());

@@ -1,4 +1,5 @@
-//! A picture rendered to an error keeps it, is the same on any threads, and ends when it should.
+//! A picture rendered to a target error keeps it, is the same for any number of threads, and ends
+//! when it should.
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -37,7 +38,8 @@ fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
         .install(work)
 }
 
-/// The promise is 19 of 20; of 24 pictures fewer than 20 keep it by chance once in 3000.
+/// If the bound holds with probability 0.95, fewer than 20 of 24 pictures keep it once in 3000
+/// runs.
 #[test]
 fn the_error_said_is_kept() {
     let mut kept = 0;

@@ -1,5 +1,4 @@
-//! The same promises where paths are traced: the truth is the code of sRGB of what ever more paths
-//! lead to.
+//! The same promises for path tracing: the reference is the sRGB value of the limit of many paths.
 
 use super::on;
 use super::scenes::{error, references, render};
@@ -8,7 +7,7 @@ use rtc::internals::diag::Sink;
 use rtc::internals::ir::Scene;
 use rtc::internals::source::SourceMap;
 
-/// Two balls on a floor, under a disc that shines and a sky.
+/// Two spheres on a floor, under an emissive disc and an environment.
 pub(super) fn balls() -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("paths.json", include_bytes!("paths.json").to_vec());

@@ -1,5 +1,5 @@
-//! Patterns of white on black in the plane of the image, as fine as its pixels: what each pixel is to
-//! show is known.
+//! Patterns of white on black in the image plane, as fine as its pixels: the value of each pixel is
+//! known.
 
 use super::scenes::lowered;
 use rtc::internals::image::Image;
@@ -25,7 +25,7 @@ impl Pattern {
         (sum.sum::<f64>() / (3 * pixels.len()) as f64).sqrt() * LEVELS
     }
 
-    /// Objects in the plane of the image, where a pixel has the side 1 and the middle is the origin.
+    /// A scene of objects in the image plane, with pixels of side 1 and the origin in the centre.
     pub(crate) fn new(side: u32, objects: &str, reference: impl Fn(u32, u32) -> f64) -> Self {
         let text = format!(
             "Camera: {{eye: [0, 0, 100], center: [0, 0, 0], up: [0, 1, 0], viewSize: [{side}, {side}]}}\n\
@@ -62,7 +62,7 @@ pub(crate) fn grid(side: u32, width: f64, offset: f64) -> Pattern {
     Pattern::new(side, &text, |_, _| width)
 }
 
-/// White discs of a radius, each somewhere within a pixel, in a share of the pixels.
+/// White discs of a radius, each somewhere within a pixel, in a fraction of the pixels.
 pub(crate) fn grains(side: u32, radius: f64, share: f64) -> Pattern {
     let mut rng = Rng::new(7);
     let mut uniform = || rng.below(1 << 20) as f64 / f64::from(1 << 20);

@@ -1,13 +1,13 @@
-//! What no sample has met is in no estimate, but it is in the bound; and where too bright light may be
-//! unmet there is no bound.
+//! Features that no sample has hit are not in the estimate, but in the bound; and if very bright
+//! light may be undersampled, there is no bound.
 
 use super::paths::balls;
 use super::patterns::grains;
 use super::scenes::render;
 use rtc::internals::ir::{Material, Scene};
 
-/// Of 32 pictures fewer than 25 keep the bound of 90 of 100 by chance once in 100; by the estimate of
-/// what was met, 19 keep it, and some say that there is no error at all.
+/// If the bound holds with probability 0.9, fewer than 25 of 32 pictures keep it once in 100 runs;
+/// with only the estimate from samples, 19 keep it, and some report no error at all.
 #[test]
 fn the_error_said_is_kept_where_few_pixels_show_anything() {
     let (mut kept, mut told) = (0, Vec::new());
@@ -25,7 +25,7 @@ fn the_error_said_is_kept_where_few_pixels_show_anything() {
     assert!(kept >= 25, "{kept} of 32: {told:.2?}");
 }
 
-/// The same balls, under a light so many times as bright.
+/// The same spheres, under a light that is brighter by a factor.
 pub(super) fn under(brightness: f64) -> Scene {
     let mut scene = balls();
     for material in &mut scene.materials {

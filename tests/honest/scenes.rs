@@ -1,5 +1,4 @@
-//! Made-up scenes with everything that makes noise, and how far a render to a target is from what
-//! it promises.
+//! Generated scenes with all sources of noise, and the true error of a render to a target.
 
 use rtc::internals::color::Tone;
 use rtc::internals::diag::Sink;
@@ -14,13 +13,13 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
 
-/// The scene of a number: balls and boxes on a floor, each with a lens, soft lights, glossy balls,
-/// textures and crowds of small things or without, by the bits of the number.
+/// The scene of a number: spheres and boxes on a floor; the bits of the number select a lens, area
+/// lights, glossy spheres, textures and many small objects.
 pub(crate) fn scene(number: u64, size: [u32; 2]) -> Scene {
     lowered(&format!("scene {number}"), text(number, size))
 }
 
-/// The scene of a sound text.
+/// The scene of a valid text.
 pub(crate) fn lowered(name: &str, text: String) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     // Textures are those of the scenes of the repo.
@@ -127,7 +126,7 @@ pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> TargetResult {
     approach(&mut world(scene), scene, &order(scene, goal, seed), &watch).expect("nobody says stop")
 }
 
-/// The world of a sound scene.
+/// The world of a valid scene.
 pub(crate) fn world(scene: &Scene) -> AnyWorld {
     let lowered = Lowered {
         scene: scene.clone(),
@@ -158,7 +157,7 @@ pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> Order {
     }
 }
 
-/// Two references of other samples, each with at most a quarter of the error.
+/// Two references with other seeds, each with at most a quarter of the error.
 pub(crate) fn references(scene: &Scene, error: f64) -> [Image; 2] {
     [0x5EED, 0xFEED].map(|seed| render(scene, error / 4.0, seed).image)
 }

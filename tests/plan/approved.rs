@@ -1,7 +1,6 @@
-//! Plans as approved: for each made-up scene what the picture needs and by which rules the rest is
-//! left out, beside a hash of all that its plans say, with all rules, with every other one and with
-//! none. `RTC_UPDATE=1 cargo test --test suites plan::` rewrites `tests/plan/approved.txt`: what then
-//! differs is what changed.
+//! Approved plans: for each generated scene, the needed effects, the rules that removed the others,
+//! and a hash of its plans with all rules, with every other one and with none. `RTC_UPDATE=1 cargo
+//! test --test suites plan::` rewrites `tests/plan/approved.txt`.
 
 use super::dice::Dice;
 use super::{root, validated};
@@ -13,8 +12,8 @@ use xxhash_rust::xxh3::xxh3_64;
 
 const SCENES: u64 = 250;
 
-/// A made-up scene; by turns as it is, with tiny round things, seen from so far that rounding blurs
-/// it, alone and from afar, and with the pixels sampled through a pinhole.
+/// A generated scene; in turn unchanged, with tiny round shapes, seen from so far that rounding
+/// dominates, with a single surface from afar, and with supersampling through a pinhole.
 fn scene(seed: u64) -> Scene {
     let mut scene = Dice::new(seed).scene();
     match seed % 4 {
@@ -102,7 +101,7 @@ fn plans_are_as_approved() {
     );
 }
 
-/// A hash names no culprit: what people read is said in full.
+/// A hash does not say what differs, so the readable part is spelled out.
 #[test]
 fn effects_and_states_are_named_as_in_the_books() {
     let plan = Plan::new(&validated(&Dice::new(0).scene()), Rules::ALL);

@@ -1,4 +1,4 @@
-//! Counters: the class of rays of an effect that was left out is 0.
+//! Counters: no rays are traced for a removed effect.
 
 use super::dice::Dice;
 use super::{film, validated};
@@ -12,7 +12,7 @@ fn what_is_told_absent_is_never_simulated() {
         let scene = validated(&Dice::new(seed).scene());
         let counts = film(&scene, Rules::ALL, Values::Linear).counts;
         let mut lies = lies(&scene, &counts);
-        // Where all corners of a triangle have one normal, that is looked up and counted too.
+        // Equal vertex normals are still looked up and counted.
         let is_told = |effect: Effect| effect != Effect::NormalInterpolation;
         lies.retain(|(effect, state, _)| *state != State::Needed && is_told(*effect));
         assert!(lies.is_empty(), "scene {seed}: {lies:?}");

@@ -1,12 +1,13 @@
-//! Where bounces are cut off: once all that is left is below half a level of 8 bits, and no sooner.
+//! Bounces are cut off once the remaining contribution is below half a level of 8 bits, and not
+//! earlier.
 
 use super::scenes::{ball, first_light, material, matt, texture, with};
 use super::validated;
 use rtc::internals::ir::{Phong, Scene, Texture, TextureId};
 use rtc::internals::plan::{Plan, Rule, Rules};
 
-/// Two balls that show each other without end, of which one point adds ks + kt of what it sees, and
-/// of a white light (ka + kd) · 0.8 + ks = 1.1 at most.
+/// Two spheres that reflect each other without end. A point contributes ks + kt of the radiance it
+/// reflects, and at most (ka + kd) · 0.8 + ks = 1.1 of a white light.
 fn mirrors() -> Scene {
     let phong = Phong {
         color: [0.8, 0.2, 0.4],
@@ -28,8 +29,8 @@ fn depth(scene: &Scene) -> u32 {
     Plan::new(&validated(scene), Rules::ALL.with(Rule::Cut)).max_depth
 }
 
-/// That as many bounces are left as keep the rest below half a level: Σ weightⁱ over all i above
-/// that, times what a point adds of the light.
+/// Asserts the number of remaining bounces, and that the rest is below half a level: Σ weightⁱ over
+/// all greater i, times the direct contribution of a point.
 fn is_cut(scene: &Scene, weight: f64, point: f64) {
     for bounces in [1, 4, 9] {
         let powers = (0..=bounces).fold(1.0, |power, _| power * weight);
@@ -45,7 +46,7 @@ fn is_cut(scene: &Scene, weight: f64, point: f64) {
 #[test]
 fn bounces_are_cut_off_where_the_rest_is_half_a_level() {
     is_cut(&mirrors(), 0.4, 1.1);
-    // A rest of just half a level is not below it.
+    // A remainder of exactly half a level is not below it.
     let mut exact = mirrors();
     let phong = Phong {
         color: [1.0; 3],
@@ -68,7 +69,7 @@ fn the_brightest_and_the_clearest_material_count_and_all_lights_do() {
     let mut scene = mirrors();
     (material(&mut scene, 0).kt, material(&mut scene, 1).kd) = (0.2, 1.7);
     is_cut(&scene, 0.5, 1.9);
-    // A second light of the same colour as the first is 2 of the first.
+    // Two lights of the same colour count twice.
     let mut scene = mirrors();
     first_light(&mut scene).color = [0.0, 0.01, 0.0];
     let one = depth(&scene);

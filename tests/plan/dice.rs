@@ -1,5 +1,5 @@
-//! Random scenes: each effect present, absent, or present with zero weight; places on a coarse
-//! grid, so that things touch, line up and coincide.
+//! Random scenes: each effect is present, absent, or has weight 0; positions are on a coarse grid,
+//! so that surfaces touch, align and coincide.
 
 mod extreme;
 mod light;
@@ -8,7 +8,7 @@ mod paths;
 use rtc::internals::ir::{self, ImageId, MaterialId, MeshId, Scene, Texture, TextureId};
 use rtc::internals::math::{GAMMA, Vec3, mix, view_basis};
 
-/// A source of choices, the same for the same seed.
+/// A seeded random number generator.
 pub(super) struct Dice(u64);
 
 impl Dice {

@@ -1,11 +1,11 @@
-//! What would take too much to look at is kept, and nothing is said of it that was not looked at.
+//! If a test would take too long, the work stays in the plan, and the reason says so.
 
 use super::scenes::{ball, matt, shiny, with};
 use super::status;
 use rtc::internals::ir::Scene;
 use rtc::internals::plan::{Effect, PixelClass, Plan, Rules};
 
-/// Small balls side by side before a wide camera, the first of them mirrors.
+/// Small spheres side by side before a wide camera, the first ones reflective.
 fn many(count: u32, mirrors: u32) -> Scene {
     let place = |k: u32| {
         [
@@ -25,7 +25,7 @@ fn many(count: u32, mirrors: u32) -> Scene {
     scene
 }
 
-/// Planning asks no more than 500 000 questions of pairs, and says so.
+/// A plan tests at most 500 000 pairs, and reports it.
 #[test]
 fn too_many_surfaces_are_kept_without_asking() {
     let plan = |count, lights| {
@@ -46,7 +46,10 @@ fn too_many_mirrors_are_followed_without_asking() {
         let plan = Plan::new(&super::validated(&many(count, mirrors)), Rules::ALL);
         status(&plan, Effect::Depth).reason.clone()
     };
-    assert_eq!(reason(1000, 500), "2 bounces: mirrors show mirrors");
+    assert_eq!(
+        reason(1000, 500),
+        "2 bounces: reflective surfaces are visible in each other"
+    );
     assert_eq!(
         reason(1001, 500),
         "2 bounces; too many reflective surfaces to test all pairs"

@@ -1,6 +1,6 @@
-//! The laws of a scene, whatever is in it: rules, threads and forms of the IR change no bit,
-//! nothing that was left out would show, and every value is finite. 64 made-up scenes each time,
-//! others where `RTC_SCENES` names them, as 0..2000.
+//! Invariants of any scene: rules, threads and IR encodings do not change a bit, removed work
+//! contributes nothing, and every value is finite. Tests 64 generated scenes, or those of
+//! `RTC_SCENES`, for example 0..2000.
 
 use super::dice::Dice;
 use super::{bits, film, validated};
@@ -28,7 +28,7 @@ fn decoded(encoding: Encoding, scene: &Scene) -> Scene {
     codec::decode(encoding, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
-/// The first law that a sound scene breaks.
+/// The first invariant that a valid scene violates.
 fn broken(scene: &Scene) -> Option<String> {
     let valid = validated(scene);
     let unpruned = film(&valid, Rules::NONE, Values::Linear);
@@ -90,7 +90,7 @@ fn broken(scene: &Scene) -> Option<String> {
     other.map(|encoding| format!("the IR as {encoding:?} is another scene"))
 }
 
-/// A scene that breaks a law with as little in it as the cuts here leave.
+/// Reduces a scene that violates an invariant.
 fn smallest(mut scene: Scene) -> Scene {
     let breaks = |scene: &Scene| is_sound(scene) && broken(scene).is_some();
     for index in (0..scene.surfaces.len()).rev() {
@@ -129,12 +129,12 @@ fn smallest(mut scene: Scene) -> Scene {
     scene
 }
 
-/// Scenes that broke a law once.
+/// Regression scenes.
 const FOUND: [u64; 12] = [
     1243, 1635, 3321, 5438, 11865, 12376, 25322, 38809, 38838, 43900, 44689, 58013,
 ];
 
-/// The scenes to be looked at.
+/// The scenes to test.
 fn seeds() -> Vec<u64> {
     let Ok(wanted) = std::env::var("RTC_SCENES") else {
         return (0..64).chain(FOUND).collect();
@@ -146,7 +146,7 @@ fn seeds() -> Vec<u64> {
     (from..to).collect()
 }
 
-/// Of the scenes that break a law all are named, and the first is shown.
+/// Names all scenes that violate an invariant, and prints the first.
 #[test]
 fn laws_hold_for_scenes_of_all_kinds() {
     let (mut faults, mut first, mut refused) = (String::new(), None, 0);
@@ -231,7 +231,7 @@ fn kinds(scene: &Scene) -> Vec<String> {
     kinds
 }
 
-/// What is never made is never tested.
+/// Every kind must be generated.
 #[test]
 fn scenes_of_all_kinds_are_made() {
     let seen: BTreeSet<_> = (0..64)

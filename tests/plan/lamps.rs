@@ -1,4 +1,4 @@
-//! The light of every emitter, as it shows on a white floor.
+//! The light of every emitter, measured on a white floor.
 
 use super::dice::Dice;
 use super::path_rules::{traced, white};
@@ -10,7 +10,7 @@ use rtc::internals::plan::Rules;
 use rtc::internals::render::Values;
 use std::f64::consts::PI;
 
-/// One pixel that sees next to nothing but the origin, on a white floor that faces +z.
+/// One narrow pixel at the origin, on a white floor that faces +z.
 fn floor(emitter: Emitter) -> Scene {
     let mut scene = traced(&[(disc([0.0; 3], 1.0), white())]);
     scene.camera.eye = [0.0, 0.0, 4.0];
@@ -23,8 +23,8 @@ fn floor(emitter: Emitter) -> Scene {
     scene
 }
 
-/// What a white floor at the origin that faces +z reflects of an emitter of intensity 1, by the
-/// laws of the cosine and of the inverse square and the window of `KHR_lights_punctual`.
+/// The radiance of a white floor at the origin that faces +z under an emitter of intensity 1:
+/// cosine law, inverse-square law, and the range window of `KHR_lights_punctual`.
 fn expected(emitter: &Emitter) -> f64 {
     let Some(position) = emitter.position().map(Vec3::from_array) else {
         let direction = Vec3::from_array(emitter.direction().unwrap()).normalize();

@@ -1,5 +1,5 @@
-//! The law: with and without the rules the film has the same bits, in both kinds of values, and no
-//! rule costs a ray.
+//! The main invariant: with and without rules the film has the same bits, in linear and display
+//! values, and no rule adds a ray.
 
 use super::dice::Dice;
 use super::scenes::{ball, disc, first_light, matt, shiny, with};
@@ -23,7 +23,7 @@ fn sets() -> Vec<(String, Rules)> {
 fn faults(scene: &Scene, sets: &[(String, Rules)]) -> Vec<String> {
     let scene = validated(scene);
     let mut faults = Vec::new();
-    // What is clamped can only hide a difference; one set shows that it is clamped alike.
+    // Clamping can only hide a difference; one set tests that the clamped values agree.
     let kinds: &[Values] = if sets.len() == 1 {
         &[Values::Linear, Values::Display]
     } else {
@@ -44,7 +44,7 @@ fn faults(scene: &Scene, sets: &[(String, Rules)]) -> Vec<String> {
                     "{name}: {count} pixels, the first is {first}: {a:?} instead of {b:?}"
                 ));
             }
-            // Without this rule the normals of surfaces that show nothing decide on shadow rays.
+            // Without this rule the normals of black surfaces decide on shadow rays.
             let is_counted = rules.contains(Rule::ShadowUnlit);
             if is_counted && pruned.counts.rays() > unpruned.counts.rays() {
                 faults.push(format!(
@@ -100,7 +100,7 @@ proptest! {
     }
 }
 
-/// Where black surfaces may ask for shadow rays, a normal map that nothing shows says which do.
+/// If black surfaces may have shadow rays, a normal map without visible effect decides which do.
 #[test]
 fn a_normal_map_of_a_black_surface_changes_no_bit() {
     let scene = Dice::new(4_654_549_808_109_750_294).scene();
@@ -108,7 +108,7 @@ fn a_normal_map_of_a_black_surface_changes_no_bit() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// A rule that never fires is a rule nobody has tested.
+/// Every rule must apply to some scene, otherwise it is not tested.
 #[test]
 fn each_rule_leaves_something_out_of_some_scene() {
     let mut idle = Rule::ALL.to_vec();
@@ -125,7 +125,7 @@ fn each_rule_leaves_something_out_of_some_scene() {
     assert!(idle.is_empty(), "never fired: {idle:?}");
 }
 
-/// The rules that leave out single rays, which no verdict is on.
+/// The rules that remove single rays, for which there is no status.
 const BY_RAYS: [Rule; 4] = [
     Rule::ShadowFacing,
     Rule::PixelMiss,
@@ -179,7 +179,7 @@ fn the_rules_of_single_rays_leave_out_rays_of_their_kind() {
 
 #[test]
 fn a_world_that_shows_another_view_keeps_the_law() {
-    // The first view leaves out the disc, which stands behind its eye.
+    // The first view removes the disc, which is behind the eye.
     let mut scene = with(&[
         (ball([0.0; 3], 1.0), matt()),
         (disc([0.0, 0.0, 30.0], 2.0), matt()),

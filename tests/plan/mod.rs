@@ -1,9 +1,9 @@
-//! The plan: what is left out adds nothing, what is kept adds something, and who asks is told the
-//! right reason.
+//! The plan: removed work contributes nothing, remaining work contributes something, and the
+//! reported reasons are correct.
 //!
 //! The strength of this suite and of the unit tests of the rules is measured by
-//! `benches/mutants.sh`: mutants that survive want a test. What the scenes of the course and of the
-//! wild call for is in `tests/shared`.
+//! `benches/mutants.sh`: surviving mutants need a test. The expectations for the scenes of the
+//! course and of others are in `tests/shared`.
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -45,7 +45,7 @@ fn files(folder: &str) -> Vec<PathBuf> {
     crate::repo::files(&root(folder), &["yaml", "yml"])
 }
 
-/// A scene as it is; `None` if it is refused.
+/// A scene unchanged; `None` if it is rejected.
 fn scene(path: &Path) -> Option<Scene> {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(path, &mut map).unwrap();
@@ -83,7 +83,7 @@ fn film(scene: &ValidScene, rules: Rules, values: Values) -> Film {
         .unwrap()
 }
 
-/// The verdict on an effect of the whole scene.
+/// The status of an effect of the whole scene.
 fn status(plan: &Plan, effect: Effect) -> &EffectStatus {
     let mut all = plan
         .statuses
@@ -96,7 +96,7 @@ fn status(plan: &Plan, effect: Effect) -> &EffectStatus {
     first
 }
 
-/// What became of an effect, and by which rule.
+/// The state of an effect, and the rule.
 fn fate(scene: &Scene, effect: Effect) -> (State, Option<Rule>) {
     let plan = Plan::new(&validated(scene), Rules::ALL);
     let EffectStatus { state, rule, .. } = status(&plan, effect);

@@ -1,5 +1,4 @@
-//! No false need: an effect that a scene can be seen to do without, in several ways to say so, is
-//! left out in all.
+//! No false need: an effect that a scene clearly does not need is removed in every formulation.
 
 use super::fate;
 use super::scenes::{
@@ -315,7 +314,7 @@ fn textures_and_normal_maps() {
     }
 }
 
-/// 0 times infinity is no number: what is not finite is refused, and never left out for a factor of
+/// 0 times infinity is NaN: values that are not finite are rejected, never removed for a factor of
 /// 0.
 #[test]
 fn a_light_that_is_not_finite_is_reported_whatever_it_is_multiplied_by() {
@@ -361,7 +360,7 @@ fn a_plane_is_never_said_to_spare_itself() {
     );
 }
 
-/// What is said of materials takes one look at each surface.
+/// The statuses of materials take linear time in the number of surfaces.
 #[test]
 fn materials_that_show_no_highlight_are_named_and_the_others_are_not() {
     let scene = with(&[

@@ -1,5 +1,5 @@
-//! What each parameter of a material calls for in a traced scene: a change brings the effects named,
-//! and no other. The picture shows just these, and the kernel has just their features.
+//! The effects of each material parameter in a path-traced scene: a change adds the named effects
+//! and no others. The picture has exactly these, and the kernel exactly their features.
 
 use super::path_rules::{lamp, traced, white};
 use super::scenes::{ball, disc};
@@ -8,7 +8,7 @@ use crate::told::{film, lies};
 use rtc::internals::ir::{Alpha, Scene, Standard};
 use rtc::internals::plan::{Effect, Layer, PathFeatures, Plan, Rules, State};
 
-/// A ball of a material before a white disc, under a lamp.
+/// A sphere of a material before a white disc, under a light.
 pub(super) fn lit(material: &Standard) -> Scene {
     let mut scene = traced(&[
         (ball([0.0; 3], 1.0), material.clone()),
@@ -18,7 +18,7 @@ pub(super) fn lit(material: &Standard) -> Scene {
     scene
 }
 
-/// The effects that a scene needs, and the features of its kernel. The picture shows these effects
+/// The effects that a scene needs, and the features of its kernel. The picture has these effects
 /// and no others.
 pub(super) fn needs(scene: &Scene) -> (Vec<Effect>, PathFeatures) {
     let proof = validated(scene);
@@ -53,7 +53,7 @@ fn a_white_ball_before_a_disc_calls_for_light_shadows_and_a_bounce() {
     assert_eq!(needs(&lit(&white())), (effects.to_vec(), LIT));
 }
 
-/// A name, a change of the white material, the effects that it brings, and the features then.
+/// A name, a change of the white material, the effects that it adds, and the resulting features.
 type OfMaterial = (
     &'static str,
     fn(&mut Standard),

@@ -27,7 +27,7 @@ fn mirror() -> Standard {
     }
 }
 
-/// A ball under a lamp.
+/// A sphere under a light.
 fn lit(material: Standard) -> Scene {
     let mut scene = traced(&[(ball([0.0; 3], 1.0), material)]);
     scene.lights = vec![lamp([3.0, 4.0, 5.0])];
@@ -81,17 +81,17 @@ fn a_light_is_out_of_reach_where_its_range_ends_before_the_surfaces() {
         scene.lights = vec![light];
         scene
     };
-    // The box of the ball ends four units before the lamp.
+    // The bounding box of the sphere ends four units before the light.
     assert!(fires(Rule::PathLightReach, &ranged(3.999)));
     assert!(!fires(Rule::PathLightReach, &ranged(4.001)));
 }
 
-/// The number of maps that are left of a material on a triangle with texture coordinates.
+/// The number of remaining maps of a material on a triangle with texture coordinates.
 fn maps_left(change: impl Fn(&mut Standard, Option<Map>)) -> usize {
     maps_left_after(2, change)
 }
 
-/// As [`maps_left`], of paths of some bounces.
+/// Like [`maps_left`], for paths with some bounces.
 fn maps_left_after(bounces: u32, change: impl Fn(&mut Standard, Option<Map>)) -> usize {
     let mut scene = traced(&[]);
     scene.settings.max_depth = bounces;
@@ -219,7 +219,7 @@ const WEIGHTS: [Weight; 9] = [
         |m| (m.transmission, m.transmission_map) = (1.0, Some(FIRST)),
         0..1,
     ),
-    // The back of a body that nearly lets light through is seen.
+    // The back of a slightly transmissive solid is visible.
     (
         |m| {
             (m.transmission, m.transmission_map) = (1.0, Some(FIRST));

@@ -1,4 +1,4 @@
-//! What an explanation of a traced scene says: each effect, what became of it, why, and the values
+//! The explanation of a path-traced scene: each effect, its state, the reason, and the scene values
 //! that decided.
 
 use super::path_effects::lit;
@@ -9,8 +9,7 @@ use super::validated;
 use rtc::internals::ir::{self, Alpha, Emitter, ImageId, Punctual, Scene, Standard, Texture};
 use rtc::internals::plan::{EffectStatus, Plan, Rule, Rules, State};
 
-/// What is told of the effects in some state, a line each: the effect, the rule, the reason, the
-/// values.
+/// The effects in a state, one line each: the effect, the rule, the reason, the values.
 fn told(scene: &Scene, state: State) -> String {
     let line = |status: &EffectStatus| {
         let places = status.facts.iter();
@@ -73,20 +72,20 @@ fn each_effect_is_told_with_its_reason_and_the_values_that_decided() {
     let plain = lit(&white());
     assert_eq!(told(&plain, State::Absent), ABSENT);
     assert_eq!(told(&rich(), State::Needed), NEEDED);
-    // The last ray of a plain scene finds nothing that shines.
+    // The last ray in a scene without emitters hits none.
     let needed = told(&plain, State::Needed);
     assert!(needed.contains("bounces:  at most 1 bounce;"), "{needed}");
 }
 
 #[test]
 fn what_is_pruned_is_told_with_its_own_rule() {
-    // A black light is left out before.
+    // A black light was removed before.
     let rule = "P-ALPHA alpha is 1, or above the cutoff, everywhere on the surfaces";
     let told = told(&rich(), State::Pruned);
     assert_eq!(told, format!("alpha: {rule}; Material 1"));
 }
 
-/// A scene that calls for nearly everything, and for some of it in vain.
+/// A scene that requires nearly everything, and some of it without contribution.
 fn rich() -> Scene {
     let coated = Standard {
         clearcoat: 1.0,

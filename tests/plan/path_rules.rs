@@ -1,5 +1,5 @@
-//! Each rule for paths by two scenes: one where it holds, and one as near to it as can be where it
-//! does not. The first is told so, the second is not, and the picture of neither changes a bit.
+//! Each path rule with two scenes: one where it applies, and one as similar as possible where it
+//! does not. The rule is applied to the first only, and no picture changes a bit.
 
 use super::scenes::{ball, base_scene, disc};
 use super::validated;
@@ -21,7 +21,7 @@ pub(super) fn white() -> Standard {
     }
 }
 
-/// A stage whose paths are traced, with surfaces of glTF materials.
+/// A path-traced test scene with surfaces of glTF materials.
 pub(super) fn traced(surfaces: &[(Shape, Standard)]) -> Scene {
     let mut scene = base_scene();
     scene.settings.mode = Mode::Path(PathSettings {
@@ -85,8 +85,8 @@ pub(super) fn across() -> ir::Mesh {
     }
 }
 
-/// Whether a rule removes an effect from a scene. The picture by it, and by all rules, keeps its
-/// bits in any case.
+/// Whether a rule removes an effect from a scene. The picture with it, and with all rules, keeps
+/// its bits in any case.
 pub(super) fn fires(rule: Rule, scene: &Scene) -> bool {
     let proof = validated(scene);
     let unpruned = film(&proof, Rules::NONE);
@@ -322,7 +322,7 @@ fn a_lens_sees_what_is_out_of_the_view_of_a_pinhole() {
 
 #[test]
 fn half_a_million_pairs_are_tested_and_no_more() {
-    // So many in view, so many out of view, and a light.
+    // Numbers of visible and invisible surfaces, and a light.
     let leaves_out = |seen: u32, unseen: u32| {
         let mut scene = traced(&[]);
         scene.settings.max_depth = 1;

@@ -1,5 +1,5 @@
-//! What each value of a traced scene calls for, beside its materials: a change of one value brings and
-//! takes the effects named, and no other.
+//! The effects of each value of a path-traced scene other than materials: a change of one value
+//! adds and removes the named effects and no others.
 
 use super::path_effects::{GLOSSY, LAYERED, LIT, beyond, lit, needs};
 use super::path_materials::FIRST;
@@ -10,7 +10,7 @@ use rtc::internals::ir::{
 };
 use rtc::internals::plan::{Effect, Layer, PathFeatures};
 
-/// A name, a change of the scene, the effects that it brings and takes, and the features then.
+/// A name, a change of the scene, the effects that it adds and removes, and the resulting features.
 type OfScene = (
     &'static str,
     fn(&mut Scene),

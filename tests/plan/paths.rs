@@ -1,5 +1,5 @@
-//! The law and the verdicts for traced paths: what a rule leaves out changes no bit of the picture,
-//! and an explanation names no effect that the picture shows as absent.
+//! The invariants and statuses of path tracing: no rule changes a bit of the picture, and no status
+//! contradicts the ray counts of the picture.
 
 use super::dice::Dice;
 use super::{file_name, files, scene, validated};
@@ -8,13 +8,13 @@ use rtc::internals::ir::Scene;
 use rtc::internals::plan::{Plan, Rule, Rules, State};
 use std::env;
 
-/// How many made-up scenes are tried: `RTC_SCENES=1000 cargo test --test suites plan::paths` tries more.
+/// The number of generated scenes: `RTC_SCENES=1000 cargo test --test suites plan::paths` tries
+/// more.
 fn scenes() -> u64 {
     env::var("RTC_SCENES").map_or(64, |count| count.parse().unwrap())
 }
 
-/// The sets of rules that a scene is tried with: each alone that leaves something out of it, and
-/// all of them.
+/// The sets of rules to test with a scene: each rule alone that removes something, and all of them.
 fn sets(scene: &Scene) -> Vec<(String, Rules)> {
     let plan = Plan::new(&validated(scene), Rules::ALL);
     let mut applied: Vec<_> = plan

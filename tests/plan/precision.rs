@@ -1,4 +1,5 @@
-//! What the plain arithmetics lose: estimates worked out by hand, of each shape and each symptom.
+//! The precision losses of the non-robust arithmetics: estimates by hand for each shape and
+//! symptom.
 
 use super::scenes::{ball, first_light, material, matt, plane, with};
 use super::validated;
@@ -26,8 +27,8 @@ fn is_near(found: f64, wanted: f64) {
 /// Below the eye at (0, 0, 10), 1000 away, 990 from the origin.
 const DEEP: [f64; 3] = [0.0, 0.0, -990.0];
 
-/// A mesh of one triangle with its first corner at the middle of its space, turned and stretched
-/// and set at `origin`.
+/// A mesh of one triangle with its first vertex at the origin of object space, rotated, stretched
+/// and moved to `origin`.
 fn instance(origin: [f64; 3]) -> Scene {
     let mut scene = one(ball([0.0; 3], 1.0));
     scene.meshes.push(ir::Mesh {
@@ -185,7 +186,7 @@ fn a_surface_is_skipped_as_a_whole_if_it_is_no_larger_than_what_is_skipped_befor
     excess(&mesh, 86.0_f64.sqrt() * 1e-4);
 }
 
-/// A disc that rays would be skipped before, if it sent any.
+/// A disc smaller than the epsilon, if rays started on it.
 fn sends_rays(change: impl FnOnce(&mut Scene)) -> bool {
     let mut scene = one(Shape::Disc(ir::Disc {
         center: [0.0; 3],
@@ -229,7 +230,7 @@ fn round_things_lose_their_shape_by_a_part_of_their_size() {
     assert_eq!(loss.symptom, Symptom::Shape);
     is_near(loss.excess, (990.0 + 1000.0 * 500.0) * UNIT * 512.0 / 2.0);
     assert!(round(100.0).is_none());
-    // The tube of a torus is what is shaded.
+    // The tube of a torus determines its shading.
     let mut torus = one(Shape::Torus(ir::Torus {
         center: DEEP,
         axis: [0.0, 1.0, 0.0],
@@ -250,7 +251,7 @@ fn the_worst_of_the_surfaces_that_lose_something_is_named_and_all_are_counted() 
     first_light(&mut scene).position = [0.0, 0.0, 20.0];
     let loss = lost(&scene).unwrap();
     assert_eq!((loss.surface, loss.surfaces), (2, 3));
-    // Of two alike the first is named.
+    // Of two equal losses the first is reported.
     let scene = with(&[balls[3].clone(), balls[3].clone()]);
     assert_eq!(
         lost(&scene).map(|loss| (loss.surface, loss.surfaces)),

@@ -1,10 +1,10 @@
-//! A small stage: a ball, a disc and what else a test puts there, seen from (0, 0, 10) along −z.
+//! A small test scene: a sphere, a disc and other surfaces, seen from (0, 0, 10) along −z.
 
 use rtc::internals::ir::{
     self, ImageId, Light, Material, MaterialId, Phong, Scene, Shape, Surface, Texture, TextureId,
 };
 
-/// Matt grey.
+/// Diffuse grey.
 pub(super) fn matt() -> Phong {
     Phong {
         color: [0.5, 0.6, 0.7],
@@ -22,12 +22,12 @@ pub(super) fn matt() -> Phong {
     }
 }
 
-/// With a highlight and a mirror.
+/// With a highlight and reflection.
 pub(super) fn shiny() -> Phong {
     Phong { ks: 0.5, ..matt() }
 }
 
-/// A stage with shadows and two bounces, a white light at (3, 4, 12), and no surface.
+/// A test scene with shadows and two bounces, a white light at (3, 4, 12), and no surface.
 pub(super) fn base_scene() -> Scene {
     Scene {
         camera: ir::Camera {
@@ -73,7 +73,7 @@ pub(super) fn light(position: [f64; 3]) -> Light {
     })
 }
 
-/// A stage with the surfaces given, each of a material of its own.
+/// A test scene with the given surfaces, each with its own material.
 pub(super) fn with(surfaces: &[(Shape, Phong)]) -> Scene {
     let mut scene = base_scene();
     for (index, (shape, phong)) in (0_u32..).zip(surfaces) {
@@ -95,7 +95,7 @@ pub(super) fn ball(center: [f64; 3], radius: f64) -> Shape {
     })
 }
 
-/// A disc that looks along +z.
+/// A disc that faces +z.
 pub(super) fn disc(center: [f64; 3], radius: f64) -> Shape {
     Shape::Disc(ir::Disc {
         center,

@@ -1,5 +1,5 @@
-//! Sensitivity: the least change of the fact that a rule rests on turns its verdict, and the
-//! picture changes.
+//! Sensitivity: a minimal change of the fact that a rule depends on changes the status and the
+//! picture.
 
 use super::scenes::{
     ball, disc, first_light, light, material, matt, plane, shiny, square, texture, with,
@@ -9,14 +9,13 @@ use rtc::internals::ir::{Mode, Scene};
 use rtc::internals::plan::{Effect, Plan, Rule, Rules, State};
 use rtc::internals::render::Values;
 
-/// A scene in which a rule leaves an effect out, and a change after which it is needed.
+/// A scene in which a rule removes an effect, and a change after which it is needed.
 fn turns(effect: Effect, rule: Rule, scene: &Scene, change: impl FnOnce(&mut Scene)) {
     assert_eq!(fate(scene, effect), (State::Pruned, Some(rule)), "before");
     flips(effect, scene, change);
 }
 
-/// A scene that does without an effect, and a change after which it is needed and the picture
-/// another.
+/// A scene without an effect, and a change after which it is needed and the picture changes.
 fn flips(effect: Effect, scene: &Scene, change: impl FnOnce(&mut Scene)) {
     assert_ne!(fate(scene, effect).0, State::Needed, "before");
     let mut changed = scene.clone();
@@ -61,14 +60,14 @@ fn a_second_ball_and_a_light_inside_make_shadows() {
             (ball([0.75, 1.0, 3.0], 0.25), matt()),
         ])
     });
-    // Seen from inside, a ball hides the light.
+    // Seen from inside, a sphere occludes the light.
     shadows(&|scene| scene.camera.eye = [0.0, 0.0, 0.9]);
     turns(Effect::Shadows, Rule::ShadowPair, &two_balls(), |scene| {
         first_light(scene).position = [9.0, 0.2, 0.0]
     });
 }
 
-/// Where some surface hides a light, shadow rays still ask no other.
+/// If one surface may occlude a light, shadow rays still skip all others.
 #[test]
 fn a_light_is_asked_of_those_alone_that_may_hide_it() {
     let mut scene = with(&[
@@ -123,7 +122,7 @@ fn a_light_shines_as_soon_as_it_has_a_colour_and_stands_in_front() {
         &background,
         |scene| first_light(scene).position[2] = 1e-3,
     );
-    // Without shadows a highlight shines through.
+    // Without shadows the highlight is visible through the surface.
     turns(
         Effect::DirectLight,
         Rule::LightBehind,

@@ -1,5 +1,5 @@
-//! Validation: what the plan leaves out of each scene at hand is simulated and adds nothing; a plan
-//! that leaves out too much is found out, by effect and pixel.
+//! Verification: the work that the plan removes from each test scene is simulated and contributes
+//! nothing; a plan that removes too much is detected, with effect and pixel.
 
 use super::dice::Dice;
 use super::scenes::{ball, disc, matt, shiny, with};
@@ -40,7 +40,7 @@ proptest! {
     }
 }
 
-/// A ball before a disc on which its shadow falls, and in which it is mirrored.
+/// A sphere before a disc that receives its shadow and reflects it.
 fn busy() -> Scene {
     with(&[
         (ball([1.5, 0.0, 3.0], 1.0), matt()),
@@ -75,7 +75,7 @@ fn a_light_left_out_is_found_at_the_first_pixel_it_shines_on() {
     );
 }
 
-/// Only what is asked for changes the picture, and by no more than half a level of 8 bits.
+/// Only the requested approximation changes the picture, by at most half a level of 8 bits.
 #[test]
 fn what_is_cut_off_is_too_small_to_see() {
     let mut scene = with(&[

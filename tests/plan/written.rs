@@ -1,4 +1,4 @@
-//! What made-up scenes, of any size, are written as is accepted when it is read.
+//! Generated scenes of any size can be written and read again.
 
 use super::dice::Dice;
 use crate::scale::scaled;
@@ -12,7 +12,7 @@ const SCENES: u64 = 240;
 /// squares, and within.
 const POWERS: [i32; 7] = [0, -160, -130, -60, 60, 100, 110];
 
-/// A made-up scene, by turns orthographic, and with tangents of any length.
+/// A generated scene, in turn orthographic, and with tangents of any length.
 fn scene(seed: u64) -> Scene {
     let mut scene = Dice::new(seed).scene();
     if seed.is_multiple_of(3) {
@@ -31,7 +31,7 @@ fn scene(seed: u64) -> Scene {
 #[test]
 fn what_is_written_is_accepted() {
     for seed in 0..SCENES {
-        // Of a failure the last number printed is the culprit.
+        // If the test fails, the last printed number is the failing scene.
         println!("{seed}");
         is_written(scene(seed));
     }

@@ -1,5 +1,5 @@
-//! The plan of scenes that others wrote: what they call for, that no rule changes a bit of their
-//! pictures or costs a ray, and that what is left out adds nothing.
+//! The plans of scenes of others: the effects they need, that no rule changes a bit of their
+//! pictures or adds a ray, and that removed work contributes nothing.
 
 use super::oracle;
 use super::scenes::{COURSE, accepted, course, each, film, validated, whole};
@@ -37,7 +37,7 @@ pub(crate) fn trials() -> Vec<Trial> {
     trials
 }
 
-/// The scene of a file with few pixels, samples and bounces; none if it is refused.
+/// The scene of a file with few pixels, samples and bounces; `None` if it is rejected.
 fn small(path: &Path) -> Option<ValidScene> {
     let mut scene = accepted(path)?;
     Overrides {
@@ -52,7 +52,7 @@ fn small(path: &Path) -> Option<ValidScene> {
     Some(validated(scene))
 }
 
-/// All rules together change no bit, and cost no ray.
+/// All rules together change no bit, and add no ray.
 fn obeys_the_law(path: &Path) {
     let Some(scene) = small(path) else { return };
     for values in [Values::Linear, Values::Display] {

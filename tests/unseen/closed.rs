@@ -1,4 +1,4 @@
-//! Closed meshes let no light in, whatever the normals of their corners.
+//! No light enters closed meshes, whatever their vertex normals are.
 
 use super::{film, scene, smooth};
 use rtc::internals::ir::Scene;
@@ -18,8 +18,8 @@ fn inside(file: &str, tilt: f64, keys: &str, material: &str) -> Scene {
     scene
 }
 
-/// Each ray meets the mesh, however often it is mirrored, and shows its ambient term alone: three
-/// lights' times 2⁻¹⁰.
+/// Each ray hits the mesh, however often it is reflected, and has only its ambient term: that of
+/// three lights times 2⁻¹⁰.
 #[test]
 fn no_light_enters_a_closed_smooth_mesh() {
     let mirrors = "ka: 0.0009765625, kd: 0.5, ks: 1, n: 4";
@@ -43,7 +43,7 @@ fn no_light_enters_a_closed_smooth_mesh() {
             let film = film(&scene, Rules::ALL);
             let wanted = f64::from(corners) * 3.0 / 1024.0;
             let seen = film.image.pixels.iter().flatten();
-            // A lobe that is all below the surface shows nothing.
+            // A lobe below the surface contributes nothing.
             let is_dark = |value: &&f64| {
                 if corners == 4 {
                     **value > wanted * 1.001
@@ -70,7 +70,7 @@ fn no_light_enters_a_closed_smooth_mesh() {
     }
 }
 
-/// Without shadows the shading normal alone says what is lit, as the course has it.
+/// Without shadows only the shading normal decides what is illuminated, as in the course.
 #[test]
 fn without_shadows_the_geometric_normal_says_nothing() {
     let mut scene = inside("icosahedron.obj", 0.0, "", "ka: 0, kd: 0.5, ks: 0, n: 1");

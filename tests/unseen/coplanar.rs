@@ -1,4 +1,4 @@
-//! Where surfaces lie in one place, the first of the scene is seen.
+//! Of coplanar surfaces, the first of the scene is visible.
 
 use super::{film, noise, random, scene, validated};
 use rtc::internals::ir::{self, Scene};
@@ -6,7 +6,7 @@ use rtc::internals::math::{U, Vec3, pow};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{Film, Geometry, Ray, Shape, World};
 
-/// What all is made of.
+/// The common material.
 const MATERIAL: &str = "material: {color: [1, 1, 1], ka: 1, kd: 0, ks: 0, n: 1}";
 
 fn world(scene: &Scene) -> World<Shape> {
@@ -14,8 +14,8 @@ fn world(scene: &Scene) -> World<Shape> {
     World::prepare(&proof, &Plan::new(&proof, Rules::NONE))
 }
 
-/// Coplanar pieces of the plane x + 2y + 3z = 6, whose corners are whole numbers; each has a corner
-/// of its own.
+/// Coplanar parts of the plane x + 2y + 3z = 6 with integer vertices; each has a vertex that the
+/// others lack.
 const PIECES: [&str; 6] = [
     "{type: quad, v0: [-24, 0, 10], v1: [24, -24, 10], v2: [24, 24, -22], v3: [-24, 48, -22]}",
     "{type: quad, v0: [-27, 3, 9], v1: [30, -30, 12], v2: [30, 21, -22], v3: [-27, 54, -25]}",
@@ -25,7 +25,7 @@ const PIECES: [&str; 6] = [
     "{type: plane, position: [-1, -1, 3], normal: [-3, -6, -9]}",
 ];
 
-/// Rays that meet the plane of the pieces about its middle, from near and far, steeply and not.
+/// Rays that hit the plane near its middle, from near and far, at steep and grazing angles.
 fn aimed(index: u64) -> Ray {
     let [u, v] = [noise(7 * index + 1_000_003), noise(7 * index + 1_000_004)];
     let target = Vec3::new(1.0, 1.0, 1.0)
@@ -85,8 +85,7 @@ fn quads(quads: impl IntoIterator<Item = [Vec3; 4]>) -> Scene {
     scene
 }
 
-/// Enough of them for a hierarchy; of those at a point the first is seen, from whichever end they
-/// are counted.
+/// Enough surfaces for a hierarchy; at each point the first is visible, in either order.
 #[test]
 fn of_many_coplanar_quads_the_first_is_seen() {
     let quad = |index: u64| {
@@ -118,8 +117,8 @@ fn of_many_coplanar_quads_the_first_is_seen() {
     }
 }
 
-/// A decal after the wall in the scene, and before it in space by four times what rounding may move
-/// either.
+/// A decal that follows the wall in the scene, but lies in front of it by four times the rounding
+/// error.
 #[test]
 fn a_decal_four_error_bounds_in_front_is_seen() {
     let mut tried = 0;
@@ -139,7 +138,7 @@ fn a_decal_four_error_bounds_in_front_is_seen() {
             continue;
         };
         let at = wall.surfaces[0].shape.interaction(&ray, hit.t, hit.prim_id);
-        // What the surface is off its place along the normal, and the root along the ray.
+        // The error of the surface along its normal, and of the root along the ray.
         let bound = 0.5 * at.offset + 10.0 * U * hit.t * ray.direction.dot(at.normal).abs();
         let hit = world(&quads([quad(0.0), quad(4.0 * bound)]))
             .closest_hit(&ray)
@@ -150,7 +149,7 @@ fn a_decal_four_error_bounds_in_front_is_seen() {
     assert!(tried > 500, "{tried} decals");
 }
 
-/// A ray that meets a point from the side of a normal.
+/// A ray that hits a point from the side of a normal.
 fn aimed_at(target: Vec3, normal: Vec3, index: u64) -> Ray {
     let away = random(index + 9000).normalize();
     let away = if away.dot(normal) < 0.0 { -away } else { away };
@@ -160,7 +159,7 @@ fn aimed_at(target: Vec3, normal: Vec3, index: u64) -> Ray {
     }
 }
 
-/// A picture of two overlapping quads shows no speckle, without and with shadows and mirrors.
+/// A picture of two overlapping quads has no speckles, without and with shadows and reflections.
 #[test]
 fn coplanar_quads_do_not_speckle() {
     let material = |color: &str, ks: f64| {

@@ -1,4 +1,4 @@
-//! Glass of an index of 1 is not there, of whatever shape.
+//! Glass with a refractive index of 1 is invisible, in any shape.
 
 use super::{film, scene, smooth};
 use rtc::internals::ir::{Material, Scene};
@@ -59,8 +59,8 @@ const SHAPES: [(&str, f64); 15] = [
     ("mesh, file: ball.obj, position: [0, 1, 0], radius: 1", 0.9),
 ];
 
-/// A shape, if there is one, before two balls, under a light that it hides from none of what is
-/// seen.
+/// An optional shape before two spheres, under a light that it does not occlude from any visible
+/// point.
 fn glass(shape: Option<(&str, f64)>, eta: f64, shadows: bool) -> Scene {
     let shape_of = |(numbers, _)| {
         format!(
@@ -91,13 +91,13 @@ fn glass(shape: Option<(&str, f64)>, eta: f64, shadows: bool) -> Scene {
     scene
 }
 
-/// At an index of 1 everywhere. A thousandth of a billionth beside it Snell's law itself bends rays
-/// by more where they all but run along a surface with its shading normal: on outlines.
+/// With an index of exactly 1, everywhere. With 1 ± 10⁻¹², Snell's law itself refracts grazing rays
+/// more than that: on outlines.
 #[test]
 fn an_index_of_one_is_invisible_for_every_shape() {
     for shadows in [false, true] {
         let empty = film(&glass(None, 1.0, shadows), Rules::ALL).image;
-        // A plane hides the light from half of all there is.
+        // A plane occludes the light from half of the space.
         for shape in SHAPES
             .into_iter()
             .filter(|(numbers, _)| !(shadows && numbers.starts_with("plane")))

@@ -1,5 +1,5 @@
-//! What must not be seen: light through closed meshes, glass of an index of 1, and which of two
-//! surfaces in one place was found first.
+//! What must not be visible: light through closed meshes, glass with an index of 1, and which of
+//! two coplanar surfaces was found first.
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -42,7 +42,7 @@ fn film(scene: &Scene, rules: Rules) -> Film {
     .unwrap()
 }
 
-/// Numbers that look like chance, from −1 to 1.
+/// Pseudorandom numbers from −1 to 1.
 fn noise(index: u64) -> f64 {
     let x = (index + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

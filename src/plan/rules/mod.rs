@@ -1,9 +1,9 @@
 //! The rules: each proves that some work contributes exactly zero.
 //!
-//! A [`Rule`] names a rule of either integrator; [`Rules`] is a set of them as bits. The names (`E-…`
-//! for the Whitted integrator, `P-…` for path tracing, `B-…` for bounded errors) and the texts are
-//! what `rtc explain` prints. The path rules keep their names and texts beside their proofs, in
-//! [`path::rules`].
+//! A [`Rule`] names a rule of either integrator; [`Rules`] is a set of them as bits. The names
+//! (`E-…` for the Whitted integrator, `P-…` for path tracing, `B-…` for bounded errors) and the
+//! texts are what `rtc explain` prints. The path rules keep their names and texts beside their
+//! proofs, in [`path::rules`].
 
 use super::path;
 

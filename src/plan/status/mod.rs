@@ -1,9 +1,9 @@
-//! The status of each effect of the Whitted integrator: whether the picture needs it, the reason, the
-//! scene values that decide, and the rule that removed it.
+//! The status of each effect of the Whitted integrator: whether the picture needs it, the reason,
+//! the scene values that decide, and the rule that removed it.
 //!
-//! Each function of the submodules decides one effect from the [`Findings`], in a fixed order: needed
-//! if any visible surface requires it; absent if the scene does not have it at all; otherwise pruned,
-//! with the rule that removed it. Submodules:
+//! Each function of the submodules decides one effect from the [`Findings`], in a fixed order:
+//! needed if any visible surface requires it; absent if the scene does not have it at all;
+//! otherwise pruned, with the rule that removed it. Submodules:
 //!
 //! - [`light`]: direct light, shadows, area lights, highlights;
 //! - [`mirror`]: bounces, reflection, glossy lobes, refraction;

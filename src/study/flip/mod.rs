@@ -3,10 +3,11 @@
 //! Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), HPG 2020):
 //! 0 for no difference, 1 for the largest.
 //!
-//! The steps are those of the paper: both pictures are filtered with contrast sensitivity functions in
-//! YCxCz and converted to CIELAB with the Hunt effect; the HyAB distance gives the colour difference;
-//! edge and point detectors on the luminance give the feature difference, which amplifies the colour
-//! difference. The tests compare with the authors' program, `flip-evaluator` 1.7.
+//! The steps are those of the paper: both pictures are filtered with contrast sensitivity functions
+//! in YCxCz and converted to CIELAB with the Hunt effect; the HyAB distance gives the colour
+//! difference; edge and point detectors on the luminance give the feature difference, which
+//! amplifies the colour difference. The tests compare with the authors' program, `flip-evaluator`
+//! 1.7.
 //!
 //! Display values are sRGB. Beyond the border, pictures are continued with their border pixels.
 

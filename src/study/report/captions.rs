@@ -8,7 +8,11 @@ use super::super::parameter::Parameter;
 /// The meaning of the columns, with their names in the terminal and in the HTML report. Parameters
 /// are explained by their long names.
 pub(super) const MEANINGS: [(&str, &str, &str); 13] = [
-    ("*", "★", "on the front: nothing as cheap has less error"),
+    (
+        "*",
+        "★",
+        "on the Pareto front: no setting as cheap has a lower error",
+    ),
     ("rays", "rays", "rays of the whole picture"),
     (
         "time",
@@ -29,17 +33,17 @@ pub(super) const MEANINGS: [(&str, &str, &str); 13] = [
     (
         "mean",
         "over renders",
-        "the error to expect: the root of the mean square over renders by other random numbers",
+        "the expected error: the root mean square over renders with other seeds",
     ),
     (
         "σ%",
         "± over renders",
-        "how far one render may be off that: the standard deviation of its error, in %",
+        "the standard deviation of the error of one render, in %",
     ),
     (
         "model",
         "expected",
-        "the error that was expected from each knob alone",
+        "the error that the model predicts from each parameter alone",
     ),
     (
         ">1lv%",
@@ -49,12 +53,12 @@ pub(super) const MEANINGS: [(&str, &str, &str); 13] = [
     (
         "FLIP",
         "FLIP",
-        "how visible the error is when pictures are flipped, from 0 to 1",
+        "the perceived difference of alternating pictures, from 0 to 1",
     ),
     (
         "tiles%",
         "(low … high)",
-        "how much less and more the error of the whole picture may be: only tiles were looked at",
+        "the confidence interval of the error of the whole picture: only tiles were rendered",
     ),
     (
         "",

@@ -245,7 +245,7 @@ fn with_marks(svg: &str, marks: &[Mark]) -> String {
     let mark_of = |Mark { at: (x, y), label }: &Mark| {
         let label = escaped(label);
         format!(
-            "<circle class=\"spot\" cx=\"{x}\" cy=\"{y}\" r=\"10\" tabindex=\"0\" role=\"img\" \
+            "<circle class=\"mark\" cx=\"{x}\" cy=\"{y}\" r=\"10\" tabindex=\"0\" role=\"img\" \
              aria-label=\"{label}\"><title>{label}</title></circle>\n"
         )
     };
@@ -253,7 +253,7 @@ fn with_marks(svg: &str, marks: &[Mark]) -> String {
     let drawing = svg.trim_end().trim_end_matches("</svg>");
     format!(
         "<div onpointerover=\"{SHOW_VALUES}\" onfocusin=\"{SHOW_VALUES}\">{drawing}{marks}</svg>\n\
-         <p class=\"said\">Point at a mark to see its values.</p></div>"
+         <p class=\"values\">Point at a mark to see its values.</p></div>"
     )
 }
 

@@ -16,7 +16,7 @@ const PICTURES: usize = 8;
 /// The HTML report of a study.
 #[must_use]
 pub fn html(study: &Study) -> String {
-    let title = format!("What accuracy costs: {}", escaped(&study.about.scene));
+    let title = format!("The cost of accuracy: {}", escaped(&study.about.scene));
     let sections = [
         front(study),
         legend(&study.used()),
@@ -31,7 +31,7 @@ pub fn html(study: &Study) -> String {
     ];
     let lines = study.advice.iter().map(|line| paragraph(&escaped(line)));
     let command = study.command.iter().map(|command| {
-        let label = "One click marks the command of the first line, to be copied:";
+        let label = "The command of the first line (one click selects it):";
         paragraph(&format!("{label} <code>{}</code>", escaped(command)))
     });
     let advice: String = lines.chain(command).collect();
@@ -79,11 +79,10 @@ fn front(study: &Study) -> String {
         .chain(names);
     let head: String = names.map(|name| format!("<th>{name}</th>")).collect();
     format!(
-        "<h2>The front: what error there is for a time</h2>\n<div class=\"plot\">{}</div>\n<p>{}</p>\n\
+        "<h2>The Pareto front: error against time</h2>\n<div class=\"plot\">{}</div>\n<p>{}</p>\n\
          <div class=\"wide\"><table><thead><tr>{head}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n",
         chart::front(study),
-        "Points are settings as measured, bars their uncertainty, steps the front, hollow points those that the reference \
-         is not good enough to judge."
+        "Points are measured settings, bars their confidence intervals, steps the Pareto front. The reference does not resolve the error of hollow points."
     )
 }
 
@@ -99,7 +98,7 @@ fn legend(used: &[Parameter]) -> String {
     };
     let entries: String = parameters.chain(meanings).map(entry).collect();
     format!(
-        "<details>\n<summary>What the columns mean</summary>\n<dl>\n{entries}</dl>\n</details>\n"
+        "<details>\n<summary>Meaning of the columns</summary>\n<dl>\n{entries}</dl>\n</details>\n"
     )
 }
 
@@ -121,7 +120,7 @@ fn times(study: &Study) -> String {
         })
         .collect();
     format!(
-        "<h2>What a time buys</h2>\n<input type=\"range\" min=\"0\" max=\"{last}\" value=\"{last}\" \
+        "<h2>Best setting within a time</h2>\n<input type=\"range\" min=\"0\" max=\"{last}\" value=\"{last}\" \
          aria-label=\"time\" oninput=\"[...this.nextElementSibling.children].forEach((line, place) => \
          line.classList.toggle('at', place == this.value)); this.setAttribute('aria-valuetext', \
          this.nextElementSibling.children[this.value].textContent)\">\n<ul class=\"buys\">\n{items}</ul>\n"
@@ -187,9 +186,9 @@ fn parameters(study: &Study) -> String {
             );
         }
     }
-    let note = "The error that each knob leaves if all others leave none; hollow points do not stand out from the noise.";
+    let note = "The error of each parameter if all others have none; hollow points are not resolved from noise.";
     format!(
-        "<h2>Each knob alone</h2>\n<p>{note}</p>\n<div class=\"grid\">\n{figures}</div>\n<ul>\n{not_applicable}</ul>\n"
+        "<h2>Each parameter alone</h2>\n<p>{note}</p>\n<div class=\"grid\">\n{figures}</div>\n<ul>\n{not_applicable}</ul>\n"
     )
 }
 
@@ -212,8 +211,7 @@ fn bounces(study: &Study) -> String {
         );
     }
     format!(
-        "<h2>What more bounces would add</h2>\n<p>Deeper paths than the scene asks for, against its own depth. This is no \
-         error of any row.</p>\n<div class=\"wide\"><table><thead><tr><th>depth</th><th>rays</th>\
+        "<h2>The effect of more bounces</h2>\n<p>Paths deeper than those of the scene, compared with its own depth. This is not part of the error of any row.</p>\n<div class=\"wide\"><table><thead><tr><th>depth</th><th>rays</th>\
          <th>picture differs by (grey levels)</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     )
 }
@@ -234,8 +232,7 @@ fn effects(study: &Study) -> String {
         );
     }
     format!(
-        "<h2>What each effect, light, object and material costs</h2>\n<p>The scene without it over the scene as it is, with \
-         the same random numbers. Noise is that of samples at random; the difference is beyond noise.</p>\n\
+        "<h2>The cost of each effect, light, object and material</h2>\n<p>Ratios are the scene without it over the complete scene, with the same random numbers. Noise is sampling noise; the difference is beyond noise.</p>\n\
          <div class=\"wide\"><table><thead><tr><th>without</th><th>time</th><th>rays</th><th>noise</th>\
          <th>picture differs by (grey levels)</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     )
@@ -263,8 +260,7 @@ fn precision(study: &Study) -> String {
         );
     }
     format!(
-        "<h2>What each precision costs</h2>\n<p>The same samples by each arithmetic, against the robust one: time, and \
-         how far the picture is off in grey levels.</p>\n<div class=\"wide\"><table><thead><tr><th>arithmetic</th>\
+        "<h2>The cost of each arithmetic</h2>\n<p>The same samples with each arithmetic, compared with the robust one: time, and difference in grey levels.</p>\n<div class=\"wide\"><table><thead><tr><th>arithmetic</th>\
          <th>time</th><th>error</th><th>largest</th><th>pixels off</th></tr></thead>\n<tbody>\n{rows}</tbody></table>\
          </div>\n"
     )
@@ -306,11 +302,10 @@ fn pictures(study: &Study) -> String {
     let what = if study.part.tiles == 0 {
         "The picture"
     } else {
-        "The tiles looked at, side by side,"
+        "The rendered tiles, side by side,"
     };
     format!(
-        "<h2>How it looks</h2>\n<p>{what} and how visible the error is at each place (FLIP; black is none, white the \
-         most).</p>\n<div class=\"grid\">\n{figures}</div>\n"
+        "<h2>Pictures</h2>\n<p>{what} and the FLIP map of the error (black is 0, white is 1).</p>\n<div class=\"grid\">\n{figures}</div>\n"
     )
 }
 
@@ -334,9 +329,7 @@ fn notes(study: &Study) -> String {
     let facts = [
         table::part(study),
         table::reference(study),
-        "“Pixels off” have a channel off by more than one grey level. FLIP is of each tile as a picture of its own, at 67 \
-         pixels per degree. Times are medians of rounds in random order with 95 % intervals; × own is over the scene's \
-         own setting in the same round."
+        "“Pixels off” differ in a channel by more than one grey level. FLIP is computed for each tile separately, at 67 pixels per degree. Times are medians of rounds in random order with 95 % intervals; × own is relative to the scene's own setting in the same round."
             .to_owned(),
         format!("{}, scene {}, seed {}.", about.software, about.hash, study.seed),
         format!("{}, {} cores; {busy}.", about.processor, about.cores),
@@ -345,7 +338,7 @@ fn notes(study: &Study) -> String {
         .iter()
         .map(|fact| format!("<p><small>{}</small></p>\n", escaped(fact)))
         .collect();
-    format!("<h2>What this rests on</h2>\n{lines}")
+    format!("<h2>Method</h2>\n{lines}")
 }
 
 /// Escapes text for HTML.

@@ -40,10 +40,10 @@ pub(super) fn section(study: &Study) -> String {
     }
     let hatched = match study.part.tiles {
         0 => "",
-        _ => " Hatched grey is what was not looked at.",
+        _ => " Hatched grey was not rendered.",
     };
     format!(
-        "<h2>Where time goes, and where the error is</h2>\n<p>The whole picture. Maps of one measure have one scale.{hatched}</p>\n\
+        "<h2>Maps of rays and of errors</h2>\n<p>The whole picture. All maps of a measure have the same scale.{hatched}</p>\n\
          <div class=\"grid maps\">\n{figures}</div>\n"
     )
 }

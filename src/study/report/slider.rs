@@ -45,10 +45,10 @@ fn slider(page: &SliderPage<'_>, [new, old]: [&str; 2]) -> String {
     let labels = format!("<p class=\"ends\"><span>{new}</span><span>{old}</span></p>\n");
     format!(
         "{labels}<div class=\"slider\">\n<img alt=\"{old}\" src=\"{}\">\n<img class=\"over\" alt=\"{new}\" src=\"{}\">\n</div>\n\
-         <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"so much of {new}, from the left\" \
+         <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"the fraction of {new}, from the left\" \
          oninput=\"this.previousElementSibling.style.setProperty('--at', this.value + '%')\">\n\
          <h2>Where they differ</h2>\n<figure><img alt=\"where they differ\" src=\"{}\">\
-         <figcaption>FLIP of each pixel: dark where nobody would see a difference, bright where it is large</figcaption></figure>\n",
+         <figcaption>FLIP of each pixel: dark where the difference is invisible, bright where it is large</figcaption></figure>\n",
         wide(b),
         wide(a),
         wide(&map),
@@ -69,7 +69,7 @@ fn numbers(difference: &Difference) -> String {
         ("root mean square", format!("{rmse:.4} grey levels")),
         ("largest", format!("{max:.2} grey levels")),
         ("relMSE", format!("{relative_mse:.3e}")),
-        ("FLIP, on the mean", format!("{flip:.6}")),
+        ("mean FLIP", format!("{flip:.6}")),
         (
             "pixels off",
             format!(
@@ -79,7 +79,7 @@ fn numbers(difference: &Difference) -> String {
         ),
     ];
     let rows = rows.map(|(name, value)| format!("<tr><td>{name}</td><td>{value}</td></tr>\n"));
-    format!("<h2>By how much</h2>\n<table>\n{}</table>\n", rows.concat())
+    format!("<h2>Measures</h2>\n<table>\n{}</table>\n", rows.concat())
 }
 
 fn changed(page: &SliderPage<'_>) -> String {
@@ -102,7 +102,7 @@ fn changed(page: &SliderPage<'_>) -> String {
             "<div class=\"wide\"><table>\n<tr><th>value</th><th>old</th><th>new</th></tr>\n{rows}</table></div>\n{more}"
         ),
     };
-    format!("<h2>What differs in the scenes</h2>\n{table}")
+    format!("<h2>Differences of the scenes</h2>\n{table}")
 }
 
 /// A value of a scene as short text; a dash for none.

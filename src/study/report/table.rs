@@ -29,7 +29,7 @@ pub fn table(study: &Study) -> String {
         text += &format!("{}\n", line(row, &used, (&columns, study.part.fraction)))
     });
     if study.rows.iter().any(|row| row.resumed) {
-        text += "† timed, in part at least, before the study was interrupted\n";
+        text += "† partly timed before the study was interrupted\n";
     }
     text += &legend(&used, &columns);
     text += "\n";
@@ -59,7 +59,7 @@ pub fn table(study: &Study) -> String {
     if study.wall_over_cpu > 1.2 {
         let times = study.wall_over_cpu;
         let note = format!(
-            "The machine was busy (wall time {times:.1}× processor time); times are of the processor."
+            "The machine was busy (wall time {times:.1}× processor time); these are processor times."
         );
         text += &wrapped(&note);
     }
@@ -257,12 +257,11 @@ fn head(study: &Study) -> String {
 pub(super) fn part(study: &Study) -> String {
     let [width, height] = study.part.size;
     match study.part.tiles {
-        0 => format!("All of the picture of {width}×{height} pixels was looked at."),
+        0 => format!("The whole picture of {width}×{height} pixels was rendered."),
         tiles => {
             let fraction = 100.0 * study.part.fraction;
             format!(
-                "{tiles} random tiles, {fraction:.1} % of the picture of {width}×{height} pixels, were looked at: what \
-                 the spread between tiles leaves open for the whole stands beside each error (tiles%: how much less and more)."
+                "{tiles} random tiles, {fraction:.1} % of the picture of {width}×{height} pixels, were rendered: tiles% is the confidence interval of each error for the whole picture (how much less and more)."
             )
         }
     }
@@ -273,8 +272,7 @@ pub(super) fn reference(study: &Study) -> String {
     let setting = study.reference.setting.label(&study.used());
     let floor = digits(study.reference.floor);
     format!(
-        "Reference: twice {setting}, off by {floor} grey levels itself. Errors are root mean squares in grey levels, of \
-         values clamped as displayed; rays and the time of one processor are of the whole picture; * is the front."
+        "Reference: two renders with {setting}; its own error is {floor} grey levels. Errors are root mean squares in grey levels of clamped display values; rays and processor times are for the whole picture; * marks the Pareto front."
     )
 }
 
@@ -297,7 +295,7 @@ pub(super) fn parameter_line(report: &ParameterReport, bounces: Option<&MoreBoun
         }
         (None, Parameter::Depth, Some(bounces)) => depth_line(bounces, last),
         (None, Parameter::Denoise, _) => format!(
-            "{name}: rows of fewer paths are denoised too; their time has that of telling the error"
+            "{name}: rows with fewer paths are also denoised; their time includes the error estimate"
         ),
         (None, Parameter::Precision, _) => {
             let robust = report.levels.len().saturating_sub(1);
@@ -306,11 +304,11 @@ pub(super) fn parameter_line(report: &ParameterReport, bounces: Option<&MoreBoun
                 .map(|level| report.parameter.cell(level.value))
                 .collect();
             format!(
-                "{name}: rows are by {} arithmetic too where that adds no error",
+                "{name}: rows also use {} arithmetic where that adds no error",
                 label.join(" or ")
             )
         }
-        (None, _, _) => format!("{name}: no law: too few values stand out from the noise"),
+        (None, _, _) => format!("{name}: no power law: too few values are resolved from noise"),
     }
 }
 
@@ -333,10 +331,10 @@ fn depth_line(bounces: &MoreBounces, last: u32) -> String {
     let last = deeper.last().map_or(last, |most| most.depth);
     let label = match end {
         DepthEnd::Exact => format!("{label}no path goes deeper than {last}"),
-        DepthEnd::Still => format!("{label}nothing shows from {last} on"),
-        DepthEnd::Open => format!("{label}paths go deeper than {last}, as far as the study went"),
+        DepthEnd::Still => format!("{label}the picture does not change from {last} on"),
+        DepthEnd::Open => format!("{label}paths go deeper than {last}, where the budget ended"),
     };
-    format!("depth: errors are against the scene's own, {scene_depth}; {label}")
+    format!("depth: errors are measured at the scene's own, {scene_depth}; {label}")
 }
 
 /// Formats a number of rays, for example 1.23 M.

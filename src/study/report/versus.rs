@@ -20,7 +20,7 @@ pub fn versus_table(versus: &Versus) -> String {
     let coverage = match versus.part.tiles {
         0 => String::new(),
         tiles => format!(
-            ", of which {tiles} random tiles are looked at ({} %)",
+            ", of which {tiles} random tiles are rendered ({} %)",
             digits(100.0 * versus.part.fraction)
         ),
     };
@@ -54,7 +54,7 @@ pub fn versus_table(versus: &Versus) -> String {
         let times = versus.wall_over_cpu;
         let _ = writeln!(
             text,
-            "The machine was busy (wall time {times:.1}× processor time); times are of the processor."
+            "The machine was busy (wall time {times:.1}× processor time); these are processor times."
         );
     }
     text
@@ -63,7 +63,7 @@ pub fn versus_table(versus: &Versus) -> String {
 fn difference(versus: &Versus) -> String {
     let error = versus.error;
     if versus.rendered == 0.0 {
-        return "The pictures are the same, to the last bit of what was looked at.\n".to_owned();
+        return "The pictures are the same, to the last bit of the rendered part.\n".to_owned();
     }
     format!(
         "The pictures differ by {} grey levels as they are rendered; beyond noise by {} ({} … {}).\n",
@@ -77,10 +77,12 @@ fn difference(versus: &Versus) -> String {
 fn tiles(versus: &Versus) -> String {
     let (count, all) = (versus.different.len(), versus.tested);
     if count == 0 {
-        return format!("No tile of {all} surely differs (5 % false alarms for all together).\n");
+        return format!(
+            "No tile of {all} differs significantly (5 % false positives for all together).\n"
+        );
     }
     let mut text = format!(
-        "{count} of {all} tiles surely differ (5 % false alarms for all together){}\n",
+        "{count} of {all} tiles differ significantly (5 % false positives for all together){}\n",
         if count > MAX_LISTED {
             "; the most different:"
         } else {

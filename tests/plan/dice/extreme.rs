@@ -1,6 +1,6 @@
-//! Random scenes of all kinds: as the other ones, and by chance with traced paths, all materials
-//! and lights, directions of lengths from 1e-300 to 1e300, all of the scene or one surface of it
-//! 1e-58 to 1e58 times as large, and shapes out of all proportion.
+//! Random scenes of all kinds: like the other ones, and at random with path tracing, all materials
+//! and lights, directions with lengths from 1e-300 to 1e300, the scene or one surface scaled by
+//! 1e-58 to 1e58, and degenerate shapes.
 
 use super::Dice;
 use crate::scale::{scale_shape, scaled};
@@ -10,7 +10,7 @@ use rtc::internals::ir::{
 use rtc::internals::math::Vec3;
 
 impl Dice {
-    /// Not every scene is sound: where sizes are mixed, some are refused.
+    /// Not every scene is valid: some with mixed sizes are rejected.
     pub(in super::super) fn extreme(&mut self) -> Scene {
         let mut scene = self.scene();
         self.complete(&mut scene);
@@ -51,8 +51,7 @@ impl Dice {
         scene
     }
 
-    /// Adds what a scene without paths has no use for: an image of surroundings, and ways to look
-    /// up the other images.
+    /// Adds what only path tracing uses: an environment map, and samplers for the other images.
     fn complete(&mut self, scene: &mut Scene) {
         let light: Vec<u8> = (0_u8..12)
             .flat_map(|k| (f32::from(k) * 0.3).to_le_bytes())
@@ -234,7 +233,7 @@ impl Dice {
         direction
     }
 
-    /// Makes one shape thin, flat or long, or the eye far.
+    /// Makes one shape thin, flat or long, or moves the eye far away.
     fn distort(&mut self, scene: &mut Scene) {
         let factor = self.power(20);
         let index = self.roll(u32::try_from(scene.surfaces.len()).unwrap()) as usize;
@@ -294,7 +293,7 @@ impl Dice {
     }
 }
 
-/// The direction of a shape whose length has no meaning.
+/// The direction of a shape whose length is not used.
 fn direction(shape: &mut Shape) -> Option<&mut [f64; 3]> {
     if let Shape::Plane(ir::Plane { normal, .. }) | Shape::Disc(ir::Disc { normal, .. }) = shape {
         Some(normal)

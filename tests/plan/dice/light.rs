@@ -1,4 +1,4 @@
-//! Made-up emitters.
+//! Random emitters.
 
 use super::Dice;
 use rtc::internals::ir::{Emitter, Photometry};
@@ -29,7 +29,7 @@ impl Dice {
             },
         }
     }
-    /// A profile that is dark, the same all around, or neither.
+    /// A profile that is zero, uniform, or neither.
     fn photometry(&mut self) -> Photometry {
         let vertical = self.pick(&[&[0.0, 20.0, 45.0][..], &[0.0, 90.0], &[90.0, 120.0, 180.0]]);
         let horizontal = self.pick(&[&[0.0][..], &[0.0, 30.0, 180.0, 360.0]]);
@@ -43,7 +43,7 @@ impl Dice {
         }
     }
 
-    /// An emitter above the origin that shines down, more or less.
+    /// An emitter above the origin that points about downwards.
     pub(in super::super) fn emitter_above(&mut self) -> Emitter {
         let position = [self.number(1), self.number(1), self.pick(&[1.0, 1.5, 3.0])];
         let direction = [self.number(1), self.number(1), -1.5];

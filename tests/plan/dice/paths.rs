@@ -1,5 +1,5 @@
-//! Made-up scenes of traced paths: layers, maps, alpha, lights of all kinds, each often of weight 0
-//! or of one value, so that rules have something to leave out.
+//! Random path-traced scenes: layers, maps, alpha and lights of all kinds, each often of weight 0
+//! or constant, so that rules apply.
 
 use super::Dice;
 use rtc::internals::ir::{
@@ -13,7 +13,7 @@ use serde_json::json;
 const TEXTURES: u32 = 6;
 
 impl Dice {
-    /// A scene whose paths are traced.
+    /// A path-traced scene.
     pub(in super::super) fn path_scene(&mut self) -> Scene {
         let mut scene = self.scene();
         let (images, textures) = self.path_textures();
@@ -48,7 +48,7 @@ impl Dice {
         scene
     }
 
-    /// Leaves only direct light, and puts a ball behind most cameras.
+    /// Keeps only direct light, and adds a sphere that is behind most cameras.
     fn light_directly(&mut self, scene: &mut Scene) {
         for material in &mut scene.materials {
             if let Material::Standard(standard) = material {
@@ -76,7 +76,7 @@ impl Dice {
         scene.materials.push(Material::Standard(Box::new(mirror)));
     }
 
-    /// Of noise, of one value, black, opaque, clear in parts, and white.
+    /// Noise, constant, black, opaque, partly transparent, and white.
     fn path_textures(&mut self) -> (Vec<ir::Image>, Vec<Texture>) {
         let image = |value: &dyn Fn(u8) -> u8| ir::Image {
             name: "dice".to_owned(),
@@ -170,8 +170,9 @@ impl Dice {
         }
     }
 
-    /// A material whose factors, colours and maps are all thrown, so that one that no scene above
-    /// names is met as well. They have dice of their own: a new one leaves the other throws alone.
+    /// A material with random factors, colours and maps, so that those that no scene above names
+    /// are also covered. It has its own generator, so that a new parameter does not change the
+    /// other choices.
     fn unnamed(&self) -> Standard {
         let mut dice = Self(!self.0);
         let mut material = serde_json::to_value(Standard::default()).unwrap();
@@ -208,7 +209,7 @@ impl Dice {
         }
     }
 
-    /// Colours at the corners, and a second set of texture coordinates.
+    /// Vertex colours, and a second set of texture coordinates.
     fn paint(&mut self, mesh: &mut ir::Mesh) {
         if self.chance(4) {
             mesh.colors = vec![

@@ -1,11 +1,11 @@
-//! The rules for path tracing. Each rule proves that a part of the scene contributes exactly zero and
-//! removes it from the [`PlanBuilder`].
+//! The rules for path tracing. Each rule proves that a part of the scene contributes exactly zero
+//! and removes it from the [`PlanBuilder`].
 //!
 //! A rule is a [`PathRule`] constant beside the functions of its proof: [`light`] for lights, light
 //! sampling and shadows, [`material`] for material parameters, [`texture`] for maps, [`paths`] for
 //! the path length and the surfaces of the world. The rules run in the order of [`ALL`] until none
-//! changes anything. To add a rule: a variant of [`Rule`], a constant here, its entry in [`ALL`], and
-//! a test in `tests/plan`.
+//! changes anything. To add a rule: a variant of [`Rule`], a constant here, its entry in [`ALL`],
+//! and a test in `tests/plan`.
 
 mod light;
 mod material;
