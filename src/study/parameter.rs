@@ -267,17 +267,11 @@ fn unused_reason(parameter: Parameter, scene: &Scene) -> Option<&'static str> {
     let cases: &[(bool, &'static str)] = match parameter {
         Parameter::Supersampling => &[
             per_path,
-            (
-                *mode == Mode::Depth,
-                "the z-buffer takes one ray per pixel",
-            ),
+            (*mode == Mode::Depth, "the z-buffer takes one ray per pixel"),
         ],
         Parameter::Aperture => &[
             per_path,
-            (
-                *mode == Mode::Depth,
-                "the z-buffer takes one ray per pixel",
-            ),
+            (*mode == Mode::Depth, "the z-buffer takes one ray per pixel"),
             (scene.camera.lens.radius == 0.0, "the lens has no radius"),
         ],
         Parameter::Lights => &[
