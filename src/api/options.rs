@@ -335,6 +335,7 @@ impl Options {
 
     /// The first invalid option, independent of the scene.
     fn fault(&self) -> Option<&'static str> {
+        // Collect the values that are checked.
         let Overrides {
             size,
             supersampling,
@@ -350,6 +351,7 @@ impl Options {
             .map(|orbit| [orbit.azimuth, orbit.elevation]);
         let light = self.environment.into_iter().flatten();
         let is_bright = |channel: f64| channel >= 0.0 && channel.is_finite();
+        // Pair each condition with its message.
         let faults = [
             (
                 size.is_some_and(|size| size.contains(&0)),
@@ -391,6 +393,7 @@ impl Options {
                 "the view is of finite numbers",
             ),
         ];
+        // The message of the first condition that holds.
         faults
             .iter()
             .find(|(is_so, _)| *is_so)

@@ -130,6 +130,7 @@ impl Scene {
         options: &Options,
         is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Picture, Error> {
+        // Validate the scene with the options.
         let mut setup = options.setup()?;
         let mut subject = self.validate(options, &mut setup)?;
         let observer = Observer {
@@ -137,10 +138,12 @@ impl Scene {
             is_stopped,
         };
         let rays = options.rays.unwrap_or(self.input.rays());
+        // Measure the light, then check window and memory.
         let made = setup.light(&mut subject, &mut self.input, &observer);
         let made = made.and_then(|()| {
             let window = setup.window(&subject.validated.lowered.scene)?;
             setup.check_memory(&mut subject, window)?;
+            // Render, to a target error if there is one.
             let order = (window, rays);
             let (film, error) = if options.target_error.is_some() {
                 let grown = setup.approach(&mut subject, order, &observer)?;
@@ -155,11 +158,13 @@ impl Scene {
                 let verified = probed.filter(|probed| probed.undersampled.is_none());
                 (film, verified.map(|probed| probed.error))
             };
+            // Develop the film to a picture.
             let counts = film.counts;
             let film = (film.image, film.coverage, &counts);
             let picture = setup.develop(&mut subject, film, &mut self.input, is_stopped)?;
             Ok((picture, counts, error))
         });
+        // Attach what describes the picture.
         let (picture, counts, error) = made.map_err(|error| self.error(error))?;
         let origin = setup.origin(&subject.validated.lowered.scene);
         let look = setup.look.resolve(&subject.validated.scene.settings().mode);

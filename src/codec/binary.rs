@@ -89,6 +89,7 @@ pub(super) fn encode<'s>(
     scene: &'s Scene,
     display: &Display,
 ) -> Result<ContainerDraft<'s>, NotFinite> {
+    // Reject numbers that have no encoding.
     let Scene {
         camera,
         settings,
@@ -105,6 +106,7 @@ pub(super) fn encode<'s>(
     if !meshes.iter().all(Mesh::is_finite) {
         return Err(NotFinite);
     }
+    // Move lists of entities, pixels and mesh columns into sections.
     let mut body = SectionWriter::default();
     let tables = vec![
         columns::pack("lights", lights, &mut body)?,
@@ -120,6 +122,7 @@ pub(super) fn encode<'s>(
         .iter()
         .map(|mesh| mesh::store(mesh, &mut body))
         .collect();
+    // The small parts of the scene stay in the header.
     let mut scene = Map::new();
     scene.insert("camera".to_owned(), tree(camera)?);
     scene.insert("settings".to_owned(), tree(settings)?);
@@ -132,6 +135,7 @@ pub(super) fn encode<'s>(
     if !display.is_plain() {
         scene.insert("display".to_owned(), tree(display)?);
     }
+    // The header refers to the sections by index.
     let header = Header {
         ir_version: VERSION,
         scene,
@@ -171,11 +175,13 @@ fn checksum(before: &[u8], header: &[u8]) -> u32 {
 
 /// Decodes the container.
 pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
+    // Verify preamble, header and sections.
     let container = Container { file, bytes };
     let end = container.check_preamble()?;
     let header = container.header(end)?;
     let sections = section::open(&container, end, &header.sections)?;
     let mut reader = SectionReader::new(&sections, &container);
+    // Read images and meshes from their sections.
     let images = header
         .images
         .iter()
@@ -192,6 +198,7 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
             "an image or a mesh has no sections of the kind it says".to_owned(),
         ));
     };
+    // Unpack each table to a list of entities; surfaces are typed one by one.
     let span = span(file, PREAMBLE, end);
     let (mut tree, mut surfaces) = (header.scene, Vec::new());
     for table in &header.tables {
@@ -217,6 +224,7 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
             )));
         }
     }
+    // Upgrade and type the tree, then add what bypassed it.
     let mut scene = typed(header.ir_version, Value::Object(tree), span)?;
     scene.images.extend(images);
     scene.meshes.extend(meshes);
@@ -237,6 +245,7 @@ pub(super) struct Container<'a> {
 impl Container<'_> {
     /// Checks magic, length, checksum and version, in this order. Returns the end of the header.
     fn check_preamble(&self) -> Decoded<usize> {
+        // Magic.
         let differs = self
             .bytes
             .iter()
@@ -245,6 +254,7 @@ impl Container<'_> {
         if let Some(at) = differs {
             return Err(self.wrong_magic(at));
         }
+        // Length.
         let Some(preamble) = self.bytes.first_chunk::<PREAMBLE>() else {
             return Err(self.truncated(PREAMBLE, "the preamble"));
         };
@@ -261,10 +271,12 @@ impl Container<'_> {
         let Some(header) = self.bytes.get(PREAMBLE..end) else {
             return Err(self.truncated(end, "the header"));
         };
+        // Checksum.
         if CHECKSUMS_COUNT && checksum(&preamble[..16], header) != expected {
             let message = format!("the checksum of the header, bytes 0 to {end}, is wrong");
             return Err(self.error_at(&codes::DAMAGED, message, 0, end));
         }
+        // Version.
         if version > CONTAINER_VERSION {
             return Err(newer(
                 version,

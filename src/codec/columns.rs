@@ -67,6 +67,7 @@ pub(super) fn pack<T: Serialize>(
     entities: &[T],
     body: &mut SectionWriter<'_>,
 ) -> Result<Table, NotFinite> {
+    // Extract the numbers of each entity and group entities by template.
     let mut found: BTreeMap<String, u32> = BTreeMap::new();
     let mut kinds: Vec<(Value, ExtractedNumbers)> = Vec::new();
     let mut order = Vec::new();
@@ -88,6 +89,7 @@ pub(super) fn pack<T: Serialize>(
             }
         }
     }
+    // Write the sections.
     let order = body.push(ElementType::U32, 1, Content::Bytes(order.into()));
     let kinds = kinds
         .into_iter()
@@ -215,6 +217,7 @@ pub(super) fn unpack(
             file.bytes.len(),
         )
     };
+    // Read the template index of each entity and count the entities per template.
     let order = reader
         .sections
         .get(table.order)
@@ -227,6 +230,7 @@ pub(super) fn unpack(
             .get_mut(*kind as usize)
             .ok_or_else(|| malformed("names a kind that is not there"))? += 1;
     }
+    // Find the sections of each template, within the limit on repeated text.
     let mut sources = Vec::new();
     for (kind, records) in table.kinds.iter().zip(records) {
         let size = records.saturating_mul(kind.entity.to_string().len());
@@ -241,6 +245,7 @@ pub(super) fn unpack(
                 .ok_or_else(|| malformed("has sections of another length or kind than it says"))?,
         );
     }
+    // Fill the templates in order.
     order.iter().try_for_each(|kind| {
         let mut entity = table.kinds[*kind as usize].entity.clone();
         put(&mut entity, &mut sources[*kind as usize]);

@@ -53,6 +53,7 @@ pub(super) fn store(value: &Value, body: &mut SectionWriter<'_>) -> Option<Run> 
 /// The bytes of all numbers, if each item is a number, or a list of `stride` numbers, and all have
 /// one type.
 fn numbers(items: &[Value], stride: Option<usize>) -> Option<(ElementType, Vec<u8>)> {
+    // Flatten the list; all records must have the same length.
     let mut flat = Vec::with_capacity(items.len());
     for item in items {
         match (item, stride) {
@@ -65,6 +66,7 @@ fn numbers(items: &[Value], stride: Option<usize>) -> Option<(ElementType, Vec<u
             (_, _) => return None,
         }
     }
+    // Integers, if all of them are.
     let integers: Option<Vec<u32>> = flat.iter().map(|number| as_u32(number)).collect();
     if let Some(integers) = integers {
         return Some((
@@ -75,6 +77,7 @@ fn numbers(items: &[Value], stride: Option<usize>) -> Option<(ElementType, Vec<u
                 .collect(),
         ));
     }
+    // Otherwise floats.
     let floats: Option<Vec<f64>> = flat
         .iter()
         .map(|number| number.as_f64().filter(|_| number.is_f64()))

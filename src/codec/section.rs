@@ -296,6 +296,7 @@ fn bytes_of<'a>(
     start: usize,
     body: usize,
 ) -> Decoded<&'a [u8]> {
+    // Check offset and length.
     let SectionEntry {
         offset,
         length,
@@ -315,10 +316,12 @@ fn bytes_of<'a>(
         );
         return Err(file.error_at(&codes::MALFORMED, message, start, start));
     }
+    // Check that the file holds the section.
     let end = usize::try_from(*length).map_or(usize::MAX, |length| start.saturating_add(length));
     let Some(bytes) = file.bytes.get(start..end) else {
         return Err(file.truncated(end, &format!("section {index}")));
     };
+    // Check the hash.
     if CHECKSUMS_COUNT && hex(xxh3_64(bytes)) != *xxh3 {
         let message = format!("the hash of section {index}, bytes {start} to {end}, is wrong");
         return Err(file.error_at(&codes::DAMAGED, message, start, end));

@@ -219,6 +219,7 @@ impl<'a> TextSlice<'a> {
 
     /// The error at which `serde_json` stopped, and all others.
     fn faults(&self, first: &serde_json::Error, budget: &Budget) -> Vec<Diagnostic> {
+        // Without a tree, only the first error is known.
         let Some((tree, is_json)) = self.tree(budget) else {
             return vec![self.fault(first, None)];
         };
@@ -230,6 +231,7 @@ impl<'a> TextSlice<'a> {
             let second = error.map(|error| self.fault(&error, None));
             return std::iter::once(first_fault).chain(second).collect();
         }
+        // Decode the tree and collect all errors.
         let mut faults = Vec::new();
         for faults::TextFault {
             span,
@@ -248,6 +250,7 @@ impl<'a> TextSlice<'a> {
         {
             faults.push(first_fault);
         }
+        // Sort by position.
         let start = |fault: &Diagnostic| fault.primary.as_ref().map(|label| label.span.start);
         let end = |fault: &Diagnostic| fault.primary.as_ref().map(|label| label.span.end);
         faults.sort_by_key(|fault| (start(fault), end(fault)));

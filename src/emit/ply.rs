@@ -21,6 +21,7 @@ pub(super) fn encode(mesh: &Mesh) -> Vec<u8> {
         colors,
         triangles,
     } = mesh;
+    // Header.
     let count = positions.len();
     let mut head = format!("ply\nformat binary_little_endian 1.0\nelement vertex {count}\n");
     declare(positions, ["x", "y", "z"], &mut head);
@@ -37,6 +38,7 @@ pub(super) fn encode(mesh: &Mesh) -> Vec<u8> {
     )
     .expect("a string takes all that is written to it");
     let mut bytes = head.into_bytes();
+    // Vertices.
     for vertex in 0..count {
         store(positions, vertex, &mut bytes);
         store(normals, vertex, &mut bytes);
@@ -45,6 +47,7 @@ pub(super) fn encode(mesh: &Mesh) -> Vec<u8> {
         store(tangents, vertex, &mut bytes);
         store(colors, vertex, &mut bytes);
     }
+    // Faces.
     for triangle in triangles.iter() {
         bytes.push(3);
         bytes.extend(triangle.iter().flat_map(|corner| corner.to_le_bytes()));

@@ -122,6 +122,7 @@ impl<'w> FixSession<'w> {
     }
 
     fn check(&mut self, text: String, changes: usize) -> Candidate {
+        // Check the text in place of the file.
         self.checks = self.checks.saturating_sub(1);
         let bytes = text.clone().into_bytes();
         let mut input = Input::edited(self.path, bytes, self.options.clone());
@@ -129,6 +130,7 @@ impl<'w> FixSession<'w> {
             input.validate(loaded, |_, _| ());
         }
         let sink = input.take_diagnostics();
+        // Collect its diagnostics, their fixes and unknown keys.
         let mut candidate = Candidate {
             text,
             changes,
@@ -151,6 +153,7 @@ impl<'w> FixSession<'w> {
                 .extend(unknown_keys.map(|span| span.start as usize..span.end as usize));
             self.add_fix(diagnostic, &input, &mut candidate);
         }
+        // Drop fixes that overlap.
         candidate.edits.sort_by_key(|edit| (edit.start, edit.end));
         candidate
             .edits

@@ -25,9 +25,7 @@ mod exposure;
 #[cfg(not(target_family = "wasm"))]
 mod file;
 mod fix;
-mod goal;
 mod input;
-mod layer;
 mod layout;
 mod light;
 mod output_transform;
@@ -100,10 +98,12 @@ pub fn load(
     options: &Options,
     sink: &mut Sink,
 ) -> Option<Lowered> {
+    // Reject formats that are recognised but not supported.
     if let Some(diagnostic) = front::foreign(map.name(file), map.bytes(file)) {
         sink.push(diagnostic);
         return None;
     }
+    // Detect the format and lower the scene.
     match codec::detect_format(map.bytes(file)) {
         Some(encoding) => {
             report_unused_choices(&options.front, false, sink);

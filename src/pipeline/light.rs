@@ -31,6 +31,7 @@ impl PictureSetup {
         input: &mut Input,
         observer: &Observer<'_>,
     ) -> Result<(), RenderError> {
+        // Report what was found during validation.
         let pending = subject.pending.drain(..);
         pending.for_each(|remark| input.push(remark));
         let FirstView {
@@ -40,6 +41,7 @@ impl PictureSetup {
         if !finds_exposure && fill == FillLight::Never {
             return Ok(());
         }
+        // Measure the light.
         self.renderer(subject)?;
         let RenderSubject {
             validated,
@@ -53,6 +55,7 @@ impl PictureSetup {
             renderer.measure_light(&validated.lowered.scene, &first.camera, exposes, &on_pixel)
         });
         let LightMeasurement { stops, visible } = light.ok_or(RenderError::Stopped)?;
+        // Add the studio if too little is visible.
         let least = if is_lit_asset {
             MIN_VISIBLE_LIT
         } else {
@@ -65,6 +68,7 @@ impl PictureSetup {
             input.push(picture_diagnostics::filled(visible));
             self.is_filled = true;
         }
+        // Set the exposure.
         if finds_exposure {
             self.look.expose(stops);
             if stops != 0.0 {

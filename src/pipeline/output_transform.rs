@@ -52,6 +52,7 @@ impl OutputTransform {
         background: BackgroundFill,
         layers: &[Aov],
     ) -> Result<Self, &'static str> {
+        // Reject what the format does not support.
         let is_linear = kind.is_linear();
         if is_linear && tone.is_some_and(|tone| tone != Tone::None) {
             return Err("`--tonemap` is for PNG; an EXR holds linear values");
@@ -62,6 +63,7 @@ impl OutputTransform {
         if kind == FileFormat::Jpeg && background == BackgroundFill::Transparent {
             return Err("a JPEG has no opacity; name the picture .png or .webp");
         }
+        // Drop duplicate layers.
         let mut aovs: Vec<Aov> = Vec::new();
         for aov in layers {
             if !aovs.contains(aov) {

@@ -61,6 +61,7 @@ pub(super) fn filled(seen: f64) -> Diagnostic {
 
 /// A warning about the errors of the chosen arithmetic; `None` for the robust one.
 pub(super) fn imprecise(validated: &Validated, arithmetic: plan::Arithmetic) -> Option<Diagnostic> {
+    // Estimate the loss and describe its symptom.
     let loss = plan::loss(&validated.scene, arithmetic)?;
     let option = arithmetic.name();
     let (problem, label) = match loss.symptom {
@@ -80,6 +81,7 @@ pub(super) fn imprecise(validated: &Validated, arithmetic: plan::Arithmetic) -> 
             "hardly larger than the 1e-5 that rays skip".to_owned(),
         ),
     };
+    // Point to the surface with the largest loss.
     let surface = validated.scene.surfaces()[loss.surface].index;
     let span = validated.lowered.source_spans.span(ValuePath::new(
         EntityKind::Surface,

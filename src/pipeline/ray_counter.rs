@@ -107,6 +107,7 @@ impl RayCounter {
 
     /// Counts a step; false if the limit is exceeded.
     pub fn step(&self, step: Step) -> bool {
+        // Find the pixel; without a limit there are no rows.
         let Step {
             rays,
             pixel,
@@ -120,6 +121,7 @@ impl RayCounter {
         if x >= self.crop.width || y >= self.crop.height {
             return true;
         }
+        // Add the rays to pixel, row and total.
         let rays = if open > MAX_DEFERRED {
             self.limit + 1
         } else {
@@ -136,6 +138,7 @@ impl RayCounter {
             row.done.fetch_add(1, Ordering::AcqRel);
         }
         let total = self.total.fetch_add(rays, Ordering::Relaxed) + rays;
+        // Check the limit.
         if self.before.load(Ordering::Relaxed) + total > self.limit && self.is_certain() {
             self.has_run_out.store(true, Ordering::Relaxed);
         }
@@ -230,6 +233,7 @@ fn key(lowered: &Lowered) -> RayKey {
         name,
         value,
     };
+    // Path tracing: samples or bounces.
     let depth = setting(Field::MaxDepth, "MaxRecursionDepth", settings.max_depth);
     if let Mode::Path(path) = &settings.mode {
         let samples = setting(Field::Mode, "samples", path.samples);
@@ -239,6 +243,7 @@ fn key(lowered: &Lowered) -> RayKey {
             depth
         };
     }
+    // Reflection and refraction branch.
     let phongs = || {
         lowered
             .scene
@@ -264,6 +269,7 @@ fn key(lowered: &Lowered) -> RayKey {
             .filter(|key| key.value >= settings.max_depth)
             .unwrap_or(depth);
     }
+    // Soft shadows, then supersampling.
     let is_soft = lowered
         .scene
         .lights

@@ -9,13 +9,14 @@ use super::{
 };
 use rayon::ThreadPoolBuildError;
 use rtc_diag::Diagnostic;
-use rtc_image::{Image, Layers, Origin, Picture};
+use rtc_image::{Image, Layers, Origin, Picture, PictureHead};
 use rtc_ir::{EntityKind, Field, Mode, Scene, ValuePath};
 use rtc_passes::{self as passes, Framing, Overrides};
 use rtc_plan::{self as plan, Plan, Rules};
-use rtc_render::{Counts, Crop, Job, SimdLevel, Step};
-use rtc_study::Goal;
+use rtc_render::{Aov, Counts, Crop, Job, SimdLevel, Step};
+use rtc_study::{Goal, Order, TargetResult, Watch};
 use rtc_valid::ValidScene;
+use std::time::Duration;
 
 /// Options of a picture in addition to its scene.
 #[derive(Clone, Debug)]
@@ -115,6 +116,7 @@ impl PictureSetup {
         loaded: Loaded,
         input: &mut Input,
     ) -> Result<Option<RenderSubject>, RenderError> {
+        // Apply display settings, size and overrides, then validate.
         let (mut set, mut first, mut fitted) = (Ok(()), None, None);
         let validated = input.validate(loaded, |lowered, provenance| {
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
@@ -137,6 +139,7 @@ impl PictureSetup {
             return Ok(None);
         };
         set.map_err(|message| RenderError::Refused(format!("--set: {message}")))?;
+        // Keep diagnostics for the render.
         let imprecise = picture_diagnostics::imprecise(&validated, self.arithmetic);
         Ok(Some(RenderSubject {
             validated,
@@ -207,6 +210,7 @@ impl PictureSetup {
         (window, rays): (Crop, u64),
         observer: &Observer<'_>,
     ) -> Result<Traced, RenderError> {
+        // The job.
         let job = Job {
             crop: Some(window),
             values: self.look.values(&subject.validated.scene.settings().mode),
@@ -217,11 +221,13 @@ impl PictureSetup {
         if self.clamp.is_some() {
             require_paths(&subject.validated.scene, "--clamp")?;
         }
+        // Count rays, and stop at the limit.
         let counter = RayCounter::of_each(rays, window, 1 + usize::from(self.verify));
         let on_pixel = |step| {
             (observer.on_step)(step);
             !(observer.is_stopped)() && counter.step(step)
         };
+        // Render: verified, denoised, or directly.
         let traced = if self.verify {
             let scene = &subject.validated.scene;
             super::verify(scene, &self.plan(scene), &job, self.threads, &on_pixel)?
@@ -407,4 +413,85 @@ fn resize(
         _ => {}
     }
     None
+}
+
+impl PictureSetup {
+    /// The target of a picture or a part of it, with the remaining time.
+    #[must_use]
+    pub fn order(&self, subject: &RenderSubject, crop: Crop, time: Option<Duration>) -> Order {
+        let mode = &subject.validated.scene.settings().mode;
+        Order {
+            goal: Goal { time, ..self.goal },
+            crop,
+            background: self.look.background(),
+            values: self.look.values(mode),
+            display: self.look.display(mode),
+            keep_lights: self.overrides.light_samples.is_some(),
+            seed: 0,
+        }
+    }
+
+    /// Takes samples until the target error is reached, with at most `rays` rays; does not read the
+    /// clock.
+    ///
+    /// # Errors
+    /// If there is no picture.
+    pub fn approach(
+        &self,
+        subject: &mut RenderSubject,
+        (window, rays): (Crop, u64),
+        observer: &Observer<'_>,
+    ) -> Result<TargetResult, RenderError> {
+        let order = self.order(subject, window, None);
+        let counter = RayCounter::new(rays, window);
+        let watch = Watch {
+            on_pixel: &|step| {
+                (observer.on_step)(step);
+                !(observer.is_stopped)() && counter.step(step)
+            },
+            is_stopped: observer.is_stopped,
+            elapsed: &|| Duration::ZERO,
+            round: &|_| counter.begin_round(),
+        };
+        let (validated, renderer) = self.renderer(subject)?;
+        let reached = renderer.approach(&validated.lowered.scene, &order, &watch, None);
+        match subject.ran_out(&counter, observer) {
+            Some(diagnostic) => Err(RenderError::RanOut(diagnostic)),
+            None => reached.map_err(|_| RenderError::Stopped),
+        }
+    }
+}
+
+impl PictureSetup {
+    /// The PNG of a layer, with the bits of the picture. Its metadata has the name of the layer and
+    /// the values of black and white.
+    ///
+    /// # Errors
+    /// If there is no such layer, or it is larger than the format allows.
+    pub fn encode_layer(
+        &self,
+        aov: Aov,
+        picture: &Picture,
+        subject: &RenderSubject,
+    ) -> Result<Vec<u8>, RenderError> {
+        let rejected = |message: String| RenderError::Refused(message);
+        let layer = picture.layer_picture(aov.channels());
+        let layer = layer.ok_or_else(|| rejected(format!("there is no layer `{}`", aov.name())))?;
+        let mut metadata = serde_json::json!({ "layer": aov.name() });
+        if !layer.ranges.is_empty() {
+            metadata["ranges"] = serde_json::json!(layer.ranges);
+        }
+        let look = self.look.resolve(&subject.validated.scene.settings().mode);
+        let displayed = Picture::opaque(layer.image);
+        let head = PictureHead {
+            is_color: layer.is_color,
+            origin: look.origin(Origin {
+                layer: metadata.to_string(),
+                ..self.origin(&subject.validated.lowered.scene)
+            }),
+            ..PictureHead::of(&displayed, self.look.kind)
+        };
+        let bytes = head.encode(&displayed);
+        bytes.map_err(|error| rejected(error.to_string()))
+    }
 }

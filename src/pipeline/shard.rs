@@ -2,10 +2,8 @@
 //! picture. Shards of one picture can be merged in any order; together they equal one render, bit
 //! for bit.
 
-mod difference;
 mod file;
 mod render;
-mod resume;
 
 pub(super) use file::with_valid_checksums;
 pub use file::{MAX_SHARES, hash_of_file};
@@ -145,6 +143,7 @@ impl RenderShard {
         film: PartialFilm,
         layers: &Layers,
     ) -> Self {
+        // The description of the picture.
         let ShardSource {
             origin:
                 Origin {
@@ -180,6 +179,7 @@ impl RenderShard {
             finished: Vec::new(),
             growth: None,
         };
+        // Cut the layers into the tiles of the shares.
         let values = |area| {
             let rows = head.rows(area);
             rows.flat_map(|row| &layers.values[row]).copied().collect()
@@ -353,4 +353,93 @@ impl ShardHeader {
             start * channels..(start + area.width as usize) * channels
         })
     }
+}
+
+impl RenderShard {
+    /// The crop window.
+    #[must_use]
+    pub fn window(&self) -> Crop {
+        self.head.crop()
+    }
+
+    /// Sets the hashes of the files of finished pictures.
+    #[must_use]
+    pub fn after(mut self, finished: Vec<String>) -> Self {
+        self.head.finished = finished;
+        self
+    }
+
+    /// The hashes of the pictures that were finished before.
+    #[must_use]
+    pub fn finished(&self) -> &[String] {
+        &self.head.finished
+    }
+
+    /// Sets the progressive state.
+    pub fn grow(&mut self, growth: Vec<u8>) {
+        self.head.growth = Some(growth.len() as u64);
+        self.growth = growth;
+    }
+
+    /// Takes the progressive state out.
+    #[must_use]
+    pub fn take_growth(&mut self) -> Vec<u8> {
+        self.head.growth = None;
+        std::mem::take(&mut self.growth)
+    }
+}
+
+impl ShardHeader {
+    /// The first difference between the pictures of two shards, as a message.
+    pub(super) fn difference(&self, other: &Self) -> Option<String> {
+        let of = |name: &str, here: &dyn fmt::Display, there: &dyn fmt::Display| {
+            Some(format!("{name}: {here} here, {there} there"))
+        };
+        if self.software != other.software {
+            return of("program", &other.software, &self.software);
+        }
+        if let Some((name, here, there)) = differing(&other.settings, &self.settings) {
+            return of(&name, &here, &there);
+        }
+        if self.scene != other.scene {
+            return of("scene", &other.scene, &self.scene);
+        }
+        if (self.by, self.count) != (other.by, other.count) {
+            let shares = |head: &Self| match head.by {
+                ShardBy::Tiles => format!("{} by tiles", head.count),
+                ShardBy::Samples => format!("{} by samples", head.count),
+            };
+            return of("shares", &shares(other), &shares(self));
+        }
+        let other_settings = |head: &Self| {
+            (
+                head.look.clone(),
+                head.arithmetic,
+                head.window,
+                head.layers.clone(),
+            )
+        };
+        let differ = other_settings(self) != other_settings(other);
+        differ.then(|| "its look, its arithmetic or its layers".to_owned())
+    }
+}
+
+/// The first member in which two JSON objects differ, with both values.
+fn differing(here: &Value, there: &Value) -> Option<(String, String, String)> {
+    if here == there {
+        return None;
+    }
+    let (Value::Object(a), Value::Object(b)) = (here, there) else {
+        return Some((String::new(), here.to_string(), there.to_string()));
+    };
+    let names = a.keys().chain(b.keys());
+    let value = |map: &serde_json::Map<String, Value>, name: &String| {
+        map.get(name).cloned().unwrap_or(Value::Null)
+    };
+    let mut differences = names.filter_map(|name| {
+        let (inner, here, there) = differing(&value(a, name), &value(b, name))?;
+        let dot = if inner.is_empty() { "" } else { "." };
+        Some((format!("{name}{dot}{inner}"), here, there))
+    });
+    differences.next()
 }

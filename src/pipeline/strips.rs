@@ -86,6 +86,7 @@ impl PictureSetup {
         observer: &Observer<'_>,
         out: impl Write + Seek,
     ) -> io::Result<Result<Counts, RenderError>> {
+        // Prepare the header and the state.
         let look = self.look.resolve(&subject.validated.scene.settings().mode);
         let origin = || self.origin(&subject.validated.lowered.scene);
         let head = look.head([window.width, window.height], &self.look.aovs, origin);
@@ -100,6 +101,7 @@ impl PictureSetup {
             counts: Counts::default(),
             losses: Losses::default(),
         };
+        // Write the file; it requests strip after strip.
         let mut render_error = None;
         let mut next = || match render.next_strip() {
             Ok(strip) => Ok(Cow::Owned(strip)),
@@ -115,6 +117,7 @@ impl PictureSetup {
             return Ok(Err(error));
         }
         written?;
+        // Report diagnostics.
         let StripRender { counts, losses, .. } = render;
         self.report_empty_picture(subject, &counts, input);
         let found = losses.picture_diagnostics(counts.unnumbered, look.kind, self.arithmetic);
@@ -136,12 +139,14 @@ impl StripRender<'_> {
             counter,
             ..
         } = self;
+        // The job of the strip.
         let job = Job {
             crop: Some(self.next),
             values: setup.look.values(&subject.validated.scene.settings().mode),
             background: setup.look.background(),
             ..Job::default()
         };
+        // Render the film, and count its rays.
         counter.next_strip(self.next);
         let on_pixel = |step| {
             (observer.on_step)(step);
@@ -157,6 +162,7 @@ impl StripRender<'_> {
             counts,
         } = film.ok_or(RenderError::Stopped)?;
         self.counts = self.counts.plus(counts);
+        // Render the layers, and move on.
         let layers = setup.layers(subject, &job, observer.is_stopped)?;
         let top = self.next.y + self.next.height;
         self.next = Crop {

@@ -9,14 +9,13 @@
 
 mod folder;
 mod listing;
-mod neighbours;
 
 pub use folder::Folder;
 
 use super::loader::{Identity, Opened};
 use listing::Listings;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// The maximum number of components of a name that are tried, from its end.
 const MAX_COMPONENTS: usize = 16;
@@ -194,10 +193,12 @@ impl Search {
         };
         let name = Name::new(written);
         let mut outside = name.leads_above(self.has_parent);
+        // A path with `..` into the allowed folder.
         if let Some(opened) = self.open_above(scene, &name) {
             let shown = scene.shown.join(written.trim().replace('\\', "/"));
             return Ok(Found::new(opened, shown, name.trimmed));
         }
+        // Each suffix of the path, from the longest, in each folder.
         let mut searched: Vec<PathBuf> = Vec::new();
         for (index, tail) in name.tails().enumerate() {
             let elsewhere = index > 0 || name.escapes() || name.trimmed;
@@ -211,6 +212,7 @@ impl Search {
                 searched.push(shown);
             }
         }
+        // Last, names that differ only in case.
         let places = 0..self.folders.len();
         let other_case = name.tails().find_map(|tail| {
             places
@@ -365,5 +367,48 @@ impl FileKind {
         !is_hidden
             && extension.is_some_and(|extension| self.extensions.contains(&extension.as_str()))
             && (self.begins)(&opened.head())
+    }
+}
+
+/// The maximum number of files that are compared.
+const MAX_NEIGHBOURS: usize = 4096;
+
+impl Search {
+    /// The names of the visible files of a kind in the folder, below the scene's folder, to which a
+    /// path leads; sorted.
+    #[must_use]
+    pub fn neighbours(&self, name: &str, kind: &FileKind) -> Vec<String> {
+        let path = Path::new(name);
+        let is_below = path
+            .components()
+            .all(|part| matches!(part, Component::Normal(_)));
+        let (Some(folder), true) = (self.folders.first(), is_below) else {
+            return Vec::new();
+        };
+        let place = folder.resolved.join(path.parent().unwrap_or(Path::new("")));
+        // A link may lead outside the scene's folder.
+        let place = folder.resolve(&place);
+        let place = place.filter(|place| place.starts_with(&folder.resolved));
+        let listing = place.map(|place| self.listings.of(folder, &place));
+        let is_of_kind = |name: &String| {
+            let extension = Path::new(name).extension().unwrap_or_default();
+            let extension = extension.to_string_lossy().to_lowercase();
+            !name.starts_with('.') && kind.extensions.contains(&&*extension)
+        };
+        let names = listing.iter().flat_map(|own| &own.names);
+        let names = names.take(MAX_NEIGHBOURS).cloned();
+        names.filter(is_of_kind).collect()
+    }
+
+    /// The path of a found file relative to the first searched folder that contains it, with `/`
+    /// between components.
+    #[must_use]
+    pub fn path_to(&self, found: &Found) -> Option<String> {
+        let below = |folder: &Folder| found.path.strip_prefix(&folder.resolved).ok();
+        let path = self.folders.iter().find_map(below)?;
+        let parts = path
+            .components()
+            .map(|part| part.as_os_str().to_string_lossy());
+        Some(parts.collect::<Vec<_>>().join("/"))
     }
 }

@@ -62,6 +62,7 @@ pub(super) fn camera(camera: &ir::Camera, check: &mut Check<'_>) -> Option<Camer
         projection,
     } = camera;
     let ir::Lens { radius, samples } = lens;
+    // Check each value; all errors are reported.
     let eye = check.vector(*eye, at(Field::Eye));
     let center = check.vector(*center, at(Field::Center));
     let right = step(*right, Field::Right, check);
@@ -69,6 +70,7 @@ pub(super) fn camera(camera: &ir::Camera, check: &mut Check<'_>) -> Option<Camer
     let size = image_size(*size, check);
     let radius = check.non_negative(*radius, "apertureRadius", at(Field::LensRadius));
     let samples = check.count(*samples, "apertureSamples", at(Field::LensSamples));
+    // Check the frustum.
     let (eye, center, right, up) = (eye?, center?, right?, up?);
     frustum(eye, center, right, up, check)?;
     let (width, height) = size?;

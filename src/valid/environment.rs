@@ -42,10 +42,12 @@ pub(super) fn environment(
         return Some(Environment::DARK);
     };
     let at = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
+    // Radiance and image.
     let radiance = check.color(*radiance, at);
     let image = check.optional(image.as_ref(), |check, image| {
         check.handle(image.0, images, "image", at)
     });
+    // Rotation.
     let rows = image_from_world.map_or(Environment::DARK.image_from_world, |rows| {
         rows.map(Vec3::from_array)
     });

@@ -33,6 +33,7 @@ pub(super) fn image(image: &ir::Image, index: usize, check: &mut Check<'_>) -> O
             Diagnostic::new(&codes::BAD_IMAGE, message),
         );
     };
+    // Check the number of bytes.
     let expected = (u64::from(*width) * u64::from(*height)).saturating_mul(kind.bytes() as u64);
     let sides = NonZeroU32::new(*width).zip(NonZeroU32::new(*height));
     let Some((valid_width, valid_height)) = sides.filter(|_| pixels.len() as u64 == expected)
@@ -43,6 +44,7 @@ pub(super) fn image(image: &ir::Image, index: usize, check: &mut Check<'_>) -> O
         ));
         return None;
     };
+    // Check the values.
     let pixels = pixels.clone();
     let texels = match kind {
         ir::Pixels::Rgb8 => Texels::Rgb8(pixels),

@@ -161,11 +161,13 @@ pub(super) fn lights(scene: &ir::Scene, check: &mut Check<'_>) {
     if !scene.settings.shadows {
         return;
     }
+    // Skip scenes that would take too long.
     let solids = Solids::new(scene, check);
     if scene.lights.len().saturating_mul(solids.cost()) > MAX_PAIRS {
         return;
     }
     let eye = Vec3::from_array(scene.camera.eye);
+    // Find a solid that encloses the light but not the eye.
     for (index, light) in scene.lights.iter().enumerate() {
         let Some(light) = light.point() else { continue };
         let light = Vec3::from_array(light.position);
@@ -178,6 +180,7 @@ pub(super) fn lights(scene: &ir::Scene, check: &mut Check<'_>) {
         let Some(solid) = solids.solids.iter().find(blocks) else {
             continue;
         };
+        // Report it.
         let name = solid.name;
         let message = format!("a light is inside a {name}");
         let diagnostic = Diagnostic::new(&codes::LIGHT_INSIDE, message);
@@ -196,6 +199,7 @@ pub(super) fn lights(scene: &ir::Scene, check: &mut Check<'_>) {
 
 /// Reports an eye inside an opaque solid that contains no other object.
 pub(super) fn eye(scene: &ir::Scene, check: &mut Check<'_>) {
+    // Find an opaque solid that encloses the eye.
     let solids = Solids::new(scene, check);
     if solids.cost() > MAX_PAIRS {
         return;
@@ -212,6 +216,7 @@ pub(super) fn eye(scene: &ir::Scene, check: &mut Check<'_>) {
     let Some(solid) = solids.solids.iter().find(encloses) else {
         return;
     };
+    // It must not contain any other object.
     let outside = |(at, _): &(usize, _)| !solid.surfaces.contains(at);
     let others = scene.surfaces.iter().enumerate().filter(outside);
     if solids.cost().saturating_mul(others.clone().count()) > MAX_PAIRS {
@@ -232,6 +237,7 @@ pub(super) fn eye(scene: &ir::Scene, check: &mut Check<'_>) {
     if !is_alone || others.count() == 0 {
         return;
     }
+    // Report it.
     let name = solid.name;
     let message = format!("the eye is inside a {name} that hides all other objects");
     let span = check.span(ValuePath::new(

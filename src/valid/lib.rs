@@ -188,6 +188,7 @@ pub fn validate(
         environment,
         display,
     } = scene;
+    // Validate each kind of entity; all errors are reported.
     let mut check = Check::new(source_spans, sink);
     let valid_camera = camera::camera(camera, &mut check);
     let valid_settings = settings::settings(settings, &mut check);
@@ -211,7 +212,9 @@ pub fn validate(
     let valid_surfaces = check.all(surfaces, |surface, index, check| {
         shape::surface(surface, index, &counts, check)
     });
+    // Check the limits.
     settings::budget(scene, options, &mut check);
+    // Assemble the scene if nothing is missing.
     let valid = ValidScene {
         camera: valid_camera?,
         settings: valid_settings?,
@@ -223,6 +226,7 @@ pub fn validate(
         materials: valid_materials?,
         surfaces: valid_surfaces?.into_iter().flatten().collect(),
     };
+    // Run the lints.
     inside::lights(scene, &mut check);
     lint::lints(scene, &mut check);
     check.is_clean().then_some(valid)

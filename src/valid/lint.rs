@@ -95,6 +95,7 @@ const FILLED: f64 = 0.75;
 
 /// Warns if the length of `up` makes pixels larger than the objects.
 fn tiny_picture(scene: &ir::Scene, check: &mut Check<'_>) {
+    // Only a camera with `up` in the text can be too far away by mistake.
     let up = ValuePath::new(EntityKind::Camera, 0, Field::Up);
     // A camera without `up` has the span of its entity.
     let whole = check.span(ValuePath::new(EntityKind::Camera, 0, Field::Whole));
@@ -102,6 +103,7 @@ fn tiny_picture(scene: &ir::Scene, check: &mut Check<'_>) {
     let (Some(span), Some(sphere)) = (span, scene.bounding_sphere()) else {
         return;
     };
+    // Size of all objects in pixels.
     let camera = &scene.camera;
     let [eye, center, step] = [camera.eye, camera.center, camera.up].map(Vec3::from_array);
     let distance = eye.distance(sphere.center);
@@ -116,6 +118,7 @@ fn tiny_picture(scene: &ir::Scene, check: &mut Check<'_>) {
     if distance <= sphere.radius || !is_tiny || pixels.is_nan() {
         return;
     }
+    // Suggest an `up` with which they fill the picture.
     let length = across / (FILLED * side);
     let suggestion = (camera.upright() * length).to_array().map(two_digits);
     let suggestion = format!("[{}]", suggestion.map(shortest).join(", "));

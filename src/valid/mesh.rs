@@ -50,10 +50,12 @@ impl Mesh {
 
 pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Option<Mesh> {
     let whole = ValuePath::new(EntityKind::Mesh, index, Field::Whole);
+    // Reject an invalid mesh.
     if let Some(message) = find_error(mesh) {
         check.report(whole, "", Diagnostic::new(&codes::BAD_MESH, message));
         return None;
     }
+    // Copy the columns, which share their memory.
     let ir::Mesh {
         name: _,
         part: _,
@@ -74,6 +76,7 @@ pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Opti
         colors,
         triangles,
     };
+    // Drop triangles without an area.
     let shows = |triangle: &[u32; 3]| has_area(corners(&mesh.positions, *triangle));
     let all = mesh.triangles.len();
     let flat = all

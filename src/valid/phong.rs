@@ -72,6 +72,7 @@ pub(super) fn phong(
         bump,
     } = phong;
     let at = |field| ValuePath::new(EntityKind::Material, index, field);
+    // Coefficients.
     let color = check.color(*color, at(Field::Color));
     let ka = check.non_negative(*ka, "ka", at(Field::Ka));
     let kd = check.non_negative(*kd, "kd", at(Field::Kd));
@@ -80,6 +81,7 @@ pub(super) fn phong(
     let kt = check.non_negative(*kt, "refract", at(Field::Kt));
     let ior = check.length(*ior, at(Field::Ior), &codes::ETA, "index of refraction");
     let glossy_samples = check.count(*glossy_samples, "glossySamples", at(Field::GlossySamples));
+    // Texture maps.
     let mut texture = |id: &Option<TextureId>, field| {
         check.optional(id.as_ref(), |check, id| {
             check.handle(id.0, counts.textures, "texture", at(field))
@@ -97,6 +99,7 @@ pub(super) fn phong(
         normal: normal_map?,
         bump: bump?,
     };
+    // All values must be valid.
     Some(Phong {
         color: color?,
         ka: ka?,

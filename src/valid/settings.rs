@@ -111,6 +111,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
         toon,
         ambient,
     } = settings;
+    // Check each value.
     let mode = valid_mode(mode, check);
     let supersampling = check.count(
         *supersampling,
@@ -130,6 +131,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
         );
         return None;
     }
+    // All values must be valid.
     Some(Settings {
         mode: mode?,
         shadows: *shadows,
@@ -211,6 +213,7 @@ pub(super) fn budget(scene: &ir::Scene, options: &super::ValidationOptions, chec
 fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<'_>) {
     let [width, height] = scene.camera.size;
     let supersampling = scene.settings.supersampling;
+    // Multiply the samples of all dimensions.
     let cells = u128::from(supersampling) * u128::from(supersampling);
     let samples = SampleCounts::of(scene);
     let mut product = format!("{width} × {height} pixels × {supersampling}² sub-samples");
@@ -228,6 +231,7 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<
     if rays <= limit.into() {
         return;
     }
+    // Report the product.
     let total = if rays == u128::MAX {
         "more than 2¹²⁸".to_owned()
     } else {

@@ -17,6 +17,7 @@ impl<'s> SceneWriter<'s> {
     }
 
     fn phong(&mut self, key: &str, phong: &Phong, scene: &'s Scene) -> Result<(), String> {
+        // Coefficients.
         let Phong {
             color,
             ka,
@@ -36,6 +37,7 @@ impl<'s> SceneWriter<'s> {
         for (key, value) in [("ka", ka), ("kd", kd), ("ks", ks), ("n", n)] {
             self.number(key, *value, 6);
         }
+        // Parameters that are usually absent.
         if *kt != 0.0 || *ior != 1.0 {
             self.number("kt", *kt, 6);
             self.number("eta", *ior, 6);
@@ -43,6 +45,7 @@ impl<'s> SceneWriter<'s> {
         if *glossy_samples != 1 {
             self.line(6, &format!("glossySamples: {glossy_samples}"));
         }
+        // Texture maps.
         if bump.as_ref().is_some_and(|bump| bump.height != 1.0) {
             return Err(
                 "a bump map has another height than 1, and this format has none".to_owned(),

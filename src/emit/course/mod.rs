@@ -145,6 +145,7 @@ impl<'s> SceneWriter<'s> {
     }
 
     fn objects(&mut self, scene: &'s Scene) -> Result<(), String> {
+        // Count the surfaces of each material.
         if scene.surfaces.is_empty() {
             self.line(0, "Objects: []");
         } else {
@@ -160,6 +161,7 @@ impl<'s> SceneWriter<'s> {
         let mut numbers: Vec<Option<usize>> = vec![None; uses.len()];
         let mut next = 0;
         for (index, surface) in scene.surfaces.iter().enumerate() {
+            // Shape and name.
             let Surface {
                 shape,
                 material: MaterialId(id),
@@ -179,6 +181,7 @@ impl<'s> SceneWriter<'s> {
                 }
                 (None, _) => {}
             }
+            // Material: an anchor at its first use, if it is used again.
             let at = *id as usize;
             let material = &scene.materials[at];
             match numbers[at] {
@@ -210,6 +213,7 @@ impl<'s> SceneWriter<'s> {
             toon,
             ambient,
         } = settings;
+        // Render mode.
         match mode {
             Mode::Phong => self.line(0, "RenderMode: phong"),
             Mode::Depth => self.line(0, "RenderMode: zbuffer"),
@@ -232,8 +236,10 @@ impl<'s> SceneWriter<'s> {
             Ambient::PerLight if *mode == Mode::Phong => self.line(0, "Ambient: perLight"),
             Ambient::PerLight => {}
         }
+        // Shadows and recursion.
         self.line(0, &format!("Shadows: {shadows}"));
         self.line(0, &format!("MaxRecursionDepth: {max_depth}"));
+        // Sampling.
         let factor = self.paths(mode, *supersampling);
         self.line(0, "SuperSampling:");
         self.line(2, &format!("factor: {factor}"));

@@ -113,6 +113,7 @@ impl Parameters<'_, '_> {
     }
 
     fn map(&mut self, map: &Option<Map>) -> Written {
+        // Resolve the texture.
         let Some(Map {
             texture,
             set,
@@ -130,6 +131,7 @@ impl Parameters<'_, '_> {
             wrap,
             filter,
         } = sampled;
+        // Write the keys that are not defaults.
         let mut keys = format!("file: {}", self.text.names.image(self.scene, *image)?);
         if *set != 0 {
             keys += &format!(", set: {set}");

@@ -25,10 +25,12 @@ impl GltfWriter<'_> {
             lens,
             projection,
         } = &self.scene.camera;
+        // Axes of the camera.
         let [eye, center, right, up] = [*eye, *center, *right, *up].map(Vec3::from_array);
         let [x, y] = [right, up].map(|step| unit(step).unwrap_or(Vec3::X));
         let z = unit(x.cross(y)).unwrap_or(Vec3::Z);
         let z = if z.dot(eye - center) < 0.0 { -z } else { z };
+        // Image size, and offset of its centre from the axis.
         let distance = (eye - center).dot(z);
         let half = [
             length(right) * f64::from(*width) / 2.0,
@@ -36,6 +38,7 @@ impl GltfWriter<'_> {
         ];
         let middle = center - (eye - z * distance);
         let shift = [middle.dot(x) / half[0], middle.dot(y) / half[1]];
+        // Write the camera and its node.
         let rtc_extras = self.camera_extras(distance, shift, lens);
         let (kind, projection) = match projection {
             Projection::Perspective => ("perspective", perspective(half, distance)),

@@ -87,6 +87,7 @@ impl GltfWriter<'_> {
 
     /// The accessors of a mesh of the scene.
     fn attributes(&mut self, id: MeshId, path: ValuePath) -> Option<MeshAccessors> {
+        // Each mesh is written once, and charged before.
         if let Some(known) = self.attributes.get(&id.0) {
             return Some(*known);
         }
@@ -103,6 +104,7 @@ impl GltfWriter<'_> {
             colors,
             triangles,
         } = mesh;
+        // Positions and normals.
         let corners = self.rounded(positions, path)?;
         let mut of_vertices = Attributes {
             position: Some(self.floats(&corners, true)),
@@ -112,6 +114,7 @@ impl GltfWriter<'_> {
             let normals = self.directions(normals, &corners, triangles, path)?;
             of_vertices.normal = Some(self.floats(&normals, false));
         }
+        // Texture coordinates.
         for (uvs, attribute) in [
             (uvs, &mut of_vertices.texcoord_0),
             (second_uvs, &mut of_vertices.texcoord_1),
@@ -121,6 +124,7 @@ impl GltfWriter<'_> {
                 *attribute = Some(self.floats(&uvs, false));
             }
         }
+        // Tangents and colours.
         if !tangents.is_empty() && !normals.is_empty() {
             let tangents = self.tangents(tangents, normals, path)?;
             of_vertices.tangent = Some(self.floats(&tangents, false));
@@ -137,6 +141,7 @@ impl GltfWriter<'_> {
             }
             of_vertices.color_0 = Some(self.floats(&colors, false));
         }
+        // Indices.
         let made = MeshAccessors {
             of_vertices,
             triangles: self.indices(triangles, positions.len()),
@@ -223,6 +228,7 @@ impl GltfWriter<'_> {
         triangles: &[[u32; 3]],
         path: ValuePath,
     ) -> Option<Vec<[f32; 3]>> {
+        // Normalise the normals that have a direction.
         let mut rounded = self.rounded(normals, path)?;
         let corner = |at: u32| Vec3::from_array(corners[at as usize].map(f64::from));
         let mut without_direction: BTreeMap<u32, Vec3> = BTreeMap::new();
@@ -238,6 +244,7 @@ impl GltfWriter<'_> {
                 }
             }
         }
+        // Replace the others by the normal of a triangle at the vertex.
         let needed = if without_direction.is_empty() {
             &[]
         } else {

@@ -2,7 +2,7 @@
 //!
 //! # Steps
 //! 1. `tessellate` tessellates shapes into meshes.
-//! 2. [`GltfWriter`] adds surfaces (`mesh`, `material`, `phong`, `texture`), lights, the camera and
+//! 2. [`GltfWriter`] adds surfaces (`mesh`, `material`, `texture`), lights, the camera and
 //! settings to the [`document`].
 //! 3. `finish` adds the buffer and makes a [`GltfAsset`], which can be written.
 //!
@@ -10,13 +10,10 @@
 //! `extras.rtc`, which only rtc reads; each such value is reported.
 
 mod camera;
-mod chunk;
 mod document;
 mod light;
 mod material;
 mod mesh;
-mod phong;
-mod reporter;
 mod settings;
 mod tessellate;
 mod texture;

@@ -25,6 +25,7 @@ impl MitsubaWriter<'_> {
             lens,
             projection,
         } = &scene.camera;
+        // Axes of the camera.
         let [eye, center, right, up] = [*eye, *center, *right, *up].map(Vec3::from_array);
         let [x, y] = [right, up].map(|step| unit(step).unwrap_or(Vec3::X));
         let across = unit(x.cross(y)).unwrap_or(Vec3::Z);
@@ -33,6 +34,7 @@ impl MitsubaWriter<'_> {
         } else {
             across
         };
+        // Image size, and offset of its centre from the axis.
         self.square_pixels(length(right), length(up));
         let distance = (center - eye).dot(z);
         let half = [
@@ -41,6 +43,7 @@ impl MitsubaWriter<'_> {
         ];
         let middle = center - (eye + z * distance);
         let shift = [middle.dot(x) / half[0], middle.dot(y) / half[1]];
+        // Sensor and projection.
         let is_lens = lens.radius > 0.0;
         match projection {
             Projection::Perspective => {
@@ -53,6 +56,7 @@ impl MitsubaWriter<'_> {
             }
             Projection::Orthographic => self.orthographic([x, y, z], half[0], (eye, center)),
         }
+        // Clipping planes and film.
         self.clips();
         self.film([*width, *height]);
     }

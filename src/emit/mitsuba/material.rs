@@ -140,6 +140,7 @@ fn is_glass(material: &Standard) -> bool {
 
 /// The features of a material that are not written.
 fn missing_features(material: &Standard) -> Vec<&'static str> {
+    // The features that are written.
     let default = Standard::default();
     let base = Standard {
         name: material.name.clone(),
@@ -156,6 +157,7 @@ fn missing_features(material: &Standard) -> Vec<&'static str> {
         thickness: material.thickness,
         ..default
     };
+    // Name the others.
     let parts = [
         (material.maps().next().is_some(), "its maps"),
         (material.alpha != Alpha::Opaque, "its alpha"),

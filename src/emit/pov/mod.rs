@@ -70,6 +70,7 @@ impl PovWriter<'_> {
             toon,
             ambient: _,
         } = &self.scene.settings;
+        // Command line options.
         let [width, height] = self.scene.camera.size;
         let across = (*supersampling).min(MAX[1]);
         let samples = match (across, pattern) {
@@ -77,6 +78,7 @@ impl PovWriter<'_> {
             (factor, Pattern::Grid) => format!(" +A0.0 +AM1 +R{factor} -J"),
             (factor, _) => format!(" +A0.0 +AM1 +R{factor} +J"),
         };
+        // Report what POV-Ray does not support.
         let path = ValuePath::new(EntityKind::Settings, 0, Field::Mode);
         if *mode != Mode::Phong || *toon {
             let message = "POV-Ray shows Phong's model, and this scene is shown in another way";
@@ -92,6 +94,7 @@ impl PovWriter<'_> {
             let message = "exposure and tone map are left out";
             self.reporter.unsupported(message, path);
         }
+        // Write the settings.
         self.line(&format!(
             "// povray +W{width} +H{height} +FN File_Gamma=1.0{samples}\n#version 3.7;"
         ));

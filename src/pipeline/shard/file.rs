@@ -45,6 +45,7 @@ impl RenderShard {
     /// # Errors
     /// If the bytes are not a shard, of another version, or damaged.
     pub fn load(bytes: &[u8], max_pixels: u64) -> Result<Self, ShardError> {
+        // Magic, version and checksum.
         if !bytes.starts_with(&MAGIC) {
             return Err(ShardError::NotAPart);
         }
@@ -56,6 +57,7 @@ impl RenderShard {
         if xxh3_64(remaining) != u64::from_le_bytes(*sum) {
             return Err(ShardError::Damaged("its checksum does not fit"));
         }
+        // Split header, film, layers and progressive state.
         let length = number(remaining, 12)? as usize;
         let film = remaining
             .get(16..PREAMBLE)
@@ -66,6 +68,7 @@ impl RenderShard {
             .split_at_checked(length)
             .ok_or(SHORT)?;
         let (film, layers) = remaining.split_at_checked(film).ok_or(SHORT)?;
+        // Decode and check them.
         let head: ShardHeader = serde_json::from_slice(head)
             .map_err(|_| ShardError::Damaged("its header is not as it should be"))?;
         head.check(max_pixels)?;

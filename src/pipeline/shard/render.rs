@@ -34,6 +34,7 @@ impl PictureSetup {
         (shares, window, rays): (ShardPlan, Crop, u64),
         observer: &Observer<'_>,
     ) -> Result<RenderShard, RenderError> {
+        // The job: tiles or samples of the shares.
         let settings = subject.validated.scene.settings();
         let look = self.look.resolve(&settings.mode);
         let whole = Job {
@@ -44,6 +45,7 @@ impl PictureSetup {
         };
         let (job, samples) = match (shares.by, &settings.mode) {
             (ShardBy::Tiles, _) => {
+                // Render the layers, always by tiles.
                 let tiles = Some(shares.tiles());
                 (Job { tiles, ..whole }, None)
             }
@@ -52,6 +54,7 @@ impl PictureSetup {
             }
             (ShardBy::Samples, _) => return Err(RenderError::Refused(INSEPARABLE.to_owned())),
         };
+        // Render the film.
         let counter = RayCounter::new(rays, window);
         let on_pixel = |step| {
             (observer.on_step)(step);

@@ -146,6 +146,7 @@ impl UnitShape {
 
     /// Its mesh.
     pub(super) fn mesh(self) -> Mesh {
+        // Side and caps of each shape.
         let mut builder = MeshBuilder::default();
         match self {
             Self::Sphere { around, along } => {

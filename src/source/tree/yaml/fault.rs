@@ -11,6 +11,7 @@ pub(super) fn syntax(
     bracket: Option<NodeId>,
     error: &ScanError,
 ) -> Mistake<'static> {
+    // Position of the error, and the innermost open bracket.
     let at = tree
         .source
         .floor_char_boundary(error.marker().byte_offset().unwrap_or(0));
@@ -29,6 +30,7 @@ pub(super) fn syntax(
         runs_into,
         comment: comment_after(tree, bracket),
     };
+    // Typos that explain any error.
     if let Some(typo) = lookalike::near(tree, at).or_else(|| lookalike::comment_near(tree, at)) {
         return typo;
     }
@@ -37,6 +39,7 @@ pub(super) fn syntax(
     if let Some(typo) = is_unclosed.then(|| comma::doubled(tree, from)).flatten() {
         return typo;
     }
+    // Unclosed brackets, missing commas, other typos, or the parser's message.
     match bracket {
         _ if matches!(kind, ErrorKind::RecursionLimitExceeded) => Mistake::TooDeep { span: here },
         _ if matches!(kind, ErrorKind::UnclosedFlowCollection { .. }) => unclosed(here, None),

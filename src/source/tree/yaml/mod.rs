@@ -29,6 +29,7 @@ pub fn parse<'s>(
     bytes: &'s [u8],
     report: &mut dyn FnMut(Mistake<'_>),
 ) -> Option<Tree<'s>> {
+    // Decode the text.
     let (source, base) = match text(file, bytes) {
         Ok(text) => text,
         Err(mistake) => {
@@ -36,6 +37,7 @@ pub fn parse<'s>(
             return None;
         }
     };
+    // Build the tree from the events of the parser.
     let mut builder = TreeBuilder {
         tree: Tree::new(file, base, source),
         open: Vec::new(),

@@ -147,6 +147,7 @@ impl SourceText<'_, '_> {
     /// A line whose indentation differs slightly from that of the lines above to which it seems to
     /// belong.
     fn indentation(&self, at: usize) -> Option<Mistake<'static>> {
+        // Compare with the siblings above.
         let line = self.line(at);
         let found_text = Indented::of(self.after(line).lines().next()?)?;
         let lines = self.tree.source.get(..line)?.lines().rev();
@@ -167,6 +168,7 @@ impl SourceText<'_, '_> {
         if is_value || distance == 0 || distance > 3 || !found_text.words.contains(':') {
             return None;
         }
+        // Suggest the indentation of the closest one.
         let (key, column) = (found_text.key(), found_text.column());
         let first = line + column;
         let spaces = |count: usize| match count {

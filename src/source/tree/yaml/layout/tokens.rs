@@ -116,6 +116,7 @@ impl Tokenizer<'_> {
         );
         // A block scalar without lines may start before its header.
         self.between(if is_block { end } else { start })?;
+        // Blocks open and end; other tokens are emitted.
         match kind {
             TokenType::BlockSequenceStart => self.open(OpenBlock::Explicit, BlockKind::List),
             TokenType::BlockMappingStart => self.open(OpenBlock::Map, BlockKind::Map),
