@@ -10,7 +10,8 @@
 use super::columns::{self, SectionReader, Table};
 use super::section::{self, ALIGNMENT, SectionEntry, SectionWriter};
 use super::{
-    CHECKSUMS_COUNT, Decoded, NotFinite, image, mesh, newer, span, tree, typed, wrong_shape,
+    CHECKSUMS_COUNT, Decoded, NotFinite, VersionHead, image, mesh, newer, span, tree, typed,
+    wrong_shape,
 };
 use rtc_diag::{Code, Diagnostic, codes};
 use rtc_ir::{Display, Mesh, Scene, Surface, VERSION};
@@ -49,13 +50,6 @@ struct Header {
     meshes: Vec<mesh::StoredMesh>,
     #[serde(default)]
     sections: Vec<SectionEntry>,
-}
-
-/// The fields of the header that every version has.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Head {
-    ir_version: u32,
 }
 
 /// Whether the bytes begin with the magic or a damaged magic.
@@ -298,7 +292,7 @@ impl Container<'_> {
                 end,
             )
         };
-        let Head { ir_version } = serde_json::from_slice(text).map_err(malformed)?;
+        let VersionHead { ir_version } = serde_json::from_slice(text).map_err(malformed)?;
         if ir_version > VERSION {
             return Err(newer(
                 ir_version,

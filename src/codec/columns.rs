@@ -7,7 +7,7 @@
 
 use super::binary::Container;
 use super::run::{self, Run};
-use super::section::{Content, ElementType, Section, SectionWriter};
+use super::section::{ElementType, Section, SectionContent, SectionWriter};
 use super::{Decoded, NotFinite, tree};
 use rtc_diag::codes;
 use serde::{Deserialize, Serialize};
@@ -32,7 +32,7 @@ struct EntityTemplate {
     /// The entity with null for each number, long list or long string.
     entity: Value,
     /// What each null replaces, in order.
-    numbers: Vec<Slot>,
+    numbers: Vec<TemplateSlot>,
     /// The section of the floats, one record per entity.
     floats: usize,
     /// The section of the integers, one record per entity.
@@ -45,7 +45,7 @@ struct EntityTemplate {
 /// What a null replaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-enum Slot {
+enum TemplateSlot {
     F64,
     U32,
     /// A long list or string, in a section of its own.
@@ -55,7 +55,7 @@ enum Slot {
 /// The numbers, lists and strings extracted from the entities of one template.
 #[derive(Default)]
 struct ExtractedNumbers {
-    slots: Vec<Slot>,
+    slots: Vec<TemplateSlot>,
     floats: Vec<u8>,
     integers: Vec<u8>,
     runs: Vec<Run>,
@@ -90,7 +90,7 @@ pub(super) fn pack<T: Serialize>(
         }
     }
     // Write the sections.
-    let order = body.push(ElementType::U32, 1, Content::Bytes(order.into()));
+    let order = body.push(ElementType::U32, 1, SectionContent::Bytes(order.into()));
     let kinds = kinds
         .into_iter()
         .map(|(entity, extracted)| store(entity, extracted, body))
@@ -115,13 +115,13 @@ fn store(
     } = extracted;
     let floats = body.push(
         ElementType::F64,
-        count(&numbers, Slot::F64),
-        Content::Bytes(floats.into()),
+        count(&numbers, TemplateSlot::F64),
+        SectionContent::Bytes(floats.into()),
     );
     let integers = body.push(
         ElementType::U32,
-        count(&numbers, Slot::U32),
-        Content::Bytes(integers.into()),
+        count(&numbers, TemplateSlot::U32),
+        SectionContent::Bytes(integers.into()),
     );
     EntityTemplate {
         entity,
@@ -132,7 +132,7 @@ fn store(
     }
 }
 
-fn count(numbers: &[Slot], slot: Slot) -> usize {
+fn count(numbers: &[TemplateSlot], slot: TemplateSlot) -> usize {
     numbers.iter().filter(|kind| **kind == slot).count()
 }
 
@@ -141,7 +141,7 @@ fn count(numbers: &[Slot], slot: Slot) -> usize {
 fn extract(tree: &mut Value, extracted: &mut ExtractedNumbers, body: &mut SectionWriter<'_>) {
     if let Some(run) = run::store(tree, body) {
         extracted.runs.push(run);
-        extracted.slots.push(Slot::Run);
+        extracted.slots.push(TemplateSlot::Run);
         *tree = Value::Null;
         return;
     }
@@ -156,10 +156,10 @@ fn extract(tree: &mut Value, extracted: &mut ExtractedNumbers, body: &mut Sectio
         Value::Number(number) => {
             if let Some(integer) = run::as_u32(number) {
                 extracted.integers.extend(integer.to_le_bytes());
-                extracted.slots.push(Slot::U32);
+                extracted.slots.push(TemplateSlot::U32);
             } else if let Some(float) = number.as_f64().filter(|_| number.is_f64()) {
                 extracted.floats.extend(float.to_le_bytes());
-                extracted.slots.push(Slot::F64);
+                extracted.slots.push(TemplateSlot::F64);
             } else {
                 return;
             }
@@ -255,7 +255,7 @@ pub(super) fn unpack(
 
 /// Iterates over the values that replace the nulls of one template.
 struct NullSource<'a> {
-    slots: std::iter::Cycle<std::slice::Iter<'a, Slot>>,
+    slots: std::iter::Cycle<std::slice::Iter<'a, TemplateSlot>>,
     floats: &'a Section<'a>,
     integers: &'a Section<'a>,
     next_float: usize,
@@ -279,10 +279,10 @@ impl EntityTemplate {
                 .get(*index)
                 .filter(|section| section.holds(element, count(numbers, slot), records))
         };
-        let floats = section(floats, ElementType::F64, Slot::F64)?;
-        let integers = section(integers, ElementType::U32, Slot::U32)?;
+        let floats = section(floats, ElementType::F64, TemplateSlot::F64)?;
+        let integers = section(integers, ElementType::U32, TemplateSlot::U32)?;
         let fits = nulls(entity) == numbers.len()
-            && count(numbers, Slot::Run).checked_mul(records) == Some(runs.len());
+            && count(numbers, TemplateSlot::Run).checked_mul(records) == Some(runs.len());
         let (slots, runs) = (numbers.iter().cycle(), runs.iter());
         fits.then_some(NullSource {
             slots,
@@ -322,15 +322,15 @@ impl NullSource<'_> {
             .next()
             .expect("there are as many slots as nulls: checked in `Kind::source`")
         {
-            Slot::F64 => {
+            TemplateSlot::F64 => {
                 self.next_float += 1;
                 run::number(self.floats, self.next_float - 1)
             }
-            Slot::U32 => {
+            TemplateSlot::U32 => {
                 self.next_integer += 1;
                 run::number(self.integers, self.next_integer - 1)
             }
-            Slot::Run => {
+            TemplateSlot::Run => {
                 let run = self
                     .runs
                     .next()

@@ -1,7 +1,7 @@
 //! Images in a container: the pixels are a section, copied directly from and to the scene.
 
 use super::columns::SectionReader;
-use super::section::{Content, ElementType, SectionWriter};
+use super::section::{ElementType, SectionContent, SectionWriter};
 use rtc_ir::{Image, Pixels};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -27,7 +27,11 @@ pub(super) fn store<'s>(image: &'s Image, body: &mut SectionWriter<'s>) -> Store
         kind,
         pixels,
     } = image;
-    let pixels = body.push(ElementType::U8, 1, Content::Bytes(Cow::Borrowed(pixels)));
+    let pixels = body.push(
+        ElementType::U8,
+        1,
+        SectionContent::Bytes(Cow::Borrowed(pixels)),
+    );
     StoredImage {
         name: name.clone(),
         width: *width,

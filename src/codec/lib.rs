@@ -41,7 +41,7 @@ pub use schema::schema;
 use rtc_diag::{Diagnostic, Sink, clip_words, codes};
 use rtc_ir::{Display, Scene, VERSION};
 use rtc_source::{FileId, SourceMap, Span};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::io::{self, Write};
 
@@ -166,6 +166,13 @@ fn has_null(tree: &Value) -> bool {
 /// Whether checksums are verified. A fuzzer can't guess a checksum and would never reach the code
 /// behind it.
 const CHECKSUMS_COUNT: bool = !cfg!(fuzzing);
+
+/// The field that every version of either encoding has.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct VersionHead {
+    ir_version: u32,
+}
 
 /// The result of decoding. The first error ends it, because nothing after it can be trusted.
 type Decoded<T> = Result<T, Box<Diagnostic>>;

@@ -1,7 +1,7 @@
 //! Meshes in a container: each column is a section, copied directly from and to the scene.
 
 use super::columns::SectionReader;
-use super::section::{Content, ElementType, Section, SectionWriter};
+use super::section::{ElementType, Section, SectionContent, SectionWriter};
 use rtc_ir::{Column, Mesh};
 use serde::{Deserialize, Serialize};
 
@@ -49,19 +49,27 @@ pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut SectionWriter<'s>) -> StoredM
         second_uvs: put(second_uvs, body),
         tangents: put(tangents, body),
         colors: put(colors, body),
-        triangles: body.push(ElementType::U32, 3, Content::U32(triangles.as_flattened())),
+        triangles: body.push(
+            ElementType::U32,
+            3,
+            SectionContent::U32(triangles.as_flattened()),
+        ),
     }
 }
 
 fn put<'s, const N: usize>(column: &'s Column<N>, body: &mut SectionWriter<'s>) -> Option<usize> {
     match column {
         _ if column.is_empty() => None,
-        Column::Single(vectors) => {
-            Some(body.push(ElementType::F32, N, Content::F32(vectors.as_flattened())))
-        }
-        Column::Double(vectors) => {
-            Some(body.push(ElementType::F64, N, Content::F64(vectors.as_flattened())))
-        }
+        Column::Single(vectors) => Some(body.push(
+            ElementType::F32,
+            N,
+            SectionContent::F32(vectors.as_flattened()),
+        )),
+        Column::Double(vectors) => Some(body.push(
+            ElementType::F64,
+            N,
+            SectionContent::F64(vectors.as_flattened()),
+        )),
     }
 }
 

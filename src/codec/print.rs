@@ -16,7 +16,7 @@ const BROKEN: usize = 2;
 /// The document of a scene.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Document<'s> {
+struct WrittenDocument<'s> {
     ir_version: u32,
     #[serde(flatten)]
     scene: &'s Scene,
@@ -24,9 +24,9 @@ struct Document<'s> {
 
 /// Writes a scene as JSON, `irVersion` first, ending with a newline. `out` must not fail.
 pub(super) fn document(scene: &Scene, out: &mut impl Write) -> Result<(), NotFinite> {
-    let mut serializer = Serializer::with_formatter(&mut *out, Layout::default());
+    let mut serializer = Serializer::with_formatter(&mut *out, JsonLayout::default());
     // Only the layout can fail: it rejects numbers that are not finite.
-    Document {
+    WrittenDocument {
         ir_version: VERSION,
         scene,
     }
@@ -38,14 +38,14 @@ pub(super) fn document(scene: &Scene, out: &mut impl Write) -> Result<(), NotFin
 }
 
 #[derive(Default)]
-struct Layout {
+struct JsonLayout {
     /// The nesting depth.
     level: usize,
     /// Whether the innermost list or map has an item.
     filled: bool,
 }
 
-impl Layout {
+impl JsonLayout {
     fn open(&mut self, out: &mut (impl Write + ?Sized), bracket: &[u8]) -> io::Result<()> {
         (self.level, self.filled) = (self.level + 1, false);
         out.write_all(bracket)
@@ -74,7 +74,7 @@ impl Layout {
     }
 }
 
-impl Formatter for Layout {
+impl Formatter for JsonLayout {
     /// `serde_json` writes null for a number that is not finite, and the IR has no other nulls.
     fn write_null<W: ?Sized + Write>(&mut self, _out: &mut W) -> io::Result<()> {
         Err(ErrorKind::InvalidData.into())

@@ -3,7 +3,7 @@
 //!
 //! They are found by their values alone; no entity of the IR is named here.
 
-use super::section::{Content, ElementType, Section, SectionWriter};
+use super::section::{ElementType, Section, SectionContent, SectionWriter};
 use serde::{Deserialize, Serialize};
 use serde_json::{Number, Value};
 
@@ -27,7 +27,7 @@ pub(super) struct Run {
 pub(super) fn store(value: &Value, body: &mut SectionWriter<'_>) -> Option<Run> {
     match value {
         Value::String(text) if text.len() > LONG_TEXT => {
-            let bytes = Content::Bytes(text.as_bytes().to_vec().into());
+            let bytes = SectionContent::Bytes(text.as_bytes().to_vec().into());
             Some(Run {
                 section: body.push(ElementType::U8, 1, bytes),
                 nested: false,
@@ -37,7 +37,11 @@ pub(super) fn store(value: &Value, body: &mut SectionWriter<'_>) -> Option<Run> 
             let stride = items[0].as_array().map(Vec::len);
             let (element, bytes) = numbers(items, stride)?;
             Some(Run {
-                section: body.push(element, stride.unwrap_or(1), Content::Bytes(bytes.into())),
+                section: body.push(
+                    element,
+                    stride.unwrap_or(1),
+                    SectionContent::Bytes(bytes.into()),
+                ),
                 nested: stride.is_some(),
             })
         }

@@ -53,14 +53,14 @@ pub(super) struct SectionEntry {
 }
 
 /// The data of a section to be written.
-pub(super) enum Content<'s> {
+pub(super) enum SectionContent<'s> {
     Bytes(Cow<'s, [u8]>),
     F32(&'s [f32]),
     F64(&'s [f64]),
     U32(&'s [u32]),
 }
 
-impl Content<'_> {
+impl SectionContent<'_> {
     /// In bytes.
     fn length(&self) -> usize {
         match self {
@@ -101,7 +101,7 @@ fn write_numbers<T: Copy, const B: usize>(
 /// The sections of a file to be written.
 #[derive(Default)]
 pub(super) struct SectionWriter<'s> {
-    contents: Vec<Content<'s>>,
+    contents: Vec<SectionContent<'s>>,
     /// In bytes.
     length: usize,
     pub(super) entries: Vec<SectionEntry>,
@@ -113,7 +113,7 @@ impl<'s> SectionWriter<'s> {
         &mut self,
         element: ElementType,
         stride: usize,
-        content: Content<'s>,
+        content: SectionContent<'s>,
     ) -> usize {
         let mut hash = Hash::default();
         content.write(&mut hash).expect("hashing does not fail");

@@ -4,7 +4,7 @@
 //! Memory and depth are bounded by the length of the text. Numbers out of range, duplicate keys and
 //! deep nesting are errors with a position.
 
-use super::{Decoded, faults, locate, newer, span, typed, wrong_shape};
+use super::{Decoded, VersionHead, faults, locate, newer, span, typed, wrong_shape};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{
     Camera, Display, Environment, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture,
@@ -19,17 +19,10 @@ use serde_json::error::Category;
 
 const BOM: &str = "\u{feff}";
 
-/// The field that every version has.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Head {
-    ir_version: u32,
-}
-
 /// The document of the current version.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields, expecting = "a scene")]
-struct Document {
+struct DecodedDocument {
     #[serde(rename = "irVersion")]
     _version: u32,
     camera: Camera,
@@ -51,9 +44,9 @@ struct Document {
     display: Display,
 }
 
-impl From<Document> for Scene {
-    fn from(document: Document) -> Self {
-        let Document {
+impl From<DecodedDocument> for Scene {
+    fn from(document: DecodedDocument) -> Self {
+        let DecodedDocument {
             _version,
             camera,
             settings,
@@ -62,7 +55,7 @@ impl From<Document> for Scene {
             textures,
             ..
         } = document;
-        let Document {
+        let DecodedDocument {
             meshes,
             materials,
             surfaces,
@@ -128,13 +121,13 @@ enum Stop {
 
 fn scene(source: &TextSlice<'_>, end: usize) -> Result<Scene, Stop> {
     let TextSlice { file, text, .. } = *source;
-    let Head { ir_version } = serde_json::from_str(text).map_err(Stop::Json)?;
+    let VersionHead { ir_version } = serde_json::from_str(text).map_err(Stop::Json)?;
     if ir_version > VERSION {
         let (start, end) = source.version_range();
         let span = span(file, start, end);
         Err(Stop::Reported(newer(ir_version, "IR", VERSION, span)))
     } else if ir_version == VERSION {
-        let document: Document = serde_json::from_str(text).map_err(Stop::Json)?;
+        let document: DecodedDocument = serde_json::from_str(text).map_err(Stop::Json)?;
         Ok(document.into())
     } else {
         older(source, ir_version, end).map_err(Stop::Reported)
@@ -237,7 +230,7 @@ impl<'a> TextSlice<'a> {
             span,
             pointer,
             what,
-        } in faults::all::<Document>(&tree)
+        } in faults::all::<DecodedDocument>(&tree)
         {
             faults.push(match pointer {
                 Some(pointer) => wrong_shape(&what, span).pointer(pointer),

@@ -132,27 +132,27 @@ pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 }
 
 /// One or more numbers.
-trait Numbers {
+trait Components {
     /// Whether all of them equal `number`, bit for bit.
     fn are(&self, number: f64) -> bool;
 }
 
-impl Numbers for f64 {
+impl Components for f64 {
     fn are(&self, number: f64) -> bool {
         self.to_bits() == number.to_bits()
     }
 }
 
-impl Numbers for [f64; 3] {
+impl Components for [f64; 3] {
     fn are(&self, number: f64) -> bool {
         self.iter().all(|component| component.are(number))
     }
 }
 
-fn is_zero(numbers: &impl Numbers) -> bool {
+fn is_zero(numbers: &impl Components) -> bool {
     numbers.are(0.0)
 }
 
-fn is_one(numbers: &impl Numbers) -> bool {
+fn is_one(numbers: &impl Components) -> bool {
     numbers.are(1.0)
 }

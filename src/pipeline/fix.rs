@@ -55,7 +55,7 @@ pub fn fix(path: &Path, text: &str, options: &Options, filter: &FixFilter) -> Fi
 pub type DiagnosticRef = (Severity, &'static str, String);
 
 /// A text and its diagnostics.
-struct Candidate {
+struct FixCandidate {
     text: String,
     /// The number of changes that led to it.
     changes: usize,
@@ -121,7 +121,7 @@ impl<'w> FixSession<'w> {
         }
     }
 
-    fn check(&mut self, text: String, changes: usize) -> Candidate {
+    fn check(&mut self, text: String, changes: usize) -> FixCandidate {
         // Check the text in place of the file.
         self.checks = self.checks.saturating_sub(1);
         let bytes = text.clone().into_bytes();
@@ -131,7 +131,7 @@ impl<'w> FixSession<'w> {
         }
         let sink = input.take_diagnostics();
         // Collect its diagnostics, their fixes and unknown keys.
-        let mut candidate = Candidate {
+        let mut candidate = FixCandidate {
             text,
             changes,
             occurrences: BTreeMap::new(),
@@ -162,7 +162,7 @@ impl<'w> FixSession<'w> {
     }
 
     /// Adds the first requested fix of a diagnostic that applies to the text itself.
-    fn add_fix(&self, diagnostic: &Diagnostic, input: &Input, candidate: &mut Candidate) {
+    fn add_fix(&self, diagnostic: &Diagnostic, input: &Input, candidate: &mut FixCandidate) {
         let diagnostic_ref = diagnostic_ref(diagnostic);
         if self
             .filter
@@ -189,7 +189,7 @@ impl<'w> FixSession<'w> {
     }
 
     /// An improved text, with all fixes or with the largest subset that is found.
-    fn improve(&mut self, candidate: &Candidate) -> Option<Candidate> {
+    fn improve(&mut self, candidate: &FixCandidate) -> Option<FixCandidate> {
         let mut subsets = vec![candidate.edits.as_slice()];
         while !subsets.is_empty() && self.checks > 0 {
             let improved = subsets
@@ -208,7 +208,11 @@ impl<'w> FixSession<'w> {
     }
 
     /// An improved text with these changes and with fixes of what they reveal.
-    fn apply_and_follow(&mut self, candidate: &Candidate, edits: &[Edit]) -> Option<Candidate> {
+    fn apply_and_follow(
+        &mut self,
+        candidate: &FixCandidate,
+        edits: &[Edit],
+    ) -> Option<FixCandidate> {
         let mut next = candidate.edited(edits);
         for _ in 0..MAX_ROUNDS {
             let EditedText {
@@ -229,7 +233,7 @@ impl<'w> FixSession<'w> {
     }
 }
 
-impl Candidate {
+impl FixCandidate {
     /// The text with these changes; `None` if nothing changes.
     fn edited(&self, edits: &[Edit]) -> Option<EditedText> {
         let mut text = String::with_capacity(self.text.len());

@@ -23,7 +23,7 @@ pub struct RayCounter {
     total: AtomicU64,
     /// Whether the pixel at which the limit is exceeded is known: all threads stop.
     has_run_out: AtomicBool,
-    rows: Vec<Row>,
+    rows: Vec<RowCount>,
     /// The rays of each pixel, row by row, and [`DONE`].
     pixels: Vec<AtomicU64>,
     /// The number of pixels done, over all renders.
@@ -36,7 +36,7 @@ pub struct RayCounter {
 const DONE: u64 = 1 << 63;
 
 #[derive(Default)]
-struct Row {
+struct RowCount {
     rays: AtomicU64,
     /// The number of its pixels that are done.
     done: AtomicU32,
@@ -70,7 +70,7 @@ impl RayCounter {
             before: AtomicU64::new(0),
             total: AtomicU64::new(0),
             has_run_out: AtomicBool::new(false),
-            rows: (0..crop.height).map(|_| Row::default()).collect(),
+            rows: (0..crop.height).map(|_| RowCount::default()).collect(),
             pixels: (0..pixels).map(|_| AtomicU64::new(0)).collect(),
             done: AtomicUsize::new(0),
             renders,
@@ -99,7 +99,7 @@ impl RayCounter {
         self.pixels
             .iter()
             .for_each(|rays| rays.store(0, Ordering::Relaxed));
-        for Row { rays, done } in &self.rows {
+        for RowCount { rays, done } in &self.rows {
             rays.store(0, Ordering::Relaxed);
             done.store(0, Ordering::Relaxed);
         }
@@ -166,7 +166,7 @@ impl RayCounter {
     fn is_certain(&self) -> bool {
         let width = self.crop.width;
         let mut total_so_far = self.before.load(Ordering::Relaxed);
-        let is_whole = |row: &&Row| row.done.load(Ordering::Acquire) >= width;
+        let is_whole = |row: &&RowCount| row.done.load(Ordering::Acquire) >= width;
         let whole = self.rows.iter().take_while(is_whole);
         let first = whole
             .map(|row| total_so_far = total_so_far.saturating_add(row.rays.load(Ordering::Relaxed)))

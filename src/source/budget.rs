@@ -28,7 +28,7 @@ pub enum Resource {
 }
 
 /// A resource: its name and its default limit.
-struct Row {
+struct LimitRow {
     resource: Resource,
     name: &'static str,
     base: u64,
@@ -44,8 +44,8 @@ const MIB: u64 = 1 << 20;
 const NONE: (u64, u64) = (0, 0);
 
 /// The default limits, in the order of [`Resource`].
-const TABLE: [Row; COUNT] = [
-    Row {
+const TABLE: [LimitRow; COUNT] = [
+    LimitRow {
         resource: Resource::Memory,
         name: "memory",
         base: 192 * MIB,
@@ -55,7 +55,7 @@ const TABLE: [Row; COUNT] = [
     },
     // Ordinary images need at most one byte for some hundred pixels, and many of them 2 GiB
     // together.
-    Row {
+    LimitRow {
         resource: Resource::Textures,
         name: "textures",
         base: 192 * MIB,
@@ -63,7 +63,7 @@ const TABLE: [Row; COUNT] = [
         first: (MIB, 2048 * MIB),
         description: "bytes of textures, as large as their files say that they are",
     },
-    Row {
+    LimitRow {
         resource: Resource::Pixels,
         name: "pixels",
         base: 1 << 28,
@@ -71,7 +71,7 @@ const TABLE: [Row; COUNT] = [
         first: NONE,
         description: "pixels of all images decoded, and of the picture",
     },
-    Row {
+    LimitRow {
         resource: Resource::Vertices,
         name: "vertices",
         base: 1 << 24,
@@ -79,7 +79,7 @@ const TABLE: [Row; COUNT] = [
         first: NONE,
         description: "vertices made, each as often as it is made: for every primitive, morph target and pose",
     },
-    Row {
+    LimitRow {
         resource: Resource::Surfaces,
         name: "surfaces",
         base: 1 << 20,
@@ -87,7 +87,7 @@ const TABLE: [Row; COUNT] = [
         first: NONE,
         description: "surfaces placed: primitives times the instances of each",
     },
-    Row {
+    LimitRow {
         resource: Resource::Nodes,
         name: "nodes",
         base: 1 << 21,
@@ -95,7 +95,7 @@ const TABLE: [Row; COUNT] = [
         first: NONE,
         description: "values in the texts of scenes and assets, those behind aliases each time",
     },
-    Row {
+    LimitRow {
         resource: Resource::Findings,
         name: "findings",
         base: 10_000,
@@ -103,7 +103,7 @@ const TABLE: [Row; COUNT] = [
         first: NONE,
         description: "findings kept; further ones are counted",
     },
-    Row {
+    LimitRow {
         resource: Resource::Rays,
         name: "rays",
         base: 1 << 32,
@@ -127,7 +127,7 @@ impl Resource {
         self.row().name
     }
 
-    fn row(self) -> &'static Row {
+    fn row(self) -> &'static LimitRow {
         &TABLE[self as usize]
     }
 }
@@ -162,7 +162,7 @@ impl Limits {
     /// The limit of a resource after `read` bytes were read.
     #[must_use]
     pub fn of(&self, resource: Resource, read: u64) -> u64 {
-        let Row {
+        let LimitRow {
             base,
             per_kib,
             first: (first, until),
@@ -202,9 +202,9 @@ impl fmt::Display for Exceeded {
                 write!(
                     f,
                     "it would take {} of {}, and the limit is {}",
-                    Size(total),
+                    ByteSize(total),
                     resource.name(),
-                    Size(limit)
+                    ByteSize(limit)
                 )
             }
             Resource::Pixels
@@ -233,9 +233,9 @@ impl Exceeded {
 }
 
 /// A number of bytes, displayed with a unit.
-struct Size(u64);
+struct ByteSize(u64);
 
-impl fmt::Display for Size {
+impl fmt::Display for ByteSize {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             bytes @ 0..MIB => write!(f, "{bytes} bytes"),
@@ -330,7 +330,7 @@ and `GiB` may follow the number), `--allow-huge` lifts all of them.
 | --- | ---: | --- | --- |
 "
     .to_owned();
-    for Row {
+    for LimitRow {
         resource: _,
         name,
         base,

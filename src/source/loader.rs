@@ -119,8 +119,10 @@ impl Loader {
         let opened = Opened::at(path).ok_or(LoadError::NotRegular)?;
         let bytes = opened.bytes(limit)?;
         let metadata = match &opened.content {
-            Content::System(Ok(file)) => file.metadata().map_err(LoadError::Io)?,
-            Content::System(Err(_)) | Content::Memory(_) => return Err(LoadError::NotRegular),
+            OpenedContent::System(Ok(file)) => file.metadata().map_err(LoadError::Io)?,
+            OpenedContent::System(Err(_)) | OpenedContent::Memory(_) => {
+                return Err(LoadError::NotRegular);
+            }
         };
         Ok(OwnedFile {
             path: opened.path,
@@ -178,11 +180,11 @@ type FileKey = PathBuf;
 #[derive(Debug)]
 pub(super) struct Opened {
     path: PathBuf,
-    content: Content,
+    content: OpenedContent,
 }
 
 #[derive(Debug)]
-enum Content {
+enum OpenedContent {
     /// The open file, or why it could not be opened.
     System(io::Result<File>),
     Memory(Arc<MemoryFiles>),
@@ -205,7 +207,7 @@ impl Opened {
         }
         Some(Self {
             path,
-            content: Content::System(file),
+            content: OpenedContent::System(file),
         })
     }
 
@@ -214,15 +216,15 @@ impl Opened {
         let (path, _) = files.get(path)?;
         Some(Self {
             path: path.to_owned(),
-            content: Content::Memory(Arc::clone(files)),
+            content: OpenedContent::Memory(Arc::clone(files)),
         })
     }
 
     /// The files in memory to which it belongs.
     pub(super) fn memory(&self) -> Option<&Arc<MemoryFiles>> {
         match &self.content {
-            Content::System(_) => None,
-            Content::Memory(files) => Some(files),
+            OpenedContent::System(_) => None,
+            OpenedContent::Memory(files) => Some(files),
         }
     }
 
@@ -233,7 +235,7 @@ impl Opened {
 
     /// The identity; `None` if it can't be read.
     pub(super) fn identity(&self) -> Option<Identity> {
-        let Content::System(file) = &self.content else {
+        let OpenedContent::System(file) = &self.content else {
             return Some(Identity(IdentityKind::InMemory(self.path.clone())));
         };
         let file = file.as_ref().ok()?;
@@ -247,7 +249,7 @@ impl Opened {
     /// The first bytes, at most 64 KiB; empty if it can't be read.
     pub(super) fn head(&self) -> Vec<u8> {
         let mut head = Vec::new();
-        if let Content::System(Ok(file)) = &self.content
+        if let OpenedContent::System(Ok(file)) = &self.content
             && file.take(1 << 16).read_to_end(&mut head).is_err()
         {
             head.clear();
@@ -257,12 +259,12 @@ impl Opened {
 
     fn bytes(&self, limit: u64) -> Result<Vec<u8>, LoadError> {
         match &self.content {
-            Content::Memory(files) => in_memory(files, &self.path, limit),
-            Content::System(Ok(file)) => {
+            OpenedContent::Memory(files) => in_memory(files, &self.path, limit),
+            OpenedContent::System(Ok(file)) => {
                 (&*file).rewind().map_err(LoadError::Io)?;
                 read_all(file, limit)
             }
-            Content::System(Err(error)) => Err(LoadError::Io(
+            OpenedContent::System(Err(error)) => Err(LoadError::Io(
                 error
                     .raw_os_error()
                     .map_or(error.kind().into(), io::Error::from_raw_os_error),

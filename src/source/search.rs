@@ -145,7 +145,7 @@ impl<'a> Name<'a> {
 }
 
 /// The result of looking up a path in a folder.
-enum Lookup {
+enum PathLookup {
     File(Opened),
     /// A link leads outside the folder, whether its target exists or not.
     Outside,
@@ -205,9 +205,9 @@ impl Search {
             for (place, folder) in self.folders.iter().enumerate() {
                 let shown = folder.shown.join(&tail);
                 match self.at(place, &tail, kind) {
-                    Lookup::File(opened) => return Ok(Found::new(opened, shown, elsewhere)),
-                    Lookup::Outside => outside = true,
-                    Lookup::Nothing => {}
+                    PathLookup::File(opened) => return Ok(Found::new(opened, shown, elsewhere)),
+                    PathLookup::Outside => outside = true,
+                    PathLookup::Nothing => {}
                 }
                 searched.push(shown);
             }
@@ -246,9 +246,9 @@ impl Search {
             .map(|folder| (folder, folder.shown.join(written)))
         {
             match self.within(folder, Path::new(written)) {
-                Lookup::File(opened) => return Ok(Found::new(opened, shown, false)),
-                Lookup::Outside => outside = true,
-                Lookup::Nothing => {}
+                PathLookup::File(opened) => return Ok(Found::new(opened, shown, false)),
+                PathLookup::Outside => outside = true,
+                PathLookup::Nothing => {}
             }
             searched.push(shown);
         }
@@ -286,9 +286,9 @@ impl Search {
             return outside;
         };
         match self.at(parent, &path, kind) {
-            Lookup::File(opened) => Ok(Found::new(opened, shown, false)),
-            Lookup::Outside => outside,
-            Lookup::Nothing => Err(Missing::Absent(vec![shown])),
+            PathLookup::File(opened) => Ok(Found::new(opened, shown, false)),
+            PathLookup::Outside => outside,
+            PathLookup::Nothing => Err(Missing::Absent(vec![shown])),
         }
     }
 
@@ -309,28 +309,28 @@ impl Search {
     }
 
     /// Looks up a path below folder `index`; in the parent folder only files that match the kind.
-    fn at(&self, place: usize, tail: &Path, kind: &FileKind) -> Lookup {
+    fn at(&self, place: usize, tail: &Path, kind: &FileKind) -> PathLookup {
         let folder = &self.folders[place];
         let is_parent = self.has_parent && place + 1 == self.folders.len();
         let matches = |opened: &Opened| {
             self.is_allowed(opened.path()) || kind.matches(opened, &folder.resolved)
         };
         match self.within(folder, tail) {
-            Lookup::File(opened) if !is_parent || matches(&opened) => Lookup::File(opened),
-            Lookup::File(_) | Lookup::Outside if is_parent => Lookup::Nothing,
-            at @ (Lookup::File(_) | Lookup::Outside | Lookup::Nothing) => at,
+            PathLookup::File(opened) if !is_parent || matches(&opened) => PathLookup::File(opened),
+            PathLookup::File(_) | PathLookup::Outside if is_parent => PathLookup::Nothing,
+            at @ (PathLookup::File(_) | PathLookup::Outside | PathLookup::Nothing) => at,
         }
     }
 
-    fn within(&self, folder: &Folder, tail: &Path) -> Lookup {
+    fn within(&self, folder: &Folder, tail: &Path) -> PathLookup {
         let is_inside = |opened: &Opened| {
             opened.path().starts_with(&folder.resolved) || self.is_allowed(opened.path())
         };
         let opened = folder.open(&folder.resolved.join(tail));
         match opened.filter(is_inside) {
-            Some(opened) => Lookup::File(opened),
-            None if folder.escapes(tail) => Lookup::Outside,
-            None => Lookup::Nothing,
+            Some(opened) => PathLookup::File(opened),
+            None if folder.escapes(tail) => PathLookup::Outside,
+            None => PathLookup::Nothing,
         }
     }
 
@@ -345,8 +345,10 @@ impl Search {
         listing.ignoring_case(expected).iter().find_map(|name| {
             let tail = tail.with_file_name(name);
             match self.at(place, &tail, kind) {
-                Lookup::File(opened) => Some(Found::new(opened, folder.shown.join(&tail), true)),
-                Lookup::Outside | Lookup::Nothing => None,
+                PathLookup::File(opened) => {
+                    Some(Found::new(opened, folder.shown.join(&tail), true))
+                }
+                PathLookup::Outside | PathLookup::Nothing => None,
             }
         })
     }

@@ -1,7 +1,7 @@
 //! Validates the camera: the eye is off the image plane, the steps are perpendicular, the image has
 //! pixels.
 
-use super::check::{Check, SMALLEST};
+use super::check::{Checker, SMALLEST};
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
@@ -51,7 +51,7 @@ pub enum Projection {
     Orthographic,
 }
 
-pub(super) fn camera(camera: &ir::Camera, check: &mut Check<'_>) -> Option<Camera> {
+pub(super) fn camera(camera: &ir::Camera, check: &mut Checker<'_>) -> Option<Camera> {
     let ir::Camera {
         eye,
         center,
@@ -98,7 +98,7 @@ fn at(field: Field) -> ValuePath {
 }
 
 /// A step between pixels: a vector of nonzero length.
-fn step(value: [f64; 3], field: Field, check: &mut Check<'_>) -> Option<Vec3> {
+fn step(value: [f64; 3], field: Field, check: &mut Checker<'_>) -> Option<Vec3> {
     let vector = check.vector(value, at(field))?;
     if vector.abs().max_element() < SMALLEST {
         let what = if vector == Vec3::ZERO {
@@ -118,7 +118,7 @@ fn step(value: [f64; 3], field: Field, check: &mut Check<'_>) -> Option<Vec3> {
     Some(vector)
 }
 
-fn frustum(eye: Vec3, center: Vec3, right: Vec3, up: Vec3, check: &mut Check<'_>) -> Option<()> {
+fn frustum(eye: Vec3, center: Vec3, right: Vec3, up: Vec3, check: &mut Checker<'_>) -> Option<()> {
     let cosine = right.normalize().dot(up.normalize());
     if cosine.abs() > RIGHT_ANGLE {
         let message = format!(
@@ -151,7 +151,7 @@ fn frustum(eye: Vec3, center: Vec3, right: Vec3, up: Vec3, check: &mut Check<'_>
     Some(())
 }
 
-fn image_size(size: [u32; 2], check: &mut Check<'_>) -> Option<(NonZeroU32, NonZeroU32)> {
+fn image_size(size: [u32; 2], check: &mut Checker<'_>) -> Option<(NonZeroU32, NonZeroU32)> {
     match (NonZeroU32::new(size[0]), NonZeroU32::new(size[1])) {
         (Some(width), Some(height)) => Some((width, height)),
         _ => {

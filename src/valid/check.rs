@@ -22,13 +22,13 @@ pub(super) struct EntityCounts {
 }
 
 /// The state of one validation.
-pub(super) struct Check<'run> {
+pub(super) struct Checker<'run> {
     source_spans: &'run SourceSpans,
     sink: &'run mut Sink,
     errors: bool,
 }
 
-impl<'run> Check<'run> {
+impl<'run> Checker<'run> {
     pub(super) fn new(source_spans: &'run SourceSpans, sink: &'run mut Sink) -> Self {
         Self {
             source_spans,

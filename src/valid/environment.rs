@@ -1,6 +1,6 @@
 //! Validates the environment.
 
-use super::check::Check;
+use super::check::Checker;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::Vec3;
@@ -31,7 +31,7 @@ const ROTATION: f64 = 1e-9;
 pub(super) fn environment(
     environment: Option<&ir::Environment>,
     images: usize,
-    check: &mut Check<'_>,
+    check: &mut Checker<'_>,
 ) -> Option<Environment> {
     let Some(ir::Environment {
         radiance,

@@ -1,6 +1,6 @@
 //! Validates the images: every image has a pixel for each column and row.
 
-use super::check::Check;
+use super::check::Checker;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_image::Texels;
@@ -18,7 +18,7 @@ pub struct Image {
     pub texels: Texels,
 }
 
-pub(super) fn image(image: &ir::Image, index: usize, check: &mut Check<'_>) -> Option<Image> {
+pub(super) fn image(image: &ir::Image, index: usize, check: &mut Checker<'_>) -> Option<Image> {
     let ir::Image {
         name: _,
         width,

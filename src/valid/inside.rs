@@ -6,7 +6,7 @@
 //! winding numbers", eq. 5) decides: it is ±1 inside a closed surface, 0 outside, and in between
 //! for an open one.
 
-use super::check::Check;
+use super::check::Checker;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, Shape, ValuePath};
 use rtc_math::{Vec3, atan2, unit};
@@ -33,7 +33,7 @@ struct Solids<'s> {
 
 impl<'s> Solids<'s> {
     /// Groups the surfaces. Surfaces that one object of the text was lowered to have one span.
-    fn new(scene: &'s ir::Scene, check: &Check<'_>) -> Self {
+    fn new(scene: &'s ir::Scene, check: &Checker<'_>) -> Self {
         let span = |index| check.span(ValuePath::new(EntityKind::Surface, index, Field::Whole));
         let is_flat = |index: usize| is_flat(&scene.surfaces[index].shape);
         let mut solids = Vec::new();
@@ -157,7 +157,7 @@ fn solid_angle([a, b, c]: [Vec3; 3]) -> f64 {
 
 /// Reports each light inside a solid: with shadows, the solid blocks all its light to the outside. A
 /// solid that also contains the eye is a room.
-pub(super) fn lights(scene: &ir::Scene, check: &mut Check<'_>) {
+pub(super) fn lights(scene: &ir::Scene, check: &mut Checker<'_>) {
     if !scene.settings.shadows {
         return;
     }
@@ -198,7 +198,7 @@ pub(super) fn lights(scene: &ir::Scene, check: &mut Check<'_>) {
 }
 
 /// Reports an eye inside an opaque solid that contains no other object.
-pub(super) fn eye(scene: &ir::Scene, check: &mut Check<'_>) {
+pub(super) fn eye(scene: &ir::Scene, check: &mut Checker<'_>) {
     // Find an opaque solid that encloses the eye.
     let solids = Solids::new(scene, check);
     if solids.cost() > MAX_PAIRS {

@@ -48,7 +48,7 @@ pub use shape::*;
 pub use standard::{Alpha, Standard};
 pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 
-use check::{Check, EntityCounts};
+use check::{Checker, EntityCounts};
 use rtc_diag::Sink;
 use rtc_ir::{self as ir, SourceSpans};
 use rtc_source::Limits;
@@ -137,7 +137,7 @@ impl ValidScene {
     #[must_use]
     pub fn seen_by(&self, camera: &ir::Camera) -> Option<Self> {
         let (source_spans, mut sink) = (SourceSpans::default(), Sink::default());
-        let mut check = Check::new(&source_spans, &mut sink);
+        let mut check = Checker::new(&source_spans, &mut sink);
         let camera = camera::camera(camera, &mut check)?;
         let is_as_large = (camera.width, camera.height) == (self.camera.width, self.camera.height);
         (check.is_clean() && is_as_large).then(|| Self {
@@ -189,7 +189,7 @@ pub fn validate(
         display,
     } = scene;
     // Validate each kind of entity; all errors are reported.
-    let mut check = Check::new(source_spans, sink);
+    let mut check = Checker::new(source_spans, sink);
     let valid_camera = camera::camera(camera, &mut check);
     let valid_settings = settings::settings(settings, &mut check);
     settings::display(display, &mut check);

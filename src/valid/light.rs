@@ -1,6 +1,6 @@
 //! Validates the lights.
 
-use super::check::Check;
+use super::check::Checker;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
@@ -69,14 +69,14 @@ pub enum Falloff {
     Ranged(Positive),
 }
 
-pub(super) fn light(light: &ir::Light, index: usize, check: &mut Check<'_>) -> Option<Light> {
+pub(super) fn light(light: &ir::Light, index: usize, check: &mut Checker<'_>) -> Option<Light> {
     match light {
         ir::Light::Point(light) => course(light, index, check).map(Light::Course),
         ir::Light::Punctual(light) => punctual(light, index, check).map(Light::Punctual),
     }
 }
 
-fn course(light: &ir::PointLight, index: usize, check: &mut Check<'_>) -> Option<CourseLight> {
+fn course(light: &ir::PointLight, index: usize, check: &mut Checker<'_>) -> Option<CourseLight> {
     let ir::PointLight {
         position,
         color,
@@ -93,7 +93,7 @@ fn course(light: &ir::PointLight, index: usize, check: &mut Check<'_>) -> Option
     })
 }
 
-fn punctual(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> Option<Punctual> {
+fn punctual(light: &ir::Punctual, index: usize, check: &mut Checker<'_>) -> Option<Punctual> {
     let at = ValuePath::new(EntityKind::Light, index, Field::Whole);
     let ir::Punctual { emitter, intensity } = light;
     let intensity = check.color(*intensity, at);
@@ -127,7 +127,7 @@ fn punctual(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> Option
     }))
 }
 
-fn falloff(range: Option<f64>, at: ValuePath, check: &mut Check<'_>) -> Option<Falloff> {
+fn falloff(range: Option<f64>, at: ValuePath, check: &mut Checker<'_>) -> Option<Falloff> {
     match range {
         Some(range) => check
             .length(range, at, &codes::BAD_LIGHT, "range")

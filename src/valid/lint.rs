@@ -2,14 +2,14 @@
 //! colours that look like bytes, weights that look like percentages, pixels larger than the
 //! objects.
 
-use super::check::Check;
+use super::check::Checker;
 use super::inside;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 use rtc_math::{Vec3, shortest};
 
 /// Runs the lints on a scene without errors. With errors, parts of the scene may be missing.
-pub(super) fn lints(scene: &ir::Scene, check: &mut Check<'_>) {
+pub(super) fn lints(scene: &ir::Scene, check: &mut Checker<'_>) {
     if check.has_errors() {
         return;
     }
@@ -44,7 +44,7 @@ fn looks_like_bytes(color: [f64; 3], least: f64) -> bool {
     color.iter().all(is_byte) && color.iter().any(|channel| *channel >= least)
 }
 
-fn bytes(color: [f64; 3], entity: EntityKind, index: usize, check: &mut Check<'_>) {
+fn bytes(color: [f64; 3], entity: EntityKind, index: usize, check: &mut Checker<'_>) {
     let [r, g, b] = color.map(|channel| (channel / 255.0 * 1000.0).round() / 1000.0);
     let diagnostic = Diagnostic::new(
         &codes::COLOR_OF_BYTES,
@@ -62,7 +62,7 @@ fn bytes(color: [f64; 3], entity: EntityKind, index: usize, check: &mut Check<'_
 const PERCENT: f64 = 10.0;
 
 /// Warns of weights that look like percentages.
-fn weights(phong: &ir::Phong, index: usize, check: &mut Check<'_>) {
+fn weights(phong: &ir::Phong, index: usize, check: &mut Checker<'_>) {
     for (key, weight, field) in [
         ("ka", phong.ka, Field::Ka),
         ("kd", phong.kd, Field::Kd),
@@ -94,7 +94,7 @@ const SMALL_FRACTION: f64 = 1.0 / 16.0;
 const FILLED: f64 = 0.75;
 
 /// Warns if the length of `up` makes pixels larger than the objects.
-fn tiny_picture(scene: &ir::Scene, check: &mut Check<'_>) {
+fn tiny_picture(scene: &ir::Scene, check: &mut Checker<'_>) {
     // Only a camera with `up` in the text can be too far away by mistake.
     let up = ValuePath::new(EntityKind::Camera, 0, Field::Up);
     // A camera without `up` has the span of its entity.
@@ -142,7 +142,7 @@ fn two_digits(value: f64) -> f64 {
 }
 
 /// Warns about lit surfaces without a light: the picture is black.
-fn no_light(scene: &ir::Scene, check: &mut Check<'_>) {
+fn no_light(scene: &ir::Scene, check: &mut Checker<'_>) {
     let ir::Scene {
         settings,
         lights,
@@ -160,7 +160,7 @@ fn no_light(scene: &ir::Scene, check: &mut Check<'_>) {
 }
 
 /// Warns about surfaces without shadows in a path-traced scene, where every surface casts one.
-fn shadows_of_paths(scene: &ir::Scene, check: &mut Check<'_>) {
+fn shadows_of_paths(scene: &ir::Scene, check: &mut Checker<'_>) {
     let ir::Scene {
         settings, surfaces, ..
     } = scene;
@@ -180,7 +180,7 @@ fn shadows_of_paths(scene: &ir::Scene, check: &mut Check<'_>) {
 }
 
 /// Warns about material features that the integrator does not support.
-fn unsupported_features(scene: &ir::Scene, check: &mut Check<'_>) {
+fn unsupported_features(scene: &ir::Scene, check: &mut Checker<'_>) {
     let is_traced = matches!(scene.settings.mode, ir::Mode::Path(_));
     if !is_traced && !matches!(scene.settings.mode, ir::Mode::Phong | ir::Mode::Gooch(_)) {
         return;

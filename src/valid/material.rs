@@ -1,6 +1,6 @@
 //! Validates the materials.
 
-use super::check::{Check, EntityCounts};
+use super::check::{Checker, EntityCounts};
 use super::phong::{self, Phong};
 use super::standard::{self, Standard};
 use rtc_ir as ir;
@@ -18,7 +18,7 @@ pub(super) fn material(
     material: &ir::Material,
     index: usize,
     counts: &EntityCounts,
-    check: &mut Check<'_>,
+    check: &mut Checker<'_>,
 ) -> Option<Material> {
     match material {
         ir::Material::Phong(phong) => {

@@ -1,7 +1,7 @@
 //! Validates the meshes: vertices are finite, triangles refer to existing vertices and have an
 //! area.
 
-use super::check::{Check, LARGEST};
+use super::check::{Checker, LARGEST};
 use super::shape::has_area;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
@@ -48,7 +48,7 @@ impl Mesh {
     }
 }
 
-pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Option<Mesh> {
+pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Checker<'_>) -> Option<Mesh> {
     let whole = ValuePath::new(EntityKind::Mesh, index, Field::Whole);
     // Reject an invalid mesh.
     if let Some(message) = find_error(mesh) {

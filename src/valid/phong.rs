@@ -1,6 +1,6 @@
 //! Validates the Phong model.
 
-use super::check::{Check, EntityCounts};
+use super::check::{Checker, EntityCounts};
 use rtc_diag::codes;
 use rtc_ir::{self as ir, EntityKind, Field, TextureId, ValuePath};
 use rtc_math::{NonNegative, Positive, Vec3};
@@ -55,7 +55,7 @@ pub(super) fn phong(
     phong: &ir::Phong,
     index: usize,
     counts: &EntityCounts,
-    check: &mut Check<'_>,
+    check: &mut Checker<'_>,
 ) -> Option<Phong> {
     let ir::Phong {
         color,
@@ -117,7 +117,7 @@ fn height_field(
     bump: &ir::Bump,
     counts: &EntityCounts,
     path: ValuePath,
-    check: &mut Check<'_>,
+    check: &mut Checker<'_>,
 ) -> Option<Bump> {
     let ir::Bump { texture, height } = bump;
     let texture = check.handle(texture.0, counts.textures, "texture", path);

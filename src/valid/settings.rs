@@ -1,6 +1,6 @@
 //! Validates the settings, and the limits on pixels and rays.
 
-use super::check::Check;
+use super::check::Checker;
 use rtc_color::Tone;
 use rtc_diag::Diagnostic;
 use rtc_diag::codes;
@@ -100,7 +100,7 @@ pub struct Gooch {
     pub beta: f64,
 }
 
-pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option<Settings> {
+pub(super) fn settings(settings: &ir::Settings, check: &mut Checker<'_>) -> Option<Settings> {
     let ir::Settings {
         mode,
         shadows,
@@ -151,7 +151,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
     })
 }
 
-fn valid_mode(mode: &ir::Mode, check: &mut Check<'_>) -> Option<Mode> {
+fn valid_mode(mode: &ir::Mode, check: &mut Checker<'_>) -> Option<Mode> {
     match mode {
         ir::Mode::Phong => Some(Mode::Phong),
         ir::Mode::Depth => Some(Mode::Depth),
@@ -170,7 +170,7 @@ fn valid_mode(mode: &ir::Mode, check: &mut Check<'_>) -> Option<Mode> {
     }
 }
 
-fn gooch(gooch: &ir::Gooch, check: &mut Check<'_>) -> Option<Mode> {
+fn gooch(gooch: &ir::Gooch, check: &mut Checker<'_>) -> Option<Mode> {
     let ir::Gooch { b, y, alpha, beta } = gooch;
     let b = check.number(*b, at(Field::GoochB));
     let y = check.number(*y, at(Field::GoochY));
@@ -189,7 +189,11 @@ fn at(field: Field) -> ValuePath {
 }
 
 /// Rejects pictures beyond the limits on pixels and rays.
-pub(super) fn budget(scene: &ir::Scene, options: &super::ValidationOptions, check: &mut Check<'_>) {
+pub(super) fn budget(
+    scene: &ir::Scene,
+    options: &super::ValidationOptions,
+    check: &mut Checker<'_>,
+) {
     let [width, height] = scene.camera.size;
     let pixels = u128::from(width) * u128::from(height);
     let limit = options.limits.of(Resource::Pixels, 0);
@@ -210,7 +214,7 @@ pub(super) fn budget(scene: &ir::Scene, options: &super::ValidationOptions, chec
 }
 
 /// Rejects a picture with too many camera and shadow rays, further bounces not counted.
-fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<'_>) {
+fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Checker<'_>) {
     let [width, height] = scene.camera.size;
     let supersampling = scene.settings.supersampling;
     // Multiply the samples of all dimensions.
@@ -253,7 +257,7 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<
 }
 
 /// Validates the display settings: the exposure is in range.
-pub(super) fn display(display: &ir::Display, check: &mut Check<'_>) {
+pub(super) fn display(display: &ir::Display, check: &mut Checker<'_>) {
     const MOST: f64 = ir::Display::MOST_STOPS;
     let ir::Display { exposure, tone: _ } = display;
     if !(-MOST..=MOST).contains(exposure) {

@@ -1,6 +1,6 @@
 //! Validates the glTF material: every factor is in the range of its specification.
 
-use super::check::{Check, EntityCounts, LARGEST};
+use super::check::{Checker, EntityCounts, LARGEST};
 use super::texture::{self, Map};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
@@ -96,11 +96,11 @@ macro_rules! material {
             material: &ir::Standard,
             index: usize,
             counts: &EntityCounts,
-            check: &mut Check<'_>,
+            check: &mut Checker<'_>,
         ) -> Option<Standard> {
             let ir::Standard { name: _, $($field,)* } = material;
             let at = ValuePath::new(EntityKind::Material, index, Field::Whole);
-            let mut parameters = Parameters { at, counts, check };
+            let mut parameters = ParameterCheck { at, counts, check };
             $(let $field = parameters.$kind($field, camel_case!($field));)*
             Some(Standard { $($field: $field?,)* })
         }
@@ -130,19 +130,19 @@ pub enum Alpha {
 }
 
 /// The minimum and the maximum.
-type Range = [f64; 2];
+type ValueRange = [f64; 2];
 
-const FRACTION: Range = [0.0, 1.0];
-const AT_LEAST_0: Range = [0.0, LARGEST];
-const AT_LEAST_1: Range = [1.0, LARGEST];
-const ABOVE_0: Range = [f64::MIN_POSITIVE, LARGEST];
-const ANY: Range = [-LARGEST, LARGEST];
+const FRACTION: ValueRange = [0.0, 1.0];
+const AT_LEAST_0: ValueRange = [0.0, LARGEST];
+const AT_LEAST_1: ValueRange = [1.0, LARGEST];
+const ABOVE_0: ValueRange = [f64::MIN_POSITIVE, LARGEST];
+const ANY: ValueRange = [-LARGEST, LARGEST];
 
 /// The state of validating one material.
-struct Parameters<'a, 'run> {
+struct ParameterCheck<'a, 'run> {
     at: ValuePath,
     counts: &'a EntityCounts,
-    check: &'a mut Check<'run>,
+    check: &'a mut Checker<'run>,
 }
 
 #[expect(
@@ -153,9 +153,9 @@ struct Parameters<'a, 'run> {
     clippy::option_option,
     reason = "an error and an absence are two things"
 )]
-impl Parameters<'_, '_> {
+impl ParameterCheck<'_, '_> {
     /// A number in a range, bounds included.
-    fn within(&mut self, value: f64, name: &str, [low, high]: Range) -> Option<f64> {
+    fn within(&mut self, value: f64, name: &str, [low, high]: ValueRange) -> Option<f64> {
         let is_valid = low <= value && value <= high;
         if !is_valid {
             let [value, low, high] = [value, low, high].map(shortest);
@@ -172,7 +172,7 @@ impl Parameters<'_, '_> {
         &mut self,
         values: &[f64; N],
         name: &str,
-        range: Range,
+        range: ValueRange,
     ) -> Option<[f64; N]> {
         let is_valid = values.iter().fold(true, |is_valid, value| {
             is_valid & self.within(*value, name, range).is_some()

@@ -1,6 +1,6 @@
 //! Validates the textures and texture maps: the images and textures they refer to exist.
 
-use super::check::{Check, EntityCounts};
+use super::check::{Checker, EntityCounts};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ValuePath};
 
@@ -85,7 +85,7 @@ pub(super) fn texture(
     texture: &ir::Texture,
     index: usize,
     images: usize,
-    check: &mut Check<'_>,
+    check: &mut Checker<'_>,
 ) -> Option<Texture> {
     let at = ValuePath::new(EntityKind::Texture, index, Field::Whole);
     let mut exists = |image: ir::ImageId| check.handle(image.0, images, "image", at);
@@ -116,7 +116,7 @@ pub(super) fn map(
     map: &ir::Map,
     counts: &EntityCounts,
     at: ValuePath,
-    check: &mut Check<'_>,
+    check: &mut Checker<'_>,
 ) -> Option<Map> {
     let ir::Map {
         texture,

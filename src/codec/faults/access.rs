@@ -1,9 +1,9 @@
 //! Access to lists, maps and enum variants. A missing value gets a placeholder; a surplus value is
 //! reported and skipped.
 
-use super::error::Error;
+use super::error::DecodeError;
 use super::reader::NodeReader;
-use super::{FaultPart, Fields, Notes};
+use super::{FaultPart, FieldNames, Notes};
 use rtc_source::tree::{NodeId, NodeKind};
 use serde::de::value::StrDeserializer;
 use serde::de::{
@@ -30,12 +30,12 @@ impl<'n, 't> Items<'n, 't> {
 }
 
 impl<'de> SeqAccess<'de> for Items<'_, '_> {
-    type Error = Error;
+    type Error = DecodeError;
 
     fn next_element_seed<S: DeserializeSeed<'de>>(
         &mut self,
         seed: S,
-    ) -> Result<Option<S::Value>, Error> {
+    ) -> Result<Option<S::Value>, DecodeError> {
         let item = self.items.next();
         let is_expected = match &mut self.remaining {
             None => item.is_some(),
@@ -60,7 +60,7 @@ pub(super) struct Members<'n, 't> {
     map: Option<NodeId>,
     pairs: std::vec::IntoIter<(NodeId, NodeId)>,
     /// The fields of the struct; `None` to accept any key.
-    fields: Option<Fields>,
+    fields: Option<FieldNames>,
     /// Required fields that were not seen yet.
     absent: Vec<&'static str>,
     seen: Vec<&'n str>,
@@ -72,7 +72,7 @@ pub(super) struct Members<'n, 't> {
 
 impl<'n, 't> Members<'n, 't> {
     /// The members of a map as the fields of a struct; placeholders if there is no map.
-    pub(super) fn of(notes: &'n Notes<'t>, map: Option<NodeId>, fields: Fields) -> Self {
+    pub(super) fn of(notes: &'n Notes<'t>, map: Option<NodeId>, fields: FieldNames) -> Self {
         let pairs: Vec<_> = map.map_or_else(Vec::new, |map| notes.tree.pairs(map).collect());
         Self {
             notes,
@@ -100,10 +100,10 @@ impl<'n, 't> Members<'n, 't> {
         for (key, value) in self.pairs.by_ref() {
             let text = self.notes.tree.text(key).unwrap_or_default();
             let fault = match self.fields {
-                Some(fields) if !fields.contains(&text) => Error::unknown_field(text, fields),
+                Some(fields) if !fields.contains(&text) => DecodeError::unknown_field(text, fields),
                 // Which duplicate field it is does not change the message.
                 Some(_) if self.seen.contains(&text) => {
-                    Error::custom(format_args!("duplicate field `{text}`"))
+                    DecodeError::custom(format_args!("duplicate field `{text}`"))
                 }
                 Some(_) | None => {
                     self.seen.push(text);
@@ -118,7 +118,7 @@ impl<'n, 't> Members<'n, 't> {
         let name = self.absent.pop()?;
         if let Some(map) = self.map.filter(|_| !self.has_unknown) {
             self.notes
-                .note(map, FaultPart::Whole, Error::missing_field(name).what);
+                .note(map, FaultPart::Whole, DecodeError::missing_field(name).what);
         }
         self.value = None;
         Some(name)
@@ -126,18 +126,21 @@ impl<'n, 't> Members<'n, 't> {
 }
 
 impl<'de> MapAccess<'de> for Members<'_, '_> {
-    type Error = Error;
+    type Error = DecodeError;
 
     fn next_key_seed<S: DeserializeSeed<'de>>(
         &mut self,
         seed: S,
-    ) -> Result<Option<S::Value>, Error> {
+    ) -> Result<Option<S::Value>, DecodeError> {
         let key = self.next_key();
         key.map(|key| seed.deserialize(deserializer(key)))
             .transpose()
     }
 
-    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Error> {
+    fn next_value_seed<S: DeserializeSeed<'de>>(
+        &mut self,
+        seed: S,
+    ) -> Result<S::Value, DecodeError> {
         let placeholder = || NodeReader::placeholder(self.notes);
         seed.deserialize(
             self.value
@@ -156,7 +159,11 @@ pub(super) struct Variant<'n, 't> {
 
 impl<'n, 't> Variant<'n, 't> {
     /// The variant at a node; the first variant if the node is none.
-    pub(super) fn of(at: NodeReader<'n, 't>, variants: Fields, expected: &dyn Expected) -> Self {
+    pub(super) fn of(
+        at: NodeReader<'n, 't>,
+        variants: FieldNames,
+        expected: &dyn Expected,
+    ) -> Self {
         let (notes, tree) = (at.notes, at.notes.tree);
         let first = Self {
             name: variants.first().copied().unwrap_or_default(),
@@ -176,7 +183,10 @@ impl<'n, 't> Variant<'n, 't> {
                 (key, Self { content, ..first })
             }
             (NodeKind::Map, ..) => {
-                at.note(Error::invalid_value(Unexpected::Map, &"a map with one key"));
+                at.note(DecodeError::invalid_value(
+                    Unexpected::Map,
+                    &"a map with one key",
+                ));
                 return first;
             }
             _ => {
@@ -194,7 +204,7 @@ impl<'n, 't> Variant<'n, 't> {
         notes.note(
             name,
             FaultPart::Whole,
-            Error::unknown_variant(text, variants).what,
+            DecodeError::unknown_variant(text, variants).what,
         );
         Self {
             content: NodeReader::placeholder(notes),
@@ -206,24 +216,27 @@ impl<'n, 't> Variant<'n, 't> {
     /// Reports that a variant without content needs one.
     fn need(&self, what: &str) {
         if let Some(bare) = self.bare {
-            bare.note(Error::invalid_type(Unexpected::UnitVariant, &what));
+            bare.note(DecodeError::invalid_type(Unexpected::UnitVariant, &what));
         }
     }
 }
 
 impl<'de, 'n, 't> EnumAccess<'de> for Variant<'n, 't> {
-    type Error = Error;
+    type Error = DecodeError;
     type Variant = Self;
 
-    fn variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<(S::Value, Self), Error> {
+    fn variant_seed<S: DeserializeSeed<'de>>(
+        self,
+        seed: S,
+    ) -> Result<(S::Value, Self), DecodeError> {
         Ok((seed.deserialize(deserializer(self.name))?, self))
     }
 }
 
 impl<'de> VariantAccess<'de> for Variant<'_, '_> {
-    type Error = Error;
+    type Error = DecodeError;
 
-    fn unit_variant(self) -> Result<(), Error> {
+    fn unit_variant(self) -> Result<(), DecodeError> {
         let content = self.content;
         let kind = content.at.map(|at| content.notes.tree.kind(at));
         if kind.is_some_and(|kind| kind != NodeKind::Null) {
@@ -232,26 +245,33 @@ impl<'de> VariantAccess<'de> for Variant<'_, '_> {
         Ok(())
     }
 
-    fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Error> {
+    fn newtype_variant_seed<S: DeserializeSeed<'de>>(
+        self,
+        seed: S,
+    ) -> Result<S::Value, DecodeError> {
         self.need("newtype variant");
         seed.deserialize(self.content)
     }
 
-    fn tuple_variant<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Error> {
+    fn tuple_variant<V: Visitor<'de>>(
+        self,
+        length: usize,
+        visitor: V,
+    ) -> Result<V::Value, DecodeError> {
         self.need("tuple variant");
         self.content.deserialize_tuple(length, visitor)
     }
 
     fn struct_variant<V: Visitor<'de>>(
         self,
-        fields: Fields,
+        fields: FieldNames,
         visitor: V,
-    ) -> Result<V::Value, Error> {
+    ) -> Result<V::Value, DecodeError> {
         self.need("struct variant");
         self.content.deserialize_struct("", fields, visitor)
     }
 }
 
-fn deserializer(text: &str) -> StrDeserializer<'_, Error> {
+fn deserializer(text: &str) -> StrDeserializer<'_, DecodeError> {
     text.into_deserializer()
 }

@@ -1,22 +1,22 @@
 //! Decoding errors, with the wording of `serde_json`.
 
-use super::Fields;
+use super::FieldNames;
 use rtc_source::tree::NodeId;
 use serde::de::{self, Expected, Unexpected};
 use std::fmt::{self, Display, Formatter};
 
 /// A decoding error.
 #[derive(Debug)]
-pub(super) struct Error {
+pub(super) struct DecodeError {
     /// The message.
     pub(super) what: String,
     /// The node, if known.
     pub(super) at: Option<NodeId>,
     /// The missing field and the fields of its struct, if known.
-    pub(super) missing: Option<(Fields, &'static str)>,
+    pub(super) missing: Option<(FieldNames, &'static str)>,
 }
 
-impl Error {
+impl DecodeError {
     /// Sets the node, unless it is already set.
     pub(super) fn at(self, node: Option<NodeId>) -> Self {
         Self {
@@ -28,7 +28,7 @@ impl Error {
     }
 
     /// Sets the fields of the struct, unless they are already set.
-    pub(super) fn of(mut self, fields: Fields) -> Self {
+    pub(super) fn of(mut self, fields: FieldNames) -> Self {
         if let Some((known, _)) = self.missing.as_mut().filter(|(known, _)| known.is_empty()) {
             *known = fields;
         }
@@ -36,15 +36,15 @@ impl Error {
     }
 }
 
-impl Display for Error {
+impl Display for DecodeError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(&self.what)
     }
 }
 
-impl std::error::Error for Error {}
+impl std::error::Error for DecodeError {}
 
-impl de::Error for Error {
+impl de::Error for DecodeError {
     fn custom<T: Display>(what: T) -> Self {
         Self {
             what: what.to_string(),

@@ -8,7 +8,7 @@ mod access;
 mod error;
 mod reader;
 
-use error::Error;
+use error::DecodeError;
 use reader::NodeReader;
 use rtc_source::Span;
 use rtc_source::tree::{NodeId, Tree};
@@ -76,7 +76,7 @@ enum FaultPart {
 }
 
 /// The fields of a struct, which identify it.
-type Fields = &'static [&'static str];
+type FieldNames = &'static [&'static str];
 
 /// The state of error collection.
 struct Notes<'t> {
@@ -85,7 +85,7 @@ struct Notes<'t> {
     /// Nodes that can't be decoded and are replaced by placeholders.
     rejected: BTreeSet<NodeId>,
     /// The required fields of each struct, as far as known.
-    required: BTreeMap<Fields, Vec<&'static str>>,
+    required: BTreeMap<FieldNames, Vec<&'static str>>,
 }
 
 impl<'t> Notes<'t> {
@@ -110,19 +110,19 @@ impl<'t> Notes<'t> {
     }
 
     /// Records a required field. False if it was known.
-    fn require(&mut self, fields: Fields, name: &'static str) -> bool {
+    fn require(&mut self, fields: FieldNames, name: &'static str) -> bool {
         let known = self.required.entry(fields).or_default();
         let is_new = !known.contains(&name);
         known.extend(is_new.then_some(name));
         is_new
     }
 
-    fn required(&self, fields: Fields) -> &[&'static str] {
+    fn required(&self, fields: FieldNames) -> &[&'static str] {
         self.required.get(fields).map_or(&[], Vec::as_slice)
     }
 
     /// Makes the next run pass an error. False if that is impossible.
-    fn repair(&mut self, error: &Error) -> bool {
+    fn repair(&mut self, error: &DecodeError) -> bool {
         if let Some((fields, name)) = error.missing {
             return self.require(fields, name);
         }

@@ -1,8 +1,8 @@
 //! Decodes values from the nodes of a tree; a wrong node yields a placeholder.
 
 use super::access::{Items, Members, Variant};
-use super::error::Error;
-use super::{FaultPart, Fields, Notes};
+use super::error::DecodeError;
+use super::{FaultPart, FieldNames, Notes};
 use rtc_source::tree::{NodeId, NodeKind};
 use serde::de::{Deserializer, Error as _, Expected, Unexpected, Visitor};
 
@@ -15,13 +15,13 @@ pub(super) struct NodeReader<'n, 't> {
 
 /// A JSON number, as `serde_json` classifies it.
 #[derive(Clone, Copy)]
-enum Number {
+enum JsonNumber {
     Unsigned(u64),
     Signed(i64),
     Float(f64),
 }
 
-impl Number {
+impl JsonNumber {
     fn of(written: &str) -> Self {
         let is_integer = written
             .bytes()
@@ -59,7 +59,7 @@ impl Number {
         }
     }
 
-    fn visit<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn visit<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         match self {
             Self::Unsigned(number) => visitor.visit_u64(number),
             Self::Signed(number) => visitor.visit_i64(number),
@@ -85,15 +85,15 @@ impl<'n, 't> NodeReader<'n, 't> {
     }
 
     /// The number of the node. A number out of range is reported and becomes 0.
-    fn number(self) -> Option<Number> {
+    fn number(self) -> Option<JsonNumber> {
         let at = self.at.filter(|_| self.kind() == Some(NodeKind::Number))?;
-        let number = Number::of(self.notes.tree.written(at));
+        let number = JsonNumber::of(self.notes.tree.written(at));
         if !number.is_out_of_range() {
             return Some(number);
         }
         let what = "number out of range".to_owned();
         self.notes.note(at, FaultPart::LastDigit, what);
-        Some(Number::Unsigned(0))
+        Some(JsonNumber::Unsigned(0))
     }
 
     fn text(self) -> Option<&'n str> {
@@ -112,7 +112,7 @@ impl<'n, 't> NodeReader<'n, 't> {
                 (Unexpected::Bool(boolean), FaultPart::Whole)
             }
             NodeKind::Number => {
-                let number = Number::of(self.notes.tree.written(at));
+                let number = JsonNumber::of(self.notes.tree.written(at));
                 if number.is_out_of_range() {
                     // The range error is reported instead.
                     self.number();
@@ -127,12 +127,12 @@ impl<'n, 't> NodeReader<'n, 't> {
             NodeKind::List => (Unexpected::Seq, FaultPart::Bracket),
             NodeKind::Map => (Unexpected::Map, FaultPart::Bracket),
         };
-        let error = Error::invalid_type(found, expected);
+        let error = DecodeError::invalid_type(found, expected);
         self.notes.note(at, part, error.what);
     }
 
     /// Reports an error for the whole node.
-    pub(super) fn note(self, error: Error) {
+    pub(super) fn note(self, error: DecodeError) {
         if let Some(at) = self.at {
             self.notes.note(at, FaultPart::Whole, error.what);
         }
@@ -143,18 +143,18 @@ impl<'n, 't> NodeReader<'n, 't> {
         self,
         visitor: V,
         (least, most): (i128, i128),
-    ) -> Result<V::Value, Error> {
+    ) -> Result<V::Value, DecodeError> {
         match self.number() {
             Some(number) if number.is_from(least, most) => return number.visit(visitor),
-            Some(number @ (Number::Unsigned(_) | Number::Signed(_))) => {
-                self.note(Error::invalid_value(number.unexpected(), &visitor));
+            Some(number @ (JsonNumber::Unsigned(_) | JsonNumber::Signed(_))) => {
+                self.note(DecodeError::invalid_value(number.unexpected(), &visitor));
             }
-            Some(Number::Float(_)) | None => self.wrong_type(&visitor),
+            Some(JsonNumber::Float(_)) | None => self.wrong_type(&visitor),
         }
         visitor.visit_u64(0)
     }
 
-    fn float<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn float<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         if let Some(number) = self.number() {
             return number.visit(visitor);
         }
@@ -167,12 +167,12 @@ impl<'n, 't> NodeReader<'n, 't> {
         self,
         length: usize,
         visitor: V,
-    ) -> Result<V::Value, Error> {
+    ) -> Result<V::Value, DecodeError> {
         let list = self.at.into_iter();
         let items: Vec<NodeId> = list.flat_map(|list| self.notes.tree.items(list)).collect();
         if items.len() != length {
             let expected = format!("{} with {length} elements", &visitor as &dyn Expected);
-            self.note(Error::invalid_length(items.len(), &expected.as_str()));
+            self.note(DecodeError::invalid_length(items.len(), &expected.as_str()));
         }
         let items = Items::new(self.notes, items, Some(length));
         visitor.visit_seq(items).map_err(|error| error.at(self.at))
@@ -182,7 +182,7 @@ impl<'n, 't> NodeReader<'n, 't> {
         self,
         visitor: V,
         length: Option<usize>,
-    ) -> Result<V::Value, Error> {
+    ) -> Result<V::Value, DecodeError> {
         let list = self.at.filter(|_| self.kind() == Some(NodeKind::List));
         let items: Vec<NodeId> = match list {
             Some(list) => self.notes.tree.items(list).collect(),
@@ -192,7 +192,7 @@ impl<'n, 't> NodeReader<'n, 't> {
             }
         };
         if list.is_some() && length.is_some_and(|length| items.len() != length) {
-            self.note(Error::invalid_length(items.len(), &visitor));
+            self.note(DecodeError::invalid_length(items.len(), &visitor));
         }
         let items = Items::new(self.notes, items, length);
         visitor.visit_seq(items).map_err(|error| error.at(self.at))
@@ -202,30 +202,33 @@ impl<'n, 't> NodeReader<'n, 't> {
 /// Deserializer methods of the integer types.
 macro_rules! integer {
     ($($method:ident $type:ident)+) => {
-        $(fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        $(fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
             self.integer(visitor, (i128::from($type::MIN), i128::from($type::MAX)))
         })+
     };
 }
 
 impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
-    type Error = Error;
+    type Error = DecodeError;
 
     integer! {
         deserialize_u8 u8 deserialize_u16 u16 deserialize_u32 u32 deserialize_u64 u64
         deserialize_i8 i8 deserialize_i16 i16 deserialize_i32 i32 deserialize_i64 i64
     }
 
-    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         let tree = self.notes.tree;
         let Some((at, kind)) = self.at.zip(self.kind()) else {
             // Types that accept anything, such as columns, accept an empty list.
             return visitor.visit_seq(Items::new(self.notes, Vec::new(), None));
         };
-        let value: Result<V::Value, Error> = match kind {
+        let value: Result<V::Value, DecodeError> = match kind {
             NodeKind::Null => visitor.visit_unit(),
             NodeKind::Bool => visitor.visit_bool(tree.boolean(at).unwrap_or_default()),
-            NodeKind::Number => self.number().unwrap_or(Number::Unsigned(0)).visit(visitor),
+            NodeKind::Number => self
+                .number()
+                .unwrap_or(JsonNumber::Unsigned(0))
+                .visit(visitor),
             NodeKind::Word | NodeKind::Text => visitor.visit_str(self.text().unwrap_or_default()),
             NodeKind::List => {
                 visitor.visit_seq(Items::new(self.notes, tree.items(at).collect(), None))
@@ -235,7 +238,7 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         value.map_err(|error| error.at(self.at))
     }
 
-    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         let boolean = self.at.and_then(|at| self.notes.tree.boolean(at));
         if boolean.is_none() {
             self.wrong_type(&visitor);
@@ -243,51 +246,51 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         visitor.visit_bool(boolean.unwrap_or_default())
     }
 
-    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         self.float(visitor)
     }
 
-    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         self.float(visitor)
     }
 
-    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         let text = self.text();
         if text.is_none() {
             self.wrong_type(&visitor);
         }
         let value = visitor.visit_str(text.unwrap_or_default());
-        value.map_err(|error: Error| error.at(self.at))
+        value.map_err(|error: DecodeError| error.at(self.at))
     }
 
-    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         self.deserialize_str(visitor)
     }
 
-    fn deserialize_char<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_char<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         self.deserialize_str(visitor)
     }
 
-    fn deserialize_identifier<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_identifier<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         self.deserialize_str(visitor)
     }
 
-    fn deserialize_bytes<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_bytes<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         self.deserialize_str(visitor)
     }
 
-    fn deserialize_byte_buf<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_byte_buf<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         self.deserialize_str(visitor)
     }
 
-    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         match self.kind() {
             Some(NodeKind::Null) | None => visitor.visit_none(),
             Some(_) => visitor.visit_some(self),
         }
     }
 
-    fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         if self.kind() != Some(NodeKind::Null) {
             self.wrong_type(&visitor);
         }
@@ -298,7 +301,7 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         self,
         _: &'static str,
         visitor: V,
-    ) -> Result<V::Value, Error> {
+    ) -> Result<V::Value, DecodeError> {
         self.deserialize_unit(visitor)
     }
 
@@ -306,11 +309,11 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         self,
         _: &'static str,
         visitor: V,
-    ) -> Result<V::Value, Error> {
+    ) -> Result<V::Value, DecodeError> {
         visitor.visit_newtype_struct(self)
     }
 
-    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         self.list(visitor, None)
     }
 
@@ -318,7 +321,7 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         self,
         length: usize,
         visitor: V,
-    ) -> Result<V::Value, Error> {
+    ) -> Result<V::Value, DecodeError> {
         self.list(visitor, Some(length))
     }
 
@@ -327,20 +330,20 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         _: &'static str,
         length: usize,
         visitor: V,
-    ) -> Result<V::Value, Error> {
+    ) -> Result<V::Value, DecodeError> {
         self.list(visitor, Some(length))
     }
 
-    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         self.deserialize_any(visitor)
     }
 
     fn deserialize_struct<V: Visitor<'de>>(
         self,
         _: &'static str,
-        fields: Fields,
+        fields: FieldNames,
         visitor: V,
-    ) -> Result<V::Value, Error> {
+    ) -> Result<V::Value, DecodeError> {
         if self.kind() == Some(NodeKind::List) {
             return self.positional(fields.len(), visitor);
         }
@@ -356,15 +359,15 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
     fn deserialize_enum<V: Visitor<'de>>(
         self,
         _: &'static str,
-        variants: Fields,
+        variants: FieldNames,
         visitor: V,
-    ) -> Result<V::Value, Error> {
+    ) -> Result<V::Value, DecodeError> {
         let variant = Variant::of(self, variants, &visitor);
         let value = visitor.visit_enum(variant);
         value.map_err(|error| error.at(self.at))
     }
 
-    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
         visitor.visit_unit()
     }
 }

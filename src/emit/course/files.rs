@@ -15,11 +15,11 @@ const UV: &str = "UV";
 pub struct Attachment<'s> {
     /// Its path relative to the folder of the text, with `/`.
     pub name: String,
-    content: Content<'s>,
+    content: AttachmentContent<'s>,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Content<'s> {
+enum AttachmentContent<'s> {
     Mesh(&'s Mesh),
     Image(&'s Image),
 }
@@ -31,8 +31,8 @@ impl Attachment<'_> {
     /// A message, if there is no such file.
     pub fn bytes(&self) -> Result<Vec<u8>, String> {
         match self.content {
-            Content::Mesh(mesh) => Ok(ply::encode(mesh)),
-            Content::Image(image) => encode(image),
+            AttachmentContent::Mesh(mesh) => Ok(ply::encode(mesh)),
+            AttachmentContent::Image(image) => encode(image),
         }
     }
 }
@@ -89,7 +89,7 @@ impl<'s> FileNames<'s> {
             .images
             .get(id as usize)
             .ok_or("an image is referred to that does not exist")?;
-        let name = self.name(&image.name, Content::Image(image))?;
+        let name = self.name(&image.name, AttachmentContent::Image(image))?;
         self.of_images.insert(id, name.clone());
         Ok(name)
     }
@@ -111,12 +111,12 @@ impl<'s> FileNames<'s> {
         if let Some(name) = self.of_meshes.get(&id) {
             return Ok((name.clone(), part));
         }
-        let name = self.name(&mesh.name, Content::Mesh(mesh))?;
+        let name = self.name(&mesh.name, AttachmentContent::Mesh(mesh))?;
         self.of_meshes.insert(id, name.clone());
         Ok((name, part))
     }
 
-    fn name(&mut self, original: &str, content: Content<'s>) -> Result<String, String> {
+    fn name(&mut self, original: &str, content: AttachmentContent<'s>) -> Result<String, String> {
         let original_file = file_name(original);
         if self.uses_original_names && (original_file.is_ok() || self.folder.is_none()) {
             return original_file;
@@ -126,8 +126,8 @@ impl<'s> FileNames<'s> {
             return Err(message.to_owned());
         };
         let (fallback, extension, hash) = match content {
-            Content::Mesh(mesh) => ("mesh", "ply", xxh3_64(&ply::encode(mesh))),
-            Content::Image(image) => ("image", extension(image), hash(image)),
+            AttachmentContent::Mesh(mesh) => ("mesh", "ply", xxh3_64(&ply::encode(mesh))),
+            AttachmentContent::Image(image) => ("image", extension(image), hash(image)),
         };
         let name = sidecar::path(folder, original, fallback, hash, extension);
         let quoted = quoted(&name);

@@ -5,7 +5,7 @@ use rtc_ir::{self as ir, Instance, Quad, Scene, Shape, Sphere, Triangle};
 use rtc_math::{Vec3, axis_and_angle, shortest, turned_to_z, unit};
 
 /// A shape that the scene format can express.
-trait Emit {
+trait WriteShape {
     /// # Errors
     /// A message, if the format can't express the shape.
     fn emit<'s>(&self, text: &mut SceneWriter<'s>, scene: &'s Scene) -> Result<(), String>;
@@ -32,7 +32,7 @@ macro_rules! by_keys {
     ($Name:ident derived {
         $type:literal $($value:ident: $rule:ident $key:literal $($name:literal)?;)*
     }) => {
-        impl Emit for ir::$Name {
+        impl WriteShape for ir::$Name {
             fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
                 let Self { $($value),* } = self;
                 text.kind($type);
@@ -73,7 +73,7 @@ impl SceneWriter<'_> {
     }
 }
 
-impl Emit for Sphere {
+impl WriteShape for Sphere {
     fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
         let Self {
             center,
@@ -102,7 +102,7 @@ impl Emit for Sphere {
     }
 }
 
-impl Emit for Triangle {
+impl WriteShape for Triangle {
     fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
         let Self { vertices, uvs } = self;
         text.kind("triangle");
@@ -115,7 +115,7 @@ impl Emit for Triangle {
     }
 }
 
-impl Emit for Quad {
+impl WriteShape for Quad {
     fn emit<'s>(&self, text: &mut SceneWriter<'s>, _: &'s Scene) -> Result<(), String> {
         let Self { vertices } = self;
         text.kind("quad");
@@ -127,7 +127,7 @@ impl Emit for Quad {
     }
 }
 
-impl Emit for Instance {
+impl WriteShape for Instance {
     fn emit<'s>(&self, text: &mut SceneWriter<'s>, scene: &'s Scene) -> Result<(), String> {
         let Self {
             mesh,

@@ -26,7 +26,7 @@ macro_rules! material {
                 if !name.is_empty() {
                     self.line(6, &format!("name: {}", quoted(name)));
                 }
-                let mut parameters = Parameters { text: self, scene };
+                let mut parameters = ParameterWriter { text: self, scene };
                 $(if *$field != default.$field {
                     let value = parameters.$kind($field)?;
                     parameters.text.line(6, &format!("{}: {value}", camel_case!($field)));
@@ -40,7 +40,7 @@ macro_rules! material {
 parameters!(material);
 
 /// The writer of the parameters of one material.
-struct Parameters<'t, 's> {
+struct ParameterWriter<'t, 's> {
     text: &'t mut SceneWriter<'s>,
     scene: &'s Scene,
 }
@@ -53,7 +53,7 @@ type Written = Result<String, String>;
     clippy::trivially_copy_pass_by_ref,
     reason = "the rows of the table are alike"
 )]
-impl Parameters<'_, '_> {
+impl ParameterWriter<'_, '_> {
     fn number(&mut self, value: &f64) -> Written {
         self.text.finite &= value.is_finite();
         Ok(shortest(*value))

@@ -13,7 +13,7 @@ use serde_json::{Map as Block, Value, json};
 
 /// A material of the scene, on meshes with or without each set of texture coordinates. Maps of a
 /// missing set have no effect and are dropped.
-pub(super) type MaterialKey = (u32, [bool; 2]);
+pub(super) type GltfMaterialKey = (u32, [bool; 2]);
 
 impl GltfWriter<'_> {
     /// The material for a mesh.

@@ -5,7 +5,7 @@ use super::document::{
     LightReference, Material, Mesh, Node, NodeExtensions, Root, Sampler, Texture, UNSIGNED_INT,
     UNSIGNED_SHORT,
 };
-use super::material::MaterialKey;
+use super::material::GltfMaterialKey;
 use super::mesh::MeshAccessors;
 use crate::reporter::Reporter;
 use crate::sidecar;
@@ -30,7 +30,7 @@ pub(super) struct GltfWriter<'w> {
     pub(super) images: BTreeMap<u32, Index<Image>>,
     pub(super) textures: BTreeMap<u32, Index<Texture>>,
     pub(super) samplers: BTreeMap<[u32; 3], Index<Sampler>>,
-    pub(super) materials: BTreeMap<MaterialKey, Index<Material>>,
+    pub(super) materials: BTreeMap<GltfMaterialKey, Index<Material>>,
     pub(super) attributes: BTreeMap<u32, MeshAccessors>,
     pub(super) meshes: BTreeMap<(u32, u32), Index<Mesh>>,
     /// The image of the colours (u, 0, v).

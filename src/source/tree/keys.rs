@@ -8,14 +8,14 @@ const LINEAR_SEARCH_MAX: usize = 12;
 
 /// The keys of a tree, collected as each map closes.
 #[derive(Debug, Default)]
-pub(super) struct Keys {
+pub(super) struct KeyIndex {
     /// Duplicate keys, each with its first occurrence.
     duplicates: Vec<(NodeId, NodeId)>,
     /// The keys of each large map, sorted by text, then by position.
     sorted: BTreeMap<NodeId, Vec<NodeId>>,
 }
 
-impl Keys {
+impl KeyIndex {
     /// The sorted keys of a map, if it is large.
     pub(super) fn sorted(&self, map: NodeId) -> Option<&[NodeId]> {
         self.sorted.get(&map).map(Vec::as_slice)

@@ -71,7 +71,7 @@ mod tests;
 pub mod yaml;
 
 use super::{FileId, Span};
-use keys::Keys;
+use keys::KeyIndex;
 use pointer::PointerStep;
 use std::ops::Range;
 
@@ -104,7 +104,7 @@ enum Syntax {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Node {
+struct TreeNode {
     start: u32,
     end: u32,
     link: u32,
@@ -166,13 +166,13 @@ pub struct Tree<'s> {
     /// The offset of the text in its file.
     base: u32,
     file: FileId,
-    nodes: Vec<Node>,
+    nodes: Vec<TreeNode>,
     /// The parent and index of each node of JSON; empty for YAML.
     steps: Vec<PointerStep>,
     /// The concatenated values of strings that differ from their text, and the range of each.
     unescaped: String,
     ranges: Vec<(u32, u32)>,
-    keys: Keys,
+    keys: KeyIndex,
 }
 
 impl<'s> Tree<'s> {
@@ -186,7 +186,7 @@ impl<'s> Tree<'s> {
             steps: Vec::new(),
             unescaped: String::new(),
             ranges: Vec::new(),
-            keys: Keys::default(),
+            keys: KeyIndex::default(),
         }
     }
 
@@ -207,7 +207,7 @@ impl<'s> Tree<'s> {
         (0..to_u32(self.nodes.len())).map(NodeId)
     }
 
-    fn node(&self, id: NodeId) -> Node {
+    fn node(&self, id: NodeId) -> TreeNode {
         self.nodes[id.0 as usize]
     }
 
@@ -255,13 +255,13 @@ impl<'s> Tree<'s> {
         self.source_of(self.node(id))
     }
 
-    fn source_of(&self, node: Node) -> &'s str {
+    fn source_of(&self, node: TreeNode) -> &'s str {
         self.slice(node.start..node.end)
             .expect("a node starts and ends between characters")
     }
 
     /// The node with aliases resolved.
-    fn resolve_alias(&self, id: NodeId) -> Node {
+    fn resolve_alias(&self, id: NodeId) -> TreeNode {
         let node = self.node(id);
         if node.syntax == Syntax::Alias {
             self.node(NodeId(node.link))
@@ -313,7 +313,7 @@ impl<'s> Tree<'s> {
     }
 
     /// The value of a quoted string or a block scalar.
-    fn quoted(&self, node: Node) -> &str {
+    fn quoted(&self, node: TreeNode) -> &str {
         let text = if node.syntax == Syntax::Unescaped {
             let (start, end) = self.ranges[node.link as usize];
             self.unescaped.get(start as usize..end as usize)

@@ -12,7 +12,7 @@ fn with<R>(text: &str, look: impl FnOnce(&Tree<'_>) -> R) -> R {
 
 #[test]
 fn a_node_is_sixteen_bytes() {
-    assert_eq!(size_of::<Node>(), 16);
+    assert_eq!(size_of::<TreeNode>(), 16);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::area::has_area;
 use super::{Instance, Quad, Shape, Sphere, Surface, Triangle};
-use crate::check::{Check, EntityCounts, SMALLEST};
+use crate::check::{Checker, EntityCounts, SMALLEST};
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, ShapeKind, ValuePath};
 use rtc_math::{Positive, Vec3, unit};
@@ -13,7 +13,7 @@ pub(crate) fn surface(
     surface: &ir::Surface,
     index: usize,
     counts: &EntityCounts,
-    check: &mut Check<'_>,
+    check: &mut Checker<'_>,
 ) -> Option<Option<Surface>> {
     let ir::Surface {
         shape,
@@ -48,7 +48,7 @@ struct SurfaceCheck<'a, 'run> {
     kind: ShapeKind,
     index: usize,
     counts: &'a EntityCounts,
-    check: &'a mut Check<'run>,
+    check: &'a mut Checker<'run>,
 }
 
 impl SurfaceCheck<'_, '_> {

@@ -3,7 +3,7 @@
 mod text;
 
 use super::pointer::PointerStep;
-use super::{Node, NodeId, Syntax, Tree, keys, to_u32};
+use super::{NodeId, Syntax, Tree, TreeNode, keys, to_u32};
 use crate::FileId;
 
 /// The maximum nesting depth.
@@ -38,7 +38,7 @@ pub fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, JsonError>
 /// Parses `text` up to the first error, where all open lists and maps end.
 #[must_use]
 pub fn parse_prefix(file: FileId, base: u32, text: &str) -> (Tree<'_>, Option<JsonError>) {
-    let mut scan = Scan {
+    let mut scan = JsonScanner {
         bytes: text.as_bytes(),
         at: 0,
         tree: Tree::new(file, base, text),
@@ -54,7 +54,7 @@ pub fn parse_prefix(file: FileId, base: u32, text: &str) -> (Tree<'_>, Option<Js
     (scan.tree, error)
 }
 
-struct Scan<'s> {
+struct JsonScanner<'s> {
     bytes: &'s [u8],
     at: usize,
     tree: Tree<'s>,
@@ -62,7 +62,7 @@ struct Scan<'s> {
     open: Vec<(u32, u32)>,
 }
 
-impl Scan<'_> {
+impl JsonScanner<'_> {
     fn document(&mut self) -> Result<(), JsonError> {
         loop {
             self.value()?;
@@ -147,7 +147,7 @@ impl Scan<'_> {
             None => (0, 0),
         };
         self.tree.steps.push(PointerStep { parent, slot });
-        self.tree.nodes.push(Node {
+        self.tree.nodes.push(TreeNode {
             start: to_u32(self.at),
             end: to_u32(end),
             link,

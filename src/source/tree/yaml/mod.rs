@@ -12,7 +12,7 @@ mod typo;
 pub use layout::{LayoutFault, layout};
 pub use mistake::{Mistake, Separator};
 
-use super::{Node, NodeId, Syntax, Tree, inside_quotes, keys, to_u32};
+use super::{NodeId, Syntax, Tree, TreeNode, inside_quotes, keys, to_u32};
 use crate::{FileId, Span};
 use granit_parser::{Event, Parser, ScalarStyle, StructureStyle};
 use std::borrow::Cow;
@@ -89,10 +89,10 @@ struct TreeBuilder<'s, 'k> {
     report: &'k mut dyn FnMut(Mistake<'_>),
 }
 
-type Step = Result<(), Mistake<'static>>;
+type StepResult = Result<(), Mistake<'static>>;
 
 impl<'s> TreeBuilder<'s, '_> {
-    fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> Step {
+    fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> StepResult {
         if let Event::Scalar(value, style, anchor, tag) = event {
             self.tag(tag.is_some(), start, end);
             if style == ScalarStyle::Plain {
@@ -178,7 +178,7 @@ impl<'s> TreeBuilder<'s, '_> {
     fn push_scalar(&mut self, (syntax, link): (Syntax, u32), anchor: usize, start: u32, end: u32) {
         self.last_end = end;
         self.push(
-            Node {
+            TreeNode {
                 start,
                 end,
                 link,
@@ -188,7 +188,7 @@ impl<'s> TreeBuilder<'s, '_> {
         );
     }
 
-    fn alias(&mut self, anchor: usize, start: u32, end: u32) -> Step {
+    fn alias(&mut self, anchor: usize, start: u32, end: u32) -> StepResult {
         let at = self
             .anchors
             .binary_search_by_key(&anchor, |(anchor, _)| *anchor);
@@ -201,7 +201,7 @@ impl<'s> TreeBuilder<'s, '_> {
         }
         self.last_end = end;
         self.push(
-            Node {
+            TreeNode {
                 start,
                 end,
                 link: target.0,
@@ -219,14 +219,14 @@ impl<'s> TreeBuilder<'s, '_> {
         anchor: usize,
         start: u32,
         end: u32,
-    ) -> Step {
+    ) -> StepResult {
         if self.open.len() >= MAX_DEPTH {
             let span = self.span(start, end.max(start + 1));
             return Err(Mistake::TooDeep { span });
         }
         self.last_end = end;
         let node = self.push(
-            Node {
+            TreeNode {
                 start,
                 end,
                 link: 0,
@@ -255,7 +255,7 @@ impl<'s> TreeBuilder<'s, '_> {
         }
     }
 
-    fn push(&mut self, node: Node, anchor: usize) -> NodeId {
+    fn push(&mut self, node: TreeNode, anchor: usize) -> NodeId {
         let nodes = &mut self.tree.nodes;
         if nodes.len() == nodes.capacity() {
             // Doubling the capacity would waste as much memory as the tree of a large scene.

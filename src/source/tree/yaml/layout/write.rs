@@ -55,7 +55,7 @@ fn next_opened(items: &[LayoutItem]) -> Vec<Option<(usize, BlockKind)>> {
 }
 
 /// An open block list or map.
-struct Level {
+struct BlockLevel {
     kind: BlockKind,
     /// The column of its dashes or keys in the result, and in the source.
     column: usize,
@@ -74,7 +74,7 @@ struct LayoutWriter<'s> {
     last: Option<TokenKind>,
     /// The column of the current line in the result, and in the source.
     line_shift: (usize, usize),
-    levels: Vec<Level>,
+    levels: Vec<BlockLevel>,
     /// For each open bracket, the column of the line that closes it.
     brackets: Vec<usize>,
     /// The column of the current line, if it starts inside a bracket.
@@ -105,7 +105,7 @@ impl<'s> LayoutWriter<'s> {
         self.column = column;
         if let Some(kind) = token.opens {
             let source_column = self.source_column(token.start);
-            self.levels.push(Level {
+            self.levels.push(BlockLevel {
                 kind,
                 column,
                 source_column,
