@@ -4,6 +4,7 @@
 //! * [`course`]: the scene format of the course, YAML or JSON, with the files that a scene names.
 //! * [`gltf`]: glTF 2.0 assets with their extensions.
 //! * [`mesh`]: OBJ, OFF, STL, PLY and XYZ files. They are inputs themselves, or parts of a scene.
+//! * [`mitsuba`]: scenes of Mitsuba, XML.
 //!
 //! All front ends share the modules beside them: [`pixels`] decodes images within the budget,
 //! `glyph` gives points and lines a shape, `words` splits text files into words with spans, and

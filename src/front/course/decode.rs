@@ -1,4 +1,4 @@
-//! The basis of decoding: the trait [`Value`], values with spans, and the context that collects all
+//! The basis of decoding: the trait [`Decode`], values with spans, and the context that collects all
 //! findings.
 
 use super::schema::Definitions;
@@ -14,14 +14,14 @@ use std::collections::BTreeSet;
 use std::marker::PhantomData;
 
 /// A type of the format: it is decoded from the tree and described by a schema.
-pub(super) trait Value: Sized {
+pub(super) trait Decode: Sized {
     /// Whether the value may be a list. For other types a list of one item is read as that item.
     const IS_LIST: bool = false;
 
     /// Decodes the value; `None` if that fails, which is reported.
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self>;
 
-    /// The JSON Schema of exactly the values that [`Value::decode`] accepts without an error.
+    /// The JSON Schema of exactly the values that [`Decode::decode`] accepts without an error.
     fn schema(definitions: &mut Definitions) -> Json;
 
     /// The value as the schema shows a default.
@@ -62,7 +62,7 @@ pub(super) struct SharedValue<T> {
     pub(super) value: Option<T>,
 }
 
-impl<T: Value> Value for SharedValue<T> {
+impl<T: Decode> Decode for SharedValue<T> {
     const IS_LIST: bool = T::IS_LIST;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -102,7 +102,7 @@ impl<T> LazyList<T> {
     }
 }
 
-impl<T: Value> LazyList<T> {
+impl<T: Decode> LazyList<T> {
     /// The number of items, valid or not.
     pub(super) fn len(&self, context: &Context<'_>) -> usize {
         self.list.map_or(0, |list| context.tree.items(list).count())
@@ -129,7 +129,7 @@ impl<T: Value> LazyList<T> {
     }
 }
 
-impl<T: Value> Value for LazyList<T> {
+impl<T: Decode> Decode for LazyList<T> {
     const IS_LIST: bool = true;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {

@@ -1,6 +1,6 @@
 //! Values that are written as keywords.
 
-use super::decode::{Context, Value};
+use super::decode::{Context, Decode};
 use super::schema::Definitions;
 use super::spelling::quoted_list;
 use rtc_diag::{clip, codes, nearest};
@@ -13,7 +13,7 @@ pub(super) trait Keyword: Copy + PartialEq + 'static {
     const KEYWORDS: &'static [(&'static str, Self)];
 }
 
-impl<T: Keyword> Value for T {
+impl<T: Keyword> Decode for T {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         keyword(node, T::KEYWORDS, context)
     }

@@ -3,7 +3,7 @@
 
 use super::assets::{PendingAsset, PendingMaterial};
 use super::camera;
-use super::decode::{Context, Value, ValueKey};
+use super::decode::{Context, Decode, ValueKey};
 use super::glass::Glass;
 use super::ineffective::DependentKeys;
 use super::object::sizing::Sizing;

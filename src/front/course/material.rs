@@ -1,6 +1,6 @@
 //! The Phong material, and the choice between it and the `standard` material.
 
-use super::decode::{Context, SharedValue, Spanned, Value};
+use super::decode::{Context, Decode, SharedValue, Spanned};
 use super::glass::{Glass, glass_setting, make_opaque, report_index_without_weight};
 use super::keyword::Keyword;
 use super::keyword::keyword_schema;
@@ -76,7 +76,7 @@ pub(super) fn is_material_key(key: &str) -> bool {
 /// The key that selects the model.
 const KIND: &str = "type";
 
-impl Value for Material {
+impl Decode for Material {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let is_map = context.tree.is_map(node);
         let kind = is_map.then(|| look_up(KIND, node, context)).flatten();

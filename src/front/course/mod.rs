@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! text ──▶ spanned tree ──▶ declarations ──▶ UnfinishedScene ──▶ Lowered
-//!   yaml::parse      Value::decode      Lowering        assets::load
+//!   yaml::parse      Decode::decode     Lowering        assets::load
 //! ```
 //!
 //! 1. The parser of `rtc_source::tree::yaml` makes a tree in which every node has a span. `syntax`
@@ -12,7 +12,7 @@
 //!    The declaration is the Rust type, its decoder and its schema. A field may have several
 //!    spellings; `synonym` has those that many records share. A record may have *variants*: sets
 //!    of keys of which exactly one must be present (`variant`). The types of values are in
-//!    `number`, `value`, `keyword` and `rotation`; each implements `decode::Value`.
+//!    `number`, `value`, `keyword` and `rotation`; each implements `decode::Decode`.
 //! 3. `lower` turns each record into entities of the IR as soon as it is decoded, and records the
 //!    span of every value. Decisions that need the entire scene follow at the end: soft lights,
 //!    ambiguous tori, path tracing, the ambient term, glass. The result is an

@@ -4,7 +4,7 @@
 //! the validator checks ranges, because a scene need not come from text.
 
 use super::core_schema::{ScalarNumber, is_foreign_non_finite, parse_number};
-use super::decode::{Context, Value, describe};
+use super::decode::{Context, Decode, describe};
 use super::schema::Definitions;
 use rtc_diag::clip;
 use rtc_diag::codes;
@@ -179,7 +179,7 @@ macro_rules! ranged {
         #[derive(Clone, Copy, Debug)]
         pub(in crate::course) struct $name(pub(in crate::course) $inner);
 
-        impl Value for $name {
+        impl Decode for $name {
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
                 let decode: fn(NodeId, &mut Context<'_>) -> Option<$inner> = $decode;
                 decode(node, context).map(Self)

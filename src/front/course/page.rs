@@ -7,7 +7,7 @@ use super::light::Light;
 use super::material::PhongMaterial;
 use super::object::{KINDS, ObjectKind};
 use super::path_settings::PathParameters;
-use super::record::{FieldDeclaration, Presence, Record};
+use super::record::{FieldDeclaration, Record, Requirement};
 use super::sampling::SamplingMap;
 use super::schema::Definitions;
 use super::settings::{Gooch, Scene};
@@ -73,7 +73,7 @@ fn section(title: &str, record: &Record, page: &mut String) {
         doc,
         spellings,
         json,
-        presence,
+        requirement,
         schema,
     } in record.fields
     {
@@ -87,16 +87,16 @@ fn section(title: &str, record: &Record, page: &mut String) {
         let in_json = in_json.collect::<Vec<_>>().join("; ");
         let in_variant = record.variants.iter().any(|variant| variant.contains(name));
         // The default.
-        let default = match presence {
-            Presence::Required => "required".to_owned(),
-            Presence::Unless(other) => {
+        let default = match requirement {
+            Requirement::Required => "required".to_owned(),
+            Requirement::Unless(other) => {
                 let other = record.fields.iter().find(|field| field.name == *other);
                 let other = other.map_or_else(String::new, |field| code(field.spellings[0]));
                 format!("required without {other}")
             }
-            Presence::Optional if in_variant => "see below".to_owned(),
-            Presence::Optional => "none".to_owned(),
-            Presence::Default(default) => format!("`{}`", default()),
+            Requirement::Optional if in_variant => "see below".to_owned(),
+            Requirement::Optional => "none".to_owned(),
+            Requirement::Default(default) => format!("`{}`", default()),
         };
         let kind = kind(&schema(&mut Definitions::default()));
         let (key, others, meaning) = (code(canonical), others.join("; "), doc.trim());

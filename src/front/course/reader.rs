@@ -3,7 +3,7 @@
 
 use super::decode::{Context, MapEntry, ValueKey, describe};
 use super::material::is_material_key;
-use super::record::{FieldDeclaration, FieldOutcome, FieldValue, Presence, Record};
+use super::record::{FieldDeclaration, FieldOutcome, FieldValue, Record, Requirement};
 use super::spelling::{quoted_list, same_letters};
 use super::synonym::foreign_key_advice;
 use super::variant;
@@ -125,10 +125,10 @@ impl MapReader {
                 .position(|field| field.name == name);
             at.is_some_and(|at| self.rows[at].is_some())
         };
-        let required = |field: &FieldDeclaration| match field.presence {
-            Presence::Required => true,
-            Presence::Unless(other) => !has(other),
-            Presence::Optional | Presence::Default(_) => false,
+        let required = |field: &FieldDeclaration| match field.requirement {
+            Requirement::Required => true,
+            Requirement::Unless(other) => !has(other),
+            Requirement::Optional | Requirement::Default(_) => false,
         };
         let absent = |at: &usize| self.rows[*at].is_none() && partial & (1 << at) == 0;
         let fields = self.record.fields.iter().enumerate();

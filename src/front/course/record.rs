@@ -5,7 +5,7 @@
 //! have several spellings, the canonical one first; the declaration marks those of the course's
 //! JSON files. Every key of a map is either read by one field or reported.
 
-use super::decode::{Context, MapEntry, Spanned, Value, ValueKey};
+use super::decode::{Context, Decode, MapEntry, Spanned, ValueKey};
 use super::schema::Definitions;
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
@@ -15,7 +15,7 @@ use serde_json::{Value as Json, json};
 pub(super) type Spellings = &'static [&'static [&'static str]];
 
 /// Whether a field is required.
-pub(super) enum Presence {
+pub(super) enum Requirement {
     Required,
     Optional,
     /// Required, unless the field of this name is present.
@@ -31,7 +31,7 @@ pub(super) struct FieldDeclaration {
     pub(super) spellings: Spellings,
     /// The spellings in the JSON files of the course, by their first keys.
     pub(super) json: &'static [&'static str],
-    pub(super) presence: Presence,
+    pub(super) requirement: Requirement,
     /// The schema of each value of the field.
     pub(super) schema: fn(&mut Definitions) -> Json,
 }
@@ -60,7 +60,7 @@ macro_rules! record {
         struct $name:ident, $record_name:literal {
             $(
                 $(#[doc = $field_doc:literal])+
-                $field:ident: $type:ty, $presence:ident $(($default:expr))?, $spellings:expr
+                $field:ident: $type:ty, $requirement:ident $(($default:expr))?, $spellings:expr
                     $(, json $json:literal)*;
             )+
         }
@@ -69,7 +69,7 @@ macro_rules! record {
     ) => {
         $(#[doc = $doc])+
         pub(in crate::course) struct $name {
-            $($(#[doc = $field_doc])+ pub(in crate::course) $field: record!(@type $presence $type),)+
+            $($(#[doc = $field_doc])+ pub(in crate::course) $field: record!(@type $requirement $type),)+
         }
 
         impl $name {
@@ -83,7 +83,7 @@ macro_rules! record {
                     doc: concat!($($field_doc),+),
                     spellings: $spellings,
                     json: &[$($json),*],
-                    presence: record!(@presence $presence $type $(, $default)?),
+                    requirement: record!(@requirement $requirement $type $(, $default)?),
                     schema: <$type as $crate::course::record::FieldValue>::schema,
                 }),+],
                 variants: &[
@@ -94,7 +94,7 @@ macro_rules! record {
             };
         }
 
-        impl $crate::course::decode::Value for $name {
+        impl $crate::course::decode::Decode for $name {
             fn decode(
                 node: rtc_source::tree::NodeId,
                 context: &mut $crate::course::decode::Context<'_>,
@@ -103,7 +103,7 @@ macro_rules! record {
                     $crate::course::reader::MapReader::open(&Self::RECORD, node, context)?;
                 $(let $field = reader.next::<$type>(context);)+
                 reader.close(context).then_some(())?;
-                Some(Self { $($field: record!(@value $presence $field $(, $default)?)),+ })
+                Some(Self { $($field: record!(@value $requirement $field $(, $default)?)),+ })
             }
 
             fn schema(definitions: &mut $crate::course::schema::Definitions) -> serde_json::Value {
@@ -113,12 +113,12 @@ macro_rules! record {
     };
     (@type optional $type:ty) => { $crate::course::record::FieldOutcome<$type> };
     (@type unless $type:ty) => { $crate::course::record::FieldOutcome<$type> };
-    (@type $presence:ident $type:ty) => { $type };
-    (@presence required $type:ty) => { $crate::course::record::Presence::Required };
-    (@presence optional $type:ty) => { $crate::course::record::Presence::Optional };
-    (@presence unless $type:ty, $other:expr) => { $crate::course::record::Presence::Unless($other) };
-    (@presence default $type:ty, $default:expr) => {
-        $crate::course::record::Presence::Default(|| $crate::course::decode::Value::json(&$default))
+    (@type $requirement:ident $type:ty) => { $type };
+    (@requirement required $type:ty) => { $crate::course::record::Requirement::Required };
+    (@requirement optional $type:ty) => { $crate::course::record::Requirement::Optional };
+    (@requirement unless $type:ty, $other:expr) => { $crate::course::record::Requirement::Unless($other) };
+    (@requirement default $type:ty, $default:expr) => {
+        $crate::course::record::Requirement::Default(|| $crate::course::decode::Decode::json(&$default))
     };
     (@value required $found:ident) => { $found.ok()? };
     (@value optional $found:ident) => { $found };
@@ -176,7 +176,7 @@ pub(super) trait FieldValue: Sized {
     fn schema(definitions: &mut Definitions) -> Json;
 }
 
-impl<T: Value> FieldValue for Spanned<T> {
+impl<T: Decode> FieldValue for Spanned<T> {
     fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self> {
         let MapEntry {
             key: text,
@@ -212,7 +212,7 @@ impl<T: Value> FieldValue for Spanned<T> {
     }
 }
 
-impl<T: Value, const N: usize> FieldValue for [Spanned<T>; N] {
+impl<T: Decode, const N: usize> FieldValue for [Spanned<T>; N] {
     fn take(entries: &[usize], context: &mut Context<'_>) -> Option<Self> {
         // Collected first, so that a mistake in one value does not hide those in others.
         let read: Vec<_> = entries

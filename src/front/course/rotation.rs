@@ -1,6 +1,6 @@
 //! Rotations: by angles about the axes, by an axis and an angle, and by quaternions; and matrices.
 
-use super::decode::{Context, Spanned, Value};
+use super::decode::{Context, Decode, Spanned};
 use super::number::{Degrees, number, plain_number};
 use super::record::FieldOutcome;
 use super::schema::Definitions;
@@ -15,7 +15,7 @@ use serde_json::{Value as Json, json};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quaternion(pub(super) [f64; 4]);
 
-impl Value for Quaternion {
+impl Decode for Quaternion {
     const IS_LIST: bool = true;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -38,7 +38,7 @@ macro_rules! matrix {
         #[derive(Clone, Copy, Debug)]
         pub(super) struct $name(pub(super) [[f64; 3]; $columns]);
 
-        impl Value for $name {
+        impl Decode for $name {
             const IS_LIST: bool = true;
 
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -75,7 +75,7 @@ matrix! {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rotation<T>(pub(super) Option<T>);
 
-impl<T: Value> Value for Rotation<T> {
+impl<T: Decode> Decode for Rotation<T> {
     const IS_LIST: bool = T::IS_LIST;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -103,7 +103,7 @@ impl<T: Value> Value for Rotation<T> {
     }
 
     fn json(&self) -> Json {
-        self.0.as_ref().map_or(Json::Null, Value::json)
+        self.0.as_ref().map_or(Json::Null, Decode::json)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Supersampling: the number and the positions of the rays of a pixel.
 
-use super::decode::{Context, Spanned, Value};
+use super::decode::{Context, Decode, Spanned};
 use super::keyword::Keyword;
 use super::number::{Count, is_number, plain_number};
 use super::record::{keys, record};
@@ -51,7 +51,7 @@ impl SuperSampling {
     };
 }
 
-impl Value for SuperSampling {
+impl Decode for SuperSampling {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Map => {

@@ -3,9 +3,9 @@
 //! It accepts exactly what the decoder accepts with `--strict`: it rejects unknown keys, and `Eye`
 //! beside `Camera`.
 
-use super::decode::Value;
+use super::decode::Decode;
 use super::reader::COMMENT;
-use super::record::{FieldDeclaration, Presence, Record};
+use super::record::{FieldDeclaration, Record, Requirement};
 use super::settings::Scene;
 use serde_json::{Map, Value as Json, json};
 
@@ -71,16 +71,16 @@ fn record_schema(record: &Record, definitions: &mut Definitions) -> Json {
     let mut required = Vec::new();
     let mut rules = Vec::new();
     for field in record.fields.iter().filter(|field| !in_variant(field)) {
-        match (&field.presence, field.spellings) {
-            (Presence::Required, [[key]]) => required.push(*key),
-            (Presence::Required, _) => rules.push(one_row(field)),
-            (Presence::Unless(other), _) => {
+        match (&field.requirement, field.spellings) {
+            (Requirement::Required, [[key]]) => required.push(*key),
+            (Requirement::Required, _) => rules.push(one_row(field)),
+            (Requirement::Unless(other), _) => {
                 let other = record.fields.iter().find(|field| field.name == *other);
                 let either = [Some(field), other].into_iter().flatten().map(one_row);
                 rules.push(json!({ "anyOf": either.collect::<Vec<_>>() }));
             }
-            (Presence::Optional | Presence::Default(_), [[_]]) => {}
-            (Presence::Optional | Presence::Default(_), _) => {
+            (Requirement::Optional | Requirement::Default(_), [[_]]) => {}
+            (Requirement::Optional | Requirement::Default(_), _) => {
                 rules.push(json!({ "anyOf": [one_row(field), absent(field)] }))
             }
         }
@@ -135,14 +135,14 @@ fn field_properties(
             property.insert("description".to_owned(), json!(doc));
             // Editors insert keys with a default when they complete an object, so only one key of
             // each field has it.
-            match field.presence {
-                Presence::Default(default) if is_canonical => {
+            match field.requirement {
+                Requirement::Default(default) if is_canonical => {
                     drop(property.insert("default".to_owned(), default()))
                 }
-                Presence::Required
-                | Presence::Optional
-                | Presence::Unless(_)
-                | Presence::Default(_) => {}
+                Requirement::Required
+                | Requirement::Optional
+                | Requirement::Unless(_)
+                | Requirement::Default(_) => {}
             }
             if !is_canonical {
                 property.insert("deprecated".to_owned(), json!(true));

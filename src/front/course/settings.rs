@@ -1,7 +1,7 @@
 //! The top-level map of the file, and the settings in it.
 
 use super::camera::Camera;
-use super::decode::{Context, LazyList, Spanned, Value};
+use super::decode::{Context, Decode, LazyList, Spanned};
 use super::environment::Environment;
 use super::keyword::{keyword, keyword_schema};
 use super::light::Light;
@@ -143,7 +143,7 @@ const NUMBERED: &[(u8, Mode)] = &[
     (4, Mode::Gooch),
 ];
 
-impl Value for Mode {
+impl Decode for Mode {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let parameters = plain_number(node, context);
         let numbered = NUMBERED

@@ -1,6 +1,6 @@
 //! The other value types of the format: vectors, colours, booleans, switches and strings.
 
-use super::decode::{Context, Value, describe};
+use super::decode::{Context, Decode, describe};
 use super::keyword::keyword_schema;
 use super::number::{is_number, json_number, number, plain_number, radians};
 use super::schema::Definitions;
@@ -73,7 +73,7 @@ macro_rules! triple {
         #[derive(Clone, Copy, Debug)]
         pub(super) struct $name(pub(super) [f64; 3]);
 
-        impl Value for $name {
+        impl Decode for $name {
             const IS_LIST: bool = true;
 
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -124,7 +124,7 @@ macro_rules! spread {
         #[derive(Clone, Copy, Debug)]
         pub(super) struct $name(pub(super) [f64; 3]);
 
-        impl Value for $name {
+        impl Decode for $name {
             const IS_LIST: bool = true;
 
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -168,7 +168,7 @@ spread! {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Uv(pub(super) [f64; 2]);
 
-impl Value for Uv {
+impl Decode for Uv {
     const IS_LIST: bool = true;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -187,7 +187,7 @@ impl Value for Uv {
 /// Booleans that some files write as numbers.
 const NUMBERED: &[(u8, &str, bool)] = &[(0, "false", false), (1, "true", true)];
 
-impl Value for bool {
+impl Decode for bool {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         // A number in place of a boolean.
         let value = plain_number(node, context);
@@ -262,7 +262,7 @@ pub(super) struct Switch(pub(super) bool);
 /// The keywords of a switch.
 const SWITCH_KEYWORDS: &[(&str, bool)] = &[("on", true), ("off", false)];
 
-impl Value for Switch {
+impl Decode for Switch {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let written = context.tree.text(node).unwrap_or_default();
         let known = SWITCH_KEYWORDS
@@ -288,7 +288,7 @@ impl Value for Switch {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AnyScalar;
 
-impl Value for AnyScalar {
+impl Decode for AnyScalar {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Word(_) | NodeContent::Text(_) => Some(Self),
@@ -305,7 +305,7 @@ impl Value for AnyScalar {
 #[derive(Clone, Debug)]
 pub(super) struct DisplayName(pub(super) String);
 
-impl Value for DisplayName {
+impl Decode for DisplayName {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Word(text) | NodeContent::Text(text) => Some(Self(text.to_owned())),
@@ -322,7 +322,7 @@ impl Value for DisplayName {
 #[derive(Clone, Debug)]
 pub(super) struct FileName(pub(super) String);
 
-impl Value for FileName {
+impl Decode for FileName {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Word(scalar) if is_string(scalar) => Some(Self(scalar.to_owned())),

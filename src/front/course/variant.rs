@@ -1,7 +1,7 @@
 //! The variants of a record: sets of fields, of which exactly one must be present.
 
 use super::decode::Context;
-use super::record::{FieldDeclaration, Presence, Record};
+use super::record::{FieldDeclaration, Record, Requirement};
 use super::spelling::quoted_list;
 use rtc_diag::{Severity, codes};
 use rtc_source::Span;
@@ -30,10 +30,10 @@ pub(super) fn check(
     }
     // A required field counts as present: if it is missing, that was reported. A field with a
     // default belongs to no variant.
-    let present = |at: usize, field: &FieldDeclaration| match field.presence {
-        Presence::Required => true,
-        Presence::Optional | Presence::Unless(_) => is_there(at),
-        Presence::Default(_) => false,
+    let present = |at: usize, field: &FieldDeclaration| match field.requirement {
+        Requirement::Required => true,
+        Requirement::Optional | Requirement::Unless(_) => is_there(at),
+        Requirement::Default(_) => false,
     };
     let in_variants =
         |field: &FieldDeclaration| variants.iter().any(|variant| variant.contains(&field.name));

@@ -1,6 +1,6 @@
 //! The size of the image in pixels, in all notations.
 
-use super::decode::{Context, Spanned, Value};
+use super::decode::{Context, Decode, Spanned};
 use super::lower::Lowering;
 use super::number::{PixelCount, json_number, plain_number};
 use super::record::{FieldOutcome, record};
@@ -41,7 +41,7 @@ record! {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ViewSize(pub(super) [u32; 2]);
 
-impl Value for ViewSize {
+impl Decode for ViewSize {
     const IS_LIST: bool = true;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {

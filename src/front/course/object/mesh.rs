@@ -4,7 +4,7 @@ use super::Lower;
 use super::sizing::Sizing;
 use super::sphere::Radius;
 use crate::course::assets::{MaterialSource, PendingMaterial};
-use crate::course::decode::{Context, SharedValue, Spanned, Value};
+use crate::course::decode::{Context, Decode, SharedValue, Spanned};
 use crate::course::keyword::Keyword;
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
@@ -88,7 +88,7 @@ impl Keyword for LibraryKind {
 #[derive(Clone, Debug)]
 pub(in crate::course) struct PartName(String);
 
-impl Value for PartName {
+impl Decode for PartName {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::Word(text) | NodeContent::Text(text) => Some(Self(text.to_owned())),

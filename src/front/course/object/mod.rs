@@ -29,7 +29,7 @@ mod sphere;
 pub(super) mod torus;
 mod triangle;
 
-use super::decode::{Context, SharedValue, Spanned, Value, ValueKey};
+use super::decode::{Context, Decode, SharedValue, Spanned, ValueKey};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::NonNegative;
@@ -108,7 +108,7 @@ kinds! {
     gltf Gltf "gltf";
 }
 
-impl Value for Object {
+impl Decode for Object {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         if !context.tree.is_map(node) {
             return context.expected(node, "a map");

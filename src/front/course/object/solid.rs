@@ -3,7 +3,7 @@
 use super::Lower;
 use super::quad::FOUR_CORNERS;
 use super::triangle::{CORNERS, VERTICES};
-use crate::course::decode::{Context, SharedValue, Spanned, Value};
+use crate::course::decode::{Context, Decode, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, Real, json_number};
@@ -136,7 +136,7 @@ impl ThirdEdge {
     }
 }
 
-impl Value for ThirdEdge {
+impl Decode for ThirdEdge {
     const IS_LIST: bool = true;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {

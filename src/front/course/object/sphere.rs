@@ -1,7 +1,7 @@
 //! The sphere and the rotation of its texture.
 
 use super::Lower;
-use crate::course::decode::{Context, SharedValue, Spanned, Value};
+use crate::course::decode::{Context, Decode, SharedValue, Spanned};
 use crate::course::lower::Lowering;
 use crate::course::material::Material;
 use crate::course::number::{Degrees, NonNegative, json_number};
@@ -49,7 +49,7 @@ pub(in crate::course) struct Radius {
     pub(in crate::course) axis: Option<Spanned<Vector>>,
 }
 
-impl Value for Radius {
+impl Decode for Radius {
     const IS_LIST: bool = true;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {

@@ -3,7 +3,7 @@
 //! `rtc_tables::parameters!` lists the parameters with their kinds and defaults. The macros here
 //! turn each row into a field of the record [`StandardMaterial`]: the key is the name of the row in
 //! camel case, the kind of the row selects the type of the value (`written!`), its default
-//! (`presence!`) and its lowering (`lowered!`). A parameter that is added to the table is decoded,
+//! (`requirement!`) and its lowering (`lowered!`). A parameter that is added to the table is decoded,
 //! documented and lowered without a change here.
 //!
 //! `texture` has the record of a texture, with the placement and sampling of glTF; `value` has the
@@ -15,11 +15,11 @@ mod value;
 
 pub(super) use texture::TextureMap;
 
-use super::decode::{Context, Spanned, Value};
+use super::decode::{Context, Decode, Spanned};
 use super::lower::Lowering;
 use super::number::{NonNegative, Positive, Real};
 use super::reader::MapReader;
-use super::record::{FieldDeclaration, FieldOutcome, FieldValue, Presence, Record};
+use super::record::{FieldDeclaration, FieldOutcome, FieldValue, Record, Requirement};
 use super::schema::{self, Definitions};
 use super::value::{AnyScalar, Color, DisplayName};
 use rtc_ir::{self as ir, Alpha};
@@ -79,21 +79,21 @@ macro_rules! written {
 }
 
 /// The default for each kind of parameter.
-macro_rules! presence {
+macro_rules! requirement {
     (map, $default:expr) => {
-        Presence::Optional
+        Requirement::Optional
     };
     (distance, $default:expr) => {
-        Presence::Optional
+        Requirement::Optional
     };
     (some_fractions, $default:expr) => {
-        Presence::Optional
+        Requirement::Optional
     };
     (flag, $default:expr) => {
-        Presence::Default(|| Value::json(&$default))
+        Requirement::Default(|| Decode::json(&$default))
     };
     ($kind:ident, $default:expr) => {
-        Presence::Default(|| Value::json(&<written!($kind)>::from($default)))
+        Requirement::Default(|| Decode::json(&<written!($kind)>::from($default)))
     };
 }
 
@@ -141,7 +141,7 @@ macro_rules! material {
                         doc: " `standard`: which material this is.",
                         spellings: &[&["type"]],
                         json: &[],
-                        presence: Presence::Required,
+                        requirement: Requirement::Required,
                         schema: <Spanned<AnyScalar> as FieldValue>::schema,
                     },
                     FieldDeclaration {
@@ -149,7 +149,7 @@ macro_rules! material {
                         doc: " A name for people to read.",
                         spellings: &[&["name"]],
                         json: &[],
-                        presence: Presence::Optional,
+                        requirement: Requirement::Optional,
                         schema: <Spanned<DisplayName> as FieldValue>::schema,
                     },
                     $(FieldDeclaration {
@@ -157,7 +157,7 @@ macro_rules! material {
                         doc: concat!($($about),*),
                         spellings: &[&[camel_case!($field)]],
                         json: &[],
-                        presence: presence!($kind, $default),
+                        requirement: requirement!($kind, $default),
                         schema: <Spanned<written!($kind)> as FieldValue>::schema,
                     },)*
                 ],
@@ -178,7 +178,7 @@ macro_rules! material {
             }
         }
 
-        impl Value for StandardMaterial {
+        impl Decode for StandardMaterial {
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
                 let mut reader = MapReader::open(&Self::RECORD, node, context)?;
                 let _ = reader.next::<Spanned<AnyScalar>>(context);

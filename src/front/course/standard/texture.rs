@@ -1,6 +1,6 @@
 //! The textures of a `standard` material: images with the placement and sampling of glTF.
 
-use super::super::decode::{Context, Spanned, Value};
+use super::super::decode::{Context, Decode, Spanned};
 use super::super::keyword::{keyword, keyword_schema};
 use super::super::lower::Lowering;
 use super::super::record::{FieldOutcome, keys, record};
@@ -35,7 +35,7 @@ record! {
 /// A texture, or the name of its file alone.
 pub(in crate::course) struct MapOrFile(pub(super) TextureMap);
 
-impl Value for MapOrFile {
+impl Decode for MapOrFile {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         if context.tree.is_map(node) {
             return TextureMap::decode(node, context).map(Self);
@@ -67,7 +67,7 @@ const WRAPS: &[(&str, Wrap)] = &[
     ("clamp", Wrap::Clamp),
 ];
 
-impl Value for WrapModes {
+impl Decode for WrapModes {
     const IS_LIST: bool = true;
 
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {

@@ -1,6 +1,6 @@
 //! The value types of a `standard` material: fractions, ranges, alpha modes.
 
-use super::super::decode::{Context, Spanned, Value};
+use super::super::decode::{Context, Decode, Spanned};
 use super::super::keyword::{keyword, keyword_schema};
 use super::super::number::{NonNegative, Real, integer, json_number, number, ranged};
 use super::super::record::{keys, record};
@@ -41,7 +41,7 @@ macro_rules! numbers {
         #[derive(Clone, Copy, Debug)]
         pub(super) struct $name(pub(super) [f64; $count]);
 
-        impl Value for $name {
+        impl Decode for $name {
             const IS_LIST: bool = true;
 
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -125,7 +125,7 @@ record! {
     }
 }
 
-impl Value for AlphaMode {
+impl Decode for AlphaMode {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         if context.tree.is_map(node) {
             let mask = Mask::decode(node, context)?;
