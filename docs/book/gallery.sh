@@ -47,7 +47,7 @@ for name in bricks toon town; do
 done
 
 # Scenes whose light is followed along all paths.
-picture vases scenes/vases.yaml --size 480x360 --spp 32 --denoise
+picture vases scenes/vases.yaml --size 480x360 --spp 96 --clamp 2
 for name in fence lamp lanterns room sheen spots sun-and-sky; do
     picture "$name" "$own/$name.yaml" --spp 32 --denoise
 done
@@ -61,7 +61,7 @@ for variant in red blue brass; do
     picture "top-$variant" "$own/top.glb" --size 320 --variant "$variant" --spp 32 --denoise
 done
 picture top-above "$own/top.glb" --size 320 --camera above --spp 32 --denoise
-picture top-tilted "$own/top.glb" --size 320 --animation wobble --time 0.5 --spp 32 --denoise
+picture top-tilted "$own/top.glb" --size 320 --animation wobble --time 0.25 --spp 32 --denoise
 
 # The scene of `mistakes` after its repair, and where the rays of a study go.
 made=$(mktemp -d)
