@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the binary seeds: pictures of 6 by 5 pixels in many forms, and folders that hold some of them.
 
-Needs Pillow, numpy and OpenEXR. The seeds are in the repository, so only who wants others runs it.
+Needs Pillow, numpy and OpenEXR; `ktx2.mjs` makes those in KTX2. The seeds are in the repository, so only who wants others runs it.
 """
 
 import io

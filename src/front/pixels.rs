@@ -13,7 +13,7 @@ use rtc_source::{Budget, Exceeded, FileKind, Resource};
 
 /// The image formats of textures.
 pub const PICTURES: FileKind = FileKind {
-    extensions: &["png", "jpg", "jpeg", "webp"],
+    extensions: &["png", "jpg", "jpeg", "webp", "ktx2"],
     begins: is_picture,
 };
 
@@ -32,7 +32,7 @@ impl From<DecodeError> for PixelFault {
     }
 }
 
-/// Decodes a PNG, JPEG or WebP.
+/// Decodes a PNG, JPEG, WebP or KTX2.
 ///
 /// # Errors
 /// If the file has another format, is damaged, or exceeds the budget.
@@ -51,7 +51,7 @@ pub struct ChargedFile<'a> {
     scratch: u64,
 }
 
-/// Charges the cost of a PNG, JPEG or WebP. The decoder is dropped, because it holds memory of its
+/// Charges the cost of a PNG, JPEG, WebP or KTX2. The decoder is dropped, because it holds memory of its
 /// own.
 ///
 /// # Errors
@@ -144,7 +144,7 @@ pub(super) fn rejection(fault: &PixelFault, what: &str, formats: &'static str) -
         PixelFault::File(fault) => fault,
     };
     let (code, hint) = match fault {
-        DecodeError::Format(_) => (&codes::BAD_PICTURE, formats),
+        DecodeError::Format(_) | DecodeError::Unsupported(_) => (&codes::BAD_PICTURE, formats),
         DecodeError::Damaged(_) => (&codes::BAD_PICTURE, "save the picture again"),
         DecodeError::TooLarge {
             width: _,

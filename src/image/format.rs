@@ -1,11 +1,14 @@
 //! The formats of pictures, told apart by the first bytes of a file.
 
+use super::decode::ktx2::MAGIC;
+
 /// A format that a file may be of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PictureFormat {
     Png,
     Jpeg,
     WebP,
+    Ktx2,
     /// One that is read elsewhere or not at all, by its name.
     Other(&'static str),
 }
@@ -15,7 +18,8 @@ impl PictureFormat {
     pub(super) fn of(head: &[u8]) -> Option<Self> {
         let mut known = MAGICS.iter();
         let plain = known.find(|(magic, _)| head.starts_with(magic));
-        plain.map(|(_, format)| *format).or_else(|| boxed(head))
+        let plain = plain.map(|(_, format)| *format).or_else(|| boxed(head));
+        plain.or_else(|| head.starts_with(MAGIC).then_some(Self::Ktx2))
     }
 
     /// What it is called: its media type, without `image/`.
@@ -24,6 +28,7 @@ impl PictureFormat {
             Self::Png => "png",
             Self::Jpeg => "jpeg",
             Self::WebP => "webp",
+            Self::Ktx2 => "ktx2",
             Self::Other(name) => name,
         }
     }

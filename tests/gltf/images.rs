@@ -49,6 +49,22 @@ fn images_come_in_their_order_on_any_number_of_threads() {
 }
 
 #[test]
+fn the_image_in_ktx2_is_taken() {
+    let (pixels, findings) = loaded(&make::ktx2(), Limits::default(), 1);
+    assert_eq!(pixels.len(), 1, "{findings:#?}");
+    // 10 × 6 pixels: red, green and blue above white of some opacity, and grey.
+    let corners = [0, 9, 50, 59].map(|pixel| pixels[0][4 * pixel..][..4].to_vec());
+    let colors = [
+        [255, 0, 0, 255],
+        [0, 0, 255, 255],
+        [255, 255, 255, 102],
+        [99, 99, 99, 255],
+    ];
+    assert_eq!(corners, colors);
+    assert_said(&findings, &[("/images/0", ""), ("/images/1", "10 × 6")]);
+}
+
+#[test]
 fn a_damaged_image_is_told_between_its_neighbours() {
     let asset = make::images(&[3, 64, 5, 7], Some(1));
     let (pixels, findings) = loaded(&asset, Limits::default(), 1);

@@ -357,6 +357,26 @@ pub(super) fn texture() -> Vec<u8> {
     }))
 }
 
+/// Two textures of a PNG and of a KTX2, which is taken: one names the PNG too.
+pub(super) fn ktx2() -> Vec<u8> {
+    const KTX2: &[u8] = include_bytes!("../../fuzz/corpus/image/uastc.ktx2");
+    let mut maker = Maker::default();
+    let triangle = maker.floats("VEC3", 3, &TRIANGLE);
+    let uvs = maker.floats("VEC2", 2, &[0.0, 1.0, 1.0, 1.0, 0.0, 0.0]);
+    let replaced = json!({"KHR_texture_basisu": {"source": 1}});
+    maker.finish(json!({
+        "extensionsUsed": ["KHR_texture_basisu"], "extensionsRequired": ["KHR_texture_basisu"],
+        "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": triangle, "TEXCOORD_0": uvs}, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "emissiveTexture": {"index": 1}}],
+        "textures": [{"extensions": replaced}, {"source": 0, "extensions": replaced}],
+        "images": [
+            {"uri": format!("data:image/png;base64,{PNG}")},
+            {"uri": format!("data:image/ktx2;base64,{}", STANDARD.encode(KTX2))},
+        ],
+    }))
+}
+
 /// A triangle for each of some square images of these sides, of which one may be cut short.
 pub(super) fn images(sides: &[u32], cut: Option<usize>) -> Vec<u8> {
     let mut maker = Maker::default();

@@ -199,9 +199,9 @@ fn files(folder: &Path) -> Vec<CompletionItem> {
 
 /// Whether scenes name files like this one: pictures, meshes, assets, profiles of lamps.
 fn is_named_by_scenes(name: &str) -> bool {
-    const KINDS: [&str; 13] = [
-        "png", "jpg", "jpeg", "webp", "hdr", "exr", "obj", "off", "stl", "ply", "gltf", "glb",
-        "ies",
+    const KINDS: [&str; 14] = [
+        "png", "jpg", "jpeg", "webp", "ktx2", "hdr", "exr", "obj", "off", "stl", "ply", "gltf",
+        "glb", "ies",
     ];
     let extension = Path::new(name)
         .extension()

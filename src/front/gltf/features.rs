@@ -14,7 +14,7 @@ const SRGB: [u32; 8] = [
 pub(super) fn unfollowed(format: ImageCoding, bytes: &[u8]) -> Option<&'static str> {
     match format {
         ImageCoding::Png => png(bytes),
-        ImageCoding::Jpeg => None,
+        ImageCoding::Jpeg | ImageCoding::Ktx2 => None,
         ImageCoding::WebP => webp(bytes),
     }
 }

@@ -35,6 +35,7 @@ pub(super) enum ImageCoding {
     Png,
     Jpeg,
     WebP,
+    Ktx2,
 }
 
 impl ImageCoding {
@@ -43,6 +44,7 @@ impl ImageCoding {
             Self::Png => "image/png",
             Self::Jpeg => "image/jpeg",
             Self::WebP => "image/webp",
+            Self::Ktx2 => "image/ktx2",
         }
     }
 
@@ -53,6 +55,8 @@ impl ImageCoding {
             Some(Self::Jpeg)
         } else if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
             Some(Self::WebP)
+        } else if bytes.starts_with(b"\xabKTX 20\xbb\r\n\x1a\n") {
+            Some(Self::Ktx2)
         } else {
             None
         }
@@ -64,6 +68,7 @@ impl ImageCoding {
             Self::Png => bytes.len() < 33,
             Self::Jpeg => jpeg_ends_early(bytes),
             Self::WebP => bytes.len() < 30,
+            Self::Ktx2 => bytes.len() < 28,
         }
     }
 }
@@ -171,7 +176,7 @@ pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut Asset
         };
         let (at, media) = (image.at, image.media.as_deref());
         let Some(format) = ImageCoding::of(bytes) else {
-            let message = "the image is neither PNG nor JPEG nor WebP".to_owned();
+            let message = "the image is neither PNG, JPEG, WebP nor KTX2".to_owned();
             report.say(
                 &codes::GLTF_IMAGE_ODD,
                 "IMAGE_UNRECOGNIZED_FORMAT",
@@ -232,10 +237,15 @@ fn check_media(
         let (alias, mended) = ("IMAGE_MIME_TYPE_INVALID", "its bytes count");
         report.mend(&codes::GLTF_IMAGE, alias, at, &message, mended);
     }
-    if format == ImageCoding::WebP && !doc.uses("EXT_texture_webp") {
-        let message = "a WebP image needs the extension `EXT_texture_webp`";
+    let (name, extension) = match format {
+        ImageCoding::Png | ImageCoding::Jpeg => return,
+        ImageCoding::WebP => ("WebP", "EXT_texture_webp"),
+        ImageCoding::Ktx2 => ("KTX2", "KHR_texture_basisu"),
+    };
+    if !doc.uses(extension) {
+        let message = format!("a {name} image needs the extension `{extension}`");
         let (alias, mended) = ("IMAGE_NON_ENABLED_MIME_TYPE", "it is read");
-        report.mend(&codes::GLTF_IMAGE, alias, at, message, mended);
+        report.mend(&codes::GLTF_IMAGE, alias, at, &message, mended);
     }
 }
 
@@ -321,7 +331,7 @@ impl Refusal {
                 width: _,
                 height: _,
             } => (&codes::GLTF_HUGE_IMAGE, ""),
-            DecodeError::Format(_) | DecodeError::Damaged(_) => {
+            DecodeError::Format(_) | DecodeError::Unsupported(_) | DecodeError::Damaged(_) => {
                 (&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID")
             }
         };

@@ -15,6 +15,8 @@ pub(super) struct Texture {
     pub(super) source: Option<usize>,
     /// A WebP, which is taken in its place.
     pub(super) webp: Option<usize>,
+    /// A KTX2, which is taken in place of both.
+    pub(super) ktx2: Option<usize>,
     pub(super) sampler: Option<usize>,
 }
 
@@ -30,12 +32,12 @@ pub(super) const REPEAT: u64 = 10497;
 
 impl Texture {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        let source = |fields: Fields<'_, '_>| fields.index("source");
         Self {
             at: fields.at,
-            source: fields.index("source"),
-            webp: fields
-                .extension("EXT_texture_webp")
-                .and_then(|fields| fields.index("source")),
+            source: source(fields),
+            webp: fields.extension("EXT_texture_webp").and_then(source),
+            ktx2: fields.extension("KHR_texture_basisu").and_then(source),
             sampler: fields.index("sampler"),
         }
     }
@@ -69,12 +71,20 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
             let at = report.json.at_or(texture.at, "source");
             faulty(report, at, found, "image/png or image/jpeg");
         }
-        if let Some(found) =
-            media(doc, texture.webp).filter(|found| *found != ImageCoding::WebP.media())
-        {
-            let way = ["extensions", "EXT_texture_webp", "source"];
-            let at = report.json.at(texture.at, &way).unwrap_or(texture.at);
-            faulty(report, at, found, "image/webp");
+        let replacements = [
+            ("EXT_texture_webp", texture.webp, ImageCoding::WebP.media()),
+            (
+                "KHR_texture_basisu",
+                texture.ktx2,
+                ImageCoding::Ktx2.media(),
+            ),
+        ];
+        for (extension, image, wanted) in replacements {
+            if let Some(found) = media(doc, image).filter(|found| *found != wanted) {
+                let path = ["extensions", extension, "source"];
+                let at = report.json.at(texture.at, &path).unwrap_or(texture.at);
+                faulty(report, at, found, wanted);
+            }
         }
     }
 }

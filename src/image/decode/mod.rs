@@ -5,6 +5,7 @@
 //! on, and there turned into bytes: nothing is copied.
 
 mod jpeg;
+pub(super) mod ktx2;
 mod layout;
 mod png;
 mod webp;
@@ -73,6 +74,8 @@ pub enum DecodeError {
         /// Height in pixels.
         height: u32,
     },
+    /// It is of a kind that is not read, with its noun.
+    Unsupported(&'static str),
     /// It is damaged; in the decoder's words.
     Damaged(String),
 }
@@ -82,6 +85,7 @@ impl fmt::Display for DecodeError {
         match self {
             Self::Format(None) => f.write_str("is not a picture"),
             Self::Format(Some(name)) => write!(f, "is a {name} file"),
+            Self::Unsupported(kind) => write!(f, "is a {kind}, which is not supported"),
             Self::TooLarge { width, height } => write!(f, "has {width} × {height} pixels"),
             Self::Damaged(words) => write!(f, "is damaged: {words}"),
         }
@@ -105,6 +109,7 @@ enum Decoder<'a> {
     Png(Box<png::Png<'a>>),
     Jpeg(Box<jpeg::Jpeg<'a>>),
     WebP(Box<webp::WebP<'a>>),
+    Ktx2(Box<ktx2::Ktx2<'a>>),
 }
 
 /// Width and height in pixels, each at least 1.
@@ -158,7 +163,9 @@ impl ImageSize {
 #[must_use]
 pub fn is_picture(head: &[u8]) -> bool {
     match PictureFormat::of(head) {
-        Some(PictureFormat::Png | PictureFormat::Jpeg | PictureFormat::WebP) => true,
+        Some(
+            PictureFormat::Png | PictureFormat::Jpeg | PictureFormat::WebP | PictureFormat::Ktx2,
+        ) => true,
         Some(PictureFormat::Other(_)) | None => false,
     }
 }
@@ -177,6 +184,8 @@ impl<'a> PixelFile<'a> {
                 .map(|(size, jpeg)| (size, Decoder::Jpeg(Box::new(jpeg))))?,
             Some(PictureFormat::WebP) => webp::open(bytes, most_pixels)
                 .map(|(size, webp)| (size, Decoder::WebP(Box::new(webp))))?,
+            Some(PictureFormat::Ktx2) => ktx2::open(bytes, most_pixels)
+                .map(|(size, ktx2)| (size, Decoder::Ktx2(Box::new(ktx2))))?,
             other @ (Some(PictureFormat::Other(_)) | None) => {
                 return Err(DecodeError::Format(other.map(PictureFormat::name)));
             }
@@ -197,6 +206,7 @@ impl<'a> PixelFile<'a> {
                 Decoder::Png(png) => png.scratch(),
                 Decoder::Jpeg(jpeg) => jpeg.scratch(),
                 Decoder::WebP(webp) => webp.scratch(self.size),
+                Decoder::Ktx2(ktx2) => ktx2.scratch(),
             },
         );
         let pixel = self.layout().bytes().max(self.channels()) as u64;
@@ -220,6 +230,7 @@ impl<'a> PixelFile<'a> {
             Decoder::Png(png) => png.decode(coded)?,
             Decoder::Jpeg(jpeg) => jpeg.decode(coded)?,
             Decoder::WebP(webp) => webp.decode(coded)?,
+            Decoder::Ktx2(ktx2) => ktx2.decode(coded)?,
         }
         layout.convert(&mut bytes, channels);
         Ok(Pixels {
@@ -241,6 +252,7 @@ impl<'a> PixelFile<'a> {
             Decoder::Png(png) => png.decode(&mut bytes)?,
             Decoder::Jpeg(jpeg) => jpeg.decode(&mut bytes)?,
             Decoder::WebP(webp) => webp.decode(&mut bytes)?,
+            Decoder::Ktx2(ktx2) => ktx2.decode(&mut bytes)?,
         }
         Ok(CodedPixels { layout, bytes })
     }
@@ -257,6 +269,7 @@ impl<'a> PixelFile<'a> {
             Decoder::Png(png) => png.layout,
             Decoder::Jpeg(jpeg) => jpeg.layout,
             Decoder::WebP(webp) => webp.layout,
+            Decoder::Ktx2(ktx2) => ktx2.layout,
         }
     }
 

@@ -78,7 +78,20 @@ fn pictures() -> Vec<Repro> {
             "RE005",
         ),
     ];
-    for (what, bytes, expected) in coded.into_iter().chain(webp::all()) {
+    let ktx2 = [
+        (
+            "a KTX2 that claims 16384² pixels",
+            claim_ktx2(16384),
+            "IO003",
+        ),
+        (
+            "a KTX2 that claims a side of 2³¹ − 1",
+            claim_ktx2((1 << 31) - 1),
+            "RE005",
+        ),
+    ];
+    let coded = coded.into_iter().chain(ktx2);
+    for (what, bytes, expected) in coded.chain(webp::all()) {
         all.push(checked(
             what,
             textures(&["t.png"]),
@@ -294,6 +307,14 @@ fn contents(png: &[u8], kind: &[u8; 4]) -> Vec<u8> {
         at += 12 + length;
     }
     found
+}
+
+/// A KTX2 of ETC1S that claims another size.
+fn claim_ktx2(side: u32) -> Vec<u8> {
+    let mut bytes = include_bytes!("../../../fuzz/corpus/image/etc1s.ktx2").to_vec();
+    bytes[20..24].copy_from_slice(&side.to_le_bytes());
+    bytes[24..28].copy_from_slice(&side.to_le_bytes());
+    bytes
 }
 
 /// A PNG of one pixel that claims another size.

@@ -109,7 +109,12 @@ fn read(
 
 fn rejection(fault: &PixelFault, found: &Found, pending: &PendingAsset) -> Diagnostic {
     let what = format!("the texture `{}`", found.shown.display());
-    pixels::rejection(fault, &what, "textures are PNG, JPEG or WebP").at(pending.span, "named here")
+    pixels::rejection(
+        fault,
+        &what,
+        "textures are PNG, JPEG, WebP, or KTX2 of Basis Universal",
+    )
+    .at(pending.span, "named here")
 }
 
 /// Turns bump maps that hold normals into normal maps.

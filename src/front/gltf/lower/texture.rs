@@ -91,7 +91,9 @@ impl LoweredTextures {
             return *known;
         }
         let texture = &doc.textures[index];
-        let mut images = [texture.webp, texture.source].into_iter().flatten();
+        let mut images = [texture.ktx2, texture.webp, texture.source]
+            .into_iter()
+            .flatten();
         let image = images.find(|image| {
             doc.images
                 .get(*image)
@@ -99,14 +101,8 @@ impl LoweredTextures {
         });
         let image = image.and_then(|image| self.image(doc, image, scene, source_spans, report));
         if image.is_none() {
-            let own = Fields::new(report.json, texture.at).extension("KHR_texture_basisu");
-            let message = match own {
-                Some(_) => {
-                    "the texture has an image of `KHR_texture_basisu` alone, which is not read"
-                }
-                None => "the texture has no image that can be read",
-            };
-            let message = format!("{message}, so it has no effect");
+            let message = "the texture has no image that can be read, so it has no effect";
+            let message = message.to_owned();
             report.say(&codes::GLTF_MATERIAL_ODD, "", texture.at, message);
         }
         let sampler = texture

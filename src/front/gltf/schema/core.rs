@@ -148,7 +148,10 @@ static IMAGE: Object = Object {
     keys: &[
         NAME,
         optional("uri", Text),
-        optional("mimeType", Word(&["image/jpeg", "image/png", "image/webp"])),
+        optional(
+            "mimeType",
+            Word(&["image/jpeg", "image/png", "image/webp", "image/ktx2"]),
+        ),
         optional("bufferView", Index(IndexTarget::BufferViews)),
     ],
 };

@@ -101,6 +101,7 @@ static EXTENSIONS: &[Extension] = &[
         &[("buffer view", &MESHOPT), ("buffer", &FALLBACK)],
     ),
     known("KHR_node_visibility", &[("node", &VISIBILITY)]),
+    known("KHR_texture_basisu", &[("texture", &SOURCE)]),
     known(
         "KHR_texture_transform",
         &[("texture info", &TEXTURE_TRANSFORM)],
