@@ -39,24 +39,18 @@
 //! # Packages
 //!
 //! A scene passes through these stages, each a package below `src`. A package may use packages of
-//! earlier lines only; packages of one line do not know each other (their manifests say so, and
-//! `tests/tidy.rs` reads them).
+//! earlier lines only; packages of one line do not know each other (`tests/tidy.rs` checks it).
 //!
-//! 1. `math`, `color`: vectors, exact and robust arithmetic; colour spaces and tone curves.
-//!    `tables`: the tables of shapes and of the parameters of the glTF material.
-//! 2. `profile`: angular distributions of lights. `image`: image files. `source`: files, spans,
-//!    limits, and `source::tree`, the spanned tree of YAML and JSON.
+//! 1. `math`, `color`, `tables`: arithmetic; colour spaces; tables of shapes and parameters.
+//! 2. `profile`, `image`, `source`: light distributions; image files; files, spans, spanned trees.
 //! 3. `diag`: the diagnostic type, the table of codes, the printers.
 //! 4. `ir`: the intermediate representation, `ir::Scene`, with a version.
-//! 5. `front`: text to IR: YAML of the course, glTF, mesh files. `emit`: IR to YAML, glTF and
-//!    other formats. `codec`: IR to bytes and back. `passes`: IR to IR, as the options of one run
-//!    require. `valid`: IR to `ValidScene`.
+//! 5. `front`: text to IR. `emit`: IR to other formats. `codec`: IR to bytes and back. `passes`: IR
+//!    to IR, as the options of one run require. `valid`: IR to `ValidScene`.
 //! 6. `plan`: which effects a picture needs, each omission with its reason.
 //! 7. `render`: a valid scene becomes a world, the world a film. It cannot fail.
 //! 8. `study`: accuracy against time: renders, measures, reports.
-//! 9. `pipeline`: joins the stages.
-//! 10. `api`: the public API of this page.
-//! 11. `cli`: arguments, streams, exit codes (cargo feature `cli`).
+//! 9. `pipeline` joins the stages, 10. `api` is the API of this page, 11. `cli` the command line.
 //!
 //! Code that receives a `valid::ValidScene` may rely on every number being in range.
 

@@ -159,28 +159,61 @@ fn the_proof_passes_on_nothing_of_the_representation() {
 /// The stages that a noun of the scene goes through; it keeps its name in each.
 const STAGES: [&str; 5] = ["front", "ir", "valid", "render", "image"];
 
-/// The types at the top of a file that other files may name.
-fn shared_types(text: &str) -> impl Iterator<Item = &str> {
-    let items = text.lines().filter(|line| line.starts_with("pub"));
-    items.filter_map(|line| {
-        let mut words = line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        words.find(|word| matches!(*word, "struct" | "enum" | "union" | "trait" | "type"))?;
-        words.next()
+/// Names that several types share, because the types are one notion at different stages (the first
+/// four), or in code of formats that do not know each other.
+const SHARED_NAMES: [&str; 17] = [
+    "Context",
+    "Lowering",
+    "PhongMaterial",
+    "StandardMaterial",
+    "Bounds",
+    "Channel",
+    "Element",
+    "Fault",
+    "Key",
+    "Layer",
+    "Node",
+    "Object",
+    "Presence",
+    "Stream",
+    "Subject",
+    "Transform",
+    "Value",
+];
+
+/// The types that a file defines, private ones and those of inner modules too, but no associated
+/// types.
+fn types(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter_map(|line| {
+        let item = line.trim_start();
+        let restricted = item
+            .strip_prefix("pub(")
+            .and_then(|rest| rest.split_once(") "));
+        let public = || item.strip_prefix("pub ").unwrap_or(item);
+        let item = restricted.map_or_else(public, |(_, item)| item);
+        let (keyword, rest) = item.split_once(' ')?;
+        let is_associated = keyword == "type" && line.starts_with(' ');
+        let is_type = matches!(keyword, "struct" | "enum" | "union" | "trait" | "type");
+        let name = rest
+            .split(|c: char| !(c.is_alphanumeric() || c == '_'))
+            .next()?;
+        let is_named = name.starts_with(char::is_uppercase);
+        (is_type && !is_associated && is_named).then_some(name)
     })
 }
 
 #[test]
 fn no_two_types_have_one_name() {
     let files = rust_files("src").into_iter();
-    // The door has the names that its callers use; what it hands out stands for what lies within. The document that is
-    // written has those of glTF.
+    // The public API has types of its own for what it returns. The glTF document has the names of
+    // the specification.
     let apart = ["src/api", "src/emit/gltf/document.rs"];
     let files: Vec<_> = files
         .filter(|(path, _)| !apart.iter().any(|own| path.starts_with(own)))
         .collect();
     let mut homes: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for (path, text) in &files {
-        for name in shared_types(text) {
+        for name in types(text) {
             homes.entry(name).or_default().insert(path);
         }
     }
@@ -196,7 +229,8 @@ fn no_two_types_have_one_name() {
         .values()
         .filter(|paths| paths.len() > 1 && is_noun(paths));
     assert!(nouns.count() > 20, "nouns are found");
-    homes.retain(|_, paths| paths.len() > 1 && !is_noun(paths));
+    let is_shared = |name: &&str| SHARED_NAMES.contains(name);
+    homes.retain(|name, paths| paths.len() > 1 && !is_noun(paths) && !is_shared(name));
     assert!(homes.is_empty(), "{homes:#?}");
 }
 

@@ -55,7 +55,7 @@ fn is_pattern(path: &Path) -> bool {
 fn fitting(pattern: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
     let shown = pattern.display();
     let refused = |words: &str| Failure::Trouble(format!("`{shown}`: {words}"));
-    let pattern = Pattern::new(pattern).map_err(|words| refused(&words))?;
+    let pattern = FilePattern::new(pattern).map_err(|words| refused(&words))?;
     let mut found = Vec::new();
     for entry in pattern.walk() {
         let entry = entry.map_err(|error| refused(&reason(&error)))?;
@@ -74,7 +74,7 @@ fn fitting(pattern: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> 
 }
 
 /// A pattern of paths.
-struct Pattern {
+struct FilePattern {
     /// The folder that it begins with, which is none itself.
     base: PathBuf,
     /// What follows, part by part, and as a whole.
@@ -82,7 +82,7 @@ struct Pattern {
     rest: GlobMatcher,
 }
 
-impl Pattern {
+impl FilePattern {
     fn new(path: &Path) -> Result<Self, String> {
         let is_wild = |part: &Component<'_>| part.as_os_str().to_string_lossy().contains(WILD);
         let parts: Vec<_> = path.components().collect();

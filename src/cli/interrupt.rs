@@ -22,10 +22,10 @@ static LISTENER: OnceLock<Interrupt> = OnceLock::new();
 
 /// Whether the user wants us to stop.
 #[derive(Clone)]
-pub(super) struct Interrupt(Arc<State>);
+pub(super) struct Interrupt(Arc<InterruptState>);
 
 #[derive(Default)]
-struct State {
+struct InterruptState {
     /// The file that is to disappear if we end at once.
     draft: Mutex<Option<PathBuf>>,
 }
@@ -50,7 +50,7 @@ impl Interrupt {
         if let Some(listener) = LISTENER.get() {
             return Ok(listener.clone());
         }
-        let state = Arc::new(State::default());
+        let state = Arc::new(InterruptState::default());
         let heard = Arc::clone(&state);
         let on_signal = move |signal| {
             let first = HEARD.compare_exchange(0, signal, Ordering::Relaxed, Ordering::Relaxed);
@@ -109,7 +109,7 @@ impl WriteObserver for Interrupt {
     }
 }
 
-impl State {
+impl InterruptState {
     fn draft(&self) -> std::sync::MutexGuard<'_, Option<PathBuf>> {
         self.draft.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -73,10 +73,10 @@ fn flag(error: &Error, typed: &[OsString]) -> Option<String> {
 }
 
 /// A flag, and the value that it was given.
-type Asked = (String, Option<String>);
+type RequestedFlag = (String, Option<String>);
 
 /// The words without the flags of other renderers, and those flags.
-fn apart(typed: &[OsString]) -> (Vec<OsString>, Vec<Asked>) {
+fn apart(typed: &[OsString]) -> (Vec<OsString>, Vec<RequestedFlag>) {
     let (mut kept, mut asked) = (Vec::new(), Vec::new());
     let mut words = typed.iter().peekable();
     while let Some(word) = words.next() {

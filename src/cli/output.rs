@@ -29,12 +29,12 @@ pub(super) struct Output {
 enum OutputTarget {
     Stdout,
     /// A device or a pipe, which cannot be replaced.
-    Stream(PathBuf),
+    OutputStream(PathBuf),
     File(NewFile),
 }
 
 /// What writes a result.
-type Writer<'w> = &'w dyn Fn(&mut dyn Write) -> io::Result<()>;
+type OutputWriter<'w> = &'w dyn Fn(&mut dyn Write) -> io::Result<()>;
 
 impl Output {
     /// Looks whether `path`, `-` being standard output, can be written, so that a long work is not
@@ -58,7 +58,10 @@ impl Output {
             )));
         }
         let file = NewFile::at(path).map_err(|error| failure(&name, &error))?;
-        let place = file.map_or_else(|| OutputTarget::Stream(path.to_owned()), OutputTarget::File);
+        let place = file.map_or_else(
+            || OutputTarget::OutputStream(path.to_owned()),
+            OutputTarget::File,
+        );
         Ok(Self { name, place })
     }
 
@@ -86,7 +89,7 @@ impl Output {
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let written = match &self.place {
-            OutputTarget::Stdout | OutputTarget::Stream(_) => Err(io::Error::other(
+            OutputTarget::Stdout | OutputTarget::OutputStream(_) => Err(io::Error::other(
                 "strips need a file to be put together in; give `-o FILE`",
             )),
             OutputTarget::File(file) => file.write_slowly(write, interrupt),
@@ -95,10 +98,14 @@ impl Output {
     }
 
     /// The same with a result that is written part by part.
-    pub(super) fn commit_by(self, write: Writer<'_>, interrupt: &Interrupt) -> Result<(), Failure> {
+    pub(super) fn commit_by(
+        self,
+        write: OutputWriter<'_>,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
         let written = match &self.place {
             OutputTarget::Stdout => through_stdout(write),
-            OutputTarget::Stream(target) => {
+            OutputTarget::OutputStream(target) => {
                 stream(target, interrupt).and_then(|mut stream| write(&mut stream))
             }
             OutputTarget::File(file) => file.write(write, interrupt),
@@ -210,13 +217,13 @@ fn folder_of(target: &Path) -> &Path {
 }
 
 /// A device or a pipe whose waits a signal ends.
-struct Stream<'i> {
+struct OutputStream<'i> {
     file: File,
     interrupt: &'i Interrupt,
 }
 
 /// Opens a stream; a pipe once it has a reader.
-fn stream<'i>(path: &Path, interrupt: &'i Interrupt) -> io::Result<Stream<'i>> {
+fn stream<'i>(path: &Path, interrupt: &'i Interrupt) -> io::Result<OutputStream<'i>> {
     let mut options = OpenOptions::new();
     options.write(true);
     #[cfg(unix)]
@@ -227,7 +234,7 @@ fn stream<'i>(path: &Path, interrupt: &'i Interrupt) -> io::Result<Stream<'i>> {
     loop {
         match options.open(path) {
             Err(error) if has_no_reader(&error) && !interrupt.is_raised() => thread::sleep(WAIT),
-            opened => return opened.map(|file| Stream { file, interrupt }),
+            opened => return opened.map(|file| OutputStream { file, interrupt }),
         }
     }
 }
@@ -242,7 +249,7 @@ fn has_no_reader(_: &io::Error) -> bool {
     false
 }
 
-impl Write for Stream<'_> {
+impl Write for OutputStream<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         loop {
             match self.file.write(bytes) {
@@ -274,7 +281,7 @@ pub(super) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
     through_stdout(&|out| out.write_all(bytes)).map_err(|error| failure("standard output", &error))
 }
 
-fn through_stdout(write: Writer<'_>) -> io::Result<()> {
+fn through_stdout(write: OutputWriter<'_>) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
     write(&mut stdout)?;
     stdout.flush()

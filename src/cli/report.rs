@@ -30,15 +30,15 @@ pub(super) struct PlanReport {
     kernel: (&'static str, usize),
     /// How traced paths find caustics, if there are any.
     caustics: Option<Caustics>,
-    counter: Sampled,
+    counter: SampledPaths,
     planned: u64,
     unpruned: u64,
-    rows: Vec<Row>,
+    rows: Vec<ReportRow>,
 }
 
 /// Of which samples of the picture rays were counted.
 #[derive(Clone, Copy)]
-struct Sampled {
+struct SampledPaths {
     stride: Stride,
     /// Samples of each of those pixels.
     samples: u64,
@@ -48,7 +48,7 @@ struct Sampled {
     all: u64,
 }
 
-impl Sampled {
+impl SampledPaths {
     fn is_whole(&self) -> bool {
         self.paths == self.all
     }
@@ -87,7 +87,7 @@ fn saved(
 }
 
 /// One verdict, with what the effect costs.
-struct Row {
+struct ReportRow {
     status: EffectStatus,
     /// `file:line` of the values that decided.
     places: Vec<String>,
@@ -99,7 +99,7 @@ struct Row {
     saves: u64,
 }
 
-impl Row {
+impl ReportRow {
     /// That of a verdict, with the rays that it takes and saves.
     fn new(
         status: &EffectStatus,
@@ -174,7 +174,7 @@ impl PlanReport {
             } else {
                 0
             };
-            Ok(Row::new(status, [costs, saves], validated, input))
+            Ok(ReportRow::new(status, [costs, saves], validated, input))
         };
         Ok(Self {
             kernel: kernel(&plan),
@@ -193,7 +193,7 @@ impl PlanReport {
     /// The verdicts of a plan as a table, without counts.
     pub(super) fn statuses(validated: &Validated, input: &Input) -> String {
         let plan = Plan::new(&validated.scene, Rules::ALL);
-        let row = |status: &EffectStatus| Row::new(status, [0; 2], validated, input);
+        let row = |status: &EffectStatus| ReportRow::new(status, [0; 2], validated, input);
         let lines = plan.statuses.iter().map(|status| row(status).lines(""));
         lines.collect()
     }
@@ -242,7 +242,7 @@ impl PlanReport {
     }
 
     fn object(&self) -> Value {
-        let row = |row: &Row| {
+        let row = |row: &ReportRow| {
             json!({
                 "effect": row.status.effect.name(),
                 "of": row.of,
@@ -272,7 +272,7 @@ impl PlanReport {
 /// Counts the rays of a picture, on a part of its samples that is quick.
 struct Counter<'scene> {
     scene: &'scene ValidScene,
-    sampled: Sampled,
+    sampled: SampledPaths,
 }
 
 impl<'scene> Counter<'scene> {
@@ -297,7 +297,7 @@ impl<'scene> Counter<'scene> {
         }
         let stride = Stride::new(k);
         let met = u64::from(stride.of(width)) * u64::from(stride.of(height));
-        let sampled = Sampled {
+        let sampled = SampledPaths {
             stride,
             samples,
             paths: met.saturating_mul(samples),
@@ -308,7 +308,7 @@ impl<'scene> Counter<'scene> {
 
     /// The rays of the whole picture, scaled from those of a part.
     fn count(&self, rules: Rules) -> Result<Counts, Failure> {
-        let Sampled {
+        let SampledPaths {
             stride,
             samples,
             paths,

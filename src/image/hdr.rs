@@ -13,14 +13,14 @@ type Rgbe = [u8; 4];
 pub(super) struct Hdr<'a> {
     pub(super) size: ImageSize,
     /// What follows the header.
-    rest: Bytes<'a>,
+    rest: HdrBytes<'a>,
 }
 
 impl<'a> Hdr<'a> {
     /// Reads the header: lines up to an empty one, and one with the size. Of the lines only the
     /// format is looked at.
     pub(super) fn open(file: &'a [u8], most_pixels: u64) -> Result<Self, DecodeError> {
-        let mut rest = Bytes(file);
+        let mut rest = HdrBytes(file);
         loop {
             let line = rest.line()?;
             if line.is_empty() {
@@ -102,9 +102,9 @@ fn split(row: &mut [Rgbe], length: usize) -> Result<(&mut [Rgbe], &mut [Rgbe]), 
 }
 
 /// What is left of a file.
-struct Bytes<'a>(&'a [u8]);
+struct HdrBytes<'a>(&'a [u8]);
 
-impl<'a> Bytes<'a> {
+impl<'a> HdrBytes<'a> {
     /// The next line, without its end.
     fn line(&mut self) -> Result<&'a [u8], DecodeError> {
         if self.0.is_empty() {

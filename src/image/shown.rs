@@ -6,9 +6,9 @@ use super::{Image, Opacity, RadianceFile, is_radiance};
 use rtc_color::Tone;
 
 /// A picture file of which the header was read.
-pub struct ShownFile<'a>(Source<'a>);
+pub struct ShownFile<'a>(DisplaySource<'a>);
 
-enum Source<'a> {
+enum DisplaySource<'a> {
     Pixels(PixelFile<'a>),
     Light(RadianceFile<'a>),
 }
@@ -17,12 +17,12 @@ enum Source<'a> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShownPicture {
     size: [u32; 2],
-    values: Values,
+    values: DisplayValues,
 }
 
 /// The pixels, row by row.
 #[derive(Clone, Debug, PartialEq)]
-enum Values {
+enum DisplayValues {
     /// Display values.
     Display(Vec<[f64; 3]>),
     /// As a pixel file codes them.
@@ -38,9 +38,9 @@ impl<'a> ShownFile<'a> {
     /// If the bytes are no such file, its header is damaged or tells of more pixels.
     pub fn open(bytes: &'a [u8], most_pixels: u64) -> Result<Self, DecodeError> {
         Ok(Self(if is_radiance(bytes) {
-            Source::Light(RadianceFile::open(bytes, most_pixels)?)
+            DisplaySource::Light(RadianceFile::open(bytes, most_pixels)?)
         } else {
-            Source::Pixels(PixelFile::open(bytes, Opacity::Kept, most_pixels)?)
+            DisplaySource::Pixels(PixelFile::open(bytes, Opacity::Kept, most_pixels)?)
         }))
     }
 
@@ -48,23 +48,23 @@ impl<'a> ShownFile<'a> {
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
         match &self.0 {
-            Source::Pixels(file) => file.size(),
-            Source::Light(file) => file.size(),
+            DisplaySource::Pixels(file) => file.size(),
+            DisplaySource::Light(file) => file.size(),
         }
     }
 
     /// Whether it holds values of light.
     #[must_use]
     pub fn holds_light(&self) -> bool {
-        matches!(self.0, Source::Light(_))
+        matches!(self.0, DisplaySource::Light(_))
     }
 
     /// What decoding it will take.
     #[must_use]
     pub fn cost(&self) -> DecodeCost {
         match &self.0 {
-            Source::Pixels(file) => file.cost(),
-            Source::Light(file) => file.cost(),
+            DisplaySource::Pixels(file) => file.cost(),
+            DisplaySource::Light(file) => file.cost(),
         }
     }
 
@@ -76,13 +76,13 @@ impl<'a> ShownFile<'a> {
     pub fn decode(self) -> Result<ShownPicture, DecodeError> {
         let size = self.size();
         match self.0 {
-            Source::Pixels(file) => Ok(ShownPicture {
+            DisplaySource::Pixels(file) => Ok(ShownPicture {
                 size,
-                values: Values::Coded(file.decode_coded()?),
+                values: DisplayValues::Coded(file.decode_coded()?),
             }),
-            Source::Light(file) => file.decode().map(|light| ShownPicture {
+            DisplaySource::Light(file) => file.decode().map(|light| ShownPicture {
                 size: [light.width, light.height],
-                values: Values::Light(light.bytes),
+                values: DisplayValues::Light(light.bytes),
             }),
         }
     }
@@ -94,7 +94,7 @@ impl ShownPicture {
     pub fn of(display: Image) -> Self {
         Self {
             size: [display.width, display.height],
-            values: Values::Display(display.pixels),
+            values: DisplayValues::Display(display.pixels),
         }
     }
 
@@ -122,12 +122,12 @@ impl ShownPicture {
     #[must_use]
     pub fn display(&self, index: usize) -> [f64; 3] {
         match &self.values {
-            Values::Display(pixels) => pixels[index],
-            Values::Coded(coded) => {
+            DisplayValues::Display(pixels) => pixels[index],
+            DisplayValues::Coded(coded) => {
                 let [r, g, b, opacity] = coded.values(index);
                 [r, g, b].map(|value| value * opacity)
             }
-            Values::Light(bytes) => Tone::Srgb.display(light(bytes, index)),
+            DisplayValues::Light(bytes) => Tone::Srgb.display(light(bytes, index)),
         }
     }
 
@@ -135,8 +135,8 @@ impl ShownPicture {
     #[must_use]
     pub fn light(&self, index: usize) -> Option<[f64; 3]> {
         match &self.values {
-            Values::Display(_) | Values::Coded(_) => None,
-            Values::Light(bytes) => Some(light(bytes, index)),
+            DisplayValues::Display(_) | DisplayValues::Coded(_) => None,
+            DisplayValues::Light(bytes) => Some(light(bytes, index)),
         }
     }
 
@@ -144,8 +144,8 @@ impl ShownPicture {
     #[must_use]
     pub fn opacity(&self, index: usize) -> f64 {
         match &self.values {
-            Values::Display(_) | Values::Light(_) => 1.0,
-            Values::Coded(coded) => coded.values(index)[3],
+            DisplayValues::Display(_) | DisplayValues::Light(_) => 1.0,
+            DisplayValues::Coded(coded) => coded.values(index)[3],
         }
     }
 

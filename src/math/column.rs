@@ -231,14 +231,14 @@ where
     [f64; N]: Deserialize<'de>,
 {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(Reader)
+        deserializer.deserialize_any(ColumnReader)
     }
 }
 
 /// Reads a column of `N` numbers a vertex.
-struct Reader<const N: usize>;
+struct ColumnReader<const N: usize>;
 
-impl<'de, const N: usize> Visitor<'de> for Reader<N>
+impl<'de, const N: usize> Visitor<'de> for ColumnReader<N>
 where
     [f32; N]: Deserialize<'de>,
     [f64; N]: Deserialize<'de>,

@@ -95,7 +95,7 @@ impl LightFindings {
             for receiver in &receivers {
                 let is_behind =
                     facts.rules.contains(Rule::LightBehind) && adds_no_direct(*receiver);
-                let pair = Pair {
+                let pair = LightPair {
                     light,
                     source: extent(source),
                     receiver: *receiver,
@@ -107,8 +107,13 @@ impl LightFindings {
     }
 
     /// Whether anything may occlude a light from a surface. Records the occluders.
-    fn find_occluders(&mut self, facts: &Facts<'_>, visibility: &Visibility, pair: &Pair) -> bool {
-        let Pair {
+    fn find_occluders(
+        &mut self,
+        facts: &Facts<'_>,
+        visibility: &Visibility,
+        pair: &LightPair,
+    ) -> bool {
+        let LightPair {
             light,
             source,
             receiver,
@@ -142,7 +147,7 @@ impl LightFindings {
 }
 
 /// A light and a surface that it may illuminate.
-struct Pair {
+struct LightPair {
     light: usize,
     source: Bounds,
     receiver: usize,

@@ -74,13 +74,13 @@ pub(super) fn of(scene: &Scene) -> Vec<AblatedScene> {
 }
 
 /// An ablation that is not applied yet.
-struct Candidate {
+struct AblationCandidate {
     kind: Ablation,
     name: String,
     remove: Box<dyn Fn(&mut Scene)>,
 }
 
-impl Candidate {
+impl AblationCandidate {
     /// The scene after the ablation, if it changes anything.
     fn ablated(&self, scene: &Scene) -> Option<AblatedScene> {
         let mut remove = scene.clone();
@@ -97,7 +97,7 @@ fn effects(scene: &Scene) -> Vec<AblatedScene> {
     if !matches!(scene.settings.mode, Mode::Phong) {
         return Vec::new();
     }
-    let effect = |(name, remove): EffectRemoval| Candidate {
+    let effect = |(name, remove): EffectRemoval| AblationCandidate {
         kind: Ablation::Effect,
         name: name.to_owned(),
         remove: Box::new(remove),
@@ -126,8 +126,8 @@ fn remove_maps(phong: &mut Phong) {
 }
 
 /// The environment, then the lights in scene order.
-fn lights(scene: &Scene) -> Vec<Candidate> {
-    let light = |index: usize| Candidate {
+fn lights(scene: &Scene) -> Vec<AblationCandidate> {
+    let light = |index: usize| AblationCandidate {
         kind: Ablation::Light,
         name: format!("light {}", index + 1),
         remove: Box::new(move |scene| {
@@ -139,7 +139,7 @@ fn lights(scene: &Scene) -> Vec<Candidate> {
         .filter(emits)
         .take(MAX_PER_KIND)
         .map(light);
-    let environment = Candidate {
+    let environment = AblationCandidate {
         kind: Ablation::Light,
         name: "surroundings".to_owned(),
         remove: Box::new(|scene| scene.environment = None),
@@ -200,12 +200,12 @@ fn extent(shape: &Shape, meshes: &[[Vec3; 2]], eye: Vec3) -> f64 {
     half / (0.5 * (low + high) - eye).length().max(half * f64::EPSILON)
 }
 
-fn object_removal(scene: &Scene, object: &SceneObject) -> Candidate {
+fn object_removal(scene: &Scene, object: &SceneObject) -> AblationCandidate {
     // Surfaces after the last name are unnamed.
     let surfaces = object.surfaces.clone();
     let end = surfaces.end.min(scene.names.len());
     let names = surfaces.start.min(end)..end;
-    Candidate {
+    AblationCandidate {
         kind: Ablation::Object,
         name: object.name.clone(),
         remove: Box::new(move |scene| {
@@ -216,7 +216,7 @@ fn object_removal(scene: &Scene, object: &SceneObject) -> Candidate {
 }
 
 /// The materials, those of objects with the largest projected size first.
-fn materials(scene: &Scene, objects: &[SceneObject]) -> Vec<Candidate> {
+fn materials(scene: &Scene, objects: &[SceneObject]) -> Vec<AblationCandidate> {
     let mut order: Vec<usize> = Vec::new();
     for surface in objects.iter().flat_map(|object| object.surfaces.clone()) {
         let material = scene.surfaces[surface].material.0 as usize;
@@ -227,7 +227,7 @@ fn materials(scene: &Scene, objects: &[SceneObject]) -> Vec<Candidate> {
             order.push(material);
         }
     }
-    let material = |index: usize| Candidate {
+    let material = |index: usize| AblationCandidate {
         kind: Ablation::Material,
         name: match &scene.materials[index] {
             Material::Standard(standard) if !standard.name.is_empty() => {

@@ -13,7 +13,7 @@ const ABANDON_FACTOR: f64 = 4.0;
 const MIN_UNBOUNDED: u32 = 64;
 
 /// What a render lacks for its target.
-enum Missing {
+enum MissingSamples {
     Nothing,
     /// The noise must fall below this mean square.
     Samples(f64),
@@ -21,7 +21,7 @@ enum Missing {
     RareLight,
 }
 
-impl Missing {
+impl MissingSamples {
     fn of(film: &ProgressiveFilm, noise: &Noise, tail: f64, error: f64) -> Self {
         let bound = noise.bound(tail, Some(error));
         let enough = error * error / (LEVELS * LEVELS * ABANDON_FACTOR);
@@ -50,12 +50,12 @@ pub(super) fn next_round(
     const LOWER: f64 = 0.8;
     const RAISE: f64 = 1.5;
     // Find the noise to reach.
-    let missing = goal.map(|error| Missing::of(film, noise, tail, error));
+    let missing = goal.map(|error| MissingSamples::of(film, noise, tail, error));
     let mut square = match missing {
-        Some(Missing::Nothing) => return None,
-        Some(Missing::RareLight) => return doubled(film, max_samples),
+        Some(MissingSamples::Nothing) => return None,
+        Some(MissingSamples::RareLight) => return doubled(film, max_samples),
         _ if noise.square == 0.0 => return None,
-        Some(Missing::Samples(square)) => square,
+        Some(MissingSamples::Samples(square)) => square,
         None => noise.square / 4.0,
     };
     // Allocate samples; lower the noise until something changes.

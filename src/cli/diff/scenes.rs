@@ -16,7 +16,7 @@ use rtc_render::Film;
 use std::path::Path;
 
 /// A scene to be compared, as its picture is set up.
-struct Side {
+struct DiffSide {
     input: Input,
     setup: PictureSetup,
     subject: RenderSubject,
@@ -39,8 +39,8 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
 
 fn carry_out(args: &Diff, talk: &mut Talk) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
-    let mut new = Side::read(args, &args.new, None, talk)?;
-    let mut old = Side::read(args, &args.old, Some(new.size()), talk)?;
+    let mut new = DiffSide::read(args, &args.new, None, talk)?;
+    let mut old = DiffSide::read(args, &args.old, Some(new.size()), talk)?;
     let changed = changes(new.scene(), old.scene());
     let changed = changed.expect("proven scenes hold finite numbers only");
     let open = |path: &Option<_>| {
@@ -67,7 +67,7 @@ fn carry_out(args: &Diff, talk: &mut Talk) -> Result<(), Failure> {
     report(args, outputs, &compared, budget, &interrupt)
 }
 
-impl Side {
+impl DiffSide {
     /// Reads a scene, for a picture of this size if one is given; what is found in it is told.
     fn read(
         args: &Diff,

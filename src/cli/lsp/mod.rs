@@ -31,7 +31,7 @@ use workspace::Workspace;
 
 /// How far a conversation has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stretch {
+enum TextRange {
     /// The editor has not said yet who it is.
     Greeting,
     /// It asks and is answered.
@@ -44,7 +44,7 @@ enum Stretch {
 struct Server {
     inbox: Inbox,
     out: Stdout,
-    stretch: Stretch,
+    stretch: TextRange,
     workspace: Workspace,
 }
 
@@ -54,7 +54,7 @@ pub(super) fn run(args: args::Lsp) -> Result<(), Failure> {
     let mut server = Server {
         inbox: Inbox::of(BufReader::new(io::stdin())).map_err(trouble)?,
         out: io::stdout(),
-        stretch: Stretch::Greeting,
+        stretch: TextRange::Greeting,
         workspace: Workspace::new(args.reading),
     };
     server.serve()
@@ -101,7 +101,7 @@ impl Server {
             };
             match incoming {
                 Incoming::Message(Message::Notification(own)) if own.method == "exit" => {
-                    let is_asked = self.stretch == Stretch::Farewell;
+                    let is_asked = self.stretch == TextRange::Farewell;
                     let words = "the editor left without `shutdown`";
                     let failure = || Failure::Input(words.to_owned());
                     return is_asked.then_some(()).ok_or_else(failure);
@@ -131,7 +131,7 @@ impl Server {
                 let response = self.answered(request);
                 self.send(response);
             }
-            Message::Notification(own) if self.stretch == Stretch::Talk => {
+            Message::Notification(own) if self.stretch == TextRange::Talk => {
                 let told = self.workspace.note(own);
                 told.into_iter().for_each(|message| self.send(message));
             }
@@ -146,27 +146,29 @@ impl Server {
             Response::new_err(id.clone(), code as i32, words.to_owned())
         };
         match (self.stretch, request.method.as_str()) {
-            (Stretch::Greeting, "initialize") => {
-                self.stretch = Stretch::Talk;
+            (TextRange::Greeting, "initialize") => {
+                self.stretch = TextRange::Talk;
                 Response::new_ok(id, self.greet(&request.params))
             }
-            (Stretch::Greeting, _) => {
+            (TextRange::Greeting, _) => {
                 refused(ErrorCode::ServerNotInitialized, "`initialize` comes first")
             }
-            (Stretch::Talk, "initialize") => {
+            (TextRange::Talk, "initialize") => {
                 refused(ErrorCode::InvalidRequest, "`initialize` came before")
             }
-            (Stretch::Talk, "shutdown") => {
-                self.stretch = Stretch::Farewell;
+            (TextRange::Talk, "shutdown") => {
+                self.stretch = TextRange::Farewell;
                 Response::new_ok(id, Value::Null)
             }
-            (Stretch::Talk, _) => {
+            (TextRange::Talk, _) => {
                 let answer = AssertUnwindSafe(|| self.workspace.answer(request));
                 let words = "internal error of rtc; please report it with the scene";
                 panic::catch_unwind(answer)
                     .unwrap_or_else(|_| refused(ErrorCode::InternalError, words))
             }
-            (Stretch::Farewell, _) => refused(ErrorCode::InvalidRequest, "`shutdown` came before"),
+            (TextRange::Farewell, _) => {
+                refused(ErrorCode::InvalidRequest, "`shutdown` came before")
+            }
         }
     }
 

@@ -9,7 +9,7 @@ use std::str::FromStr;
 pub(super) struct DocumentUri(String);
 
 /// What stands before the path, the path, and what stands behind it.
-struct Parts<'t> {
+struct UriParts<'t> {
     scheme: Option<&'t str>,
     authority: &'t str,
     path: &'t str,
@@ -25,12 +25,12 @@ impl DocumentUri {
 
     /// What stands before the first colon, if it is no reference.
     pub(super) fn scheme(&self) -> Option<&str> {
-        Parts::of(&self.0).scheme
+        UriParts::of(&self.0).scheme
     }
 
     /// The path, with its escapes.
     pub(super) fn path(&self) -> &str {
-        Parts::of(&self.0).path
+        UriParts::of(&self.0).path
     }
 }
 
@@ -38,7 +38,7 @@ impl TryFrom<String> for DocumentUri {
     type Error = String;
 
     fn try_from(text: String) -> Result<Self, String> {
-        match Parts::of(&text).are_sound() {
+        match UriParts::of(&text).are_sound() {
             true => Ok(Self(text)),
             false => Err(format!("`{text}` is no URI")),
         }
@@ -53,7 +53,7 @@ impl FromStr for DocumentUri {
     }
 }
 
-impl<'t> Parts<'t> {
+impl<'t> UriParts<'t> {
     /// Those of a text, whatever it is (RFC 3986, appendix B).
     fn of(text: &'t str) -> Self {
         let (text, fragment) = text.split_once('#').unwrap_or((text, ""));

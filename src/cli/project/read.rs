@@ -24,7 +24,7 @@ const RENDER_KEYS: [&str; 7] = [
     "depth",
 ];
 
-type Key<'t> = Spanned<DeString<'t>>;
+type ProjectKey<'t> = Spanned<DeString<'t>>;
 type Value<'t> = Spanned<DeValue<'t>>;
 
 /// What a text says that lies in a folder, as far as it is trusted, and what is wrong with it.
@@ -83,9 +83,9 @@ impl ProjectReader<'_> {
 
     fn section(
         &mut self,
-        key: &Key<'_>,
+        key: &ProjectKey<'_>,
         value: &Value<'_>,
-        each: fn(&mut Self, &Key<'_>, &Value<'_>),
+        each: fn(&mut Self, &ProjectKey<'_>, &Value<'_>),
     ) {
         let Some(table) = value.get_ref().as_table() else {
             let name = key.get_ref();
@@ -115,7 +115,7 @@ impl ProjectReader<'_> {
         }
     }
 
-    fn level(&mut self, key: &Key<'_>, value: &Value<'_>) {
+    fn level(&mut self, key: &ProjectKey<'_>, value: &Value<'_>) {
         let name = key.get_ref().as_ref();
         let subject = match LevelSubject::parse(name) {
             Ok(subject) => subject,
@@ -134,7 +134,7 @@ impl ProjectReader<'_> {
         }
     }
 
-    fn limit(&mut self, key: &Key<'_>, value: &Value<'_>) {
+    fn limit(&mut self, key: &ProjectKey<'_>, value: &Value<'_>) {
         let name = key.get_ref().as_ref();
         if Resource::all().all(|resource| resource.name() != name) {
             let names: Vec<_> = Resource::all().map(Resource::name).collect();
@@ -157,7 +157,7 @@ impl ProjectReader<'_> {
         }
     }
 
-    fn render(&mut self, key: &Key<'_>, value: &Value<'_>) {
+    fn render(&mut self, key: &ProjectKey<'_>, value: &Value<'_>) {
         let name = key.get_ref().as_ref();
         let number = || {
             let number = whole(value.get_ref()).and_then(|number| u32::try_from(number).ok());
@@ -191,7 +191,7 @@ impl ProjectReader<'_> {
         }
     }
 
-    fn unknown(&mut self, key: &Key<'_>, known: &[&str]) {
+    fn unknown(&mut self, key: &ProjectKey<'_>, known: &[&str]) {
         let name = key.get_ref().as_ref();
         let meant = nearest(name, known.iter().copied());
         let hint = match meant {

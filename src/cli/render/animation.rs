@@ -68,7 +68,7 @@ impl RenderSetup {
     ) -> Result<(), FrameError> {
         let table = Turntable::new(&subject.validated.lowered.scene, self.up, views.count);
         let frames = u32::try_from(views.shown.len()).unwrap_or(u32::MAX);
-        let mut begun: Option<Animation<'_>> = None;
+        let mut begun: Option<FrameAnimation<'_>> = None;
         let mut file = Some(file);
         for frame in views.shown.clone() {
             table.turn(&mut subject.validated, frame)?;
@@ -82,8 +82,8 @@ impl RenderSetup {
             if let Some(file) = file.take() {
                 let head = PictureHead::of(&picture, FileFormat::Png8);
                 begun = Some(match is_gif(&self.output) {
-                    true => Animation::Gif(AnimatedGif::begin(&head, rate, file)?),
-                    false => Animation::Png(AnimatedPng::begin(&head, frames, rate, file)?),
+                    true => FrameAnimation::Gif(AnimatedGif::begin(&head, rate, file)?),
+                    false => FrameAnimation::Png(AnimatedPng::begin(&head, frames, rate, file)?),
                 });
             }
             if let Some(animation) = &mut begun {
@@ -120,12 +120,12 @@ fn is_gif(output: &Path) -> bool {
 }
 
 /// A file of frames, of which some are written.
-enum Animation<'f> {
+enum FrameAnimation<'f> {
     Png(AnimatedPng<&'f mut File>),
     Gif(AnimatedGif<&'f mut File>),
 }
 
-impl Animation<'_> {
+impl FrameAnimation<'_> {
     fn add(&mut self, picture: &Picture) -> io::Result<()> {
         match self {
             Self::Png(file) => file.add(picture),

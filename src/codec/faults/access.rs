@@ -1,7 +1,7 @@
 //! Access to lists, maps and enum variants. A missing value gets a placeholder; a surplus value is
 //! reported and skipped.
 
-use super::error::DecodeError;
+use super::error::NodeError;
 use super::reader::NodeReader;
 use super::{FaultPart, FieldNames, Notes};
 use rtc_source::tree::{NodeId, NodeKind};
@@ -30,12 +30,12 @@ impl<'n, 't> Items<'n, 't> {
 }
 
 impl<'de> SeqAccess<'de> for Items<'_, '_> {
-    type Error = DecodeError;
+    type Error = NodeError;
 
     fn next_element_seed<S: DeserializeSeed<'de>>(
         &mut self,
         seed: S,
-    ) -> Result<Option<S::Value>, DecodeError> {
+    ) -> Result<Option<S::Value>, NodeError> {
         let item = self.items.next();
         let is_expected = match &mut self.remaining {
             None => item.is_some(),
@@ -100,10 +100,10 @@ impl<'n, 't> Members<'n, 't> {
         for (key, value) in self.pairs.by_ref() {
             let text = self.notes.tree.text(key).unwrap_or_default();
             let fault = match self.fields {
-                Some(fields) if !fields.contains(&text) => DecodeError::unknown_field(text, fields),
+                Some(fields) if !fields.contains(&text) => NodeError::unknown_field(text, fields),
                 // Which duplicate field it is does not change the message.
                 Some(_) if self.seen.contains(&text) => {
-                    DecodeError::custom(format_args!("duplicate field `{text}`"))
+                    NodeError::custom(format_args!("duplicate field `{text}`"))
                 }
                 Some(_) | None => {
                     self.seen.push(text);
@@ -118,7 +118,7 @@ impl<'n, 't> Members<'n, 't> {
         let name = self.absent.pop()?;
         if let Some(map) = self.map.filter(|_| !self.has_unknown) {
             self.notes
-                .note(map, FaultPart::Whole, DecodeError::missing_field(name).what);
+                .note(map, FaultPart::Whole, NodeError::missing_field(name).what);
         }
         self.value = None;
         Some(name)
@@ -126,21 +126,18 @@ impl<'n, 't> Members<'n, 't> {
 }
 
 impl<'de> MapAccess<'de> for Members<'_, '_> {
-    type Error = DecodeError;
+    type Error = NodeError;
 
     fn next_key_seed<S: DeserializeSeed<'de>>(
         &mut self,
         seed: S,
-    ) -> Result<Option<S::Value>, DecodeError> {
+    ) -> Result<Option<S::Value>, NodeError> {
         let key = self.next_key();
         key.map(|key| seed.deserialize(deserializer(key)))
             .transpose()
     }
 
-    fn next_value_seed<S: DeserializeSeed<'de>>(
-        &mut self,
-        seed: S,
-    ) -> Result<S::Value, DecodeError> {
+    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, NodeError> {
         let placeholder = || NodeReader::placeholder(self.notes);
         seed.deserialize(
             self.value
@@ -183,7 +180,7 @@ impl<'n, 't> Variant<'n, 't> {
                 (key, Self { content, ..first })
             }
             (NodeKind::Map, ..) => {
-                at.note(DecodeError::invalid_value(
+                at.note(NodeError::invalid_value(
                     Unexpected::Map,
                     &"a map with one key",
                 ));
@@ -204,7 +201,7 @@ impl<'n, 't> Variant<'n, 't> {
         notes.note(
             name,
             FaultPart::Whole,
-            DecodeError::unknown_variant(text, variants).what,
+            NodeError::unknown_variant(text, variants).what,
         );
         Self {
             content: NodeReader::placeholder(notes),
@@ -216,27 +213,24 @@ impl<'n, 't> Variant<'n, 't> {
     /// Reports that a variant without content needs one.
     fn need(&self, what: &str) {
         if let Some(bare) = self.bare {
-            bare.note(DecodeError::invalid_type(Unexpected::UnitVariant, &what));
+            bare.note(NodeError::invalid_type(Unexpected::UnitVariant, &what));
         }
     }
 }
 
 impl<'de, 'n, 't> EnumAccess<'de> for Variant<'n, 't> {
-    type Error = DecodeError;
+    type Error = NodeError;
     type Variant = Self;
 
-    fn variant_seed<S: DeserializeSeed<'de>>(
-        self,
-        seed: S,
-    ) -> Result<(S::Value, Self), DecodeError> {
+    fn variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<(S::Value, Self), NodeError> {
         Ok((seed.deserialize(deserializer(self.name))?, self))
     }
 }
 
 impl<'de> VariantAccess<'de> for Variant<'_, '_> {
-    type Error = DecodeError;
+    type Error = NodeError;
 
-    fn unit_variant(self) -> Result<(), DecodeError> {
+    fn unit_variant(self) -> Result<(), NodeError> {
         let content = self.content;
         let kind = content.at.map(|at| content.notes.tree.kind(at));
         if kind.is_some_and(|kind| kind != NodeKind::Null) {
@@ -245,10 +239,7 @@ impl<'de> VariantAccess<'de> for Variant<'_, '_> {
         Ok(())
     }
 
-    fn newtype_variant_seed<S: DeserializeSeed<'de>>(
-        self,
-        seed: S,
-    ) -> Result<S::Value, DecodeError> {
+    fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, NodeError> {
         self.need("newtype variant");
         seed.deserialize(self.content)
     }
@@ -257,7 +248,7 @@ impl<'de> VariantAccess<'de> for Variant<'_, '_> {
         self,
         length: usize,
         visitor: V,
-    ) -> Result<V::Value, DecodeError> {
+    ) -> Result<V::Value, NodeError> {
         self.need("tuple variant");
         self.content.deserialize_tuple(length, visitor)
     }
@@ -266,12 +257,12 @@ impl<'de> VariantAccess<'de> for Variant<'_, '_> {
         self,
         fields: FieldNames,
         visitor: V,
-    ) -> Result<V::Value, DecodeError> {
+    ) -> Result<V::Value, NodeError> {
         self.need("struct variant");
         self.content.deserialize_struct("", fields, visitor)
     }
 }
 
-fn deserializer(text: &str) -> StrDeserializer<'_, DecodeError> {
+fn deserializer(text: &str) -> StrDeserializer<'_, NodeError> {
     text.into_deserializer()
 }

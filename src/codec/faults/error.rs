@@ -7,7 +7,7 @@ use std::fmt::{self, Display, Formatter};
 
 /// A decoding error.
 #[derive(Debug)]
-pub(super) struct DecodeError {
+pub(super) struct NodeError {
     /// The message.
     pub(super) what: String,
     /// The node, if known.
@@ -16,7 +16,7 @@ pub(super) struct DecodeError {
     pub(super) missing: Option<(FieldNames, &'static str)>,
 }
 
-impl DecodeError {
+impl NodeError {
     /// Sets the node, unless it is already set.
     pub(super) fn at(self, node: Option<NodeId>) -> Self {
         Self {
@@ -36,15 +36,15 @@ impl DecodeError {
     }
 }
 
-impl Display for DecodeError {
+impl Display for NodeError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(&self.what)
     }
 }
 
-impl std::error::Error for DecodeError {}
+impl std::error::Error for NodeError {}
 
-impl de::Error for DecodeError {
+impl de::Error for NodeError {
     fn custom<T: Display>(what: T) -> Self {
         Self {
             what: what.to_string(),

@@ -8,7 +8,7 @@ mod access;
 mod error;
 mod reader;
 
-use error::DecodeError;
+use error::NodeError;
 use reader::NodeReader;
 use rtc_source::Span;
 use rtc_source::tree::{NodeId, Tree};
@@ -122,7 +122,7 @@ impl<'t> Notes<'t> {
     }
 
     /// Makes the next run pass an error. False if that is impossible.
-    fn repair(&mut self, error: &DecodeError) -> bool {
+    fn repair(&mut self, error: &NodeError) -> bool {
         if let Some((fields, name)) = error.missing {
             return self.require(fields, name);
         }

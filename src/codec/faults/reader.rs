@@ -1,7 +1,7 @@
 //! Decodes values from the nodes of a tree; a wrong node yields a placeholder.
 
 use super::access::{Items, Members, Variant};
-use super::error::DecodeError;
+use super::error::NodeError;
 use super::{FaultPart, FieldNames, Notes};
 use rtc_source::tree::{NodeId, NodeKind};
 use serde::de::{Deserializer, Error as _, Expected, Unexpected, Visitor};
@@ -59,7 +59,7 @@ impl JsonNumber {
         }
     }
 
-    fn visit<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn visit<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         match self {
             Self::Unsigned(number) => visitor.visit_u64(number),
             Self::Signed(number) => visitor.visit_i64(number),
@@ -127,12 +127,12 @@ impl<'n, 't> NodeReader<'n, 't> {
             NodeKind::List => (Unexpected::Seq, FaultPart::Bracket),
             NodeKind::Map => (Unexpected::Map, FaultPart::Bracket),
         };
-        let error = DecodeError::invalid_type(found, expected);
+        let error = NodeError::invalid_type(found, expected);
         self.notes.note(at, part, error.what);
     }
 
     /// Reports an error for the whole node.
-    pub(super) fn note(self, error: DecodeError) {
+    pub(super) fn note(self, error: NodeError) {
         if let Some(at) = self.at {
             self.notes.note(at, FaultPart::Whole, error.what);
         }
@@ -143,18 +143,18 @@ impl<'n, 't> NodeReader<'n, 't> {
         self,
         visitor: V,
         (least, most): (i128, i128),
-    ) -> Result<V::Value, DecodeError> {
+    ) -> Result<V::Value, NodeError> {
         match self.number() {
             Some(number) if number.is_from(least, most) => return number.visit(visitor),
             Some(number @ (JsonNumber::Unsigned(_) | JsonNumber::Signed(_))) => {
-                self.note(DecodeError::invalid_value(number.unexpected(), &visitor));
+                self.note(NodeError::invalid_value(number.unexpected(), &visitor));
             }
             Some(JsonNumber::Float(_)) | None => self.wrong_type(&visitor),
         }
         visitor.visit_u64(0)
     }
 
-    fn float<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn float<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         if let Some(number) = self.number() {
             return number.visit(visitor);
         }
@@ -167,12 +167,12 @@ impl<'n, 't> NodeReader<'n, 't> {
         self,
         length: usize,
         visitor: V,
-    ) -> Result<V::Value, DecodeError> {
+    ) -> Result<V::Value, NodeError> {
         let list = self.at.into_iter();
         let items: Vec<NodeId> = list.flat_map(|list| self.notes.tree.items(list)).collect();
         if items.len() != length {
             let expected = format!("{} with {length} elements", &visitor as &dyn Expected);
-            self.note(DecodeError::invalid_length(items.len(), &expected.as_str()));
+            self.note(NodeError::invalid_length(items.len(), &expected.as_str()));
         }
         let items = Items::new(self.notes, items, Some(length));
         visitor.visit_seq(items).map_err(|error| error.at(self.at))
@@ -182,7 +182,7 @@ impl<'n, 't> NodeReader<'n, 't> {
         self,
         visitor: V,
         length: Option<usize>,
-    ) -> Result<V::Value, DecodeError> {
+    ) -> Result<V::Value, NodeError> {
         let list = self.at.filter(|_| self.kind() == Some(NodeKind::List));
         let items: Vec<NodeId> = match list {
             Some(list) => self.notes.tree.items(list).collect(),
@@ -192,7 +192,7 @@ impl<'n, 't> NodeReader<'n, 't> {
             }
         };
         if list.is_some() && length.is_some_and(|length| items.len() != length) {
-            self.note(DecodeError::invalid_length(items.len(), &visitor));
+            self.note(NodeError::invalid_length(items.len(), &visitor));
         }
         let items = Items::new(self.notes, items, length);
         visitor.visit_seq(items).map_err(|error| error.at(self.at))
@@ -202,27 +202,27 @@ impl<'n, 't> NodeReader<'n, 't> {
 /// Deserializer methods of the integer types.
 macro_rules! integer {
     ($($method:ident $type:ident)+) => {
-        $(fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+        $(fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
             self.integer(visitor, (i128::from($type::MIN), i128::from($type::MAX)))
         })+
     };
 }
 
 impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
-    type Error = DecodeError;
+    type Error = NodeError;
 
     integer! {
         deserialize_u8 u8 deserialize_u16 u16 deserialize_u32 u32 deserialize_u64 u64
         deserialize_i8 i8 deserialize_i16 i16 deserialize_i32 i32 deserialize_i64 i64
     }
 
-    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         let tree = self.notes.tree;
         let Some((at, kind)) = self.at.zip(self.kind()) else {
             // Types that accept anything, such as columns, accept an empty list.
             return visitor.visit_seq(Items::new(self.notes, Vec::new(), None));
         };
-        let value: Result<V::Value, DecodeError> = match kind {
+        let value: Result<V::Value, NodeError> = match kind {
             NodeKind::Null => visitor.visit_unit(),
             NodeKind::Bool => visitor.visit_bool(tree.boolean(at).unwrap_or_default()),
             NodeKind::Number => self
@@ -238,7 +238,7 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         value.map_err(|error| error.at(self.at))
     }
 
-    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         let boolean = self.at.and_then(|at| self.notes.tree.boolean(at));
         if boolean.is_none() {
             self.wrong_type(&visitor);
@@ -246,51 +246,51 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         visitor.visit_bool(boolean.unwrap_or_default())
     }
 
-    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         self.float(visitor)
     }
 
-    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         self.float(visitor)
     }
 
-    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         let text = self.text();
         if text.is_none() {
             self.wrong_type(&visitor);
         }
         let value = visitor.visit_str(text.unwrap_or_default());
-        value.map_err(|error: DecodeError| error.at(self.at))
+        value.map_err(|error: NodeError| error.at(self.at))
     }
 
-    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         self.deserialize_str(visitor)
     }
 
-    fn deserialize_char<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_char<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         self.deserialize_str(visitor)
     }
 
-    fn deserialize_identifier<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_identifier<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         self.deserialize_str(visitor)
     }
 
-    fn deserialize_bytes<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_bytes<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         self.deserialize_str(visitor)
     }
 
-    fn deserialize_byte_buf<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_byte_buf<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         self.deserialize_str(visitor)
     }
 
-    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         match self.kind() {
             Some(NodeKind::Null) | None => visitor.visit_none(),
             Some(_) => visitor.visit_some(self),
         }
     }
 
-    fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         if self.kind() != Some(NodeKind::Null) {
             self.wrong_type(&visitor);
         }
@@ -301,7 +301,7 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         self,
         _: &'static str,
         visitor: V,
-    ) -> Result<V::Value, DecodeError> {
+    ) -> Result<V::Value, NodeError> {
         self.deserialize_unit(visitor)
     }
 
@@ -309,11 +309,11 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         self,
         _: &'static str,
         visitor: V,
-    ) -> Result<V::Value, DecodeError> {
+    ) -> Result<V::Value, NodeError> {
         visitor.visit_newtype_struct(self)
     }
 
-    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         self.list(visitor, None)
     }
 
@@ -321,7 +321,7 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         self,
         length: usize,
         visitor: V,
-    ) -> Result<V::Value, DecodeError> {
+    ) -> Result<V::Value, NodeError> {
         self.list(visitor, Some(length))
     }
 
@@ -330,11 +330,11 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         _: &'static str,
         length: usize,
         visitor: V,
-    ) -> Result<V::Value, DecodeError> {
+    ) -> Result<V::Value, NodeError> {
         self.list(visitor, Some(length))
     }
 
-    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         self.deserialize_any(visitor)
     }
 
@@ -343,7 +343,7 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         _: &'static str,
         fields: FieldNames,
         visitor: V,
-    ) -> Result<V::Value, DecodeError> {
+    ) -> Result<V::Value, NodeError> {
         if self.kind() == Some(NodeKind::List) {
             return self.positional(fields.len(), visitor);
         }
@@ -361,13 +361,13 @@ impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
         _: &'static str,
         variants: FieldNames,
         visitor: V,
-    ) -> Result<V::Value, DecodeError> {
+    ) -> Result<V::Value, NodeError> {
         let variant = Variant::of(self, variants, &visitor);
         let value = visitor.visit_enum(variant);
         value.map_err(|error| error.at(self.at))
     }
 
-    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, NodeError> {
         visitor.visit_unit()
     }
 }

@@ -47,12 +47,12 @@ struct Advice<'a> {
     /// What to do.
     text: &'a str,
     /// As a change of the source, or null.
-    replacement: Option<Change<'a>>,
+    replacement: Option<JsonChange<'a>>,
 }
 
 /// A change of the source.
 #[derive(Serialize)]
-struct Change<'a> {
+struct JsonChange<'a> {
     #[serde(flatten)]
     mark: Marked<'a>,
     /// Whether it is a guess at what the author meant.
@@ -111,7 +111,7 @@ fn advice<'a>(map: &'a SourceMap, hint: &'a Hint) -> Advice<'a> {
             text,
             is_guess,
         } = change;
-        Change {
+        JsonChange {
             mark: marked(map, *span, text),
             guess: *is_guess,
         }

@@ -162,13 +162,13 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
 }
 
 /// Why an image is refused: a code, the validator's name for it, and words.
-type Fault = (&'static Code, &'static str, String);
+type ImageFault = (&'static Code, &'static str, String);
 
 /// Looks at the bytes of each image, and decodes them on so many threads, 0 for one per core; images
 /// of the same bytes are one picture.
 pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut AssetReport<'_, '_>) {
     let mut decoded = decoded(doc, threads, report.budget);
-    let mut known: BTreeMap<Stretch, Result<usize, Fault>> = BTreeMap::new();
+    let mut known: BTreeMap<Stretch, Result<usize, ImageFault>> = BTreeMap::new();
     for index in 0..doc.images.len() {
         let image = &doc.images[index];
         let Some(bytes) = doc.image_bytes(image) else {
@@ -206,7 +206,7 @@ pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut Asset
                 Some(Err(Refusal::Limit(fault))) => {
                     return report.exceeded(at, "the image", &fault);
                 }
-                Some(Err(Refusal::Fault(fault))) => Err(fault),
+                Some(Err(Refusal::ImageFault(fault))) => Err(fault),
                 // One of them asks for too much, and is told.
                 None => continue,
             },
@@ -258,7 +258,7 @@ fn remark_size(picture: &ir::Image, at: NodeId, report: &mut AssetReport<'_, '_>
 }
 
 enum Refusal {
-    Fault(Fault),
+    ImageFault(ImageFault),
     Limit(Exceeded),
 }
 
@@ -311,7 +311,7 @@ fn admit<'a>(
 ) -> Result<ChargedFile<'a>, Refusal> {
     if format.ends_early(bytes) {
         let message = "the image ends before it tells its size".to_owned();
-        return Err(Refusal::Fault((
+        return Err(Refusal::ImageFault((
             &codes::GLTF_IMAGE,
             "IMAGE_UNEXPECTED_EOS",
             message,
@@ -335,7 +335,7 @@ impl Refusal {
                 (&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID")
             }
         };
-        Self::Fault((code, alias, format!("the image {fault}")))
+        Self::ImageFault((code, alias, format!("the image {fault}")))
     }
 }
 

@@ -178,18 +178,18 @@ fn roots(
     report: &mut AssetReport<'_, '_>,
 ) -> Vec<Option<usize>> {
     #[derive(Clone, Copy)]
-    enum State {
+    enum NodeState {
         New,
         OnWay,
         Done(Option<usize>),
     }
-    let mut states = vec![State::New; parents.len()];
+    let mut states = vec![NodeState::New; parents.len()];
     for start in 0..parents.len() {
         let (mut way, mut at): (Vec<usize>, usize) = (Vec::new(), start);
         let root = loop {
             match states[at] {
-                State::Done(root) => break root,
-                State::OnWay => {
+                NodeState::Done(root) => break root,
+                NodeState::OnWay => {
                     let first = way.iter().position(|node| *node == at).unwrap_or(0);
                     for node in &way[first..] {
                         let message = format!("node {node} lies below itself");
@@ -202,8 +202,8 @@ fn roots(
                     }
                     break None;
                 }
-                State::New => {
-                    states[at] = State::OnWay;
+                NodeState::New => {
+                    states[at] = NodeState::OnWay;
                     way.push(at);
                     match parents[at] {
                         Some(parent) => at = parent,
@@ -213,10 +213,10 @@ fn roots(
             }
         };
         way.into_iter()
-            .for_each(|node| states[node] = State::Done(root));
+            .for_each(|node| states[node] = NodeState::Done(root));
     }
-    let root = |state: &State| {
-        if let State::Done(root) = state {
+    let root = |state: &NodeState| {
+        if let NodeState::Done(root) = state {
             *root
         } else {
             None

@@ -12,7 +12,7 @@ pub(super) type Moved = BTreeMap<(NodeId, &'static str), Vec<f64>>;
 
 /// A property that an animation may move.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Property {
+pub(super) struct AnimatedProperty {
     /// The object that has it.
     pub(super) at: NodeId,
     pub(super) key: &'static str,
@@ -22,7 +22,7 @@ pub(super) struct Property {
     range: [f64; 2],
 }
 
-impl Property {
+impl AnimatedProperty {
     /// What the property becomes by the numbers of an animation, which a cubic may take out of its
     /// range; none if they are not finite.
     pub(super) fn kept(&self, numbers: &[f64]) -> Option<Vec<f64>> {
@@ -33,7 +33,7 @@ impl Property {
 }
 
 /// A row of the table: what the property lies in, its key, how many numbers it takes, their range.
-type Row = (&'static str, &'static str, usize, [f64; 2]);
+type PointerRow = (&'static str, &'static str, usize, [f64; 2]);
 
 const FREE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 const UNIT: [f64; 2] = [0.0, 1.0];
@@ -44,7 +44,7 @@ const POSITIVE: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
 const STEPS: usize = 6;
 
 /// The properties that are followed, beside those of the table of extensions.
-const FOLLOWED: &[Row] = &[
+const FOLLOWED: &[PointerRow] = &[
     ("pbrMetallicRoughness", "baseColorFactor", 4, UNIT),
     ("pbrMetallicRoughness", "metallicFactor", 1, UNIT),
     ("pbrMetallicRoughness", "roughnessFactor", 1, UNIT),
@@ -123,7 +123,7 @@ macro_rules! numbers {
 /// The properties of the table of extensions.
 macro_rules! of_extensions {
     ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
-        const OF_EXTENSIONS: &[Row] = &[
+        const OF_EXTENSIONS: &[PointerRow] = &[
             $($(($name, $key, numbers!($kind).0, numbers!($kind).1),)*)*
         ];
     };
@@ -139,7 +139,11 @@ pub(super) fn of_node(pointer: &str) -> Option<(usize, Path)> {
 
 /// The property of a material, a camera or a light that a pointer names; none if it names another
 /// one, or an object that the asset has not.
-pub(super) fn resolve(doc: &Document<'_>, json: &Tree<'_>, pointer: &str) -> Option<Property> {
+pub(super) fn resolve(
+    doc: &Document<'_>,
+    json: &Tree<'_>,
+    pointer: &str,
+) -> Option<AnimatedProperty> {
     let part = |list: &[NodeId], at: usize| list.get(at).copied();
     let split = |prefix: &str| pointer.strip_prefix(prefix)?.split_once('/');
     let index = |(at, rest): (&'_ str, _)| Some((at.parse::<usize>().ok()?, rest));
@@ -158,10 +162,11 @@ pub(super) fn resolve(doc: &Document<'_>, json: &Tree<'_>, pointer: &str) -> Opt
         .take(STEPS)
         .try_fold(part, |at, step| json.get(at, step))?;
     let mut rows = FOLLOWED.iter().chain(OF_EXTENSIONS);
-    let is_row =
-        |(own, name, width, _): &&Row| *own == holder.unwrap_or(list) && *name == key && *width > 0;
+    let is_row = |(own, name, width, _): &&PointerRow| {
+        *own == holder.unwrap_or(list) && *name == key && *width > 0
+    };
     let (_, key, width, range) = *rows.find(is_row)?;
-    (json.kind(at) == NodeKind::Map).then_some(Property {
+    (json.kind(at) == NodeKind::Map).then_some(AnimatedProperty {
         at,
         key,
         width,

@@ -27,7 +27,7 @@ pub(super) struct Resources<'m> {
 }
 
 /// What is behind a URI: bytes, and the media type of a data URI.
-type Found = (Bytes<'static>, Option<String>);
+type FoundResource = (Bytes<'static>, Option<String>);
 
 impl<'m> Resources<'m> {
     pub(super) fn new(search: Search, map: &'m SourceMap) -> Self {
@@ -129,7 +129,7 @@ impl<'m> Resources<'m> {
         (at, kind): (NodeId, Option<&FileKind>),
         is_glb: bool,
         report: &mut AssetReport<'_, '_>,
-    ) -> Option<Found> {
+    ) -> Option<FoundResource> {
         let text = report.json.text(at)?;
         let parsed = uri::parse(text).or_else(|fault| {
             let (uri, message, mended) = uri::mended(text).ok_or(fault)?;

@@ -41,7 +41,7 @@ pub(super) fn check(
     (purposes, usages, demands): (&mut Purposes, &mut Usages, &mut Demands),
     report: &mut AssetReport<'_, '_>,
 ) {
-    let order = Order::new(doc, forest);
+    let order = JointOrder::new(doc, forest);
     for skin in &doc.skins {
         check_tree(doc, skin, forest, &order, report);
         check_matrices(doc, skin, (purposes, usages, demands), report);
@@ -140,12 +140,12 @@ struct Done {
 }
 
 /// The nodes in the order of a walk through their trees: those below one lie in one stretch.
-struct Order {
+struct JointOrder {
     first: Vec<usize>,
     after: Vec<usize>,
 }
 
-impl Order {
+impl JointOrder {
     fn new(doc: &Document<'_>, forest: &Forest) -> Self {
         let count = doc.nodes.len();
         let mut order = Self {
@@ -183,7 +183,7 @@ fn check_tree(
     doc: &Document<'_>,
     skin: &Skin,
     forest: &Forest,
-    order: &Order,
+    order: &JointOrder,
     report: &mut AssetReport<'_, '_>,
 ) {
     let Some(at) = report

@@ -104,7 +104,7 @@ pub fn is_mtl(head: &[u8]) -> bool {
 pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Library, ParseFault> {
     // A word of two bytes takes 24 while its line is read, in a list that grows by doubling.
     budget.has(Resource::Memory, 24 * bytes.len() as u64)?;
-    let mut reader = Reader {
+    let mut reader = MtlReader {
         file: bytes,
         library: Library::default(),
         current: None,
@@ -127,7 +127,7 @@ pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Library, ParseFault> {
     Ok(reader.library)
 }
 
-struct Reader<'a> {
+struct MtlReader<'a> {
     file: &'a [u8],
     library: Library,
     /// The material that statements are of.
@@ -193,7 +193,7 @@ const STATEMENTS: &[(&str, Statement)] = &[
 /// The largest number that is read; exponents end at 1000 in the files of programs.
 const LARGEST: f64 = 1e6;
 
-impl Reader<'_> {
+impl MtlReader<'_> {
     fn begin(&mut self, words: &[Word<'_>]) {
         self.end();
         match name(&words[1..], self.file) {

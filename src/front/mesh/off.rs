@@ -18,7 +18,7 @@ pub(super) fn is_head(word: &Word<'_>) -> bool {
 pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
     // A corner takes two bytes.
     budget.has(Resource::Memory, (CORNER / 2 * bytes.len()) as u64)?;
-    let mut reader = Reader {
+    let mut reader = OffReader {
         lines: Lines::new(bytes),
         words: Vec::new(),
     };
@@ -33,12 +33,12 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault>
     Ok(content.finish(budget)?)
 }
 
-struct Reader<'a> {
+struct OffReader<'a> {
     lines: Lines<'a>,
     words: Vec<Word<'a>>,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> OffReader<'a> {
     /// The words of the next line; `count` says who promised one.
     fn line(&mut self, count: &Count<'a>) -> Result<&[Word<'a>], WordFault> {
         if self.lines.next(&mut self.words) {
@@ -69,7 +69,7 @@ struct Head<'a> {
     faces: Count<'a>,
 }
 
-fn head<'a>(reader: &mut Reader<'a>) -> Result<Head<'a>, WordFault> {
+fn head<'a>(reader: &mut OffReader<'a>) -> Result<Head<'a>, WordFault> {
     reader.lines.next(&mut reader.words);
     let head = reader.words[0];
     let has_normals = match head.bytes {
@@ -138,7 +138,7 @@ impl Content {
 }
 
 fn body<'a>(
-    reader: &mut Reader<'a>,
+    reader: &mut OffReader<'a>,
     head: &Head<'a>,
     content: &mut Content,
     faults: &mut Vec<WordFault>,

@@ -25,7 +25,7 @@ pub(super) fn is_head(head: &[u8]) -> bool {
 pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
     let one = |fault| ParseFault::Faults(vec![fault]);
     let mut head = head::read(bytes).map_err(one)?;
-    let mut reader = Reader {
+    let mut reader = PlyReader {
         body: PlyBody::new(bytes, &head),
         vertices: head.vertices(),
         parsed: Parsed::default(),
@@ -48,7 +48,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault>
 }
 
 /// What was read so far.
-struct Reader<'a> {
+struct PlyReader<'a> {
     body: PlyBody<'a>,
     /// How many vertices there are to be.
     vertices: usize,
@@ -59,7 +59,7 @@ struct Reader<'a> {
     long: usize,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> PlyReader<'a> {
     fn element(&mut self, element: &PlyElement<'a>, budget: &Budget) -> Result<(), ParseFault> {
         let one = |fault| ParseFault::Faults(vec![fault]);
         if !self.body.has_room(element) {

@@ -12,14 +12,14 @@ const ROWS: u32 = 16;
 
 /// Vertices with normals and texture coordinates.
 #[derive(Default)]
-struct Builder {
+struct TriangleBuilder {
     positions: Vec<[f64; 3]>,
     normals: Vec<[f64; 3]>,
     uvs: Vec<[f64; 2]>,
     triangles: Vec<[u32; 3]>,
 }
 
-impl Builder {
+impl TriangleBuilder {
     fn vertex(&mut self, position: Vec3, normal: Vec3, uv: [f64; 2]) {
         self.positions.push(position.to_array());
         self.normals.push(normal.to_array());
@@ -50,7 +50,7 @@ impl Builder {
 
 /// The square from (−1, −1, 0) to (1, 1, 0), its normal +z.
 pub(super) fn rectangle() -> Mesh {
-    let mut builder = Builder::default();
+    let mut builder = TriangleBuilder::default();
     for [u, v] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] {
         builder.vertex(
             Vec3::new(2.0 * u - 1.0, 2.0 * v - 1.0, 0.0),
@@ -64,7 +64,7 @@ pub(super) fn rectangle() -> Mesh {
 
 /// The cube from (−1, −1, −1) to (1, 1, 1).
 pub(super) fn cube() -> Mesh {
-    let mut builder = Builder::default();
+    let mut builder = TriangleBuilder::default();
     for normal in [
         Vec3::X,
         Vec3::NEG_X,
@@ -89,7 +89,7 @@ pub(super) fn cube() -> Mesh {
 
 /// The unit disk about +z, of the area of the circle.
 pub(super) fn disk() -> Mesh {
-    let mut builder = Builder::default();
+    let mut builder = TriangleBuilder::default();
     let sides = f64::from(SIDES);
     // The area of a regular polygon is (n/2)·r²·sin(2π/n).
     let radius = (PI / (sides / 2.0 * sin(TAU / sides))).sqrt();
@@ -107,7 +107,7 @@ pub(super) fn disk() -> Mesh {
 
 /// The unit sphere, with poles ±z.
 pub(super) fn sphere() -> Mesh {
-    let mut builder = Builder::default();
+    let mut builder = TriangleBuilder::default();
     for row in 0..=ROWS {
         let v = f64::from(row) / f64::from(ROWS);
         for side in 0..=SIDES {
@@ -126,7 +126,7 @@ pub(super) fn sphere() -> Mesh {
 
 /// The cylinder of radius 1 about +z from 0 to 1, open at both ends.
 pub(super) fn cylinder() -> Mesh {
-    let mut builder = Builder::default();
+    let mut builder = TriangleBuilder::default();
     for v in [0.0, 1.0] {
         for side in 0..=SIDES {
             let u = f64::from(side) / f64::from(SIDES);

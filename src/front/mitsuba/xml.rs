@@ -155,7 +155,7 @@ pub(super) fn read(
     let folder = map.folder(file);
     let search = Search::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
-    let mut reader = Reader {
+    let mut reader = XmlReader {
         map,
         sink,
         search,
@@ -169,7 +169,7 @@ pub(super) fn read(
 }
 
 /// The state of reading: one for a scene and the files that it includes.
-struct Reader<'run> {
+struct XmlReader<'run> {
     map: &'run mut SourceMap,
     sink: &'run mut Sink,
     search: Search,
@@ -188,7 +188,7 @@ struct Reader<'run> {
 /// An element of the document in one file.
 type Element<'d, 'i> = roxmltree::Node<'d, 'i>;
 
-impl Reader<'_> {
+impl XmlReader<'_> {
     fn file(&mut self, file: FileId) -> Option<Node> {
         let Some(text) = self.map.text(file).map(str::to_owned) else {
             let message = "the scene is not UTF-8 text";

@@ -21,7 +21,7 @@ const HEURISTIC_DEPTH: usize = 28;
 const MAX_DEPTH: usize = 64;
 
 #[derive(Debug)]
-struct Node {
+struct BvhNode {
     bounds: Bounds,
     /// The first entry of `order` for a leaf, the second child for an inner node; the first child
     /// follows the node.
@@ -34,7 +34,7 @@ struct Node {
 /// The hierarchy.
 #[derive(Debug)]
 pub(crate) struct Bvh {
-    nodes: Vec<Node>,
+    nodes: Vec<BvhNode>,
     order: Vec<u32>,
 }
 
@@ -49,7 +49,7 @@ impl Bvh {
                 bounds: *bounds,
             })
             .collect::<Vec<_>>();
-        let mut builder = Builder {
+        let mut builder = BvhBuilder {
             items,
             nodes: Vec::new(),
         };
@@ -67,7 +67,7 @@ impl Bvh {
     /// 0.
     #[inline]
     pub(crate) fn walk(&self, ray: &Ray, mut t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
-        let mut visit_leaf = |node: &Node, mut t_max: f64| {
+        let mut visit_leaf = |node: &BvhNode, mut t_max: f64| {
             for item in &self.order[node.link as usize..(node.link + node.count) as usize] {
                 t_max = visit(*item, t_max);
             }
@@ -111,12 +111,12 @@ pub(crate) struct Item {
     pub(crate) bounds: Bounds,
 }
 
-struct Builder {
+struct BvhBuilder {
     items: Vec<Item>,
-    nodes: Vec<Node>,
+    nodes: Vec<BvhNode>,
 }
 
-impl Builder {
+impl BvhBuilder {
     /// Builds the node over `items[start..end]` and what is below it.
     fn node(&mut self, start: usize, end: usize, depth: usize) {
         let items = &mut self.items[start..end];
@@ -124,7 +124,7 @@ impl Builder {
             .iter()
             .fold(Bounds::EMPTY, |bounds, item| bounds.union(item.bounds));
         let here = self.nodes.len();
-        let leaf = Node {
+        let leaf = BvhNode {
             bounds,
             link: to_u32(start),
             count: to_u32(end - start),

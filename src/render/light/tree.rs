@@ -26,12 +26,12 @@ pub(super) struct TreeLight {
 /// A binary tree over lights.
 pub(super) struct LightTree {
     /// The left child of an inner node follows it.
-    nodes: Vec<Node>,
+    nodes: Vec<LightNode>,
     /// The way from the root to each light, from the lowest bit on: 1 is right.
     ways: Vec<Option<u64>>,
 }
 
-struct Node {
+struct LightNode {
     center: Vec3,
     /// The square of the radius of a sphere around the bounds.
     radius_squared: f64,
@@ -70,7 +70,7 @@ impl LightTree {
     /// so no way is longer than 64.
     fn add(&mut self, emitters: &mut [TreeLight], way: u64, depth: u32) {
         let index = self.nodes.len();
-        let mut node = Node::around(emitters);
+        let mut node = LightNode::around(emitters);
         if let [emitter] = emitters {
             self.ways[emitter.light] = Some(way);
             node.below = Below::Light(emitter.light);
@@ -134,7 +134,7 @@ impl LightTree {
     }
 }
 
-impl Node {
+impl LightNode {
     /// The node of lights, without what is below.
     fn around(emitters: &[TreeLight]) -> Self {
         let boxes = emitters.iter().map(|emitter| emitter.bounds);
@@ -304,7 +304,7 @@ mod tests {
             normal: Some(if light % 2 == 0 { normal } else { -normal }),
         };
         let emitters = normals.enumerate().map(emitter).collect::<Vec<_>>();
-        let node = Node::around(&emitters);
+        let node = LightNode::around(&emitters);
         let cone = node.cone.as_ref().unwrap();
         for k in 0..4096_u32 {
             let unit = |shift: u32| f64::from(k.wrapping_mul(2_654_435_761) >> shift & 255) / 128.0;

@@ -36,7 +36,7 @@ pub struct Cone {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Part {
+enum ConePart {
     Side,
     Base,
     Apex,
@@ -44,14 +44,14 @@ enum Part {
 
 /// A ray in the frame of the cone: along it ρ = ‖w + x·t‖, and the cone's own radius is g = σ −
 /// τ·t.
-struct Profile {
+struct ConeProfile {
     w: Vec3,
     x: Vec3,
     sigma: f64,
     tau: f64,
 }
 
-impl Profile {
+impl ConeProfile {
     /// The Newton step of a root of ρ − g; none at the axis, where ρ has no slope.
     fn refined(&self, t: f64) -> f64 {
         let foot = self.w + self.x * t;
@@ -72,12 +72,12 @@ impl Profile {
     }
 
     /// The stretch inside the nappe below the apex.
-    fn inside(&self) -> Option<Interval<Part>> {
+    fn inside(&self) -> Option<Interval<ConePart>> {
         let Self { w, x, sigma, tau } = *self;
         let a = difference_of_products(x.length(), x.length(), tau, tau);
         let b = -(w.dot(x) + sigma * tau);
         let c = (w.length() - sigma) * (w.length() + sigma);
-        let side = |t: f64| (t, Part::Side);
+        let side = |t: f64| (t, ConePart::Side);
         if a == 0.0 {
             let t = self.refined(c / (2.0 * b));
             let (before, after) = (side(f64::NEG_INFINITY), side(f64::INFINITY));
@@ -134,7 +134,7 @@ impl Cone {
     }
 
     /// The first root above 0, and its part.
-    fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
+    fn crossing(&self, ray: &Ray) -> Option<(f64, ConePart)> {
         let d = ray.direction;
         let start = ray.origin - self.base;
         let nearest = (self.axis * (0.5 * self.height) - start).dot(d) / d.dot(d);
@@ -147,13 +147,19 @@ impl Cone {
         let inside = inside.map(|t| t + nearest);
         let (distance, growth) = self.profile(start, d).distance();
         let inside = inside.seen_from(distance, growth);
-        let ends = between_planes(self.axis, self.height, start, d, [Part::Base, Part::Apex])?;
+        let ends = between_planes(
+            self.axis,
+            self.height,
+            start,
+            d,
+            [ConePart::Base, ConePart::Apex],
+        )?;
         inside.and(ends)?.first_in_front()
     }
 
     /// The ray from a point, given from the base, along `d`.
-    fn profile(&self, from: Vec3, d: Vec3) -> Profile {
-        Profile {
+    fn profile(&self, from: Vec3, d: Vec3) -> ConeProfile {
+        ConeProfile {
             w: cross(from, self.axis),
             x: cross(d, self.axis),
             sigma: self.slope * (self.height - dot(self.axis, from)),
@@ -163,7 +169,13 @@ impl Cone {
 
     /// As [`Self::crossing`] for a cone far wider than high, and a ray that meets the plane of its
     /// base.
-    fn crossing_flat(&self, start: Vec3, d: Vec3, nearest: f64, tau: f64) -> Option<(f64, Part)> {
+    fn crossing_flat(
+        &self,
+        start: Vec3,
+        d: Vec3,
+        nearest: f64,
+        tau: f64,
+    ) -> Option<(f64, ConePart)> {
         let x = cross(d, self.axis);
         let at_base = -dot(self.axis, start) / dot(self.axis, d);
         // Move a ray steeper than the side to the base, and any other ray to the point closest to
@@ -174,13 +186,16 @@ impl Cone {
         let pace = across.max(tau.abs());
         let (x, tau) = (x / pace, tau / pace);
         let base = (at_base - moved) * pace;
-        let profile = Profile {
+        let profile = ConeProfile {
             w: cross(start + d * moved, self.axis),
             x,
             sigma: self.radius + tau * base,
             tau,
         };
-        let (base, apex) = ((base, Part::Base), (base + self.radius / tau, Part::Apex));
+        let (base, apex) = (
+            (base, ConePart::Base),
+            (base + self.radius / tau, ConePart::Apex),
+        );
         let ends = if tau > 0.0 {
             Interval {
                 enter: base,
@@ -207,17 +222,17 @@ impl Geometry for Cone {
 
     /// The point at `t`, moved onto the part that was hit; at the apex the normal is the axis.
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
-        let part = self.crossing(ray).map_or(Part::Side, |(_, part)| part);
+        let part = self.crossing(ray).map_or(ConePart::Side, |(_, part)| part);
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let radial = (local - self.axis * along).normalize_or_zero();
         // Repeat the step: in a needle, the rest along the axis is amplified by height/radius.
         let radial = (radial - self.axis * dot(self.axis, radial)).normalize_or_zero();
         let (local, normal) = match part {
-            Part::Base => (local - self.axis * along, -self.axis),
-            Part::Apex => (self.axis * self.height, self.axis),
-            Part::Side if radial == Vec3::ZERO => (local, self.axis),
-            Part::Side => {
+            ConePart::Base => (local - self.axis * along, -self.axis),
+            ConePart::Apex => (self.axis * self.height, self.axis),
+            ConePart::Side if radial == Vec3::ZERO => (local, self.axis),
+            ConePart::Side => {
                 let normal = (radial * self.height + self.axis * self.radius).normalize();
                 let off = normal.dot(local - self.axis * self.height);
                 (local - normal * off, normal)

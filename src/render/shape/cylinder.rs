@@ -29,7 +29,7 @@ pub struct Cylinder {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Part {
+enum CylinderPart {
     Side,
     Base,
     Top,
@@ -49,14 +49,14 @@ impl Cylinder {
     }
 
     /// The first root above 0, and its part.
-    fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
+    fn crossing(&self, ray: &Ray) -> Option<(f64, CylinderPart)> {
         let f = ray.origin - self.base;
         let caps = between_planes(
             self.axis,
             self.height,
             f,
             ray.direction,
-            [Part::Base, Part::Top],
+            [CylinderPart::Base, CylinderPart::Top],
         )?;
         self.inside_side(f, ray.direction, &caps)?
             .and(caps)?
@@ -64,14 +64,19 @@ impl Cylinder {
     }
 
     /// The interval of t inside the infinite cylinder, accurate between the caps.
-    fn inside_side(&self, f: Vec3, d: Vec3, caps: &Interval<Part>) -> Option<Interval<Part>> {
+    fn inside_side(
+        &self,
+        f: Vec3,
+        d: Vec3,
+        caps: &Interval<CylinderPart>,
+    ) -> Option<Interval<CylinderPart>> {
         let r2 = self.radius * self.radius;
         let (from_axis, across) = (cross(f, self.axis), cross(d, self.axis));
         let a = across.dot(across);
         if a == 0.0 {
             let everywhere = Interval {
-                enter: (f64::NEG_INFINITY, Part::Side),
-                leave: (f64::INFINITY, Part::Side),
+                enter: (f64::NEG_INFINITY, CylinderPart::Side),
+                leave: (f64::INFINITY, CylinderPart::Side),
             };
             return (from_axis.dot(from_axis) <= r2).then_some(everywhere);
         }
@@ -93,8 +98,8 @@ impl Cylinder {
         let (enter, leave) = roots(a, b, c, a * inside);
         let (enter, leave) = (nearest + enter, nearest + leave);
         let inside = Interval {
-            enter: (enter, Part::Side),
-            leave: (leave, Part::Side),
+            enter: (enter, CylinderPart::Side),
+            leave: (leave, CylinderPart::Side),
         };
         Some(inside.seen_from(outside, slope))
     }
@@ -107,14 +112,16 @@ impl Geometry for Cylinder {
 
     /// The point at `t`, moved onto the part that was hit.
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
-        let part = self.crossing(ray).map_or(Part::Side, |(_, part)| part);
+        let part = self
+            .crossing(ray)
+            .map_or(CylinderPart::Side, |(_, part)| part);
         // Project the point onto the cap or the side.
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let (local, normal) = match part {
-            Part::Base => (local - self.axis * along, -self.axis),
-            Part::Top => (local + self.axis * (self.height - along), self.axis),
-            Part::Side => {
+            CylinderPart::Base => (local - self.axis * along, -self.axis),
+            CylinderPart::Top => (local + self.axis * (self.height - along), self.axis),
+            CylinderPart::Side => {
                 let normal = ray.outward(local - self.axis * along);
                 (self.axis * along + normal * self.radius, normal)
             }

@@ -47,7 +47,7 @@ pub struct Paraboloid {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Part {
+enum ParaboloidPart {
     Side,
     Base,
 }
@@ -83,9 +83,9 @@ impl Paraboloid {
     }
 
     /// The first root above 0, and its part.
-    fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
+    fn crossing(&self, ray: &Ray) -> Option<(f64, ParaboloidPart)> {
         let start = ray.origin - self.base;
-        let parts = [Part::Base, Part::Side];
+        let parts = [ParaboloidPart::Base, ParaboloidPart::Side];
         let ends = between_planes(self.axis, self.height, start, ray.direction, parts)?;
         let inside = self.inside(ray, start, &ends)?;
         let Coefficients { b, c, .. } = self.coefficients(start, ray.direction);
@@ -93,7 +93,12 @@ impl Paraboloid {
     }
 
     /// The stretch inside the infinite paraboloid, accurate between the base and the vertex.
-    fn inside(&self, ray: &Ray, start: Vec3, ends: &Interval<Part>) -> Option<Interval<Part>> {
+    fn inside(
+        &self,
+        ray: &Ray,
+        start: Vec3,
+        ends: &Interval<ParaboloidPart>,
+    ) -> Option<Interval<ParaboloidPart>> {
         let d = ray.direction;
         // Move the ray to the point nearest to the axis, but not beyond base and vertex.
         let (from_axis, across) = (cross(start, self.axis), cross(d, self.axis));
@@ -152,7 +157,7 @@ impl Paraboloid {
     /// point from the base, F·u² = |p × u|² − radius²·(u² − p·u): no square root, no rounded axis.
     #[cold]
     #[inline(never)]
-    fn inside_precisely(&self, ray: &Ray, nearest: f64) -> Option<Interval<Part>> {
+    fn inside_precisely(&self, ray: &Ray, nearest: f64) -> Option<Interval<ParaboloidPart>> {
         let number = DoubleDouble::from;
         let d = ray.direction.to_array().map(number);
         let u = self.up.to_array().map(number);
@@ -211,10 +216,10 @@ impl Paraboloid {
 }
 
 /// The stretch between two points of the side.
-fn side(enter: f64, leave: f64) -> Interval<Part> {
+fn side(enter: f64, leave: f64) -> Interval<ParaboloidPart> {
     Interval {
-        enter: (enter, Part::Side),
-        leave: (leave, Part::Side),
+        enter: (enter, ParaboloidPart::Side),
+        leave: (leave, ParaboloidPart::Side),
     }
 }
 
@@ -237,12 +242,14 @@ impl Geometry for Paraboloid {
 
     /// The point at `t`, moved onto the part that was hit.
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
-        let part = self.crossing(ray).map_or(Part::Side, |(_, part)| part);
+        let part = self
+            .crossing(ray)
+            .map_or(ParaboloidPart::Side, |(_, part)| part);
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let (local, normal) = match part {
-            Part::Base => (local - self.axis * along, -self.axis),
-            Part::Side => self.onto_side(local, along),
+            ParaboloidPart::Base => (local - self.axis * along, -self.axis),
+            ParaboloidPart::Side => self.onto_side(local, along),
         };
         let extent = self.height + self.radius;
         Interaction::new(ray, self.base + local, normal, self.base, extent)

@@ -120,7 +120,7 @@ impl VisionFilters {
             .collect();
         let plane = |channel: usize| {
             let values = opponent.iter().map(|p| p[channel]).collect();
-            Channel {
+            ColorChannel {
                 width,
                 height,
                 values,
@@ -200,7 +200,7 @@ impl FeatureFilter {
     }
 
     /// The strength of edges and points: the norms of the first and second derivatives.
-    fn strengths(&self, luminance: &Channel) -> [Vec<f64>; 2] {
+    fn strengths(&self, luminance: &ColorChannel) -> [Vec<f64>; 2] {
         [&self.first, &self.second].map(|derivative| {
             let across = luminance.convolve(derivative, &self.smooth);
             let along = luminance.convolve(&self.smooth, derivative);
@@ -225,13 +225,13 @@ fn balanced(weights: Vec<f64>) -> Vec<f64> {
 }
 
 /// An image with one channel.
-struct Channel {
+struct ColorChannel {
     width: usize,
     height: usize,
     values: Vec<f64>,
 }
 
-impl Channel {
+impl ColorChannel {
     fn blur(&self, gaussians: &[(f64, Vec<f64>)]) -> Self {
         let mut sum = vec![0.0; self.values.len()];
         for (weight, line) in gaussians {

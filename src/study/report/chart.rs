@@ -21,7 +21,7 @@ type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>,
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
 /// A mark of a plot that shows its values on hover or keyboard focus.
-struct Mark {
+struct ChartMark {
     /// The position, in units of the plot.
     at: (i32, i32),
     label: String,
@@ -70,7 +70,7 @@ pub(super) fn front(study: &Study) -> String {
             }
         }
         // Add tooltips.
-        let mark_of = |row: &&Row| Mark {
+        let mark_of = |row: &&Row| ChartMark {
             at: chart.backend_coord(&(row.seconds.value, row.errors.rmse)),
             label: captions::measured(row, &used),
         };
@@ -196,7 +196,7 @@ pub(super) fn parameter(report: &ParameterReport) -> String {
         };
         chart.draw_series(points.iter().map(mark))?;
         // Add tooltips.
-        let mark_of = |(x, level): &(f64, &Level)| Mark {
+        let mark_of = |(x, level): &(f64, &Level)| ChartMark {
             at: chart.backend_coord(&(*x, level.error)),
             label: format!(
                 "{name} {}: error {} grey levels",
@@ -224,7 +224,7 @@ fn span(values: impl Iterator<Item = f64>) -> AxisRange {
 
 fn plot(
     size: (u32, u32),
-    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Outcome<Vec<Mark>>,
+    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Outcome<Vec<ChartMark>>,
 ) -> String {
     let mut svg = String::new();
     let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
@@ -241,8 +241,8 @@ fn plot(
 }
 
 /// A plot with its marks on top, and a line below it for the values of the last one.
-fn with_marks(svg: &str, marks: &[Mark]) -> String {
-    let mark_of = |Mark { at: (x, y), label }: &Mark| {
+fn with_marks(svg: &str, marks: &[ChartMark]) -> String {
+    let mark_of = |ChartMark { at: (x, y), label }: &ChartMark| {
         let label = escaped(label);
         format!(
             "<circle class=\"mark\" cx=\"{x}\" cy=\"{y}\" r=\"10\" tabindex=\"0\" role=\"img\" \

@@ -134,7 +134,7 @@ impl Materials {
             None => Standard::default(),
             Some(material) => {
                 let fields = Fields::new(report.json, doc.materials[material]).moved(&self.moved);
-                let mut reader = Reader {
+                let mut reader = MaterialReader {
                     doc,
                     textures: &mut self.textures,
                     scene,
@@ -181,7 +181,7 @@ impl Materials {
 }
 
 /// Reads materials, bringing the textures they name.
-struct Reader<'m, 'd, 'r, 's> {
+struct MaterialReader<'m, 'd, 'r, 's> {
     doc: &'m Document<'d>,
     textures: &'m mut LoweredTextures,
     scene: &'m mut Scene,
@@ -189,7 +189,7 @@ struct Reader<'m, 'd, 'r, 's> {
     report: &'m mut AssetReport<'r, 's>,
 }
 
-impl Reader<'_, '_, '_, '_> {
+impl MaterialReader<'_, '_, '_, '_> {
     fn map(&mut self, fields: Option<Fields<'_, '_>>, key: &str) -> Option<Map> {
         let info = fields?.object(key)?;
         self.textures
@@ -321,7 +321,7 @@ macro_rules! read {
 /// Reads all extensions of the table.
 macro_rules! extensions {
     ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
-        impl Reader<'_, '_, '_, '_> {
+        impl MaterialReader<'_, '_, '_, '_> {
             fn extensions(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
                 $(if let Some(own) = fields.extension($name) {
                     $(read!($kind, standard.$field, self, own, $key);)*

@@ -29,7 +29,7 @@ const TANGENT_BYTES: u64 = 128;
 /// The meshes that were made.
 pub(super) struct Meshes<'d> {
     /// What is different in primitives, and which that is of each primitive.
-    parts: BTreeMap<Parts<'d>, usize>,
+    parts: BTreeMap<MeshParts<'d>, usize>,
     of_primitive: BTreeMap<NodeId, usize>,
     /// The mesh of each that was asked for; none if it has no surface.
     made: BTreeMap<MeshKey, Option<MeshId>>,
@@ -43,7 +43,7 @@ type Pairs<'d> = Vec<(&'d str, usize)>;
 
 /// What a primitive is made of.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct Parts<'d> {
+struct MeshParts<'d> {
     attributes: Pairs<'d>,
     targets: Vec<Pairs<'d>>,
     indices: Option<usize>,
@@ -115,12 +115,12 @@ impl<'d> Meshes<'d> {
         } = self;
         *of_primitive.entry(primitive.at).or_insert_with(|| {
             let next = parts.len();
-            *parts.entry(Parts::of(primitive)).or_insert(next)
+            *parts.entry(MeshParts::of(primitive)).or_insert(next)
         })
     }
 }
 
-impl<'d> Parts<'d> {
+impl<'d> MeshParts<'d> {
     fn of(primitive: &'d Primitive) -> Self {
         let pairs = |attributes: &'d [Attribute]| -> Pairs<'d> {
             attributes

@@ -6,7 +6,7 @@ use super::super::channel::Path;
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::node::Transform;
-use super::super::pointer::{self, Moved, Property};
+use super::super::pointer::{self, AnimatedProperty, Moved};
 use super::super::report::AssetReport;
 use super::place::compose;
 use crate::FrontOptions;
@@ -128,12 +128,12 @@ impl Pose {
     /// Moves a property to where it is at a time.
     fn move_property(
         &mut self,
-        property: &Property,
+        property: &AnimatedProperty,
         (keys, time): (&Keys<'_>, f64),
         at: NodeId,
         report: &mut AssetReport<'_, '_>,
     ) {
-        let Property {
+        let AnimatedProperty {
             at: of, key, width, ..
         } = *property;
         if keys.width() != width {

@@ -12,7 +12,7 @@ const ABOUT: &str = include_str!("about.txt");
 
 /// The schema of an asset.
 pub(in super::super) fn schema() -> Json {
-    let mut writer = Writer::default();
+    let mut writer = JsonWriter::default();
     let root = writer.object(&ROOT, ROOT.name);
     let mut root = root.as_object().cloned().unwrap_or_default();
     root.insert("$defs".to_owned(), Json::Object(writer.definitions));
@@ -21,11 +21,11 @@ pub(in super::super) fn schema() -> Json {
 
 /// Collects the schemas of objects.
 #[derive(Default)]
-struct Writer {
+struct JsonWriter {
     definitions: Map<String, Json>,
 }
 
-impl Writer {
+impl JsonWriter {
     /// A reference to the schema of an object, whose properties are described under a name.
     fn object(&mut self, object: &'static Object, name: &str) -> Json {
         // Kinds of texture infos differ in their last property.
@@ -60,7 +60,7 @@ impl Writer {
 
     fn property(&mut self, key: &Key, name: &str) -> Json {
         let mut schema = self.value(&key.value);
-        let about = About::of(name, key.name);
+        let about = AboutText::of(name, key.name);
         if let Some(map) = schema.as_object_mut() {
             map.insert("description".to_owned(), about.words.into());
             map.extend(about.default.map(|value| ("default".to_owned(), value)));
@@ -109,13 +109,13 @@ fn number(bounds: &Bounds) -> Json {
 }
 
 /// What is told of a property.
-struct About {
+struct AboutText {
     words: String,
     default: Option<Json>,
     unit: Option<&'static str>,
 }
 
-impl About {
+impl AboutText {
     /// That of a property of an object; without words if there are none.
     fn of(object: &str, key: &str) -> Self {
         // Both names of one extension.

@@ -116,7 +116,7 @@ impl<C: Fn(u32) -> [Vec3; 3]> Leaves<C> {
 }
 
 /// Nodes that lead to each other and to leaves.
-struct Branch {
+struct BuildBranch {
     nodes: Vec<WideNode>,
     is_exact: bool,
 }
@@ -141,7 +141,7 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
     leaves: &Leaves<C>,
 ) -> (u32, Vec<GrownBranch>) {
     let alone = ALONE.max(items.len() / 64);
-    let mut top = Branch::new();
+    let mut top = BuildBranch::new();
     let mut left = Vec::new();
     let root = top.grow(Part::of(0, items), 0, leaves, &mut |part| {
         let is_small = part.part.items.len() <= alone;
@@ -152,7 +152,7 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
         Some(part)
     });
     let grow = |left: LeftPart<'_>| {
-        let mut branch = Branch::new();
+        let mut branch = BuildBranch::new();
         let link = branch.grow(left.part, left.depth, leaves, &mut Some);
         (left.node, left.lane, link, branch.grown())
     };
@@ -179,7 +179,7 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
     (root, branches)
 }
 
-impl Branch {
+impl BuildBranch {
     fn new() -> Self {
         Self {
             nodes: Vec::new(),

@@ -55,7 +55,7 @@ impl<F: FnMut(Candidate<'_>) -> f64> Visitor for F {
 
 /// Whether a walk goes on.
 #[derive(PartialEq, Eq)]
-enum Step {
+enum TraversalStep {
     GoesOn,
     Ends,
 }
@@ -94,7 +94,7 @@ impl Wide {
         visitor: &mut V,
     ) {
         let mut traversal = self.start::<S, V>(simd, beam, t_max);
-        while traversal.step(simd, visitor) == Step::GoesOn {}
+        while traversal.step(simd, visitor) == TraversalStep::GoesOn {}
     }
 
     #[inline(always)]
@@ -114,7 +114,7 @@ impl Wide {
             }
             let mut turn = 0;
             while let Some((traversal, visitor)) = under_way.get_mut(turn) {
-                if traversal.step(simd, *visitor) == Step::GoesOn {
+                if traversal.step(simd, *visitor) == TraversalStep::GoesOn {
                     traversal.touch();
                     turn += 1;
                 } else {
@@ -175,29 +175,29 @@ impl Wide {
 impl<S: Simd> Traversal<'_, S> {
     /// Goes to one node or one leaf.
     #[inline(always)]
-    fn step<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> Step {
+    fn step<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
         if self.link & LEAF == 0 {
             let node = &self.nodes[self.link as usize];
             let (met, enter) = self.boxes.meet(simd, node, self.limit);
             if met != 0 {
                 self.link = nearest(&mut self.open, met, &enter, node);
-                return Step::GoesOn;
+                return TraversalStep::GoesOn;
             }
-        } else if self.visit_leaf(simd, visitor) == Step::Ends {
-            return Step::Ends;
+        } else if self.visit_leaf(simd, visitor) == TraversalStep::Ends {
+            return TraversalStep::Ends;
         }
         // The last one left for later that may still count.
         while let Some((near, next)) = self.open.pop() {
             if near <= self.limit {
                 self.link = next;
-                return Step::GoesOn;
+                return TraversalStep::GoesOn;
             }
         }
-        Step::Ends
+        TraversalStep::Ends
     }
 
     #[inline(always)]
-    fn visit_leaf<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> Step {
+    fn visit_leaf<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
         let leaf = leaf_at(self.rows, self.link);
         let all = 0b1111 >> (3 - (self.link & 3));
         let verdict = match (V::CULLS, V::IS_SURE) {
@@ -210,7 +210,7 @@ impl<S: Simd> Traversal<'_, S> {
         };
         for lane in lanes_of(verdict.sure & all) {
             if visitor.is_settled_by(leaf.item(lane)) {
-                return Step::Ends;
+                return TraversalStep::Ends;
             }
         }
         let mut t_max = None;
@@ -224,14 +224,14 @@ impl<S: Simd> Traversal<'_, S> {
                 unit,
             });
             if end < 0.0 {
-                return Step::Ends;
+                return TraversalStep::Ends;
             }
             t_max = Some(end);
         }
         if let Some(t_max) = t_max {
             self.limit = self.beam.limit(t_max);
         }
-        Step::GoesOn
+        TraversalStep::GoesOn
     }
 
     /// Asks for the memory of the next step, which is there when its turn comes.
