@@ -8,7 +8,7 @@ use rtc::internals::ir::{self, Lowered, Scene};
 use rtc::internals::math::{DoubleDouble, Vec3, view_basis};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Film, Geometry, Job, Shape, World, camera_ray, image_point};
+use rtc::internals::render::{Film, Intersect, Job, Shape, World, camera_ray, image_point};
 use rtc::internals::valid::{self, ValidScene};
 
 fn validated(scene: Scene) -> ValidScene {

@@ -4,7 +4,9 @@
 #![expect(clippy::unwrap_used, reason = "a test stops at a surprise")]
 
 use rtc::internals::math::{Positive, Vec3};
-use rtc::internals::render::{Geometry, PlainShape, Prepare, Ray, Real, Shape, Shear, SimdLevel};
+use rtc::internals::render::{
+    BaselineShape, Intersect, Prepare, Ray, Real, Shape, SimdLevel, WatertightRay,
+};
 use rtc::internals::valid;
 use std::sync::Arc;
 
@@ -150,11 +152,11 @@ fn rays(count: usize) -> impl Iterator<Item = Ray> {
 /// The largest error of t (relative) and of the normal over benign rays: those that meet the shape
 /// at more than 15°.
 fn worst_error<R: Real>(name: &str, shape: &valid::Shape) -> f64 {
-    let (plain, robust) = (prepare::<PlainShape<R>>(shape), prepare::<Shape>(shape));
+    let (plain, robust) = (prepare::<BaselineShape<R>>(shape), prepare::<Shape>(shape));
     let (mut worst, mut hits) = (0.0_f64, 0);
     for ray in rays(2000) {
-        let shear = Shear::new(&ray);
-        let Some((t, part)) = robust.intersect(&ray, &shear, f64::INFINITY) else {
+        let watertight = WatertightRay::new(&ray);
+        let Some((t, part)) = robust.intersect(&ray, &watertight, f64::INFINITY) else {
             continue;
         };
         let right = robust.interaction(&ray, t, part);
@@ -162,7 +164,7 @@ fn worst_error<R: Real>(name: &str, shape: &valid::Shape) -> f64 {
             continue;
         }
         let (found, part) = plain
-            .intersect(&ray, &shear, f64::INFINITY)
+            .intersect(&ray, &watertight, f64::INFINITY)
             .unwrap_or_else(|| panic!("{name}: {ray:?}"));
         let interaction = plain.interaction(&ray, found, part);
         assert_eq!(
@@ -204,7 +206,7 @@ fn benign_rays_meet_the_same_shapes_by_any_arithmetic() {
 
 #[test]
 fn hits_within_the_threshold_are_ignored_whatever_the_length_of_the_direction() {
-    let plain = prepare::<PlainShape<f64>>(&shapes()[1].1);
+    let plain = prepare::<BaselineShape<f64>>(&shapes()[1].1);
     let above = |height: f64, size: f64| {
         let normal = Vec3::new(0.3, 0.5, -1.0).normalize();
         let ray = Ray {
@@ -212,7 +214,7 @@ fn hits_within_the_threshold_are_ignored_whatever_the_length_of_the_direction() 
             direction: -normal * size,
         };
         plain
-            .intersect(&ray, &Shear::new(&ray), f64::INFINITY)
+            .intersect(&ray, &WatertightRay::new(&ray), f64::INFINITY)
             .is_some()
     };
     for size in [1e-3, 1.0, 1e6] {

@@ -9,7 +9,7 @@ use rtc::internals::ir::{self, Lowered, Scene, SourceSpans};
 use rtc::internals::math::ldexp;
 use rtc::internals::pipeline::{self, Input, LayoutError, Options};
 use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Geometry, Shear, World, camera_ray, image_point};
+use rtc::internals::render::{Intersect, WatertightRay, World, camera_ray, image_point};
 use std::path::Path;
 
 /// Scenes, each with the powers of two it is scaled by: all from −40 to 40 occur, `RTC_ALL_POWERS`
@@ -65,11 +65,11 @@ fn has_tie(world: &World, factor: u32, index: usize) -> bool {
     places
         .map(|place| camera_ray(camera.eye, image_point(camera, pixel, place)))
         .any(|ray| {
-            let shear = Shear::new(&ray);
+            let watertight = WatertightRay::new(&ray);
             let roots = world
                 .surfaces
                 .iter()
-                .filter_map(|surface| surface.shape.intersect(&ray, &shear, f64::INFINITY));
+                .filter_map(|surface| surface.shape.intersect(&ray, &watertight, f64::INFINITY));
             let nearest = world.closest_hit(&ray).map(|hit| hit.t);
             roots.filter(|(t, _)| Some(*t) == nearest).count() > 1
         })

@@ -6,7 +6,7 @@ mod solids;
 use proptest::prelude::*;
 use rtc::internals::math::Vec3;
 use rtc::internals::render::{
-    Attributes, Disc, Geometry, Instance, PreparedMesh, Quad, Ray, Shear, Torus, Triangle,
+    Attributes, Disc, Instance, Intersect, PreparedMesh, Quad, Ray, Torus, Triangle, WatertightRay,
 };
 use std::sync::Arc;
 
@@ -108,7 +108,7 @@ proptest! {
         let target = a.lerp(b, u).lerp(d.lerp(c, u), v);
         let ray = Ray { origin: ray.origin, direction: target - ray.origin };
         let quad = Quad::new(corners);
-        let Some((t, prim_id)) = quad.intersect(&ray, &Shear::new(&ray)) else {
+        let Some((t, prim_id)) = quad.intersect(&ray, &WatertightRay::new(&ray)) else {
             return Err(TestCaseError::fail("missed"));
         };
         prop_assert!(t <= 1.0 + 1e-9, "found at {}", t);
@@ -129,7 +129,7 @@ proptest! {
         let ray = Ray { origin: ray.origin, direction };
         let quad = Quad::new([corner, corner + side, corner + side + other, corner + other]);
         let inside = (0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y);
-        prop_assert_eq!(quad.intersect(&ray, &Shear::new(&ray)).is_some(), inside);
+        prop_assert_eq!(quad.intersect(&ray, &WatertightRay::new(&ray)).is_some(), inside);
     }
 
     /// A placed mesh is hit where its triangles, placed one by one, are.
@@ -141,14 +141,14 @@ proptest! {
         let triangles = (0..u32::try_from(corners.len()).unwrap() - 2).map(|k| [k, k + 1, k + 2]).collect::<Vec<_>>();
         let place = |p: Vec3| x * p.x + y * p.y + z * p.z + to;
         let nearest = triangles.iter().filter_map(|t| {
-            Triangle::new(t.map(|k| place(corners[k as usize])))?.intersect(&ray, &Shear::new(&ray))
+            Triangle::new(t.map(|k| place(corners[k as usize])))?.intersect(&ray, &WatertightRay::new(&ray))
         });
         let nearest = nearest.min_by(f64::total_cmp);
         let positions = corners.iter().map(|corner| corner.to_array()).collect();
         let level = rtc::internals::render::SimdLevel::best();
         let mesh = PreparedMesh::new(&positions, &triangles.into(), Attributes::default(), level);
         let instance = Instance::new(&Arc::new(mesh), [x, y, z, to]);
-        let found = instance.intersect(&ray, &Shear::new(&ray), f64::INFINITY).map(|(t, _)| t);
+        let found = instance.intersect(&ray, &WatertightRay::new(&ray), f64::INFINITY).map(|(t, _)| t);
         match (found, nearest) {
             (Some(found), Some(nearest)) => prop_assert!((found - nearest).abs() < 1e-9 * nearest, "{} {}", found, nearest),
             (None, None) => {}

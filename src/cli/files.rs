@@ -57,7 +57,7 @@ fn fitting(pattern: &Path, is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> 
     let refused = |words: &str| Failure::Trouble(format!("`{shown}`: {words}"));
     let pattern = FilePattern::new(pattern).map_err(|words| refused(&words))?;
     let mut found = Vec::new();
-    for entry in pattern.walk() {
+    for entry in pattern.traverse() {
         let entry = entry.map_err(|error| refused(&reason(&error)))?;
         let path = pattern.shown(&entry);
         let kind = entry.file_type();
@@ -104,7 +104,7 @@ impl FilePattern {
     }
 
     /// What lies so deep that it may fit, but for what is hidden and not named.
-    fn walk(&self) -> impl Iterator<Item = walkdir::Result<DirEntry>> {
+    fn traverse(&self) -> impl Iterator<Item = walkdir::Result<DirEntry>> {
         let is_deep = self.parts.iter().any(|part| part.contains("**"));
         let depth = if is_deep {
             usize::MAX
@@ -115,12 +115,15 @@ impl FilePattern {
             true => Path::new("."),
             false => &self.base,
         };
-        let walk = WalkDir::new(base).min_depth(1).max_depth(depth);
+        let traverse = WalkDir::new(base).min_depth(1).max_depth(depth);
         let is_named = |entry: &DirEntry| {
             let own = self.parts.get(entry.depth().saturating_sub(1));
             !is_hidden(entry) || own.is_some_and(|part| part.starts_with('.'))
         };
-        walk.sort_by_file_name().into_iter().filter_entry(is_named)
+        traverse
+            .sort_by_file_name()
+            .into_iter()
+            .filter_entry(is_named)
     }
 
     /// The path of what was found, as who wrote the pattern would write it.

@@ -233,11 +233,11 @@ impl<'a> Lines<'a> {
         rest.next().is_none_or(|byte| *byte == b'\n')
     }
 
-    fn skip_while(&mut self, goes_on: impl Fn(u8) -> bool) {
+    fn skip_while(&mut self, should_continue: impl Fn(u8) -> bool) {
         let rest = &self.file[self.at..];
         self.at += rest
             .iter()
-            .position(|byte| !goes_on(*byte))
+            .position(|byte| !should_continue(*byte))
             .unwrap_or(rest.len());
     }
 

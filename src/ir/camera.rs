@@ -1,7 +1,7 @@
 //! The camera: eye, image plane and lens.
 
 use arbitrary::Arbitrary;
-use rtc_math::{Vec3, atan2, cos, length, sin, turned_about, unit, unit_scale};
+use rtc_math::{Vec3, atan2, cos, length, rotated_about, sin, unit, unit_scale};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -58,7 +58,7 @@ impl Camera {
     /// vector `axis`.
     #[must_use]
     pub fn turned(&self, angle: f64, axis: Vec3, through: Vec3) -> Self {
-        let turn = |v: Vec3| turned_about(v, axis, [sin(angle), cos(angle)]);
+        let turn = |v: Vec3| rotated_about(v, axis, [sin(angle), cos(angle)]);
         let point = |p: [f64; 3]| (through + turn(Vec3::from_array(p) - through)).to_array();
         let step = |s: [f64; 3]| turn(Vec3::from_array(s)).to_array();
         let Self {

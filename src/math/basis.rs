@@ -22,14 +22,14 @@ pub enum BasisFault {
 /// # Errors
 /// If the three give no camera; see [`BasisFault`].
 pub fn camera_basis(eye: Vec3, center: Vec3, up: Vec3) -> Result<(Vec3, Vec3), BasisFault> {
-    let gaze = center - eye;
-    let (unit_gaze, _) = unit_scale(gaze).ok_or(BasisFault::ZeroGaze)?;
+    let view_dir = center - eye;
+    let (unit_gaze, _) = unit_scale(view_dir).ok_or(BasisFault::ZeroGaze)?;
     let (unit_up, _) = unit_scale(up).ok_or(BasisFault::ZeroUp)?;
     let sine = cross(unit_gaze, unit_up).length() / (unit_gaze.length() * unit_up.length());
     if sine < MIN_ANGLE {
         return Err(BasisFault::Parallel);
     }
-    view_basis(gaze, up)
+    view_basis(view_dir, up)
 }
 
 /// As [`camera_basis`] for a view direction, but refuses only what is exactly parallel.
@@ -39,11 +39,11 @@ pub fn camera_basis(eye: Vec3, center: Vec3, up: Vec3) -> Result<(Vec3, Vec3), B
 ///
 /// # Errors
 /// If the two give no camera; see [`BasisFault`].
-pub fn view_basis(gaze: Vec3, up: Vec3) -> Result<(Vec3, Vec3), BasisFault> {
-    let (gaze, _) = unit_scale(gaze).ok_or(BasisFault::ZeroGaze)?;
+pub fn view_basis(view_dir: Vec3, up: Vec3) -> Result<(Vec3, Vec3), BasisFault> {
+    let (view_dir, _) = unit_scale(view_dir).ok_or(BasisFault::ZeroGaze)?;
     let (up, exponent) = unit_scale(up).ok_or(BasisFault::ZeroUp)?;
-    let right = direction(cross(gaze, up)).ok_or(BasisFault::Parallel)?;
-    let above = direction(cross(right, gaze)).ok_or(BasisFault::Parallel)?;
+    let right = direction(cross(view_dir, up)).ok_or(BasisFault::Parallel)?;
+    let above = direction(cross(right, view_dir)).ok_or(BasisFault::Parallel)?;
     let pixel = dot(up, up).sqrt();
     let step = |direction: Vec3| {
         let step = direction * pixel;
@@ -57,10 +57,10 @@ pub fn view_basis(gaze: Vec3, up: Vec3) -> Result<(Vec3, Vec3), BasisFault> {
 }
 
 /// The world axis that says best which way is up for a view: among y, z, x, in that order, the one
-/// that makes the largest angle with `gaze`, with the length of `up`.
+/// that makes the largest angle with `view_dir`, with the length of `up`.
 #[must_use]
-pub fn fallback_up(gaze: Vec3, up: Vec3) -> Vec3 {
-    let along = gaze.abs();
+pub fn fallback_up(view_dir: Vec3, up: Vec3) -> Vec3 {
+    let along = view_dir.abs();
     let mut best = (along.y, Vec3::Y);
     for candidate in [(along.z, Vec3::Z), (along.x, Vec3::X)] {
         if candidate.0 < best.0 {

@@ -32,8 +32,8 @@ pub use glam::Vec4 as Lanes;
 pub use hash::{GAMMA, fraction, mix};
 pub use number::{NonNegative, Positive, UnitInterval, shortest};
 pub use onb::Basis;
-pub use rotation::{axis_and_angle, turned_about, turned_to_z};
-pub use turns::{cos_sin_turns, golden_turns};
+pub use rotation::{axis_and_angle, rotated_about, rotated_to_z};
+pub use turns::{cos_sin_revolutions, golden_revolutions};
 pub use weight::Weight;
 
 /// The unit round-off of f64, u = 2⁻⁵³.

@@ -5,14 +5,14 @@ use super::{Vec3, atan2, cos, difference_of_products, dot, sin};
 /// `v` turned by an angle in radians about a unit vector, given by its sine and cosine (Rodrigues'
 /// formula).
 #[must_use]
-pub fn turned_about(v: Vec3, axis: Vec3, [sine, cosine]: [f64; 2]) -> Vec3 {
+pub fn rotated_about(v: Vec3, axis: Vec3, [sine, cosine]: [f64; 2]) -> Vec3 {
     v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine))
 }
 
 /// The rows of a rotation: the shortest one that takes the unit
 /// vector `axis` to +z, then one that lowers φ by `angle` degrees. `None` if nothing turns.
 #[must_use]
-pub fn turned_to_z(axis: Vec3, angle: f64) -> Option<[[f64; 3]; 3]> {
+pub fn rotated_to_z(axis: Vec3, angle: f64) -> Option<[[f64; 3]; 3]> {
     if axis == Vec3::Z && angle == 0.0 {
         return None;
     }
@@ -22,7 +22,7 @@ pub fn turned_to_z(axis: Vec3, angle: f64) -> Option<[[f64; 3]; 3]> {
     (rows != Vec3::AXES).then(|| rows.map(|row| row.to_array()))
 }
 
-/// The axis, a unit vector, of a rotation that [`turned_to_z`] gives, and up to rounding the
+/// The axis, a unit vector, of a rotation that [`rotated_to_z`] gives, and up to rounding the
 /// angle in degrees.
 #[must_use]
 pub fn axis_and_angle(rows: [[f64; 3]; 3]) -> (Vec3, f64) {
@@ -84,8 +84,8 @@ mod tests {
 
     #[test]
     fn the_axis_comes_to_z_and_the_angle_lowers_phi() {
-        assert_eq!(turned_to_z(Vec3::Z, 720.0), None);
-        let quarter = turned_to_z(Vec3::Z, 90.0).unwrap();
+        assert_eq!(rotated_to_z(Vec3::Z, 720.0), None);
+        let quarter = rotated_to_z(Vec3::Z, 90.0).unwrap();
         assert_eq!(
             apply(quarter, Vec3::Y),
             Vec3::X,
@@ -99,7 +99,7 @@ mod tests {
         ] {
             let axis = axis.normalize();
             for angle in [0.0, 30.0, -90.0, 3500.0] {
-                let rows = turned_to_z(axis, angle).unwrap();
+                let rows = rotated_to_z(axis, angle).unwrap();
                 assert!(
                     apply(rows, axis).distance(Vec3::Z) < 4e-16,
                     "{axis} {rows:?}"
@@ -109,7 +109,7 @@ mod tests {
                     x.cross(y).distance(z) < 1e-15 && (x.length() - 1.0).abs() < 1e-15,
                     "{axis} {rows:?}"
                 );
-                let back = turned_to_z(axis_and_angle(rows).0, axis_and_angle(rows).1).unwrap();
+                let back = rotated_to_z(axis_and_angle(rows).0, axis_and_angle(rows).1).unwrap();
                 let far =
                     (0..3).map(|k| Vec3::from_array(back[k]).distance(Vec3::from_array(rows[k])));
                 assert!(far.fold(0.0, f64::max) < 2e-15, "{axis} {angle}");
@@ -120,6 +120,6 @@ mod tests {
     #[test]
     fn the_shortest_rotation_leaves_what_is_at_right_angles_to_both() {
         let axis = Vec3::new(0.0, 0.6, 0.8);
-        assert_eq!(apply(turned_to_z(axis, 0.0).unwrap(), Vec3::X), Vec3::X);
+        assert_eq!(apply(rotated_to_z(axis, 0.0).unwrap(), Vec3::X), Vec3::X);
     }
 }

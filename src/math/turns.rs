@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 ///
 /// The quadrant is taken off in integers, so the angle handed to `libm` is at most π/4.
 #[must_use]
-pub fn cos_sin_turns(turns: u64) -> (f64, f64) {
+pub fn cos_sin_revolutions(turns: u64) -> (f64, f64) {
     /// 2⁻⁶⁴.
     const UNIT: f64 = 1.0 / 18_446_744_073_709_551_616.0;
     let quadrant = (turns.wrapping_add(1 << 61)) >> 62;
@@ -25,7 +25,7 @@ pub fn cos_sin_turns(turns: u64) -> (f64, f64) {
 /// `k` golden angles, k·π(3 − √5), in units of 2⁻⁶⁴ turns: no error grows with k but that of the
 /// constant.
 #[must_use]
-pub fn golden_turns(k: u64) -> u64 {
+pub fn golden_revolutions(k: u64) -> u64 {
     /// (3 − √5)/2 · 2⁶⁴.
     const GOLDEN: u64 = 0x61C8_8646_80B5_83EB;
     k.wrapping_mul(GOLDEN)
@@ -37,7 +37,7 @@ mod tests {
 
     #[test]
     fn quarters_of_a_turn_are_exact() {
-        let quarter = |k: u64, expected| assert_eq!(cos_sin_turns(k << 62), expected);
+        let quarter = |k: u64, expected| assert_eq!(cos_sin_revolutions(k << 62), expected);
         quarter(0, (1.0, 0.0));
         quarter(1, (-0.0, 1.0));
         quarter(2, (-1.0, -0.0));
@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn the_golden_angle_is_that_of_the_formula() {
         let angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-        let (c, s) = cos_sin_turns(golden_turns(1));
+        let (c, s) = cos_sin_revolutions(golden_revolutions(1));
         assert!((c - libm::cos(angle)).abs() < 1e-15 && (s - libm::sin(angle)).abs() < 1e-15);
     }
 }

@@ -8,14 +8,14 @@ pub trait Weight: Copy {
     const NOTHING: Self;
 
     /// Whether it is more than nothing.
-    fn weighs(self) -> bool;
+    fn is_nonzero(self) -> bool;
 }
 
 impl Weight for f64 {
     const NOTHING: Self = 0.0;
 
     #[inline]
-    fn weighs(self) -> bool {
+    fn is_nonzero(self) -> bool {
         self > 0.0
     }
 }
@@ -24,7 +24,7 @@ impl Weight for UnitInterval {
     const NOTHING: Self = Self::ZERO;
 
     #[inline]
-    fn weighs(self) -> bool {
+    fn is_nonzero(self) -> bool {
         self > Self::ZERO
     }
 }
@@ -34,7 +34,7 @@ impl Weight for Vec3 {
     const NOTHING: Self = Self::ZERO;
 
     #[inline]
-    fn weighs(self) -> bool {
+    fn is_nonzero(self) -> bool {
         self != Self::ZERO
     }
 }

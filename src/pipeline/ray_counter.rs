@@ -351,8 +351,8 @@ mod tests {
                 ..CROP
             });
             for (x, rays) in (5..).zip(row) {
-                let goes_on = whole.step(step(x, y, rays));
-                assert_eq!(strips.step(step(x, y, rays)), goes_on, "{x}, {y}");
+                let should_continue = whole.step(step(x, y, rays));
+                assert_eq!(strips.step(step(x, y, rays)), should_continue, "{x}, {y}");
             }
         }
         assert_eq!(whole.ran_out(), Some([6, 8]));

@@ -45,7 +45,7 @@ macro_rules! kinds {
             /// Whether a material has it.
             #[must_use]
             pub fn is_in(self, material: &Standard) -> bool {
-                match self { $(Self::$layer => material.$weight.weighs(),)* }
+                match self { $(Self::$layer => material.$weight.is_nonzero(),)* }
             }
 
             /// The map that scales its weight, and the channels of the map that are used.
@@ -66,9 +66,9 @@ macro_rules! kinds {
             ) {
                 match self {
                     $(Self::$layer => {
-                        let is_there = material.$weight.weighs();
+                        let is_there = material.$weight.is_nonzero();
                         $(
-                            let shows = is_there && material.$factor.weighs();
+                            let shows = is_there && material.$factor.is_nonzero();
                             each(&mut material.$map, shows);
                         )*
                     })*
@@ -77,7 +77,7 @@ macro_rules! kinds {
 
             /// The maps of all layers of a material.
             pub fn maps(material: &Standard) -> impl Iterator<Item = &Map> {
-                let maps = [$($((material.$weight.weighs(), &material.$map)),*),*];
+                let maps = [$($((material.$weight.is_nonzero(), &material.$map)),*),*];
                 maps.into_iter().filter_map(|(is_there, map)| map.as_ref().filter(|_| is_there))
             }
         }

@@ -7,7 +7,7 @@ use super::precision::EquationKind;
 use super::surface_bounds::{
     Extent, ShapeClass, SurfaceBounds, circle_bounds, instance_bounds, triangle_plane,
 };
-use rtc_math::{Basis, Bounds, Vec3, cos_sin_turns, unit};
+use rtc_math::{Basis, Bounds, Vec3, cos_sin_revolutions, unit};
 use rtc_valid::{
     Cone, Cylinder, Disc, Instance, Paraboloid, Plane, Quad, Shape, Sphere, Torus, Triangle,
     ValidScene,
@@ -185,7 +185,7 @@ impl ShapeFacts for Disc {
         const COUNT: u64 = 16;
         let basis = Basis::around(normal);
         let corner = |k: u64| {
-            let (x, y) = cos_sin_turns(k << 60);
+            let (x, y) = cos_sin_revolutions(k << 60);
             self.center + basis.to_world(Vec3::new(x, y, 0.0)) * self.radius.get()
         };
         Some((0..COUNT).map(corner).collect())

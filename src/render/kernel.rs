@@ -4,7 +4,7 @@ use crate::film::heartbeat::OnPixel;
 use crate::film::{Film, Job};
 use crate::frame::picture::Sums;
 use crate::integrator::path::Strategy;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::settings::Mode;
 use rtc_plan::{Features, PathFeatures};
@@ -86,7 +86,7 @@ pub(crate) use dispatch;
 /// The sets of features that the path integrator is compiled for: diffuse surfaces, reflecting ones
 /// without layers, and all.
 pub const PATH_KERNELS: [PathKernel; 3] = [
-    path_kernel("paths, diffuse", AIMED),
+    path_kernel("paths, diffuse", LIGHT_SAMPLING),
     path_kernel("paths, reflecting", REFLECTING),
     path_kernel("paths", PathFeatures::EVERYTHING),
 ];
@@ -100,9 +100,9 @@ pub struct PathKernel {
     pub features: PathFeatures,
 }
 
-const AIMED: PathFeatures = PathFeatures::NEE.with(PathFeatures::SHADOWS);
+const LIGHT_SAMPLING: PathFeatures = PathFeatures::NEE.with(PathFeatures::SHADOWS);
 
-const REFLECTING: PathFeatures = AIMED
+const REFLECTING: PathFeatures = LIGHT_SAMPLING
     .with(PathFeatures::MICROFACETS)
     .with(PathFeatures::ALPHA);
 
@@ -132,7 +132,7 @@ macro_rules! dispatch_paths {
 }
 pub(super) use dispatch_paths;
 
-impl<S: Geometry> World<S> {
+impl<S: Intersect> World<S> {
     /// Renders on the threads of the current pool; see [`super::AnyWorld::render`].
     #[must_use]
     pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {

@@ -3,7 +3,7 @@
 use super::scenes::{shape, world};
 use super::truth::{Report, cases, error, id, number, relative_error, vector, vector_error};
 use rtc::internals::math::{U, Vec3};
-use rtc::internals::render::{Geometry, Ray, World};
+use rtc::internals::render::{Intersect, Ray, World};
 use serde_json::Value;
 
 fn ray(value: &Value) -> Ray {

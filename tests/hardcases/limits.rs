@@ -3,7 +3,7 @@
 use super::random::Random;
 use super::scenes::{disc, plane, sphere, triangle, world};
 use rtc::internals::math::{U, Vec3, ldexp, view_basis};
-use rtc::internals::render::{Geometry, Ray, highlight, refract, vogel};
+use rtc::internals::render::{Intersect, Ray, highlight, refract, vogel};
 
 /// From glass of 1.25 the critical sine is 0.8: one ulp below is refracted along the surface, one
 /// above is not.

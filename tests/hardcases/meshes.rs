@@ -6,7 +6,7 @@ use super::random::Random;
 use super::scenes::{sphere, triangle, world};
 use super::truth::{Report, cases, id, number, relative_error, vector};
 use rtc::internals::math::Vec3;
-use rtc::internals::render::{Geometry, Hit, Ray, Shear, World};
+use rtc::internals::render::{Hit, Intersect, Ray, WatertightRay, World};
 use serde_json::Value;
 
 #[test]
@@ -43,14 +43,14 @@ fn rays_through_shared_edges_hit() {
 }
 
 fn brute_force(world: &World, ray: &Ray) -> Option<Hit> {
-    let shear = Shear::new(ray);
+    let watertight = WatertightRay::new(ray);
     let hits = world
         .surfaces
         .iter()
         .enumerate()
         .filter_map(|(surface, s)| {
             s.shape
-                .intersect(ray, &shear, f64::INFINITY)
+                .intersect(ray, &watertight, f64::INFINITY)
                 .map(|(t, prim_id)| Hit {
                     t,
                     surface,

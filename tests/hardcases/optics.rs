@@ -3,7 +3,7 @@
 use super::scenes::{plane, world};
 use super::truth::{Report, cases, id, number, relative_error, vector, vector_error};
 use rtc::internals::math::U;
-use rtc::internals::render::{Geometry, Ray, highlight, reflect, refract};
+use rtc::internals::render::{Intersect, Ray, highlight, reflect, refract};
 
 #[test]
 fn refraction() {

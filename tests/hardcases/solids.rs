@@ -5,9 +5,9 @@ use super::mesh::Mesh;
 use super::random::Random;
 use rtc::internals::math::Vec3;
 use rtc::internals::render::{
-    Attributes, Cone, Cylinder, Disc, Geometry, Instance, Interaction, Paraboloid, Plane,
-    PreparedMesh, Quad, Ray, Shape, Shear, SimdLevel, Sphere, TexturedSphere, TexturedTriangle,
-    Torus, Triangle,
+    Attributes, Cone, Cylinder, Disc, Instance, Interaction, Intersect, Paraboloid, Plane,
+    PreparedMesh, Quad, Ray, Shape, SimdLevel, Sphere, TexturedSphere, TexturedTriangle, Torus,
+    Triangle, WatertightRay,
 };
 use std::sync::Arc;
 
@@ -242,5 +242,5 @@ pub(crate) fn first(form: &Form, shape: &Shape, ray: &Ray) -> Option<Interaction
 
 /// The first hit of a ray on one shape.
 pub(crate) fn hit(shape: &Shape, ray: &Ray) -> Option<(f64, u32)> {
-    shape.intersect(ray, &Shear::new(ray), f64::INFINITY)
+    shape.intersect(ray, &WatertightRay::new(ray), f64::INFINITY)
 }

@@ -9,7 +9,7 @@ use rtc::internals::ir::{
 };
 use rtc::internals::math::{Vec3, cos, sin};
 use rtc::internals::plan::{Arithmetic, Plan, Rules};
-use rtc::internals::render::{Geometry, Hit, Ray, Shape as Prepared, Shear, World};
+use rtc::internals::render::{Hit, Intersect, Ray, Shape as Prepared, WatertightRay, World};
 
 /// Numbers in [−1, 1), always the same.
 pub(super) fn numbers(seed: u64) -> impl FnMut() -> f64 {
@@ -65,13 +65,13 @@ pub(super) fn place(
 /// What the surfaces say one by one: the nearest hit, and of several at one t that of the first
 /// surface.
 fn one_by_one(world: &World<Prepared>, ray: &Ray) -> Option<Hit> {
-    let shear = Shear::new(ray);
+    let watertight = WatertightRay::new(ray);
     let hits = world
         .surfaces
         .iter()
         .enumerate()
         .filter_map(|(surface, found)| {
-            let (t, prim_id) = found.shape.intersect(ray, &shear, f64::INFINITY)?;
+            let (t, prim_id) = found.shape.intersect(ray, &watertight, f64::INFINITY)?;
             Some(Hit {
                 t,
                 surface,

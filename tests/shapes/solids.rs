@@ -8,7 +8,9 @@ use rtc::internals::ir::Lowered;
 use rtc::internals::math::{U, Vec3, ldexp, unit_scale};
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Geometry, Interaction, Job, PlainShape, Prepare, Ray, Shear, World};
+use rtc::internals::render::{
+    BaselineShape, Interaction, Intersect, Job, Prepare, Ray, WatertightRay, World,
+};
 use rtc::internals::source::SourceMap;
 use rtc::internals::valid::ValidScene;
 
@@ -105,9 +107,9 @@ fn world<S: Prepare>(solid: &Solid, place: &ValuePath) -> World<S> {
 }
 
 /// The first hit on a solid alone: t, and the point.
-fn hit<S: Geometry>(world: &World<S>, ray: &Ray) -> Option<(f64, Interaction)> {
+fn hit<S: Intersect>(world: &World<S>, ray: &Ray) -> Option<(f64, Interaction)> {
     let shape = &world.surfaces[0].shape;
-    let (t, prim_id) = shape.intersect(ray, &Shear::new(ray), f64::INFINITY)?;
+    let (t, prim_id) = shape.intersect(ray, &WatertightRay::new(ray), f64::INFINITY)?;
     Some((t, shape.interaction(ray, t, prim_id)))
 }
 
@@ -177,8 +179,8 @@ proptest! {
             let edge = 1e-3;
             let is_clear = |side: f64| distance(solid, &place, at.point + ray.direction * side) < 0.0;
             if slope < 0.25 || narrow || !is_clear(edge) { continue }
-            let plain = hit(&world::<PlainShape<f64>>(solid, &place), &ray).map(|(t, _)| t);
-            let single = hit(&world::<PlainShape<f32>>(solid, &place), &ray).map(|(t, _)| t);
+            let plain = hit(&world::<BaselineShape<f64>>(solid, &place), &ray).map(|(t, _)| t);
+            let single = hit(&world::<BaselineShape<f32>>(solid, &place), &ray).map(|(t, _)| t);
             prop_assert!(plain.is_some_and(|found| (found / t - 1.0).abs() < 1e-9), "{:?} {}", plain, t);
             prop_assert!(single.is_some_and(|found| (found / t - 1.0).abs() < 1e-2), "{:?} {}", single, t);
         }

@@ -4,7 +4,7 @@ use super::{film, noise, random, scene, validated};
 use rtc::internals::ir::{self, Scene};
 use rtc::internals::math::{U, Vec3, pow};
 use rtc::internals::plan::{Plan, Rules};
-use rtc::internals::render::{Film, Geometry, Ray, Shape, World};
+use rtc::internals::render::{Film, Intersect, Ray, Shape, World};
 
 /// The common material.
 const MATERIAL: &str = "material: {color: [1, 1, 1], ka: 1, kd: 0, ks: 0, n: 1}";

@@ -274,11 +274,13 @@ impl Board {
 
     /// Waits until what is shown differs from that of a version.
     pub(super) fn wait(&self, number: u64, since: Option<u64>) -> News {
-        let goes_on = |state: &BoardState| !state.is_ended && state.followers.contains(&number);
-        let is_same = |state: &mut BoardState| goes_on(state) && Some(state.version) == since;
+        let should_continue =
+            |state: &BoardState| !state.is_ended && state.followers.contains(&number);
+        let is_same =
+            |state: &mut BoardState| should_continue(state) && Some(state.version) == since;
         let waited = self.changed.wait_while(self.state(), is_same);
         let state = waited.unwrap_or_else(PoisonError::into_inner);
-        match (state.is_ended, goes_on(&state)) {
+        match (state.is_ended, should_continue(&state)) {
             (true, _) => News::Ended,
             (false, true) => News::Shown(state.version, state.told()),
             (false, false) => News::GaveWay,

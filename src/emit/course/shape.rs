@@ -2,7 +2,7 @@
 
 use super::{SceneWriter, quoted, triple};
 use rtc_ir::{self as ir, Instance, Quad, Scene, Shape, Sphere, Triangle};
-use rtc_math::{Vec3, axis_and_angle, shortest, turned_to_z, unit};
+use rtc_math::{Vec3, axis_and_angle, rotated_to_z, shortest, unit};
 
 /// A shape that the scene format can express.
 trait WriteShape {
@@ -161,7 +161,7 @@ impl WriteShape for Instance {
 /// none is found, for example if no text was lowered to this rotation.
 fn axis_angle_of(rows: [[f64; 3]; 3]) -> Option<([f64; 3], f64)> {
     let (axis, approximate) = axis_and_angle(rows);
-    let reproduces = |angle: &f64| turned_to_z(axis, *angle) == Some(rows);
+    let reproduces = |angle: &f64| rotated_to_z(axis, *angle) == Some(rows);
     let digits = (0..18).map(|digits: usize| {
         format!("{approximate:.digits$}")
             .parse()

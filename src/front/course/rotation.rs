@@ -6,7 +6,7 @@ use super::record::FieldOutcome;
 use super::schema::Definitions;
 use super::value::{Angles, Vector, tuple};
 use rtc_diag::{Severity, clip, codes};
-use rtc_math::{Vec3, cos, sin, turned_about, unit};
+use rtc_math::{Vec3, cos, rotated_about, sin, unit};
 use rtc_source::Span;
 use rtc_source::tree::NodeId;
 use serde_json::{Value as Json, json};
@@ -150,9 +150,9 @@ impl RotationKeys<'_> {
                     "`rotation` has no effect beside `axis` and `angle`",
                     context,
                 );
-                Some(rotated_about(axis.value.0, angle.value.0))
+                Some(rotation_about(axis.value.0, angle.value.0))
             }
-            (None, Some(angle), Some(Angles(axis))) => Some(rotated_about(axis, angle.value.0)),
+            (None, Some(angle), Some(Angles(axis))) => Some(rotation_about(axis, angle.value.0)),
             (axis, angle, angles) => {
                 let message = "`axis` and `angle` have an effect only together";
                 report_no_rotation(axis.and_then(|axis| axis.span), message, context);
@@ -163,7 +163,7 @@ impl RotationKeys<'_> {
     }
 }
 
-fn rotated_about(axis: [f64; 3], degrees: f64) -> [Vec3; 3] {
+fn rotation_about(axis: [f64; 3], degrees: f64) -> [Vec3; 3] {
     axes_rotated_about(Vec3::from_array(axis), degrees.to_radians())
 }
 
@@ -193,7 +193,7 @@ pub(super) fn world_from_object(
 pub(super) fn axes_rotated_about(axis: Vec3, angle: f64) -> [Vec3; 3] {
     let sin_cos = [sin(angle), cos(angle)];
     unit(axis).map_or(Vec3::AXES, |axis| {
-        Vec3::AXES.map(|v| turned_about(v, axis, sin_cos))
+        Vec3::AXES.map(|v| rotated_about(v, axis, sin_cos))
     })
 }
 

@@ -252,7 +252,7 @@ fn shape<'s>(
         return None;
     }
     let is_known = header::check_version(report);
-    let extensions = schema::walk(is_known, report);
+    let extensions = schema::traverse(is_known, report);
     header::check_extensions(report);
     is_known.then(|| Document {
         extensions,

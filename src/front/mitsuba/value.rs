@@ -1,6 +1,6 @@
 //! Numbers, vectors and transforms of a Mitsuba scene.
 
-use rtc_math::{Vec3, cos, sin, turned_about, unit};
+use rtc_math::{Vec3, cos, rotated_about, sin, unit};
 
 /// One number.
 pub(super) fn number(text: &str) -> Option<f64> {
@@ -44,7 +44,7 @@ impl Transform {
     pub(super) fn rotation(axis: [f64; 3], degrees: f64) -> Option<Self> {
         let axis = unit(Vec3::from_array(axis))?;
         let angle = degrees.to_radians();
-        let turn = |v: Vec3| turned_about(v, axis, [sin(angle), cos(angle)]);
+        let turn = |v: Vec3| rotated_about(v, axis, [sin(angle), cos(angle)]);
         Some(Self([
             turn(Vec3::X),
             turn(Vec3::Y),

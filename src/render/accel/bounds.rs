@@ -45,9 +45,9 @@ impl Slabs {
     #[must_use]
     #[inline]
     pub(crate) fn meet(&self, bounds: &Bounds, t_max: f64) -> bool {
-        const GROWN: f64 = 1.0 + 2.0 * (4.0 * U / (1.0 - 4.0 * U));
-        const ROUNDED: f64 = 1.0 + 1.0 / 1_048_576.0;
-        let (mut near, mut far) = (0.0, t_max * ROUNDED);
+        const FAR_SCALE: f64 = 1.0 + 2.0 * (4.0 * U / (1.0 - 4.0 * U));
+        const T_SLACK: f64 = 1.0 + 1.0 / 1_048_576.0;
+        let (mut near, mut far) = (0.0, t_max * T_SLACK);
         for axis in 0..3 {
             let first = (bounds.min[axis] - self.origin[axis]) * self.inverse[axis];
             let second = (bounds.max[axis] - self.origin[axis]) * self.inverse[axis];
@@ -56,7 +56,7 @@ impl Slabs {
             } else {
                 (first, second)
             };
-            let leave = leave * GROWN;
+            let leave = leave * FAR_SCALE;
             if enter > near {
                 near = enter;
             }
@@ -72,7 +72,7 @@ impl Slabs {
 mod tests {
     use super::*;
     use crate::sampler::Key;
-    use crate::shape::triangle::{Shear, Triangle};
+    use crate::shape::triangle::{Triangle, WatertightRay};
     use rayon::prelude::*;
 
     /// Corners anywhere, at one z, with the ray in the plane of a face of the box, and far from the
@@ -125,9 +125,9 @@ mod tests {
             .and_then(|count| count.parse().ok())
             .unwrap_or(250_000_u64);
         for (family, name) in FAMILIES.into_iter().enumerate() {
-            let judge = |index: u64| {
+            let intersect4 = |index: u64| {
                 let (triangle, ray) = aimed(family, index);
-                let Some(t) = triangle.intersect(&ray, &Shear::new(&ray)) else {
+                let Some(t) = triangle.intersect(&ray, &WatertightRay::new(&ray)) else {
                     return (0, 0);
                 };
                 (
@@ -137,7 +137,7 @@ mod tests {
             };
             let (hits, missed) = (0..rays)
                 .into_par_iter()
-                .map(judge)
+                .map(intersect4)
                 .reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
             println!("| boxes missed | {name} | {hits} | {missed} |");
             assert!(hits > rays / 4 && missed == 0, "{name}: {missed} of {hits}");

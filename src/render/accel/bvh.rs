@@ -66,7 +66,7 @@ impl Bvh {
     /// roughly first; `visit` returns the new `t_max`, which ends the walk when it falls below
     /// 0.
     #[inline]
-    pub(crate) fn walk(&self, ray: &Ray, mut t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
+    pub(crate) fn traverse(&self, ray: &Ray, mut t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
         let mut visit_leaf = |node: &BvhNode, mut t_max: f64| {
             for item in &self.order[node.link as usize..(node.link + node.count) as usize] {
                 t_max = visit(*item, t_max);
@@ -165,10 +165,10 @@ pub(crate) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (us
     if by_heuristic {
         let wide = (0..3).filter(|axis| size[*axis] > 0.0 && scale[*axis].is_finite());
         let borders = wide.filter_map(|axis| {
-            cheapest_border(items, at_once, |item| bin(item, axis)).map(|cut| (axis, cut))
+            best_split(items, at_once, |item| bin(item, axis)).map(|cut| (axis, cut))
         });
-        if let Some((axis, (border, _))) = borders.min_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
-            let first = partition(items, |item| bin(item, axis) < border);
+        if let Some((axis, (split_plane, _))) = borders.min_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
+            let first = partition(items, |item| bin(item, axis) < split_plane);
             return (axis, first);
         }
     }
@@ -186,7 +186,7 @@ pub(crate) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (us
 
 /// The border between bins with the least expected work on both sides, and that work, if any has
 /// items on both.
-fn cheapest_border(
+fn best_split(
     items: &[Item],
     at_once: u32,
     bin: impl Fn(&Item) -> usize,

@@ -4,7 +4,7 @@
 //! Each level of [`super::simd`] does the same operations in the same order, and none of them is a
 //! fused one: so all find the same.
 
-use crate::accel::beam::Beam;
+use crate::accel::conservative_ray::ConservativeRay;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x4, f32x8};
 use std::hint::black_box;
@@ -77,13 +77,13 @@ impl<'rows> WideLeaf<'rows> {
 
     /// Asks for its memory.
     #[inline(always)]
-    pub(in crate::accel) fn touch(&self) {
+    pub(in crate::accel) fn prefetch(&self) {
         black_box([self.numbers[0], self.numbers[16], self.numbers[32]]);
     }
 }
 
 /// By how much the far ends of boxes grow: more than the relative errors of both ends.
-pub(in crate::accel) const GROWN: f32 = 1.0 + 16.0 * f32::EPSILON;
+pub(in crate::accel) const FAR_SCALE: f32 = 1.0 + 16.0 * f32::EPSILON;
 
 /// Which of the numbers of a triangle is its item.
 pub(in crate::accel) const ITEM: usize = 9;
@@ -95,7 +95,7 @@ pub(in crate::accel) const fn place(corner: usize, axis: usize) -> usize {
 }
 
 #[inline(always)]
-fn eights<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x8<S>; 3] {
+fn splat8<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x8<S>; 3] {
     [
         f32x8::splat(simd, x),
         f32x8::splat(simd, y),
@@ -104,7 +104,7 @@ fn eights<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x8<S>; 3] {
 }
 
 #[inline(always)]
-fn fours<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x4<S>; 3] {
+fn splat4<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x4<S>; 3] {
     [
         f32x4::splat(simd, x),
         f32x4::splat(simd, y),
@@ -131,12 +131,12 @@ pub(in crate::accel) struct BoxLanes<S: Simd> {
 
 impl<S: Simd> BoxLanes<S> {
     #[inline(always)]
-    pub(in crate::accel) fn new(simd: S, beam: &Beam) -> Self {
+    pub(in crate::accel) fn new(simd: S, conservative_ray: &ConservativeRay) -> Self {
         Self {
-            near_origin: eights(simd, beam.near_origin),
-            far_origin: eights(simd, beam.far_origin),
-            inverse: eights(simd, beam.inverse),
-            near: nearer_ends(beam.down),
+            near_origin: splat8(simd, conservative_ray.near_origin),
+            far_origin: splat8(simd, conservative_ray.far_origin),
+            inverse: splat8(simd, conservative_ray.inverse),
+            near: nearer_ends(conservative_ray.down),
         }
     }
 
@@ -158,7 +158,7 @@ impl<S: Simd> BoxLanes<S> {
 
     /// Which boxes of a node the beam may meet before `limit`, as bits, and where.
     ///
-    /// As in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end is [`GROWN`].
+    /// As in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end is [`FAR_SCALE`].
     #[inline(always)]
     pub(in crate::accel) fn meet(
         &self,
@@ -174,7 +174,7 @@ impl<S: Simd> BoxLanes<S> {
             .leave::<0>(simd, node)
             .min(self.leave::<1>(simd, node))
             .min(self.leave::<2>(simd, node))
-            * f32x8::splat(simd, GROWN);
+            * f32x8::splat(simd, FAR_SCALE);
         let met = enter.simd_le(leave.min(f32x8::splat(simd, limit)));
         (bits(met.to_bitmask()), enter.into())
     }
@@ -203,7 +203,7 @@ pub(in crate::accel) struct TriangleLanes<V> {
 
 /// Which lanes may be hits, and which of them are hits for sure, as bits.
 #[derive(Clone, Copy)]
-pub(in crate::accel) struct LeafVerdict {
+pub(in crate::accel) struct HitMask {
     pub(in crate::accel) may: u32,
     pub(in crate::accel) sure: u32,
 }
@@ -211,27 +211,27 @@ pub(in crate::accel) struct LeafVerdict {
 impl<S: Simd> TriangleLanes<f32x4<S>> {
     /// One beam.
     #[inline(always)]
-    pub(in crate::accel) fn new(simd: S, beam: &Beam) -> Self {
-        let [x, y] = beam.slopes;
+    pub(in crate::accel) fn new(simd: S, conservative_ray: &ConservativeRay) -> Self {
+        let [x, y] = conservative_ray.slopes;
         Self {
-            axes: beam.axes,
-            origin: fours(simd, beam.origin),
-            main: f32x4::splat(simd, beam.main),
+            axes: conservative_ray.axes,
+            origin: splat4(simd, conservative_ray.origin),
+            main: f32x4::splat(simd, conservative_ray.main),
             slopes: [f32x4::splat(simd, x), f32x4::splat(simd, y)],
-            error: f32x4::splat(simd, beam.error),
+            error: f32x4::splat(simd, conservative_ray.error),
         }
     }
 
     /// Which triangles of a leaf the beam may hit before `limit`; if `SURE`, also which it surely
     /// hits before `sure_limit`.
     #[inline(always)]
-    pub(in crate::accel) fn judge<const SURE: bool>(
+    pub(in crate::accel) fn intersect4<const SURE: bool>(
         &self,
         simd: S,
         leaf: WideLeaf<'_>,
         limits: [f32; 2],
-    ) -> LeafVerdict {
-        self.verdict::<SURE, S>(
+    ) -> HitMask {
+        self.hit_mask::<SURE, S>(
             #[inline(always)]
             |place: usize| leaf.numbers(simd, place),
             [f32x4::splat(simd, limits[0]), f32x4::splat(simd, limits[1])],
@@ -269,11 +269,11 @@ impl<V> TriangleLanes<V> {
     /// their error: a triangle with two sure signs that differ is missed, one with three that agree
     /// is hit.
     #[inline(always)]
-    pub(in crate::accel) fn verdict<const SURE: bool, S: Simd>(
+    pub(in crate::accel) fn hit_mask<const SURE: bool, S: Simd>(
         &self,
         coordinate: impl Fn(usize) -> V,
         [limit, sure_limit]: [V; 2],
-    ) -> LeafVerdict
+    ) -> HitMask
     where
         V: SimdFloat<S, Element = f32>,
     {
@@ -293,12 +293,12 @@ impl<V> TriangleLanes<V> {
         let beyond = nearest.simd_gt(limit) | farthest.simd_lt(0.0);
         let may = bits((!(outside | beyond)).to_bitmask());
         if !SURE {
-            return LeafVerdict { may, sure: 0 };
+            return HitMask { may, sure: 0 };
         }
         let inside = min.simd_gt(bound) | max.simd_lt(-bound);
         let between = nearest.simd_gt(error) & farthest.simd_lt(sure_limit);
         let sure = bits((inside & between).to_bitmask()) & may;
-        LeafVerdict { may, sure }
+        HitMask { may, sure }
     }
 }
 

@@ -4,9 +4,9 @@
 //! Rounding keeps order: what is found for the ends of an interval bounds what is found for each
 //! ray in it, so that intervals need no error bounds beyond those of a single ray.
 
-use crate::accel::beam::Beam;
+use crate::accel::conservative_ray::ConservativeRay;
 use crate::accel::lanes::{
-    GROWN, LeafVerdict, TriangleLanes, WIDTH, WideLeaf, WideNode, bits, nearer_ends,
+    FAR_SCALE, HitMask, TriangleLanes, WIDTH, WideLeaf, WideNode, bits, nearer_ends,
 };
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
@@ -34,11 +34,14 @@ pub(in crate::accel) struct Packet<S: Simd> {
 
 /// A number of each beam, and its range.
 #[inline(always)]
-fn of_each(beams: &[Beam; RAYS], number: impl Fn(&Beam) -> f32) -> (OfRays, [f32; 2]) {
+fn of_each(
+    conservative_rays: &[ConservativeRay; RAYS],
+    number: impl Fn(&ConservativeRay) -> f32,
+) -> (OfRays, [f32; 2]) {
     let (mut all, mut range) = ([0.0; RAYS], [f32::INFINITY, f32::NEG_INFINITY]);
     // Counted, as are all loops over rays here: chained iterators become calls.
     for lane in 0..RAYS {
-        all[lane] = number(&beams[lane]);
+        all[lane] = number(&conservative_rays[lane]);
         range = [range[0].min(all[lane]), range[1].max(all[lane])];
     }
     (all, range)
@@ -46,10 +49,11 @@ fn of_each(beams: &[Beam; RAYS], number: impl Fn(&Beam) -> f32) -> (OfRays, [f32
 
 /// Whether all have the same main axis and the same signs.
 #[inline(always)]
-fn are_alike(beams: &[Beam; RAYS]) -> bool {
+fn are_alike(conservative_rays: &[ConservativeRay; RAYS]) -> bool {
     let mut are_alike = true;
     for lane in 1..RAYS {
-        are_alike &= beams[lane].axes[2] == beams[0].axes[2] && beams[lane].down == beams[0].down;
+        are_alike &= conservative_rays[lane].axes[2] == conservative_rays[0].axes[2]
+            && conservative_rays[lane].down == conservative_rays[0].down;
     }
     are_alike
 }
@@ -57,27 +61,50 @@ fn are_alike(beams: &[Beam; RAYS]) -> bool {
 impl<S: Simd> Packet<S> {
     /// The packet of eight beams; `None` if they don't go the same way.
     #[inline(always)]
-    pub(in crate::accel) fn new(simd: S, beams: &[Beam; RAYS]) -> Option<Self> {
-        if !are_alike(beams) {
+    pub(in crate::accel) fn new(
+        simd: S,
+        conservative_rays: &[ConservativeRay; RAYS],
+    ) -> Option<Self> {
+        if !are_alike(conservative_rays) {
             return None;
         }
-        let Beam { axes, down, .. } = beams[0];
+        let ConservativeRay { axes, down, .. } = conservative_rays[0];
         let lanes = |lanes: OfRays| f32x8::load_array(simd, lanes);
         let zero = f32x8::splat(simd, 0.0);
         let [mut near_origin, mut far_origin, mut inverses] = [[zero; 3]; 3];
         let [mut first, mut last] = [[0.0; 3]; 2];
         let mut inverse = [[0.0; 2]; 3];
         for axis in 0..3 {
-            let (near, near_range) = of_each(beams, |beam| beam.near_origin[axis]);
-            let (far, far_range) = of_each(beams, |beam| beam.far_origin[axis]);
-            let (all, range) = of_each(beams, |beam| beam.inverse[axis]);
+            let (near, near_range) = of_each(conservative_rays, |conservative_ray| {
+                conservative_ray.near_origin[axis]
+            });
+            let (far, far_range) = of_each(conservative_rays, |conservative_ray| {
+                conservative_ray.far_origin[axis]
+            });
+            let (all, range) = of_each(conservative_rays, |conservative_ray| {
+                conservative_ray.inverse[axis]
+            });
             (near_origin[axis], far_origin[axis]) = (lanes(near), lanes(far));
             (inverses[axis], inverse[axis]) = (lanes(all), range);
             first[axis] = near_range[usize::from(!down[axis])];
             last[axis] = far_range[usize::from(down[axis])];
         }
-        let origin = |k: usize| lanes(of_each(beams, |beam| beam.origin[k]).0);
-        let slope = |k: usize| lanes(of_each(beams, |beam| beam.slopes[k]).0);
+        let origin = |k: usize| {
+            lanes(
+                of_each(conservative_rays, |conservative_ray| {
+                    conservative_ray.origin[k]
+                })
+                .0,
+            )
+        };
+        let slope = |k: usize| {
+            lanes(
+                of_each(conservative_rays, |conservative_ray| {
+                    conservative_ray.slopes[k]
+                })
+                .0,
+            )
+        };
         Some(Self {
             near: nearer_ends(down),
             first,
@@ -89,9 +116,11 @@ impl<S: Simd> Packet<S> {
             triangles: TriangleLanes {
                 axes,
                 origin: [origin(0), origin(1), origin(2)],
-                main: f32x8::splat(simd, beams[0].main),
+                main: f32x8::splat(simd, conservative_rays[0].main),
                 slopes: [slope(0), slope(1)],
-                error: lanes(of_each(beams, |beam| beam.error).0),
+                error: lanes(
+                    of_each(conservative_rays, |conservative_ray| conservative_ray.error).0,
+                ),
             },
         })
     }
@@ -146,7 +175,7 @@ impl<S: Simd> Packet<S> {
             .leave(simd, node, 0)
             .min(self.leave(simd, node, 1))
             .min(self.leave(simd, node, 2))
-            * GROWN;
+            * FAR_SCALE;
         let met = enter.simd_le(leave.min(limit));
         (bits(met.to_bitmask()), enter.into())
     }
@@ -169,7 +198,7 @@ impl<S: Simd> Packet<S> {
             (end - self.far_origin[axis]) * self.inverses[axis]
         };
         let first = enter(0).max(enter(1)).max(enter(2).max(0.0));
-        let last = leave(0).min(leave(1)).min(leave(2)) * GROWN;
+        let last = leave(0).min(leave(1)).min(leave(2)) * FAR_SCALE;
         let met = first.simd_le(last.min(f32x8::load_array(simd, *limits)));
         bits(met.to_bitmask()) != 0
     }
@@ -177,14 +206,14 @@ impl<S: Simd> Packet<S> {
     /// Which beams may hit a triangle of a leaf before their limits; if `SURE`, also which surely
     /// hit it before the second ones.
     #[inline(always)]
-    pub(in crate::accel) fn judge<const SURE: bool>(
+    pub(in crate::accel) fn intersect4<const SURE: bool>(
         &self,
         simd: S,
         leaf: WideLeaf<'_>,
         lane: usize,
         limits: &[OfRays; 2],
-    ) -> LeafVerdict {
-        self.triangles.verdict::<SURE, S>(
+    ) -> HitMask {
+        self.triangles.hit_mask::<SURE, S>(
             #[inline(always)]
             |place: usize| f32x8::splat(simd, leaf.number(place, lane)),
             [

@@ -50,7 +50,7 @@ impl<T: Pod> Pages<T> {
     }
 
     /// The rows of some lists, one after the other; each list is freed when its rows are copied.
-    pub(in crate::accel) fn joined(lists: Vec<Self>) -> Self {
+    pub(in crate::accel) fn merged(lists: Vec<Self>) -> Self {
         let mut pages = Self::zeroed(lists.iter().map(|list| list.rows().len()).sum());
         let mut rest = pages.rows_mut();
         for list in lists {
@@ -93,7 +93,7 @@ mod tests {
         };
         for rows in [0, 7, WORTH / 256 + 1] {
             let aside = lists(rows).into_iter().map(|list| Pages::put_aside(&list));
-            let pages = Pages::joined(aside.collect());
+            let pages = Pages::merged(aside.collect());
             assert_eq!(pages.rows(), lists(rows).concat());
             assert_eq!(matches!(pages, Pages::Mapped(..)), rows > 7);
         }

@@ -5,7 +5,7 @@
 //! writes the files.
 
 use super::fresnel::schlick;
-use super::warp::direction_turned;
+use super::warp::direction_at_angle;
 use rtc_math::Vec3;
 use std::sync::LazyLock;
 
@@ -127,7 +127,7 @@ fn half_way_of(entry: usize) -> [f64; 2] {
     let sum: f64 = pairs
         .map(|[i, j]| {
             // Half a turn is enough, by symmetry.
-            let wi = direction_turned(step(i).sqrt(), step(j) * 0.5);
+            let wi = direction_at_angle(step(i).sqrt(), step(j) * 0.5);
             schlick(wo.dot((wo + wi).normalize()))
         })
         .sum();

@@ -43,7 +43,7 @@ impl Coat {
         }
         let h = (self.wo + wi).normalize();
         let f = self.ggx.density(h) * self.ggx.visibility(self.wo, wi);
-        (f, self.ggx.visible_density(self.wo, h) / 4.0)
+        (f, self.ggx.vndf_pdf(self.wo, h) / 4.0)
     }
 
     /// Samples a direction that the coat reflects to the viewer.

@@ -5,7 +5,7 @@
 //! 2.0, appendix B, and for anisotropy in Heitz, "Understanding the masking-shadowing function"
 //! (JCGT 3, 2014).
 
-use super::warp::direction_turned;
+use super::warp::direction_at_angle;
 use rtc_math::Vec3;
 use std::f64::consts::PI;
 
@@ -75,14 +75,14 @@ impl Ggx {
     #[inline]
     pub(super) fn density(self, h: Vec3) -> f64 {
         let (x, y) = (self.width_x(), self.width_y());
-        let stretched = Vec3::new(h.x / x, h.y / y, h.z).length_squared();
-        1.0 / (PI * x * y * (stretched * stretched))
+        let lambda_root = Vec3::new(h.x / x, h.y / y, h.z).length_squared();
+        1.0 / (PI * x * y * (lambda_root * lambda_root))
     }
 
-    /// The length of `w` stretched to the surface of unit slopes; `Λ = (stretched/|w_z| − 1)/2`.
+    /// The length of `w` stretched to the surface of unit slopes; `Λ = (lambda_root/|w_z| − 1)/2`.
     #[must_use]
     #[inline]
-    pub(super) fn stretched(self, w: Vec3) -> f64 {
+    pub(super) fn lambda_root(self, w: Vec3) -> f64 {
         Vec3::new(w.x * self.x, w.y * self.y, w.z).length()
     }
 
@@ -91,14 +91,14 @@ impl Ggx {
     #[inline]
     pub(super) fn visibility(self, wo: Vec3, wi: Vec3) -> f64 {
         let (o, i) = (wo.z.abs(), wi.z.abs());
-        0.5 / (i * self.stretched(wo) + o * self.stretched(wi))
+        0.5 / (i * self.lambda_root(wo) + o * self.lambda_root(wi))
     }
 
     /// The density of the normals visible from `wo`, divided by `wo·h`: `G₁·D/cos θ_o`.
     #[must_use]
     #[inline]
-    pub(super) fn visible_density(self, wo: Vec3, h: Vec3) -> f64 {
-        2.0 * self.density(h) / (wo.z + self.stretched(wo))
+    pub(super) fn vndf_pdf(self, wo: Vec3, h: Vec3) -> f64 {
+        2.0 * self.density(h) / (wo.z + self.lambda_root(wo))
     }
 
     /// Samples a normal visible from `wo` (Dupuy, Benyoub, "Sampling visible GGX normals with
@@ -111,7 +111,7 @@ impl Ggx {
         let view = Vec3::new(wo.x * x, wo.y * y, wo.z).normalize();
         // Sample the cap of directions that the hemisphere reflects `view` to.
         let z = (1.0 - u[0]) * (1.0 + view.z) - view.z;
-        let cap = direction_turned(z, u[1]);
+        let cap = direction_at_angle(z, u[1]);
         // Take the half vector, and undo the stretch.
         let h = cap + view;
         Vec3::new(h.x * x, h.y * y, h.z.max(0.0)).normalize_or(Vec3::Z)
@@ -144,7 +144,7 @@ mod tests {
             for i in 0..n {
                 for j in 0..n {
                     let z = ((f64::from(i) + 0.5) / f64::from(n)).sqrt();
-                    let h = direction_turned(z, (f64::from(j) + 0.5) / f64::from(n));
+                    let h = direction_at_angle(z, (f64::from(j) + 0.5) / f64::from(n));
                     sum += ggx.density(h) * PI / f64::from(n * n);
                 }
             }

@@ -26,7 +26,7 @@ pub(super) struct Microfacet<const F: u32> {
     film: Option<(ThinFilm, f64)>,
     /// The fraction of the light in the dielectric that is transmitted, by channel.
     tint: Vec3,
-    crossing: Crossing,
+    intersection: Crossing,
     /// The index beyond divided by that on the side of the viewer.
     eta: f64,
     /// The index inside, if the material transmits: its reflectance is that of a dielectric.
@@ -89,7 +89,7 @@ impl<const F: u32> Microfacet<F> {
         metallic: 0.0,
         film: None,
         tint: Vec3::ZERO,
-        crossing: Crossing::Wall,
+        intersection: Crossing::Wall,
         eta: 1.0,
         ior: None,
         gain: [1.0; 2],
@@ -125,7 +125,7 @@ impl<const F: u32> Microfacet<F> {
         };
         let dark =
             standard.specular == 0.0 && standard.metallic == 0.0 && film.is_none() && !inside;
-        let crossing = match standard.thin_walled {
+        let intersection = match standard.thin_walled {
             true => Crossing::Wall,
             false if (ior - 1.0).abs() < NEARLY_STRAIGHT => Crossing::Straight,
             false => Crossing::Refracted,
@@ -140,7 +140,7 @@ impl<const F: u32> Microfacet<F> {
             metallic: standard.metallic,
             film,
             tint: standard.base_color * standard.transmitting(),
-            crossing,
+            intersection,
             eta: if inside { 1.0 / ior } else { ior },
             ior: transmits.then_some(ior),
             gain: [1.0; 2],
@@ -233,7 +233,7 @@ impl<const F: u32> Microfacet<F> {
             return;
         }
         let [reflected, refracted] = dielectric::outside(ior, roughness, cosine);
-        let through = match self.crossing {
+        let through = match self.intersection {
             Crossing::Wall => reflected,
             Crossing::Refracted => refracted,
             Crossing::Straight => return,
@@ -269,7 +269,7 @@ impl<const F: u32> Microfacet<F> {
         let f = weights.reflected * (density * self.ggx.visibility(wo, wi));
         Evaluation {
             f,
-            pdf: weights.lobe_pdf() * 0.5 * density / (wo.z + self.ggx.stretched(wo)),
+            pdf: weights.lobe_pdf() * 0.5 * density / (wo.z + self.ggx.lambda_root(wo)),
         }
     }
 
@@ -278,7 +278,7 @@ impl<const F: u32> Microfacet<F> {
         if !can::<F>(TRANSMISSION) || self.smooth || self.tint == Vec3::ZERO {
             return Evaluation::NONE;
         }
-        match self.crossing {
+        match self.intersection {
             Crossing::Straight => Evaluation::NONE,
             Crossing::Wall => {
                 let mirrored = Vec3::new(wi.x, wi.y, -wi.z);
@@ -287,7 +287,7 @@ impl<const F: u32> Microfacet<F> {
                 let f = weights.through * (self.ggx.density(h) * self.ggx.visibility(wo, mirrored));
                 Evaluation {
                     f,
-                    pdf: (1.0 - weights.lobe_pdf()) * self.ggx.visible_density(wo, h) / 4.0,
+                    pdf: (1.0 - weights.lobe_pdf()) * self.ggx.vndf_pdf(wo, h) / 4.0,
                 }
             }
             Crossing::Refracted => self.refracted(wo, wi),
@@ -312,7 +312,7 @@ impl<const F: u32> Microfacet<F> {
             weights.through * (4.0 * self.ggx.density(h) * self.ggx.visibility(wo, wi) * o * turn);
         Evaluation {
             f,
-            pdf: (1.0 - weights.lobe_pdf()) * self.ggx.visible_density(wo, h) * o * turn,
+            pdf: (1.0 - weights.lobe_pdf()) * self.ggx.vndf_pdf(wo, h) * o * turn,
         }
     }
 
@@ -336,15 +336,15 @@ impl<const F: u32> Microfacet<F> {
         // Reflect at the microfacet.
         if lobe_pdf >= 1.0 || u_lobe() < lobe_pdf {
             let wi = h * (2.0 * cosine) - wo;
-            let way = if self.smooth {
+            let direction = if self.smooth {
                 ScatteredDirection::Single(wi, weights.reflected, lobe_pdf)
             } else {
                 ScatteredDirection::Lobe(wi)
             };
-            return (wi.z > 0.0).then_some(way);
+            return (wi.z > 0.0).then_some(direction);
         }
         // Or transmit through it.
-        let wi = match self.crossing {
+        let wi = match self.intersection {
             Crossing::Straight => -wo,
             Crossing::Wall => {
                 let mirrored = h * (2.0 * cosine) - wo;
@@ -354,13 +354,13 @@ impl<const F: u32> Microfacet<F> {
                 h * (cosine / self.eta - refracted_cosine(cosine, self.eta)?) - wo / self.eta
             }
         };
-        let single = self.smooth || self.crossing == Crossing::Straight;
-        let way = if single {
+        let single = self.smooth || self.intersection == Crossing::Straight;
+        let direction = if single {
             ScatteredDirection::Single(wi, weights.through, 1.0 - lobe_pdf)
         } else {
             ScatteredDirection::Lobe(wi)
         };
-        (wi.z < 0.0).then_some(way)
+        (wi.z < 0.0).then_some(direction)
     }
 }
 

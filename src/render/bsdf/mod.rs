@@ -31,7 +31,7 @@ use sheen::Fibres;
 use side::Side;
 use standard::{DiffuseTransmission, StandardParameters};
 use std::f64::consts::FRAC_1_PI;
-pub(super) use warp::direction_turned;
+pub(super) use warp::direction_at_angle;
 use warp::{cosine_density, cosine_direction};
 
 pub(crate) const LAYERS: PathFeatures = PathFeatures::LAYERS;
@@ -315,14 +315,14 @@ impl<const F: u32> Lobes<F> {
         let rest = |left: f64, probability: f64| [remapped(left, probability), u[1]];
         // Sample the diffuse lobe.
         if u[0] < cosine {
-            return self.in_lobe(cosine_direction(rest(u[0], cosine)));
+            return self.glossy_sample(cosine_direction(rest(u[0], cosine)));
         }
         // Sample the microfacets: reflection or transmission.
         let left = u[0] - cosine;
         if left < microfacet {
             let u = rest(left, microfacet);
             return match self.microfacet.sample(self.wo, u, third)? {
-                ScatteredDirection::Lobe(wi) => self.in_lobe(wi),
+                ScatteredDirection::Lobe(wi) => self.glossy_sample(wi),
                 ScatteredDirection::Single(wi, weight, pdf) => {
                     let left = self.sheen().map_or(1.0, |sheen| sheen.left_for(wi));
                     let covered = self.coat().map_or(0.0, |coat| coat.weight);
@@ -333,7 +333,7 @@ impl<const F: u32> Lobes<F> {
         // Sample the diffuse transmission.
         let left = left - microfacet;
         if self.through().is_some() && left < through {
-            return self.in_lobe(mirrored(cosine_direction(rest(left, through))));
+            return self.glossy_sample(mirrored(cosine_direction(rest(left, through))));
         }
         // Sample the coat.
         let layer = self.coat()?;
@@ -341,11 +341,11 @@ impl<const F: u32> Lobes<F> {
         match layer.is_smooth() {
             _ if wi.z <= 0.0 => None,
             true => self.single(wi, Vec3::splat(layer.weight), coat),
-            false => self.in_lobe(wi),
+            false => self.glossy_sample(wi),
         }
     }
 
-    fn in_lobe(&self, wi: Vec3) -> Option<BsdfSample> {
+    fn glossy_sample(&self, wi: Vec3) -> Option<BsdfSample> {
         let Evaluation { f, pdf } = self.evaluate_entered(wi);
         (pdf > 0.0).then(|| BsdfSample {
             wi: self.side.leave(wi),

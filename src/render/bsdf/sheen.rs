@@ -128,7 +128,7 @@ pub(super) fn integrated_albedo(roughness: f64, cosine: f64) -> f64 {
     for i in 0..STEPS {
         for j in 0..STEPS {
             // Half a turn is enough, by symmetry.
-            let wi = super::warp::direction_turned(step(i), step(j) * 0.5);
+            let wi = super::warp::direction_at_angle(step(i), step(j) * 0.5);
             sum += charlie.f(wo, wi) * wi.z;
         }
     }

@@ -1,6 +1,6 @@
 //! From the unit square to directions.
 
-use rtc_math::{Vec3, cos_sin_turns};
+use rtc_math::{Vec3, cos_sin_revolutions};
 use std::f64::consts::PI;
 
 /// The unit vector with the z given and the azimuth in turns, in [0, 1).
@@ -11,11 +11,11 @@ use std::f64::consts::PI;
     clippy::cast_sign_loss,
     reason = "a share of a turn; the cast saturates"
 )]
-pub(crate) fn direction_turned(z: f64, turns: f64) -> Vec3 {
+pub(crate) fn direction_at_angle(z: f64, turns: f64) -> Vec3 {
     /// 2⁶⁴.
     const TURN: f64 = 18_446_744_073_709_551_616.0;
     let sine = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt();
-    let (x, y) = cos_sin_turns((turns * TURN) as u64);
+    let (x, y) = cos_sin_revolutions((turns * TURN) as u64);
     Vec3::new(sine * x, sine * y, z)
 }
 
@@ -23,7 +23,7 @@ pub(crate) fn direction_turned(z: f64, turns: f64) -> Vec3 {
 #[must_use]
 #[inline]
 pub(super) fn cosine_direction(u: [f64; 2]) -> Vec3 {
-    direction_turned((1.0 - u[0]).sqrt(), u[1])
+    direction_at_angle((1.0 - u[0]).sqrt(), u[1])
 }
 
 /// `cos θ/π`.

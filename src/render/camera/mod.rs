@@ -2,12 +2,12 @@
 
 pub(crate) mod grid;
 
-use crate::lanes::{FourRays, LANES, Vectors};
+use crate::lanes::{LANES, Ray4, Vectors};
 use crate::ray::Ray;
 use crate::sampler::Key;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4};
-use rtc_math::{Vec3, cos_sin_turns, golden_turns};
+use rtc_math::{Vec3, cos_sin_revolutions, golden_revolutions};
 
 /// A camera as its rays see it.
 #[derive(Clone, Debug)]
@@ -78,7 +78,7 @@ pub(crate) fn pinhole_rays<S: Simd>(
     camera: &Camera,
     [x, y]: [u32; 2],
     places: [[f64; 2]; LANES],
-) -> FourRays<S> {
+) -> Ray4<S> {
     let number = |x: f64| f64x4::splat(simd, x);
     let vector = |v: Vec3| Vectors::splat(simd, v);
     let [left, top] = [0, 1].map(|axis| f64x4::simd_from(simd, places.map(|place| place[axis])));
@@ -93,7 +93,7 @@ pub(crate) fn pinhole_rays<S: Simd>(
         Projection::Orthographic => eye.plus(target.minus(vector(camera.center))),
     };
     let (_, direction) = target.minus(origin).normalized();
-    FourRays { origin, direction }
+    Ray4 { origin, direction }
 }
 
 /// Point k of Vogel's spiral on the lens, in steps of `right` and `up`: `r = R·√(k/n)/‖up‖`, `θ =
@@ -139,7 +139,8 @@ impl CranleyPatterson {
 
     fn vogel(self, k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
         let r = radius * ((f64::from(k) + self.shift) / f64::from(n)).sqrt() / pixel;
-        let (cosine, sine) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
+        let (cosine, sine) =
+            cos_sin_revolutions(golden_revolutions(u64::from(k)).wrapping_add(self.rotation));
         [r * cosine, r * sine]
     }
 }
@@ -163,7 +164,7 @@ pub(crate) fn lens_at(camera: &Camera, point: impl FnOnce() -> [f64; 2]) -> Vec3
         clippy::cast_sign_loss,
         reason = "a share of a turn, below one"
     )]
-    let (cosine, sine) = cos_sin_turns((turn * TURN) as u64);
+    let (cosine, sine) = cos_sin_revolutions((turn * TURN) as u64);
     let r = radius * fraction.sqrt() / camera.up.length();
     camera.eye + camera.right * (r * cosine) + camera.up * (r * sine)
 }

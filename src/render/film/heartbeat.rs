@@ -30,10 +30,10 @@ pub(crate) struct Heartbeat<'run> {
     on_pixel: &'run OnPixel<'run>,
     pixel: [u32; 2],
     /// The rays of this thread reported so far.
-    told: u64,
+    reported: u64,
     /// Steps until the next call.
     left: u32,
-    goes_on: bool,
+    should_continue: bool,
     /// As in [`Step`].
     open: usize,
 }
@@ -43,9 +43,9 @@ impl<'run> Heartbeat<'run> {
         Self {
             on_pixel,
             pixel: [0; 2],
-            told: 0,
+            reported: 0,
             left: EVERY,
-            goes_on: true,
+            should_continue: true,
             open: 0,
         }
     }
@@ -62,14 +62,14 @@ impl<'run> Heartbeat<'run> {
 
     /// Records the number of pending branches.
     #[inline]
-    pub(crate) fn put_off(&mut self, open: usize) {
+    pub(crate) fn defer(&mut self, open: usize) {
         self.open = open;
     }
 
     /// Whether to go on. Call it once per step of work: a path, a bounce, a sample, a point of a
     /// light.
     #[inline]
-    pub(crate) fn goes_on(&mut self, counts: &Counts) -> bool {
+    pub(crate) fn should_continue(&mut self, counts: &Counts) -> bool {
         self.left -= 1;
         self.left > 0 || self.ask(counts.rays(), false)
     }
@@ -81,15 +81,15 @@ impl<'run> Heartbeat<'run> {
 
     fn ask(&mut self, rays: u64, is_done: bool) -> bool {
         let step = Step {
-            rays: rays - self.told,
+            rays: rays - self.reported,
             pixel: self.pixel,
             is_done,
             open: self.open,
         };
-        self.told = rays;
-        self.goes_on = self.goes_on && (self.on_pixel)(step);
-        self.left = if self.goes_on { EVERY } else { 1 };
-        self.goes_on
+        self.reported = rays;
+        self.should_continue = self.should_continue && (self.on_pixel)(step);
+        self.left = if self.should_continue { EVERY } else { 1 };
+        self.should_continue
     }
 }
 
@@ -100,21 +100,21 @@ mod tests {
 
     #[test]
     fn who_works_long_asks_within_a_pixel_and_hears_a_stop_for_ever() {
-        let told = Mutex::new(Vec::new());
+        let reported = Mutex::new(Vec::new());
         let on_pixel = |step: Step| {
-            told.lock().unwrap().push(step);
+            reported.lock().unwrap().push(step);
             !(step.pixel == [1, 0] && step.rays > 0)
         };
         let mut heartbeat = Heartbeat::new(&on_pixel);
         let mut counts = Counts::default();
         counts.camera = 3;
-        assert!(heartbeat.goes_on(&counts) && heartbeat.done(counts.rays()));
+        assert!(heartbeat.should_continue(&counts) && heartbeat.done(counts.rays()));
         heartbeat.begin([1, 0]);
-        assert!((1..EVERY).all(|_| heartbeat.goes_on(&counts)));
+        assert!((1..EVERY).all(|_| heartbeat.should_continue(&counts)));
         counts.shadow = 9;
         assert!(
-            !heartbeat.goes_on(&counts)
-                && !heartbeat.goes_on(&counts)
+            !heartbeat.should_continue(&counts)
+                && !heartbeat.should_continue(&counts)
                 && !heartbeat.done(counts.rays())
         );
         let steps = [
@@ -131,6 +131,6 @@ mod tests {
                 open: 0,
             },
         ];
-        assert_eq!(*told.lock().unwrap(), steps);
+        assert_eq!(*reported.lock().unwrap(), steps);
     }
 }

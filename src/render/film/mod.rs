@@ -105,12 +105,12 @@ impl Tiles {
         }
         let count = u128::from(count.max(1));
         // The border after so many shares, of 2⁶⁴.
-        let border = |shares: u32| (u128::from(shares) << 64) / count;
-        let rank = |border: u128| u64::try_from(border).unwrap_or(u64::MAX);
+        let split_plane = |shares: u32| (u128::from(shares) << 64) / count;
+        let rank = |split_plane: u128| u64::try_from(split_plane).unwrap_or(u64::MAX);
         Self {
             seed: 0,
-            first: rank(border(first.saturating_sub(1))),
-            last: rank(border(last).saturating_sub(1)),
+            first: rank(split_plane(first.saturating_sub(1))),
+            last: rank(split_plane(last).saturating_sub(1)),
         }
     }
 

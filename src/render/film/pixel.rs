@@ -62,13 +62,13 @@ pub(crate) trait Accumulator {
     type Sample: Copy;
 
     /// What the film keeps of a pixel.
-    type Kept: Send;
+    type PixelState: Send;
 
     /// Adds the next sample of a stream.
     fn add(&mut self, id: &SampleId, sample: Self::Sample);
 
     /// What is kept when all samples asked for are in.
-    fn close(self) -> Self::Kept;
+    fn close(self) -> Self::PixelState;
 }
 
 /// The samples that a pixel is to take.
@@ -152,7 +152,7 @@ impl InOrder {
 
 impl Accumulator for InOrder {
     type Sample = Sample;
-    type Kept = PixelSum;
+    type PixelState = PixelSum;
 
     #[inline]
     fn add(&mut self, _: &SampleId, Sample { radiance, hit }: Sample) {
@@ -192,7 +192,7 @@ struct SumTree {
 
 impl Accumulator for InBlocks {
     type Sample = Sample;
-    type Kept = PixelSum;
+    type PixelState = PixelSum;
 
     #[inline]
     fn add(&mut self, _: &SampleId, Sample { radiance, hit }: Sample) {

@@ -240,7 +240,7 @@ impl Replicates {
 
 impl Accumulator for Replicates {
     type Sample = Sample;
-    type Kept = Self;
+    type PixelState = Self;
 
     fn add(&mut self, id: &SampleId, Sample { radiance, hit }: Sample) {
         let Stream::Replicate { replicate, .. } = id.stream else {

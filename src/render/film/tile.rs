@@ -7,7 +7,7 @@ use super::{Crop, Stride};
 /// Begins a pixel: given its place, its number in the film, row by row, and what the film keeps of
 /// it so far, says what adds up its samples and which it is to take.
 pub(crate) type Open<'run, A> =
-    dyn Fn([u32; 2], usize, &<A as Accumulator>::Kept) -> (A, SampleRanges) + Sync + 'run;
+    dyn Fn([u32; 2], usize, &<A as Accumulator>::PixelState) -> (A, SampleRanges) + Sync + 'run;
 
 /// A tile as an integrator sees it: one pixel after the other, whatever the film keeps of each.
 pub(crate) trait FilmTile<Sample> {
@@ -29,7 +29,7 @@ pub(crate) struct Tile<'film, A: Accumulator> {
     /// That of the film.
     film: Crop,
     stride: Stride,
-    kept: &'film mut [A::Kept],
+    kept: &'film mut [A::PixelState],
     open: &'film Open<'film, A>,
     /// The column and the row of the next pixel, counted from the corner of the film.
     next: [u32; 2],
@@ -45,7 +45,7 @@ impl<'film, A: Accumulator> Tile<'film, A> {
     pub(crate) fn new(
         [area, film]: [Crop; 2],
         stride: Stride,
-        kept: &'film mut [A::Kept],
+        kept: &'film mut [A::PixelState],
         open: &'film Open<'film, A>,
     ) -> Self {
         Self {

@@ -9,7 +9,7 @@ use crate::frame::picture::asked;
 use crate::integrator::guide::GuideSums;
 use crate::integrator::path::{FirstHitsOfPaths, Strategy};
 use crate::light::Lights;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::any::AnyWorld;
 use rtc_image::{Guide, Image, NoisyHalf, denoise};
@@ -27,7 +27,7 @@ pub struct DenoisedFilm {
     pub plain: Image,
 }
 
-impl<S: Geometry> World<S> {
+impl<S: Intersect> World<S> {
     /// The guides of pixels by a range of the samples of traced paths, and the rays they take.
     pub(crate) fn guides(
         &self,

@@ -10,14 +10,14 @@ use crate::integrator::aov::{Aov, CameraHit, FirstHits, LayerSums};
 use crate::integrator::path::{FirstHitsOfPaths, Strategy};
 use crate::integrator::whitted::Tracer;
 use crate::light::Lights;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::settings::Mode;
 use rtc_image::Layers;
 use rtc_plan::Features;
 use std::iter::repeat_n;
 
-impl<S: Geometry> World<S> {
+impl<S: Intersect> World<S> {
     /// As [`crate::AnyWorld::layers`], of what this world holds.
     pub(crate) fn layers(
         &self,
@@ -46,10 +46,10 @@ impl<S: Geometry> World<S> {
         job: &Job,
     ) -> Option<Layers> {
         let camera = &self.camera;
-        let open = |_: [u32; 2], _: usize, _: &<LayerSums<'_> as Accumulator>::Kept| {
+        let open = |_: [u32; 2], _: usize, _: &<LayerSums<'_> as Accumulator>::PixelState| {
             (LayerSums::new(wanted, camera), asked(job, 0..samples))
         };
-        let blank = <LayerSums<'_> as Accumulator>::Kept::new();
+        let blank = <LayerSums<'_> as Accumulator>::PixelState::new();
         let mut film = Tiled::new(self.crop(job), job.tiles, blank);
         run(&mut film, Selection::of(job), make_integrator, &open)?;
         let names: Vec<_> = wanted.iter().flat_map(|aov| aov.channels()).collect();

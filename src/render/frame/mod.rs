@@ -43,7 +43,7 @@ pub(crate) type MakeIntegrator<'work, 'run, Sample> =
 /// Renders the pixels selected, as `open` begins each of them, by integrators that `make_integrator` makes;
 /// the rays traced, or `None` if the observer said stop.
 pub(crate) fn run<A: Accumulator>(
-    film: &mut Tiled<A::Kept>,
+    film: &mut Tiled<A::PixelState>,
     selection: Selection,
     make_integrator: &MakeIntegrator<'_, '_, A::Sample>,
     open: &Open<'_, A>,
@@ -58,8 +58,8 @@ pub(crate) fn run<A: Accumulator>(
 
 /// As [`run`], in tiles all over the picture; if the observer said stop, tiles that are not done are as
 /// before. The rays traced, and whether all are done.
-pub(crate) fn run_tiles<A: Accumulator<Kept: Copy>>(
-    film: &mut Tiled<A::Kept>,
+pub(crate) fn run_tiles<A: Accumulator<PixelState: Copy>>(
+    film: &mut Tiled<A::PixelState>,
     selection: Selection,
     make_integrator: &MakeIntegrator<'_, '_, A::Sample>,
     open: &Open<'_, A>,

@@ -10,7 +10,7 @@ use crate::integrator::first_hit::{Depth, Distance};
 use crate::integrator::path::{PathTracer, Strategy};
 use crate::integrator::whitted::Tracer;
 use crate::light::Lights;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::settings::Mode;
 use rtc_plan::{Features, PixelClass};
@@ -19,7 +19,7 @@ use std::ops::Range;
 /// The sums of the pixels of a picture, and the rays they took.
 pub(crate) type Sums = (Tiled<PixelSum>, Counts);
 
-impl<S: Geometry> World<S> {
+impl<S: Intersect> World<S> {
     /// Sums all samples of pixels with the features `F`; `None` if `on_pixel` said stop.
     pub(crate) fn sum_with<const F: u32>(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Sums> {
         if let Mode::Depth = self.settings.mode {

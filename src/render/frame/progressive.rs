@@ -8,20 +8,20 @@ use crate::integrator::path::{PathTracer, Strategy};
 use crate::integrator::whitted::Tracer;
 use crate::kernel::{dispatch, dispatch_paths};
 use crate::light::Lights;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::settings::Mode;
 use rtc_color::Tone;
 
 /// For each pixel, counted row by row, the samples wanted of each replicate, and of the pilot.
-type Wanted<'run> = dyn Fn(usize) -> [u32; 2] + Sync + 'run;
+type SampleRange<'run> = dyn Fn(usize) -> [u32; 2] + Sync + 'run;
 
-impl<S: Geometry> World<S> {
+impl<S: Intersect> World<S> {
     /// As [`crate::AnyWorld::grow`].
     pub(crate) fn grow(
         &self,
         film: &mut ProgressiveFilm,
-        wanted: &Wanted<'_>,
+        wanted: &SampleRange<'_>,
         on_pixel: &OnPixel<'_>,
     ) -> bool {
         if let Mode::Path(_) = self.settings.mode {
@@ -34,7 +34,7 @@ impl<S: Geometry> World<S> {
     fn grow_paths<const F: u32>(
         &self,
         film: &mut ProgressiveFilm,
-        wanted: &Wanted<'_>,
+        wanted: &SampleRange<'_>,
         on_pixel: &OnPixel<'_>,
     ) -> bool {
         let (lights, background) = (Lights::new(self, Strategy::Mis), film.background);
@@ -49,7 +49,7 @@ impl<S: Geometry> World<S> {
     fn grow_with<const F: u32>(
         &self,
         film: &mut ProgressiveFilm,
-        wanted: &Wanted<'_>,
+        wanted: &SampleRange<'_>,
         on_pixel: &OnPixel<'_>,
     ) -> bool {
         add_samples(film, wanted, None, &|| {
@@ -62,7 +62,7 @@ impl<S: Geometry> World<S> {
 /// observer said stop.
 fn add_samples(
     film: &mut ProgressiveFilm,
-    wanted: &Wanted<'_>,
+    wanted: &SampleRange<'_>,
     tone: Option<(Tone, f64)>,
     make_integrator: &MakeIntegrator<'_, '_, Sample>,
 ) -> bool {

@@ -106,8 +106,8 @@ impl<'run, I: FirstHit<'run>> Integrator<'run> for FirstHits<I> {
         self.0.heartbeat()
     }
 
-    fn goes_on(&mut self) -> bool {
-        self.0.goes_on()
+    fn should_continue(&mut self) -> bool {
+        self.0.should_continue()
     }
 }
 
@@ -133,7 +133,7 @@ impl<'run> LayerSums<'run> {
 
 impl Accumulator for LayerSums<'_> {
     type Sample = CameraHit;
-    type Kept = arrayvec::ArrayVec<f32, CHANNELS>;
+    type PixelState = arrayvec::ArrayVec<f32, CHANNELS>;
 
     fn add(&mut self, _: &SampleId, CameraHit { direction, first }: CameraHit) {
         self.sums.add(direction, first);
@@ -144,7 +144,7 @@ impl Accumulator for LayerSums<'_> {
         clippy::cast_possible_truncation,
         reason = "rounds to the nearest float, or to infinity"
     )]
-    fn close(self) -> Self::Kept {
+    fn close(self) -> Self::PixelState {
         let values = |aov: &Aov| {
             let values = self.sums.values(*aov, self.camera);
             values.into_iter().take(aov.channels().len())

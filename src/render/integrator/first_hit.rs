@@ -6,7 +6,7 @@ use crate::camera::grid::Grid;
 use crate::film::heartbeat::{Heartbeat, OnPixel};
 use crate::film::pixel::{Accumulator, PixelSum, SampleId};
 use crate::film::{Counts, Seeds};
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::world::World;
 use rtc_math::Vec3;
 use rtc_plan::Effect;
@@ -18,7 +18,7 @@ pub(crate) struct Depth<'run, S> {
     counts: Counts,
 }
 
-impl<'run, S: Geometry> Depth<'run, S> {
+impl<'run, S: Intersect> Depth<'run, S> {
     pub(crate) fn new(world: &'run World<S>, on_pixel: &'run OnPixel<'run>) -> Self {
         Self {
             world,
@@ -28,7 +28,7 @@ impl<'run, S: Geometry> Depth<'run, S> {
     }
 }
 
-impl<'run, S: Geometry> Integrator<'run> for Depth<'run, S> {
+impl<'run, S: Intersect> Integrator<'run> for Depth<'run, S> {
     type Sample = Option<f64>;
 
     fn sample(&mut self, id: &SampleId) -> Option<f64> {
@@ -50,8 +50,8 @@ impl<'run, S: Geometry> Integrator<'run> for Depth<'run, S> {
     }
 
     #[inline]
-    fn goes_on(&mut self) -> bool {
-        self.heartbeat.goes_on(&self.counts)
+    fn should_continue(&mut self) -> bool {
+        self.heartbeat.should_continue(&self.counts)
     }
 }
 
@@ -61,7 +61,7 @@ pub(crate) struct Distance(PixelSum);
 
 impl Accumulator for Distance {
     type Sample = Option<f64>;
-    type Kept = PixelSum;
+    type PixelState = PixelSum;
 
     fn add(&mut self, _: &SampleId, distance: Option<f64>) {
         self.0 = PixelSum {

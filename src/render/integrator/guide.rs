@@ -23,7 +23,7 @@ impl<'run> GuideSums<'run> {
 
 impl Accumulator for GuideSums<'_> {
     type Sample = CameraHit;
-    type Kept = Guide;
+    type PixelState = Guide;
 
     fn add(&mut self, _: &SampleId, CameraHit { direction, first }: CameraHit) {
         self.sums.add(direction, first);

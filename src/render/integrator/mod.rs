@@ -42,7 +42,7 @@ pub(crate) trait Integrator<'run> {
     fn heartbeat(&mut self) -> &mut Heartbeat<'run>;
 
     /// Whether to go on: to be asked before each sample.
-    fn goes_on(&mut self) -> bool;
+    fn should_continue(&mut self) -> bool;
 
     /// Takes the samples that a tile is to have; false if the observer said stop. In which order
     /// rays are traced is the integrator's own affair: a pixel gets its samples in theirs.
@@ -58,7 +58,7 @@ pub(crate) trait Integrator<'run> {
                 self.begin(&id);
                 let mut left = samples;
                 while let Some(index) = left.next() {
-                    if !self.goes_on() {
+                    if !self.should_continue() {
                         return false;
                     }
                     id.index = index;

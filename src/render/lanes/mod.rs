@@ -163,7 +163,7 @@ impl<S: Simd> Vectors<S> {
 
     /// The vectors of `self` in the lanes of a mask, those of `other` elsewhere.
     #[inline(always)]
-    pub(crate) fn where_else(self, mask: mask64x4<S>, other: Self) -> Self {
+    pub(crate) fn select(self, mask: mask64x4<S>, other: Self) -> Self {
         Self {
             x: mask.select(self.x, other.x),
             y: mask.select(self.y, other.y),
@@ -209,12 +209,12 @@ fn split<S: Simd>(a: f64x4<S>) -> (f64x4<S>, f64x4<S>) {
 
 /// Four rays.
 #[derive(Clone, Copy)]
-pub(crate) struct FourRays<S: Simd> {
+pub(crate) struct Ray4<S: Simd> {
     pub(crate) origin: Vectors<S>,
     pub(crate) direction: Vectors<S>,
 }
 
-impl<S: Simd> FourRays<S> {
+impl<S: Simd> Ray4<S> {
     /// A ray in each lane.
     #[inline(always)]
     pub(crate) fn each(simd: S, rays: &[Ray; LANES]) -> Self {

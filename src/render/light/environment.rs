@@ -1,6 +1,6 @@
 //! The environment: its radiance by direction, and importance sampling of bright directions.
 
-use crate::bsdf::direction_turned;
+use crate::bsdf::direction_at_angle;
 use crate::sampler::discrete::BilinearDistribution;
 use crate::texture::sampled::{ColorSpace, sample};
 use crate::texture::{Filter, Image, Wrap};
@@ -104,7 +104,7 @@ impl Environment {
     pub(crate) fn sample(&self, u: [f64; 2]) -> (Vec3, EnvironmentRadiance) {
         let Some(map) = &self.map else {
             let (radiance, pdf) = (self.radiance, UNIFORM);
-            let direction = direction_turned(1.0 - 2.0 * u[0], u[1]);
+            let direction = direction_at_angle(1.0 - 2.0 * u[0], u[1]);
             return (direction, EnvironmentRadiance { radiance, pdf });
         };
         // Sample a point of the image.

@@ -18,8 +18,8 @@ use crate::material::point::uvs;
 use crate::material::standard::StandardMaterial;
 use crate::ray::{Interaction, Ray};
 use crate::sampler::discrete::DiscreteDistribution;
-use crate::shape::geometry::Asked;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::AttributeRequest;
+use crate::shape::geometry::Intersect;
 use crate::world::World;
 use rtc_math::{Bounds, Vec3};
 use rtc_plan::LightUse;
@@ -44,7 +44,7 @@ pub(crate) struct Lights<'world, S> {
     /// The probabilities of `by_power`.
     probabilities: Vec<f64>,
     /// The index of the first light of each surface that has some.
-    firsts: Vec<Option<usize>>,
+    first_light_of_surface: Vec<Option<usize>>,
 }
 
 enum Light {
@@ -71,7 +71,7 @@ fn is_room_for(triangles: usize, listed: usize) -> bool {
     listed.saturating_add(triangles) <= MOST_LISTED
 }
 
-impl<'world, S: Geometry> Lights<'world, S> {
+impl<'world, S: Intersect> Lights<'world, S> {
     /// The lights of a world.
     pub(crate) fn new(world: &'world World<S>, strategy: Strategy) -> Self {
         let left = |index: usize| {
@@ -83,13 +83,13 @@ impl<'world, S: Geometry> Lights<'world, S> {
             .filter(|(index, _)| left(*index) != LightUse::Nothing)
             .map(|(index, light)| Light::Punctual(light.clone(), left(index)))
             .collect::<Vec<_>>();
-        let mut firsts = vec![None; world.surfaces.len()];
+        let mut first_light_of_surface = vec![None; world.surfaces.len()];
         for (index, surface) in world.surfaces.iter().enumerate() {
             let material = &world.standards[surface.material];
             let shines = !material.is_unlit && material.emission.factor != Vec3::ZERO;
             let triangles = surface.shape.triangles();
             if shines && triangles > 0 && is_room_for(triangles, lights.len()) {
-                firsts[index] = Some(lights.len());
+                first_light_of_surface[index] = Some(lights.len());
                 let parts = u32::try_from(triangles).unwrap_or(u32::MAX);
                 let corners = (0..parts)
                     .filter_map(|prim_id| Some((prim_id, surface.shape.corners(prim_id)?)));
@@ -106,15 +106,15 @@ impl<'world, S: Geometry> Lights<'world, S> {
             tree: None,
             only: None,
             probabilities: Vec::new(),
-            firsts,
+            first_light_of_surface,
         };
-        all.weigh(strategy);
+        all.build_distribution(strategy);
         all
     }
 
     /// Finds the probabilities of lights, and makes a tree over those that have a place if they are
     /// many.
-    fn weigh(&mut self, strategy: Strategy) {
+    fn build_distribution(&mut self, strategy: Strategy) {
         let disc = PI * self.radius_squared();
         let weight = |light| self.weight(light, disc, strategy);
         let mut weights = self.lights.iter().map(weight).collect::<Vec<_>>();
@@ -250,12 +250,17 @@ impl<'world, S: Geometry> Lights<'world, S> {
             offset: 0.0,
             back: -normal,
         };
-        let asked = Asked {
+        let asked = AttributeRequest {
             uv: true,
             tangent: false,
         };
         let shape = &self.world.surfaces[triangle.surface].shape;
-        emission.at(&uvs(&shape.details(&ray, &at, triangle.prim_id, asked)))
+        emission.at(&uvs(&shape.shading_attributes(
+            &ray,
+            &at,
+            triangle.prim_id,
+            asked,
+        )))
     }
 
     fn material(&self, surface: usize) -> &'world StandardMaterial {
@@ -305,7 +310,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
         wi: Vec3,
         distance: f64,
     ) -> f64 {
-        let Some(first) = self.firsts[surface] else {
+        let Some(first) = self.first_light_of_surface[surface] else {
             return 0.0;
         };
         let index = first + prim_id as usize;

@@ -68,20 +68,20 @@ impl LightTree {
 
     /// Adds the tree over lights, whose root the way leads to. Halves have equally many lights,
     /// so no way is longer than 64.
-    fn add(&mut self, emitters: &mut [TreeLight], way: u64, depth: u32) {
+    fn add(&mut self, emitters: &mut [TreeLight], direction: u64, depth: u32) {
         let index = self.nodes.len();
         let mut node = LightNode::around(emitters);
         if let [emitter] = emitters {
-            self.ways[emitter.light] = Some(way);
+            self.ways[emitter.light] = Some(direction);
             node.below = Below::Light(emitter.light);
             self.nodes.push(node);
             return;
         }
         self.nodes.push(node);
         let (left, right) = halves(emitters);
-        self.add(left, way, depth + 1);
+        self.add(left, direction, depth + 1);
         self.nodes[index].below = Below::Right(self.nodes.len());
-        self.add(right, way | 1 << depth, depth + 1);
+        self.add(right, direction | 1 << depth, depth + 1);
     }
 
     /// Chooses a light for a point with a number in [0, 1): its index, its probability, and the
@@ -106,16 +106,16 @@ impl LightTree {
 
     /// The probability with which [`Self::choose`] chooses a light for a point.
     pub(super) fn probability(&self, light: usize, from: Vec3) -> f64 {
-        let Some(mut way) = self.ways[light] else {
+        let Some(mut direction) = self.ways[light] else {
             return 0.0;
         };
         let (mut index, mut probability) = (0, 1.0);
         while let Below::Right(right) = self.nodes[index].below {
             let left = self.share_of_left(from, index + 1, right);
-            let is_right = way & 1 == 1;
+            let is_right = direction & 1 == 1;
             probability *= if is_right { 1.0 - left } else { left };
             index = if is_right { right } else { index + 1 };
-            way >>= 1;
+            direction >>= 1;
         }
         probability
     }

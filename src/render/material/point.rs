@@ -6,7 +6,7 @@ use crate::material::standard::{
     Alpha, AnisotropyLayer, NormalMap, Reflection, StandardMaterial, shown,
 };
 use crate::ray::Interaction;
-use crate::shape::geometry::Details;
+use crate::shape::geometry::ShadingAttributes;
 use crate::texture::sampled::UvSets;
 use rtc_math::{Basis, Vec3};
 
@@ -27,16 +27,19 @@ pub(crate) struct ShadingFrame {
 }
 
 /// The texture coordinates at a point.
-pub(crate) fn uvs(details: &Details) -> UvSets {
-    UvSets::new([details.uv, details.second_uv])
+pub(crate) fn uvs(shading_attributes: &ShadingAttributes) -> UvSets {
+    UvSets::new([shading_attributes.uv, shading_attributes.second_uv])
 }
 
 impl<'world> MaterialPoint<'world> {
-    pub(crate) fn new(material: &'world StandardMaterial, details: &Details) -> Self {
-        let uvs = uvs(details);
+    pub(crate) fn new(
+        material: &'world StandardMaterial,
+        shading_attributes: &ShadingAttributes,
+    ) -> Self {
+        let uvs = uvs(shading_attributes);
         let (own, corners) = (
             material.base_color.at(&uvs),
-            details.color.unwrap_or([1.0; 4]),
+            shading_attributes.color.unwrap_or([1.0; 4]),
         );
         let base = |k: usize| own[k] * corners[k];
         Self {
@@ -189,19 +192,19 @@ impl<'world> MaterialPoint<'world> {
     pub(crate) fn frame<const F: u32>(
         &self,
         at: &Interaction,
-        details: &Details,
+        shading_attributes: &ShadingAttributes,
         wo: Vec3,
     ) -> (ShadingFrame, Vec3) {
         // Flip the vertex normal to the side of the geometric normal: the winding decides which
         // side is outside, and some meshes have normals against it.
-        let normal = details
+        let normal = shading_attributes
             .normal
             .map_or(at.normal, |n| if n.dot(at.normal) < 0.0 { -n } else { n });
         let m = self.material;
         let mapped = |map: &Option<NormalMap>| {
             let normal = map
                 .as_ref()
-                .map_or(normal, |map| self.mapped(map, normal, details));
+                .map_or(normal, |map| self.mapped(map, normal, shading_attributes));
             clamped_shading_normal(normal, at.normal, wo)
         };
         let shading = mapped(&m.normal);
@@ -218,15 +221,20 @@ impl<'world> MaterialPoint<'world> {
         let stretch = m
             .anisotropy
             .as_ref()
-            .map(|layer| self.stretch(layer, details.side));
+            .map(|layer| self.stretch(layer, shading_attributes.side));
         let stretch = stretch.filter(|stretch| stretch.strength > 0.0);
-        let tangent = details.tangent.filter(|_| stretch.is_some());
+        let tangent = shading_attributes.tangent.filter(|_| stretch.is_some());
         let basis = basis(shading, tangent, 1.0);
         (ShadingFrame { basis, stretch }, coat)
     }
 
     /// The normal of a normal map.
-    fn mapped(&self, map: &NormalMap, normal: Vec3, details: &Details) -> Vec3 {
+    fn mapped(
+        &self,
+        map: &NormalMap,
+        normal: Vec3,
+        shading_attributes: &ShadingAttributes,
+    ) -> Vec3 {
         let Some([x, y, z, _]) = map.map.look_up(&self.uvs) else {
             return normal;
         };
@@ -235,7 +243,7 @@ impl<'world> MaterialPoint<'world> {
             (y * 2.0 - 1.0) * map.scale,
             z * 2.0 - 1.0,
         );
-        basis(normal, details.tangent, details.side)
+        basis(normal, shading_attributes.tangent, shading_attributes.side)
             .to_world(local)
             .normalize_or(normal)
     }

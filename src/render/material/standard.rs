@@ -1,7 +1,7 @@
 //! The glTF material, prepared: defaults are resolved, and each map holds its image.
 
 use crate::bsdf::standard::*;
-use crate::shape::geometry::Asked;
+use crate::shape::geometry::AttributeRequest;
 use crate::texture::sampled::{Map, UvSets};
 use rtc_math::{Vec3, Weight};
 
@@ -9,7 +9,7 @@ use rtc_math::{Vec3, Weight};
 #[derive(Clone, Debug)]
 pub(crate) struct StandardMaterial {
     /// The surface details that it needs.
-    pub(crate) asked: Asked,
+    pub(crate) asked: AttributeRequest,
     /// Whether a map other than a normal map changes the BSDF.
     pub(crate) has_shading_map: bool,
     pub(crate) alpha: Alpha,
@@ -160,7 +160,7 @@ macro_rules! plain_layers {
                         $weight: self.$weight.at(uvs),
                         $($part: self.$part.at(uvs),)*
                     };
-                    layer.$weight.weighs().then_some(layer)
+                    layer.$weight.is_nonzero().then_some(layer)
                 }
             }
         )*

@@ -6,7 +6,9 @@ mod owen;
 pub(crate) mod sequence;
 pub(crate) mod sobol;
 
-use rtc_math::{Basis, NonNegative, Vec3, cos_sin_turns, fraction, golden_turns, mix, pow};
+use rtc_math::{
+    Basis, NonNegative, Vec3, cos_sin_revolutions, fraction, golden_revolutions, mix, pow,
+};
 
 /// The key of one vertex of one path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,7 +86,8 @@ impl DiscPoints {
     #[must_use]
     pub(crate) fn point(&self, k: u32) -> [f64; 2] {
         let r = ((f64::from(k) + self.shift) / f64::from(self.count)).sqrt();
-        let (x, y) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
+        let (x, y) =
+            cos_sin_revolutions(golden_revolutions(u64::from(k)).wrapping_add(self.rotation));
         [r * x, r * y]
     }
 }
@@ -123,7 +126,8 @@ impl PhongLobeSampler {
         let fraction = (f64::from(k) + self.shift) / f64::from(self.count);
         let cosine = pow(fraction, self.exponent).min(1.0);
         let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
-        let (x, y) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
+        let (x, y) =
+            cos_sin_revolutions(golden_revolutions(u64::from(k)).wrapping_add(self.rotation));
         self.basis
             .to_world(Vec3::new(sine * x, sine * y, cosine))
             .normalize()
@@ -131,9 +135,13 @@ impl PhongLobeSampler {
 
     /// How many directions lie on the side of both normals, as long as the count goes on.
     #[must_use]
-    pub(crate) fn count_above(&self, normals: [Vec3; 2], mut goes_on: impl FnMut() -> bool) -> u32 {
+    pub(crate) fn count_above(
+        &self,
+        normals: [Vec3; 2],
+        mut should_continue: impl FnMut() -> bool,
+    ) -> u32 {
         let directions = (0..self.count)
-            .take_while(|_| goes_on())
+            .take_while(|_| should_continue())
             .map(|k| self.direction(k));
         let above = directions
             .filter(|direction| is_above(*direction, normals))

@@ -31,7 +31,7 @@ impl Pair {
     }
 
     /// Which wavelength a vertex picks, and whether the path goes on.
-    pub(crate) fn fate(bounces: u32) -> Self {
+    pub(crate) fn russian_roulette(bounces: u32) -> Self {
         Self(4 * bounces + 6)
     }
 
@@ -209,9 +209,14 @@ mod tests {
             let first = |pixel| {
                 Sobol::in_picture(pixel, samples - 1, Seeds::NONE, samples).pair(Pair::FILM)
             };
-            let mut firsts = pixels.map(first).map(|pair| pair.map(f64::to_bits));
-            firsts.sort_unstable();
-            assert!(firsts.windows(2).all(|two| two[0] != two[1]), "{samples}");
+            let mut first_light_of_surface = pixels.map(first).map(|pair| pair.map(f64::to_bits));
+            first_light_of_surface.sort_unstable();
+            assert!(
+                first_light_of_surface
+                    .windows(2)
+                    .all(|two| two[0] != two[1]),
+                "{samples}"
+            );
         }
     }
 
@@ -235,7 +240,7 @@ mod tests {
             [
                 Pair::light(k),
                 Pair::direction(k),
-                Pair::fate(k),
+                Pair::russian_roulette(k),
                 Pair::lobe(k),
             ]
         });

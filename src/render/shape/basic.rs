@@ -3,10 +3,10 @@
 use super::kinds::{Plane, Sphere, Triangle};
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
-use crate::shape::four::InLanes;
-use crate::shape::geometry::{Asked, Details, Geometry, LocalRay};
+use crate::shape::four::Shape4;
+use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
 use crate::shape::tie;
-use crate::shape::triangle::Shear;
+use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3};
 
 /// A sphere, a plane or a triangle.

@@ -8,15 +8,15 @@
 //! meets the base: then g is right to within rounding, however flat it is.
 
 use crate::ray::{Interaction, Ray};
-use crate::shape::disc::PlainDisc;
-use crate::shape::geometry::Geometry;
+use crate::shape::disc::BaselineDisc;
+use crate::shape::geometry::Intersect;
 use crate::shape::interval::{Interval, between_planes, roots};
-use crate::shape::mesh::PlainMesh;
-use crate::shape::plain::ray::PlainRay;
-use crate::shape::plain::real::{Real, Vector};
-use crate::shape::plain::roots::quadratic;
-use crate::shape::plain::{Plain, Twin};
-use crate::shape::triangle::Shear;
+use crate::shape::mesh::BaselineMesh;
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::roots::quadratic;
+use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3, cross, difference_of_products, dot};
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ pub struct Cone {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum ConePart {
+enum ConeFace {
     Side,
     Base,
     Apex,
@@ -72,12 +72,12 @@ impl ConeProfile {
     }
 
     /// The stretch inside the nappe below the apex.
-    fn inside(&self) -> Option<Interval<ConePart>> {
+    fn inside(&self) -> Option<Interval<ConeFace>> {
         let Self { w, x, sigma, tau } = *self;
         let a = difference_of_products(x.length(), x.length(), tau, tau);
         let b = -(w.dot(x) + sigma * tau);
         let c = (w.length() - sigma) * (w.length() + sigma);
-        let side = |t: f64| (t, ConePart::Side);
+        let side = |t: f64| (t, ConeFace::Side);
         if a == 0.0 {
             let t = self.refined(c / (2.0 * b));
             let (before, after) = (side(f64::NEG_INFINITY), side(f64::INFINITY));
@@ -134,7 +134,7 @@ impl Cone {
     }
 
     /// The first root above 0, and its part.
-    fn crossing(&self, ray: &Ray) -> Option<(f64, ConePart)> {
+    fn intersection(&self, ray: &Ray) -> Option<(f64, ConeFace)> {
         let d = ray.direction;
         let start = ray.origin - self.base;
         let nearest = (self.axis * (0.5 * self.height) - start).dot(d) / d.dot(d);
@@ -152,7 +152,7 @@ impl Cone {
             self.height,
             start,
             d,
-            [ConePart::Base, ConePart::Apex],
+            [ConeFace::Base, ConeFace::Apex],
         )?;
         inside.and(ends)?.first_in_front()
     }
@@ -167,7 +167,7 @@ impl Cone {
         }
     }
 
-    /// As [`Self::crossing`] for a cone far wider than high, and a ray that meets the plane of its
+    /// As [`Self::intersection`] for a cone far wider than high, and a ray that meets the plane of its
     /// base.
     fn crossing_flat(
         &self,
@@ -175,7 +175,7 @@ impl Cone {
         d: Vec3,
         nearest: f64,
         tau: f64,
-    ) -> Option<(f64, ConePart)> {
+    ) -> Option<(f64, ConeFace)> {
         let x = cross(d, self.axis);
         let at_base = -dot(self.axis, start) / dot(self.axis, d);
         // Move a ray steeper than the side to the base, and any other ray to the point closest to
@@ -193,8 +193,8 @@ impl Cone {
             tau,
         };
         let (base, apex) = (
-            (base, ConePart::Base),
-            (base + self.radius / tau, ConePart::Apex),
+            (base, ConeFace::Base),
+            (base + self.radius / tau, ConeFace::Apex),
         );
         let ends = if tau > 0.0 {
             Interval {
@@ -215,24 +215,24 @@ impl Cone {
     }
 }
 
-impl Geometry for Cone {
-    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
-        self.crossing(ray).map(|(t, _)| (t, 0))
+impl Intersect for Cone {
+    fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
+        self.intersection(ray).map(|(t, _)| (t, 0))
     }
 
     /// The point at `t`, moved onto the part that was hit; at the apex the normal is the axis.
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
-        let part = self.crossing(ray).map_or(ConePart::Side, |(_, part)| part);
+        let part = self.intersection(ray).map_or(ConeFace::Side, |(_, part)| part);
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let radial = (local - self.axis * along).normalize_or_zero();
         // Repeat the step: in a needle, the rest along the axis is amplified by height/radius.
         let radial = (radial - self.axis * dot(self.axis, radial)).normalize_or_zero();
         let (local, normal) = match part {
-            ConePart::Base => (local - self.axis * along, -self.axis),
-            ConePart::Apex => (self.axis * self.height, self.axis),
-            ConePart::Side if radial == Vec3::ZERO => (local, self.axis),
-            ConePart::Side => {
+            ConeFace::Base => (local - self.axis * along, -self.axis),
+            ConeFace::Apex => (self.axis * self.height, self.axis),
+            ConeFace::Side if radial == Vec3::ZERO => (local, self.axis),
+            ConeFace::Side => {
                 let normal = (radial * self.height + self.axis * self.radius).normalize();
                 let off = normal.dot(local - self.axis * self.height);
                 (local - normal * off, normal)
@@ -254,11 +254,11 @@ impl Geometry for Cone {
     }
 }
 
-impl Twin for Cone {
-    type Plain<R: Real> = Box<PlainCone<R>>;
+impl HasBaseline for Cone {
+    type Baseline<R: Real> = Box<BaselineCone<R>>;
 
-    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
-        Some(Box::new(PlainCone::new(self)))
+    fn plain<R: Real>(&self, _: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
+        Some(Box::new(BaselineCone::new(self)))
     }
 }
 
@@ -267,16 +267,16 @@ const PLAIN_PARTS: [u32; 2] = [0, 1];
 
 /// Its twin: the quadratic of ρ² = (k·m)², with m the height left to the apex, and a disc.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlainCone<R> {
+pub(crate) struct BaselineCone<R> {
     base: Vector<R>,
     axis: Vector<R>,
     height: R,
     /// Radius over height.
     slope: R,
-    cap: PlainDisc<R>,
+    cap: BaselineDisc<R>,
 }
 
-impl<R: Real> PlainCone<R> {
+impl<R: Real> BaselineCone<R> {
     fn new(cone: &Cone) -> Self {
         let Cone {
             base,
@@ -290,13 +290,13 @@ impl<R: Real> PlainCone<R> {
             axis: Vector::of(axis),
             height: R::of(height),
             slope: R::of(slope),
-            cap: PlainDisc::new(base, -axis, radius),
+            cap: BaselineDisc::new(base, -axis, radius),
         }
     }
 }
 
-impl<R: Real> Plain<R> for PlainCone<R> {
-    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+impl<R: Real> Baseline<R> for BaselineCone<R> {
+    fn intersect(&self, ray: &BaselineRay<R>, _: f64) -> Option<(R, u32)> {
         let [side, base] = PLAIN_PARTS;
         let f = ray.origin - self.base;
         let (above, rise) = (f.dot(self.axis), ray.direction.dot(self.axis));
@@ -323,7 +323,7 @@ impl<R: Real> Plain<R> for PlainCone<R> {
         ])
     }
 
-    fn normal(&self, _: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
+    fn normal(&self, _: &BaselineRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
         if prim_id == PLAIN_PARTS[1] {
             return self.cap.normal();
         }
@@ -353,14 +353,14 @@ mod tests {
                 origin: eye,
                 direction: (cone.base + up * along + aside - eye).normalize(),
             };
-            let Some((t, _)) = cone.crossing(&ray) else {
+            let Some((t, _)) = cone.intersection(&ray) else {
                 continue;
             };
             let at = cone.interaction(&ray, t, 0);
             let mirrored = reflect(ray.direction, at.normal);
             seen += 1;
             again += i32::from(
-                mirrored.dot(at.normal) > 0.0 && cone.crossing(&at.ray(mirrored)).is_some(),
+                mirrored.dot(at.normal) > 0.0 && cone.intersection(&at.ray(mirrored)).is_some(),
             );
         }
         assert!(seen > 2000 && again == 0, "{again} of {seen}");

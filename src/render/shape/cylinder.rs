@@ -6,15 +6,15 @@
 //! products with the axis.
 
 use crate::ray::{Interaction, Ray};
-use crate::shape::disc::PlainDisc;
-use crate::shape::geometry::Geometry;
+use crate::shape::disc::BaselineDisc;
+use crate::shape::geometry::Intersect;
 use crate::shape::interval::{Interval, between_planes, roots};
-use crate::shape::mesh::PlainMesh;
-use crate::shape::plain::ray::PlainRay;
-use crate::shape::plain::real::{Real, Vector};
-use crate::shape::plain::roots::quadratic;
-use crate::shape::plain::{Plain, Twin};
-use crate::shape::triangle::Shear;
+use crate::shape::mesh::BaselineMesh;
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::roots::quadratic;
+use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3, cross, dot, unit};
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ pub struct Cylinder {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum CylinderPart {
+enum CylinderFace {
     Side,
     Base,
     Top,
@@ -49,14 +49,14 @@ impl Cylinder {
     }
 
     /// The first root above 0, and its part.
-    fn crossing(&self, ray: &Ray) -> Option<(f64, CylinderPart)> {
+    fn intersection(&self, ray: &Ray) -> Option<(f64, CylinderFace)> {
         let f = ray.origin - self.base;
         let caps = between_planes(
             self.axis,
             self.height,
             f,
             ray.direction,
-            [CylinderPart::Base, CylinderPart::Top],
+            [CylinderFace::Base, CylinderFace::Top],
         )?;
         self.inside_side(f, ray.direction, &caps)?
             .and(caps)?
@@ -68,15 +68,15 @@ impl Cylinder {
         &self,
         f: Vec3,
         d: Vec3,
-        caps: &Interval<CylinderPart>,
-    ) -> Option<Interval<CylinderPart>> {
+        caps: &Interval<CylinderFace>,
+    ) -> Option<Interval<CylinderFace>> {
         let r2 = self.radius * self.radius;
         let (from_axis, across) = (cross(f, self.axis), cross(d, self.axis));
         let a = across.dot(across);
         if a == 0.0 {
             let everywhere = Interval {
-                enter: (f64::NEG_INFINITY, CylinderPart::Side),
-                leave: (f64::INFINITY, CylinderPart::Side),
+                enter: (f64::NEG_INFINITY, CylinderFace::Side),
+                leave: (f64::INFINITY, CylinderFace::Side),
             };
             return (from_axis.dot(from_axis) <= r2).then_some(everywhere);
         }
@@ -98,30 +98,30 @@ impl Cylinder {
         let (enter, leave) = roots(a, b, c, a * inside);
         let (enter, leave) = (nearest + enter, nearest + leave);
         let inside = Interval {
-            enter: (enter, CylinderPart::Side),
-            leave: (leave, CylinderPart::Side),
+            enter: (enter, CylinderFace::Side),
+            leave: (leave, CylinderFace::Side),
         };
         Some(inside.seen_from(outside, slope))
     }
 }
 
-impl Geometry for Cylinder {
-    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
-        self.crossing(ray).map(|(t, _)| (t, 0))
+impl Intersect for Cylinder {
+    fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
+        self.intersection(ray).map(|(t, _)| (t, 0))
     }
 
     /// The point at `t`, moved onto the part that was hit.
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         let part = self
-            .crossing(ray)
-            .map_or(CylinderPart::Side, |(_, part)| part);
+            .intersection(ray)
+            .map_or(CylinderFace::Side, |(_, part)| part);
         // Project the point onto the cap or the side.
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let (local, normal) = match part {
-            CylinderPart::Base => (local - self.axis * along, -self.axis),
-            CylinderPart::Top => (local + self.axis * (self.height - along), self.axis),
-            CylinderPart::Side => {
+            CylinderFace::Base => (local - self.axis * along, -self.axis),
+            CylinderFace::Top => (local + self.axis * (self.height - along), self.axis),
+            CylinderFace::Side => {
                 let normal = ray.outward(local - self.axis * along);
                 (self.axis * along + normal * self.radius, normal)
             }
@@ -142,11 +142,11 @@ impl Geometry for Cylinder {
     }
 }
 
-impl Twin for Cylinder {
-    type Plain<R: Real> = Box<PlainCylinder<R>>;
+impl HasBaseline for Cylinder {
+    type Baseline<R: Real> = Box<BaselineCylinder<R>>;
 
-    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
-        Some(Box::new(PlainCylinder::new(self)))
+    fn plain<R: Real>(&self, _: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
+        Some(Box::new(BaselineCylinder::new(self)))
     }
 }
 
@@ -156,15 +156,15 @@ const PLAIN_PARTS: [u32; 3] = [0, 1, 2];
 /// Its twin: the quadratic of what is left of ray and point across the axis, and two
 /// discs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlainCylinder<R> {
+pub(crate) struct BaselineCylinder<R> {
     base: Vector<R>,
     axis: Vector<R>,
     height: R,
     radius: R,
-    caps: [PlainDisc<R>; 2],
+    caps: [BaselineDisc<R>; 2],
 }
 
-impl<R: Real> PlainCylinder<R> {
+impl<R: Real> BaselineCylinder<R> {
     fn new(cylinder: &Cylinder) -> Self {
         let Cylinder {
             base,
@@ -172,7 +172,7 @@ impl<R: Real> PlainCylinder<R> {
             height,
             radius,
         } = *cylinder;
-        let cap = |center: Vec3, normal: Vec3| PlainDisc::new(center, normal, radius);
+        let cap = |center: Vec3, normal: Vec3| BaselineDisc::new(center, normal, radius);
         Self {
             base: Vector::of(base),
             axis: Vector::of(axis),
@@ -183,8 +183,8 @@ impl<R: Real> PlainCylinder<R> {
     }
 }
 
-impl<R: Real> Plain<R> for PlainCylinder<R> {
-    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+impl<R: Real> Baseline<R> for BaselineCylinder<R> {
+    fn intersect(&self, ray: &BaselineRay<R>, _: f64) -> Option<(R, u32)> {
         let [side, base, top] = PLAIN_PARTS;
         let f = ray.origin - self.base;
         let (above, rise) = (f.dot(self.axis), ray.direction.dot(self.axis));
@@ -205,7 +205,7 @@ impl<R: Real> Plain<R> for PlainCylinder<R> {
         ray.first([(first, side), (second, side), (low, base), (high, top)])
     }
 
-    fn normal(&self, _: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
+    fn normal(&self, _: &BaselineRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
         let local = point - self.base;
         match prim_id {
             1 | 2 => self.caps[prim_id as usize - 1].normal(),

@@ -1,13 +1,13 @@
 //! The disc: a plane, and a test of the distance from its centre in the disc's own frame.
 
 use crate::ray::{Interaction, Ray};
-use crate::shape::geometry::Geometry;
-use crate::shape::mesh::PlainMesh;
-use crate::shape::plain::ray::PlainRay;
-use crate::shape::plain::real::{Real, Vector};
-use crate::shape::plain::{Plain, Twin};
-use crate::shape::plane::{PlainPlane, Plane};
-use crate::shape::triangle::Shear;
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::geometry::Intersect;
+use crate::shape::mesh::BaselineMesh;
+use crate::shape::plane::{BaselinePlane, Plane};
+use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3};
 use std::sync::Arc;
 
@@ -52,8 +52,8 @@ impl Disc {
     }
 }
 
-impl Geometry for Disc {
-    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
+impl Intersect for Disc {
+    fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
         self.intersect(ray).map(|t| (t, 0))
     }
 
@@ -66,11 +66,11 @@ impl Geometry for Disc {
     }
 }
 
-impl Twin for Disc {
-    type Plain<R: Real> = PlainDisc<R>;
+impl HasBaseline for Disc {
+    type Baseline<R: Real> = BaselineDisc<R>;
 
-    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
-        Some(PlainDisc::new(
+    fn plain<R: Real>(&self, _: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
+        Some(BaselineDisc::new(
             self.center,
             self.plane.normal(),
             self.radius,
@@ -80,16 +80,16 @@ impl Twin for Disc {
 
 /// Its twin: the plane, and the distance from the centre.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlainDisc<R> {
-    plane: PlainPlane<R>,
+pub(crate) struct BaselineDisc<R> {
+    plane: BaselinePlane<R>,
     center: Vector<R>,
     radius: R,
 }
 
-impl<R: Real> PlainDisc<R> {
+impl<R: Real> BaselineDisc<R> {
     pub(in crate::shape) fn new(center: Vec3, unit_normal: Vec3, radius: f64) -> Self {
         Self {
-            plane: PlainPlane::new(center, unit_normal),
+            plane: BaselinePlane::new(center, unit_normal),
             center: Vector::of(center),
             radius: R::of(radius),
         }
@@ -97,7 +97,7 @@ impl<R: Real> PlainDisc<R> {
 
     /// Where the line meets the disc, wherever that is along it; not a number beside the disc.
     #[inline]
-    pub(in crate::shape) fn parameter(&self, ray: &PlainRay<R>) -> R {
+    pub(in crate::shape) fn parameter(&self, ray: &BaselineRay<R>) -> R {
         let t = self.plane.parameter(ray);
         let local = ray.at(t) - self.center;
         if local.dot(local) <= self.radius * self.radius {
@@ -114,14 +114,14 @@ impl<R: Real> PlainDisc<R> {
     }
 }
 
-impl<R: Real> Plain<R> for PlainDisc<R> {
+impl<R: Real> Baseline<R> for BaselineDisc<R> {
     #[inline]
-    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+    fn intersect(&self, ray: &BaselineRay<R>, _: f64) -> Option<(R, u32)> {
         let t = self.parameter(ray);
         ray.counts(t).then_some((t, 0))
     }
 
-    fn normal(&self, _: &PlainRay<R>, _: Vector<R>, _: u32) -> Vector<R> {
+    fn normal(&self, _: &BaselineRay<R>, _: Vector<R>, _: u32) -> Vector<R> {
         self.normal()
     }
 }

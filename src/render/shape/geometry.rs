@@ -2,12 +2,12 @@
 
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
-use crate::shape::four::InLanes;
-use crate::shape::triangle::Shear;
+use crate::shape::four::Shape4;
+use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3};
 
 /// A kind of prepared shape: which shapes there are, and by which arithmetic rays meet them.
-pub trait Geometry: Sized + Send + Sync {
+pub trait Intersect: Sized + Send + Sync {
     /// Whether triangles of instances can stand in the world one by one.
     const FLATTENS: bool = true;
 
@@ -15,30 +15,36 @@ pub trait Geometry: Sized + Send + Sync {
     const HAS_KERNELS: bool = true;
 
     /// Whether four rays at once meet them by the same operations as one.
-    const HAS_LANES: bool = false;
+    const HAS_SHAPE4: bool = false;
 
-    /// The smallest root above 0 and its primitive; `shear` is that of the ray. Roots beyond `t_max`
+    /// The smallest root above 0 and its primitive; `watertight` is that of the ray. Roots beyond `t_max`
     /// may be left out.
     #[must_use]
-    fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)>;
+    fn intersect(&self, ray: &Ray, watertight: &WatertightRay, t_max: f64) -> Option<(f64, u32)>;
 
-    /// Whether [`Geometry::intersect`] looks at the shear.
+    /// Whether [`Intersect::intersect`] looks at the shear.
     #[must_use]
-    fn uses_shear(&self) -> bool {
+    fn uses_watertight_ray(&self) -> bool {
         false
     }
 
-    /// As [`Geometry::intersect`], but of roots that rounding cannot tell apart, the one on the
+    /// As [`Intersect::intersect`], but of roots that rounding cannot tell apart, the one on the
     /// first primitive.
     #[must_use]
     #[inline]
-    fn closest_hit(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
-        self.intersect(ray, shear, t_max)
+    fn closest_hit(&self, ray: &Ray, watertight: &WatertightRay, t_max: f64) -> Option<(f64, u32)> {
+        self.intersect(ray, watertight, t_max)
     }
 
     /// Calls `visit` with roots above 0 and their primitives: all up to `t_max` that may be the nearest.
-    fn visit_roots(&self, ray: &Ray, shear: &Shear, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
-        if let Some((t, prim_id)) = self.intersect(ray, shear, t_max) {
+    fn visit_roots(
+        &self,
+        ray: &Ray,
+        watertight: &WatertightRay,
+        t_max: f64,
+        visit: &mut dyn FnMut(f64, u32),
+    ) {
+        if let Some((t, prim_id)) = self.intersect(ray, watertight, t_max) {
             visit(t, prim_id);
         }
     }
@@ -67,12 +73,18 @@ pub trait Geometry: Sized + Send + Sync {
 
     /// The details of the point that are asked for: normal, coordinates, colour.
     #[must_use]
-    fn details(&self, _ray: &Ray, _at: &Interaction, _prim_id: u32, _asked: Asked) -> Details {
-        Details::default()
+    fn shading_attributes(
+        &self,
+        _ray: &Ray,
+        _at: &Interaction,
+        _prim_id: u32,
+        _asked: AttributeRequest,
+    ) -> ShadingAttributes {
+        ShadingAttributes::default()
     }
 
     /// The number of its triangles, which can be lights; each is a `prim_id` of
-    /// [`Geometry::intersect`].
+    /// [`Intersect::intersect`].
     #[must_use]
     fn triangles(&self) -> usize {
         0
@@ -90,7 +102,7 @@ pub trait Geometry: Sized + Send + Sync {
         0.0
     }
 
-    /// The ray as [`Geometry::intersect_prim`] wants it.
+    /// The ray as [`Intersect::intersect_prim`] wants it.
     #[must_use]
     #[inline]
     fn local(&self, ray: &Ray) -> LocalRay {
@@ -103,7 +115,7 @@ pub trait Geometry: Sized + Send + Sync {
         None
     }
 
-    /// As [`Geometry::intersect_prim`], of a root below `t_max` alone.
+    /// As [`Intersect::intersect_prim`], of a root below `t_max` alone.
     #[must_use]
     #[inline]
     fn intersect_prim_before(&self, ray: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
@@ -123,7 +135,7 @@ pub trait Geometry: Sized + Send + Sync {
 
     /// Itself, if rays meet it four at a time.
     #[must_use]
-    fn in_lanes(&self) -> Option<InLanes<'_>> {
+    fn shape4(&self) -> Option<Shape4<'_>> {
         None
     }
 
@@ -144,7 +156,7 @@ pub struct LocalRay {
     /// The ray; its `t` are those of the world.
     pub ray: Ray,
     /// Its shear.
-    pub shear: Shear,
+    pub watertight: WatertightRay,
 }
 
 impl LocalRay {
@@ -152,21 +164,21 @@ impl LocalRay {
     #[must_use]
     #[inline]
     pub fn new(ray: Ray) -> Self {
-        let shear = Shear::new(&ray);
-        Self { ray, shear }
+        let watertight = WatertightRay::new(&ray);
+        Self { ray, watertight }
     }
 }
 
-/// The requested [`Details`] beyond normal and colour; others may be omitted.
+/// The requested [`ShadingAttributes`] beyond normal and colour; others may be omitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Asked {
+pub struct AttributeRequest {
     /// The texture coordinates.
     pub uv: bool,
     /// The tangent and its side.
     pub tangent: bool,
 }
 
-impl Asked {
+impl AttributeRequest {
     /// Nothing more.
     pub const NONE: Self = Self {
         uv: false,
@@ -182,7 +194,7 @@ impl Asked {
 
 /// The shading attributes of a point of a surface.
 #[derive(Clone, Copy, Debug)]
-pub struct Details {
+pub struct ShadingAttributes {
     /// The unit shading normal, where it is not the geometric one.
     pub normal: Option<Vec3>,
     /// The texture coordinates.
@@ -197,7 +209,7 @@ pub struct Details {
     pub color: Option<[f64; 4]>,
 }
 
-impl Default for Details {
+impl Default for ShadingAttributes {
     fn default() -> Self {
         Self {
             normal: None,

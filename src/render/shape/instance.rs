@@ -3,14 +3,14 @@
 
 use crate::accel::wide::{Candidate, Visitor};
 use crate::ray::{Interaction, Ray};
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::corners::{blend, corner_values, handedness, interpolate};
-use crate::shape::geometry::{Asked, Details, Geometry, LocalRay};
-use crate::shape::mesh::{PlainMesh, PreparedMesh};
-use crate::shape::plain::ray::PlainRay;
-use crate::shape::plain::real::{Real, Vector};
-use crate::shape::plain::{Plain, Twin};
+use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
+use crate::shape::mesh::{BaselineMesh, PreparedMesh};
 use crate::shape::tie::{self, Nearest, Tie};
-use crate::shape::triangle::{self, PlainTriangle, Shear, Triangle};
+use crate::shape::triangle::{self, BaselineTriangle, Triangle, WatertightRay};
 use rtc_math::{Bounds, Vec3, cross, unit};
 use std::sync::Arc;
 
@@ -106,16 +106,16 @@ impl Instance {
     #[inline(always)]
     fn root(&self, local: &LocalRay, candidate: &Candidate<'_>) -> Option<f64> {
         match candidate.corners() {
-            Some(corners) => triangle::root(&corners, &local.ray, &local.shear),
+            Some(corners) => triangle::root(&corners, &local.ray, &local.watertight),
             None => self.mesh.root(local, candidate.item),
         }
     }
 
     /// Breaks the tie between the roots as close as the one at `t`.
     #[cold]
-    fn settle(&self, ray: &Ray, shear: &Shear, t: f64) -> Option<(f64, u32)> {
+    fn resolve(&self, ray: &Ray, watertight: &WatertightRay, t: f64) -> Option<(f64, u32)> {
         let mut tie = Tie::new();
-        self.visit_roots(ray, shear, t, &mut |t, prim_id| {
+        self.visit_roots(ray, watertight, t, &mut |t, prim_id| {
             tie.add(
                 t,
                 tie::error(ray, t, &self.interaction(ray, t, prim_id)),
@@ -148,13 +148,13 @@ impl Instance {
     }
 }
 
-impl Geometry for Instance {
-    fn intersect(&self, ray: &Ray, _: &Shear, t_max: f64) -> Option<(f64, u32)> {
+impl Intersect for Instance {
+    fn intersect(&self, ray: &Ray, _: &WatertightRay, t_max: f64) -> Option<(f64, u32)> {
         let local = self.local(ray);
         let mut best = (t_max, u32::MAX);
         self.mesh
             .hierarchy()?
-            .walk(&local.ray, t_max, &mut |candidate: Candidate<'_>| {
+            .traverse(&local.ray, t_max, &mut |candidate: Candidate<'_>| {
                 if let Some(t) = self.root(&local, &candidate)
                     && (t < best.0 || (t == best.0 && candidate.item < best.1))
                 {
@@ -165,12 +165,12 @@ impl Geometry for Instance {
         (best.1 != u32::MAX).then_some(best)
     }
 
-    fn closest_hit(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
+    fn closest_hit(&self, ray: &Ray, watertight: &WatertightRay, t_max: f64) -> Option<(f64, u32)> {
         let local = self.local(ray);
         let mut nearest = Nearest::up_to(t_max, u32::MAX);
         self.mesh
             .hierarchy()?
-            .walk(&local.ray, t_max, &mut |candidate: Candidate<'_>| {
+            .traverse(&local.ray, t_max, &mut |candidate: Candidate<'_>| {
                 if let Some(t) = self.root(&local, &candidate) {
                     nearest.add(t, candidate.item);
                 }
@@ -178,12 +178,18 @@ impl Geometry for Instance {
             });
         match nearest.key {
             u32::MAX => None,
-            _ if nearest.is_tied() => self.settle(ray, shear, nearest.t),
+            _ if nearest.is_tied() => self.resolve(ray, watertight, nearest.t),
             prim_id => Some((nearest.t, prim_id)),
         }
     }
 
-    fn visit_roots(&self, ray: &Ray, _: &Shear, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
+    fn visit_roots(
+        &self,
+        ray: &Ray,
+        _: &WatertightRay,
+        t_max: f64,
+        visit: &mut dyn FnMut(f64, u32),
+    ) {
         let local = self.local(ray);
         let mut visit = |candidate: Candidate<'_>| {
             if let Some(t) = self.root(&local, &candidate) {
@@ -192,7 +198,7 @@ impl Geometry for Instance {
             t_max
         };
         if let Some(hierarchy) = self.mesh.hierarchy() {
-            hierarchy.walk(&local.ray, t_max, &mut visit);
+            hierarchy.traverse(&local.ray, t_max, &mut visit);
         }
     }
 
@@ -219,7 +225,13 @@ impl Geometry for Instance {
         !self.mesh.attributes.normals.is_empty()
     }
 
-    fn details(&self, _: &Ray, at: &Interaction, prim_id: u32, asked: Asked) -> Details {
+    fn shading_attributes(
+        &self,
+        _: &Ray,
+        at: &Interaction,
+        prim_id: u32,
+        asked: AttributeRequest,
+    ) -> ShadingAttributes {
         let triangle = self.mesh.triangle(prim_id);
         let mesh = &self.mesh.attributes;
         let corners = self.mesh.corners(prim_id);
@@ -227,7 +239,8 @@ impl Geometry for Instance {
         let is_even = normals.is_none_or(|[a, b, c]| a == b && a == c);
         let has_no_coordinates =
             mesh.uvs.is_empty() && mesh.second_uvs.is_empty() && mesh.tangents.is_empty();
-        let is_plain = mesh.colors.is_empty() && (asked == Asked::NONE || has_no_coordinates);
+        let is_plain =
+            mesh.colors.is_empty() && (asked == AttributeRequest::NONE || has_no_coordinates);
         let weights = match is_even && is_plain {
             true => [1.0, 0.0, 0.0],
             false => triangle.weights(
@@ -244,7 +257,7 @@ impl Geometry for Instance {
             let mean = || even * weights[0] + unit(b) * weights[1] + unit(c) * weights[2];
             self.normal_to_world(if is_even { even } else { mean() })
         });
-        let uvs = if asked == Asked::NONE {
+        let uvs = if asked == AttributeRequest::NONE {
             None
         } else {
             corner_values(&mesh.uvs, corners)
@@ -259,7 +272,7 @@ impl Geometry for Instance {
         } else {
             None
         };
-        Details {
+        ShadingAttributes {
             normal: normal.filter(|normal| *normal != Vec3::ZERO),
             uv: uvs.map(|uvs| interpolate(uvs, weights)),
             tangent,
@@ -310,11 +323,11 @@ impl Geometry for Instance {
     }
 }
 
-impl Twin for Instance {
-    type Plain<R: Real> = Box<PlainInstance<R>>;
+impl HasBaseline for Instance {
+    type Baseline<R: Real> = Box<BaselineInstance<R>>;
 
-    fn plain<R: Real>(&self, mesh: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
-        Some(Box::new(PlainInstance {
+    fn plain<R: Real>(&self, mesh: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
+        Some(Box::new(BaselineInstance {
             mesh: Arc::clone(mesh?),
             origin: Vector::of(self.origin),
             rows: self.inverse.map(Vector::of),
@@ -324,21 +337,21 @@ impl Twin for Instance {
 
 /// Its triangles in plain arithmetic, in the hierarchy of the robust ones.
 #[derive(Clone, Debug)]
-pub(crate) struct PlainInstance<R> {
-    mesh: Arc<PlainMesh<R>>,
+pub(crate) struct BaselineInstance<R> {
+    mesh: Arc<BaselineMesh<R>>,
     origin: Vector<R>,
     /// The rows of the map from the world to the object, without its origin.
     rows: [Vector<R>; 3],
 }
 
-impl<R: Real> PlainInstance<R> {
+impl<R: Real> BaselineInstance<R> {
     /// The line in object space; its `t` are those of the world.
-    fn to_object(&self, ray: &PlainRay<R>) -> PlainRay<R> {
+    fn to_object(&self, ray: &BaselineRay<R>) -> BaselineRay<R> {
         let rows = |v: Vector<R>| {
             let [x, y, z] = self.rows.map(|row| row.dot(v));
             Vector { x, y, z }
         };
-        PlainRay {
+        BaselineRay {
             origin: rows(ray.origin - self.origin),
             direction: rows(ray.direction),
             length2: ray.length2,
@@ -347,13 +360,13 @@ impl<R: Real> PlainInstance<R> {
 }
 
 /// The nearest root of a ray, and its triangle; of equals the first.
-struct PlainNearest<'walk, R> {
-    triangles: &'walk [PlainTriangle<R>],
-    ray: &'walk PlainRay<R>,
+struct BaselineNearest<'traverse, R> {
+    triangles: &'traverse [BaselineTriangle<R>],
+    ray: &'traverse BaselineRay<R>,
     best: (f64, u32),
 }
 
-impl<R: Real> Visitor for PlainNearest<'_, R> {
+impl<R: Real> Visitor for BaselineNearest<'_, R> {
     const CULLS: bool = false;
 
     fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
@@ -368,14 +381,14 @@ impl<R: Real> Visitor for PlainNearest<'_, R> {
     }
 }
 
-impl<R: Real> Plain<R> for PlainInstance<R> {
-    fn intersect(&self, ray: &PlainRay<R>, t_max: f64) -> Option<(R, u32)> {
+impl<R: Real> Baseline<R> for BaselineInstance<R> {
+    fn intersect(&self, ray: &BaselineRay<R>, t_max: f64) -> Option<(R, u32)> {
         let ray = self.to_object(ray);
         let robust_ray = Ray {
             origin: ray.origin.wide(),
             direction: ray.direction.wide(),
         };
-        let mut nearest = PlainNearest {
+        let mut nearest = BaselineNearest {
             triangles: &self.mesh.triangles,
             ray: &ray,
             best: (t_max, u32::MAX),
@@ -383,12 +396,12 @@ impl<R: Real> Plain<R> for PlainInstance<R> {
         self.mesh
             .robust
             .hierarchy()?
-            .walk(&robust_ray, t_max, &mut nearest);
+            .traverse(&robust_ray, t_max, &mut nearest);
         let best = nearest.best;
         (best.1 != u32::MAX).then_some((R::of(best.0), best.1))
     }
 
-    fn normal(&self, _: &PlainRay<R>, _: Vector<R>, prim_id: u32) -> Vector<R> {
+    fn normal(&self, _: &BaselineRay<R>, _: Vector<R>, prim_id: u32) -> Vector<R> {
         let n = self.mesh.triangles[prim_id as usize].normal();
         let [x, y, z] = self.rows;
         (x * n.x + y * n.y + z * n.z).normalized()

@@ -2,10 +2,10 @@
 
 use crate::accel::simd::SimdLevel;
 use crate::accel::wide::{Builders, Wide};
+use crate::shape::baseline::real::Real;
 use crate::shape::geometry::LocalRay;
-use crate::shape::plain::real::Real;
 use crate::shape::plane::Normal;
-use crate::shape::triangle::{self, PlainTriangle, Triangle};
+use crate::shape::triangle::{self, BaselineTriangle, Triangle};
 use rayon::prelude::*;
 use rtc_math::{Column, Shared, Vec3};
 use std::sync::{Arc, OnceLock};
@@ -132,8 +132,8 @@ impl PreparedMesh {
     #[inline(always)]
     pub(crate) fn root(&self, ray: &LocalRay, triangle: u32) -> Option<f64> {
         match self.few.get(triangle as usize) {
-            Some(triangle) => triangle.intersect(&ray.ray, &ray.shear),
-            None => triangle::root(&self.vertices(triangle), &ray.ray, &ray.shear),
+            Some(triangle) => triangle.intersect(&ray.ray, &ray.watertight),
+            None => triangle::root(&self.vertices(triangle), &ray.ray, &ray.watertight),
         }
     }
 
@@ -181,18 +181,18 @@ fn places(positions: &Column<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
 
 /// A mesh ready to be hit by plain formulas, in object coordinates.
 #[derive(Debug)]
-pub struct PlainMesh<R> {
+pub struct BaselineMesh<R> {
     /// The robust mesh: the same triangles in the same order, their hierarchy, and what is known
     /// of them.
     pub(crate) robust: Arc<PreparedMesh>,
-    pub(in crate::shape) triangles: Vec<PlainTriangle<R>>,
+    pub(in crate::shape) triangles: Vec<BaselineTriangle<R>>,
 }
 
-impl<R: Real> PlainMesh<R> {
+impl<R: Real> BaselineMesh<R> {
     pub(crate) fn new(robust: PreparedMesh) -> Self {
         let triangles = robust
             .all_vertices()
-            .map(|vertices| PlainTriangle::new(&vertices))
+            .map(|vertices| BaselineTriangle::new(&vertices))
             .collect();
         Self {
             robust: Arc::new(robust),

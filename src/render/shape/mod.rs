@@ -3,38 +3,38 @@
 /// Makes an enum of shapes answer as the shape it holds.
 macro_rules! dispatch {
     ($Enum:ident { $($Name:ident)* }) => {
-        impl Geometry for $Enum {
-            const HAS_LANES: bool = true;
+        impl Intersect for $Enum {
+            const HAS_SHAPE4: bool = true;
 
             #[inline]
-            fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
+            fn intersect(&self, ray: &Ray, watertight: &WatertightRay, t_max: f64) -> Option<(f64, u32)> {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::intersect(shape, ray, shear, t_max),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::intersect(shape, ray, watertight, t_max),)*
                 }
             }
 
-            fn uses_shear(&self) -> bool {
+            fn uses_watertight_ray(&self) -> bool {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::uses_shear(shape),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::uses_watertight_ray(shape),)*
                 }
             }
 
             #[inline]
-            fn closest_hit(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
+            fn closest_hit(&self, ray: &Ray, watertight: &WatertightRay, t_max: f64) -> Option<(f64, u32)> {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::closest_hit(shape, ray, shear, t_max),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::closest_hit(shape, ray, watertight, t_max),)*
                 }
             }
 
             fn visit_roots(
                 &self,
                 ray: &Ray,
-                shear: &Shear,
+                watertight: &WatertightRay,
                 t_max: f64,
                 visit: &mut dyn FnMut(f64, u32),
             ) {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::visit_roots(shape, ray, shear, t_max, visit),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::visit_roots(shape, ray, watertight, t_max, visit),)*
                 }
             }
 
@@ -45,95 +45,96 @@ macro_rules! dispatch {
             #[inline]
             fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::interaction(shape, ray, t, prim_id),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::interaction(shape, ray, t, prim_id),)*
                 }
             }
 
             fn has_uv(&self) -> bool {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::has_uv(shape),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::has_uv(shape),)*
                 }
             }
 
             fn has_shading_normals(&self) -> bool {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::has_shading_normals(shape),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::has_shading_normals(shape),)*
                 }
             }
 
-            fn details(&self, ray: &Ray, at: &Interaction, prim_id: u32, asked: Asked) -> Details {
+            fn shading_attributes(&self, ray: &Ray, at: &Interaction, prim_id: u32, asked: AttributeRequest) -> ShadingAttributes {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::details(shape, ray, at, prim_id, asked),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::shading_attributes(shape, ray, at, prim_id, asked),)*
                 }
             }
 
             fn triangles(&self) -> usize {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::triangles(shape),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::triangles(shape),)*
                 }
             }
 
             fn corners(&self, prim_id: u32) -> Option<[Vec3; 3]> {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::corners(shape, prim_id),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::corners(shape, prim_id),)*
                 }
             }
 
             fn error_bound(&self) -> f64 {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::error_bound(shape),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::error_bound(shape),)*
                 }
             }
 
             #[inline]
             fn local(&self, ray: &Ray) -> LocalRay {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::local(shape, ray),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::local(shape, ray),)*
                 }
             }
 
             #[inline]
             fn intersect_prim(&self, ray: &LocalRay, prim_id: u32) -> Option<f64> {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::intersect_prim(shape, ray, prim_id),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::intersect_prim(shape, ray, prim_id),)*
                 }
             }
 
             #[inline]
             fn intersect_prim_before(&self, ray: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::intersect_prim_before(shape, ray, prim_id, t_max),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::intersect_prim_before(shape, ray, prim_id, t_max),)*
                 }
             }
 
             fn is_in_place(&self) -> bool {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::is_in_place(shape),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::is_in_place(shape),)*
                 }
             }
 
             fn bounds(&self) -> Option<Bounds> {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::bounds(shape),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::bounds(shape),)*
                 }
             }
 
             #[inline(always)]
-            fn in_lanes(&self) -> Option<InLanes<'_>> {
+            fn shape4(&self) -> Option<Shape4<'_>> {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::in_lanes(shape),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::shape4(shape),)*
                 }
             }
 
             fn ball(&self) -> Option<BoundingSphere> {
                 match self {
-                    $(Self::$Name(shape) => <$Name as Geometry>::ball(shape),)*
+                    $(Self::$Name(shape) => <$Name as Intersect>::ball(shape),)*
                 }
             }
         }
     };
 }
 
+pub(crate) mod baseline;
 pub(crate) mod basic;
 pub(crate) mod cone;
 mod corners;
@@ -149,7 +150,6 @@ pub(crate) mod instance;
 pub(crate) mod interval;
 pub(crate) mod mesh;
 pub(crate) mod paraboloid;
-pub(crate) mod plain;
 pub(crate) mod plane;
 pub(crate) mod quad;
 pub(crate) mod sphere;
@@ -175,9 +175,9 @@ pub(crate) mod kinds {
 
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
-use crate::shape::four::InLanes;
-use crate::shape::geometry::{Asked, Details, Geometry, LocalRay};
-use crate::shape::triangle::Shear;
+use crate::shape::four::Shape4;
+use crate::shape::geometry::{AttributeRequest, Intersect, LocalRay, ShadingAttributes};
+use crate::shape::triangle::WatertightRay;
 use kinds::*;
 use rtc_math::{Bounds, Vec3};
 

@@ -8,15 +8,15 @@
 //! double-double, from the numbers as given.
 
 use crate::ray::{Interaction, Ray};
-use crate::shape::disc::PlainDisc;
-use crate::shape::geometry::{Asked, Details, Geometry};
+use crate::shape::disc::BaselineDisc;
+use crate::shape::geometry::{AttributeRequest, ShadingAttributes, Intersect};
 use crate::shape::interval::{Interval, between_planes, roots};
-use crate::shape::mesh::PlainMesh;
-use crate::shape::plain::ray::PlainRay;
-use crate::shape::plain::real::{Real, Vector};
-use crate::shape::plain::roots::quadratic;
-use crate::shape::plain::{Plain, Twin};
-use crate::shape::triangle::Shear;
+use crate::shape::mesh::BaselineMesh;
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::roots::quadratic;
+use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::triangle::WatertightRay;
 use rtc_math::{
     Basis, Bounds, DoubleDouble, U, Vec3, atan2, cross, difference_of_products, dot, ldexp,
     unit_scale,
@@ -43,11 +43,11 @@ pub struct Paraboloid {
     height: f64,
     radius: f64,
     /// radius²/height: twice the radius of curvature at the vertex.
-    bend: f64,
+    latus_rectum: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum ParaboloidPart {
+enum ParaboloidFace {
     Side,
     Base,
 }
@@ -78,14 +78,14 @@ impl Paraboloid {
             axis: scaled / length,
             height,
             radius,
-            bend: radius * (radius / height),
+            latus_rectum: radius * (radius / height),
         }
     }
 
     /// The first root above 0, and its part.
-    fn crossing(&self, ray: &Ray) -> Option<(f64, ParaboloidPart)> {
+    fn intersection(&self, ray: &Ray) -> Option<(f64, ParaboloidFace)> {
         let start = ray.origin - self.base;
-        let parts = [ParaboloidPart::Base, ParaboloidPart::Side];
+        let parts = [ParaboloidFace::Base, ParaboloidFace::Side];
         let ends = between_planes(self.axis, self.height, start, ray.direction, parts)?;
         let inside = self.inside(ray, start, &ends)?;
         let Coefficients { b, c, .. } = self.coefficients(start, ray.direction);
@@ -97,8 +97,8 @@ impl Paraboloid {
         &self,
         ray: &Ray,
         start: Vec3,
-        ends: &Interval<ParaboloidPart>,
-    ) -> Option<Interval<ParaboloidPart>> {
+        ends: &Interval<ParaboloidFace>,
+    ) -> Option<Interval<ParaboloidFace>> {
         let d = ray.direction;
         // Move the ray to the point nearest to the axis, but not beyond base and vertex.
         let (from_axis, across) = (cross(start, self.axis), cross(d, self.axis));
@@ -123,7 +123,7 @@ impl Paraboloid {
 
     /// F along the ray from a point, given from the base, along `d`.
     fn coefficients(&self, from: Vec3, d: Vec3) -> Coefficients {
-        let k = self.bend;
+        let k = self.latus_rectum;
         let (w, x) = (cross(from, self.axis), cross(d, self.axis));
         let depth = self.height - dot(self.axis, from);
         let half_rise = 0.5 * k * dot(self.axis, d);
@@ -140,7 +140,7 @@ impl Paraboloid {
     /// between two points of this size together.
     fn error_bound(&self, coefficients: &Coefficients, d: Vec3, size: f64, nearest: f64) -> f64 {
         let Coefficients { w, x, a, b, c } = *coefficients;
-        let k = self.bend;
+        let k = self.latus_rectum;
         // Bound the error of each coefficient by the sizes of what it is made of, then that of the
         // discriminant.
         let pace = d.abs().element_sum();
@@ -157,7 +157,7 @@ impl Paraboloid {
     /// point from the base, F·u² = |p × u|² − radius²·(u² − p·u): no square root, no rounded axis.
     #[cold]
     #[inline(never)]
-    fn inside_precisely(&self, ray: &Ray, nearest: f64) -> Option<Interval<ParaboloidPart>> {
+    fn inside_precisely(&self, ray: &Ray, nearest: f64) -> Option<Interval<ParaboloidFace>> {
         let number = DoubleDouble::from;
         let d = ray.direction.to_array().map(number);
         let u = self.up.to_array().map(number);
@@ -200,10 +200,10 @@ impl Paraboloid {
     /// A point near the side, moved onto it along the gradient of F, and the normal there.
     fn onto_side(&self, local: Vec3, along: f64) -> (Vec3, Vec3) {
         let radial = self.radial(local, along);
-        let gradient = radial * 2.0 + self.axis * self.bend;
+        let gradient = radial * 2.0 + self.axis * self.latus_rectum;
         let length = gradient.length();
         let normal = gradient / length;
-        let f = radial.dot(radial) - self.bend * (self.height - along);
+        let f = radial.dot(radial) - self.latus_rectum * (self.height - along);
         (local - normal * (f / length), normal)
     }
 
@@ -216,10 +216,10 @@ impl Paraboloid {
 }
 
 /// The stretch between two points of the side.
-fn side(enter: f64, leave: f64) -> Interval<ParaboloidPart> {
+fn side(enter: f64, leave: f64) -> Interval<ParaboloidFace> {
     Interval {
-        enter: (enter, ParaboloidPart::Side),
-        leave: (leave, ParaboloidPart::Side),
+        enter: (enter, ParaboloidFace::Side),
+        leave: (leave, ParaboloidFace::Side),
     }
 }
 
@@ -235,21 +235,21 @@ fn wide_cross(a: [DoubleDouble; 3], b: [DoubleDouble; 3]) -> [DoubleDouble; 3] {
     ]
 }
 
-impl Geometry for Paraboloid {
-    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
-        self.crossing(ray).map(|(t, _)| (t, 0))
+impl Intersect for Paraboloid {
+    fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
+        self.intersection(ray).map(|(t, _)| (t, 0))
     }
 
     /// The point at `t`, moved onto the part that was hit.
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         let part = self
-            .crossing(ray)
-            .map_or(ParaboloidPart::Side, |(_, part)| part);
+            .intersection(ray)
+            .map_or(ParaboloidFace::Side, |(_, part)| part);
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let (local, normal) = match part {
-            ParaboloidPart::Base => (local - self.axis * along, -self.axis),
-            ParaboloidPart::Side => self.onto_side(local, along),
+            ParaboloidFace::Base => (local - self.axis * along, -self.axis),
+            ParaboloidFace::Side => self.onto_side(local, along),
         };
         let extent = self.height + self.radius;
         Interaction::new(ray, self.base + local, normal, self.base, extent)
@@ -261,7 +261,7 @@ impl Geometry for Paraboloid {
 
     /// u = φ/2π about the axis. On the side, v is the depth below the vertex in heights; on the cap,
     /// the distance from the axis in radii: 1 at the rim on both.
-    fn details(&self, _: &Ray, at: &Interaction, _: u32, _: Asked) -> Details {
+    fn shading_attributes(&self, _: &Ray, at: &Interaction, _: u32, _: AttributeRequest) -> ShadingAttributes {
         let local = at.point - self.base;
         let along = dot(local, self.axis);
         let radial = self.radial(local, along);
@@ -278,10 +278,10 @@ impl Geometry for Paraboloid {
         } else {
             (self.height - along) / self.height
         };
-        Details {
+        ShadingAttributes {
             uv: Some([u, v.clamp(0.0, 1.0)]),
             tangent: self.axis.cross(radial).try_normalize(),
-            ..Details::default()
+            ..ShadingAttributes::default()
         }
     }
 
@@ -294,16 +294,16 @@ impl Geometry for Paraboloid {
     }
 }
 
-impl Twin for Paraboloid {
-    type Plain<R: Real> = Box<PlainParaboloid<R>>;
+impl HasBaseline for Paraboloid {
+    type Baseline<R: Real> = Box<BaselineParaboloid<R>>;
 
-    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
-        Some(Box::new(PlainParaboloid {
+    fn plain<R: Real>(&self, _: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
+        Some(Box::new(BaselineParaboloid {
             base: Vector::of(self.base),
             axis: Vector::of(self.axis),
             height: R::of(self.height),
-            bend: R::of(self.bend),
-            cap: PlainDisc::new(self.base, -self.axis, self.radius),
+            latus_rectum: R::of(self.latus_rectum),
+            cap: BaselineDisc::new(self.base, -self.axis, self.radius),
         }))
     }
 }
@@ -313,22 +313,22 @@ const PLAIN_PARTS: [u32; 2] = [0, 1];
 
 /// Its twin: the quadratic of ρ² = k·m, with m the height left to the vertex, and a disc.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlainParaboloid<R> {
+pub(crate) struct BaselineParaboloid<R> {
     base: Vector<R>,
     axis: Vector<R>,
     height: R,
-    bend: R,
-    cap: PlainDisc<R>,
+    latus_rectum: R,
+    cap: BaselineDisc<R>,
 }
 
-impl<R: Real> Plain<R> for PlainParaboloid<R> {
-    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+impl<R: Real> Baseline<R> for BaselineParaboloid<R> {
+    fn intersect(&self, ray: &BaselineRay<R>, _: f64) -> Option<(R, u32)> {
         let [side, base] = PLAIN_PARTS;
         let f = ray.origin - self.base;
         let (above, rise) = (f.dot(self.axis), ray.direction.dot(self.axis));
         let (from_axis, across) = (f - self.axis * above, ray.direction - self.axis * rise);
-        let b = R::of(2.0) * from_axis.dot(across) + self.bend * rise;
-        let c = from_axis.dot(from_axis) - self.bend * (self.height - above);
+        let b = R::of(2.0) * from_axis.dot(across) + self.latus_rectum * rise;
+        let c = from_axis.dot(from_axis) - self.latus_rectum * (self.height - above);
         let within = |t: R| {
             if above + rise * t >= R::of(0.0) {
                 t
@@ -341,12 +341,12 @@ impl<R: Real> Plain<R> for PlainParaboloid<R> {
         ray.first([(first, side), (second, side), (cap, base)])
     }
 
-    fn normal(&self, _: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
+    fn normal(&self, _: &BaselineRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
         if prim_id == PLAIN_PARTS[1] {
             return self.cap.normal();
         }
         let local = point - self.base;
         let from_axis = local - self.axis * local.dot(self.axis);
-        (from_axis * R::of(2.0) + self.axis * self.bend).normalized()
+        (from_axis * R::of(2.0) + self.axis * self.latus_rectum).normalized()
     }
 }

@@ -2,13 +2,13 @@
 //! distance.
 
 use crate::ray::{Interaction, Ray};
-use crate::shape::four::InLanes;
-use crate::shape::geometry::Geometry;
-use crate::shape::mesh::PlainMesh;
-use crate::shape::plain::ray::PlainRay;
-use crate::shape::plain::real::{Real, Vector};
-use crate::shape::plain::{Plain, Twin};
-use crate::shape::triangle::Shear;
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::four::Shape4;
+use crate::shape::geometry::Intersect;
+use crate::shape::mesh::BaselineMesh;
+use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, U, Vec3, cross, dot, two_difference, unit_scale};
 use std::sync::Arc;
 
@@ -204,9 +204,9 @@ impl Plane {
     }
 }
 
-impl Geometry for Plane {
+impl Intersect for Plane {
     #[inline]
-    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
+    fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
         self.intersect(ray).map(|t| (t, 0))
     }
 
@@ -215,9 +215,9 @@ impl Geometry for Plane {
     }
 
     #[inline(always)]
-    fn in_lanes(&self) -> Option<InLanes<'_>> {
+    fn shape4(&self) -> Option<Shape4<'_>> {
         let axis = self.normal.axis()?;
-        Some(InLanes::Plane(self, axis))
+        Some(Shape4::Plane(self, axis))
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -225,23 +225,23 @@ impl Geometry for Plane {
     }
 }
 
-impl Twin for Plane {
-    type Plain<R: Real> = PlainPlane<R>;
+impl HasBaseline for Plane {
+    type Baseline<R: Real> = BaselinePlane<R>;
 
-    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
-        Some(PlainPlane::new(self.anchor, self.normal()))
+    fn plain<R: Real>(&self, _: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
+        Some(BaselinePlane::new(self.anchor, self.normal()))
     }
 }
 
 /// Its twin: N·p = N·c.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlainPlane<R> {
+pub(crate) struct BaselinePlane<R> {
     normal: Vector<R>,
     /// N·c.
     level: R,
 }
 
-impl<R: Real> PlainPlane<R> {
+impl<R: Real> BaselinePlane<R> {
     pub(crate) fn new(center: Vec3, unit_normal: Vec3) -> Self {
         let normal = Vector::of(unit_normal);
         Self {
@@ -258,20 +258,20 @@ impl<R: Real> PlainPlane<R> {
 
     /// Where the line meets the plane.
     #[inline]
-    pub(in crate::shape) fn parameter(&self, ray: &PlainRay<R>) -> R {
+    pub(in crate::shape) fn parameter(&self, ray: &BaselineRay<R>) -> R {
         (self.level - self.normal.dot(ray.origin)) / self.normal.dot(ray.direction)
     }
 }
 
-impl<R: Real> Plain<R> for PlainPlane<R> {
+impl<R: Real> Baseline<R> for BaselinePlane<R> {
     #[inline]
-    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+    fn intersect(&self, ray: &BaselineRay<R>, _: f64) -> Option<(R, u32)> {
         let t = self.parameter(ray);
         ray.counts(t).then_some((t, 0))
     }
 
     #[inline]
-    fn normal(&self, _: &PlainRay<R>, _: Vector<R>, _: u32) -> Vector<R> {
+    fn normal(&self, _: &BaselineRay<R>, _: Vector<R>, _: u32) -> Vector<R> {
         self.normal
     }
 }
@@ -284,7 +284,7 @@ mod tests {
     /// Limits within 64 u of the root: plain arithmetic is often right about them, and often wrong.
     #[test]
     fn a_plane_said_to_lie_beyond_has_no_root_before() {
-        let mut told = 0;
+        let mut reported = 0;
         for index in 0..50_000 {
             let key = Key::new([3, 5], index);
             let vector = |k: u64| {
@@ -301,10 +301,10 @@ mod tests {
             let t_max = t * (1.0 + 64.0 * U * (key.uniform(12) * 2.0 - 1.0));
             if normal.is_beyond(anchor, &ray, t_max) {
                 assert!(t >= t_max, "{index}: {t} {t_max}");
-                told += 1;
+                reported += 1;
             }
         }
-        assert!(told > 2000, "{told}");
+        assert!(reported > 2000, "{reported}");
     }
 
     #[test]

@@ -5,13 +5,13 @@
 //! quadratic in u vanishes.
 
 use crate::ray::{Interaction, Ray};
-use crate::shape::geometry::{Asked, Details, Geometry};
-use crate::shape::mesh::PlainMesh;
-use crate::shape::plain::ray::PlainRay;
-use crate::shape::plain::real::{Real, Vector};
-use crate::shape::plain::roots::quadratic;
-use crate::shape::plain::{Plain, Twin};
-use crate::shape::triangle::{PlainTriangle, Shear, Triangle};
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::roots::quadratic;
+use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
+use crate::shape::mesh::BaselineMesh;
+use crate::shape::triangle::{BaselineTriangle, Triangle, WatertightRay};
 use rtc_math::{Bounds, Vec3, cross, is_flat};
 use std::sync::Arc;
 
@@ -57,17 +57,18 @@ impl Quad {
 
     /// The smallest root above 0 and which half it is in.
     #[must_use]
-    pub fn intersect(&self, ray: &Ray, shear: &Shear) -> Option<(f64, u32)> {
+    pub fn intersect(&self, ray: &Ray, watertight: &WatertightRay) -> Option<(f64, u32)> {
         match self {
             Self::Flat { halves, .. } => {
-                let hit =
-                    |half: &Option<(Triangle, [usize; 3])>| half.as_ref()?.0.intersect(ray, shear);
+                let hit = |half: &Option<(Triangle, [usize; 3])>| {
+                    half.as_ref()?.0.intersect(ray, watertight)
+                };
                 // Both halves lie in one plane, so two hits tie.
                 hit(&halves[0])
                     .map(|t| (t, 0))
                     .or_else(|| hit(&halves[1]).map(|t| (t, 1)))
             }
-            Self::Patch(patch) => patch.crossing(ray).map(|(t, _)| (t, 0)),
+            Self::Patch(patch) => patch.intersection(ray).map(|(t, _)| (t, 0)),
         }
     }
 
@@ -101,7 +102,7 @@ impl Quad {
                     [0, 1].map(|axis| (0..3).map(|k| weights[k] * CORNERS[corners[k]][axis]).sum())
                 })
             }
-            Self::Patch(patch) => patch.crossing(ray).map_or([0.0; 2], |(_, uv)| uv),
+            Self::Patch(patch) => patch.intersection(ray).map_or([0.0; 2], |(_, uv)| uv),
         }
     }
 
@@ -143,7 +144,7 @@ pub struct Patch {
 
 impl Patch {
     /// The first crossing in front, with its u and v.
-    fn crossing(&self, ray: &Ray) -> Option<(f64, [f64; 2])> {
+    fn intersection(&self, ray: &Ray) -> Option<(f64, [f64; 2])> {
         let [q00, q10, q11, q01] = self.vertices.map(|vertex| vertex - ray.origin);
         let d = ray.direction;
         let (left, right) = (q01 - q00, q11 - q10);
@@ -206,7 +207,7 @@ impl Patch {
 
     fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
         let q00 = self.vertices[0];
-        let uv = self.crossing(ray).map_or([0.5; 2], |(_, uv)| uv);
+        let uv = self.intersection(ray).map_or([0.5; 2], |(_, uv)| uv);
         let [u, v] = self.nearest(ray.origin + ray.direction * t, uv);
         let point = self.at([u, v]);
         let [across, upward] = self.tangents([u, v]);
@@ -221,12 +222,12 @@ impl Patch {
     }
 }
 
-impl Geometry for Quad {
-    fn intersect(&self, ray: &Ray, shear: &Shear, _: f64) -> Option<(f64, u32)> {
-        self.intersect(ray, shear)
+impl Intersect for Quad {
+    fn intersect(&self, ray: &Ray, watertight: &WatertightRay, _: f64) -> Option<(f64, u32)> {
+        self.intersect(ray, watertight)
     }
 
-    fn uses_shear(&self) -> bool {
+    fn uses_watertight_ray(&self) -> bool {
         true
     }
 
@@ -238,12 +239,18 @@ impl Geometry for Quad {
         true
     }
 
-    fn details(&self, ray: &Ray, at: &Interaction, prim_id: u32, _: Asked) -> Details {
+    fn shading_attributes(
+        &self,
+        ray: &Ray,
+        at: &Interaction,
+        prim_id: u32,
+        _: AttributeRequest,
+    ) -> ShadingAttributes {
         let [u, v] = self.uv(ray, at.point, prim_id);
-        Details {
+        ShadingAttributes {
             uv: Some([u, v]),
             tangent: self.tangent(v),
-            ..Details::default()
+            ..ShadingAttributes::default()
         }
     }
 
@@ -252,29 +259,30 @@ impl Geometry for Quad {
     }
 }
 
-impl Twin for Quad {
-    type Plain<R: Real> = Box<PlainQuad<R>>;
+impl HasBaseline for Quad {
+    type Baseline<R: Real> = Box<BaselineQuad<R>>;
 
-    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
+    fn plain<R: Real>(&self, _: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
         Some(Box::new(match self {
-            Self::Flat { halves, .. } => PlainQuad::Flat(
-                halves
-                    .map(|half| half.map(|(triangle, _)| PlainTriangle::new(triangle.vertices()))),
-            ),
-            Self::Patch(Patch { vertices }) => PlainQuad::Patch(vertices.map(Vector::of)),
+            Self::Flat { halves, .. } => {
+                BaselineQuad::Flat(halves.map(|half| {
+                    half.map(|(triangle, _)| BaselineTriangle::new(triangle.vertices()))
+                }))
+            }
+            Self::Patch(Patch { vertices }) => BaselineQuad::Patch(vertices.map(Vector::of)),
         }))
     }
 }
 
 /// Its twin: two triangles in plain arithmetic, or the same patch.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum PlainQuad<R> {
-    Flat([Option<PlainTriangle<R>>; 2]),
+pub(crate) enum BaselineQuad<R> {
+    Flat([Option<BaselineTriangle<R>>; 2]),
     Patch([Vector<R>; 4]),
 }
 
-impl<R: Real> Plain<R> for PlainQuad<R> {
-    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+impl<R: Real> Baseline<R> for BaselineQuad<R> {
+    fn intersect(&self, ray: &BaselineRay<R>, _: f64) -> Option<(R, u32)> {
         match self {
             Self::Flat(halves) => {
                 let hits = (0..)
@@ -286,7 +294,7 @@ impl<R: Real> Plain<R> for PlainQuad<R> {
         }
     }
 
-    fn normal(&self, ray: &PlainRay<R>, _: Vector<R>, prim_id: u32) -> Vector<R> {
+    fn normal(&self, ray: &BaselineRay<R>, _: Vector<R>, prim_id: u32) -> Vector<R> {
         match self {
             Self::Flat(halves) => {
                 let half = halves[prim_id as usize & 1].or(halves[0]);
@@ -308,7 +316,7 @@ fn plain_lerp<R: Real>(from: Vector<R>, to: Vector<R>, prim_id: R) -> Vector<R> 
 }
 
 /// The first crossing of a patch that counts, with its u and v.
-fn plain_crossing<R: Real>(vertices: [Vector<R>; 4], ray: &PlainRay<R>) -> Option<(R, [R; 2])> {
+fn plain_crossing<R: Real>(vertices: [Vector<R>; 4], ray: &BaselineRay<R>) -> Option<(R, [R; 2])> {
     let [q00, q10, q11, q01] = vertices.map(|vertex| vertex - ray.origin);
     let d = ray.direction;
     let (left, right) = (q01 - q00, q11 - q10);

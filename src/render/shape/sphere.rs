@@ -7,14 +7,14 @@
 
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
-use crate::shape::four::InLanes;
-use crate::shape::geometry::{Asked, Details, Geometry};
-use crate::shape::mesh::PlainMesh;
-use crate::shape::plain::ray::PlainRay;
-use crate::shape::plain::real::{Real, Vector};
-use crate::shape::plain::roots::quadratic;
-use crate::shape::plain::{Plain, Twin};
-use crate::shape::triangle::Shear;
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::roots::quadratic;
+use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::four::Shape4;
+use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
+use crate::shape::mesh::BaselineMesh;
+use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, DoubleDouble, U, Vec3, acos, atan2};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -183,9 +183,9 @@ pub struct TexturedSphere {
     pub texture_from_world: [Vec3; 3],
 }
 
-impl Geometry for TexturedSphere {
+impl Intersect for TexturedSphere {
     #[inline]
-    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
+    fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
         self.sphere.intersect(ray).map(|t| (t, 0))
     }
 
@@ -200,7 +200,13 @@ impl Geometry for TexturedSphere {
 
     /// u = φ/2π and v = 1 − θ/π of the direction from the centre, turned by the rotation of the
     /// texture.
-    fn details(&self, _: &Ray, at: &Interaction, _: u32, _: Asked) -> Details {
+    fn shading_attributes(
+        &self,
+        _: &Ray,
+        at: &Interaction,
+        _: u32,
+        _: AttributeRequest,
+    ) -> ShadingAttributes {
         let [x, y, z] = self.texture_from_world;
         let direction = at.normal;
         let d = Vec3::new(x.dot(direction), y.dot(direction), z.dot(direction));
@@ -208,16 +214,16 @@ impl Geometry for TexturedSphere {
         let u = if turns < 0.0 { turns + 1.0 } else { turns };
         let v = 1.0 - acos(d.z.clamp(-1.0, 1.0)) / PI;
         let tangent = (y * d.x - x * d.y).try_normalize();
-        Details {
+        ShadingAttributes {
             uv: Some([u, v]),
             tangent,
-            ..Details::default()
+            ..ShadingAttributes::default()
         }
     }
 
     #[inline(always)]
-    fn in_lanes(&self) -> Option<InLanes<'_>> {
-        Some(InLanes::Sphere(&self.sphere))
+    fn shape4(&self) -> Option<Shape4<'_>> {
+        Some(Shape4::Sphere(&self.sphere))
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -230,11 +236,11 @@ impl Geometry for TexturedSphere {
     }
 }
 
-impl Twin for TexturedSphere {
-    type Plain<R: Real> = PlainSphere<R>;
+impl HasBaseline for TexturedSphere {
+    type Baseline<R: Real> = BaselineSphere<R>;
 
-    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
-        Some(PlainSphere {
+    fn plain<R: Real>(&self, _: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
+        Some(BaselineSphere {
             center: Vector::of(self.sphere.center),
             radius: R::of(self.sphere.radius),
         })
@@ -243,14 +249,14 @@ impl Twin for TexturedSphere {
 
 /// Its twin, by b² − 4ac.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlainSphere<R> {
+pub(crate) struct BaselineSphere<R> {
     center: Vector<R>,
     radius: R,
 }
 
-impl<R: Real> Plain<R> for PlainSphere<R> {
+impl<R: Real> Baseline<R> for BaselineSphere<R> {
     #[inline]
-    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+    fn intersect(&self, ray: &BaselineRay<R>, _: f64) -> Option<(R, u32)> {
         let f = ray.origin - self.center;
         let b = R::of(2.0) * f.dot(ray.direction);
         let c = f.dot(f) - self.radius * self.radius;
@@ -258,7 +264,7 @@ impl<R: Real> Plain<R> for PlainSphere<R> {
         roots.into_iter().find(|t| ray.counts(*t)).map(|t| (t, 0))
     }
 
-    fn normal(&self, _: &PlainRay<R>, point: Vector<R>, _: u32) -> Vector<R> {
+    fn normal(&self, _: &BaselineRay<R>, point: Vector<R>, _: u32) -> Vector<R> {
         (point - self.center).normalized()
     }
 }

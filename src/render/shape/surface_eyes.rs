@@ -3,13 +3,13 @@
 use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::disc::Disc;
-use super::geometry::Geometry;
+use super::geometry::Intersect;
 use super::paraboloid::Paraboloid;
 use super::plane::Plane;
 use super::quad::Quad;
 use super::sphere::Sphere;
 use super::torus::Torus;
-use super::triangle::{Shear, Triangle};
+use super::triangle::{Triangle, WatertightRay};
 use crate::ray::Ray;
 use rtc_math::Vec3;
 
@@ -44,20 +44,21 @@ fn check_eyes(name: &str, make: impl Fn(Vec3, f64) -> FirstRoot, is_convex: bool
             for direction in directions() {
                 let slope = direction.dot(Vec3::from_array(*normal));
                 let t = first(&Ray { origin, direction });
-                let told = format!("{name} × {scale}, from {point:?} along {direction:?}: {t:?}");
+                let reported =
+                    format!("{name} × {scale}, from {point:?} along {direction:?}: {t:?}");
                 let is_far = t.is_none_or(|t| t > 0.001 * scale);
-                assert!(slope.abs() < 0.01 || is_far, "{told}");
-                assert!(slope < 0.01 || !is_convex || t.is_none(), "{told}");
-                assert!(slope > -0.01 || t.is_some(), "{told}");
+                assert!(slope.abs() < 0.01 || is_far, "{reported}");
+                assert!(slope < 0.01 || !is_convex || t.is_none(), "{reported}");
+                assert!(slope > -0.01 || t.is_some(), "{reported}");
             }
         }
     }
 }
 
-fn boxed<S: Geometry + 'static>(shape: S) -> FirstRoot {
+fn boxed<S: Intersect + 'static>(shape: S) -> FirstRoot {
     Box::new(move |ray| {
         shape
-            .intersect(ray, &Shear::new(ray), f64::INFINITY)
+            .intersect(ray, &WatertightRay::new(ray), f64::INFINITY)
             .map(|(t, _)| t)
     })
 }
@@ -143,7 +144,7 @@ fn what_is_flat_is_not_seen_from_its_own_plane() {
         let [a, b, c, d] = corners(center - (Vec3::X + Vec3::Y) * (0.5 * scale), scale);
         all.push(("quad", boxed(Quad::new([a, b, c, d]))));
         let triangle = Triangle::new([a, b, c]).expect("it has an area");
-        let first = move |ray: &Ray| triangle.intersect(ray, &Shear::new(ray));
+        let first = move |ray: &Ray| triangle.intersect(ray, &WatertightRay::new(ray));
         all.push(("triangle", Box::new(first)));
         for (name, first) in all.drain(..) {
             for direction in directions() {

@@ -9,15 +9,15 @@
 
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
-use crate::shape::four::InLanes;
-use crate::shape::geometry::Geometry;
-use crate::shape::mesh::PlainMesh;
-use crate::shape::plain::ray::PlainRay;
-use crate::shape::plain::real::{Real, Vector};
-use crate::shape::plain::roots::quartic;
-use crate::shape::plain::{Plain, Twin};
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::roots::quartic;
+use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::four::Shape4;
+use crate::shape::geometry::Intersect;
+use crate::shape::mesh::BaselineMesh;
 use crate::shape::plane::Normal;
-use crate::shape::triangle::Shear;
+use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3, cross, ldexp};
 use std::sync::Arc;
 
@@ -123,10 +123,10 @@ impl TorusRay {
         let (linear, constant) = self.derivative();
         let borders = cubic_roots(linear, constant, low, high).chain(std::iter::once(high));
         let mut before = (low, self.start_distance(low));
-        for border in borders {
-            let there = (border, self.distance(border));
-            if there.1 == 0.0 && border > low {
-                return Some(border);
+        for split_plane in borders {
+            let there = (split_plane, self.distance(split_plane));
+            if there.1 == 0.0 && split_plane > low {
+                return Some(split_plane);
             }
             if (there.1 < 0.0) != (before.1 < 0.0) {
                 return Some(self.root(before, there));
@@ -180,9 +180,10 @@ fn fraction_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
         return 0.5;
     }
     let linear = last.1 / (other.1 - last.1) * before.1 / (other.1 - before.1);
-    let bend = (before.0 - last.0) / (other.0 - last.0) * last.1 / (before.1 - last.1) * other.1
+    let latus_rectum = (before.0 - last.0) / (other.0 - last.0) * last.1 / (before.1 - last.1)
+        * other.1
         / (before.1 - other.1);
-    linear + bend
+    linear + latus_rectum
 }
 
 /// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order, each found when it is
@@ -299,8 +300,8 @@ impl Torus {
     }
 }
 
-impl Geometry for Torus {
-    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
+impl Intersect for Torus {
+    fn intersect(&self, ray: &Ray, _: &WatertightRay, _: f64) -> Option<(f64, u32)> {
         self.intersect(ray).map(|t| (t, 0))
     }
 
@@ -309,8 +310,8 @@ impl Geometry for Torus {
     }
 
     #[inline(always)]
-    fn in_lanes(&self) -> Option<InLanes<'_>> {
-        Some(InLanes::Torus(self))
+    fn shape4(&self) -> Option<Shape4<'_>> {
+        Some(Shape4::Torus(self))
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -325,11 +326,11 @@ impl Geometry for Torus {
     }
 }
 
-impl Twin for Torus {
-    type Plain<R: Real> = PlainTorus<R>;
+impl HasBaseline for Torus {
+    type Baseline<R: Real> = BaselineTorus<R>;
 
-    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
-        Some(PlainTorus {
+    fn plain<R: Real>(&self, _: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
+        Some(BaselineTorus {
             center: Vector::of(self.center),
             axis: Vector::of(self.axis),
             major: R::of(self.major),
@@ -340,7 +341,7 @@ impl Twin for Torus {
 
 /// Its twin: the quartic in t, solved in closed form where the ray starts.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlainTorus<R> {
+pub(crate) struct BaselineTorus<R> {
     center: Vector<R>,
     /// A unit vector.
     axis: Vector<R>,
@@ -348,9 +349,9 @@ pub(crate) struct PlainTorus<R> {
     minor: R,
 }
 
-impl<R: Real> Plain<R> for PlainTorus<R> {
+impl<R: Real> Baseline<R> for BaselineTorus<R> {
     /// The first root of (|p|² + R² − r²)² = 4R²ρ² along the line that counts.
-    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+    fn intersect(&self, ray: &BaselineRay<R>, _: f64) -> Option<(R, u32)> {
         let (two, four) = (R::of(2.0), R::of(4.0));
         let f = ray.origin - self.center;
         let d = ray.direction;
@@ -368,7 +369,7 @@ impl<R: Real> Plain<R> for PlainTorus<R> {
         ray.first(quartic(c3, c2, c1, c0).map(|t| (t, 0)))
     }
 
-    fn normal(&self, _: &PlainRay<R>, point: Vector<R>, _: u32) -> Vector<R> {
+    fn normal(&self, _: &BaselineRay<R>, point: Vector<R>, _: u32) -> Vector<R> {
         let local = point - self.center;
         let from_axis = local - self.axis * local.dot(self.axis);
         (local - from_axis.normalized() * self.major).normalized()

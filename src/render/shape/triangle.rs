@@ -6,12 +6,12 @@
 //! The plane of the triangle then gives t.
 
 use crate::ray::{Interaction, Ray};
+use crate::shape::baseline::ray::BaselineRay;
+use crate::shape::baseline::real::{Real, Vector};
+use crate::shape::baseline::{Baseline, HasBaseline};
 use crate::shape::corners::interpolate;
-use crate::shape::geometry::{Asked, Details, Geometry};
-use crate::shape::mesh::PlainMesh;
-use crate::shape::plain::ray::PlainRay;
-use crate::shape::plain::real::{Real, Vector};
-use crate::shape::plain::{Plain, Twin};
+use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
+use crate::shape::mesh::BaselineMesh;
 use crate::shape::plane::Normal;
 use rtc_math::{Bounds, U, Vec3, difference_of_products};
 use std::sync::Arc;
@@ -19,13 +19,13 @@ use std::sync::Arc;
 /// The change of coordinates that turns a ray's direction into the z axis: a permutation and a
 /// shear.
 #[derive(Clone, Copy, Debug)]
-pub struct Shear {
+pub struct WatertightRay {
     axes: [usize; 3],
     x: f64,
     y: f64,
 }
 
-impl Shear {
+impl WatertightRay {
     /// For shapes that look at none.
     pub(crate) const UNUSED: Self = Self {
         axes: [0, 1, 2],
@@ -89,12 +89,12 @@ fn meets(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> bool {
 
 /// Whether a ray's line meets a triangle; edges and corners belong to it.
 #[inline(always)]
-fn is_met([a, b, c]: &[Vec3; 3], ray: &Ray, shear: &Shear) -> bool {
+fn is_met([a, b, c]: &[Vec3; 3], ray: &Ray, watertight: &WatertightRay) -> bool {
     // Shear the vertices into the ray's frame.
     let (a, b, c) = (
-        shear.apply(*a - ray.origin),
-        shear.apply(*b - ray.origin),
-        shear.apply(*c - ray.origin),
+        watertight.apply(*a - ray.origin),
+        watertight.apply(*b - ray.origin),
+        watertight.apply(*c - ray.origin),
     );
     // Compare the signs of the edge functions; compute them exactly where one is uncertain.
     match (sure_sign(c, b), sure_sign(a, c), sure_sign(b, a)) {
@@ -106,8 +106,8 @@ fn is_met([a, b, c]: &[Vec3; 3], ray: &Ray, shear: &Shear) -> bool {
 
 /// The root above 0 of the triangle of three corners, as [`Triangle::intersect`] has it.
 #[inline(always)]
-pub(crate) fn root(vertices: &[Vec3; 3], ray: &Ray, shear: &Shear) -> Option<f64> {
-    if !is_met(vertices, ray, shear) {
+pub(crate) fn root(vertices: &[Vec3; 3], ray: &Ray, watertight: &WatertightRay) -> Option<f64> {
+    if !is_met(vertices, ray, watertight) {
         return None;
     }
     Normal::of(*vertices)?.intersect(vertices[0], ray)
@@ -150,8 +150,8 @@ impl Triangle {
     /// The root above 0; edges and corners belong to the triangle.
     #[must_use]
     #[inline]
-    pub fn intersect(&self, ray: &Ray, shear: &Shear) -> Option<f64> {
-        if is_met(&self.vertices, ray, shear) {
+    pub fn intersect(&self, ray: &Ray, watertight: &WatertightRay) -> Option<f64> {
+        if is_met(&self.vertices, ray, watertight) {
             self.normal.intersect(self.vertices[0], ray)
         } else {
             None
@@ -208,13 +208,13 @@ pub struct TexturedTriangle {
     pub uvs: Option<[[f64; 2]; 3]>,
 }
 
-impl Geometry for TexturedTriangle {
+impl Intersect for TexturedTriangle {
     #[inline]
-    fn intersect(&self, ray: &Ray, shear: &Shear, _: f64) -> Option<(f64, u32)> {
-        self.triangle.intersect(ray, shear).map(|t| (t, 0))
+    fn intersect(&self, ray: &Ray, watertight: &WatertightRay, _: f64) -> Option<(f64, u32)> {
+        self.triangle.intersect(ray, watertight).map(|t| (t, 0))
     }
 
-    fn uses_shear(&self) -> bool {
+    fn uses_watertight_ray(&self) -> bool {
         true
     }
 
@@ -227,14 +227,20 @@ impl Geometry for TexturedTriangle {
     }
 
     /// uv between those of the corners.
-    fn details(&self, _: &Ray, at: &Interaction, _: u32, _: Asked) -> Details {
+    fn shading_attributes(
+        &self,
+        _: &Ray,
+        at: &Interaction,
+        _: u32,
+        _: AttributeRequest,
+    ) -> ShadingAttributes {
         let Some(uvs) = self.uvs else {
-            return Details::default();
+            return ShadingAttributes::default();
         };
-        Details {
+        ShadingAttributes {
             uv: Some(interpolate(uvs, self.triangle.weights(at.point))),
             tangent: self.triangle.tangent(uvs),
-            ..Details::default()
+            ..ShadingAttributes::default()
         }
     }
 
@@ -251,22 +257,22 @@ impl Geometry for TexturedTriangle {
     }
 }
 
-impl Twin for TexturedTriangle {
-    type Plain<R: Real> = PlainTriangle<R>;
+impl HasBaseline for TexturedTriangle {
+    type Baseline<R: Real> = BaselineTriangle<R>;
 
-    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
-        Some(PlainTriangle::new(self.triangle.vertices()))
+    fn plain<R: Real>(&self, _: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>> {
+        Some(BaselineTriangle::new(self.triangle.vertices()))
     }
 }
 
 /// Its twin: Möller, Trumbore, "Fast, minimum storage ray/triangle intersection" (JGT 2, 1997).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlainTriangle<R> {
+pub(crate) struct BaselineTriangle<R> {
     corner: Vector<R>,
     edges: [Vector<R>; 2],
 }
 
-impl<R: Real> PlainTriangle<R> {
+impl<R: Real> BaselineTriangle<R> {
     pub(in crate::shape) fn new(vertices: &[Vec3; 3]) -> Self {
         let [a, b, c] = vertices.map(Vector::of);
         Self {
@@ -276,7 +282,7 @@ impl<R: Real> PlainTriangle<R> {
     }
 
     #[inline]
-    pub(in crate::shape) fn intersect(&self, ray: &PlainRay<R>) -> Option<R> {
+    pub(in crate::shape) fn intersect(&self, ray: &BaselineRay<R>) -> Option<R> {
         let (zero, one) = (R::of(0.0), R::of(1.0));
         let [first, second] = self.edges;
         let across = ray.direction.cross(second);
@@ -304,13 +310,13 @@ impl<R: Real> PlainTriangle<R> {
     }
 }
 
-impl<R: Real> Plain<R> for PlainTriangle<R> {
+impl<R: Real> Baseline<R> for BaselineTriangle<R> {
     #[inline]
-    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+    fn intersect(&self, ray: &BaselineRay<R>, _: f64) -> Option<(R, u32)> {
         self.intersect(ray).map(|t| (t, 0))
     }
 
-    fn normal(&self, _: &PlainRay<R>, _: Vector<R>, _: u32) -> Vector<R> {
+    fn normal(&self, _: &BaselineRay<R>, _: Vector<R>, _: u32) -> Vector<R> {
         self.normal()
     }
 }

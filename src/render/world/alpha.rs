@@ -2,7 +2,7 @@
 //! shadow ray are multiplied.
 
 use super::flattened::flattened_surfaces;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use rtc_plan::facts::material;
 use rtc_valid::{Alpha, Material, ValidScene};
 
@@ -20,7 +20,7 @@ pub(crate) enum AlphaTested {
 impl AlphaTested {
     /// The alpha-tested surfaces of a scene of paths. The plan may prove some of them opaque, or
     /// leave them out, but that must not change the order of products.
-    pub(super) fn of<S: Geometry>(scene: &ValidScene) -> Self {
+    pub(super) fn of<S: Intersect>(scene: &ValidScene) -> Self {
         let alpha = |of: &Material| material::standard(of).alpha;
         let tested = scene.materials().iter().map(|m| alpha(m) != Alpha::Opaque);
         let tested: Vec<bool> = tested.collect();

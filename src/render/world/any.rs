@@ -7,8 +7,8 @@ use crate::film::progressive::ProgressiveFilm;
 use crate::film::{Counts, Film, Job};
 use crate::integrator::aov::Aov;
 use crate::shape::Shape;
+use crate::shape::baseline::BaselineShape;
 use crate::shape::basic::Basic;
-use crate::shape::plain::PlainShape;
 use crate::world::World;
 use rtc_image::{Guide, Layers};
 use rtc_plan::{Arithmetic, Plan, Rules, Shapes};
@@ -22,9 +22,9 @@ pub enum AnyWorld {
     /// Of all shapes.
     All(World<Shape>),
     /// By plain formulas.
-    Plain(World<PlainShape<f64>>),
+    Plain(World<BaselineShape<f64>>),
     /// By plain formulas in f32.
-    F32(World<PlainShape<f32>>),
+    F32(World<BaselineShape<f32>>),
 }
 
 /// Does the same with each kind of world.

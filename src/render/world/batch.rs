@@ -2,10 +2,10 @@
 
 use super::flattened::{Flattened, FlattenedRay};
 use super::search::{AnySearch, ClosestSearch};
-use super::{Hit, NOWHERE, OVER, World};
+use super::{Hit, NO_PRIMITIVE, STOP, World};
 use crate::accel::wide::Visitor;
 use crate::ray::Ray;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::shape::tie::Nearest;
 
 /// So many rays are prepared at once.
@@ -29,7 +29,7 @@ fn are_coherent<'rays>(mut rays: impl Iterator<Item = &'rays Ray>) -> bool {
     balance >= 0
 }
 
-impl<S: Geometry> World<S> {
+impl<S: Intersect> World<S> {
     /// For each ray what [`World::closest_hit`] finds.
     #[must_use]
     pub fn closest_hits(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
@@ -47,14 +47,14 @@ impl<S: Geometry> World<S> {
                 let nearest = if is_finite {
                     self.closest_hit_apart(&ray)
                 } else {
-                    Nearest::up_to(OVER, NOWHERE)
+                    Nearest::up_to(STOP, NO_PRIMITIVE)
                 };
-                let triangles = FlattenedRay::new(&ray, NOWHERE, &self.surfaces, flattened);
+                let triangles = FlattenedRay::new(&ray, NO_PRIMITIVE, &self.surfaces, flattened);
                 searches.push((ray, nearest.t, ClosestSearch { triangles, nearest }));
             }
-            flattened.walk_all(&mut searches);
+            flattened.traverse_all(&mut searches);
             for (unit, (ray, _, search)) in units.drain(..).zip(searches.drain(..)) {
-                hits.push(self.hit(&ray, unit, NOWHERE, &search.nearest));
+                hits.push(self.hit(&ray, unit, NO_PRIMITIVE, &search.nearest));
             }
         }
         hits
@@ -78,11 +78,11 @@ impl<S: Geometry> World<S> {
                 let t_max = t_max / unit;
                 let is_hit = self.any_hit_apart(&ray, t_max);
                 hits.push(is_hit);
-                let triangles = FlattenedRay::new(&ray, NOWHERE, &self.surfaces, flattened);
-                let t_max = if is_hit { OVER } else { t_max };
+                let triangles = FlattenedRay::new(&ray, NO_PRIMITIVE, &self.surfaces, flattened);
+                let t_max = if is_hit { STOP } else { t_max };
                 searches.push((ray, t_max, AnySearch::new(triangles, t_max)));
             }
-            flattened.walk_all(&mut searches);
+            flattened.traverse_all(&mut searches);
             for (hit, (_, _, search)) in hits[first..].iter_mut().zip(searches.drain(..)) {
                 *hit |= search.is_hit;
             }
@@ -93,11 +93,11 @@ impl<S: Geometry> World<S> {
 
 impl Flattened {
     /// Has each ray's visitor visit the triangles it may hit.
-    fn walk_all<V: Visitor>(&self, searches: &mut [(Ray, f64, V)]) {
+    fn traverse_all<V: Visitor>(&self, searches: &mut [(Ray, f64, V)]) {
         if are_coherent(searches.iter().map(|(ray, ..)| ray)) {
-            self.hierarchy.walk_together(searches);
+            self.hierarchy.traverse_packets(searches);
         } else {
-            self.hierarchy.walk_all(searches);
+            self.hierarchy.traverse_all(searches);
         }
     }
 }

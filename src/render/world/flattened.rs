@@ -4,9 +4,9 @@ use super::Surface;
 use crate::accel::simd::SimdLevel;
 use crate::accel::wide::{Builders, Candidate, MOST, Wide};
 use crate::ray::Ray;
-use crate::shape::geometry::{Geometry, LocalRay};
+use crate::shape::geometry::{Intersect, LocalRay};
 use crate::shape::mesh::FEW;
-use crate::shape::triangle::{self, Shear};
+use crate::shape::triangle::{self, WatertightRay};
 use rtc_valid::{self as valid, MAX_MESH_TRIANGLES, ValidScene};
 
 /// The triangles of all flattened instances, numbered surface by surface.
@@ -24,33 +24,33 @@ const _: () = assert!(MAX_MESH_TRIANGLES == MOST, "a proven mesh has a hierarchy
 
 /// One ray against flattened triangles. The ray is brought to the coordinates of a surface once for
 /// a run of its triangles.
-pub(super) struct FlattenedRay<'walk, S> {
-    surfaces: &'walk [Surface<S>],
-    flattened: &'walk Flattened,
+pub(super) struct FlattenedRay<'traverse, S> {
+    surfaces: &'traverse [Surface<S>],
+    flattened: &'traverse Flattened,
     ray: Ray,
     /// The primitive that the ray starts at.
     from: (usize, u32),
     /// The shear of the ray, once it is asked for.
-    shear: Option<Shear>,
+    watertight: Option<WatertightRay>,
     /// The surface of the triangle before, and the ray in its coordinates.
     local: Option<(usize, LocalRay)>,
 }
 
-impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
+impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
     /// Meets no triangle yet.
     #[inline]
     pub(super) fn new(
         ray: &Ray,
         from: (usize, u32),
-        surfaces: &'walk [Surface<S>],
-        flattened: &'walk Flattened,
+        surfaces: &'traverse [Surface<S>],
+        flattened: &'traverse Flattened,
     ) -> Self {
         Self {
             surfaces,
             flattened,
             ray: *ray,
             from,
-            shear: None,
+            watertight: None,
             local: None,
         }
     }
@@ -65,8 +65,10 @@ impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
         }
         let ray = self.ray;
         let t = if let Some(corners) = candidate.corners() {
-            let shear = self.shear.get_or_insert_with(|| Shear::new(&ray));
-            triangle::root(&corners, &ray, shear)
+            let watertight = self
+                .watertight
+                .get_or_insert_with(|| WatertightRay::new(&ray));
+            triangle::root(&corners, &ray, watertight)
         } else {
             let (shape, local) = self.brought_to(key.0);
             shape.intersect_prim(local, key.1)
@@ -100,7 +102,7 @@ impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
 
     /// The shape of a surface, and the ray in its coordinates.
     #[inline(always)]
-    fn brought_to(&mut self, surface: usize) -> (&'walk S, &LocalRay) {
+    fn brought_to(&mut self, surface: usize) -> (&'traverse S, &LocalRay) {
         let shape = &self.surfaces[surface].shape;
         if self.local.as_ref().is_some_and(|(of, _)| *of != surface) {
             self.local = None;
@@ -114,7 +116,7 @@ impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
 
 impl Flattened {
     /// Flattens the surfaces with these indices, which ascend.
-    pub(super) fn new<S: Geometry>(
+    pub(super) fn new<S: Intersect>(
         surfaces: &[Surface<S>],
         indices: &[u32],
         simd: SimdLevel,

@@ -5,7 +5,7 @@ use super::texture::Textures;
 use crate::bsdf::dispersed;
 use crate::material::phong::{PhongMaps, PhongMaterial};
 use crate::material::standard::*;
-use crate::shape::geometry::Asked;
+use crate::shape::geometry::AttributeRequest;
 use crate::texture::bilinear::Bump;
 use crate::texture::sampled::{ColorSpace, UvSets};
 use rtc_math::{UnitInterval, Vec3, Weight, cos, ln, sin};
@@ -209,7 +209,7 @@ struct Slots<'world> {
 
 impl Slots<'_> {
     /// The surface details that the material needs.
-    fn asked(&self, m: &Standard) -> Asked {
+    fn asked(&self, m: &Standard) -> AttributeRequest {
         let others = [
             &m.base_color_map,
             &m.emissive_map,
@@ -217,7 +217,7 @@ impl Slots<'_> {
             &m.clearcoat_normal_map,
         ];
         let mut maps = shading_maps(m).chain(others.into_iter().flatten());
-        Asked {
+        AttributeRequest {
             uv: maps.any(|map| self.is_looked_up(map)),
             tangent: m.anisotropy > UnitInterval::ZERO
                 || m.normal_map.is_some()
@@ -337,7 +337,7 @@ macro_rules! plain_layers {
         impl Slots<'_> {
             fn plain_layers(&self, m: &Standard) -> PlainLayers {
                 PlainLayers {
-                    $($layer: m.$of_weight.weighs().then(|| $prepared {
+                    $($layer: m.$of_weight.is_nonzero().then(|| $prepared {
                         $weight: self.$weight_kind(
                             m.$of_weight,
                             m.$weight_map.as_ref()

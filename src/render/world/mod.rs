@@ -4,7 +4,6 @@
 pub(crate) mod alpha;
 pub(crate) mod any;
 mod batch;
-pub(crate) mod few;
 mod flattened;
 mod light;
 mod material;
@@ -12,6 +11,7 @@ mod prepare;
 mod search;
 pub(crate) mod settings;
 pub(crate) mod shape;
+pub(crate) mod small_scene;
 mod texture;
 pub(crate) mod verify;
 
@@ -24,11 +24,10 @@ use crate::material::phong::PhongMaterial;
 use crate::material::standard::StandardMaterial;
 use crate::ray::Ray;
 use crate::shape::Shape;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::shape::tie::{CLOSE, Nearest, Tie};
-use crate::shape::triangle::Shear;
+use crate::shape::triangle::WatertightRay;
 use alpha::AlphaTested;
-use few::Few;
 use flattened::{Flattened, FlattenedRay};
 use light::LightList;
 use rtc_math::Vec3;
@@ -36,6 +35,7 @@ use rtc_plan::Plan;
 use rtc_valid::ValidScene;
 use search::{AnySearch, ClosestSearch};
 use settings::Settings;
+use small_scene::SmallScene;
 
 /// The first hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,25 +81,25 @@ pub struct World<S = Shape> {
     pub(crate) verify: Option<Verify>,
     /// The surfaces that shadow rays of paths test for alpha.
     pub(crate) alpha_tested: AlphaTested,
-    apart: Apart,
+    apart: ObjectBvh,
     /// The surfaces apart that cast shadows, if some of them don't.
-    casters: Option<Apart>,
+    casters: Option<ObjectBvh>,
     flattened: Option<Flattened>,
     /// The vector instructions that rays are traced with.
     pub(crate) simd: SimdLevel,
     /// All surfaces, if they are few and the integrator asks for bundles of rays.
-    pub(crate) few: Option<Few>,
+    pub(crate) few: Option<SmallScene>,
 }
 
 /// The surfaces that are not flattened.
-struct Apart {
+struct ObjectBvh {
     unbounded: Vec<u32>,
     bounded: Vec<u32>,
     /// The hierarchy of `bounded`.
     bvh: Bvh,
 }
 
-impl Apart {
+impl ObjectBvh {
     /// Whether there are none.
     #[inline]
     fn is_empty(&self) -> bool {
@@ -108,17 +108,17 @@ impl Apart {
 }
 
 /// The `t_max` that ends a walk.
-const OVER: f64 = -1.0;
+const STOP: f64 = -1.0;
 
 /// The primitive of a ray that starts at no surface.
-pub(crate) const NOWHERE: (usize, u32) = (usize::MAX, u32::MAX);
+pub(crate) const NO_PRIMITIVE: (usize, u32) = (usize::MAX, u32::MAX);
 
-impl<S: Geometry> World<S> {
+impl<S: Intersect> World<S> {
     /// The closest hit with t > 0. Ties within rounding go to the first surface and its first
     /// primitive. Non-finite rays hit nothing.
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
-        self.closest_hit_from(ray, NOWHERE)
+        self.closest_hit_from(ray, NO_PRIMITIVE)
     }
 
     /// As [`World::closest_hit`], for a ray that starts at a primitive of a surface. A flattened
@@ -135,7 +135,7 @@ impl<S: Geometry> World<S> {
         {
             let triangles = FlattenedRay::new(&ray, from, &self.surfaces, flattened);
             let mut search = ClosestSearch { triangles, nearest };
-            flattened.hierarchy.walk(&ray, nearest.t, &mut search);
+            flattened.hierarchy.traverse(&ray, nearest.t, &mut search);
             nearest = search.nearest;
         }
         self.hit(&ray, unit, from, &nearest)
@@ -151,8 +151,8 @@ impl<S: Geometry> World<S> {
         nearest: &Nearest<(usize, u32)>,
     ) -> Option<Hit> {
         let (t, (surface, prim_id)) = match nearest.key {
-            NOWHERE => return None,
-            _ if nearest.is_tied() => self.settle(ray, from, nearest.t)?,
+            NO_PRIMITIVE => return None,
+            _ if nearest.is_tied() => self.resolve(ray, from, nearest.t)?,
             key => (nearest.t, key),
         };
         Some(Hit {
@@ -165,18 +165,18 @@ impl<S: Geometry> World<S> {
     /// The closest hit on surfaces that are not flattened; infinite if there is none.
     #[inline]
     fn closest_hit_apart(&self, ray: &Ray) -> Nearest<(usize, u32)> {
-        let mut nearest = Nearest::up_to(f64::INFINITY, NOWHERE);
+        let mut nearest = Nearest::up_to(f64::INFINITY, NO_PRIMITIVE);
         let apart = &self.apart;
         if apart.is_empty() {
             return nearest;
         }
-        let shear = Shear::new(ray);
+        let watertight = WatertightRay::new(ray);
         let mut visit = |surface: u32| {
             let surface = surface as usize;
             if let Some((t, prim_id)) =
                 self.surfaces[surface]
                     .shape
-                    .closest_hit(ray, &shear, nearest.limit())
+                    .closest_hit(ray, &watertight, nearest.limit())
             {
                 nearest.add(t, (surface, prim_id));
             }
@@ -185,15 +185,15 @@ impl<S: Geometry> World<S> {
         for surface in &apart.unbounded {
             visit(*surface);
         }
-        apart.bvh.walk(ray, f64::INFINITY, |item, _| {
+        apart.bvh.traverse(ray, f64::INFINITY, |item, _| {
             visit(apart.bounded[item as usize])
         });
         nearest
     }
 
     /// The closest hit of a ray of length 1 where others are as close as `t`.
-    pub(crate) fn settled(&self, ray: &Ray, t: f64) -> Option<Hit> {
-        let (t, (surface, prim_id)) = self.settle(ray, NOWHERE, t)?;
+    pub(crate) fn resolved(&self, ray: &Ray, t: f64) -> Option<Hit> {
+        let (t, (surface, prim_id)) = self.resolve(ray, NO_PRIMITIVE, t)?;
         Some(Hit {
             t,
             surface,
@@ -204,8 +204,8 @@ impl<S: Geometry> World<S> {
     /// Breaks the tie between the hits as close as the one at `t`.
     #[cold]
     #[inline(never)]
-    fn settle(&self, ray: &Ray, from: (usize, u32), t: f64) -> Option<(f64, (usize, u32))> {
-        let (mut tie, shear) = (Tie::new(), Shear::new(ray));
+    fn resolve(&self, ray: &Ray, from: (usize, u32), t: f64) -> Option<(f64, (usize, u32))> {
+        let (mut tie, watertight) = (Tie::new(), WatertightRay::new(ray));
         let mut add = |t: f64, surface: usize, prim_id: u32| {
             tie.add(
                 t,
@@ -216,13 +216,13 @@ impl<S: Geometry> World<S> {
         let mut visit = |surface: u32| {
             let surface = surface as usize;
             let shape = &self.surfaces[surface].shape;
-            shape.visit_roots(ray, &shear, t * CLOSE, &mut |t, prim_id| {
+            shape.visit_roots(ray, &watertight, t * CLOSE, &mut |t, prim_id| {
                 add(t, surface, prim_id)
             });
         };
         let apart = &self.apart;
         apart.unbounded.iter().for_each(|surface| visit(*surface));
-        apart.bvh.walk(ray, t, |item, _| {
+        apart.bvh.traverse(ray, t, |item, _| {
             visit(apart.bounded[item as usize]);
             t
         });
@@ -236,7 +236,7 @@ impl<S: Geometry> World<S> {
                 }
                 t
             };
-            flattened.hierarchy.walk(ray, t, &mut visit);
+            flattened.hierarchy.traverse(ray, t, &mut visit);
         }
         tie.first()
     }
@@ -253,7 +253,7 @@ impl<S: Geometry> World<S> {
 
     /// Whether anything that casts shadows is hit with 0 < t < `t_max`.
     pub(crate) fn any_hit(&self, ray: &Ray, t_max: f64) -> bool {
-        self.any_hit_from(ray, t_max, NOWHERE)
+        self.any_hit_from(ray, t_max, NO_PRIMITIVE)
     }
 
     /// As [`World::any_hit`], for a ray that starts at the primitive `from`.
@@ -268,7 +268,7 @@ impl<S: Geometry> World<S> {
         {
             let triangles = FlattenedRay::new(&ray, from, &self.surfaces, flattened);
             let mut search = AnySearch::new(triangles, t_max);
-            flattened.hierarchy.walk(&ray, t_max, &mut search);
+            flattened.hierarchy.traverse(&ray, t_max, &mut search);
             return search.is_hit;
         }
         false
@@ -301,9 +301,9 @@ impl<S: Geometry> World<S> {
                         prim_id,
                     });
                 }
-                if transmittance > 0.0 { t_max } else { OVER }
+                if transmittance > 0.0 { t_max } else { STOP }
             };
-            flattened.hierarchy.walk(&ray, t_max, &mut visit);
+            flattened.hierarchy.traverse(&ray, t_max, &mut visit);
         }
         transmittance
     }
@@ -314,20 +314,20 @@ impl<S: Geometry> World<S> {
         if apart.is_empty() {
             return false;
         }
-        let shear = Shear::new(ray);
+        let watertight = WatertightRay::new(ray);
         let hits = |surface: u32| {
             let hit = self.surfaces[surface as usize]
                 .shape
-                .intersect(ray, &shear, t_max);
+                .intersect(ray, &watertight, t_max);
             hit.is_some_and(|(t, _)| t < t_max)
         };
         if apart.unbounded.iter().any(|surface| hits(*surface)) {
             return true;
         }
         let mut blocked = false;
-        apart.bvh.walk(ray, t_max, |item, t_max| {
+        apart.bvh.traverse(ray, t_max, |item, t_max| {
             blocked = blocked || hits(apart.bounded[item as usize]);
-            if blocked { OVER } else { t_max }
+            if blocked { STOP } else { t_max }
         });
         blocked
     }

@@ -1,16 +1,16 @@
 //! How a world is made of a proof: all that a hit would ask again and again is asked once, here.
 
 use super::alpha::AlphaTested;
-use super::few::Few;
 use super::flattened::{Flattened, flattened_surfaces};
 use super::material::{PhongList, standard};
 use super::settings::{camera, settings};
 use super::shape::Prepare;
+use super::small_scene::SmallScene;
 use super::texture::Textures;
-use super::{Apart, Surface, World, light};
+use super::{ObjectBvh, Surface, World, light};
 use crate::accel::bvh::Bvh;
 use crate::accel::simd::SimdLevel;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use rtc_plan::facts::material;
 use rtc_plan::{Plan, Rules};
 use rtc_valid::{self as valid, ValidScene};
@@ -107,14 +107,14 @@ fn surfaces<S: Prepare>(
 
 /// Where rays look for the surfaces of a world.
 struct Lookup {
-    apart: Apart,
-    casters: Option<Apart>,
+    apart: ObjectBvh,
+    casters: Option<ObjectBvh>,
     flattened: Option<Flattened>,
-    few: Option<Few>,
+    few: Option<SmallScene>,
 }
 
 impl Lookup {
-    fn of<S: Geometry>(
+    fn of<S: Intersect>(
         scene: &ValidScene,
         plan: &Plan,
         surfaces: &[Surface<S>],
@@ -139,21 +139,21 @@ impl Lookup {
         // A naive world asks all surfaces, so that a validation sees what a bundle passed over.
         let bundled = !is_path && plan.rules != Rules::NONE;
         let few = || {
-            let mut few = Few::new(surfaces, &apart, &casters)?;
+            let mut few = SmallScene::new(surfaces, &apart, &casters)?;
             few.follow(surfaces, plan);
             Some(few)
         };
         Self {
             few: bundled.then(few).flatten(),
-            casters: (casters.len() < apart.len()).then(|| Apart::of(surfaces, &casters)),
-            apart: Apart::of(surfaces, &apart),
+            casters: (casters.len() < apart.len()).then(|| ObjectBvh::of(surfaces, &casters)),
+            apart: ObjectBvh::of(surfaces, &apart),
             flattened: Flattened::new(surfaces, &flattened, simd),
         }
     }
 }
 
-impl Apart {
-    fn of<S: Geometry>(surfaces: &[Surface<S>], indices: &[u32]) -> Self {
+impl ObjectBvh {
+    fn of<S: Intersect>(surfaces: &[Surface<S>], indices: &[u32]) -> Self {
         let (mut unbounded, mut bounded, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
         for index in indices {
             match surfaces[*index as usize].shape.bounds() {

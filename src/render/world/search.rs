@@ -1,19 +1,19 @@
 //! What a ray asks of the flattened triangles it may hit: which is the nearest, or whether there is
 //! any.
 
-use super::OVER;
+use super::STOP;
 use super::flattened::FlattenedRay;
 use crate::accel::wide::{Candidate, Visitor};
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::shape::tie::Nearest;
 
 /// Looks for the nearest hit.
-pub(super) struct ClosestSearch<'walk, S> {
-    pub(super) triangles: FlattenedRay<'walk, S>,
+pub(super) struct ClosestSearch<'traverse, S> {
+    pub(super) triangles: FlattenedRay<'traverse, S>,
     pub(super) nearest: Nearest<(usize, u32)>,
 }
 
-impl<S: Geometry> Visitor for ClosestSearch<'_, S> {
+impl<S: Intersect> Visitor for ClosestSearch<'_, S> {
     #[inline(always)]
     fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
         if let Some((t, key)) = self.triangles.root(&candidate) {
@@ -24,14 +24,14 @@ impl<S: Geometry> Visitor for ClosestSearch<'_, S> {
 }
 
 /// Looks whether anything is hit with 0 < t < `t_max`.
-pub(super) struct AnySearch<'walk, S> {
-    triangles: FlattenedRay<'walk, S>,
+pub(super) struct AnySearch<'traverse, S> {
+    triangles: FlattenedRay<'traverse, S>,
     t_max: f64,
     pub(super) is_hit: bool,
 }
 
-impl<'walk, S> AnySearch<'walk, S> {
-    pub(super) fn new(triangles: FlattenedRay<'walk, S>, t_max: f64) -> Self {
+impl<'traverse, S> AnySearch<'traverse, S> {
+    pub(super) fn new(triangles: FlattenedRay<'traverse, S>, t_max: f64) -> Self {
         Self {
             triangles,
             t_max,
@@ -40,13 +40,13 @@ impl<'walk, S> AnySearch<'walk, S> {
     }
 }
 
-impl<S: Geometry> Visitor for AnySearch<'_, S> {
+impl<S: Intersect> Visitor for AnySearch<'_, S> {
     const IS_SURE: bool = true;
 
     #[inline(always)]
     fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
         self.is_hit = self.triangles.root_before(&candidate, self.t_max).is_some();
-        if self.is_hit { OVER } else { self.t_max }
+        if self.is_hit { STOP } else { self.t_max }
     }
 
     /// What is hit for sure in single precision is hit in double precision.

@@ -2,12 +2,12 @@
 
 use crate::accel::simd::SimdLevel;
 use crate::shape::Shape;
+use crate::shape::baseline::BaselineShape;
+use crate::shape::baseline::real::Real;
 use crate::shape::basic::Basic;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::shape::kinds::*;
-use crate::shape::mesh::{Attributes, PlainMesh, PreparedMesh};
-use crate::shape::plain::PlainShape;
-use crate::shape::plain::real::Real;
+use crate::shape::mesh::{Attributes, BaselineMesh, PreparedMesh};
 use crate::shape::sphere::{self, TexturedSphere};
 use crate::shape::triangle::{self, TexturedTriangle};
 use rtc_math::Vec3;
@@ -15,7 +15,7 @@ use rtc_valid as valid;
 use std::sync::Arc;
 
 /// A kind of shape that is made of proven ones.
-pub trait Prepare: Geometry {
+pub trait Prepare: Intersect {
     /// A mesh prepared once for all its instances.
     type Mesh: Send + Sync;
 
@@ -57,7 +57,7 @@ impl Prepare for Shape {
 }
 
 /// A proven shape of one kind.
-trait Proven {
+trait PrepareShape {
     /// What stands for it in a world.
     type Prepared;
 
@@ -84,7 +84,7 @@ macro_rules! by_values {
     ($Name:ident derived {
         $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
     }) => {
-        impl Proven for valid::$Name {
+        impl PrepareShape for valid::$Name {
             type Prepared = $Name;
 
             fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<$Name> {
@@ -106,7 +106,7 @@ macro_rules! number {
 
 rtc_tables::shapes!(prepare);
 
-impl Proven for valid::Sphere {
+impl PrepareShape for valid::Sphere {
     type Prepared = TexturedSphere;
 
     fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<TexturedSphere> {
@@ -121,7 +121,7 @@ impl Proven for valid::Sphere {
     }
 }
 
-impl Proven for valid::Triangle {
+impl PrepareShape for valid::Triangle {
     type Prepared = TexturedTriangle;
 
     /// `None` for a triangle whose area the arithmetic can't tell from 0: no ray hits it.
@@ -133,7 +133,7 @@ impl Proven for valid::Triangle {
     }
 }
 
-impl Proven for valid::Quad {
+impl PrepareShape for valid::Quad {
     type Prepared = Quad;
 
     fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<Quad> {
@@ -141,7 +141,7 @@ impl Proven for valid::Quad {
     }
 }
 
-impl Proven for valid::Instance {
+impl PrepareShape for valid::Instance {
     type Prepared = Instance;
 
     fn prepared(&self, meshes: &[Arc<PreparedMesh>]) -> Option<Instance> {
@@ -170,15 +170,15 @@ impl Prepare for Basic {
     }
 }
 
-impl<R: Real> Prepare for PlainShape<R> {
-    type Mesh = PlainMesh<R>;
+impl<R: Real> Prepare for BaselineShape<R> {
+    type Mesh = BaselineMesh<R>;
 
-    fn prepare_mesh(mesh: &valid::Mesh, simd: SimdLevel) -> PlainMesh<R> {
-        PlainMesh::new(Shape::prepare_mesh(mesh, simd))
+    fn prepare_mesh(mesh: &valid::Mesh, simd: SimdLevel) -> BaselineMesh<R> {
+        BaselineMesh::new(Shape::prepare_mesh(mesh, simd))
     }
 
-    fn prepare(shape: &valid::Shape, meshes: &[Arc<PlainMesh<R>>]) -> Option<Self> {
-        let robust = |mesh: &Arc<PlainMesh<R>>| Arc::clone(&mesh.robust);
+    fn prepare(shape: &valid::Shape, meshes: &[Arc<BaselineMesh<R>>]) -> Option<Self> {
+        let robust = |mesh: &Arc<BaselineMesh<R>>| Arc::clone(&mesh.robust);
         let robust = Shape::prepare(shape, &meshes.iter().map(robust).collect::<Vec<_>>())?;
         let mesh = if let valid::Shape::Instance(instance) = shape {
             Some(&meshes[instance.mesh])

@@ -7,7 +7,7 @@ use crate::film::heartbeat::OnPixel;
 use crate::film::{Crop, Film, Job};
 use crate::frame::verify::{Mismatch, Verify, first_difference};
 use crate::shape::Shape;
-use crate::shape::plain::PlainShape;
+use crate::shape::baseline::BaselineShape;
 use rtc_plan::{Arithmetic, Effect, Plan, Rule, Rules};
 use rtc_valid::ValidScene;
 
@@ -25,8 +25,8 @@ pub fn verify(
     let planned = render(scene, plan, job, on_pixel)?;
     let (naive, verify) = match plan.arithmetic {
         Arithmetic::Robust => naively::<Shape>(scene, plan, job, on_pixel)?,
-        Arithmetic::Plain => naively::<PlainShape<f64>>(scene, plan, job, on_pixel)?,
-        Arithmetic::F32 => naively::<PlainShape<f32>>(scene, plan, job, on_pixel)?,
+        Arithmetic::Plain => naively::<BaselineShape<f64>>(scene, plan, job, on_pixel)?,
+        Arithmetic::F32 => naively::<BaselineShape<f32>>(scene, plan, job, on_pixel)?,
     };
     if !plan.rules.contains(Rule::Cut)
         && let Some((pixel, color)) = first_difference(&planned, &naive, job)
@@ -75,14 +75,14 @@ fn blame(
         rule: None,
         what: "the pixel is another without the rules",
     };
-    for verdict in &plan.statuses {
-        let Some(rule) = verdict.rule.filter(|rule| plan.rules.contains(*rule)) else {
+    for hit_mask in &plan.statuses {
+        let Some(rule) = hit_mask.rule.filter(|rule| plan.rules.contains(*rule)) else {
             continue;
         };
         let without = Plan::with_arithmetic(plan.arithmetic, scene, plan.rules.without(rule));
         let film = render(scene, &without, &Job { crop, ..*job }, on_pixel)?;
         if film.image.pixels.first() == Some(&color) {
-            (mismatch.effect, mismatch.rule) = (verdict.effect, Some(rule));
+            (mismatch.effect, mismatch.rule) = (hit_mask.effect, Some(rule));
             break;
         }
     }

@@ -200,12 +200,12 @@ impl Dice {
     fn stretch_directions(&mut self, scene: &mut Scene) {
         for surface in &mut scene.surfaces {
             if let Some(direction) = direction(&mut surface.shape) {
-                *direction = self.stretched(*direction);
+                *direction = self.lambda_root(*direction);
             }
         }
         for light in &mut scene.lights {
             if let Light::Punctual(ir::Punctual { emitter, .. }) = light {
-                emitter.transform(|point| point, |direction| self.stretched(direction), 1.0);
+                emitter.transform(|point| point, |direction| self.lambda_root(direction), 1.0);
             }
         }
         for mesh in scene
@@ -222,7 +222,7 @@ impl Dice {
         }
     }
 
-    fn stretched(&mut self, mut direction: [f64; 3]) -> [f64; 3] {
+    fn lambda_root(&mut self, mut direction: [f64; 3]) -> [f64; 3] {
         if self.chance(2) {
             let length = self.pick(&[1e-300, 1e-200, 1e-161, 1e-155, 1e155, 1e161, 1e200, 1e300]);
             direction = direction.map(|component| component * length);

@@ -1,7 +1,7 @@
 //! Builds meshes from grids of vertices with normals.
 
 use rtc_ir::{Column, Mesh};
-use rtc_math::{Vec3, cos_sin_turns};
+use rtc_math::{Vec3, cos_sin_revolutions};
 
 /// A vertex.
 #[derive(Clone, Copy)]
@@ -92,7 +92,7 @@ pub(super) fn circle_point(step: u32, steps: u32) -> [f64; 2] {
         clippy::cast_possible_truncation,
         reason = "a whole turn is none, which is what the cut off bit says"
     )]
-    let (cos, sin) = cos_sin_turns(turns as u64);
+    let (cos, sin) = cos_sin_revolutions(turns as u64);
     [cos, sin]
 }
 

@@ -12,7 +12,7 @@ use crate::course::synonym::{POSITION, RADIUS, with_canonical};
 use crate::course::value::{AnyScalar, Point, Vector};
 use rtc_diag::{Severity, codes};
 use rtc_ir as ir;
-use rtc_math::{Vec3, axis_and_angle, turned_about, turned_to_z, unit};
+use rtc_math::{Vec3, axis_and_angle, rotated_about, rotated_to_z, unit};
 use rtc_source::Span;
 use rtc_source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
@@ -104,7 +104,7 @@ impl Lower for Sphere {
                 texture_rotation(quaternion.value)
             }
             FieldOutcome::Absent | FieldOutcome::Broken => {
-                turned_to_z(texture_axis(radius, axis, context), angle.value.0)
+                rotated_to_z(texture_axis(radius, axis, context), angle.value.0)
             }
         };
         let shape = ir::Shape::Sphere(ir::Sphere {
@@ -182,9 +182,9 @@ fn texture_rotation(Quaternion(parts): Quaternion) -> Option<[[f64; 3]; 3]> {
     let s = axis.dot(Vec3::new(x, y, z));
     let sin_cos = [2.0 * w * s, w * w - s * s].map(|part| part / (w * w + s * s));
     // Through an axis and an angle, so that writing these gives the same bits again.
-    let rows = Vec3::AXES.map(|v| turned_about(v, axis, sin_cos).to_array());
+    let rows = Vec3::AXES.map(|v| rotated_about(v, axis, sin_cos).to_array());
     let (pole, angle) = axis_and_angle(rows);
-    turned_to_z(unit(pole)?, angle)
+    rotated_to_z(unit(pole)?, angle)
 }
 
 /// Reports a rotation that a quaternion overrides, and a quaternion of length 0.

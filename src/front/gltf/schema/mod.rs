@@ -5,12 +5,12 @@ mod core;
 mod extension;
 mod json;
 mod own;
+mod traverse;
 mod value;
-mod walk;
 
 pub(super) use extension::{find, rows as extension_rows};
 pub(super) use json::schema;
-pub(super) use walk::walk;
+pub(super) use traverse::traverse;
 
 /// A kind of object.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! The value of one property against what its table says.
 
-use super::walk::Walk;
+use super::traverse::Walk;
 use super::{Bounds, IndexTarget, Value};
 use rtc_diag::codes;
 use rtc_source::tree::{NodeId, NodeKind};

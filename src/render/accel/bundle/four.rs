@@ -1,16 +1,16 @@
 //! Bundles asked for by four rays at once, one in each lane. Shapes that are asked in four lanes cost
 //! less than a bundle of few rays, so after such a one some rays go without.
 
-use super::{Balls, Bundles, LEVELS, ONE, RayCone, Shaft};
+use super::{BoundingSpheres, LEVELS, ONE, RayCone, RayConeCache, Shaft};
 use crate::accel::bounds::BoundingSphere;
-use crate::lanes::{FourRays, LANES, Vectors, lanes_of};
+use crate::lanes::{LANES, Ray4, Vectors, lanes_of};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4};
 
 impl RayCone {
     /// The lanes whose rays it holds.
     #[inline(always)]
-    fn holds_each<S: Simd>(&self, simd: S, rays: &FourRays<S>) -> u64 {
+    fn holds_each<S: Simd>(&self, simd: S, rays: &Ray4<S>) -> u64 {
         let from = rays.origin.minus(Vectors::splat(simd, self.origin));
         let along = rays.direction.minus(Vectors::splat(simd, self.direction));
         let is_near = from.dot(from).simd_le(f64x4::splat(simd, self.near));
@@ -32,16 +32,16 @@ impl Shaft {
     }
 }
 
-impl Bundles {
+impl RayConeCache {
     /// As [`Self::along`], of the rays of some lanes: those whose bundle can say, and the items that
     /// one of them may meet.
     #[inline(always)]
     pub(crate) fn along_each<S: Simd>(
         &mut self,
         simd: S,
-        balls: &Balls,
+        balls: &BoundingSpheres,
         bounce: usize,
-        rays: &FourRays<S>,
+        rays: &Ray4<S>,
         asked: u64,
     ) -> (u64, u64) {
         let cone = &mut self.cones[bounce % LEVELS];
@@ -72,7 +72,7 @@ impl Bundles {
     #[inline(always)]
     pub(crate) fn towards_each<S: Simd>(
         &mut self,
-        balls: &Balls,
+        balls: &BoundingSpheres,
         [bounce, light, lights]: [usize; 3],
         from: Vectors<S>,
         asked: u64,
@@ -104,7 +104,7 @@ impl Bundles {
 
 /// The lanes whose rays a cone can be around.
 #[inline(always)]
-fn are_sound<S: Simd>(simd: S, rays: &FourRays<S>) -> u64 {
+fn are_sound<S: Simd>(simd: S, rays: &Ray4<S>) -> u64 {
     let number = |x: f64| f64x4::splat(simd, x);
     let is_finite = rays.origin.abs().sum().simd_lt(number(f64::INFINITY));
     let length2 = rays.direction.dot(rays.direction);

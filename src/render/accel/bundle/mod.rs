@@ -30,7 +30,7 @@ const WIDEST: f64 = 0.5;
 
 /// The balls of a few items, each known by a bit.
 #[derive(Debug)]
-pub(crate) struct Balls {
+pub(crate) struct BoundingSpheres {
     balls: Vec<(u64, BoundingSphere)>,
     /// The items without a ball: every ray may meet them.
     unbounded: u64,
@@ -40,7 +40,7 @@ pub(crate) struct Balls {
     smallest: f64,
 }
 
-impl Balls {
+impl BoundingSpheres {
     /// The balls of some items by their bits, at most [`MAX_ITEMS`].
     pub(crate) fn new(items: impl Iterator<Item = (usize, Option<BoundingSphere>)>) -> Self {
         let (mut balls, mut smallest) = (Vec::new(), f64::INFINITY);
@@ -82,7 +82,7 @@ impl Balls {
 /// How wide the next bundle is to be: bundles that few rays used become wider, those that many used
 /// narrower. It changes how long something takes, never what is found.
 #[derive(Clone, Copy, Debug)]
-struct Pace {
+struct ConeSizeHeuristic {
     uses: u32,
     /// The width wanted, in radii of the smallest ball.
     width: f64,
@@ -90,7 +90,7 @@ struct Pace {
     pause: u32,
 }
 
-impl Pace {
+impl ConeSizeHeuristic {
     const START: Self = Self {
         uses: Self::FEW,
         width: 0.125,
@@ -122,11 +122,11 @@ impl Pace {
         if self.pause == 0 && self.uses < Self::FEW {
             self.pause = Self::PAUSE;
         }
-        let goes_on = self.pause > 1;
-        if goes_on {
+        let should_continue = self.pause > 1;
+        if should_continue {
             self.pause -= rays.min(self.pause - 1);
         }
-        goes_on
+        should_continue
     }
 }
 
@@ -142,7 +142,7 @@ struct RayCone {
     alike: f64,
     /// The items that they may meet.
     items: u64,
-    pace: Pace,
+    pace: ConeSizeHeuristic,
 }
 
 impl RayCone {
@@ -152,7 +152,7 @@ impl RayCone {
         near: -1.0,
         alike: -1.0,
         items: 0,
-        pace: Pace::START,
+        pace: ConeSizeHeuristic::START,
     };
 
     #[inline(always)]
@@ -163,7 +163,7 @@ impl RayCone {
 
     /// A cone around a ray, of directions of length 1; `None` for other rays.
     #[inline(never)]
-    fn around(&self, ray: &Ray, balls: &Balls) -> Option<Self> {
+    fn around(&self, ray: &Ray, balls: &BoundingSpheres) -> Option<Self> {
         let length2 = ray.direction.dot(ray.direction);
         if !(ray.origin.is_finite() && (length2 - 1.0).abs() <= ONE) {
             return None;
@@ -235,7 +235,7 @@ struct Shaft {
     near: f64,
     /// The items that they may meet.
     items: u64,
-    pace: Pace,
+    pace: ConeSizeHeuristic,
 }
 
 impl Shaft {
@@ -244,7 +244,7 @@ impl Shaft {
         from: Vec3::ZERO,
         near: -1.0,
         items: 0,
-        pace: Pace::START,
+        pace: ConeSizeHeuristic::START,
     };
 
     #[inline(always)]
@@ -255,7 +255,13 @@ impl Shaft {
 
     /// A shaft around the segment from a point to the centre of a light.
     #[inline(never)]
-    fn around(&self, balls: &Balls, light: usize, from: Vec3, target: &BoundingSphere) -> Self {
+    fn around(
+        &self,
+        balls: &BoundingSpheres,
+        light: usize,
+        from: Vec3,
+        target: &BoundingSphere,
+    ) -> Self {
         let pace = self.pace.next();
         let clearance =
             |(_, ball): &(u64, BoundingSphere)| segment_clearance(from, target.center, ball);
@@ -289,12 +295,12 @@ const SHAFTS: usize = 32;
 
 /// The bundles under way: of rays by bounce, of shadow rays by bounce and light.
 #[derive(Debug)]
-pub(crate) struct Bundles {
+pub(crate) struct RayConeCache {
     cones: [RayCone; LEVELS],
     shafts: [Shaft; SHAFTS],
 }
 
-impl Bundles {
+impl RayConeCache {
     /// None yet.
     pub(crate) const EMPTY: Self = Self {
         cones: [RayCone::EMPTY; LEVELS],
@@ -303,7 +309,12 @@ impl Bundles {
 
     /// The items that a ray after so many bounces may meet; `None` if its bundle can't say.
     #[inline(always)]
-    pub(crate) fn along(&mut self, balls: &Balls, bounce: usize, ray: &Ray) -> Option<u64> {
+    pub(crate) fn along(
+        &mut self,
+        balls: &BoundingSpheres,
+        bounce: usize,
+        ray: &Ray,
+    ) -> Option<u64> {
         let cone = &mut self.cones[bounce % LEVELS];
         if !cone.holds(ray) {
             *cone = cone.around(ray, balls)?;
@@ -317,7 +328,7 @@ impl Bundles {
     #[inline(always)]
     pub(crate) fn towards(
         &mut self,
-        balls: &Balls,
+        balls: &BoundingSpheres,
         [bounce, light, lights]: [usize; 3],
         from: Vec3,
         target: impl FnOnce() -> BoundingSphere,

@@ -2,12 +2,12 @@
 
 use super::*;
 use crate::accel::simd::baseline;
-use crate::lanes::FourRays;
+use crate::lanes::Ray4;
 use crate::sampler::Key;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::shape::sphere::{Sphere, TexturedSphere};
 use crate::shape::torus::Torus;
-use crate::shape::triangle::Shear;
+use crate::shape::triangle::WatertightRay;
 use rayon::prelude::*;
 
 /// The names of the families of scenes, the size of their shapes, and how far off they stand.
@@ -56,27 +56,27 @@ impl Case {
         }
     }
 
-    fn balls(&self) -> Balls {
+    fn balls(&self) -> BoundingSpheres {
         let sphere = TexturedSphere {
             sphere: self.sphere,
             texture_from_world: Vec3::AXES,
         };
         let balls = [sphere.ball(), self.torus.ball()];
-        Balls::new(balls.into_iter().enumerate())
+        BoundingSpheres::new(balls.into_iter().enumerate())
     }
 
     /// The bits of the shapes that a ray hits before `t_max`.
     fn hits(&self, ray: &Ray, t_max: f64) -> u64 {
-        let shear = Shear::new(ray);
-        let torus = Geometry::intersect(&self.torus, ray, &shear, t_max).map(|(t, _)| t);
+        let watertight = WatertightRay::new(ray);
+        let torus = Intersect::intersect(&self.torus, ray, &watertight, t_max).map(|(t, _)| t);
         let hits = [self.sphere.intersect(ray), torus];
         let is_hit = hits.map(|t| u64::from(t.is_some_and(|t| t < t_max)));
         is_hit[0] | is_hit[1] << 1
     }
 }
 
-/// Sums the hits and the faults that `judge` finds in the cases of each family.
-fn no_fault(what: &str, judge: impl Fn(&Case) -> [u64; 2] + Sync) {
+/// Sums the hits and the faults that `intersect4` finds in the cases of each family.
+fn no_fault(what: &str, intersect4: impl Fn(&Case) -> [u64; 2] + Sync) {
     let cases = std::env::var("RTC_RAYS")
         .ok()
         .and_then(|count| count.parse().ok())
@@ -84,7 +84,7 @@ fn no_fault(what: &str, judge: impl Fn(&Case) -> [u64; 2] + Sync) {
     for (family, (name, ..)) in FAMILIES.into_iter().enumerate() {
         let [hits, faults] = (0..cases)
             .into_par_iter()
-            .map(|index| judge(&Case::new(family, index)))
+            .map(|index| intersect4(&Case::new(family, index)))
             .reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
         println!("| {what} | {name} | {hits} | {faults} |");
         assert!(
@@ -165,7 +165,7 @@ fn four_lanes_are_told_of_all_that_each_may_hit() {
     let (mut hits, mut fewer) = (0, 0);
     for index in 0..1000 {
         let case = Case::new((index % 2) as usize, index);
-        let (balls, mut bundles) = (case.balls(), Bundles::EMPTY);
+        let (balls, mut bundles) = (case.balls(), RayConeCache::EMPTY);
         let spread = [1e-3, 0.1, 1.0][(index % 3) as usize];
         let target = BoundingSphere {
             center: case.sphere.center * 2.0 - case.ray.origin,
@@ -180,7 +180,7 @@ fn four_lanes_are_told_of_all_that_each_may_hit() {
                     direction: (case.ray.direction + aside).normalize(),
                 }
             });
-            let four = FourRays::each(simd, &rays);
+            let four = Ray4::each(simd, &rays);
             let (said, items) = bundles.along_each(simd, &balls, 0, &four, 0b1101);
             assert_eq!(said, 0b1101);
             let between = bundles.towards_each(&balls, [0, 0, 1], four.origin, 0b1011, || target);
@@ -219,9 +219,9 @@ fn rays_that_are_not_of_length_one_or_not_finite_have_no_cone() {
         let ray = Ray { origin, direction };
         assert!(RayCone::EMPTY.around(&ray, &balls).is_none());
         // With a bundle that is asked for, and in a pause.
-        let (simd, mut bundles) = (baseline(), Bundles::EMPTY);
-        let four = FourRays::each(simd, &[ray, case.ray, case.ray, ray]);
-        for pause in [0, Pace::PAUSE] {
+        let (simd, mut bundles) = (baseline(), RayConeCache::EMPTY);
+        let four = Ray4::each(simd, &[ray, case.ray, case.ray, ray]);
+        for pause in [0, ConeSizeHeuristic::PAUSE] {
             bundles.cones[0].near = -1.0;
             bundles.cones[0].pace.pause = pause;
             let (said, _) = bundles.along_each(simd, &balls, 0, &four, 0b1111);
@@ -238,8 +238,8 @@ fn a_bundle_keeps_only_what_its_rays_can_meet() {
         radius: 1.0,
     };
     let items = [Some(ball(10.0)), Some(ball(-10.0)), None];
-    let balls = Balls::new(items.into_iter().enumerate());
-    let mut bundles = Bundles::EMPTY;
+    let balls = BoundingSpheres::new(items.into_iter().enumerate());
+    let mut bundles = RayConeCache::EMPTY;
     let ray = Ray {
         origin: Vec3::ZERO,
         direction: Vec3::X,

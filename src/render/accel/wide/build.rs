@@ -4,9 +4,9 @@
 //! Its upper part is built first, then what hangs below, on all threads if they may help; the result
 //! does not depend on how many there are.
 
-use super::split::{BoxedItem, Part};
+use super::split::{BoxedItem, BuildRange};
 use super::{LEAF, NONE, Wide};
-use crate::accel::beam::QuantizationFrame;
+use crate::accel::conservative_ray::QuantizationFrame;
 use crate::accel::lanes::{
     ITEM, LINKS, ROWS_AFTER, TRIANGLES, TriangleRow, WIDTH, WideNode, place,
 };
@@ -79,7 +79,7 @@ impl Wide {
         Some(Self {
             simd,
             frame,
-            nodes: Pages::joined(nodes),
+            nodes: Pages::merged(nodes),
             triangles,
             root,
             unit: frame.unit().filter(|_| is_exact),
@@ -129,7 +129,7 @@ struct GrownBranch {
 
 /// A part that is left for later, and where the link to it goes.
 struct LeftPart<'items> {
-    part: Part<'items>,
+    part: BuildRange<'items>,
     depth: usize,
     node: usize,
     lane: usize,
@@ -143,7 +143,7 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
     let alone = ALONE.max(items.len() / 64);
     let mut top = BuildBranch::new();
     let mut left = Vec::new();
-    let root = top.grow(Part::of(0, items), 0, leaves, &mut |part| {
+    let root = top.grow(BuildRange::of(0, items), 0, leaves, &mut |part| {
         let is_small = part.part.items.len() <= alone;
         if is_small {
             left.push(part);
@@ -198,7 +198,7 @@ impl BuildBranch {
     /// a node for later.
     fn grow<'items, C: Fn(u32) -> [Vec3; 3]>(
         &mut self,
-        part: Part<'items>,
+        part: BuildRange<'items>,
         depth: usize,
         leaves: &Leaves<C>,
         take: &mut impl FnMut(LeftPart<'items>) -> Option<LeftPart<'items>>,
@@ -232,7 +232,7 @@ impl BuildBranch {
 
 /// The node of some children, without their links; the boxes of those that are not there are met by
 /// no ray.
-fn node(children: &[Part<'_>]) -> WideNode {
+fn node(children: &[BuildRange<'_>]) -> WideNode {
     let mut node = [0.0; LINKS + 2 * WIDTH];
     for axis in 0..3 {
         for lane in 0..WIDTH {

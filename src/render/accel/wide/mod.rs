@@ -4,18 +4,18 @@
 //! single precision in a cube about the geometry; a ray meets all boxes or triangles at once.
 
 mod build;
+mod packet_traversal;
 mod split;
-mod together;
-mod walk;
+mod traverse;
 
-use crate::accel::beam::QuantizationFrame;
+use crate::accel::conservative_ray::QuantizationFrame;
 use crate::accel::lanes::{TRIANGLES, TriangleRow, WIDTH, WideLeaf, WideNode, place};
 use crate::accel::pages::Pages;
 use crate::accel::simd::SimdLevel;
 use arrayvec::ArrayVec;
 pub(crate) use build::{Builders, MOST};
 use rtc_math::Vec3;
-pub(crate) use walk::Visitor;
+pub(crate) use traverse::Visitor;
 
 /// Below this depth the heuristic chooses; above it the middle, which needs at most 12 more.
 const HEURISTIC_DEPTH: usize = 16;
@@ -53,10 +53,10 @@ impl Wide {
 
 /// A triangle that a ray may hit.
 #[derive(Clone, Copy)]
-pub(crate) struct Candidate<'walk> {
+pub(crate) struct Candidate<'traverse> {
     /// Its number.
     pub(crate) item: u32,
-    leaf: WideLeaf<'walk>,
+    leaf: WideLeaf<'traverse>,
     lane: usize,
     unit: Option<f64>,
 }

@@ -90,7 +90,7 @@ impl LaneBox {
 }
 
 /// Some items side by side from a row on, the box around them, and that around twice their centres.
-pub(super) struct Part<'items> {
+pub(super) struct BuildRange<'items> {
     pub(super) first: usize,
     pub(super) items: &'items mut [TriangleRow],
     bounds: LaneBox,
@@ -101,7 +101,7 @@ pub(super) struct Part<'items> {
 
 /// A border between two bins of an axis.
 #[derive(Clone, Copy)]
-struct Border {
+struct SplitPlane {
     work: f32,
     axis: usize,
     bin: usize,
@@ -112,7 +112,7 @@ struct Border {
 /// The bins of all axes: the box of what is in each, and how much that is.
 type Bins = ArrayVec<[(LaneBox, u32); 3], BINS>;
 
-impl<'items> Part<'items> {
+impl<'items> BuildRange<'items> {
     /// All of some items, of which the first is in this row.
     pub(super) fn of(first: usize, items: &'items mut [TriangleRow]) -> Self {
         let (mut bounds, mut centers) = (LaneBox::EMPTY, LaneBox::EMPTY);
@@ -194,14 +194,14 @@ impl<'items> Part<'items> {
         let count = bins_of(self.items.len());
         let scale = Lanes::splat(count as f32 * 0.9999) / size.max(Lanes::splat(1e-30));
         let bins = |item: &TriangleRow| (item.center() - self.centers.min) * scale;
-        let border = if by_heuristic {
-            cheapest_border(&self.fill(builders, count, &bins), size)
+        let split_plane = if by_heuristic {
+            best_split(&self.fill(builders, count, &bins), size)
         } else {
             None
         };
-        match border {
-            Some(border) => self.parted(&border, scale),
-            None => self.halved(size),
+        match split_plane {
+            Some(split_plane) => self.partitioned(&split_plane, scale),
+            None => self.median_split(size),
         }
     }
 
@@ -213,19 +213,20 @@ impl<'items> Part<'items> {
         place: &(impl Fn(&TriangleRow) -> Lanes + Sync),
     ) -> Bins {
         if builders == Builders::One || self.items.len() <= 2 * CHUNK {
-            return filled(self.items, count, place);
+            return binned(self.items, count, place);
         }
         self.items
             .par_chunks(CHUNK)
-            .map(|items| filled(items, count, place))
-            .reduce(|| empty_bins(count), joined)
+            .map(|items| binned(items, count, place))
+            .reduce(|| empty_bins(count), merged)
     }
 
     /// The items below a border, and those above.
-    fn parted(self, border: &Border, scale: Lanes) -> [Self; 2] {
-        let (axis, origin) = (border.axis, self.centers.min[border.axis]);
-        let is_below =
-            |item: &TriangleRow| bin((item.center()[axis] - origin) * scale[axis]) < border.bin;
+    fn partitioned(self, split_plane: &SplitPlane, scale: Lanes) -> [Self; 2] {
+        let (axis, origin) = (split_plane.axis, self.centers.min[split_plane.axis]);
+        let is_below = |item: &TriangleRow| {
+            bin((item.center()[axis] - origin) * scale[axis]) < split_plane.bin
+        };
         let mut centers = [LaneBox::EMPTY; 2];
         let (mut next, mut end) = (0, self.items.len());
         while next < end {
@@ -243,7 +244,7 @@ impl<'items> Part<'items> {
         let part = |items, side: usize| Self {
             first: self.first + side * next,
             items,
-            bounds: border.sides[side],
+            bounds: split_plane.sides[side],
             centers: centers[side],
             is_sifted: self.is_sifted,
         };
@@ -251,7 +252,7 @@ impl<'items> Part<'items> {
     }
 
     /// Two halves along the widest axis.
-    fn halved(self, size: Lanes) -> [Self; 2] {
+    fn median_split(self, size: Lanes) -> [Self; 2] {
         let widest = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b]));
         let axis = widest.unwrap_or(0);
         let middle = self.items.len() / 2;
@@ -277,7 +278,7 @@ fn empty_bins(count: usize) -> Bins {
 
 /// The bins of some items.
 #[inline(always)]
-fn filled(items: &[TriangleRow], count: usize, place: &impl Fn(&TriangleRow) -> Lanes) -> Bins {
+fn binned(items: &[TriangleRow], count: usize, place: &impl Fn(&TriangleRow) -> Lanes) -> Bins {
     let mut bins = empty_bins(count);
     for item in items {
         let places = place(item).to_array();
@@ -291,7 +292,7 @@ fn filled(items: &[TriangleRow], count: usize, place: &impl Fn(&TriangleRow) -> 
 }
 
 /// The bins of the items of both.
-fn joined(mut bins: Bins, others: Bins) -> Bins {
+fn merged(mut bins: Bins, others: Bins) -> Bins {
     for ((bounds, count), (other, more)) in bins.iter_mut().flatten().zip(others.iter().flatten()) {
         bounds.add(other.min, other.max);
         *count += more;
@@ -312,8 +313,8 @@ fn bin(place: f32) -> usize {
 
 /// The border with the least expected work on both sides, if any has items on both. So many
 /// triangles are tested at once as a leaf has.
-fn cheapest_border(bins: &Bins, size: Lanes) -> Option<Border> {
-    let mut best: Option<Border> = None;
+fn best_split(bins: &Bins, size: Lanes) -> Option<SplitPlane> {
+    let mut best: Option<SplitPlane> = None;
     let mut above = [(f32::INFINITY, LaneBox::EMPTY); BINS];
     for axis in (0..3).filter(|axis| size[*axis] > 0.0) {
         let mut side = (LaneBox::EMPTY, 0);
@@ -325,7 +326,7 @@ fn cheapest_border(bins: &Bins, size: Lanes) -> Option<Border> {
             let work = add_work(&mut side, &bins[bin - 1][axis]) + above[bin].0;
             if work < best.as_ref().map_or(f32::INFINITY, |best| best.work) {
                 let sides = [side.0, above[bin].1];
-                best = Some(Border {
+                best = Some(SplitPlane {
                     work,
                     axis,
                     bin,

@@ -38,7 +38,7 @@ fn mean_over_normals<const N: usize>(
         let rest = 1.0 - k / f64::from(NORMALS);
         let h = ggx.visible_normal(wo, [1.0 - rest * rest, (k * GOLDEN).fract()]);
         let weight = |wi: Vec3| {
-            4.0 * rest * wi.z.abs() * (wo.z + ggx.stretched(wo)) * ggx.visibility(wo, wi)
+            4.0 * rest * wi.z.abs() * (wo.z + ggx.lambda_root(wo)) * ggx.visibility(wo, wi)
         };
         let terms = at(h, &weight);
         sum = std::array::from_fn(|term| sum[term] + terms[term]);

@@ -6,7 +6,7 @@ use crate::film::heartbeat::OnPixel;
 use crate::film::pixel::SampleId;
 use crate::integrator::aov::{CameraHit, First, FirstHit, FirstHits};
 use crate::light::Lights;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::world::World;
 use rtc_math::Vec3;
 use rtc_plan::PathFeatures;
@@ -15,7 +15,7 @@ use rtc_plan::PathFeatures;
 pub(crate) type FirstHitsOfPaths<'world, S> =
     FirstHits<PathTracer<'world, S, { PathFeatures::EVERYTHING.0 }>>;
 
-impl<'world, S: Geometry> FirstHitsOfPaths<'world, S> {
+impl<'world, S: Intersect> FirstHitsOfPaths<'world, S> {
     pub(crate) fn new(
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
@@ -28,14 +28,16 @@ impl<'world, S: Geometry> FirstHitsOfPaths<'world, S> {
     }
 }
 
-impl<'run, S: Geometry, const F: u32> FirstHit<'run> for PathTracer<'run, S, F> {
+impl<'run, S: Intersect, const F: u32> FirstHit<'run> for PathTracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {
         let sobol = self.numbers(id);
         self.counts.camera += 1;
         let mut state = PathState::new(self.camera_ray(id.pixel, &sobol), sobol);
         let first = self.at_closest_hit(&mut state, |tracer, state, vertex| {
             let wo = -state.ray.direction;
-            let (frame, _) = vertex.point.frame::<F>(vertex.at, vertex.details, wo);
+            let (frame, _) = vertex
+                .point
+                .frame::<F>(vertex.at, vertex.shading_attributes, wo);
             First {
                 albedo: vertex.point.base_color(),
                 normal: frame.to_world(Vec3::Z),

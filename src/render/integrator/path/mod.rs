@@ -18,7 +18,7 @@ use crate::film::{Background, Counts};
 use crate::light::Lights;
 use crate::ray::Ray;
 use crate::sampler::sobol::{Pair, Sobol};
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::world::World;
 use crate::world::settings::Mode;
 pub(crate) use aov::FirstHitsOfPaths;
@@ -62,7 +62,7 @@ pub(crate) struct PathTracer<'world, S, const F: u32> {
     counts: Counts,
 }
 
-impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
+impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     pub(crate) fn new(
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
@@ -139,7 +139,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         loop {
             let scattered = self.at_closest_hit(&mut state, |tracer, state, vertex| {
                 tracer.counts.hits += u64::from(state.bounces == 0);
-                tracer.heartbeat.goes_on(&tracer.counts) && tracer.scatter(state, vertex)
+                tracer.heartbeat.should_continue(&tracer.counts) && tracer.scatter(state, vertex)
             });
             match scattered {
                 Some(true) => {
@@ -182,7 +182,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     }
 }
 
-impl<'world, S: Geometry, const F: u32> Integrator<'world> for PathTracer<'world, S, F> {
+impl<'world, S: Intersect, const F: u32> Integrator<'world> for PathTracer<'world, S, F> {
     type Sample = Sample;
 
     fn sample(&mut self, id: &SampleId) -> Sample {
@@ -211,7 +211,7 @@ impl<'world, S: Geometry, const F: u32> Integrator<'world> for PathTracer<'world
     }
 
     #[inline]
-    fn goes_on(&mut self) -> bool {
-        self.heartbeat.goes_on(&self.counts)
+    fn should_continue(&mut self) -> bool {
+        self.heartbeat.should_continue(&self.counts)
     }
 }

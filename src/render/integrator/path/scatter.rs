@@ -8,7 +8,7 @@ use crate::bsdf::standard::StandardParameters;
 use crate::light::Incident;
 use crate::material::point::{MaterialPoint, ShadingFrame};
 use crate::sampler::sobol::Pair;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use rtc_math::{Vec3, exp};
 use rtc_plan::{Effect, PathFeatures};
 
@@ -20,7 +20,7 @@ struct Shading<'vertex, const F: u32> {
     wo: Vec3,
 }
 
-impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
+impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     /// Adds the radiance of the environment to a path that leaves the scene.
     pub(super) fn add_escaped_radiance(&mut self, state: &mut PathState) {
         if !self.has_environment {
@@ -67,7 +67,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             self.disperse(state, point);
         }
         // Evaluate the material, and make its BSDF.
-        let (frame, coat) = point.frame::<F>(vertex.at, vertex.details, wo);
+        let (frame, coat) = point.frame::<F>(vertex.at, vertex.shading_attributes, wo);
         let multiple = self.multiple_scattering;
         let standard = point.standard::<F>(&frame, coat, state.channel, multiple);
         let wo = frame.to_local(wo);
@@ -167,7 +167,10 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 self.counts.add(effect);
             }
         };
-        count(Effect::NormalInterpolation, vertex.details.normal.is_some());
+        count(
+            Effect::NormalInterpolation,
+            vertex.shading_attributes.normal.is_some(),
+        );
         count(Effect::NormalMapping, vertex.point.has_normal_map());
         count(Effect::Textures, material.has_shading_map);
         count(Effect::Microfacets, bsdf.reflects());

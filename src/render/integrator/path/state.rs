@@ -2,7 +2,7 @@
 
 use crate::ray::Ray;
 use crate::sampler::sobol::{Pair, Sobol};
-use crate::world::NOWHERE;
+use crate::world::NO_PRIMITIVE;
 use rtc_math::Vec3;
 
 /// Bounces before Russian roulette may end a path.
@@ -41,7 +41,7 @@ impl PathState {
     pub(super) fn new(ray: Ray, sobol: Sobol) -> Self {
         Self {
             ray,
-            from: NOWHERE,
+            from: NO_PRIMITIVE,
             beta: Vec3::ONE,
             radiance: Vec3::ZERO,
             radiance_of_first: Vec3::ZERO,
@@ -66,7 +66,7 @@ impl PathState {
         reason = "one of three"
     )]
     pub(super) fn pick_wavelength(&mut self) {
-        let [u, _] = self.pair(Pair::fate);
+        let [u, _] = self.pair(Pair::russian_roulette);
         let channel = ((u * 3.0) as usize).min(2);
         let mut kept = [0.0; 3];
         kept[channel] = 3.0;
@@ -82,7 +82,7 @@ impl PathState {
         if self.bounces < RR_MIN_DEPTH || survival >= 1.0 {
             return largest > 0.0;
         }
-        let [_, u] = self.pair(Pair::fate);
+        let [_, u] = self.pair(Pair::russian_roulette);
         self.beta /= survival;
         u < survival
     }

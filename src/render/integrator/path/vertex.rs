@@ -5,8 +5,8 @@ use super::state::PathState;
 use crate::material::point::MaterialPoint;
 use crate::material::standard::{Alpha, StandardMaterial};
 use crate::ray::Interaction;
-use crate::shape::geometry::Geometry;
-use crate::shape::geometry::{Asked, Details};
+use crate::shape::geometry::Intersect;
+use crate::shape::geometry::{AttributeRequest, ShadingAttributes};
 use crate::world::Hit;
 use rtc_plan::{Effect, PathFeatures};
 
@@ -17,11 +17,11 @@ pub(super) const MAX_SKIPPED: u32 = 1 << 10;
 pub(super) struct PathVertex<'hit, 'world> {
     pub(super) at: &'hit Interaction,
     pub(super) point: &'hit MaterialPoint<'world>,
-    pub(super) details: &'hit Details,
+    pub(super) shading_attributes: &'hit ShadingAttributes,
     pub(super) hit: Hit,
 }
 
-impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
+impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     /// Shades the next hit that is not skipped, where it is found: a vertex is too large to be
     /// moved. `None` without a hit. Alpha-tested surfaces are skipped with probability 1 − opacity;
     /// camera rays also skip back faces of single-sided materials.
@@ -37,8 +37,11 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             let surface = &self.world.surfaces[hit.surface];
             let at = surface.shape.interaction(&state.ray, hit.t, hit.prim_id);
             let asked = self.asked(surface.material);
-            let details = surface.shape.details(&state.ray, &at, hit.prim_id, asked);
-            let point = self.point(surface.material, &details);
+            let shading_attributes =
+                surface
+                    .shape
+                    .shading_attributes(&state.ray, &at, hit.prim_id, asked);
+            let point = self.point(surface.material, &shading_attributes);
             state.travelled += hit.t;
             let opacity = if skips_back(state, &at, point.material) {
                 0.0
@@ -52,7 +55,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             let vertex = PathVertex {
                 at: &at,
                 point: &point,
-                details: &details,
+                shading_attributes: &shading_attributes,
                 hit,
             };
             return Some(shade(self, state, &vertex));
@@ -68,24 +71,28 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// The surface details that a material needs.
-    pub(super) fn asked(&self, material: usize) -> Asked {
+    pub(super) fn asked(&self, material: usize) -> AttributeRequest {
         if self.knows_all {
-            Asked::ALL
+            AttributeRequest::ALL
         } else {
             self.world.standards[material].asked
         }
     }
 
     /// A material at a point of a surface.
-    pub(super) fn point(&mut self, material: usize, details: &Details) -> MaterialPoint<'world> {
+    pub(super) fn point(
+        &mut self,
+        material: usize,
+        shading_attributes: &ShadingAttributes,
+    ) -> MaterialPoint<'world> {
         let material = &self.world.standards[material];
         if material.base_color.map.is_some() {
             self.counts.add(Effect::Textures);
         }
-        if details.color.is_some() {
+        if shading_attributes.color.is_some() {
             self.counts.add(Effect::VertexColors);
         }
-        MaterialPoint::new(material, details)
+        MaterialPoint::new(material, shading_attributes)
     }
 
     /// The opacity at a point: the probability that the alpha test keeps the hit.

@@ -4,13 +4,13 @@ use super::PathTracer;
 use super::vertex::{MAX_SKIPPED, PathVertex};
 use crate::material::standard::Alpha;
 use crate::ray::{Interaction, Ray};
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::world::alpha::AlphaTested;
 use crate::world::{Hit, segment};
 use rtc_math::Vec3;
 use rtc_plan::PathFeatures;
 
-impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
+impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     /// The transmittance to a point, or to infinity.
     #[inline(never)]
     pub(super) fn visibility(
@@ -50,8 +50,10 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         }
         let at = surface.shape.interaction(ray, hit.t, hit.prim_id);
         let asked = self.asked(surface.material);
-        let details = surface.shape.details(ray, &at, hit.prim_id, asked);
-        let point = self.point(surface.material, &details);
+        let shading_attributes = surface
+            .shape
+            .shading_attributes(ray, &at, hit.prim_id, asked);
+        let point = self.point(surface.material, &shading_attributes);
         (Some(at), 1.0 - self.opacity(&point))
     }
 

@@ -5,10 +5,10 @@ use crate::film::Seeds;
 use crate::film::pixel::SampleId;
 use crate::integrator::aov::{CameraHit, First, FirstHit};
 use crate::sampler::Key;
-use crate::shape::geometry::Asked;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::AttributeRequest;
+use crate::shape::geometry::Intersect;
 
-impl<'run, S: Geometry, const F: u32> FirstHit<'run> for Tracer<'run, S, F> {
+impl<'run, S: Intersect, const F: u32> FirstHit<'run> for Tracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {
         let camera = &self.world.camera;
         let [column, row, k] = self.grid.place_of(id.index);
@@ -17,12 +17,17 @@ impl<'run, S: Geometry, const F: u32> FirstHit<'run> for Tracer<'run, S, F> {
         let first = self.world.closest_hit(&ray).map(|hit| {
             let shading_point = self.shading_point_of(&ray, hit, Key::new(id.pixel, 0));
             let shape = &self.world.surfaces[hit.surface].shape;
-            let details = shape.details(&ray, &shading_point.interaction, hit.prim_id, Asked::ALL);
+            let shading_attributes = shape.shading_attributes(
+                &ray,
+                &shading_point.interaction,
+                hit.prim_id,
+                AttributeRequest::ALL,
+            );
             First {
                 albedo: shading_point.color * shading_point.material.kd.get(),
                 normal: shading_point.normal,
                 point: shading_point.interaction.point,
-                uv: details.uv,
+                uv: shading_attributes.uv,
                 surface: shading_point.surface,
             }
         });

@@ -7,7 +7,7 @@ use crate::integrator::Integrator;
 use crate::material::phong::PhongMaterial;
 use crate::ray::{Interaction, Ray};
 use crate::sampler::{Key, PhongLobeSampler, is_above};
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use rtc_math::Vec3;
 use rtc_plan::{Effect, Features, Rule};
 
@@ -48,7 +48,7 @@ pub(super) struct GlossyBatch {
     path: Branch,
 }
 
-impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
+impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
     /// Adds the mirrored and refracted paths from here to the pending ones.
     pub(super) fn branch(&mut self, path: &Branch, shading_point: &ShadingPoint<'_>) {
         if path.bounces_left == 0 || path.beta == 0.0 {
@@ -60,7 +60,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             Some(_) => shading_point.ks,
             None => shading_point.ks + shading_point.material.kt.get(),
         };
-        if self.weighs(path.beta * mirror_weight) {
+        if self.is_nonzero(path.beta * mirror_weight) {
             let mirror = mirror_direction(direction, shading_point);
             self.push_mirror(path, shading_point, mirror, mirror_weight);
         }
@@ -103,7 +103,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             shading_point.normal
         };
         let normals = [shading_point.normal, geometric];
-        let above = lobe.count_above(normals, || self.goes_on());
+        let above = lobe.count_above(normals, || self.should_continue());
         let ray = Ray {
             direction: mirror,
             ..path.ray
@@ -140,20 +140,20 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     }
 
     /// Whether a path of a weight is followed.
-    fn weighs(&self, beta: f64) -> bool {
+    fn is_nonzero(&self, beta: f64) -> bool {
         beta > 0.0 || !self.applies(Rule::MirrorKs)
     }
 
     /// The path one bounce further, or `None` if its weight is 0.
     fn next(&self, path: &Branch, weight: f64, ray: Ray, kind: BranchKind) -> Option<Branch> {
         let beta = (path.beta * weight).min(f64::MAX);
-        let goes_on = self.weighs(beta);
+        let should_continue = self.is_nonzero(beta);
         let key = if Self::can(Features::SAMPLED) {
             path.key.child(kind as u64)
         } else {
             Key::UNUSED
         };
-        goes_on.then(|| Branch {
+        should_continue.then(|| Branch {
             ray,
             beta,
             bounces_left: path.bounces_left - 1,
@@ -165,14 +165,14 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// The next path to follow: refracted before mirrored, and the directions of a lobe one by one.
     pub(super) fn next_branch(&mut self) -> Option<Branch> {
         let path = loop {
-            if !self.goes_on() {
+            if !self.should_continue() {
                 self.pending.clear();
                 return None;
             }
             match self.pending.pop()? {
                 Pending::Ray(path) => break path,
                 Pending::Glossy(mut fan) => {
-                    let Some(path) = fan.take(|| self.goes_on()) else {
+                    let Some(path) = fan.take(|| self.should_continue()) else {
                         continue;
                     };
                     self.counts.add(Effect::GlossyReflection);
@@ -191,8 +191,8 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
 
 impl GlossyBatch {
     /// The path along the next direction above the surface.
-    fn take(&mut self, mut goes_on: impl FnMut() -> bool) -> Option<Branch> {
-        while self.next < self.count && goes_on() {
+    fn take(&mut self, mut should_continue: impl FnMut() -> bool) -> Option<Branch> {
+        while self.next < self.count && should_continue() {
             let k = self.next;
             self.next += 1;
             let direction = self.lobe.direction(k);

@@ -12,14 +12,14 @@ mod four;
 mod pixel;
 mod shade;
 
-use crate::accel::bundle::Bundles;
+use crate::accel::bundle::RayConeCache;
 use crate::camera::grid::Grid;
 use crate::film::Counts;
 use crate::film::heartbeat::{Heartbeat, OnPixel};
 use crate::ray::Ray;
 use crate::sampler::Key;
-use crate::shape::geometry::Geometry;
-use crate::shape::geometry::{Asked, Details};
+use crate::shape::geometry::Intersect;
+use crate::shape::geometry::{AttributeRequest, ShadingAttributes};
 use crate::texture::bilinear::{TextureFrame, look_up};
 use crate::world::settings::Mode;
 use crate::world::{Hit, World};
@@ -47,14 +47,14 @@ pub(crate) struct Tracer<'world, S, const F: u32> {
     pixel: PixelState,
     /// How many bounces the path under way has behind it.
     bounces: u32,
-    bundles: Bundles,
+    bundles: RayConeCache,
     /// Whether samples are taken four at a time where they can be.
     by_four: bool,
     /// The rays traced so far.
     pub(crate) counts: Counts,
 }
 
-impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
+impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
     /// A tracer of the world, watched by `on_pixel`.
     #[must_use]
     pub(crate) fn new(world: &'world World<S>, on_pixel: &'world OnPixel<'world>) -> Self {
@@ -69,7 +69,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             grid: world.settings.grid,
             pixel: PixelState::default(),
             bounces: 0,
-            bundles: Bundles::EMPTY,
+            bundles: RayConeCache::EMPTY,
             by_four: Self::goes_by_four(world),
             counts,
         }
@@ -214,10 +214,13 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         if Self::can(Features::MAPS)
             && (material.maps.is_some() || surface.shape.has_shading_normals())
         {
-            let details = surface
-                .shape
-                .details(ray, &interaction, hit.prim_id, Asked::ALL);
-            self.apply_maps(&mut shading_point, &details);
+            let shading_attributes = surface.shape.shading_attributes(
+                ray,
+                &interaction,
+                hit.prim_id,
+                AttributeRequest::ALL,
+            );
+            self.apply_maps(&mut shading_point, &shading_attributes);
         }
         if ray.direction.dot(interaction.normal) > 0.0 {
             shading_point.normal = -shading_point.normal;
@@ -227,12 +230,19 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
 
     /// Replaces normal, colour and ks by those of the surface's maps; without uv a surface keeps
     /// its own.
-    fn apply_maps(&mut self, shading_point: &mut ShadingPoint<'_>, details: &Details) {
-        if details.normal.is_some() {
+    fn apply_maps(
+        &mut self,
+        shading_point: &mut ShadingPoint<'_>,
+        shading_attributes: &ShadingAttributes,
+    ) {
+        if shading_attributes.normal.is_some() {
             self.counts.add(Effect::NormalInterpolation);
         }
-        shading_point.normal = details.normal.unwrap_or(shading_point.normal);
-        let (Some(uv), Some(maps)) = (details.uv, shading_point.material.maps.as_deref()) else {
+        shading_point.normal = shading_attributes.normal.unwrap_or(shading_point.normal);
+        let (Some(uv), Some(maps)) = (
+            shading_attributes.uv,
+            shading_point.material.maps.as_deref(),
+        ) else {
             return;
         };
         if maps.color.is_some() || maps.specular.is_some() {
@@ -244,7 +254,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         if let Some(map) = &maps.specular {
             shading_point.ks *= look_up(map, uv).x.max(0.0);
         }
-        let Some(frame) = details
+        let Some(frame) = shading_attributes
             .tangent
             .and_then(|tangent| TextureFrame::new(shading_point.normal, tangent))
         else {

@@ -11,7 +11,7 @@ use crate::lanes::LANES;
 use crate::ray::Ray;
 use crate::sampler::Key;
 use crate::sampler::sequence::Sequence;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use rtc_plan::{Effect, Features, PixelClass};
 
 /// What the samples of a pixel share.
@@ -27,7 +27,7 @@ pub(super) struct PixelState {
     pub(super) is_uniform: bool,
 }
 
-impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
+impl<'run, S: Intersect, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
     type Sample = Sample;
 
     #[inline(always)]
@@ -84,16 +84,16 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
 
     /// False from when the observer said stop, and nothing counts any more.
     #[inline]
-    fn goes_on(&mut self) -> bool {
-        self.heartbeat.put_off(self.pending.len());
-        self.heartbeat.goes_on(&self.counts)
+    fn should_continue(&mut self) -> bool {
+        self.heartbeat.defer(self.pending.len());
+        self.heartbeat.should_continue(&self.counts)
     }
 }
 
 /// Makes the samples of replicates independent of the random numbers of their paths.
 const REPLICATE: u64 = u64::MAX - 2;
 
-impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
+impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// The ray of the next sample of the grid of cells and points of the lens.
     #[inline(always)]
     pub(super) fn ray_of_picture(&mut self, pixel: [u32; 2], seeds: Seeds) -> Ray {

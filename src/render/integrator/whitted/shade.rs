@@ -7,9 +7,9 @@ use crate::light::course::CourseLight;
 use crate::material::phong::PhongMaterial;
 use crate::ray::Interaction;
 use crate::sampler::{DiscPoints, Key};
-use crate::shape::geometry::Geometry;
-use crate::world::few::Few;
+use crate::shape::geometry::Intersect;
 use crate::world::settings::Gooch;
+use crate::world::small_scene::SmallScene;
 use rtc_math::{Basis, Vec3};
 use rtc_plan::{Effect, Features, Rule};
 
@@ -105,7 +105,7 @@ impl ShadingPoint<'_> {
     }
 }
 
-impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
+impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// `Σ c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)ⁿ)]`, the mean over the points of a
     /// soft light; an ambient term that is added once stands before the sum, as `ka·C`.
     ///
@@ -127,7 +127,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             if !plan.is_used {
                 continue;
             }
-            if !self.goes_on() {
+            if !self.should_continue() {
                 break;
             }
             let mut term = ambient;
@@ -145,7 +145,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                         on_soft_light(light, shading_point.interaction.point, samples, points);
                     let direct = points.map_while(|point| {
                         self.counts.add(Effect::SoftLight);
-                        self.goes_on()
+                        self.should_continue()
                             .then(|| self.direct(shading_point, point, shadowed))
                     });
                     term += direct.sum::<Vec3>() / f64::from(samples);
@@ -242,7 +242,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     /// The surfaces that may stand between a point and a light, of a bundle of such ways.
     #[inline(always)]
-    pub(super) fn towards(&mut self, few: &Few, light: usize, from: Vec3) -> u64 {
+    pub(super) fn towards(&mut self, few: &SmallScene, light: usize, from: Vec3) -> u64 {
         let lights = &self.world.lights.course;
         let place = [self.bounces as usize, light, lights.len()];
         let target = || lights[light].ball();
@@ -261,7 +261,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         );
         let mut sum = Vec3::ZERO;
         for light in &self.world.lights.course {
-            if !self.goes_on() {
+            if !self.should_continue() {
                 break;
             }
             let Some(incidence) = shading_point.incidence(light.position) else {

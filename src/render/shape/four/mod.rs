@@ -8,7 +8,7 @@ mod torus;
 use super::plane::{Axis, Plane};
 use super::sphere::{AMPLIFIED, FAR, Sphere};
 use super::torus::Torus;
-use crate::lanes::{FourRays, LANES, Vectors, lanes_of};
+use crate::lanes::{LANES, Ray4, Vectors, lanes_of};
 use crate::ray::{Interaction, OFFSET};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
@@ -16,7 +16,7 @@ use rtc_math::{U, Vec3};
 
 /// A shape that four rays meet at once.
 #[derive(Clone, Copy)]
-pub enum InLanes<'a> {
+pub enum Shape4<'a> {
     /// A sphere.
     Sphere(&'a Sphere),
     /// A torus.
@@ -25,13 +25,13 @@ pub enum InLanes<'a> {
     Plane(&'a Plane, Axis),
 }
 
-impl InLanes<'_> {
+impl Shape4<'_> {
     /// The roots above 0 of the lanes `asked`; infinite where there is none.
     #[inline(always)]
     pub(crate) fn intersect<S: Simd>(
         self,
         simd: S,
-        rays: &FourRays<S>,
+        rays: &Ray4<S>,
         asked: mask64x4<S>,
     ) -> f64x4<S> {
         match self {
@@ -46,7 +46,7 @@ impl InLanes<'_> {
     pub(crate) fn interactions<S: Simd>(
         self,
         simd: S,
-        rays: &FourRays<S>,
+        rays: &Ray4<S>,
         t: f64x4<S>,
     ) -> Interactions<S> {
         match self {
@@ -71,7 +71,7 @@ impl<S: Simd> Interactions<S> {
     #[inline(always)]
     fn new(
         simd: S,
-        rays: &FourRays<S>,
+        rays: &Ray4<S>,
         point: Vectors<S>,
         normal: Vectors<S>,
         anchor: Vec3,
@@ -101,12 +101,12 @@ impl<S: Simd> Interactions<S> {
 
     /// Those of `self` in the lanes of a mask, those of `other` elsewhere.
     #[inline(always)]
-    pub(crate) fn where_else(self, mask: mask64x4<S>, other: Self) -> Self {
+    pub(crate) fn select(self, mask: mask64x4<S>, other: Self) -> Self {
         Self {
-            point: self.point.where_else(mask, other.point),
-            normal: self.normal.where_else(mask, other.normal),
+            point: self.point.select(mask, other.point),
+            normal: self.normal.select(mask, other.normal),
             offset: mask.select(self.offset, other.offset),
-            back: self.back.where_else(mask, other.back),
+            back: self.back.select(mask, other.back),
         }
     }
 
@@ -119,18 +119,13 @@ impl<S: Simd> Interactions<S> {
         let returns = !(self.back.dot(self.normal).simd_lt(zero) ^ side.simd_lt(zero));
         let step = self.normal.times(side);
         let back = step.plus(self.back.times(self.offset));
-        self.point.plus(back.where_else(returns, step))
+        self.point.plus(back.select(returns, step))
     }
 }
 
 /// As [`Sphere::intersect`], of the lanes `asked`; infinite where there is no root.
 #[inline(always)]
-fn intersect<S: Simd>(
-    simd: S,
-    sphere: &Sphere,
-    rays: &FourRays<S>,
-    asked: mask64x4<S>,
-) -> f64x4<S> {
+fn intersect<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, asked: mask64x4<S>) -> f64x4<S> {
     let number = |x: f64| f64x4::splat(simd, x);
     let (zero, none) = (number(0.0), number(f64::INFINITY));
     let f = rays.origin.minus(Vectors::splat(simd, sphere.center));
@@ -184,12 +179,7 @@ fn intersect<S: Simd>(
 
 /// As [`Sphere::interaction`].
 #[inline(always)]
-fn interactions<S: Simd>(
-    simd: S,
-    sphere: &Sphere,
-    rays: &FourRays<S>,
-    t: f64x4<S>,
-) -> Interactions<S> {
+fn interactions<S: Simd>(simd: S, sphere: &Sphere, rays: &Ray4<S>, t: f64x4<S>) -> Interactions<S> {
     let number = |x: f64| f64x4::splat(simd, x);
     let center = Vectors::splat(simd, sphere.center);
     let step = rays.direction.times(t);
@@ -206,7 +196,7 @@ fn interactions<S: Simd>(
     let along_radius = number(sphere.center.abs().element_sum() + sphere.radius);
     let on_sphere = center.plus(normal.times(number(sphere.radius)));
     let on_ray = rays.origin.plus(step);
-    let point = on_ray.where_else(along_ray.simd_lt(along_radius), on_sphere);
+    let point = on_ray.select(along_ray.simd_lt(along_radius), on_sphere);
 
     Interactions::new(simd, rays, point, normal, sphere.center, sphere.radius)
 }
@@ -217,7 +207,7 @@ mod tests {
     use crate::accel::simd::baseline;
     use crate::ray::Ray;
     use crate::sampler::Key;
-    use crate::shape::geometry::Geometry;
+    use crate::shape::geometry::Intersect;
 
     /// Rays from near and far, at the sphere and past it, from its surface and along it.
     fn rays(index: u64) -> [Ray; LANES] {
@@ -253,7 +243,7 @@ mod tests {
             let torus = Torus::new(Vec3::new(0.1, -0.2, 0.05), axis, major, minor);
             for index in 0..5_000 {
                 let each = rays(index);
-                let four = FourRays::each(simd, &each);
+                let four = Ray4::each(simd, &each);
                 let t = torus::intersect(simd, &torus, &four, all);
                 let at = torus::interactions(simd, &torus, &four, t);
                 for (lane, ray) in each.iter().enumerate() {
@@ -278,7 +268,7 @@ mod tests {
             (Vec3::new(0.5, -0.25, 0.3), Vec3::new(2.0, 0.0, 0.0)),
         ] {
             let plane = Plane::new(anchor, normal);
-            let Some(lanes) = plane.in_lanes() else {
+            let Some(lanes) = plane.shape4() else {
                 panic!("{normal} lies along an axis")
             };
             for index in 0..20_000 {
@@ -288,7 +278,7 @@ mod tests {
                     each[1].origin = anchor;
                     each[2].direction.z = 0.0;
                 }
-                let four = FourRays::each(simd, &each);
+                let four = Ray4::each(simd, &each);
                 let t = lanes.intersect(simd, &four, all);
                 let at = lanes.interactions(simd, &four, t);
                 for (lane, ray) in each.iter().enumerate() {
@@ -323,7 +313,7 @@ mod tests {
         let mut hits = 0;
         for index in 0..20_000 {
             let each = rays(index);
-            let four = FourRays::each(simd, &each);
+            let four = Ray4::each(simd, &each);
             let t = intersect(simd, &sphere, &four, all);
             let at = interactions(simd, &sphere, &four, t);
             let starts = at.start(simd, at.back);

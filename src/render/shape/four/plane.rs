@@ -2,7 +2,7 @@
 //! [`Plane::interaction`] on four rays at once. Other planes are asked lane by lane.
 
 use super::Interactions;
-use crate::lanes::{FourRays, Vectors, lanes_of, two_difference};
+use crate::lanes::{Ray4, Vectors, lanes_of, two_difference};
 use crate::shape::plane::{Axis, Plane};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
@@ -13,7 +13,7 @@ pub(super) fn intersect<S: Simd>(
     simd: S,
     plane: &Plane,
     axis: Axis,
-    rays: &FourRays<S>,
+    rays: &Ray4<S>,
     asked: mask64x4<S>,
 ) -> f64x4<S> {
     let number = |x: f64| f64x4::splat(simd, x);
@@ -31,7 +31,7 @@ pub(super) fn interactions<S: Simd>(
     simd: S,
     plane: &Plane,
     axis: Axis,
-    rays: &FourRays<S>,
+    rays: &Ray4<S>,
     t: f64x4<S>,
 ) -> Interactions<S> {
     let zero = f64x4::splat(simd, 0.0);
@@ -42,7 +42,7 @@ pub(super) fn interactions<S: Simd>(
     let distance = distance(simd, plane, axis, near);
     let step = distance / f64x4::splat(simd, plane.normal.square);
     let moved = near.plus(Vectors::splat(simd, plane.normal.raw).times(step));
-    let mut point = near.where_else(is_on, moved);
+    let mut point = near.select(is_on, moved);
     let doubted = !is_on & distance.simd_eq(zero);
     if doubted.any_true() {
         for lane in lanes_of(doubted.to_bitmask()) {

@@ -2,7 +2,7 @@
 //! search has ended goes on to no effect until the others have.
 
 use super::Interactions;
-use crate::lanes::{FourRays, Vectors, lanes_of};
+use crate::lanes::{Ray4, Vectors, lanes_of};
 use crate::shape::torus::{MAX_STEPS, NEARLY_ONE, ON_SURFACE, ROUNDING, TOUCH, Torus};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
@@ -13,7 +13,7 @@ use rtc_math::Vec3;
 pub(super) fn intersect<S: Simd>(
     simd: S,
     torus: &Torus,
-    rays: &FourRays<S>,
+    rays: &Ray4<S>,
     asked: mask64x4<S>,
 ) -> f64x4<S> {
     let number = |x: f64| f64x4::splat(simd, x);
@@ -50,7 +50,7 @@ pub(super) fn intersect<S: Simd>(
 pub(super) fn interactions<S: Simd>(
     simd: S,
     torus: &Torus,
-    rays: &FourRays<S>,
+    rays: &Ray4<S>,
     t: f64x4<S>,
 ) -> Interactions<S> {
     let number = |x: f64| f64x4::splat(simd, x);
@@ -62,7 +62,7 @@ pub(super) fn interactions<S: Simd>(
     let beside = local.minus(axis.times(local.dot(axis)));
     let (is_beside, outward) = beside.normalized();
     let ring = outward
-        .where_else(is_beside, Vectors::splat(simd, Vec3::ZERO))
+        .select(is_beside, Vectors::splat(simd, Vec3::ZERO))
         .times(number(torus.major));
     let out = local.minus(ring);
     let (has_normal, mut normal) = out.normalized();
@@ -87,7 +87,7 @@ struct Probe<S: Simd> {
 impl<S: Simd> Probe<S> {
     /// Those of `self` in the lanes of a mask, those of `other` elsewhere.
     #[inline(always)]
-    fn where_else(self, mask: mask64x4<S>, other: Self) -> Self {
+    fn select(self, mask: mask64x4<S>, other: Self) -> Self {
         Self {
             s: mask.select(self.s, other.s),
             distance: mask.select(self.distance, other.distance),
@@ -206,13 +206,13 @@ impl<S: Simd> TorusRays<S> {
             let there = self.at(simd, s);
             let is_root = has & there.distance.simd_eq(f64x4::splat(simd, 0.0)) & s.simd_gt(low);
             let crosses = has & !is_root & (there.is_inside() ^ before.is_inside());
-            after = there.where_else(is_root | crosses, after);
+            after = there.select(is_root | crosses, after);
             (exact, bracketed) = (exact | is_root, bracketed | crosses);
             searched &= !(is_root | crosses);
             if searched.all_false() {
                 break;
             }
-            before = there.where_else(has & searched, before);
+            before = there.select(has & searched, before);
         }
         let root = if bracketed.any_true() {
             self.root(simd, before, after, bracketed)
@@ -249,11 +249,11 @@ impl<S: Simd> TorusRays<S> {
         for _ in 0..MAX_STEPS {
             let there = self.at(simd, last.s + fraction * (other.s - last.s));
             let differs = there.is_inside() ^ last.is_inside();
-            let before = other.where_else(differs, last);
-            other = last.where_else(differs, other);
+            let before = other.select(differs, last);
+            other = last.select(differs, other);
             last = there;
             let is_best = last.distance.abs().simd_lt(other.distance.abs());
-            let best = last.where_else(is_best, other);
+            let best = last.select(is_best, other);
             let finest = number(ROUNDING) / (other.s - last.s).abs();
             let ends = best.distance.abs().simd_le(number(ROUNDING)) | finest.simd_gt(number(0.5));
             found = (active & ends).select(best.s, found);
@@ -277,11 +277,11 @@ fn fraction_of<S: Simd>(simd: S, last: Probe<S>, other: Probe<S>, before: Probe<
     let is_safe = (up * up).simd_lt(along) & ((one - up) * (one - up)).simd_lt(one - along);
     let linear = last.distance / (other.distance - last.distance) * before.distance
         / (other.distance - before.distance);
-    let bend = (before.s - last.s) / (other.s - last.s) * last.distance
+    let latus_rectum = (before.s - last.s) / (other.s - last.s) * last.distance
         / (before.distance - last.distance)
         * other.distance
         / (before.distance - other.distance);
-    is_safe.select(linear + bend, f64x4::splat(simd, 0.5))
+    is_safe.select(linear + latus_rectum, f64x4::splat(simd, 0.5))
 }
 
 /// As [`f64::clamp`].

@@ -17,7 +17,7 @@ fn visited(count: u32, corners: impl Fn(u32) -> [Vec3; 3] + Sync) -> (usize, Opt
         origin: Vec3::new(0.2, 0.2, 1.0),
         direction: Vec3::NEG_Z,
     };
-    wide.walk(&ray, f64::INFINITY, &mut |candidate: Candidate<'_>| {
+    wide.traverse(&ray, f64::INFINITY, &mut |candidate: Candidate<'_>| {
         visits += 1;
         lowest = Some(lowest.map_or(candidate.item, |own: u32| own.min(candidate.item)));
         f64::INFINITY

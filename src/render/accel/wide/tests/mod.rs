@@ -1,12 +1,12 @@
 //! Whatever is hit is visited, and little else.
 
 mod copies;
-mod together;
+mod packet_traversal;
 
 use super::*;
 use crate::ray::Ray;
 use crate::sampler::Key;
-use crate::shape::triangle::{Shear, Triangle};
+use crate::shape::triangle::{Triangle, WatertightRay};
 use rayon::prelude::*;
 
 /// Triangles in each hierarchy.
@@ -120,15 +120,15 @@ fn what_is_hit_for_sure_is_hit_before_the_end_of_the_ray() {
     for (family, (name, ..)) in FAMILIES.into_iter().enumerate() {
         let all = triangles(family);
         let wide = built(&all);
-        let judge = |index: u64| {
+        let intersect4 = |index: u64| {
             let ray = aimed(family, &all, index);
             // The ray ends where it was aimed at, a little before, and beyond.
             let aim = if name == "along the axes" { 4.0 } else { 1.0 };
             let t_max = aim * [1.0, 0.999_999, 2.0][(index / 7) as usize % 3];
             let mut found = Sure::default();
-            wide.walk(&ray, t_max, &mut found);
+            wide.traverse(&ray, t_max, &mut found);
             let is_hit = |item: &&u32| {
-                let t = all[**item as usize].intersect(&ray, &Shear::new(&ray));
+                let t = all[**item as usize].intersect(&ray, &WatertightRay::new(&ray));
                 t.is_some_and(|t| t < t_max)
             };
             let wrong = found.sure.iter().filter(|item| !is_hit(item)).count() as u64;
@@ -138,7 +138,7 @@ fn what_is_hit_for_sure_is_hit_before_the_end_of_the_ray() {
         let add = |a: [u64; 3], b: [u64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
         let [hits, sure, wrong] = (0..ray_count(60_000))
             .into_par_iter()
-            .map(judge)
+            .map(intersect4)
             .reduce(|| [0; 3], add);
         println!("| sure of | {name} | {sure} of {hits} | {wrong} wrong |");
         assert_eq!(wrong, 0, "{name}");
@@ -162,19 +162,23 @@ fn all_levels_visit_the_same_in_the_same_order_alone_and_by_turns() {
         let wide = Wide::build(Builders::All, level, all.len(), 0.0, corners).unwrap();
         let alone = |ray: &Ray| {
             let mut found = Sure::default();
-            wide.walk(ray, 2.0, &mut found);
+            wide.traverse(ray, 2.0, &mut found);
             (found.may, found.sure)
         };
         let alone: Vec<_> = rays.iter().map(alone).collect();
-        let mut together: Vec<_> = rays
+        let mut packet_traversal: Vec<_> = rays
             .iter()
             .map(|ray| (*ray, 2.0, Sure::default()))
             .collect();
-        wide.walk_all(&mut together);
-        let together = together
+        wide.traverse_all(&mut packet_traversal);
+        let packet_traversal = packet_traversal
             .into_iter()
             .map(|(_, _, found)| (found.may, found.sure));
-        assert!(together.eq(alone.iter().cloned()), "{}", level.name());
+        assert!(
+            packet_traversal.eq(alone.iter().cloned()),
+            "{}",
+            level.name()
+        );
         let expected = expected.get_or_insert_with(|| alone.clone());
         assert_eq!(*expected, alone, "{}", level.name());
     }
@@ -198,7 +202,7 @@ fn corners_are_exact_or_not_there() {
             direction,
         };
         let mut all = Vec::new();
-        wide.walk(&ray, f64::INFINITY, &mut |candidate: Candidate<'_>| {
+        wide.traverse(&ray, f64::INFINITY, &mut |candidate: Candidate<'_>| {
             all.push((candidate.item, candidate.corners()));
             f64::INFINITY
         });
@@ -222,21 +226,21 @@ fn whatever_is_hit_is_visited_and_little_else() {
     for (family, (name, ..)) in FAMILIES.into_iter().enumerate() {
         let all = triangles(family);
         let wide = built(&all);
-        let judge = |index: u64| {
+        let intersect4 = |index: u64| {
             let ray = aimed(family, &all, index);
-            let shear = Shear::new(&ray);
+            let watertight = WatertightRay::new(&ray);
             let (mut hits, mut missed, mut visits) = (0, 0, 0);
             for (item, triangle) in (0..).zip(&all) {
-                let Some(t) = triangle.intersect(&ray, &shear) else {
+                let Some(t) = triangle.intersect(&ray, &watertight) else {
                     continue;
                 };
                 let (mut culled, mut boxed) = (false, false);
                 // Even if nothing beyond that hit counts any more.
-                wide.walk(&ray, t, &mut |other: Candidate<'_>| {
+                wide.traverse(&ray, t, &mut |other: Candidate<'_>| {
                     (culled, visits) = (culled || other.item == item, visits + 1);
                     t
                 });
-                wide.walk(
+                wide.traverse(
                     &ray,
                     t,
                     &mut Boxed(|other| {
@@ -249,7 +253,10 @@ fn whatever_is_hit_is_visited_and_little_else() {
             [hits, missed, visits]
         };
         let add = |a: [u64; 3], b: [u64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-        let [hits, missed, visits] = (0..rays).into_par_iter().map(judge).reduce(|| [0; 3], add);
+        let [hits, missed, visits] = (0..rays)
+            .into_par_iter()
+            .map(intersect4)
+            .reduce(|| [0; 3], add);
         println!("| triangles passed over | {name} | {hits} | {missed} | {visits} visits |");
         assert!(hits > rays / 4 && missed == 0, "{name}: {missed} of {hits}");
         assert!(
@@ -269,7 +276,7 @@ fn the_walk_ends_where_it_is_told_to_and_visits_each_triangle_once() {
             visited.push(item);
             answer
         };
-        wide.walk(&ray, f64::INFINITY, &mut Boxed(visit));
+        wide.traverse(&ray, f64::INFINITY, &mut Boxed(visit));
         visited.sort_unstable();
         visited
     };

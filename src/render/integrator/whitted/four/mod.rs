@@ -13,12 +13,12 @@ use crate::camera::pinhole_rays;
 use crate::film::Seeds;
 use crate::film::pixel::{Sample, SampleId, Stream};
 use crate::integrator::Integrator;
-use crate::lanes::{ALL, FourRays, LANES, Vectors, lanes_of};
+use crate::lanes::{ALL, LANES, Ray4, Vectors, lanes_of};
 use crate::shape::four::Interactions;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::shape::tie::CLOSE;
-use crate::world::few::Few;
 use crate::world::settings::Mode;
+use crate::world::small_scene::SmallScene;
 use crate::world::{Hit, World};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
@@ -52,19 +52,19 @@ struct Points<V: Simd> {
     met: u64,
 }
 
-impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
+impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// Whether the integrator has all its features in lanes.
-    const HAS_LANES: bool = {
+    const HAS_SHAPE4: bool = {
         let others = Features::MAPS
             .with(Features::UNPRUNED)
             .with(Features::SAMPLED)
             .with(Features::GOOCH);
-        S::HAS_LANES && Self::can(Features::CAMERA) && F & others.0 == 0
+        S::HAS_SHAPE4 && Self::can(Features::CAMERA) && F & others.0 == 0
     };
 
     /// Whether samples of a world are taken four at a time.
     pub(super) fn goes_by_four(world: &World<S>) -> bool {
-        Self::HAS_LANES
+        Self::HAS_SHAPE4
             && world.few.is_some()
             && matches!(world.settings.mode, Mode::Phong)
             && world.phongs.iter().all(|phong| phong.kt.get() == 0.0)
@@ -72,7 +72,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     /// The next four samples of a picture.
     pub(super) fn four_samples(&mut self, id: &SampleId) -> Option<[Sample; LANES]> {
-        if !Self::HAS_LANES || !self.by_four || self.pixel.is_uniform {
+        if !Self::HAS_SHAPE4 || !self.by_four || self.pixel.is_uniform {
             return None;
         }
         let Stream::Picture(seeds) = id.stream else {
@@ -93,12 +93,12 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     /// The rays of the next four samples.
     #[inline(always)]
-    fn rays_of_picture<V: Simd>(&mut self, simd: V, pixel: [u32; 2], seeds: Seeds) -> FourRays<V> {
+    fn rays_of_picture<V: Simd>(&mut self, simd: V, pixel: [u32; 2], seeds: Seeds) -> Ray4<V> {
         let camera = &self.world.camera;
         if !self.grid.starts_at_eye(camera, seeds) {
             // Written out: `map` of an array is not inlined here.
             let mut next = || self.ray_of_picture(pixel, seeds);
-            return FourRays::each(simd, &[next(), next(), next(), next()]);
+            return Ray4::each(simd, &[next(), next(), next(), next()]);
         }
         let grid = self.grid;
         let mut next = || {
@@ -111,14 +111,14 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     /// What four camera rays see.
     #[inline(always)]
-    fn radiances<V: Simd>(&mut self, simd: V, mut rays: FourRays<V>) -> [Sample; LANES] {
+    fn radiances<V: Simd>(&mut self, simd: V, mut rays: Ray4<V>) -> [Sample; LANES] {
         let depth = self.world.plan.max_depth;
         let number = |x: f64| f64x4::splat(simd, x);
         let mut sum = Vectors::splat(simd, Vec3::ZERO);
         let (mut beta, mut active, mut first) = (number(1.0), ALL, 0);
         self.counts.camera += LANES as u64;
         for bounce in 0..=depth {
-            if bounce > 0 && !self.goes_on() {
+            if bounce > 0 && !self.should_continue() {
                 break;
             }
             self.bounces = bounce;
@@ -132,7 +132,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             };
             let value = self.phong_of(simd, &points).times(beta);
             let met = mask64x4::from_bitmask(simd, hits.met);
-            sum = sum.plus(value).where_else(met, sum);
+            sum = sum.plus(value).select(met, sum);
             if !Self::can(Features::BOUNCE) || bounce == depth {
                 break;
             }
@@ -160,7 +160,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     /// The closest hits of the rays of some lanes.
     #[inline(always)]
-    fn hits<V: Simd>(&mut self, simd: V, rays: &FourRays<V>, active: u64) -> Hits<V> {
+    fn hits<V: Simd>(&mut self, simd: V, rays: &Ray4<V>, active: u64) -> Hits<V> {
         let world = self.world;
         let none = f64x4::splat(simd, f64::INFINITY);
         let mut hits = Hits {
@@ -178,9 +178,9 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             .along_each(simd, &few.balls, bounce, rays, active);
         let asked = mask64x4::from_bitmask(simd, bundled);
         let mut next = none;
-        while let Some(surface) = Few::pop(&mut items) {
+        while let Some(surface) = SmallScene::pop(&mut items) {
             let shape = &world.surfaces[surface].shape;
-            let t = match shape.in_lanes() {
+            let t = match shape.shape4() {
                 Some(shape) => shape.intersect(simd, rays, asked),
                 None => roots(shape, rays, &mut hits, bundled),
             };
@@ -202,7 +202,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                 let hit = if odd >> lane & 1 == 1 {
                     world.closest_hit(&rays.lane(lane))
                 } else {
-                    world.settled(&rays.lane(lane), hits.t[lane])
+                    world.resolved(&rays.lane(lane), hits.t[lane])
                 };
                 hits.put(lane, hit);
             }
@@ -212,7 +212,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     /// The points that rays met, if one did.
     #[inline(always)]
-    fn points<V: Simd>(&self, simd: V, rays: &FourRays<V>, hits: &Hits<V>) -> Option<Points<V>> {
+    fn points<V: Simd>(&self, simd: V, rays: &Ray4<V>, hits: &Hits<V>) -> Option<Points<V>> {
         let number = |x: f64| f64x4::splat(simd, x);
         let mut rest = hits.met;
         let mut all: Option<Points<V>> = None;
@@ -224,14 +224,14 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             let surface = &self.world.surfaces[surface];
             let material = &self.world.phongs[surface.material];
             let shape = &surface.shape;
-            let at = match shape.in_lanes() {
+            let at = match shape.shape4() {
                 Some(shape) => shape.interactions(simd, rays, hits.t),
                 None => interactions(simd, shape, rays, hits, same),
             };
             let is_back = rays.direction.dot(at.normal).simd_gt(number(0.0));
             let of_surface = Points {
                 at,
-                normal: at.normal.negated().where_else(is_back, at.normal),
+                normal: at.normal.negated().select(is_back, at.normal),
                 to_viewer: rays.direction.negated(),
                 color: Vectors::splat(simd, material.color),
                 ka: number(material.ka.get()),
@@ -243,7 +243,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             };
             all = Some(match all {
                 None => of_surface,
-                Some(others) => of_surface.where_else(simd, same, others),
+                Some(others) => of_surface.select(simd, same, others),
             });
         }
         all
@@ -274,17 +274,17 @@ impl<V: Simd> Hits<V> {
 impl<V: Simd> Points<V> {
     /// Those of `self` in some lanes, those of `others` elsewhere.
     #[inline(always)]
-    fn where_else(self, simd: V, lanes: u64, others: Self) -> Self {
+    fn select(self, simd: V, lanes: u64, others: Self) -> Self {
         let mask = mask64x4::from_bitmask(simd, lanes);
         let mut surfaces = others.surfaces;
         for lane in lanes_of(lanes) {
             surfaces[lane] = self.surfaces[lane];
         }
         Self {
-            at: self.at.where_else(mask, others.at),
-            normal: self.normal.where_else(mask, others.normal),
+            at: self.at.select(mask, others.at),
+            normal: self.normal.select(mask, others.normal),
             to_viewer: self.to_viewer,
-            color: self.color.where_else(mask, others.color),
+            color: self.color.select(mask, others.color),
             ka: mask.select(self.ka, others.ka),
             kd: mask.select(self.kd, others.kd),
             ks: mask.select(self.ks, others.ks),
@@ -297,29 +297,29 @@ impl<V: Simd> Points<V> {
 
 /// The rays mirrored at points where nothing bends the normal.
 #[inline(always)]
-fn mirrored<V: Simd>(simd: V, rays: &FourRays<V>, points: &Points<V>) -> FourRays<V> {
+fn mirrored<V: Simd>(simd: V, rays: &Ray4<V>, points: &Points<V>) -> Ray4<V> {
     let number = |x: f64| f64x4::splat(simd, x);
     let (d, n) = (rays.direction, points.normal);
     let along = d.minus(n.times(number(2.0) * d.dot(n)));
     let direction = along.times(number(1.0) / along.length());
-    FourRays {
+    Ray4 {
         origin: points.at.start(simd, direction),
         direction,
     }
 }
 
 /// The roots of a shape that has no form in lanes, and their primitives where they are closer.
-fn roots<V: Simd, S: Geometry>(
+fn roots<V: Simd, S: Intersect>(
     shape: &S,
-    rays: &FourRays<V>,
+    rays: &Ray4<V>,
     hits: &mut Hits<V>,
     lanes: u64,
 ) -> f64x4<V> {
     let mut roots = f64x4::splat(hits.t.simd, f64::INFINITY);
     for lane in lanes_of(lanes) {
         let ray = rays.lane(lane);
-        let shear = Few::shear_of(shape, &ray);
-        if let Some((t, prim_id)) = shape.closest_hit(&ray, &shear, hits.t[lane] * CLOSE) {
+        let watertight = SmallScene::shear_of(shape, &ray);
+        if let Some((t, prim_id)) = shape.closest_hit(&ray, &watertight, hits.t[lane] * CLOSE) {
             roots[lane] = t;
             if t < hits.t[lane] {
                 hits.prims[lane] = prim_id;
@@ -330,10 +330,10 @@ fn roots<V: Simd, S: Geometry>(
 }
 
 /// The interactions with a shape that has no form in lanes.
-fn interactions<V: Simd, S: Geometry>(
+fn interactions<V: Simd, S: Intersect>(
     simd: V,
     shape: &S,
-    rays: &FourRays<V>,
+    rays: &Ray4<V>,
     hits: &Hits<V>,
     lanes: u64,
 ) -> Interactions<V> {

@@ -4,16 +4,16 @@ use super::Points;
 use crate::bsdf::optics::highlight;
 use crate::integrator::whitted::Tracer;
 use crate::lanes::pow::powers;
-use crate::lanes::{FourRays, LANES, Vectors, lanes_of};
-use crate::shape::geometry::Geometry;
+use crate::lanes::{LANES, Ray4, Vectors, lanes_of};
+use crate::shape::geometry::Intersect;
 use crate::world::END;
-use crate::world::few::Few;
+use crate::world::small_scene::SmallScene;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 use rtc_math::Vec3;
 use rtc_plan::{Effect, Features};
 
-impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
+impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     /// As [`Tracer::phong`].
     #[inline(always)]
     pub(super) fn phong_of<V: Simd>(&mut self, simd: V, points: &Points<V>) -> Vectors<V> {
@@ -90,17 +90,17 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                 y: direct.y + gloss,
                 z: direct.z + gloss,
             };
-            direct = whole.where_else(shines, direct);
+            direct = whole.select(shines, direct);
         }
         term.plus(direct)
-            .where_else(mask64x4::from_bitmask(simd, lit), term)
+            .select(mask64x4::from_bitmask(simd, lit), term)
     }
 
     /// As `Tracer::towards`, from the points of some lanes.
     #[inline(always)]
     fn towards_each<V: Simd>(
         &mut self,
-        few: &Few,
+        few: &SmallScene,
         light: usize,
         from: Vectors<V>,
         asked: u64,
@@ -151,7 +151,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         let to = Vectors::splat(simd, target);
         let origin = points.at.start(simd, to.minus(points.at.point));
         let direction = to.minus(origin);
-        let rays = FourRays { origin, direction };
+        let rays = Ray4 { origin, direction };
         let mut hidden = 0;
         for lane in lanes_of(doubted) {
             if !rays.lane(lane).is_scaled() {
@@ -161,7 +161,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             }
         }
         let end = ends(simd, &rays, to);
-        while let Some(surface) = Few::pop(&mut all) {
+        while let Some(surface) = SmallScene::pop(&mut all) {
             let of_surface = |lane: &usize| hiding[*lane] >> surface & 1 == 1;
             let lanes = lanes_of(doubted & !hidden).filter(of_surface);
             let lanes = lanes.fold(0, |bits, lane| bits | 1 << lane);
@@ -169,7 +169,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                 continue;
             }
             let shape = &world.surfaces[surface].shape;
-            let t = match shape.in_lanes() {
+            let t = match shape.shape4() {
                 Some(shape) => shape.intersect(simd, &rays, mask64x4::from_bitmask(simd, lanes)),
                 None => first_roots(shape, &rays, lanes),
             };
@@ -182,7 +182,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 /// Where the segments of rays to one point end, as [`crate::world::segment`] says; 0 where
 /// both ends are as good as one.
 #[inline(always)]
-fn ends<V: Simd>(simd: V, rays: &FourRays<V>, to: Vectors<V>) -> f64x4<V> {
+fn ends<V: Simd>(simd: V, rays: &Ray4<V>, to: Vectors<V>) -> f64x4<V> {
     let number = |x: f64| f64x4::splat(simd, x);
     let size = rays.origin.abs().plus(to.abs()).sum();
     let length = rays.direction.length();
@@ -211,12 +211,12 @@ fn highlights<V: Simd>(r_dot_v: f64x4<V>, n: f64x4<V>, lanes: u64) -> f64x4<V> {
 }
 
 /// The roots before 1 of a shape that has no form in lanes.
-fn first_roots<V: Simd, S: Geometry>(shape: &S, rays: &FourRays<V>, lanes: u64) -> f64x4<V> {
+fn first_roots<V: Simd, S: Intersect>(shape: &S, rays: &Ray4<V>, lanes: u64) -> f64x4<V> {
     let mut roots = f64x4::splat(rays.origin.x.simd, f64::INFINITY);
     for lane in lanes_of(lanes) {
         let ray = rays.lane(lane);
-        let shear = Few::shear_of(shape, &ray);
-        if let Some((t, _)) = shape.intersect(&ray, &shear, 1.0) {
+        let watertight = SmallScene::shear_of(shape, &ray);
+        if let Some((t, _)) = shape.intersect(&ray, &watertight, 1.0) {
             roots[lane] = t;
         }
     }

@@ -26,16 +26,16 @@ fn rays_together_visit_whatever_they_hit_at_all_levels_the_same() {
         let levels = SimdLevel::NAMES.into_iter().filter_map(SimdLevel::named);
         let built = |level| Wide::build(Builders::All, level, all.len(), 0.0, corners).unwrap();
         let wides: Vec<_> = levels.map(built).collect();
-        let judge = |index: u64| {
+        let intersect4 = |index: u64| {
             let [mut hits, mut wrong] = [0, 0];
             let mut expected: Option<Vec<Visits>> = None;
             for wide in &wides {
                 let mut rays = side_by_side(family, &all, index);
-                wide.walk_together(&mut rays);
+                wide.traverse_packets(&mut rays);
                 for (ray, t_max, found) in &rays {
-                    let shear = Shear::new(ray);
+                    let watertight = WatertightRay::new(ray);
                     for (item, triangle) in (0..).zip(&all) {
-                        let t = triangle.intersect(ray, &shear);
+                        let t = triangle.intersect(ray, &watertight);
                         let is_hit = t.is_some_and(|t| t < *t_max);
                         let is_missing = is_hit && !found.may.contains(&item);
                         let is_false = !is_hit && found.sure.contains(&item);
@@ -50,7 +50,10 @@ fn rays_together_visit_whatever_they_hit_at_all_levels_the_same() {
         };
         let add = |a: [u64; 2], b: [u64; 2]| [a[0] + b[0], a[1] + b[1]];
         let rays = ray_count(600);
-        let [hits, wrong] = (0..rays).into_par_iter().map(judge).reduce(|| [0; 2], add);
+        let [hits, wrong] = (0..rays)
+            .into_par_iter()
+            .map(intersect4)
+            .reduce(|| [0; 2], add);
         assert!(hits > rays && wrong == 0, "{name}: {wrong} of {hits}");
     }
 }
@@ -73,14 +76,14 @@ fn rays_that_do_not_go_along_find_what_they_find_alone() {
         }
         let alone = rays.each_ref().map(|(ray, t_max, _)| {
             let mut found = Sure::default();
-            wide.walk(ray, *t_max, &mut found);
+            wide.traverse(ray, *t_max, &mut found);
             found.may.sort_unstable();
             found.may
         });
-        wide.walk_together(&mut rays);
+        wide.traverse_packets(&mut rays);
         for ((ray, t_max, found), alone) in rays.iter_mut().zip(alone) {
             found.may.sort_unstable();
-            let t = |item: u32| all[item as usize].intersect(ray, &Shear::new(ray));
+            let t = |item: u32| all[item as usize].intersect(ray, &WatertightRay::new(ray));
             let is_hit = |item: &u32| t(*item).is_some_and(|t| t < *t_max);
             let hits = |items: Vec<u32>| items.into_iter().filter(is_hit).collect::<Vec<_>>();
             assert_eq!(hits(std::mem::take(&mut found.may)), hits(alone), "{ray:?}");

@@ -2,9 +2,9 @@
 //! one waits for is fetched the others go on.
 
 use super::{Candidate, LEAF, NONE, TraversalStack, Wide, leaf_at};
-use crate::accel::beam::Beam;
+use crate::accel::conservative_ray::ConservativeRay;
 use crate::accel::lanes::{
-    BoxLanes, LINKS, LeafVerdict, TriangleLanes, TriangleRow, WIDTH, WideNode,
+    BoxLanes, LINKS, HitMask, TriangleLanes, TriangleRow, WIDTH, WideNode,
 };
 use crate::accel::simd::at_level;
 use crate::ray::Ray;
@@ -15,11 +15,11 @@ use std::hint::black_box;
 const TURNS: usize = 4;
 
 /// Where a ray is in the hierarchy.
-struct Traversal<'walk, S: Simd> {
-    nodes: &'walk [WideNode],
-    rows: &'walk [TriangleRow],
+struct Traversal<'traverse, S: Simd> {
+    nodes: &'traverse [WideNode],
+    rows: &'traverse [TriangleRow],
     unit: Option<f64>,
-    beam: Beam,
+    conservative_ray: ConservativeRay,
     boxes: BoxLanes<S>,
     triangles: TriangleLanes<f32x4<S>>,
     limit: f32,
@@ -63,50 +63,50 @@ enum TraversalStep {
 impl Wide {
     /// Has the triangles visited that the ray may hit before `t_max`, nearer ones roughly first.
     #[inline]
-    pub(crate) fn walk(&self, ray: &Ray, t_max: f64, visitor: &mut impl Visitor) {
-        at_level!(self.simd, simd => self.walk_one(simd, ray, t_max, visitor));
+    pub(crate) fn traverse(&self, ray: &Ray, t_max: f64, visitor: &mut impl Visitor) {
+        at_level!(self.simd, simd => self.traverse_one(simd, ray, t_max, visitor));
     }
 
-    /// As [`Wide::walk`] for each of some rays, with the `t_max` and the visitor of each.
-    pub(crate) fn walk_all<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
-        at_level!(self.simd, simd => self.walk_by_turns(simd, rays));
+    /// As [`Wide::traverse`] for each of some rays, with the `t_max` and the visitor of each.
+    pub(crate) fn traverse_all<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
+        at_level!(self.simd, simd => self.traverse_interleaved(simd, rays));
     }
 
     #[inline(always)]
-    pub(super) fn walk_one<S: Simd, V: Visitor>(
+    pub(super) fn traverse_one<S: Simd, V: Visitor>(
         &self,
         simd: S,
         ray: &Ray,
         t_max: f64,
         visitor: &mut V,
     ) {
-        if let Some(beam) = self.beam(ray, t_max, visitor) {
-            self.walk_along(simd, beam, t_max, visitor);
+        if let Some(conservative_ray) = self.conservative_ray(ray, t_max, visitor) {
+            self.traverse_from(simd, conservative_ray, t_max, visitor);
         }
     }
 
     #[inline(always)]
-    pub(super) fn walk_along<S: Simd, V: Visitor>(
+    pub(super) fn traverse_from<S: Simd, V: Visitor>(
         &self,
         simd: S,
-        beam: Beam,
+        conservative_ray: ConservativeRay,
         t_max: f64,
         visitor: &mut V,
     ) {
-        let mut traversal = self.start::<S, V>(simd, beam, t_max);
+        let mut traversal = self.start::<S, V>(simd, conservative_ray, t_max);
         while traversal.step(simd, visitor) == TraversalStep::GoesOn {}
     }
 
     #[inline(always)]
-    fn walk_by_turns<S: Simd, V: Visitor>(&self, simd: S, rays: &mut [(Ray, f64, V)]) {
+    fn traverse_interleaved<S: Simd, V: Visitor>(&self, simd: S, rays: &mut [(Ray, f64, V)]) {
         let mut waiting = rays.iter_mut();
         let mut under_way = Vec::with_capacity(TURNS);
         loop {
             while under_way.len() < TURNS
                 && let Some((ray, t_max, visitor)) = waiting.next()
             {
-                if let Some(beam) = self.beam(ray, *t_max, visitor) {
-                    under_way.push((self.start::<S, V>(simd, beam, *t_max), visitor));
+                if let Some(conservative_ray) = self.conservative_ray(ray, *t_max, visitor) {
+                    under_way.push((self.start::<S, V>(simd, conservative_ray, *t_max), visitor));
                 }
             }
             if under_way.is_empty() {
@@ -115,7 +115,7 @@ impl Wide {
             let mut turn = 0;
             while let Some((traversal, visitor)) = under_way.get_mut(turn) {
                 if traversal.step(simd, *visitor) == TraversalStep::GoesOn {
-                    traversal.touch();
+                    traversal.prefetch();
                     turn += 1;
                 } else {
                     under_way.swap_remove(turn);
@@ -126,22 +126,22 @@ impl Wide {
 
     /// A beam at the root.
     #[inline(always)]
-    fn start<S: Simd, V: Visitor>(&self, simd: S, beam: Beam, t_max: f64) -> Traversal<'_, S> {
+    fn start<S: Simd, V: Visitor>(&self, simd: S, conservative_ray: ConservativeRay, t_max: f64) -> Traversal<'_, S> {
         Traversal {
             nodes: self.nodes.rows(),
             rows: self.triangles.rows(),
             unit: self.unit,
-            boxes: BoxLanes::new(simd, &beam),
-            triangles: TriangleLanes::new(simd, &beam),
-            limit: beam.limit(t_max),
+            boxes: BoxLanes::new(simd, &conservative_ray),
+            triangles: TriangleLanes::new(simd, &conservative_ray),
+            limit: conservative_ray.limit(t_max),
             sure_limit: if V::IS_SURE {
-                beam.sure_limit(t_max)
+                conservative_ray.sure_limit(t_max)
             } else {
                 0.0
             },
             link: self.root,
             open: TraversalStack::new(),
-            beam,
+            conservative_ray,
         }
     }
 
@@ -200,21 +200,21 @@ impl<S: Simd> Traversal<'_, S> {
     fn visit_leaf<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> TraversalStep {
         let leaf = leaf_at(self.rows, self.link);
         let all = 0b1111 >> (3 - (self.link & 3));
-        let verdict = match (V::CULLS, V::IS_SURE) {
-            (false, _) => LeafVerdict { may: all, sure: 0 },
-            (true, false) => self.triangles.judge::<false>(simd, leaf, [self.limit, 0.0]),
+        let hit_mask = match (V::CULLS, V::IS_SURE) {
+            (false, _) => HitMask { may: all, sure: 0 },
+            (true, false) => self.triangles.intersect4::<false>(simd, leaf, [self.limit, 0.0]),
             (true, true) => {
                 let limits = [self.limit, self.sure_limit];
-                self.triangles.judge::<true>(simd, leaf, limits)
+                self.triangles.intersect4::<true>(simd, leaf, limits)
             }
         };
-        for lane in lanes_of(verdict.sure & all) {
+        for lane in lanes_of(hit_mask.sure & all) {
             if visitor.is_settled_by(leaf.item(lane)) {
                 return TraversalStep::Ends;
             }
         }
         let mut t_max = None;
-        for lane in lanes_of(verdict.may & all) {
+        for lane in lanes_of(hit_mask.may & all) {
             let item = leaf.item(lane);
             let unit = self.unit;
             let end = visitor.visit(Candidate {
@@ -229,19 +229,19 @@ impl<S: Simd> Traversal<'_, S> {
             t_max = Some(end);
         }
         if let Some(t_max) = t_max {
-            self.limit = self.beam.limit(t_max);
+            self.limit = self.conservative_ray.limit(t_max);
         }
         TraversalStep::GoesOn
     }
 
     /// Asks for the memory of the next step, which is there when its turn comes.
     #[inline(always)]
-    fn touch(&self) {
+    fn prefetch(&self) {
         if self.link & LEAF == 0 {
             let node = &self.nodes[self.link as usize];
             black_box([node[0], node[16], node[32], node[48]]);
         } else {
-            leaf_at(self.rows, self.link).touch();
+            leaf_at(self.rows, self.link).prefetch();
         }
     }
 }

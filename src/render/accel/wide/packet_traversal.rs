@@ -1,9 +1,9 @@
 //! How rays that go nearly the same way go through a hierarchy together: each node is looked at
 //! once for eight of them.
 
-use super::walk::{Visitor, lanes_of};
+use super::traverse::{Visitor, lanes_of};
 use super::{Candidate, LEAF, TraversalStack, Wide, leaf_at};
-use crate::accel::beam::{Beam, NoBeam};
+use crate::accel::conservative_ray::{ConservativeRay, RayRejection};
 use crate::accel::lanes::{LINKS, WIDTH};
 use crate::accel::packet::{Packet, RAYS};
 use crate::accel::simd::at_level;
@@ -14,10 +14,10 @@ use fearless_simd::Simd;
 const ENDED: f32 = f32::NEG_INFINITY;
 
 /// Where a packet is in the hierarchy.
-struct Together<'walk, 'rays, S: Simd, V> {
-    wide: &'walk Wide,
+struct PacketTraversal<'traverse, 'rays, S: Simd, V> {
+    wide: &'traverse Wide,
     packet: Packet<S>,
-    beams: [Beam; RAYS],
+    conservative_rays: [ConservativeRay; RAYS],
     rays: &'rays mut [(Ray, f64, V); RAYS],
     /// The limits of the beams, and their sure limits.
     limits: [[f32; RAYS]; 2],
@@ -27,75 +27,80 @@ struct Together<'walk, 'rays, S: Simd, V> {
 }
 
 impl Wide {
-    /// As [`Wide::walk`] for each of some rays, with the `t_max` and the visitor of each. Fastest
+    /// As [`Wide::traverse`] for each of some rays, with the `t_max` and the visitor of each. Fastest
     /// where rays side by side visit the same nodes.
-    pub(crate) fn walk_together<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
-        at_level!(self.simd, simd => self.walk_packets(simd, rays));
+    pub(crate) fn traverse_packets<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
+        at_level!(self.simd, simd => self.traverse_all_packets(simd, rays));
     }
 
     #[inline(always)]
-    fn walk_packets<S: Simd, V: Visitor>(&self, simd: S, rays: &mut [(Ray, f64, V)]) {
+    fn traverse_all_packets<S: Simd, V: Visitor>(&self, simd: S, rays: &mut [(Ray, f64, V)]) {
         let (packets, rest) = rays.as_chunks_mut::<RAYS>();
         for packet in packets {
-            self.walk_packet(simd, packet);
+            self.traverse_packet(simd, packet);
         }
         for (ray, t_max, visitor) in rest {
-            self.walk_one(simd, ray, *t_max, visitor);
+            self.traverse_one(simd, ray, *t_max, visitor);
         }
     }
 
     #[inline(always)]
-    fn walk_packet<S: Simd, V: Visitor>(&self, simd: S, rays: &mut [(Ray, f64, V); RAYS]) {
-        let mut beams = [None; RAYS];
+    fn traverse_packet<S: Simd, V: Visitor>(&self, simd: S, rays: &mut [(Ray, f64, V); RAYS]) {
+        let mut conservative_rays = [None; RAYS];
         for lane in 0..RAYS {
             let (ray, t_max, visitor) = &mut rays[lane];
-            beams[lane] = self.beam(ray, *t_max, visitor);
+            conservative_rays[lane] = self.conservative_ray(ray, *t_max, visitor);
         }
-        let Some(any) = beams.iter().flatten().next().copied() else {
+        let Some(any) = conservative_rays.iter().flatten().next().copied() else {
             return;
         };
         // A ray without a beam goes along with another's, and has ended.
         let mut full = [any; RAYS];
         let mut limits = [[ENDED; RAYS]; 2];
         for lane in 0..RAYS {
-            if let Some(beam) = beams[lane] {
-                full[lane] = beam;
-                limits[0][lane] = beam.limit(rays[lane].1);
-                limits[1][lane] = beam.sure_limit(rays[lane].1);
+            if let Some(conservative_ray) = conservative_rays[lane] {
+                full[lane] = conservative_ray;
+                limits[0][lane] = conservative_ray.limit(rays[lane].1);
+                limits[1][lane] = conservative_ray.sure_limit(rays[lane].1);
             }
         }
         let Some(packet) = Packet::new(simd, &full) else {
-            for (beam, (_, t_max, visitor)) in beams.into_iter().zip(rays) {
-                if let Some(beam) = beam {
-                    self.walk_along(simd, beam, *t_max, visitor);
+            for (conservative_ray, (_, t_max, visitor)) in conservative_rays.into_iter().zip(rays) {
+                if let Some(conservative_ray) = conservative_ray {
+                    self.traverse_from(simd, conservative_ray, *t_max, visitor);
                 }
             }
             return;
         };
-        let mut together = Together {
+        let mut packet_traversal = PacketTraversal {
             wide: self,
             packet,
-            beams: full,
+            conservative_rays: full,
             rays,
             limits,
             limit: greatest(&limits[0]),
             open: TraversalStack::new(),
         };
-        together.walk(simd);
+        packet_traversal.traverse(simd);
     }
 
     /// The beam of a ray; `None` if it meets nothing, or where arithmetic can't tell and all
     /// triangles have been visited.
     #[inline(always)]
-    pub(super) fn beam<V: Visitor>(&self, ray: &Ray, t_max: f64, visitor: &mut V) -> Option<Beam> {
+    pub(super) fn conservative_ray<V: Visitor>(
+        &self,
+        ray: &Ray,
+        t_max: f64,
+        visitor: &mut V,
+    ) -> Option<ConservativeRay> {
         // A ray that ends before it starts.
         if t_max < 0.0 {
             return None;
         }
-        match Beam::new(&self.frame, ray) {
-            Ok(beam) => Some(beam),
-            Err(NoBeam::Missed) => None,
-            Err(NoBeam::Untold) => {
+        match ConservativeRay::new(&self.frame, ray) {
+            Ok(conservative_ray) => Some(conservative_ray),
+            Err(RayRejection::Missed) => None,
+            Err(RayRejection::Indeterminate) => {
                 self.visit_all(visitor);
                 None
             }
@@ -112,9 +117,9 @@ fn greatest(limits: &[f32; RAYS]) -> f32 {
     greatest
 }
 
-impl<S: Simd, V: Visitor> Together<'_, '_, S, V> {
+impl<S: Simd, V: Visitor> PacketTraversal<'_, '_, S, V> {
     #[inline(always)]
-    fn walk(&mut self, simd: S) {
+    fn traverse(&mut self, simd: S) {
         let mut link = self.wide.root;
         loop {
             let next = if link & LEAF == 0 {
@@ -172,12 +177,14 @@ impl<S: Simd, V: Visitor> Together<'_, '_, S, V> {
     fn visit_leaf(&mut self, simd: S, link: u32) {
         let leaf = leaf_at(self.wide.triangles.rows(), link);
         for lane in 0..leaf.count() {
-            let verdict = if V::IS_SURE {
-                self.packet.judge::<true>(simd, leaf, lane, &self.limits)
+            let hit_mask = if V::IS_SURE {
+                self.packet
+                    .intersect4::<true>(simd, leaf, lane, &self.limits)
             } else {
-                self.packet.judge::<false>(simd, leaf, lane, &self.limits)
+                self.packet
+                    .intersect4::<false>(simd, leaf, lane, &self.limits)
             };
-            if verdict.may == 0 {
+            if hit_mask.may == 0 {
                 continue;
             }
             let candidate = Candidate {
@@ -186,9 +193,9 @@ impl<S: Simd, V: Visitor> Together<'_, '_, S, V> {
                 lane,
                 unit: self.wide.unit,
             };
-            for ray in lanes_of(verdict.may) {
+            for ray in lanes_of(hit_mask.may) {
                 let (_, _, visitor) = &mut self.rays[ray];
-                let is_sure = verdict.sure & 1 << ray != 0;
+                let is_sure = hit_mask.sure & 1 << ray != 0;
                 let is_over = is_sure && visitor.is_settled_by(candidate.item);
                 let end = if is_over {
                     -1.0
@@ -198,7 +205,7 @@ impl<S: Simd, V: Visitor> Together<'_, '_, S, V> {
                 self.limits[0][ray] = if end < 0.0 {
                     ENDED
                 } else {
-                    self.beams[ray].limit(end)
+                    self.conservative_rays[ray].limit(end)
                 };
             }
             self.limit = greatest(&self.limits[0]);

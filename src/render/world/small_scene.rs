@@ -1,18 +1,18 @@
 //! The surfaces of a world that has only a few, none of them flattened: a ray is told which of them
 //! it can meet, and asks no others.
 
-use super::{Hit, NOWHERE, Surface, World, segment};
-use crate::accel::bundle::{Balls, MAX_ITEMS};
+use super::{Hit, NO_PRIMITIVE, Surface, World, segment};
+use crate::accel::bundle::{BoundingSpheres, MAX_ITEMS};
 use crate::ray::Ray;
-use crate::shape::geometry::Geometry;
+use crate::shape::geometry::Intersect;
 use crate::shape::tie::Nearest;
-use crate::shape::triangle::Shear;
+use crate::shape::triangle::WatertightRay;
 use rtc_math::Vec3;
 use rtc_plan::{LightPlan, Plan};
 
 /// Surfaces with bits: that of a surface is its index in the world.
-pub(crate) struct Few {
-    pub(crate) balls: Balls,
+pub(crate) struct SmallScene {
+    pub(crate) balls: BoundingSpheres,
     /// The surfaces that look at the shear of a ray.
     sheared: u64,
     /// The surfaces that cast shadows.
@@ -21,10 +21,10 @@ pub(crate) struct Few {
     hiding: Vec<Vec<u64>>,
 }
 
-impl Few {
+impl SmallScene {
     /// The surfaces given of a world, and of those the ones that cast shadows; `None` if there are
     /// too many.
-    pub(super) fn new<S: Geometry>(
+    pub(super) fn new<S: Intersect>(
         surfaces: &[Surface<S>],
         all: &[u32],
         casters: &[u32],
@@ -33,9 +33,10 @@ impl Few {
             return None;
         }
         let balls = surfaces.iter().map(|surface| surface.shape.ball());
-        let sheared = (0..surfaces.len()).filter(|index| surfaces[*index].shape.uses_shear());
+        let sheared =
+            (0..surfaces.len()).filter(|index| surfaces[*index].shape.uses_watertight_ray());
         Some(Self {
-            balls: Balls::new(balls.enumerate()),
+            balls: BoundingSpheres::new(balls.enumerate()),
             sheared: bits(sheared),
             casters: bits(casters.iter().map(|caster| *caster as usize)),
             hiding: Vec::new(),
@@ -64,21 +65,21 @@ impl Few {
 
     /// The shear of a ray, if one of some surfaces looks at it.
     #[inline(always)]
-    fn shear(&self, items: u64, ray: &Ray) -> Shear {
+    fn watertight(&self, items: u64, ray: &Ray) -> WatertightRay {
         if items & self.sheared == 0 {
-            Shear::UNUSED
+            WatertightRay::UNUSED
         } else {
-            Shear::new(ray)
+            WatertightRay::new(ray)
         }
     }
 
     /// The shear of a ray, if a shape looks at it.
     #[inline(always)]
-    pub(crate) fn shear_of<S: Geometry>(shape: &S, ray: &Ray) -> Shear {
-        if shape.uses_shear() {
-            Shear::new(ray)
+    pub(crate) fn shear_of<S: Intersect>(shape: &S, ray: &Ray) -> WatertightRay {
+        if shape.uses_watertight_ray() {
+            WatertightRay::new(ray)
         } else {
-            Shear::UNUSED
+            WatertightRay::UNUSED
         }
     }
 
@@ -99,27 +100,37 @@ fn bits(indices: impl Iterator<Item = usize>) -> u64 {
     indices.fold(0, |bits, index| bits | 1 << index)
 }
 
-impl<S: Geometry> World<S> {
+impl<S: Intersect> World<S> {
     /// As [`World::closest_hit`], of a finite ray of length 1 that can meet only some surfaces.
     #[inline(always)]
-    pub(crate) fn closest_hit_of(&self, few: &Few, mut items: u64, ray: &Ray) -> Option<Hit> {
-        let mut nearest = Nearest::up_to(f64::INFINITY, NOWHERE);
+    pub(crate) fn closest_hit_of(
+        &self,
+        few: &SmallScene,
+        mut items: u64,
+        ray: &Ray,
+    ) -> Option<Hit> {
+        let mut nearest = Nearest::up_to(f64::INFINITY, NO_PRIMITIVE);
         if items == 0 {
             return None;
         }
-        let shear = few.shear(items, ray);
-        while let Some(surface) = Few::pop(&mut items) {
+        let watertight = few.watertight(items, ray);
+        while let Some(surface) = SmallScene::pop(&mut items) {
             let shape = &self.surfaces[surface].shape;
-            if let Some((t, prim_id)) = shape.closest_hit(ray, &shear, nearest.limit()) {
+            if let Some((t, prim_id)) = shape.closest_hit(ray, &watertight, nearest.limit()) {
                 nearest.add(t, (surface, prim_id));
             }
         }
-        self.hit(ray, 1.0, NOWHERE, &nearest)
+        self.hit(ray, 1.0, NO_PRIMITIVE, &nearest)
     }
 
     /// As [`World::occluded`], where only some surfaces can stand between.
     #[inline(always)]
-    pub(crate) fn occluded_by(&self, few: &Few, mut items: u64, [from, to]: [Vec3; 2]) -> bool {
+    pub(crate) fn occluded_by(
+        &self,
+        few: &SmallScene,
+        mut items: u64,
+        [from, to]: [Vec3; 2],
+    ) -> bool {
         let ray = Ray {
             origin: from,
             direction: to - from,
@@ -127,12 +138,12 @@ impl<S: Geometry> World<S> {
         if !ray.is_scaled() {
             return self.occluded(from, to);
         }
-        let shear = few.shear(items, &ray);
+        let watertight = few.watertight(items, &ray);
         // The end of the segment is asked for only where there is something to compare it with.
         let is_before_end = |t: f64| segment(from, to).is_some_and(|(_, t_max)| t < t_max);
-        while let Some(surface) = Few::pop(&mut items) {
+        while let Some(surface) = SmallScene::pop(&mut items) {
             let shape = &self.surfaces[surface].shape;
-            let hit = shape.intersect(&ray, &shear, 1.0);
+            let hit = shape.intersect(&ray, &watertight, 1.0);
             if hit.is_some_and(|(t, _)| is_before_end(t)) {
                 return true;
             }

@@ -11,14 +11,14 @@ use rtc_math::{Bounds, U, Vec3, ldexp};
 const ROUND: f64 = 0.5 * f32::EPSILON as f64;
 
 /// Directions are at least this steep to every axis; within the cube that moves no ray by more than
-/// [`FLOOR`].
-const STEEP: f64 = 1.0 / 1_099_511_627_776.0;
+/// [`MIN_DISTANCE`].
+const MIN_SLOPE: f64 = 1.0 / 1_099_511_627_776.0;
 
 /// The least distance that counts.
-const FLOOR: f64 = 1.0 / 68_719_476_736.0;
+const MIN_DISTANCE: f64 = 1.0 / 68_719_476_736.0;
 
 /// By how much a root may be wrong, and more.
-const ROUNDED: f64 = 1.0 / 1_048_576.0;
+const T_SLACK: f64 = 1.0 / 1_048_576.0;
 
 /// A cube about the origin may be so many times as large as one about the geometry.
 const OFF_CENTER: f64 = 16.0;
@@ -93,17 +93,17 @@ fn rounded_down(x: f64) -> f32 {
 
 /// Why there is no beam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum NoBeam {
+pub(crate) enum RayRejection {
     /// The ray misses the cube.
     Missed,
     /// The arithmetic can't tell: anything may be hit.
-    Untold,
+    Indeterminate,
 }
 
 /// A ray in a cube. Its own t counts from where it comes near the cube, in units in which it moves
 /// along its main axis as fast as t.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Beam {
+pub(crate) struct ConservativeRay {
     /// The axes with the main one last, and where it starts along them.
     pub(in crate::accel) axes: [usize; 3],
     pub(in crate::accel) origin: [f32; 3],
@@ -123,14 +123,14 @@ pub(crate) struct Beam {
     start: f64,
 }
 
-impl Beam {
+impl ConservativeRay {
     /// The part of a ray that may be inside a cube.
     #[inline(always)]
     #[expect(
         clippy::cast_possible_truncation,
         reason = "single precision is meant; errors are bounded"
     )]
-    pub(crate) fn new(frame: &QuantizationFrame, ray: &Ray) -> Result<Self, NoBeam> {
+    pub(crate) fn new(frame: &QuantizationFrame, ray: &Ray) -> Result<Self, RayRejection> {
         let size = ray.direction.abs();
         let speed = size.max_element();
         let main = if size.x == speed {
@@ -144,17 +144,20 @@ impl Beam {
         let distance = far.abs().max_element();
         let rate = speed * frame.scale;
         if !(direction.is_finite() && distance < 1e30 && rate.is_normal()) {
-            return Err(NoBeam::Untold);
+            return Err(RayRejection::Indeterminate);
         }
         // Points of the cube have t between the distance ∓ 1.
         let start = (distance - 2.0).max(0.0);
         let origin = far + direction * start;
         let largest = origin.abs().max_element();
-        let base = FLOOR + 64.0 * U * (1.0 + distance);
+        let base = MIN_DISTANCE + 64.0 * U * (1.0 + distance);
         if largest > 5.0 + base {
-            return Err(NoBeam::Missed);
+            return Err(RayRejection::Missed);
         }
-        let steep = direction.abs().max(Vec3::splat(STEEP)).copysign(direction);
+        let steep = direction
+            .abs()
+            .max(Vec3::splat(MIN_SLOPE))
+            .copysign(direction);
         // Twice what rounding to f32 moves the origin by, once more for the sum.
         let shift = (origin.abs() * (4.0 * ROUND) + 2.0 * base).copysign(direction);
         let axes = [(main + 1) % 3, (main + 2) % 3, main];
@@ -187,7 +190,7 @@ impl Beam {
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
     pub(crate) fn limit(&self, t_max: f64) -> f32 {
-        let end = t_max * self.rate * (1.0 + ROUNDED) - self.start;
+        let end = t_max * self.rate * (1.0 + T_SLACK) - self.start;
         end as f32 * (1.0 + 2.0 * f32::EPSILON) + self.error
     }
 
@@ -195,7 +198,7 @@ impl Beam {
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounded down")]
     pub(in crate::accel) fn sure_limit(&self, t_max: f64) -> f32 {
-        let end = t_max * self.rate * (1.0 - ROUNDED) - self.start;
+        let end = t_max * self.rate * (1.0 - T_SLACK) - self.start;
         end as f32 * (1.0 - 4.0 * f32::EPSILON) - 2.0 * self.error
     }
 }

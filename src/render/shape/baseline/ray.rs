@@ -6,14 +6,14 @@ use rtc_plan::MIN_HIT_DISTANCE;
 
 /// A ray in the numbers of the plain formulas.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlainRay<R> {
+pub(crate) struct BaselineRay<R> {
     pub(in crate::shape) origin: Vector<R>,
     pub(in crate::shape) direction: Vector<R>,
     /// The square of the direction's length in the world.
     pub(in crate::shape) length2: R,
 }
 
-impl<R: Real> PlainRay<R> {
+impl<R: Real> BaselineRay<R> {
     #[inline]
     pub(in crate::shape) fn of(ray: &Ray) -> Self {
         let direction = Vector::of(ray.direction);

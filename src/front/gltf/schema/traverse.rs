@@ -13,7 +13,10 @@ const HEADER: [&str; 3] = ["asset", "extensionsUsed", "extensionsRequired"];
 
 /// Checks the shape of the whole asset, and that its references lead somewhere; only of its header
 /// if the rest `is_known` not.
-pub(in super::super) fn walk(is_known: bool, report: &mut AssetReport<'_, '_>) -> BTreeSet<String> {
+pub(in super::super) fn traverse(
+    is_known: bool,
+    report: &mut AssetReport<'_, '_>,
+) -> BTreeSet<String> {
     let root = report.json.root();
     if report.json.kind(root) != NodeKind::Map {
         let kind = report.json.kind(root).name();
@@ -40,7 +43,7 @@ pub(in super::super) fn walk(is_known: bool, report: &mut AssetReport<'_, '_>) -
         list.map_or_else(Vec::new, |list| json.items(list).map(slot).collect())
     });
     let present = POOLS.map(|(_, way)| way.len() == 1 || json.at(root, &way[..2]).is_some());
-    let mut walk = Walk {
+    let mut traverse = Walk {
         report,
         declared,
         slots,
@@ -48,13 +51,13 @@ pub(in super::super) fn walk(is_known: bool, report: &mut AssetReport<'_, '_>) -
         is_known,
         open: vec![(root, &ROOT)],
     };
-    while let Some((node, object)) = walk.open.pop() {
-        walk.object(node, object);
+    while let Some((node, object)) = traverse.open.pop() {
+        traverse.object(node, object);
     }
     if is_known {
-        walk.tell_unused();
+        traverse.tell_unused();
     }
-    walk.declared
+    traverse.declared
 }
 
 /// An element of a list of parts.

@@ -12,51 +12,51 @@ pub(crate) mod roots;
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
 use crate::shape::Shape;
-use crate::shape::geometry::{Asked, Details, Geometry};
+use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
 use crate::shape::kinds::*;
-use crate::shape::mesh::PlainMesh;
-use crate::shape::triangle::Shear;
-use ray::PlainRay;
+use crate::shape::mesh::BaselineMesh;
+use crate::shape::triangle::WatertightRay;
+use ray::BaselineRay;
 use real::{Real, Vector};
 use rtc_math::{Bounds, Vec3};
 use std::fmt::Debug;
 use std::sync::Arc;
 
 /// How rays meet a shape by plain formulas.
-pub(crate) trait Plain<R>: Clone + Debug + Send + Sync {
+pub(crate) trait Baseline<R>: Clone + Debug + Send + Sync {
     /// The first root that counts, and the part of the shape it is on; roots beyond `t_max` may be
     /// left out.
-    fn intersect(&self, ray: &PlainRay<R>, t_max: f64) -> Option<(R, u32)>;
+    fn intersect(&self, ray: &BaselineRay<R>, t_max: f64) -> Option<(R, u32)>;
 
     /// The normal at a point of a part.
-    fn normal(&self, ray: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R>;
+    fn normal(&self, ray: &BaselineRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R>;
 }
 
-impl<R, P: Plain<R>> Plain<R> for Box<P> {
+impl<R, P: Baseline<R>> Baseline<R> for Box<P> {
     #[inline]
-    fn intersect(&self, ray: &PlainRay<R>, t_max: f64) -> Option<(R, u32)> {
+    fn intersect(&self, ray: &BaselineRay<R>, t_max: f64) -> Option<(R, u32)> {
         (**self).intersect(ray, t_max)
     }
 
-    fn normal(&self, ray: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
+    fn normal(&self, ray: &BaselineRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
         (**self).normal(ray, point, prim_id)
     }
 }
 
 /// A robust shape that has a plain twin.
-pub(crate) trait Twin {
+pub(crate) trait HasBaseline {
     /// The twin; a large one in a box.
-    type Plain<R: Real>: Plain<R>;
+    type Baseline<R: Real>: Baseline<R>;
 
     /// The twin, of the same numbers; `mesh` is that of an instance. `None` for an instance of
     /// none.
-    fn plain<R: Real>(&self, mesh: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>>;
+    fn plain<R: Real>(&self, mesh: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>>;
 }
 
 /// A shape of any kind, ready to be hit by the plain formulas in `R`.
 #[derive(Clone, Debug)]
-pub struct PlainShape<R: Real> {
-    form: PlainForm<R>,
+pub struct BaselineShape<R: Real> {
+    form: BaselineKind<R>,
     /// Answers what is not a question of arithmetic.
     robust: Box<Shape>,
 }
@@ -66,27 +66,27 @@ macro_rules! declare {
     ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
         /// How rays meet it.
         #[derive(Clone, Debug)]
-        enum PlainForm<R: Real> {
-            $($Name(<$Name as Twin>::Plain<R>),)*
+        enum BaselineKind<R: Real> {
+            $($Name(<$Name as HasBaseline>::Baseline<R>),)*
         }
 
-        impl<R: Real> PlainForm<R> {
-            fn of(robust: &Shape, mesh: Option<&Arc<PlainMesh<R>>>) -> Option<Self> {
+        impl<R: Real> BaselineKind<R> {
+            fn of(robust: &Shape, mesh: Option<&Arc<BaselineMesh<R>>>) -> Option<Self> {
                 Some(match robust {
                     $(Shape::$Name(shape) => Self::$Name(shape.plain(mesh)?),)*
                 })
             }
 
             #[inline]
-            fn intersect(&self, ray: &PlainRay<R>, t_max: f64) -> Option<(R, u32)> {
+            fn intersect(&self, ray: &BaselineRay<R>, t_max: f64) -> Option<(R, u32)> {
                 match self {
-                    $(Self::$Name(shape) => Plain::intersect(shape, ray, t_max),)*
+                    $(Self::$Name(shape) => Baseline::intersect(shape, ray, t_max),)*
                 }
             }
 
-            fn normal(&self, ray: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
+            fn normal(&self, ray: &BaselineRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
                 match self {
-                    $(Self::$Name(shape) => Plain::normal(shape, ray, point, prim_id),)*
+                    $(Self::$Name(shape) => Baseline::normal(shape, ray, point, prim_id),)*
                 }
             }
         }
@@ -95,31 +95,31 @@ macro_rules! declare {
 
 rtc_tables::shapes!(declare);
 
-impl<R: Real> PlainShape<R> {
+impl<R: Real> BaselineShape<R> {
     /// The twin of a shape; `mesh` is that of an instance. `None` for an instance of none.
-    pub(crate) fn new(robust: Shape, mesh: Option<&Arc<PlainMesh<R>>>) -> Option<Self> {
+    pub(crate) fn new(robust: Shape, mesh: Option<&Arc<BaselineMesh<R>>>) -> Option<Self> {
         Some(Self {
-            form: PlainForm::of(&robust, mesh)?,
+            form: BaselineKind::of(&robust, mesh)?,
             robust: Box::new(robust),
         })
     }
 }
 
-impl<R: Real> Geometry for PlainShape<R> {
+impl<R: Real> Intersect for BaselineShape<R> {
     const FLATTENS: bool = false;
 
     // Plain formulas are there to be compared with: one kernel is enough.
     const HAS_KERNELS: bool = false;
 
     #[inline]
-    fn intersect(&self, ray: &Ray, _shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
-        let hit = self.form.intersect(&PlainRay::of(ray), t_max);
+    fn intersect(&self, ray: &Ray, _shear: &WatertightRay, t_max: f64) -> Option<(f64, u32)> {
+        let hit = self.form.intersect(&BaselineRay::of(ray), t_max);
         hit.map(|(t, prim_id)| (t.wide(), prim_id))
     }
 
     /// The point on the ray; new rays start at the point itself.
     fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
-        let ray = PlainRay::<R>::of(ray);
+        let ray = BaselineRay::<R>::of(ray);
         let point = ray.at(R::of(t));
         let normal = self.form.normal(&ray, point, prim_id).wide();
         Interaction {
@@ -138,8 +138,14 @@ impl<R: Real> Geometry for PlainShape<R> {
         self.robust.has_shading_normals()
     }
 
-    fn details(&self, ray: &Ray, at: &Interaction, prim_id: u32, asked: Asked) -> Details {
-        self.robust.details(ray, at, prim_id, asked)
+    fn shading_attributes(
+        &self,
+        ray: &Ray,
+        at: &Interaction,
+        prim_id: u32,
+        asked: AttributeRequest,
+    ) -> ShadingAttributes {
+        self.robust.shading_attributes(ray, at, prim_id, asked)
     }
 
     /// The lights are those of the robust shape: light is sampled in the same way by each arithmetic.
