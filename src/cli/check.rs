@@ -2,24 +2,24 @@
 
 use super::Failure;
 use super::args::CheckArgs;
-use super::talk::{self, Talk};
+use super::reporter::{self, Reporter};
 use super::{files, fix, input};
 
 /// Checks the files and tells what was found.
 pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
     // What is shown of a change is a result of its own.
-    let mut talk = match args.diff {
-        true => Talk::beside_result(&args.talk),
-        false => Talk::as_result(&args.talk),
+    let mut reporter = match args.diff {
+        true => Reporter::beside_result(&args.reporter),
+        false => Reporter::as_result(&args.reporter),
     };
     let mut worst = Ok(());
     let scenes = files::scenes(&args.files)?;
     for path in &scenes {
         let read = input::read(path, &args.reading)?;
-        let mut input = match fix::run(path, read, args, &talk) {
+        let mut input = match fix::run(path, read, args, &reporter) {
             Ok(input) => input,
             Err(Failure::Trouble(words)) => {
-                talk::say(&format!("error: {words}"));
+                reporter::say(&format!("error: {words}"));
                 worst = Err(Failure::Unreadable);
                 continue;
             }
@@ -28,17 +28,17 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
         if let Some(loaded) = input.load() {
             input.validate(loaded, |_, _| ());
         }
-        match input::tell(&mut input, &mut talk) {
+        match input::tell(&mut input, &mut reporter) {
             Err(gone @ Failure::ClosedPipe) => return Err(gone),
             Err(Failure::Findings) if worst.is_err() => {}
             Err(failure) => worst = Err(failure),
             Ok(()) => {}
         }
     }
-    let is_in_doubt = talk.left_in_doubt();
-    talk.finish()?;
+    let is_in_doubt = reporter.left_in_doubt();
+    reporter.finish()?;
     if worst.is_ok() && is_in_doubt {
-        talk::say(&nothing_found(scenes.len()));
+        reporter::say(&nothing_found(scenes.len()));
     }
     worst
 }

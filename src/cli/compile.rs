@@ -7,8 +7,8 @@ use super::input;
 use super::interrupt::Interrupt;
 use super::output::{self, Companions, Output};
 use super::report::PlanReport;
+use super::reporter::Reporter;
 use super::simd;
-use super::talk::Talk;
 use rtc_codec::{self as codec, Encoding};
 use rtc_emit as emit;
 use rtc_emit::course::WrittenScene;
@@ -27,18 +27,18 @@ pub(super) fn run(args: &Compile) -> Result<(), Failure> {
         let words = "`--tolerance` is about the meshes of glTF; name the output .glb or .gltf";
         return Err(Failure::Trouble(words.to_owned()));
     }
-    let mut talk = Talk::beside_result(&args.talk);
-    let outcome = carry_out(args, emit, &mut talk);
-    talk.finish()?;
+    let mut reporter = Reporter::beside_result(&args.reporter);
+    let outcome = carry_out(args, emit, &mut reporter);
+    reporter.finish()?;
     outcome
 }
 
-fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure> {
+fn carry_out(args: &Compile, emit: Emit, reporter: &mut Reporter) -> Result<(), Failure> {
     let mut input = input::staged(&args.file, &args.reading, &args.stage)?;
     if emit == Emit::Yaml {
-        return carry_out_text(args, input, talk);
+        return carry_out_text(args, input, reporter);
     }
-    let validated = input::require(&mut input, talk, input::fill)?;
+    let validated = input::require(&mut input, reporter, input::fill)?;
     explain(args, &validated, &input)?;
     let Some(target) = target(args) else {
         return Ok(());
@@ -47,8 +47,12 @@ fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure>
     let encoding = match emit {
         Emit::Ir | Emit::Yaml => Encoding::Json,
         Emit::IrBin => Encoding::Binary,
-        Emit::Glb | Emit::Gltf => return write_gltf(args, emit, target, &validated, (input, talk)),
-        Emit::Mitsuba | Emit::Pov => return write_twin(emit, target, &validated, (input, talk)),
+        Emit::Glb | Emit::Gltf => {
+            return write_gltf(args, emit, target, &validated, (input, reporter));
+        }
+        Emit::Mitsuba | Emit::Pov => {
+            return write_twin(emit, target, &validated, (input, reporter));
+        }
     };
     let encoded = codec::prepare(encoding, scene);
     let encoded = encoded.map_err(|codec::NotFinite| cannot(&input, "a number is not finite"))?;
@@ -62,14 +66,14 @@ fn write_gltf(
     emit: Emit,
     target: &Path,
     validated: &Validated,
-    (mut input, talk): (Input, &mut Talk),
+    (mut input, reporter): (Input, &mut Reporter),
 ) -> Result<(), Failure> {
     let output = Output::open(target, &input)?;
     let folder = folder_of((emit == Emit::Gltf).then_some(target), &output, &input)?;
     let asset = input.gltf(&validated.lowered, args.tolerance, folder.as_deref());
-    let asset = input::unless_refused(asset, &mut input, talk)?;
+    let asset = input::unless_refused(asset, &mut input, reporter)?;
     let interrupt = Interrupt::listen()?;
-    let companions = put_beside(target, asset.files(), &interrupt)?;
+    let companions = write_sidecar(target, asset.files(), &interrupt)?;
     output.commit_by(&|out| asset.write(out), &interrupt)?;
     companions.keep();
     Ok(())
@@ -83,16 +87,16 @@ fn write_twin(
     emit: Emit,
     target: &Path,
     validated: &Validated,
-    (mut input, talk): (Input, &mut Talk),
+    (mut input, reporter): (Input, &mut Reporter),
 ) -> Result<(), Failure> {
     let output = Output::open(target, &input)?;
     let folder = folder_of((emit == Emit::Mitsuba).then_some(target), &output, &input)?;
     let twin = input.export(&validated.lowered, folder.as_deref());
-    let twin = input::unless_refused(twin, &mut input, talk)?;
+    let twin = input::unless_refused(twin, &mut input, reporter)?;
     let interrupt = Interrupt::listen()?;
     let files = twin.files.iter();
     let files = files.map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
-    let companions = put_beside(target, files, &interrupt)?;
+    let companions = write_sidecar(target, files, &interrupt)?;
     output.commit(twin.text.as_bytes(), &interrupt)?;
     companions.keep();
     Ok(())
@@ -105,14 +109,14 @@ fn folder_of(
     input: &Input,
 ) -> Result<Option<String>, Failure> {
     let folder = |target| {
-        let folder = output.folder_beside(target);
+        let folder = output.sidecar_folder(target);
         folder.ok_or_else(|| cannot(input, NO_FOLDER))
     };
     target.map(folder).transpose()
 }
 
 /// Writes the files beside a target, by their paths from its folder.
-fn put_beside<'f>(
+fn write_sidecar<'f>(
     target: &Path,
     files: impl IntoIterator<Item = (&'f str, &'f [u8])>,
     interrupt: &Interrupt,
@@ -125,20 +129,24 @@ fn put_beside<'f>(
 }
 
 /// The same for the canonical spelling, which says how a picture is shown too.
-fn carry_out_text(args: &Compile, mut input: Input, talk: &mut Talk) -> Result<(), Failure> {
+fn carry_out_text(
+    args: &Compile,
+    mut input: Input,
+    reporter: &mut Reporter,
+) -> Result<(), Failure> {
     let look = OutputTransform::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
     let mut setup = PictureSetup {
         simd: simd::level()?,
         ..PictureSetup::new(look.map_err(|words| Failure::Trouble(words.to_owned()))?)
     };
-    let mut subject = input::subject(&mut setup, &mut input, talk)?;
+    let mut subject = input::subject(&mut setup, &mut input, reporter)?;
     let interrupt = Interrupt::listen()?;
     let observer = Observer {
         on_step: &|_| (),
         is_stopped: &|| interrupt.is_raised(),
     };
     setup.light(&mut subject, &mut input, &observer)?;
-    input::tell(&mut input, talk)?;
+    input::tell(&mut input, reporter)?;
     let mut validated = subject.validated;
     validated.lowered.scene.display = setup.look.as_display();
     explain(args, &validated, &input)?;
@@ -153,7 +161,7 @@ fn explain(args: &Compile, validated: &Validated, input: &Input) -> Result<(), F
     let Some(form) = args.explain else {
         return Ok(());
     };
-    let form = if args.talk.message_format == MessageFormat::Json {
+    let form = if args.reporter.message_format == MessageFormat::Json {
         Explanation::Json
     } else {
         form
@@ -176,7 +184,7 @@ fn write_text(
         let text = emit::course::emit(scene).map_err(refuse)?;
         return output.commit(text.as_bytes(), interrupt);
     }
-    let folder = output.folder_beside(target);
+    let folder = output.sidecar_folder(target);
     let WrittenScene { text, files } =
         emit::course::emit_with_files(scene, folder.as_deref()).map_err(refuse)?;
     let mut companions = Companions::beside(target);

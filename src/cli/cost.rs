@@ -7,9 +7,9 @@ use super::interrupt::Interrupt;
 use super::merge::unfit;
 use super::output::Output;
 use super::render::{or_restart, say_saved, try_save};
+use super::reporter::Reporter;
 use super::simd;
 use super::system;
-use super::talk::Talk;
 use super::versus;
 use cpu_time::ThreadTime;
 use rtc_image::{FileFormat, Picture};
@@ -38,19 +38,19 @@ fn alone(args: &args::Cost, file: &Path) -> Result<(), Failure> {
         let words = "`--gate` is for a scene and its reference: `rtc cost new.yaml old.yaml --gate 'time<=1.2x'`";
         return Err(Failure::Trouble(words.to_owned()));
     }
-    let mut talk = Talk::beside_result(&args.talk);
+    let mut reporter = Reporter::beside_result(&args.reporter);
     let mut input = input::staged(file, &args.reading, &args.stage)?;
     input.use_threads(threads(args));
-    let outcome = carry_out(args, &mut input, &mut talk);
-    talk.finish()?;
+    let outcome = carry_out(args, &mut input, &mut reporter);
+    reporter.finish()?;
     outcome
 }
 
-fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
+fn carry_out(args: &args::Cost, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
     // A study has its own measure of work, and reports on settings that take more than anyone
     // renders.
     input.lift_rays();
-    let validated = input::require(input, talk, input::fill)?;
+    let validated = input::require(input, reporter, input::fill)?;
     let interrupt = Interrupt::listen()?;
     let output = Output::open(&args.output, input)?;
     let page = args

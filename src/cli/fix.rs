@@ -2,7 +2,7 @@
 
 use super::args::CheckArgs;
 use super::project::Project;
-use super::talk::{self, Talk};
+use super::reporter::{self, Reporter};
 use super::{Failure, edit, input, output};
 use rtc_pipeline::{self as pipeline, FixFilter, FixedText, Input};
 use std::path::Path;
@@ -12,7 +12,7 @@ pub(super) fn run(
     path: &Path,
     read: Input,
     args: &CheckArgs,
-    talk: &Talk,
+    reporter: &Reporter,
 ) -> Result<Input, Failure> {
     let Some(text) = read.text().filter(|_| args.fix || args.diff) else {
         return Ok(read);
@@ -30,7 +30,7 @@ pub(super) fn run(
         only: None,
     };
     let fixed = pipeline::fix(path, text, &options, &wish);
-    if !talk.is_quiet() {
+    if !reporter.is_quiet() {
         tell(read.name(), &fixed, args.diff);
     }
     if fixed.changes == 0 {
@@ -62,16 +62,16 @@ fn tell(name: &str, fixed: &FixedText, is_shown: bool) {
     } = *fixed;
     if made > 0 {
         let what = if is_shown { "proposed" } else { "made" };
-        talk::say(&format!("{name}: {} {what}", changes(made)));
+        reporter::say(&format!("{name}: {} {what}", changes(made)));
     }
     if refused > 0 {
-        talk::say(&format!(
+        reporter::say(&format!(
             "{name}: {} left out, which would not make the check better",
             changes(refused)
         ));
     }
     if guesses > 0 {
-        talk::say(&format!(
+        reporter::say(&format!(
             "{name}: {} left out, which only guess what was meant; `--unsafe` takes them",
             changes(guesses)
         ));

@@ -1,24 +1,24 @@
 //! `rtc fmt`: scene texts in the layout of the house, each by itself.
 
 use super::args::Fmt;
-use super::talk::{self, Talk};
+use super::reporter::{self, Reporter};
 use super::{Failure, edit, files, input, output};
 use rtc_pipeline::{Input, LayoutError, Options};
 use std::path::Path;
 
 /// Lays out the files, or tells which are not laid out.
 pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
-    let mut talk = Talk::beside_result(&args.talk);
+    let mut reporter = Reporter::beside_result(&args.reporter);
     let mut worst = Ok(());
     for path in files::texts(&args.files)? {
-        match one(&path, args, &mut talk) {
+        match one(&path, args, &mut reporter) {
             Err(gone @ Failure::ClosedPipe) => return Err(gone),
             Err(Failure::Trouble(words)) => {
-                talk::say(&format!("error: {words}"));
+                reporter::say(&format!("error: {words}"));
                 worst = Err(Failure::Unreadable);
             }
             Err(Failure::Input(words)) => {
-                talk::say(&format!("error: {words}"));
+                reporter::say(&format!("error: {words}"));
                 worst = worst.and(Err(Failure::Findings));
             }
             Err(Failure::Findings) => worst = worst.and(Err(Failure::Findings)),
@@ -26,14 +26,14 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
             Ok(()) => {}
         }
     }
-    talk.finish()?;
+    reporter.finish()?;
     worst
 }
 
-fn one(path: &Path, args: &Fmt, talk: &mut Talk) -> Result<(), Failure> {
+fn one(path: &Path, args: &Fmt, reporter: &mut Reporter) -> Result<(), Failure> {
     let mut input = input::open(path, None, Options::default());
     let laid_out = input.lay_out();
-    input::tell(&mut input, talk)?;
+    input::tell(&mut input, reporter)?;
     let text = laid_out.map_err(|fault| refusal(&input, fault))?;
     let before = input.text().unwrap_or_default();
     let is_stdin = path.as_os_str() == "-";
@@ -46,8 +46,8 @@ fn one(path: &Path, args: &Fmt, talk: &mut Talk) -> Result<(), Failure> {
         output::to_stdout(text.as_bytes())?;
     } else if !is_same {
         edit::write(path, before, &text)?;
-        if !talk.is_quiet() {
-            talk::say(&format!("{}: laid out", input.name()));
+        if !reporter.is_quiet() {
+            reporter::say(&format!("{}: laid out", input.name()));
         }
     }
     match args.check && !is_same {

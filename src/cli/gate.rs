@@ -1,6 +1,6 @@
 //! Gates: limits of measured numbers, for which a command ends with exit code 1 where one is not met.
 
-use super::{Failure, talk};
+use super::{Failure, reporter};
 use serde::Serialize;
 use std::fmt;
 
@@ -71,8 +71,8 @@ fn gates(text: &str, measures: &Measures) -> Result<Gates, String> {
 
 /// Tells which gates are met, or if it is to be quiet which are not; a failure if one is not.
 pub(super) fn pass(gates: &[JudgedGate], is_quiet: bool) -> Result<(), Failure> {
-    let told = gates.iter().filter(|gate| !(gate.is_met && is_quiet));
-    told.for_each(|gate| talk::say(&gate.to_string()));
+    let reported = gates.iter().filter(|gate| !(gate.is_met && is_quiet));
+    reported.for_each(|gate| reporter::say(&gate.to_string()));
     match gates.iter().all(|gate| gate.is_met) {
         true => Ok(()),
         false => Err(Failure::Findings),
@@ -127,8 +127,8 @@ pub(super) struct JudgedGate {
 
 impl Gates {
     /// Which gates are met, given the measures.
-    pub(super) fn judged(&self, measured: impl Fn(&str) -> f64) -> Vec<JudgedGate> {
-        let judged = |gate: &Gate| {
+    pub(super) fn is_resolved(&self, measured: impl Fn(&str) -> f64) -> Vec<JudgedGate> {
+        let is_resolved = |gate: &Gate| {
             let (measure, most, value) = (gate.measure, gate.most, measured(gate.measure));
             JudgedGate {
                 measure,
@@ -137,7 +137,7 @@ impl Gates {
                 is_met: value <= most,
             }
         };
-        self.0.iter().map(judged).collect()
+        self.0.iter().map(is_resolved).collect()
     }
 }
 
@@ -207,13 +207,16 @@ mod tests {
     #[test]
     fn a_gate_is_met_up_to_its_limit() {
         let gates = of_pictures("rmse<=1,max<=3").unwrap();
-        let judged = gates.judged(|name| if name == "rmse" { 1.0 } else { 3.5 });
+        let is_resolved = gates.is_resolved(|name| if name == "rmse" { 1.0 } else { 3.5 });
         assert_eq!(
-            judged.iter().map(|gate| gate.is_met).collect::<Vec<_>>(),
+            is_resolved
+                .iter()
+                .map(|gate| gate.is_met)
+                .collect::<Vec<_>>(),
             [true, false]
         );
         assert_eq!(
-            judged[1].to_string(),
+            is_resolved[1].to_string(),
             "gate not met: max is 3.500000, at most 3 wanted"
         );
     }

@@ -1,7 +1,7 @@
 //! `rtc info`: what is in a scene, how large it is, and what its picture needs.
 
 use super::args::Info;
-use super::talk::Talk;
+use super::reporter::Reporter;
 use super::{Failure, input, output};
 use indicatif::{BinaryBytes, HumanCount};
 use rtc_front::gltf::AssetSummary;
@@ -20,21 +20,21 @@ const INDENT: usize = 12;
 
 /// Tells what is in the scene.
 pub(super) fn run(args: &Info) -> Result<(), Failure> {
-    let mut talk = Talk::beside_result(&args.talk);
+    let mut reporter = Reporter::beside_result(&args.reporter);
     let mut input = input::staged(&args.file, &args.reading, &args.stage)?;
-    let outcome = carry_out(args, &mut input, &mut talk);
-    talk.finish()?;
+    let outcome = carry_out(args, &mut input, &mut reporter);
+    reporter.finish()?;
     outcome
 }
 
-fn carry_out(args: &Info, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
+fn carry_out(args: &Info, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
     // The picture is planned, not made.
     input.lift_rays();
     let asset = input.asset();
     let loaded = input.load();
     let content = loaded.as_ref().map(|own| content(&own.lowered.scene));
     let validated = loaded.and_then(|own| input.validate(own, input::fill));
-    let validated = input::unless_refused(validated, input, talk)?;
+    let validated = input::unless_refused(validated, input, reporter)?;
     let mut facts = json!({ "schema": SCHEMA, "file": input.name() });
     for part in [content.unwrap_or_default(), picture(&validated)] {
         extend(&mut facts, part);

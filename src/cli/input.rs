@@ -3,7 +3,7 @@
 use super::Failure;
 use super::args::{self, GroundArg, Reading};
 use super::project::Project;
-use super::talk::Talk;
+use super::reporter::Reporter;
 use rtc_front as front;
 use rtc_ir::Lowered;
 use rtc_passes::{
@@ -128,27 +128,27 @@ pub(super) fn set_stage(mut input: Input, stage: &args::StageArgs) -> Result<Inp
 }
 
 /// Tells what was found since the last time, and whether the input is fit for use.
-pub(super) fn tell(input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
+pub(super) fn tell(input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
     let sink = input.take_diagnostics();
-    let verdict = match input.is_read() {
+    let status = match input.is_read() {
         false => Err(Failure::Unreadable),
         true if sink.has_errors() => Err(Failure::Findings),
         true => Ok(()),
     };
-    talk.file(input.name(), sink, input.map())?;
-    verdict
+    reporter.file(input.name(), sink, input.map())?;
+    status
 }
 
 /// Proves a scene for a command that needs it, and tells what was found.
 pub(super) fn require(
     input: &mut Input,
-    talk: &mut Talk,
+    reporter: &mut Reporter,
     change: impl FnOnce(&mut Lowered, &Provenance),
 ) -> Result<Validated, Failure> {
     let validated = input
         .load()
         .and_then(|loaded| input.validate(loaded, change));
-    unless_refused(validated, input, talk)
+    unless_refused(validated, input, reporter)
 }
 
 /// Whether a file is a picture, by its name.
@@ -164,16 +164,16 @@ pub(super) fn is_picture(path: &Path) -> bool {
 pub(super) fn subject(
     setup: &mut PictureSetup,
     input: &mut Input,
-    talk: &mut Talk,
+    reporter: &mut Reporter,
 ) -> Result<RenderSubject, Failure> {
     let subject = match input.load() {
         Some(loaded) => setup.validate(loaded, input),
         None => Ok(None),
     };
     match subject {
-        Ok(subject) => unless_refused(subject, input, talk),
+        Ok(subject) => unless_refused(subject, input, reporter),
         Err(error) => {
-            tell(input, talk)?;
+            tell(input, reporter)?;
             Err(error.into())
         }
     }
@@ -183,9 +183,9 @@ pub(super) fn subject(
 pub(super) fn unless_refused<T>(
     made: Option<T>,
     input: &mut Input,
-    talk: &mut Talk,
+    reporter: &mut Reporter,
 ) -> Result<T, Failure> {
-    tell(input, talk)?;
+    tell(input, reporter)?;
     Ok(made.expect("what is refused has an error in the sink, and `tell` has returned it"))
 }
 

@@ -18,7 +18,6 @@ mod gate;
 mod info;
 mod input;
 mod interrupt;
-mod lead;
 mod lsp;
 mod merge;
 mod output;
@@ -28,10 +27,11 @@ mod progress;
 mod project;
 mod render;
 mod report;
+mod reporter;
 mod shown;
 mod simd;
+mod suggest;
 mod system;
-mod talk;
 mod tell;
 pub mod trial;
 mod turntable;
@@ -79,7 +79,7 @@ impl Failure {
 #[must_use]
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     interrupt::outlive_full_files();
-    panic::set_hook(Box::new(|info| talk::say(&internal_error(info))));
+    panic::set_hook(Box::new(|info| reporter::say(&internal_error(info))));
     guarded(|| dispatch(arguments))
 }
 
@@ -93,12 +93,12 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(&typed) {
         Ok(cli) => cli,
         Err(mut error) => {
-            lead::lead(&mut error, &typed);
+            suggest::suggest(&mut error, &typed);
             // Help and version come this way too. That nobody reads them is no failure.
             let text = error.render().to_string();
             if text.lines().any(|line| line.len() > LONG_LINE) {
                 let lines: Vec<_> = text.lines().map(clip_words).collect();
-                talk::say(&lines.join("\n"));
+                reporter::say(&lines.join("\n"));
             } else {
                 let _ = error.print();
             }
@@ -126,7 +126,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(()) => 0,
         Err(failure) => {
             if let Failure::Input(words) | Failure::Trouble(words) = &failure {
-                talk::say(&format!("error: {words}"));
+                reporter::say(&format!("error: {words}"));
             }
             failure.exit_code()
         }

@@ -4,7 +4,7 @@ use super::args::Merge;
 use super::interrupt::Interrupt;
 use super::output::Output;
 use super::render::kind;
-use super::talk::{self, Talk};
+use super::reporter::{self, Reporter};
 use super::{Failure, progress};
 use rtc_diag::Sink;
 use rtc_pipeline::{RenderShard, ShardError};
@@ -33,11 +33,11 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
     }
     refuse_other_kind(args, &merged)?;
     let (picture, counts, found) = merged.develop().map_err(|error| refused(error, &merged))?;
-    let mut talk = Talk::beside_result(&args.talk);
+    let mut reporter = Reporter::beside_result(&args.reporter);
     let mut sink = Sink::within(&limits);
     found.into_iter().for_each(|finding| sink.push(finding));
-    talk.file(&args.output.display().to_string(), sink, &map)?;
-    talk.finish()?;
+    reporter.file(&args.output.display().to_string(), sink, &map)?;
+    reporter.finish()?;
     let bytes = merged.look().encode(&picture, || merged.origin());
     let bytes = bytes.map_err(|error| Failure::Trouble(error.to_string()))?;
     output.commit(&bytes, &interrupt)?;
@@ -113,8 +113,8 @@ fn refused(error: ShardError, merged: &RenderShard) -> Failure {
 }
 
 fn said(args: &Merge, words: &str) -> Result<(), Failure> {
-    if !args.talk.quiet {
-        talk::say(&format!("{}: {words}", args.output.display()));
+    if !args.reporter.quiet {
+        reporter::say(&format!("{}: {words}", args.output.display()));
     }
     Ok(())
 }

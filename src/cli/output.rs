@@ -66,7 +66,7 @@ impl Output {
     }
 
     /// The name of a folder beside the result for files that it needs; none beside what is no file.
-    pub(super) fn folder_beside(&self, path: &Path) -> Option<String> {
+    pub(super) fn sidecar_folder(&self, path: &Path) -> Option<String> {
         let is_file = matches!(self.place, OutputTarget::File(_));
         let stem = path.file_stem().filter(|_| is_file)?.to_string_lossy();
         let allowed = |letter: char| letter.is_alphanumeric() || "-_. ".contains(letter);
@@ -94,7 +94,7 @@ impl Output {
             )),
             OutputTarget::File(file) => file.write_slowly(write, interrupt),
         };
-        self.told(written, interrupt)
+        self.reported(written, interrupt)
     }
 
     /// The same with a result that is written part by part.
@@ -110,11 +110,11 @@ impl Output {
             }
             OutputTarget::File(file) => file.write(write, interrupt),
         };
-        self.told(written, interrupt)
+        self.reported(written, interrupt)
     }
 
     /// How the writing ended, in words.
-    fn told(&self, written: io::Result<()>, interrupt: &Interrupt) -> Result<(), Failure> {
+    fn reported(&self, written: io::Result<()>, interrupt: &Interrupt) -> Result<(), Failure> {
         written.map_err(|error| match interrupt.is_raised() {
             true => Failure::Interrupted,
             false => failure(&self.name, &error),

@@ -246,10 +246,10 @@ pub(super) fn background(text: &str) -> Result<BackgroundArg, String> {
     match text {
         "env" => Ok(BackgroundArg::Fill(BackgroundFill::Film)),
         "transparent" => Ok(BackgroundArg::Fill(BackgroundFill::Transparent)),
-        "white" => Ok(BackgroundArg::Shown([255; 3])),
-        "black" => Ok(BackgroundArg::Shown([0; 3])),
+        "white" => Ok(BackgroundArg::Color([255; 3])),
+        "black" => Ok(BackgroundArg::Color([0; 3])),
         _ if text.starts_with('#') => hex(text)
-            .map(BackgroundArg::Shown)
+            .map(BackgroundArg::Color)
             .ok_or_else(|| "expected a colour as #ff8000".to_owned()),
         _ => match numbers().collect::<Option<Vec<_>>>().as_deref() {
             Some(&[r, g, b]) => Ok(BackgroundArg::Fill(BackgroundFill::Color([r, g, b]))),
@@ -358,7 +358,7 @@ mod tests {
         );
         assert_eq!(
             [background("#fF8001"), background("white")],
-            [[255, 128, 1], [255; 3]].map(|color| Ok(BackgroundArg::Shown(color)))
+            [[255, 128, 1], [255; 3]].map(|color| Ok(BackgroundArg::Color(color)))
         );
         assert!(are_refused(
             background,

@@ -5,18 +5,18 @@ use std::path::Path;
 
 /// The name of the processor.
 pub(super) fn processor() -> Option<String> {
-    told("/proc/cpuinfo", "model name")
+    reported("/proc/cpuinfo", "model name")
 }
 
 /// The bytes of this process on huge pages, as hierarchies ask for.
 pub(super) fn huge_pages() -> Option<u64> {
-    let granted = told("/proc/self/smaps_rollup", "AnonHugePages")?;
+    let granted = reported("/proc/self/smaps_rollup", "AnonHugePages")?;
     let kib: u64 = granted.strip_suffix("kB")?.trim().parse().ok()?;
     kib.checked_mul(1024)
 }
 
 /// What stands behind a name in a file.
-fn told(file: &str, name: &str) -> Option<String> {
+fn reported(file: &str, name: &str) -> Option<String> {
     let mut map = SourceMap::default();
     let file = Loader.file(Path::new(file), &mut map).ok()?;
     let text = String::from_utf8_lossy(map.bytes(file)).into_owned();

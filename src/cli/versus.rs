@@ -7,7 +7,7 @@ use super::gate::{self, JudgedGate};
 use super::input;
 use super::interrupt::Interrupt;
 use super::output::Output;
-use super::talk::Talk;
+use super::reporter::Reporter;
 use rtc_ir::Scene;
 use rtc_pipeline::Input;
 use rtc_study::{About, Stopped, Versus, versus, versus_table};
@@ -16,9 +16,9 @@ use std::path::Path;
 /// Compares the scenes and writes the report.
 pub(super) fn run(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
     refuse_others(args, files)?;
-    let mut talk = Talk::beside_result(&args.talk);
-    let outcome = carry_out(args, files, &mut talk);
-    talk.finish()?;
+    let mut reporter = Reporter::beside_result(&args.reporter);
+    let outcome = carry_out(args, files, &mut reporter);
+    reporter.finish()?;
     outcome
 }
 
@@ -40,11 +40,11 @@ fn refuse_others(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
     Err(Failure::Trouble(refused.to_owned()))
 }
 
-fn carry_out(args: &args::Cost, files: [&Path; 2], talk: &mut Talk) -> Result<(), Failure> {
+fn carry_out(args: &args::Cost, files: [&Path; 2], reporter: &mut Reporter) -> Result<(), Failure> {
     let [first, second] = files.map(|file| input::staged(file, &args.reading, &args.stage));
     let mut inputs = [first?, second?];
     let [first, second] = &mut inputs;
-    let (first, second) = (validated(first, talk)?, validated(second, talk)?);
+    let (first, second) = (validated(first, reporter)?, validated(second, reporter)?);
     let interrupt = Interrupt::listen()?;
     let [a, b] = [&first.1, &second.1].map(|scene| scene.camera.size);
     if a != b {
@@ -65,19 +65,21 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], talk: &mut Talk) -> Result<()
     })?;
     let found = found.map_err(|Stopped| Failure::Interrupted)?;
     let gates = args.gate.as_ref();
-    let judged = gates.map_or_else(Vec::new, |gates| gates.judged(|name| measure(&found, name)));
+    let is_resolved = gates.map_or_else(Vec::new, |gates| {
+        gates.is_resolved(|name| measure(&found, name))
+    });
     let report = match args.format {
-        StudyFormat::Json => json(&found, &judged)?,
+        StudyFormat::Json => json(&found, &is_resolved)?,
         StudyFormat::Table | StudyFormat::Csv => versus_table(&found),
     };
     output.commit(report.as_bytes(), &interrupt)?;
-    gate::pass(&judged, talk.is_quiet())
+    gate::pass(&is_resolved, reporter.is_quiet())
 }
 
 /// A scene, proven, and what is told of it.
-fn validated(input: &mut Input, talk: &mut Talk) -> Result<(About, Scene), Failure> {
+fn validated(input: &mut Input, reporter: &mut Reporter) -> Result<(About, Scene), Failure> {
     input.lift_rays();
-    let validated = input::require(input, talk, input::fill)?;
+    let validated = input::require(input, reporter, input::fill)?;
     let scene = validated.lowered.scene.clone();
     Ok((about(input.name(), &scene), scene))
 }

@@ -1,6 +1,6 @@
 //! Renders that are saved on their way: killed, told to end or left alone, they end in the same bytes.
 
-use super::parts::{bytes, scenes, told};
+use super::parts::{bytes, reported, scenes};
 use super::*;
 use rtc::internals::pipeline::RenderShard;
 use std::process::Child;
@@ -37,7 +37,7 @@ fn saved(folder: &TempDir, mut child: Child) -> Child {
 }
 
 fn whole(folder: &TempDir) -> Vec<u8> {
-    told(
+    reported(
         folder,
         &["render", "paths.json", "--spp", "160", "-o", "whole.png"],
     );
@@ -57,10 +57,10 @@ fn a_render_that_is_saved_on_its_way_has_the_bytes_of_one_that_is_not() {
     ];
     for (words, picture) in super::parts::PICTURES.into_iter().chain(goals) {
         let render = [&["render"], words, &["-o", picture]].concat();
-        told(&folder, &render);
+        reported(&folder, &render);
         let whole = bytes(&folder, picture);
         let saving = ["--checkpoint", "a.rtp", "--every", "0.001", "--restart"];
-        told(&folder, &[&render[..], &saving].concat());
+        reported(&folder, &[&render[..], &saving].concat());
         assert!(bytes(&folder, picture) == whole, "{words:?}");
     }
 }
@@ -79,7 +79,7 @@ fn a_render_that_is_killed_goes_on_to_the_same_bytes() {
             RenderShard::load(&bytes(&folder, "a.rtp"), 1 << 20).unwrap();
         }
     }
-    told(&folder, &SLOW);
+    reported(&folder, &SLOW);
     assert!(bytes(&folder, "a.png") == whole);
 }
 
@@ -101,7 +101,7 @@ fn a_render_that_is_told_to_end_saves_and_says_how_to_go_on() {
             assert!(stderr(&output).contains(words), "{}", stderr(&output));
             assert!(!folder.path().join("a.png").exists());
         }
-        told(&folder, &SLOW);
+        reported(&folder, &SLOW);
         assert!(bytes(&folder, "a.png") == whole);
         fs::remove_file(folder.path().join("a.rtp")).unwrap();
         fs::remove_file(folder.path().join("a.png")).unwrap();
@@ -112,7 +112,7 @@ fn a_render_that_is_told_to_end_saves_and_says_how_to_go_on() {
 #[cfg(unix)]
 fn begin(folder: &TempDir) -> Vec<u8> {
     let part = ["--part", "2/6", "--picture", "a.png", "-o", "a.rtp"];
-    told(folder, &[&["render", "ball.json"], &part[..]].concat());
+    reported(folder, &[&["render", "ball.json"], &part[..]].concat());
     bytes(folder, "a.rtp")
 }
 
@@ -120,7 +120,7 @@ fn begin(folder: &TempDir) -> Vec<u8> {
 #[test]
 fn where_the_disk_is_full_the_render_goes_on_and_what_was_saved_stays() {
     let folder = folder();
-    told(&folder, &["render", "ball.json", "-o", "whole.png"]);
+    reported(&folder, &["render", "ball.json", "-o", "whole.png"]);
     let (before, all) = (begin(&folder), names(folder.path()));
     // A write beyond 16 blocks fails, which the picture does not take.
     let limited = "trap '' XFSZ; ulimit -f 16; exec \"$@\"";
@@ -202,13 +202,13 @@ fn what_was_saved_of_another_picture_is_refused_and_begun_anew_if_asked() {
         "--checkpoint",
         "a.rtp",
     ];
-    told(&folder, &render);
+    reported(&folder, &render);
     let other = [&render[..], &["--depth", "0"]].concat();
     let output = rtc(&folder, &other);
     assert_eq!(code(&output), 1);
     let words = "settings.maxDepth: 1 here, 0 there; `--restart` begins anew";
     assert!(stderr(&output).contains(words), "{}", stderr(&output));
-    told(&folder, &[&other[..], &["--restart"]].concat());
+    reported(&folder, &[&other[..], &["--restart"]].concat());
     fs::write(folder.path().join("a.rtp"), "something else").unwrap();
     let output = rtc(&folder, &other);
     assert!(
@@ -229,7 +229,7 @@ fn run_with_kills(folder: &TempDir, args: &[&str], waits: &[u64]) -> usize {
         !child.wait().unwrap().success()
     };
     let killed = waits.iter().filter(is_killed).count();
-    told(folder, args);
+    reported(folder, args);
     killed
 }
 
@@ -237,14 +237,14 @@ fn run_with_kills(folder: &TempDir, args: &[&str], waits: &[u64]) -> usize {
 fn a_picture_that_grows_to_its_goal_goes_on_to_the_same_bytes() {
     let folder = scenes();
     let render = ["render", "paths.json", "--target-error", "0.7", "-o"];
-    told(&folder, &[&render[..], &["whole.png"]].concat());
+    reported(&folder, &[&render[..], &["whole.png"]].concat());
     let saving = ["a.png", "--checkpoint", "a.rtp", "--every", "0.01s"];
     let saving = [&render[..], &saving].concat();
     run_with_kills(&folder, &saving, &[60, 110, 160, 90]);
     assert!(bytes(&folder, "a.png") == bytes(&folder, "whole.png"));
     // All of it is there.
     let before = bytes(&folder, "a.rtp");
-    told(&folder, &saving);
+    reported(&folder, &saving);
     assert!(bytes(&folder, "a.rtp") == before);
     let other = [&saving[..], &["--light-samples", "1"]].concat();
     assert_eq!(code(&rtc(&folder, &other)), 2);
@@ -270,7 +270,7 @@ fn a_turntable_keeps_its_finished_frames_and_goes_on() {
     let folder = scenes();
     for goal in [["--spp", "48"], ["--target-error", "3"]] {
         let render = [&["render", "paths.json", "--turntable", "4"], &goal[..]].concat();
-        told(&folder, &[&render[..], &["-o", "whole-%d.png"]].concat());
+        reported(&folder, &[&render[..], &["-o", "whole-%d.png"]].concat());
         let saving = [
             "-oa-%d.png",
             "--checkpoint",
@@ -281,12 +281,12 @@ fn a_turntable_keeps_its_finished_frames_and_goes_on() {
         ];
         let saving = [&render[..], &saving].concat();
         let (saving, anew) = (&saving[..saving.len() - 1], &saving[..]);
-        told(&folder, anew);
+        reported(&folder, anew);
         assert!(frames(&folder, "a") == frames(&folder, "whole"), "{goal:?}");
         // A frame that is gone or another picture is rendered again, the others stay.
         fs::remove_file(folder.path().join("a-2.png")).unwrap();
         fs::write(folder.path().join("a-3.png"), "another").unwrap();
-        let said = told(&folder, saving);
+        let said = reported(&folder, saving);
         let is_said = |number: u32| said.contains(&format!("a-{number}.png: "));
         assert_eq!(
             [1, 2, 3, 4].map(is_said),

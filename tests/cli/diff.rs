@@ -24,8 +24,8 @@ fn pictures(kind: &str, more: &[&str]) -> TempDir {
 
 fn diff(folder: &TempDir, args: &[&str]) -> (i32, String, String) {
     let output = rtc(folder, &[&["diff"], args].concat());
-    let told = String::from_utf8(output.stdout.clone()).unwrap();
-    (code(&output), told, stderr(&output))
+    let reported = String::from_utf8(output.stdout.clone()).unwrap();
+    (code(&output), reported, stderr(&output))
 }
 
 #[test]
@@ -33,9 +33,9 @@ fn the_same_picture_has_no_difference() {
     for (kind, more) in [("png", &[][..]), ("png", &["--bits", "16"]), ("exr", &[])] {
         let folder = pictures(kind, more);
         let name = format!("two.{kind}");
-        let (code, told, _) = diff(&folder, &[&name, &name, "--gate", "rmse<=0"]);
+        let (code, reported, _) = diff(&folder, &[&name, &name, "--gate", "rmse<=0"]);
         assert_eq!(
-            (code, told),
+            (code, reported),
             (0, format!("{name} and {name}: 40×30, no difference\n"))
         );
     }
@@ -47,15 +47,15 @@ fn edges_without_supersampling_are_off() {
         let folder = pictures(kind, more);
         let names = [format!("one.{kind}"), format!("two.{kind}")];
         let args = [names[0].as_str(), &names[1], "--json", "-o", "map.png"];
-        let (code, told, _) = diff(&folder, &args);
+        let (code, reported, _) = diff(&folder, &args);
         assert_eq!(code, 0);
-        let report: serde_json::Value = serde_json::from_str(&told).unwrap();
+        let report: serde_json::Value = serde_json::from_str(&reported).unwrap();
         assert_eq!(report["size"], serde_json::json!([40, 30]));
         let found = |name: &str| report["difference"][name].as_f64().unwrap();
         assert!(found("rmse") > 1.0 && found("rmse") < found("max") && found("max") > 10.0);
         assert!(
             found("share") > 0.01 && found("share") < 0.3,
-            "only edges: {told}"
+            "only edges: {reported}"
         );
         assert!(found("flip") > 0.0 && found("relMse") > 0.0);
         let map = image::open(folder.path().join("map.png"))
@@ -78,10 +78,10 @@ fn sixteen_bits_are_not_rounded_to_eight() {
     let mut picture = image::open(&path).unwrap().to_rgb16();
     picture.get_pixel_mut(3, 4).0[1] ^= 1;
     picture.save(folder.path().join("bit.png")).unwrap();
-    let (_, told, _) = diff(&folder, &["bit.png", "two.png"]);
+    let (_, reported, _) = diff(&folder, &["bit.png", "two.png"]);
     assert!(
-        told.contains("max     0.00 grey levels, first in column 3, row 4"),
-        "{told}"
+        reported.contains("max     0.00 grey levels, first in column 3, row 4"),
+        "{reported}"
     );
 }
 
@@ -93,8 +93,8 @@ fn a_gate_that_is_not_met_ends_with_1() {
         gate("rmse<=100, share<=90%"),
         (0, String::new(), String::new())
     );
-    let (code, told, said) = gate("rmse<=0.5,flip<=1");
-    assert_eq!((code, told.as_str(), said.lines().count()), (1, "", 1));
+    let (code, reported, said) = gate("rmse<=0.5,flip<=1");
+    assert_eq!((code, reported.as_str(), said.lines().count()), (1, "", 1));
     assert!(said.starts_with("gate not met: rmse is ") && said.ends_with("at most 0.5 wanted\n"));
     let (code, _, said) = gate("speed<=1");
     assert!(
@@ -147,9 +147,9 @@ fn what_can_not_be_compared_is_told_and_no_map_appears() {
         ("ball.png", "`ball.png` is not a picture"),
         ("none.png", "`none.png`"),
     ] {
-        let (code, told, said) = diff(&folder, &["two.png", other, "-o", "map.png"]);
+        let (code, reported, said) = diff(&folder, &["two.png", other, "-o", "map.png"]);
         assert!(
-            code == 2 && told.is_empty() && said.contains(words),
+            code == 2 && reported.is_empty() && said.contains(words),
             "{other}: {said}"
         );
         assert!(!folder.path().join("map.png").exists());
@@ -178,11 +178,11 @@ fn scenes_are_compared_by_their_values_and_by_one_camera() {
         "-o",
         "map.png",
     ];
-    let (code, told, _) = diff(&folder, &args);
-    assert_eq!(code, 0, "{told}");
-    let report: serde_json::Value = serde_json::from_str(&told).unwrap();
+    let (code, reported, _) = diff(&folder, &args);
+    assert_eq!(code, 0, "{reported}");
+    let report: serde_json::Value = serde_json::from_str(&reported).unwrap();
     let changes = report["changes"].as_array().unwrap();
-    assert_eq!(changes.len(), 1, "{told}");
+    assert_eq!(changes.len(), 1, "{reported}");
     assert!(changes[0]["path"].as_str().unwrap().ends_with("phong.kd"));
     assert_eq!(changes[0]["new"], serde_json::json!(0.015_625));
     assert!(report["difference"]["rmse"].as_f64().unwrap() > 0.0);
@@ -195,9 +195,9 @@ fn scenes_are_compared_by_their_values_and_by_one_camera() {
     scene = serde_json::from_str(&old).unwrap();
     scene["camera"]["eye"] = serde_json::json!([5, 0, 50]);
     fs::write(path("moved.json"), scene.to_string()).unwrap();
-    let (code, told, _) = diff(&folder, &["moved.json", "ball.json", "--gate", "max<=0"]);
-    assert_eq!(code, 0, "{told}");
-    assert!(told.contains("camera.eye: "), "{told}");
+    let (code, reported, _) = diff(&folder, &["moved.json", "ball.json", "--gate", "max<=0"]);
+    assert_eq!(code, 0, "{reported}");
+    assert!(reported.contains("camera.eye: "), "{reported}");
 
     assert_eq!(diff(&folder, &["new.json", "map.png"]).0, 2);
     assert_eq!(
@@ -235,9 +235,9 @@ fn small_files_of_many_pixels_are_refused() {
         code == 2 && said.contains("of memory, and the limit is"),
         "{said}"
     );
-    let (code, told, _) = diff(&folder, &["black.png", "black.png"]);
+    let (code, reported, _) = diff(&folder, &["black.png", "black.png"]);
     assert_eq!(
-        (code, told.as_str()),
+        (code, reported.as_str()),
         (0, "black.png and black.png: 16000×16000, no difference\n")
     );
     let (code, _, said) = diff(&folder, &["black.png", "black.png", "--limit", "pixels=9"]);

@@ -28,7 +28,7 @@ fn shown(folder: &TempDir, args: &[&str]) -> (String, f64) {
 }
 
 /// The exposure that is told, in stops.
-fn told(text: &str) -> Option<f64> {
+fn reported(text: &str) -> Option<f64> {
     let (_, rest) = text.split_once("exposed by ")?;
     rest.split_once(" stops")?.0.parse().ok()
 }
@@ -38,8 +38,8 @@ fn an_asset_looks_alike_however_bright_its_lights_are() {
     let small = ["--size", "32x32", "--spp", "4"];
     let (text, dim) = shown(&lit(40.0), &small);
     let (bright_text, bright) = shown(&lit(40.0 * 4096.0), &small);
-    let stops = told(&bright_text).unwrap();
-    let apart = told(&text).unwrap_or(0.0) - stops;
+    let stops = reported(&bright_text).unwrap();
+    let apart = reported(&text).unwrap_or(0.0) - stops;
     assert!((apart - 12.0).abs() < 0.01, "{text}{bright_text}");
     assert!((dim - bright).abs() < 2.0, "{dim}, {bright}");
     // A sixth of a stop from the third that is nearest.
@@ -73,7 +73,7 @@ fn a_target_error_is_that_of_the_exposed_picture() {
 #[test]
 fn the_exposure_does_not_depend_on_what_is_rendered_of_the_view() {
     let folder = lit(54_000.0);
-    let stops = |args: &[&str]| told(&shown(&folder, args).0).unwrap();
+    let stops = |args: &[&str]| reported(&shown(&folder, args).0).unwrap();
     let whole = stops(&["--size", "32x32", "--spp", "4"]);
     for args in [
         &["--size", "48x20", "--spp", "2"][..],
@@ -95,7 +95,8 @@ fn the_exposure_does_not_depend_on_what_is_rendered_of_the_view() {
 fn an_exposure_is_found_for_pngs_of_lit_assets_alone() {
     let folder = lit(54_000.0);
     let small = ["--size", "16x16", "--spp", "2"];
-    let is_exposed = |args: &[&str]| told(&shown(&folder, &[&small, args].concat()).0).is_some();
+    let is_exposed =
+        |args: &[&str]| reported(&shown(&folder, &[&small, args].concat()).0).is_some();
     assert!(is_exposed(&[]));
     assert!(!is_exposed(&["--exposure", "0"]));
     assert!(!is_exposed(&["--no-scene-lights", "--sun", "1,2,3,50000"]));
@@ -117,7 +118,7 @@ fn an_exposure_is_found_for_pngs_of_lit_assets_alone() {
         "x.exr",
     ];
     let output = rtc(&folder, &exr);
-    assert!(code(&output) == 0 && told(&stderr(&output)).is_none());
+    assert!(code(&output) == 0 && reported(&stderr(&output)).is_none());
     let output = rtc(&folder, &[&exr[..], &["--exposure", "auto"]].concat());
     assert_eq!(code(&output), 2);
     fs::write(
@@ -128,7 +129,7 @@ fn an_exposure_is_found_for_pngs_of_lit_assets_alone() {
     .unwrap();
     let output = rtc(&folder, &["render", "spot.yaml", "-o", "y.png"]);
     assert!(
-        code(&output) == 0 && told(&stderr(&output)).is_none(),
+        code(&output) == 0 && reported(&stderr(&output)).is_none(),
         "{}",
         stderr(&output)
     );

@@ -1,7 +1,7 @@
 //! Jobs for engines: the folder is complete, and the commands in the job, run here in their order,
 //! give the bytes of one process.
 
-use super::parts::{bytes, scenes, told};
+use super::parts::{bytes, reported, scenes};
 use super::*;
 use serde_json::Value;
 
@@ -52,7 +52,7 @@ const JOBS: [(&str, &[&str]); 5] = [
 /// Makes a job in the folder `job`.
 fn farm(folder: &TempDir, engine: &str, picture: &str, words: &[&str]) {
     let job = ["--to", engine, "--picture", picture, "-o", "job"];
-    told(folder, &[&["farm"], words, &job].concat());
+    reported(folder, &[&["farm"], words, &job].concat());
 }
 
 /// Runs a command of a job in its folder.
@@ -172,7 +172,7 @@ fn whole_command(folder: &TempDir) -> Vec<String> {
 fn the_commands_of_a_job_give_the_bytes_of_one_process() {
     for (at, (picture, words)) in JOBS.into_iter().enumerate() {
         let folder = scenes();
-        told(&folder, &[&["render"], words, &["-o", picture]].concat());
+        reported(&folder, &[&["render"], words, &["-o", picture]].concat());
         let parts = (2 + at).to_string();
         let by = if at == 0 { "samples" } else { "tiles" };
         let share = ["--parts", &parts, "--parts-by", by];
@@ -196,7 +196,7 @@ type Tried<'a> = (&'a str, fn(&TempDir), &'a [&'a str]);
 fn each_engine_runs_all_frames_of_a_turntable_in_parts() {
     let words = ["paths.json", "--turntable", "12", "--size", "24x18"];
     let folder = scenes();
-    told(
+    reported(
         &folder,
         &[&["render"], &words[..], &["-o", "all.png"]].concat(),
     );
@@ -236,7 +236,7 @@ fn frames_of_an_animation_are_scenes_of_their_own() {
     let mut pictures = Vec::new();
     for (time, picture) in [("0.25", "a-0002.png"), ("0.5", "a-0003.png")] {
         let still = ["--time", time, "-o", picture];
-        told(&folder, &[&["render"], &words[..], &still].concat());
+        reported(&folder, &[&["render"], &words[..], &still].concat());
         pictures.push(bytes(&folder, picture));
         assert!(bytes(&folder, &format!("job/{picture}")) == pictures[pictures.len() - 1]);
     }
@@ -253,9 +253,9 @@ fn the_folder_appears_whole_or_not_at_all() {
     };
     let before = names(folder.path());
     let refused = |words: &[&str], expected: i32, reason: &str| {
-        let (code, told) = farm(words);
-        assert_eq!(code, expected, "{words:?}: {told}");
-        assert!(told.contains(reason), "{words:?}: {told}");
+        let (code, reported) = farm(words);
+        assert_eq!(code, expected, "{words:?}: {reported}");
+        assert!(reported.contains(reason), "{words:?}: {reported}");
         assert_eq!(names(folder.path()), before, "{words:?}");
     };
     refused(&["bad.json"], 1, "radius");
@@ -294,9 +294,9 @@ fn the_folder_appears_whole_or_not_at_all() {
     assert_eq!(farm(&["ball.json"]), (0, farm_told()));
     let made = names(&folder.path().join("job"));
     let scene = bytes(&folder, "job/scene.rtir");
-    let (code, told) = farm(&["away.json"]);
+    let (code, reported) = farm(&["away.json"]);
     assert_eq!(code, 2);
-    assert!(told.contains("can't make `job`"), "{told}");
+    assert!(reported.contains("can't make `job`"), "{reported}");
     assert_eq!(names(&folder.path().join("job")), made);
     assert!(bytes(&folder, "job/scene.rtir") == scene);
 }
@@ -324,7 +324,7 @@ fn a_part_of_a_turntable_is_of_one_frame() {
         "--frames",
         "2..3",
     ];
-    told(&folder, &[&some[..], &["-o", "x.png"]].concat());
+    reported(&folder, &[&some[..], &["-o", "x.png"]].concat());
     let rendered = names(folder.path());
     let rendered: Vec<_> = rendered
         .iter()

@@ -24,7 +24,7 @@ fn shelf() -> TempDir {
 }
 
 /// The files of which something is told, in this order.
-fn told(output: &Output) -> Vec<String> {
+fn reported(output: &Output) -> Vec<String> {
     let text = stderr(output);
     let names = text.lines().filter_map(|line| line.split_once(": 4×3, "));
     names.map(|(name, _)| name.to_owned()).collect()
@@ -35,7 +35,7 @@ fn a_folder_is_all_its_scenes_in_order() {
     let shelf = shelf();
     let made = rtc(&shelf, &["render", "set", "-o", "out/"]);
     assert_eq!(code(&made), 0, "{}", stderr(&made));
-    assert_eq!(told(&made), ["out/a.png", "out/b.png", "out/c.png"]);
+    assert_eq!(reported(&made), ["out/a.png", "out/b.png", "out/c.png"]);
     assert_eq!(
         names(&shelf.path().join("out")),
         ["a.png", "b.png", "c.png"]
@@ -53,14 +53,14 @@ fn a_folder_is_all_its_scenes_in_order() {
 fn a_pattern_is_what_fits_it_but_for_what_is_hidden() {
     let shelf = shelf();
     let made = rtc(&shelf, &["render", "set/*.json", "-o", "set/{stem}-4.png"]);
-    assert_eq!(told(&made), ["set/a-4.png", "set/b-4.png"]);
+    assert_eq!(reported(&made), ["set/a-4.png", "set/b-4.png"]);
     fs::write(
         shelf.path().join("[x].json"),
         SCENE.replace("[40, 30]", "[4, 3]"),
     )
     .unwrap();
     let one = rtc(&shelf, &["render", "[x].json"]);
-    assert_eq!(told(&one), ["[x].png"], "a file of that name is meant");
+    assert_eq!(reported(&one), ["[x].png"], "a file of that name is meant");
 }
 
 /// Neither round in circles nor out of the folder.
@@ -79,7 +79,7 @@ fn no_walk_follows_links() {
     symlink(elsewhere.path(), path("away")).unwrap();
     let odd = std::ffi::OsStr::from_bytes(b"\xff.json");
     fs::write(path("deep").join(odd), SCENE.replace("[40, 30]", "[4, 3]")).unwrap();
-    for (meant, count) in [
+    for (suggestion, count) in [
         ("set", 4),
         ("set/**/*.json", 4),
         ("set/*", 5),
@@ -88,15 +88,23 @@ fn no_walk_follows_links() {
         ("*/[a-b].json", 2),
         ("./set/*.json", 2),
     ] {
-        let checked = rtc(&shelf, &["check", meant, "--message-format", "json"]);
+        let checked = rtc(&shelf, &["check", suggestion, "--message-format", "json"]);
         let said = stderr(&checked) + &String::from_utf8_lossy(&checked.stdout);
-        assert!(!said.contains("hunter2"), "{meant}: {said}");
-        let made = rtc(&shelf, &["render", meant, "-o", "out/"]);
-        assert_eq!((code(&made), told(&made).len()), (0, count), "{meant}");
+        assert!(!said.contains("hunter2"), "{suggestion}: {said}");
+        let made = rtc(&shelf, &["render", suggestion, "-o", "out/"]);
+        assert_eq!(
+            (code(&made), reported(&made).len()),
+            (0, count),
+            "{suggestion}"
+        );
     }
-    for meant in ["set/x.*", "set/l?/a.json", "set/away/*"] {
-        let expected = if meant.ends_with("away/*") { 1 } else { 2 };
-        assert_eq!(code(&rtc(&shelf, &["check", meant])), expected, "{meant}");
+    for suggestion in ["set/x.*", "set/l?/a.json", "set/away/*"] {
+        let expected = if suggestion.ends_with("away/*") { 1 } else { 2 };
+        assert_eq!(
+            code(&rtc(&shelf, &["check", suggestion])),
+            expected,
+            "{suggestion}"
+        );
     }
     // What is named is followed.
     assert_eq!(code(&rtc(&shelf, &["check", "set/l1/a.json"])), 0);
@@ -114,7 +122,10 @@ fn a_failure_is_told_and_the_rest_goes_on() {
         "set/b.json",
     ];
     let made = rtc(&shelf, &args);
-    assert_eq!((code(&made), told(&made)), (1, vec!["b.png".to_owned()]));
+    assert_eq!(
+        (code(&made), reported(&made)),
+        (1, vec!["b.png".to_owned()])
+    );
     let said = stderr(&made);
     assert!(
         said.contains("error: `set/a.json`: can't write `a.png`")

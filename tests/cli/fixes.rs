@@ -65,7 +65,7 @@ fn a_change_that_brings_new_errors_is_left_out() {
 /// The number in a map is mended, and no key is replaced by a value.
 #[test]
 fn a_value_never_takes_the_place_of_a_key() {
-    for (factor, mended) in [("{factor: 0}", "{factor: 1}"), ("0", "1")] {
+    for (factor, repaired) in [("{factor: 0}", "{factor: 1}"), ("0", "1")] {
         let typed = format!(
             "Eye: [0, 0, 50]\nSuperSampling: {factor}\nLights: [{{position: [9, 9, 90], color: [1, 1, 1]}}]\nObjects: []\n"
         );
@@ -74,7 +74,7 @@ fn a_value_never_takes_the_place_of_a_key() {
         assert_eq!(code(&fixed), 0, "{}", stderr(&fixed));
         let wanted = typed.replace(
             &format!("Sampling: {factor}"),
-            &format!("Sampling: {mended}"),
+            &format!("Sampling: {repaired}"),
         );
         assert_eq!(text(&folder), wanted);
     }
@@ -149,16 +149,18 @@ fn found(folder: &Path, name: &str) -> Vec<String> {
     let objects = lines
         .lines()
         .map(|line| serde_json::from_str(line).unwrap());
-    let told = objects.filter_map(|own: serde_json::Value| {
+    let reported = objects.filter_map(|own: serde_json::Value| {
         Some(format!(
             "{} {}",
             own["severity"].as_str()?,
             own["code"].as_str()?
         ))
     });
-    let mut told: Vec<_> = told.filter(|told| !told.starts_with("note")).collect();
-    told.sort();
-    told
+    let mut reported: Vec<_> = reported
+        .filter(|reported| !reported.starts_with("note"))
+        .collect();
+    reported.sort();
+    reported
 }
 
 /// Every broken text of tests/diagnostics: what is mended is gone, nothing else has come, and what can't be mended is left as
@@ -182,7 +184,7 @@ fn no_broken_scene_gets_worse() {
             let (text, before) = (fs::read(&own).unwrap(), found(folder.path(), &name));
             let fix = ["check", "--fix", "--unsafe", "-q", &name];
             rtc(&folder, &fix);
-            let (mended, after) = (fs::read(&own).unwrap(), found(folder.path(), &name));
+            let (repaired, after) = (fs::read(&own).unwrap(), found(folder.path(), &name));
             let mut rest = before.clone();
             // A scene that has errors no more is looked at more closely.
             let is_read = !after.iter().any(|own| own.starts_with("error"));
@@ -197,15 +199,15 @@ fn no_broken_scene_gets_worse() {
             }
             assert_eq!(
                 rest.is_empty(),
-                mended == text,
+                repaired == text,
                 "{name}: {before:?} {after:?}"
             );
             (fixed, left) = (
-                fixed + usize::from(mended != text),
-                left + usize::from(mended == text),
+                fixed + usize::from(repaired != text),
+                left + usize::from(repaired == text),
             );
             rtc(&folder, &fix);
-            assert!(fs::read(&own).unwrap() == mended, "{name} changes again");
+            assert!(fs::read(&own).unwrap() == repaired, "{name} changes again");
         }
     }
     println!("{fixed} broken scenes mended, {left} left as they were, none worse");

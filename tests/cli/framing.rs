@@ -95,7 +95,7 @@ fn the_view_of_a_camera_is_never_cropped_by_another_size() {
 #[test]
 fn a_picture_of_another_shape_than_the_camera_sees_is_told() {
     let folder = card(SEEN);
-    let told = |size: &str| {
+    let reported = |size: &str| {
         let args = [
             "render",
             "card.gltf",
@@ -109,9 +109,9 @@ fn a_picture_of_another_shape_than_the_camera_sees_is_told() {
         ];
         stderr(&rtc(&folder, &args))
     };
-    assert!(told("64x64").contains("more is shown above and below"));
-    assert!(told("64x16").contains("more is shown left and right"));
-    assert!(!told("64x32").contains("RD010"));
+    assert!(reported("64x64").contains("more is shown above and below"));
+    assert!(reported("64x16").contains("more is shown left and right"));
+    assert!(!reported("64x32").contains("RD010"));
 }
 
 #[test]

@@ -9,9 +9,9 @@ fn scene(name: &str) -> String {
 
 fn facts(name: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
-    let told = rtc(&folder, &["info", &scene(name), "--json"]);
-    assert!(told.status.success(), "{}", stderr(&told));
-    serde_json::from_slice(&told.stdout).unwrap()
+    let reported = rtc(&folder, &["info", &scene(name), "--json"]);
+    assert!(reported.status.success(), "{}", stderr(&reported));
+    serde_json::from_slice(&reported.stdout).unwrap()
 }
 
 #[test]
@@ -63,12 +63,12 @@ fn animations_last_as_long_as_their_keyframes() {
             "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],
     });
     fs::write(folder.path().join("a.gltf"), asset.to_string()).unwrap();
-    let told = rtc(&folder, &["info", "a.gltf"]);
-    let text = String::from_utf8(told.stdout).unwrap();
+    let reported = rtc(&folder, &["info", "a.gltf"]);
+    let text = String::from_utf8(reported.stdout).unwrap();
     assert!(
-        told.status.success(),
+        reported.status.success(),
         "{}",
-        String::from_utf8_lossy(&told.stderr)
+        String::from_utf8_lossy(&reported.stderr)
     );
     assert!(
         text.contains("animation   lift, 2.5 s, channels: 1\n"),
@@ -86,7 +86,7 @@ fn moves() -> String {
 #[test]
 fn what_has_errors_has_no_facts() {
     let folder = folder();
-    let told = rtc(&folder, &["info", "bad.json"]);
-    assert_eq!(code(&told), 1);
-    assert!(told.stdout.is_empty() && stderr(&told).contains("error["));
+    let reported = rtc(&folder, &["info", "bad.json"]);
+    assert_eq!(code(&reported), 1);
+    assert!(reported.stdout.is_empty() && stderr(&reported).contains("error["));
 }

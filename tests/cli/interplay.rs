@@ -1,6 +1,6 @@
 //! What goes with what: each cell of the table in `docs/scale.md`.
 
-use super::parts::{bytes, scenes, told};
+use super::parts::{bytes, reported, scenes};
 use super::*;
 use Cell::{Made, Refused, Same};
 
@@ -99,35 +99,42 @@ const WAYS: [&[&str]; 4] = [
 ];
 
 /// What a way of working calls its picture, and the picture looked at: of frames the second.
-fn names_of(picture: &str, way: usize) -> [String; 2] {
-    if way < 3 {
+fn names_of(picture: &str, path_at: usize) -> [String; 2] {
+    if path_at < 3 {
         return [picture, picture].map(str::to_owned);
     }
     ["a-%d.", "a-2."].map(|name| picture.replace("a.", name))
 }
 
 /// The bytes of the picture by a way of working.
-fn made(folder: &TempDir, words: &[&str], picture: &str, way: usize) -> Vec<u8> {
+fn made(folder: &TempDir, words: &[&str], picture: &str, path_at: usize) -> Vec<u8> {
     let render = [&["render"], words].concat();
-    let [output, looked_at] = names_of(picture, way);
-    if way == 1 {
+    let [output, looked_at] = names_of(picture, path_at);
+    if path_at == 1 {
         for part in [3, 1, 2] {
             let (part, name) = (format!("{part}/3"), format!("{part}.rtp"));
             let share = ["--picture", picture, "--part", &part, "-o", &name];
-            told(folder, &[&render[..], &share].concat());
+            reported(folder, &[&render[..], &share].concat());
         }
-        told(folder, &["merge", "1.rtp", "2.rtp", "3.rtp", "-o", picture]);
+        reported(folder, &["merge", "1.rtp", "2.rtp", "3.rtp", "-o", picture]);
     } else {
-        told(folder, &[&render[..], WAYS[way], &["-o", &output]].concat());
+        reported(
+            folder,
+            &[&render[..], WAYS[path_at], &["-o", &output]].concat(),
+        );
     }
     bytes(folder, &looked_at)
 }
 
 /// The bytes of the picture without that way.
-fn plain(folder: &TempDir, words: &[&str], picture: &str, way: usize) -> Vec<u8> {
-    let [output, looked_at] = names_of(picture, way);
-    let turn: &[&str] = if way == 3 { &["--turntable", "3"] } else { &[] };
-    told(
+fn plain(folder: &TempDir, words: &[&str], picture: &str, path_at: usize) -> Vec<u8> {
+    let [output, looked_at] = names_of(picture, path_at);
+    let turn: &[&str] = if path_at == 3 {
+        &["--turntable", "3"]
+    } else {
+        &[]
+    };
+    reported(
         folder,
         &[&["render"], words, turn, &["-o", &output]].concat(),
     );
@@ -150,16 +157,16 @@ fn folder_of_all() -> TempDir {
 fn each_cell_of_the_table_is_as_it_says() {
     let folder = folder_of_all();
     for (name, words, picture, cells) in ROWS {
-        for (way, cell) in cells.into_iter().enumerate() {
+        for (path_at, cell) in cells.into_iter().enumerate() {
             match cell {
                 Same => {
-                    let whole = plain(&folder, words, picture, way);
-                    let same = made(&folder, words, picture, way) == whole;
-                    assert!(same, "{name}: {:?}", WAYS[way]);
+                    let whole = plain(&folder, words, picture, path_at);
+                    let same = made(&folder, words, picture, path_at) == whole;
+                    assert!(same, "{name}: {:?}", WAYS[path_at]);
                 }
-                Made => drop(made(&folder, words, picture, way)),
+                Made => drop(made(&folder, words, picture, path_at)),
                 Refused(hint) => {
-                    let render = [&["render"], words, WAYS[way]].concat();
+                    let render = [&["render"], words, WAYS[path_at]].concat();
                     let output = rtc(&folder, &render);
                     assert_eq!(code(&output), 2, "{render:?}: {}", stderr(&output));
                     assert!(stderr(&output).contains(hint), "{}", stderr(&output));

@@ -9,9 +9,9 @@ const WARNED: &str = "Eye: [0, 0, 50]\nShadws: true\nLights: [{position: [9, 9, 
 fn shelf() -> (TempDir, String) {
     let shelf = tempfile::tempdir().unwrap();
     fs::write(shelf.path().join("a.yaml"), WARNED).unwrap();
-    let told = rtc(&shelf, &["check", "a.yaml", "--message-format", "short"]);
-    assert_eq!(code(&told), 0);
-    let said = stderr(&told);
+    let reported = rtc(&shelf, &["check", "a.yaml", "--message-format", "short"]);
+    assert_eq!(code(&reported), 0);
+    let said = stderr(&reported);
     assert!(said.contains("warning[SC"), "{said}");
     let (_, rest) = said.split_once("warning[").unwrap();
     let id = rest.split(']').next().unwrap().to_owned();
@@ -70,8 +70,8 @@ fn what_is_allowed_is_not_told_in_any_form() {
             let all = [&["check", "a.yaml", "--message-format", form], args].concat();
             let fine = rtc(&shelf, &all);
             assert_eq!(code(&fine), 0, "{args:?}");
-            let told = stderr(&fine) + &String::from_utf8(fine.stdout).unwrap();
-            assert!(!told.contains(&id), "{args:?}, {form}: {told}");
+            let reported = stderr(&fine) + &String::from_utf8(fine.stdout).unwrap();
+            assert!(!reported.contains(&id), "{args:?}, {form}: {reported}");
         }
     }
     let kept = rtc(

@@ -46,7 +46,7 @@ fn findings_come_while_one_types_and_go_with_their_fix() {
     editor.change(2, change);
     let found = editor.findings("a.yaml");
     assert!(!codes(&found).contains(&"SC001"), "{found:?}");
-    assert_eq!(editor.told.last().unwrap()["version"], 2);
+    assert_eq!(editor.reported.last().unwrap()["version"], 2);
     let own = json!({"uri": editor.uri("a.yaml")});
     editor.note("textDocument/didClose", json!({"textDocument": own}));
     assert_eq!(editor.findings("a.yaml"), Vec::<Value>::new());
@@ -101,11 +101,11 @@ fn keys_words_names_and_files_are_completed() {
 fn a_key_is_explained_with_its_finding() {
     let mut editor = Editor::with(SCENE);
     editor.findings("a.yaml");
-    let told = editor.ask_at("textDocument/hover", 1, 45);
-    let text = told["contents"]["value"].as_str().unwrap();
+    let reported = editor.ask_at("textDocument/hover", 1, 45);
+    let text = reported["contents"]["value"].as_str().unwrap();
     assert!(text.starts_with("**`up`**"), "{text}");
-    let told = editor.ask_at("textDocument/hover", 2, 2);
-    let text = told["contents"]["value"].as_str().unwrap();
+    let reported = editor.ask_at("textDocument/hover", 2, 2);
+    let text = reported["contents"]["value"].as_str().unwrap();
     assert!(text.contains("SC001"), "{text}");
 }
 
@@ -194,20 +194,20 @@ fn what_is_open_is_read_in_place_of_its_file() {
     editor.open("a.yaml", &SCENE.replace("Shadws", "Shadows"));
     assert_eq!(editor.findings("bal.obj").len(), 1);
     // The scene is checked first, then the mesh by itself.
-    let told = |editor: &mut Editor| [editor.findings("bal.obj"), editor.findings("bal.obj")];
+    let reported = |editor: &mut Editor| [editor.findings("bal.obj"), editor.findings("bal.obj")];
     editor.open("bal.obj", &mesh(3));
-    let [_, last] = told(&mut editor);
+    let [_, last] = reported(&mut editor);
     assert_eq!(last, Vec::<Value>::new());
     let own = json!({"uri": editor.uri("bal.obj"), "version": 2});
     let params = json!({"textDocument": own, "contentChanges": [{"text": mesh(8)}]});
     editor.note("textDocument/didChange", params);
-    let [first, last] = told(&mut editor);
+    let [first, last] = reported(&mut editor);
     assert_eq!(first, last, "what both find is told once");
     assert_eq!(last[0]["range"]["start"]["line"], 3, "{last:?}");
     let own = json!({"uri": editor.uri("bal.obj")});
     fs::write(editor.folder.path().join("bal.obj"), mesh(3)).unwrap();
     editor.note("textDocument/didClose", json!({"textDocument": own}));
-    let [_, last] = told(&mut editor);
+    let [_, last] = reported(&mut editor);
     assert_eq!(last, Vec::<Value>::new(), "the file counts again");
 }
 
@@ -236,12 +236,12 @@ fn gltf_has_its_findings_and_its_own_keys() {
         words[0]["insertText"], "perspective",
         "the quotes are there"
     );
-    let mut told = |line: u32, key: &str| {
+    let mut reported = |line: u32, key: &str| {
         let at = text.lines().nth(line as usize).unwrap().find(key).unwrap();
-        let told = editor.ask_at("textDocument/hover", line, at as u32 + 2);
-        told["contents"]["value"].as_str().unwrap().to_owned()
+        let reported = editor.ask_at("textDocument/hover", line, at as u32 + 2);
+        reported["contents"]["value"].as_str().unwrap().to_owned()
     };
-    let spot = told(1, "outerConeAngle");
+    let spot = reported(1, "outerConeAngle");
     for words in [
         "where the light ends",
         "in radians",
@@ -250,12 +250,12 @@ fn gltf_has_its_findings_and_its_own_keys() {
     ] {
         assert!(spot.contains(words), "{words}: {spot}");
     }
-    let volume = told(2, "thicknessFactor");
+    let volume = reported(2, "thicknessFactor");
     assert!(
         volume.contains("in metres") && volume.contains("volume"),
         "{volume}"
     );
-    let scene = told(0, ": 3");
+    let scene = reported(0, ": 3");
     let mut all = codes(&found).into_iter();
     assert!(
         scene.contains("**`scene`**") && all.any(|code| scene.contains(code)),
@@ -271,18 +271,18 @@ fn a_value_is_told_with_its_unit_and_as_it_is_in_effect() {
         .replace("- type: mesh\n  file: bal.obj\n", "");
     let mut editor = Editor::with(&sound);
     editor.findings("a.yaml");
-    let mut told = |line: u32, key: &str| {
+    let mut reported = |line: u32, key: &str| {
         let at = sound.lines().nth(line as usize).unwrap().find(key).unwrap();
-        let told = editor.ask_at("textDocument/hover", line, at as u32 + 1);
-        told["contents"]["value"].as_str().unwrap().to_owned()
+        let reported = editor.ask_at("textDocument/hover", line, at as u32 + 1);
+        reported["contents"]["value"].as_str().unwrap().to_owned()
     };
-    let eye = told(1, "eye");
+    let eye = reported(1, "eye");
     assert!(
         eye.contains("in scene units") && !eye.contains("in effect"),
         "{eye}"
     );
     // A map as a whole, with what it does not say.
-    let material = told(5, "material");
+    let material = reported(5, "material");
     let (_, effect) = material.split_once("in effect\n```json\n").unwrap();
     let effect: Value = serde_json::from_str(effect.split_once("```").unwrap().0).unwrap();
     assert_eq!(effect["phong"]["color"], json!([1, 0.5, 0]), "{material}");

@@ -22,7 +22,6 @@ mod framing;
 mod info;
 mod interplay;
 mod layouts;
-mod leads;
 mod levels;
 #[cfg(unix)]
 mod links;
@@ -48,6 +47,7 @@ mod settings;
 mod stage;
 mod strips;
 mod studio;
+mod suggestions;
 mod texts;
 mod to_gltf;
 mod twins;

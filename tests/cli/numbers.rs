@@ -50,14 +50,14 @@ fn layers_beyond_a_float_are_told_and_finite() {
             "depth,position",
         ],
     );
-    let told = stderr(&output);
-    assert_eq!(code(&output), 0, "{told}");
+    let reported = stderr(&output);
+    assert_eq!(code(&output), 0, "{reported}");
     let names = "in `depth.Z`, `position.X`, `position.Y`, `position.Z`";
     assert!(
-        told.contains(&format!(
+        reported.contains(&format!(
             "warning[RD004]: values beyond what the file holds {names}"
         )),
-        "{told}"
+        "{reported}"
     );
     let channels = channels(&folder.path().join("ball.exr"));
     assert!(
@@ -109,14 +109,15 @@ fn pixels_that_are_no_number_are_told_and_black() {
             &folder,
             &["render", "mesh.yaml", "--arithmetic", "f32", "-o", file],
         );
-        let told = stderr(&output);
-        assert_eq!(code(&output), 0, "{told}");
+        let reported = stderr(&output);
+        assert_eq!(code(&output), 0, "{reported}");
         assert!(
-            told.contains("warning[RD005]") && told.contains("leave out `--arithmetic f32`"),
-            "{told}"
+            reported.contains("warning[RD005]")
+                && reported.contains("leave out `--arithmetic f32`"),
+            "{reported}"
         );
-        let told = stderr(&rtc(&folder, &["render", "mesh.yaml", "-o", file]));
-        assert!(!told.contains("RD00"), "{told}");
+        let reported = stderr(&rtc(&folder, &["render", "mesh.yaml", "-o", file]));
+        assert!(!reported.contains("RD00"), "{reported}");
     }
     let layers = "albedo,normal,depth,uv,instance,position";
     let args = [
@@ -147,9 +148,12 @@ fn light_without_end_is_told_and_finite() {
         - {type: sphere, position: [0, 0, 0], radius: 9, material: {color: [1e60, 0, 0], ka: 1, kd: 1e60, ks: 1e60, n: 1}}\n";
     fs::write(folder.path().join("bright.yaml"), text).unwrap();
     let output = rtc(&folder, &["render", "bright.yaml", "-o", "bright.exr"]);
-    let told = stderr(&output);
-    assert_eq!(code(&output), 0, "{told}");
-    assert!(told.contains("RD004") || told.contains("RD005"), "{told}");
+    let reported = stderr(&output);
+    assert_eq!(code(&output), 0, "{reported}");
+    assert!(
+        reported.contains("RD004") || reported.contains("RD005"),
+        "{reported}"
+    );
     let channels = channels(&folder.path().join("bright.exr"));
     assert!(
         channels

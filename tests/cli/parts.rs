@@ -35,7 +35,7 @@ pub(super) fn scenes() -> TempDir {
     folder
 }
 
-pub(super) fn told(folder: &TempDir, args: &[&str]) -> String {
+pub(super) fn reported(folder: &TempDir, args: &[&str]) -> String {
     let output = rtc(folder, args);
     assert_eq!(code(&output), 0, "{args:?}: {}", stderr(&output));
     stderr(&output)
@@ -55,7 +55,7 @@ fn render(
         let threads = (1 + share % 3).to_string();
         let share = ["--part", &part, "--parts-by", by, "--picture", picture];
         let rest = ["--threads", &threads, "-o", &name];
-        told(folder, &[&["render"], words, &share, &rest].concat());
+        reported(folder, &[&["render"], words, &share, &rest].concat());
         name
     };
     shares.into_iter().map(part).collect()
@@ -74,7 +74,7 @@ pub(super) fn bytes(folder: &TempDir, name: &str) -> Vec<u8> {
 fn parts_make_the_bytes_of_one_process() {
     let folder = scenes();
     for (words, picture) in PICTURES {
-        told(&folder, &[&["render"], words, &["-o", picture]].concat());
+        reported(&folder, &[&["render"], words, &["-o", picture]].concat());
         let whole = bytes(&folder, picture);
         let ways: &[(&str, u32)] = if words[0] == "paths.json" {
             &[
@@ -87,14 +87,19 @@ fn parts_make_the_bytes_of_one_process() {
         } else {
             &[("tiles", 1), ("tiles", 2), ("tiles", 7)]
         };
-        for way in ways {
+        for path_at in ways {
             // In any order, and one of them twice.
-            let mut parts = render(&folder, words, picture, *way, (1..=way.1).rev());
+            let mut parts = render(&folder, words, picture, *path_at, (1..=path_at.1).rev());
             parts.push(parts[0].clone());
             let merged = format!("merged-{picture}");
             let output = merge(&folder, &parts, &merged);
-            assert_eq!(code(&output), 0, "{words:?}, {way:?}: {}", stderr(&output));
-            assert!(bytes(&folder, &merged) == whole, "{words:?}, {way:?}");
+            assert_eq!(
+                code(&output),
+                0,
+                "{words:?}, {path_at:?}: {}",
+                stderr(&output)
+            );
+            assert!(bytes(&folder, &merged) == whole, "{words:?}, {path_at:?}");
         }
     }
 }
@@ -102,7 +107,7 @@ fn parts_make_the_bytes_of_one_process() {
 #[test]
 fn more_parts_than_tiles_are_no_harm_and_parts_of_parts_merge() {
     let folder = scenes();
-    told(&folder, &["render", "ball.json", "-o", "a.png"]);
+    reported(&folder, &["render", "ball.json", "-o", "a.png"]);
     let parts = render(&folder, &["ball.json"], "a.png", ("tiles", 64), 1..=64);
     for (name, some) in [("left.rtp", &parts[..30]), ("right.rtp", &parts[30..])] {
         assert_eq!(code(&merge(&folder, some, name)), 0);
@@ -118,12 +123,12 @@ fn a_part_that_is_missing_is_named_with_the_command_that_makes_it() {
     let words = ["ball.json", "--exposure", "0.25"];
     let parts = render(&folder, &words, "it is.png", ("tiles", 5), [1, 2, 4, 5]);
     let output = merge(&folder, &parts, "a.png");
-    let told = stderr(&output);
+    let reported = stderr(&output);
     assert_eq!(code(&output), 1);
-    assert!(told.contains("of 5 shares 3 is missing"), "{told}");
+    assert!(reported.contains("of 5 shares 3 is missing"), "{reported}");
     let command = "rtc render ball.json --exposure 0.25 --parts-by tiles --picture 'it is.png' \
                    --threads 2 --part 3/5 -o part-3.rtp";
-    assert!(told.contains(command), "{told}");
+    assert!(reported.contains(command), "{reported}");
     assert!(!folder.path().join("a.png").exists());
 }
 
@@ -132,7 +137,7 @@ fn parts_of_other_pictures_are_refused_by_what_differs() {
     let folder = scenes();
     let one = |name: &str, words: &[&str], count: &str| {
         let share = ["--part", count, "-o", name];
-        told(&folder, &[&["render"], words, &share].concat());
+        reported(&folder, &[&["render"], words, &share].concat());
     };
     one("first.rtp", &["ball.json"], "1/2");
     one("scene.rtp", &["away.json"], "2/2");

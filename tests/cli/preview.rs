@@ -169,8 +169,8 @@ fn the_finished_picture_is_that_of_render() {
     let view = json!({ "eye": [30.5, 10, 40], "center": [0, 0.25, 0], "up": [0, 1, 0] });
     let moving = json!({ "view": view, "isMoving": true });
     let age = live.post("/view", &moving).json()["age"].as_u64();
-    let crude = live.when("moved", |state| state["picture"]["age"].as_u64() == age);
-    assert_eq!(crude["picture"]["isFinished"], false);
+    let coarse = live.when("moved", |state| state["picture"]["age"].as_u64() == age);
+    assert_eq!(coarse["picture"]["isFinished"], false);
     let resting = json!({ "view": view, "isMoving": false });
     let age = live.post("/view", &resting).json()["age"].as_u64();
     let state = live.when("turned", |state| {
@@ -234,8 +234,8 @@ fn a_finding_is_mended_by_its_button_alone() {
     });
     let done = live.post("/fix", &json!({ "load": state["load"], "finding": null }));
     assert_eq!(done.json()["changes"], 1);
-    let mended = guessed.replace("'3'", "3");
-    assert_eq!(fs::read_to_string(&path).unwrap(), mended);
+    let repaired = guessed.replace("'3'", "3");
+    assert_eq!(fs::read_to_string(&path).unwrap(), repaired);
     let state = live.finished(3);
     assert_eq!((&state["isFailed"], fixes(&state)), (&json!(false), vec![]));
     assert_eq!(live.picture(&state), rendered(&folder, &["a.yaml"]));
@@ -250,10 +250,10 @@ fn the_last_good_picture_stays_while_a_fault_is_told() {
     let good = live.picture(&live.finished(1));
     fs::write(&path, text.replace("radius: 3", "radius: -3 # <b>")).unwrap();
     let broken = live.when("broken", |state| state["isFailed"] == true);
-    let told = broken["findings"][0]["text"].as_str().unwrap();
+    let reported = broken["findings"][0]["text"].as_str().unwrap();
     assert!(
-        told.starts_with("error[") && told.contains("radius: -3 # <b>"),
-        "{told}"
+        reported.starts_with("error[") && reported.contains("radius: -3 # <b>"),
+        "{reported}"
     );
     assert!(live.picture(&broken) == good, "the last good picture stays");
     fs::write(&path, text.replace("radius: 3", "radius: 2")).unwrap();

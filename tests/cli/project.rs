@@ -250,7 +250,7 @@ fn a_link_that_leaves_its_folder_is_not_read() {
     let shelf = shelf("");
     let file = shelf.path().join("set/rtc.toml");
     fs::write(shelf.path().join("secret"), "password hunter2\n").unwrap();
-    let told = |target: &str| {
+    let reported = |target: &str| {
         fs::remove_file(&file).unwrap();
         symlink(target, &file).unwrap();
         let trusted = checked(&shelf, &["--trust-project"]);
@@ -258,17 +258,21 @@ fn a_link_that_leaves_its_folder_is_not_read() {
         assert!(!said.1.contains("hunter2") && said == trusted, "{}", said.1);
         said
     };
-    let (exit, said) = told("../secret");
+    let (exit, said) = reported("../secret");
     assert!(
         exit == 0 && said.contains("it is a link that leaves its folder"),
         "{said}"
     );
-    assert_eq!(told("../absent").1, said);
-    assert_eq!(told("/dev/zero").1, said);
+    assert_eq!(reported("../absent").1, said);
+    assert_eq!(reported("/dev/zero").1, said);
     fs::write(
         shelf.path().join("set/own.toml"),
         "[levels]\nwarnings = \"deny\"\n",
     )
     .unwrap();
-    assert_eq!(told("own.toml").0, 1, "within its folder it is followed");
+    assert_eq!(
+        reported("own.toml").0,
+        1,
+        "within its folder it is followed"
+    );
 }

@@ -25,7 +25,7 @@ Objects:
 fn the_pixel_at_which_rays_run_out_is_the_same_on_any_number_of_threads() {
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("lobes.yaml"), LOBES).unwrap();
-    let told = |threads: &str, limit: &str| {
+    let reported = |threads: &str, limit: &str| {
         let words = [
             "render",
             "lobes.yaml",
@@ -41,7 +41,7 @@ fn the_pixel_at_which_rays_run_out_is_the_same_on_any_number_of_threads() {
         stderr(&output)
     };
     for (limit, pixel) in [("rays=20000", "0, 0"), ("rays=200", "0, 0")] {
-        let one = told("1", limit);
+        let one = reported("1", limit);
         assert!(
             one.contains("error[RD006]") && one.contains(&format!("they run out at pixel {pixel}")),
             "{one}"
@@ -50,7 +50,10 @@ fn the_pixel_at_which_rays_run_out_is_the_same_on_any_number_of_threads() {
             one.contains("lobes.yaml:7:") && one.contains("`glossySamples` is 20"),
             "{one}"
         );
-        assert_eq!((told("2", limit), told("3", limit)), (one.clone(), one));
+        assert_eq!(
+            (reported("2", limit), reported("3", limit)),
+            (one.clone(), one)
+        );
     }
     assert!(!folder.path().join("out.png").exists());
 }
@@ -144,31 +147,31 @@ fn render(folder: &TempDir, scene: &str, bounces: u32, words: &str) -> Output {
 #[test]
 fn each_render_of_a_verification_has_the_limit() {
     let folder = TempDir::new().unwrap();
-    let told = |threads: u32, bounces: u32, rays: u32| {
+    let reported = |threads: u32, bounces: u32, rays: u32| {
         let words = format!("--verify-effects --limit rays={rays} --threads {threads}");
         let output = render_lobes(&folder, bounces, &words);
         (code(&output), stderr(&output))
     };
-    let (verdict, one) = told(1, 12, 20_000);
+    let (status, one) = reported(1, 12, 20_000);
     assert!(
-        verdict == 1 && one.contains("error[RD006]") && one.contains("run out at pixel 0, 0"),
+        status == 1 && one.contains("error[RD006]") && one.contains("run out at pixel 0, 0"),
         "{one}"
     );
     assert_eq!(
-        (told(2, 12, 20_000).1, told(3, 12, 20_000).1),
+        (reported(2, 12, 20_000).1, reported(3, 12, 20_000).1),
         (one.clone(), one)
     );
     // Both together take more.
     let picture = rays_of(&render_lobes(&folder, 2, "--allow-huge"));
-    let (verdict, words) = told(2, 2, picture * 3 / 2);
-    assert_eq!(verdict, 0, "{words}");
+    let (status, words) = reported(2, 2, picture * 3 / 2);
+    assert_eq!(status, 0, "{words}");
 }
 
 /// How many rays a picture took.
 fn rays_of(output: &Output) -> u32 {
     let words = stderr(output);
-    let told = words.lines().find(|line| line.contains(" rays")).unwrap();
-    let digits = told.split(", ").nth(1).unwrap().chars();
+    let reported = words.lines().find(|line| line.contains(" rays")).unwrap();
+    let digits = reported.split(", ").nth(1).unwrap().chars();
     let digits: String = digits.filter(char::is_ascii_digit).collect();
     digits.parse().unwrap()
 }

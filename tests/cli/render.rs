@@ -51,7 +51,7 @@ fn a_crop_is_that_part_of_the_whole_on_any_threads() {
 #[test]
 fn options_override_the_scene() {
     let folder = folder();
-    let told = |args: &[&str]| {
+    let reported = |args: &[&str]| {
         let output = rtc(
             &folder,
             &[
@@ -63,7 +63,7 @@ fn options_override_the_scene() {
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         stderr(&output)
     };
-    assert!(told(&["--size", "20x15", "--supersampling", "1"]).starts_with("o.png: 20×15, "));
+    assert!(reported(&["--size", "20x15", "--supersampling", "1"]).starts_with("o.png: 20×15, "));
     assert_eq!(
         image::open(folder.path().join("o.png")).unwrap().width(),
         20
@@ -181,8 +181,8 @@ fn a_target_is_met_said_and_the_same_on_any_threads() {
         )
     };
     let one = render(&["--target-error", "2", "--threads", "1"]);
-    let talk = stderr(&one);
-    let said = talk
+    let reporter = stderr(&one);
+    let said = reporter
         .lines()
         .nth(1)
         .unwrap()
@@ -190,11 +190,11 @@ fn a_target_is_met_said_and_the_same_on_any_threads() {
         .unwrap();
     assert!(
         said.split(' ').next().unwrap().parse::<f64>().unwrap() <= 2.0,
-        "{talk}"
+        "{reporter}"
     );
     assert!(
         said.contains(" grey levels (90 %), ") && said.contains(" samples a pixel on the mean, "),
-        "{talk}"
+        "{reporter}"
     );
     assert!(render(&["--target-error", "2", "--threads", "3"]).stdout == one.stdout);
     assert_eq!(

@@ -141,8 +141,8 @@ fn a_scene_is_held_against_another() {
     let cost = |args: &[&str]| rtc(&folder, &[&["cost", "--effort", "quick"], args].concat());
     let same = cost(&["ball.json", "ball.json", "--gate", "error<=0,rays<=1x"]);
     assert_eq!(code(&same), 0, "{}", stderr(&same));
-    let told = String::from_utf8(same.stdout).unwrap();
-    assert!(told.contains("same, to the last bit"), "{told}");
+    let reported = String::from_utf8(same.stdout).unwrap();
+    assert!(reported.contains("same, to the last bit"), "{reported}");
     let other = cost(&[
         "dark.json",
         "ball.json",
@@ -224,8 +224,11 @@ fn a_picture_is_told_as_an_object() {
     assert_eq!(render(&["-q"]), "");
     let denoised = last(render(&["--integrator", "path", "--spp", "4", "--denoise"]));
     let quality = &denoised["quality"];
-    let [met, told] = ["metError", "toldError"].map(|key| quality[key].as_f64().unwrap());
-    assert!(denoised["denoised"] == true && met >= told, "{denoised}");
+    let [met, reported] = ["metError", "toldError"].map(|key| quality[key].as_f64().unwrap());
+    assert!(
+        denoised["denoised"] == true && met >= reported,
+        "{denoised}"
+    );
     // A quarter of the pixels, or some of them more than once.
     let probes = serde_json::json!({ "pixels": 300, "samples": 8 });
     assert_eq!(quality["probes"], probes, "{denoised}");

@@ -12,8 +12,8 @@ fn view() -> Value {
 }
 
 /// What is shown once an order of this age, or a later one, is carried out.
-fn after(live: &Running, told: &Value, picture: &str) -> Value {
-    let age = told["age"].as_u64();
+fn after(live: &Running, reported: &Value, picture: &str) -> Value {
+    let age = reported["age"].as_u64();
     live.when("carried out", |state| {
         state[picture]["age"].as_u64() >= age && state[picture]["isFinished"] == true
     })
@@ -31,8 +31,8 @@ fn a_setting_that_is_chosen_is_rendered_as_its_command_says() {
         "rtc render ball.json --size=40x30 --depth 2"
     );
     let choice = json!({ "values": { "supersampling": 1, "depth": 0 }, "integrator": null });
-    let told = live.post("/settings", &choice).json();
-    let state = after(&live, &told, "picture");
+    let reported = live.post("/settings", &choice).json();
+    let state = after(&live, &reported, "picture");
     assert_eq!(
         state["command"],
         "rtc render ball.json --size=40x30 --supersampling 1 --depth 0"
@@ -72,8 +72,8 @@ fn costs_are_measured_when_asked_and_go_with_their_scene() {
     let state = live.when("measured", |state| state["costs"].is_object());
     let report = state["costs"]["report"].as_str().unwrap();
     assert!(report.contains("rtc render ball.json"), "{report}");
-    let knobs = state["settings"]["knobs"].as_array().unwrap();
-    let [first, aperture] = [&knobs[0], &knobs[1]];
+    let parameters = state["settings"]["knobs"].as_array().unwrap();
+    let [first, aperture] = [&parameters[0], &parameters[1]];
     assert!(first["own"] == 2 && first["idle"].is_null(), "{first}");
     assert!(aperture["idle"].as_str().unwrap().contains("lens"));
     let rows = state["costs"]["rows"].as_array().unwrap();
@@ -82,8 +82,8 @@ fn costs_are_measured_when_asked_and_go_with_their_scene() {
     assert!(own["seconds"].as_f64() > Some(0.0) && own["error"].as_f64() > Some(0.0));
 
     let choice = json!({ "values": other["values"], "integrator": null });
-    let told = live.post("/settings", &choice).json();
-    let state = after(&live, &told, "picture");
+    let reported = live.post("/settings", &choice).json();
+    let state = after(&live, &reported, "picture");
     assert!(
         state["costs"].is_object(),
         "they are of the scene's own values"
@@ -136,8 +136,8 @@ fn another_scene_is_looked_at_as_the_first() {
     assert!(laid(&own) == rendered(&folder, &other));
     let moving = json!({ "view": view(), "isMoving": true });
     let age = live.post("/view", &moving).json()["age"].as_u64();
-    let crude = live.when("moved", |state| state["against"]["age"].as_u64() == age);
-    assert_eq!(crude["against"]["isFinished"], false);
+    let coarse = live.when("moved", |state| state["against"]["age"].as_u64() == age);
+    assert_eq!(coarse["against"]["isFinished"], false);
     let resting = json!({ "view": view(), "isMoving": false });
     let state = after(&live, &live.post("/view", &resting).json(), "against");
     let words = state["command"]

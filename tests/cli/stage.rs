@@ -185,15 +185,15 @@ fn a_white_surface_under_an_even_sky_is_the_sky() {
 #[test]
 fn what_has_no_light_stands_in_the_studio() {
     let folder = folder();
-    let told = |words: &str| {
+    let reported = |words: &str| {
         stderr(&rtc(
             folder.path(),
             &format!("render {words} --size 8x8 --spp 4 -v -o x.png"),
         ))
     };
     assert!(
-        told("square.gltf").contains("note[RD003]")
-            && told("sunny.gltf --no-scene-lights").contains("RD003")
+        reported("square.gltf").contains("note[RD003]")
+            && reported("sunny.gltf --no-scene-lights").contains("RD003")
     );
     for lit in [
         "sunny.gltf",
@@ -202,7 +202,7 @@ fn what_has_no_light_stands_in_the_studio() {
         "square.gltf --env sky.hdr",
         "ball.yaml",
     ] {
-        assert!(!told(lit).contains("RD003"), "{lit}");
+        assert!(!reported(lit).contains("RD003"), "{lit}");
     }
     let dark = values(folder.path(), "square.gltf --env-color 0 --spp 4");
     assert!(dark.iter().all(|value| *value == 0));

@@ -1,6 +1,6 @@
 //! Pictures rendered in strips: the bytes of the whole; what has none is refused, and nothing stays behind.
 
-use super::parts::{PICTURES, bytes, scenes, told};
+use super::parts::{PICTURES, bytes, reported, scenes};
 use super::*;
 
 #[test]
@@ -43,11 +43,11 @@ fn strips_make_the_bytes_of_the_whole() {
     let all = PICTURES.into_iter().chain(more);
     for (words, picture) in all.filter(|(words, _)| words[0] != "depth.json") {
         let render = [&["render"], words, &["-o", picture]].concat();
-        told(&folder, &render);
+        reported(&folder, &render);
         let whole = bytes(&folder, picture);
         for (strips, threads) in [("--strips=1", "3"), ("--strips=32", "1"), ("--strips", "2")] {
             fs::remove_file(folder.path().join(picture)).unwrap();
-            told(
+            reported(
                 &folder,
                 &[&render[..], &[strips, "--threads", threads]].concat(),
             );
@@ -70,8 +70,8 @@ fn what_strips_find_is_what_the_whole_finds() {
     ] {
         let render = [&["render", "--message-format", "short"], words].concat();
         let findings = |more: &[&str]| {
-            let told = told(&folder, &[&render[..], more].concat());
-            let lines = told.lines().filter(|line| line.contains("RD0"));
+            let reported = reported(&folder, &[&render[..], more].concat());
+            let lines = reported.lines().filter(|line| line.contains("RD0"));
             lines.map(str::to_owned).collect::<Vec<_>>()
         };
         let whole = findings(&[]);
@@ -128,9 +128,9 @@ fn what_must_be_known_as_a_whole_has_no_strips() {
 fn frames_of_a_turntable_are_made_of_strips() {
     let folder = scenes();
     let turn = ["render", "ball.json", "--turntable", "2"];
-    told(&folder, &[&turn[..], &["-o", "whole-%04d.png"]].concat());
+    reported(&folder, &[&turn[..], &["-o", "whole-%04d.png"]].concat());
     let strips = ["--strips=16", "-o", "strips-%04d.png"];
-    told(&folder, &[&turn[..], &strips].concat());
+    reported(&folder, &[&turn[..], &strips].concat());
     let frames = |kind: &str| {
         let pictures = names(folder.path());
         let own = pictures.iter().filter(|name| name.starts_with(kind));

@@ -145,7 +145,9 @@ fn a_scene_text_that_glows_is_lit_by_that_alone() {
     for shape in shapes {
         let pictures = [8.0, 1.0, 0.01].map(|radiance| lit(&text(shape, radiance)));
         assert!(
-            pictures.iter().all(|(_, told)| !told.contains("studio")),
+            pictures
+                .iter()
+                .all(|(_, reported)| !reported.contains("studio")),
             "{shape}: {pictures:?}"
         );
         let means = pictures.map(|(mean, _)| mean);

@@ -6,10 +6,10 @@ use super::*;
 fn a_scene_becomes_an_asset_that_shows_the_same() {
     let folder = folder();
     let written = rtc(&folder, &["compile", "ball.json", "-o", "ball.glb", "-v"]);
-    let told = stderr(&written);
-    assert_eq!(code(&written), 0, "{told}");
+    let reported = stderr(&written);
+    assert_eq!(code(&written), 0, "{reported}");
     for part in ["GL050", "GL051", "within 0.001 of its radius", "a square"] {
-        assert!(told.contains(part), "{part} is missing: {told}");
+        assert!(reported.contains(part), "{part} is missing: {reported}");
     }
     let checked = rtc(&folder, &["check", "ball.glb"]);
     assert_eq!((code(&checked), stderr(&checked)), (0, String::new()));

@@ -7,10 +7,10 @@ fn written(scene: &str, target: &str) -> (TempDir, String, String) {
     let folder = folder();
     fs::write(folder.path().join("scene.yaml"), scene).unwrap();
     let done = rtc(&folder, &["compile", "scene.yaml", "-o", target]);
-    let told = stderr(&done);
-    assert_eq!(code(&done), 0, "{told}");
+    let reported = stderr(&done);
+    assert_eq!(code(&done), 0, "{reported}");
     let text = fs::read_to_string(folder.path().join(target)).unwrap();
-    (folder, text, told)
+    (folder, text, reported)
 }
 
 #[test]
@@ -51,8 +51,8 @@ Objects:
 
 #[test]
 fn traced_paths_become_a_scene_of_mitsuba() {
-    let (folder, text, told) = written(PATHS, "scene.xml");
-    assert_eq!(told, "");
+    let (folder, text, reported) = written(PATHS, "scene.xml");
+    assert_eq!(reported, "");
     let squeezed = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for part in [
         r#"<default name="spp" value="16"/>"#,
@@ -79,10 +79,10 @@ fn traced_paths_become_a_scene_of_mitsuba() {
     let name = file.file_name().into_string().unwrap();
     assert!(text.contains(&format!("scene.files/{name}")), "{text}");
     let mesh = rtc(&folder, &["info", &format!("scene.files/{name}"), "--json"]);
-    let told = String::from_utf8(mesh.stdout).unwrap();
+    let reported = String::from_utf8(mesh.stdout).unwrap();
     assert!(
-        told.contains(r#""triangles": 3"#) || told.contains(r#""triangles":3"#),
-        "{told}"
+        reported.contains(r#""triangles": 3"#) || reported.contains(r#""triangles":3"#),
+        "{reported}"
     );
 }
 
@@ -98,7 +98,7 @@ fn what_has_no_twin_is_told_part_by_part() {
     let spot = "Objects:";
     let lit = "- {type: spot, position: [0, 9, 0], direction: [0, -1, 0], innerAngle: 0.2, outerAngle: 0.4, intensity: [1, 1, 1]}\nObjects:";
     let scene = format!("{}{more}", PATHS.replace(spot, lit));
-    let (_, text, told) = written(&scene, "scene.xml");
+    let (_, text, reported) = written(&scene, "scene.xml");
     let words = [
         "a spot is left out",
         "Mitsuba has no torus: it is left out",
@@ -109,12 +109,12 @@ fn what_has_no_twin_is_told_part_by_part() {
         "this one shines both ways",
     ];
     for words in words {
-        assert!(told.contains(words), "{words} is missing: {told}");
+        assert!(reported.contains(words), "{words} is missing: {reported}");
     }
     assert_eq!(
-        told.matches("warning[EX001]").count(),
+        reported.matches("warning[EX001]").count(),
         words.len(),
-        "{told}"
+        "{reported}"
     );
     assert!(
         !text.contains("torus") && text.contains("principled"),
@@ -122,7 +122,7 @@ fn what_has_no_twin_is_told_part_by_part() {
     );
 
     // POV-Ray has the torus and the plane, but neither paths nor physical lights.
-    let (_, text, told) = written(&scene, "scene.pov");
+    let (_, text, reported) = written(&scene, "scene.pov");
     for words in [
         "this scene is shown in another way",
         "the surroundings are left out",
@@ -130,7 +130,7 @@ fn what_has_no_twin_is_told_part_by_part() {
         "POV-Ray has no bilinear patch: it is left out",
         "a material of glTF is written as matt",
     ] {
-        assert!(told.contains(words), "{words} is missing: {told}");
+        assert!(reported.contains(words), "{words} is missing: {reported}");
     }
     assert!(text.contains("torus { 1, 0.2 matrix <") && text.contains("plane { <0, 1, 0>, 0"));
 }

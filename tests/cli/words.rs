@@ -144,7 +144,7 @@ fn options_stand_under_the_heading_that_is_theirs() {
 fn exit_codes_are_told_alike() {
     let help = String::from_utf8(rtc(&folder(), &["--help"]).stdout).unwrap();
     let (_, codes) = help.split_once("Exit codes:\n").unwrap();
-    let told: Vec<_> = codes
+    let reported: Vec<_> = codes
         .lines()
         .filter_map(|line| line.trim().split_once("  "))
         .collect();
@@ -156,7 +156,7 @@ fn exit_codes_are_told_alike() {
         .lines()
         .map_while(|line| line.strip_prefix("| ")?.strip_suffix(" |"));
     let rows: Vec<_> = rows.filter_map(|row| row.split_once(" | ")).collect();
-    assert_eq!(told, rows);
-    let numbers: Vec<_> = told.iter().map(|(code, _)| *code).collect();
+    assert_eq!(reported, rows);
+    let numbers: Vec<_> = reported.iter().map(|(code, _)| *code).collect();
     assert_eq!(numbers, ["0", "1", "2", "130", "143"]);
 }

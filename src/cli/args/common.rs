@@ -91,7 +91,7 @@ impl Reading {
 /// How findings are told.
 #[derive(Debug, Args)]
 #[command(next_help_heading = None::<&str>)]
-pub(crate) struct TalkArgs {
+pub(crate) struct ReporterArgs {
     /// The form of diagnostics
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub(crate) message_format: MessageFormat,

@@ -2,7 +2,7 @@
 
 use super::super::gate::{Gates, of_scenes};
 use super::super::parse::interval;
-use super::{Reading, StageArgs, TalkArgs};
+use super::{Reading, ReporterArgs, StageArgs};
 use clap::{Args, ValueEnum, ValueHint};
 use rtc_study as study;
 use std::path::PathBuf;
@@ -67,7 +67,7 @@ pub(crate) struct Cost {
     #[command(flatten)]
     pub(crate) reading: Reading,
     #[command(flatten)]
-    pub(crate) talk: TalkArgs,
+    pub(crate) reporter: ReporterArgs,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

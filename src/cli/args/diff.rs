@@ -1,7 +1,7 @@
 //! What `rtc diff` is told.
 
 use super::super::gate::{Gates, of_pictures};
-use super::{Reading, TalkArgs, WantedArgs};
+use super::{Reading, ReporterArgs, WantedArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -41,7 +41,7 @@ pub(crate) struct Diff {
     #[command(flatten)]
     pub(crate) reading: Reading,
     #[command(flatten)]
-    pub(crate) talk: TalkArgs,
+    pub(crate) reporter: ReporterArgs,
 }
 
 fn levels(text: &str) -> Result<f64, String> {

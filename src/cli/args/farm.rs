@@ -1,7 +1,7 @@
 //! What `rtc farm` is told.
 
 use super::super::parse::{frames, rate};
-use super::{LookArgs, Reading, SharedByArg, StageArgs, TalkArgs, WantedArgs};
+use super::{OutputTransformArgs, Reading, ReporterArgs, SharedByArg, StageArgs, WantedArgs};
 use clap::{Args, ValueEnum, ValueHint};
 use rtc_pipeline::MAX_SHARDS;
 use std::path::PathBuf;
@@ -50,13 +50,13 @@ pub(crate) struct Farm {
     #[command(flatten)]
     pub(crate) wanted: WantedArgs,
     #[command(flatten)]
-    pub(crate) look: LookArgs,
+    pub(crate) look: OutputTransformArgs,
     #[command(flatten)]
     pub(crate) stage: StageArgs,
     #[command(flatten)]
     pub(crate) reading: Reading,
     #[command(flatten)]
-    pub(crate) talk: TalkArgs,
+    pub(crate) reporter: ReporterArgs,
 }
 
 /// What runs jobs on many machines.

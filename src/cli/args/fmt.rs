@@ -1,6 +1,6 @@
 //! What `rtc fmt` is told.
 
-use super::TalkArgs;
+use super::ReporterArgs;
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -22,5 +22,5 @@ pub(crate) struct Fmt {
     #[arg(long)]
     pub(crate) diff: bool,
     #[command(flatten)]
-    pub(crate) talk: TalkArgs,
+    pub(crate) reporter: ReporterArgs,
 }

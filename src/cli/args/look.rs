@@ -9,7 +9,7 @@ use rtc_pipeline::Exposure;
 use rtc_render::Aov;
 
 #[derive(Debug, Args)]
-pub(crate) struct LookArgs {
+pub(crate) struct OutputTransformArgs {
     /// How a PNG shows linear values; an EXR holds them as they are [default: pbr-neutral for a
     /// glTF asset, srgb where else paths are traced, else none]
     #[arg(long, value_enum, value_name = "MAP")]
@@ -43,7 +43,7 @@ pub(crate) enum BackgroundArg {
     /// That of the picture.
     Fill(BackgroundFill),
     /// A colour as a screen shows it: sRGB in 8 bits a channel.
-    Shown([u8; 3]),
+    Color([u8; 3]),
 }
 
 impl BackgroundArg {
@@ -51,7 +51,7 @@ impl BackgroundArg {
     pub(crate) fn fill(self, kind: FileFormat) -> BackgroundFill {
         match self {
             Self::Fill(fill) => fill,
-            Self::Shown(color) => {
+            Self::Color(color) => {
                 let shown = color.map(|channel| f64::from(channel) / 255.0);
                 BackgroundFill::Color(if kind.is_linear() {
                     shown.map(srgb_decoded)

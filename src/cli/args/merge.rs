@@ -1,6 +1,6 @@
 //! What `rtc merge` is told.
 
-use super::TalkArgs;
+use super::ReporterArgs;
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -16,5 +16,5 @@ pub(crate) struct Merge {
     #[arg(long)]
     pub(crate) allow_huge: bool,
     #[command(flatten)]
-    pub(crate) talk: TalkArgs,
+    pub(crate) reporter: ReporterArgs,
 }

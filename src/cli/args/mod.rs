@@ -12,12 +12,12 @@ mod render;
 mod stage;
 mod wanted;
 
-pub(super) use common::{Color, MessageFormat, Reading, TalkArgs};
+pub(super) use common::{Color, MessageFormat, Reading, ReporterArgs};
 pub(super) use cost::{Cost, StudyFormat};
 pub(super) use diff::Diff;
 pub(super) use farm::{Engine, Farm};
 pub(super) use fmt::Fmt;
-pub(super) use look::{BackgroundArg, BitDepth, LookArgs};
+pub(super) use look::{BackgroundArg, BitDepth, OutputTransformArgs};
 pub(super) use merge::Merge;
 pub(super) use preview::Preview;
 pub(super) use render::{Pruning, Render, SharedByArg};
@@ -110,7 +110,7 @@ pub(super) struct CheckArgs {
     #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]
-    pub(super) talk: TalkArgs,
+    pub(super) reporter: ReporterArgs,
 }
 
 #[derive(Debug, Args)]
@@ -136,7 +136,7 @@ pub(super) struct Info {
     #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]
-    pub(super) talk: TalkArgs,
+    pub(super) reporter: ReporterArgs,
 }
 
 #[derive(Debug, Args)]
@@ -162,7 +162,7 @@ pub(super) struct Compile {
     #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]
-    pub(super) talk: TalkArgs,
+    pub(super) reporter: ReporterArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

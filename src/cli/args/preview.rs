@@ -1,6 +1,6 @@
 //! What `rtc preview` is told.
 
-use super::{LookArgs, Reading, StageArgs, TalkArgs, WantedArgs};
+use super::{OutputTransformArgs, Reading, ReporterArgs, StageArgs, WantedArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -30,11 +30,11 @@ pub(crate) struct Preview {
     #[command(flatten)]
     pub(crate) wanted: WantedArgs,
     #[command(flatten)]
-    pub(crate) look: LookArgs,
+    pub(crate) look: OutputTransformArgs,
     #[command(flatten)]
     pub(crate) stage: StageArgs,
     #[command(flatten)]
     pub(crate) reading: Reading,
     #[command(flatten)]
-    pub(crate) talk: TalkArgs,
+    pub(crate) reporter: ReporterArgs,
 }

@@ -1,7 +1,7 @@
 //! What `rtc render` is told.
 
 use super::super::parse::{frames, interval, levels, radiance, rule, seconds, share};
-use super::{LookArgs, Reading, StageArgs, TalkArgs, WantedArgs};
+use super::{OutputTransformArgs, Reading, ReporterArgs, StageArgs, WantedArgs};
 use clap::{Args, ValueEnum, ValueHint};
 use rtc_pipeline::ShardBy;
 use rtc_plan::Rule;
@@ -86,7 +86,7 @@ pub(crate) struct Render {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
     #[command(flatten)]
-    pub(crate) look: LookArgs,
+    pub(crate) look: OutputTransformArgs,
     #[command(flatten)]
     pub(crate) pruning: Pruning,
     #[command(flatten)]
@@ -94,7 +94,7 @@ pub(crate) struct Render {
     #[command(flatten)]
     pub(crate) reading: Reading,
     #[command(flatten)]
-    pub(crate) talk: TalkArgs,
+    pub(crate) reporter: ReporterArgs,
 }
 
 impl Render {

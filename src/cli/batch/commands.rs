@@ -155,7 +155,7 @@ fn look(args: &Farm) -> Vec<String> {
         BackgroundArg::Fill(BackgroundFill::Color([r, g, b])) => {
             say("background", format!("{r},{g},{b}"));
         }
-        BackgroundArg::Shown([r, g, b]) => say("background", format!("#{r:02x}{g:02x}{b:02x}")),
+        BackgroundArg::Color([r, g, b]) => say("background", format!("#{r:02x}{g:02x}{b:02x}")),
     }
     if !args.look.aov.is_empty() {
         let layers: Vec<String> = args.look.aov.iter().copied().map(name).collect();

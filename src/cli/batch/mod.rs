@@ -11,7 +11,7 @@ use super::input;
 use super::interrupt::Interrupt;
 use super::project;
 use super::render::{refuse_layers, set_stage, wanted};
-use super::talk::{self, Talk};
+use super::reporter::{self, Reporter};
 use frames::Frames;
 use jobs::FarmJob;
 use rtc_codec::{self as codec, Encoding};
@@ -28,11 +28,11 @@ pub(super) fn run(args: &Farm) -> Result<(), Failure> {
     let mut first = Some(staged(args, frames.first_time())?);
     let folder = NewFolder::at(&args.output).map_err(|error| failure(args, &error))?;
     let interrupt = Interrupt::listen()?;
-    let mut talk = Talk::beside_result(&args.talk);
+    let mut reporter = Reporter::beside_result(&args.reporter);
     let mut hashes = Vec::new();
     for (name, time) in frames.scenes() {
         let input = first.take().map_or_else(|| staged(args, time), Ok);
-        let subject = input.and_then(|input| settled(args, input, &mut talk, &interrupt));
+        let subject = input.and_then(|input| settled(args, input, &mut reporter, &interrupt));
         let written = subject.and_then(|subject| {
             let scene = &subject.validated.lowered.scene;
             hashes.push(hash(scene));
@@ -42,11 +42,11 @@ pub(super) fn run(args: &Farm) -> Result<(), Failure> {
             written.map_err(|error| stopped_or(args, &error, &interrupt))
         });
         if written.is_err() {
-            talk.finish()?;
+            reporter.finish()?;
             return written;
         }
     }
-    talk.finish()?;
+    reporter.finish()?;
     let job = FarmJob::new(args, &frames, &hashes);
     let mut files = job.files().into_iter();
     let written = files.try_for_each(|(name, text)| {
@@ -54,10 +54,10 @@ pub(super) fn run(args: &Farm) -> Result<(), Failure> {
     });
     let placed = written.and_then(|()| folder.place(&interrupt));
     placed.map_err(|error| stopped_or(args, &error, &interrupt))?;
-    if !args.talk.quiet {
+    if !args.reporter.quiet {
         let (folder, picture, run) = (args.output.display(), &args.picture, job.how_to_run());
         let parts = args.parts;
-        talk::say(&format!(
+        reporter::say(&format!(
             "{folder}: {picture} in {parts} parts; in the folder, `{run}` runs them"
         ));
     }
@@ -79,14 +79,14 @@ fn staged(args: &Farm, time: Option<f64>) -> Result<Input, Failure> {
 fn settled(
     args: &Farm,
     mut input: Input,
-    talk: &mut Talk,
+    reporter: &mut Reporter,
     interrupt: &Interrupt,
 ) -> Result<RenderSubject, Failure> {
     let mut setup = wanted(&args.wanted, &args.look, Path::new(&args.picture))?;
     refuse_layers(&setup)?;
     let settled = project::picture(&args.file, &args.reading, Goal::default())?;
     setup.overrides = setup.overrides.or(settled);
-    let mut subject = input::subject(&mut setup, &mut input, talk)?;
+    let mut subject = input::subject(&mut setup, &mut input, reporter)?;
     let scene = &subject.validated.lowered.scene;
     setup.window(scene)?;
     setup.separable(scene, args.parts_by.into())?;
@@ -95,7 +95,7 @@ fn settled(
         is_stopped: &|| interrupt.is_raised(),
     };
     setup.light(&mut subject, &mut input, &observer)?;
-    input::tell(&mut input, talk)?;
+    input::tell(&mut input, reporter)?;
     if !setup.look.kind.is_linear() {
         subject.validated.lowered.scene.display = setup.look.as_display();
     }

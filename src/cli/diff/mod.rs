@@ -76,14 +76,16 @@ fn report(
         Some(pictures) => write(args, outputs, (compared, pictures), budget, interrupt)?,
     };
     let gates = args.gate.as_ref();
-    let judged = gates.map_or_else(Vec::new, |gates| gates.judged(|name| measure(&found, name)));
+    let is_resolved = gates.map_or_else(Vec::new, |gates| {
+        gates.is_resolved(|name| measure(&found, name))
+    });
     if args.json {
-        output::to_stdout(json(args, compared, &found, &judged)?.as_bytes())?;
-    } else if !args.talk.quiet {
+        output::to_stdout(json(args, compared, &found, &is_resolved)?.as_bytes())?;
+    } else if !args.reporter.quiet {
         let scenes = compared.changes.map_or_else(String::new, changed);
         output::to_stdout((scenes + &words(args, compared.size, &found)).as_bytes())?;
     }
-    gate::pass(&judged, args.talk.quiet)
+    gate::pass(&is_resolved, args.reporter.quiet)
 }
 
 /// Writes the map and the page of two pictures, and hands on how they differ.

@@ -5,7 +5,7 @@ use super::super::args::Diff;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
 use super::super::render::ended;
-use super::super::talk::Talk;
+use super::super::reporter::Reporter;
 use super::super::{input, simd};
 use super::{Compared, DiffOutputs, report};
 use rtc_codec::changes;
@@ -31,16 +31,16 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
         let words = "standard input is one scene; give a file for the other";
         return Err(Failure::Trouble(words.to_owned()));
     }
-    let mut talk = Talk::beside_result(&args.talk);
-    let outcome = carry_out(args, &mut talk);
-    talk.finish()?;
+    let mut reporter = Reporter::beside_result(&args.reporter);
+    let outcome = carry_out(args, &mut reporter);
+    reporter.finish()?;
     outcome
 }
 
-fn carry_out(args: &Diff, talk: &mut Talk) -> Result<(), Failure> {
+fn carry_out(args: &Diff, reporter: &mut Reporter) -> Result<(), Failure> {
     let interrupt = Interrupt::listen()?;
-    let mut new = DiffSide::read(args, &args.new, None, talk)?;
-    let mut old = DiffSide::read(args, &args.old, Some(new.size()), talk)?;
+    let mut new = DiffSide::read(args, &args.new, None, reporter)?;
+    let mut old = DiffSide::read(args, &args.old, Some(new.size()), reporter)?;
     let changed = changes(new.scene(), old.scene());
     let changed = changed.expect("proven scenes hold finite numbers only");
     let open = |path: &Option<_>| {
@@ -55,9 +55,9 @@ fn carry_out(args: &Diff, talk: &mut Talk) -> Result<(), Failure> {
         map: open(&args.output)?,
         page: open(&args.html)?,
     };
-    let first = new.picture(talk, &interrupt)?;
+    let first = new.picture(reporter, &interrupt)?;
     old.see_by(&new.scene().camera)?;
-    let second = old.picture(talk, &interrupt)?;
+    let second = old.picture(reporter, &interrupt)?;
     let compared = Compared {
         pictures: Some([&first, &second]),
         size: first.size(),
@@ -73,7 +73,7 @@ impl DiffSide {
         args: &Diff,
         file: &Path,
         size: Option<[u32; 2]>,
-        talk: &mut Talk,
+        reporter: &mut Reporter,
     ) -> Result<Self, Failure> {
         let mut input = input::read(file, &args.reading)?;
         let look = OutputTransform::new(FileFormat::Png8, None, None, BackgroundFill::Film, &[]);
@@ -87,7 +87,7 @@ impl DiffSide {
             ..PictureSetup::new(look)
         };
         setup.overrides.size = size.or(setup.overrides.size);
-        let subject = input::subject(&mut setup, &mut input, talk)?;
+        let subject = input::subject(&mut setup, &mut input, reporter)?;
         Ok(Self {
             input,
             setup,
@@ -117,7 +117,7 @@ impl DiffSide {
     }
 
     /// Its picture, as `rtc render` shows it.
-    fn picture(&mut self, talk: &mut Talk, interrupt: &Interrupt) -> Result<ShownPicture, Failure> {
+    fn picture(&mut self, reporter: &mut Reporter, interrupt: &Interrupt) -> Result<ShownPicture, Failure> {
         let Self {
             input,
             setup,
@@ -136,10 +136,10 @@ impl DiffSide {
             image,
             coverage,
             counts,
-        } = film.map_err(|error| ended(error, input, talk))?.film;
+        } = film.map_err(|error| ended(error, input, reporter))?.film;
         let film = (image, coverage, &counts);
         let picture = setup.develop(subject, film, input, observer.is_stopped)?;
-        input::tell(input, talk)?;
+        input::tell(input, reporter)?;
         let Picture { image, .. } = picture;
         Ok(ShownPicture::of(image))
     }

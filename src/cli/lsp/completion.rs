@@ -2,9 +2,9 @@
 
 use super::hover::{default, plain};
 use super::open_text::{OpenText, tree};
+use super::path_at::{PathStep, Vocabulary, path_at};
 use super::protocol::{CompletionItem, CompletionItemKind, InsertTextFormat, Position};
 use super::text::Columns;
-use super::way::{Vocabulary, WayStep, way};
 use rtc_front::course;
 use rtc_source::tree::Tree;
 use serde_json::{Map, Value};
@@ -110,11 +110,11 @@ fn proposed(
     offset: usize,
     vocabulary: &Vocabulary,
 ) -> Vec<CompletionItem> {
-    let steps = way(tree, offset);
+    let steps = path_at(tree, offset);
     let Some(last) = steps.last() else {
         return Vec::new();
     };
-    if let WayStep::Key { map, key, .. } = *last
+    if let PathStep::Key { map, key, .. } = *last
         && tree.is(key, BLANK)
     {
         let to_map = &steps[..steps.len() - 1];

@@ -61,9 +61,9 @@ fn of(scene: &Scene, place: ValuePath) -> Option<Value> {
         field: Field::Whole,
         ..place
     };
-    let way = place.to_string();
-    let way = way.strip_prefix(&entity.to_string())?;
-    whole.pointer(way).cloned()
+    let pointer = place.to_string();
+    let pointer = pointer.strip_prefix(&entity.to_string())?;
+    whole.pointer(pointer).cloned()
 }
 
 /// The same with whole numbers as such.

@@ -165,8 +165,8 @@ pub(super) fn actions(
     };
     let atlas = Atlas::new(document, checked, columns);
     let fixes = checked.findings.iter().flat_map(|finding| {
-        let (uri, told) = atlas.diagnostic(finding);
-        let is_here = uri == document.uri && touch(told.range, range);
+        let (uri, reported) = atlas.diagnostic(finding);
+        let is_here = uri == document.uri && touch(reported.range, range);
         let hints = finding.hints.iter().filter(move |_| is_here);
         let changes = hints.filter_map(|hint| {
             let change = hint.replacement.as_ref()?;
@@ -177,7 +177,7 @@ pub(super) fn actions(
                 let (start, end) = (change.span.start as usize, change.span.end as usize);
                 let edit = TextEdit::new(lines.range(start, end), change.text.clone());
                 let is_sure = !change.is_guess;
-                quick_fix(document, hint.text.clone(), is_sure, edit, told.clone())
+                quick_fix(document, hint.text.clone(), is_sure, edit, reported.clone())
             })
             .collect::<Vec<_>>()
     });
@@ -189,12 +189,12 @@ fn quick_fix(
     title: String,
     is_sure: bool,
     edit: TextEdit,
-    mended: EditorDiagnostic,
+    repaired: EditorDiagnostic,
 ) -> CodeAction {
     CodeAction {
         title,
         kind: CodeActionKind::QUICKFIX,
-        diagnostics: Some(vec![mended]),
+        diagnostics: Some(vec![repaired]),
         edit: change_of(document, edit),
         is_preferred: Some(is_sure),
     }

@@ -3,9 +3,9 @@
 use super::super::explain;
 use super::effective;
 use super::open_text::OpenText;
+use super::path_at::{PathStep, Vocabulary, path_at};
 use super::protocol::{Hover, MarkupContent, MarkupKind, Position, Range};
 use super::text::Columns;
-use super::way::{Vocabulary, WayStep, way};
 use rtc_source::tree::Tree;
 use serde_json::{Map, Value};
 
@@ -19,8 +19,8 @@ pub(super) fn hover(
     let (lines, mut parts) = (document.lines(columns), Vec::new());
     let offset = lines.offset(place);
     let mut range = Range::new(place, place);
-    if let Some((told, (start, end))) = meaning(document, offset, vocabulary) {
-        parts.push(told);
+    if let Some((reported, (start, end))) = meaning(document, offset, vocabulary) {
+        parts.push(reported);
         range = lines.range(start, end);
     }
     parts.extend(codes(document, offset));
@@ -40,11 +40,11 @@ fn meaning(
     vocabulary: &Vocabulary,
 ) -> Option<(String, (usize, usize))> {
     let tree = document.tree()?;
-    let steps = way(&tree, offset);
+    let steps = path_at(&tree, offset);
     let last = steps
         .iter()
-        .rposition(|step| matches!(step, WayStep::Key { .. }))?;
-    let WayStep::Key { key, value, .. } = steps[last] else {
+        .rposition(|step| matches!(step, PathStep::Key { .. }))?;
+    let PathStep::Key { key, value, .. } = steps[last] else {
         return None;
     };
     let schemas = vocabulary.at(&tree, &steps[..=last]);
@@ -59,8 +59,8 @@ fn meaning(
     let lines = [format!("**`{name}`** {text}"), facts, here, value];
     let lines = lines.into_iter().filter(|line| !line.is_empty());
     let span = tree.span(key);
-    let told = lines.collect::<Vec<_>>().join("\n\n");
-    Some((told, (span.start as usize, span.end as usize)))
+    let reported = lines.collect::<Vec<_>>().join("\n\n");
+    Some((reported, (span.start as usize, span.end as usize)))
 }
 
 /// The range, the words and the default of a value.

@@ -13,7 +13,7 @@ mod place;
 mod protocol;
 mod text;
 mod uri;
-mod way;
+mod path_at;
 mod wire;
 mod workspace;
 
@@ -35,7 +35,7 @@ enum TextRange {
     /// The editor has not said yet who it is.
     Greeting,
     /// It asks and is answered.
-    Talk,
+    Reporter,
     /// It has asked for the end.
     Farewell,
 }
@@ -69,16 +69,16 @@ pub(super) fn hear_all(args: args::Lsp, messages: &[u8]) {
     const MOST: usize = 64;
     let mut workspace = Workspace::new(args.reading);
     for line in messages.split(|byte| *byte == b'\n').take(MOST) {
-        let mut told = match serde_json::from_slice(line) {
+        let mut reported = match serde_json::from_slice(line) {
             Ok(Message::Request(request)) => vec![workspace.answer(request).into()],
             Ok(Message::Notification(own)) => workspace.note(own),
             Ok(Message::Response(_)) | Err(_) => Vec::new(),
         };
         while let Some(more) = workspace.check_next() {
-            told.extend(more);
+            reported.extend(more);
         }
-        let told = serde_json::to_string(&told).unwrap_or_default();
-        assert!(!told.contains(open_text::FAULT), "{told}");
+        let reported = serde_json::to_string(&reported).unwrap_or_default();
+        assert!(!reported.contains(open_text::FAULT), "{reported}");
     }
 }
 
@@ -89,8 +89,8 @@ impl Server {
             let incoming = match self.inbox.next() {
                 Some(incoming) => incoming,
                 None => {
-                    if let Some(told) = self.workspace.check_next() {
-                        told.into_iter().for_each(|message| self.send(message));
+                    if let Some(reported) = self.workspace.check_next() {
+                        reported.into_iter().for_each(|message| self.send(message));
                         continue;
                     }
                     match self.inbox.wait() {
@@ -131,9 +131,9 @@ impl Server {
                 let response = self.answered(request);
                 self.send(response);
             }
-            Message::Notification(own) if self.stretch == TextRange::Talk => {
-                let told = self.workspace.note(own);
-                told.into_iter().for_each(|message| self.send(message));
+            Message::Notification(own) if self.stretch == TextRange::Reporter => {
+                let reported = self.workspace.note(own);
+                reported.into_iter().for_each(|message| self.send(message));
             }
             Message::Notification(_) | Message::Response(_) => {}
         }
@@ -147,20 +147,20 @@ impl Server {
         };
         match (self.stretch, request.method.as_str()) {
             (TextRange::Greeting, "initialize") => {
-                self.stretch = TextRange::Talk;
+                self.stretch = TextRange::Reporter;
                 Response::new_ok(id, self.greet(&request.params))
             }
             (TextRange::Greeting, _) => {
                 refused(ErrorCode::ServerNotInitialized, "`initialize` comes first")
             }
-            (TextRange::Talk, "initialize") => {
+            (TextRange::Reporter, "initialize") => {
                 refused(ErrorCode::InvalidRequest, "`initialize` came before")
             }
-            (TextRange::Talk, "shutdown") => {
+            (TextRange::Reporter, "shutdown") => {
                 self.stretch = TextRange::Farewell;
                 Response::new_ok(id, Value::Null)
             }
-            (TextRange::Talk, _) => {
+            (TextRange::Reporter, _) => {
                 let answer = AssertUnwindSafe(|| self.workspace.answer(request));
                 let words = "internal error of rtc; please report it with the scene";
                 panic::catch_unwind(answer)

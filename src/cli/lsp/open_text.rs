@@ -34,7 +34,7 @@ pub(super) struct OpenText {
     /// What was found in the text as it is; none until it is checked.
     pub(super) checked: Option<CheckedText>,
     /// What the editor was told of it last, by the files that it is about.
-    pub(super) told: Vec<FileFindings>,
+    pub(super) reported: Vec<FileFindings>,
 }
 
 /// What was found in a text.
@@ -84,14 +84,14 @@ impl OpenText {
             text: Arc::new(text),
             others: EditedFiles::default(),
             checked: None,
-            told: Vec::new(),
+            reported: Vec::new(),
         }
     }
 
     /// The same text opened anew.
     pub(super) fn replace(&mut self, other: Self) {
-        let told = std::mem::take(&mut self.told);
-        *self = Self { told, ..other };
+        let reported = std::mem::take(&mut self.reported);
+        *self = Self { reported, ..other };
     }
 
     /// Has it checked again.

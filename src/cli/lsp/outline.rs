@@ -3,13 +3,13 @@
 use super::completion::is_file;
 use super::hover::default;
 use super::open_text::OpenText;
+use super::path_at::{Vocabulary, path_at};
 use super::place;
 use super::protocol::{
     ColorInformation, ColorPresentation, DocumentSymbol, EditorColor, InlayHint, Location,
     Position, Range, SymbolKind,
 };
 use super::text::{Columns, TextLines};
-use super::way::{Vocabulary, way};
 use rtc_source::tree::{NodeContent, NodeId, Tree};
 
 /// So many of a kind are told at most.
@@ -123,7 +123,7 @@ pub(super) fn definition(
 ) -> Option<Location> {
     let tree = document.tree()?;
     let lines = document.lines(columns);
-    let steps = way(&tree, lines.offset(place));
+    let steps = path_at(&tree, lines.offset(place));
     let value = steps.last()?.node();
     let target = tree.target(value);
     if target != value {
@@ -161,7 +161,7 @@ pub(super) fn hints(
             return None;
         }
         // The way goes on to the first key, which may start with the map.
-        let mut steps = way(&tree, start);
+        let mut steps = path_at(&tree, start);
         while steps.last().is_some_and(|step| step.node() != map) {
             steps.pop();
         }

@@ -93,8 +93,8 @@ impl Inbox {
             | Incoming::NoMessage(..)
             | Incoming::Broken(_) => false,
         };
-        if let Some(meant) = self.waiting.iter_mut().find(is_meant) {
-            *meant = Incoming::Cancelled(id);
+        if let Some(suggestion) = self.waiting.iter_mut().find(is_meant) {
+            *suggestion = Incoming::Cancelled(id);
         }
     }
 }
@@ -179,7 +179,7 @@ mod tests {
 
     fn read(text: &str) -> Vec<String> {
         let mut input = text.as_bytes();
-        let told = |incoming| match incoming {
+        let reported = |incoming| match incoming {
             Incoming::Message(Message::Request(own)) => format!("request {}", own.id),
             Incoming::Message(Message::Notification(own)) => own.method,
             Incoming::Message(Message::Response(_)) => "response".to_owned(),
@@ -190,7 +190,7 @@ mod tests {
         let mut all = Vec::new();
         loop {
             match next(&mut input) {
-                Ok(Some(incoming)) => all.push(told(incoming)),
+                Ok(Some(incoming)) => all.push(reported(incoming)),
                 Ok(None) => return all,
                 Err(error) => {
                     all.push(error.kind().to_string());

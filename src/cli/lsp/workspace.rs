@@ -4,13 +4,13 @@ use super::super::args::Reading;
 use super::findings::{self, FileFindings};
 use super::method;
 use super::open_text::OpenText;
+use super::path_at::Vocabulary;
 use super::protocol::{
     DidChangeTextDocumentParams, DidOpenTextDocumentParams, EditorDiagnostic, Position,
     PublishDiagnosticsParams, TextDocumentParams,
 };
 use super::text::Columns;
 use super::uri::DocumentUri;
-use super::way::Vocabulary;
 use lsp_server::{Message, Notification};
 use rtc_codec as codec;
 use rtc_front::{course, gltf};
@@ -169,7 +169,7 @@ impl Workspace {
         };
         let gone = self.documents.remove(at);
         self.touch(&gone.path);
-        let files = gone.told.into_iter().map(|(file, _)| file);
+        let files = gone.reported.into_iter().map(|(file, _)| file);
         self.published(files.collect())
     }
 
@@ -183,9 +183,9 @@ impl Workspace {
         self.check(at);
         let document = self.documents.get_mut(at)?;
         let found = findings::diagnostics(document, columns);
-        let before = std::mem::replace(&mut document.told, found);
+        let before = std::mem::replace(&mut document.reported, found);
         let mut files: Vec<DocumentUri> = before.into_iter().map(|(file, _)| file).collect();
-        files.extend(document.told.iter().map(|(file, _)| file.clone()));
+        files.extend(document.reported.iter().map(|(file, _)| file.clone()));
         Some(self.published(files))
     }
 
@@ -195,8 +195,8 @@ impl Workspace {
         files.dedup();
         let publish = |file: DocumentUri| {
             let (mut all, mut known) = (Vec::new(), BTreeSet::new());
-            let told = self.documents.iter().flat_map(|own| &own.told);
-            let of_file = told.filter(|(own, _): &&FileFindings| *own == file);
+            let reported = self.documents.iter().flat_map(|own| &own.reported);
+            let of_file = reported.filter(|(own, _): &&FileFindings| *own == file);
             for diagnostic in of_file.flat_map(|(_, list)| list) {
                 // The same may be found in a file by itself and by scenes that name it.
                 if known.insert(own_words(diagnostic)) {

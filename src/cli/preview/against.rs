@@ -1,12 +1,12 @@
 //! What the picture is compared with: a picture file, or another scene, which is looked at as the first
 //! one: another file, or what a commit of git has in place of the scene's own.
 
-use super::board::{Manner, Shot};
+use super::preview_state::{RenderedPicture, ViewSettings};
 use super::scene::{self, ReadScene, ShownScene};
-use super::{Failure, args, input, shots};
+use super::{Failure, args, input, renderings};
 use crate::project::Project;
+use crate::reporter::Reporter;
 use crate::shown;
-use crate::talk::Talk;
 use rtc_image::{DecodeCost, FileFormat, Picture, PictureHead};
 use rtc_ir::Camera;
 use rtc_pipeline::{Input, Observer, PictureSetup, RenderError};
@@ -25,7 +25,7 @@ const PNG_PIXEL: u64 = 32;
 /// What the picture is compared with.
 pub(super) enum Against {
     /// A picture, which is as it is.
-    Picture(Shot),
+    Picture(RenderedPicture),
     /// A scene.
     Scene(Box<OtherScene>),
 }
@@ -35,7 +35,7 @@ pub(super) struct OtherScene {
     scene: ReadScene,
     shown: Option<ShownScene>,
     /// How it was looked at last, and by which camera if not by its own.
-    seen: Option<(Manner, Option<Camera>)>,
+    seen: Option<(ViewSettings, Option<Camera>)>,
 }
 
 impl Against {
@@ -59,17 +59,17 @@ impl Against {
             }
             None => input::staged(path, &args.reading, &args.stage)?,
         };
-        let setup = shots::setup(args)?;
+        let setup = renderings::setup(args)?;
         let mut scene = ReadScene::read(input, args, setup.threads);
-        let mut talk = Talk::beside_result(&args.talk);
-        let validated = scene.validate(&setup, &Manner::default());
+        let mut reporter = Reporter::beside_result(&args.reporter);
+        let validated = scene.validate(&setup, &ViewSettings::default());
         let validated = match validated {
             Ok(validated) => {
-                input::unless_refused(validated, &mut scene.input, &mut talk).map(drop)
+                input::unless_refused(validated, &mut scene.input, &mut reporter).map(drop)
             }
-            Err(error) => input::tell(&mut scene.input, &mut talk).and(Err(error.into())),
+            Err(error) => input::tell(&mut scene.input, &mut reporter).and(Err(error.into())),
         };
-        talk.finish()?;
+        reporter.finish()?;
         validated?;
         let (shown, seen) = (None, None);
         Ok(Some(Self::Scene(Box::new(OtherScene {
@@ -83,19 +83,19 @@ impl Against {
 impl OtherScene {
     /// Its picture as the first scene is looked at, by the same camera if that is not the scene's own;
     /// `None` if it is shown so already.
-    pub(super) fn shot(
+    pub(super) fn rendering(
         &mut self,
         setup: &PictureSetup,
-        (manner, camera): (&Manner, &Camera),
+        (view_settings, camera): (&ViewSettings, &Camera),
         observer: &Observer<'_>,
-    ) -> Result<Option<Shot>, RenderError> {
-        let camera = manner.gaze.is_some().then_some(camera);
-        let wanted = (manner.clone(), camera.cloned());
+    ) -> Result<Option<RenderedPicture>, RenderError> {
+        let camera = view_settings.view_override.is_some().then_some(camera);
+        let wanted = (view_settings.clone(), camera.cloned());
         if self.seen.as_ref() == Some(&wanted) {
             return Ok(None);
         }
         (self.shown, self.seen) = (None, None);
-        let Some((mut setup, mut subject)) = self.scene.validate(setup, manner)? else {
+        let Some((mut setup, mut subject)) = self.scene.validate(setup, view_settings)? else {
             let words = "what the scene is compared with can't be shown in these settings";
             return Err(RenderError::Refused(words.to_owned()));
         };
@@ -104,9 +104,9 @@ impl OtherScene {
         if let Some(camera) = camera {
             scene::see_by(&mut subject, camera);
         }
-        let shot = shots::whole(&setup, &mut subject, input, observer)?;
+        let rendering = renderings::whole(&setup, &mut subject, input, observer)?;
         (self.shown, self.seen) = (Some((setup, subject)), Some(wanted));
-        Ok(Some(shot))
+        Ok(Some(rendering))
     }
 
     /// A crude picture by another camera; `None` if there is none.
@@ -114,7 +114,7 @@ impl OtherScene {
         &mut self,
         camera: &Camera,
         observer: &Observer<'_>,
-    ) -> Result<Option<Shot>, RenderError> {
+    ) -> Result<Option<RenderedPicture>, RenderError> {
         self.seen = None;
         let Some(shown) = &mut self.shown else {
             return Ok(None);
@@ -125,7 +125,7 @@ impl OtherScene {
 }
 
 /// The picture in a file, as a PNG.
-fn picture(path: &Path, reading: &args::Reading) -> Result<Shot, Failure> {
+fn picture(path: &Path, reading: &args::Reading) -> Result<RenderedPicture, Failure> {
     let refused = |words: String| Failure::Trouble(format!("`{}`: {words}", path.display()));
     let map = SourceMap::with_limits(reading.limits(|_| ()));
     let bytes = shown::read(path, &map)?;
@@ -148,7 +148,7 @@ fn picture(path: &Path, reading: &args::Reading) -> Result<Shot, Failure> {
         ..Picture::default()
     };
     let png = PictureHead::of(&picture, FileFormat::Png8).encode(&picture);
-    Ok(Shot {
+    Ok(RenderedPicture {
         png: Arc::new(png.map_err(|error| refused(error.to_string()))?),
         full,
         is_finished: true,

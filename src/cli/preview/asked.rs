@@ -1,9 +1,9 @@
 //! What the session tells when it is asked for: the effects of the picture and of a pixel, the settings
 //! and what they cost.
 
-use super::board::{Manner, Work};
+use super::preview_state::{ViewSettings, Work};
 use super::session::Session;
-use super::{Failure, choice, costs, shots};
+use super::{Failure, choice, costs, renderings};
 use crate::render::effects;
 use crate::report::PlanReport;
 use rtc_ir::Scene;
@@ -18,7 +18,8 @@ impl Session<'_> {
         }
         if let (Some(scene), Some((_, subject))) = (&self.scene, &self.shown) {
             let effects = PlanReport::statuses(&subject.validated, &scene.input);
-            self.board.show(|state| state.effects = Some(effects));
+            self.preview_state
+                .show(|state| state.effects = Some(effects));
         }
     }
 
@@ -31,14 +32,14 @@ impl Session<'_> {
         };
         let observer = Observer {
             on_step: &|_| (),
-            is_stopped: &|| self.board.is_stale(work.age),
+            is_stopped: &|| self.preview_state.is_stale(work.age),
         };
-        let counts = shots::pixel(setup, subject, place, &scene.input, &observer);
+        let counts = renderings::pixel(setup, subject, place, &scene.input, &observer);
         // Of what can't be rendered nothing is told: the picture has shown that it can.
         if let Ok(Some(counts)) = counts {
             let effects = effects(&counts).map(|(name, count)| json!([name, count]));
             let effects: Vec<_> = effects.collect();
-            self.board
+            self.preview_state
                 .show(|state| state.pixel = json!({ "at": place, "effects": effects }));
         }
     }
@@ -50,28 +51,28 @@ impl Session<'_> {
             false => None,
         };
         if let Some((setup, scene)) = own {
-            let settings = choice::told(&scene, &choice::own_setting(&scene, &setup));
-            self.board.show(|state| state.settings = settings);
+            let settings = choice::reported(&scene, &choice::own_setting(&scene, &setup));
+            self.preview_state.show(|state| state.settings = settings);
         }
     }
 
     /// The scene as it is looked at, but in its own values.
     fn own(&mut self, work: &Work) -> Option<(PictureSetup, Scene)> {
         let scene = self.scene.as_mut()?;
-        let manner = Manner {
-            gaze: work.manner.gaze,
-            choice: work.manner.choice.without_values(),
+        let view_settings = ViewSettings {
+            view_override: work.view_settings.view_override,
+            choice: work.view_settings.choice.without_values(),
         };
-        if manner == work.manner {
+        if view_settings == work.view_settings {
             let (setup, subject) = self.shown.as_ref()?;
             return Some((setup.clone(), subject.validated.lowered.scene.clone()));
         }
         let found = scene.input.take_diagnostics();
-        let validated = scene.validate(&self.setup, &manner).ok().flatten();
+        let validated = scene.validate(&self.setup, &view_settings).ok().flatten();
         let lit = validated.and_then(|(mut setup, mut subject)| {
             let observer = Observer {
                 on_step: &|_| (),
-                is_stopped: &|| self.board.is_stale(work.age),
+                is_stopped: &|| self.preview_state.is_stale(work.age),
             };
             let lit = setup.light(&mut subject, &mut scene.input, &observer);
             lit.ok().map(|()| (setup, subject.validated.lowered.scene))
@@ -89,11 +90,11 @@ impl Session<'_> {
         let Some(scene) = &self.scene else {
             return Ok(());
         };
-        let is_going = || !self.board.is_stale(work.age);
+        let is_going = || !self.preview_state.is_stale(work.age);
         let own = choice::own_setting(&studied, &setup);
         let studied = (scene.input.name(), &studied, &own);
         if let Some(costs) = costs::costs(studied, setup.threads, &is_going)? {
-            self.board.show(|state| state.costs = costs);
+            self.preview_state.show(|state| state.costs = costs);
         }
         Ok(())
     }

@@ -103,7 +103,7 @@ pub(super) fn own_setting(scene: &Scene, setup: &PictureSetup) -> Setting {
 
 /// What the page is told of the settings of a scene, which is without the values of the choice: each
 /// knob with its own value, and why it is to be left alone, if it is.
-pub(super) fn told(scene: &Scene, own: &Setting) -> Value {
+pub(super) fn reported(scene: &Scene, own: &Setting) -> Value {
     let parameter = |parameter: Parameter| {
         json!({
             "knob": parameter,

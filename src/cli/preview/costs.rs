@@ -20,17 +20,19 @@ pub(super) fn costs(
     let study = with_runtime(threads, is_going, |runtime| {
         study::study(scene, about(name, scene), Effort::QUICK, SEED, &runtime)
     })?;
-    Ok(study.ok().map(|study| told(&study, own)))
+    Ok(study.ok().map(|study| reported(&study, own)))
 }
 
-fn told(study: &Study, own: &Setting) -> Value {
+fn reported(study: &Study, own: &Setting) -> Value {
     let used = study.used();
     let best = study::recommended(study).map(|row| row.setting);
     let row = |row: &Row| {
         let setting = &row.setting;
-        let other = |knob: &&Parameter| setting.get(**knob) != own.get(**knob);
+        let other = |parameter: &&Parameter| setting.get(**parameter) != own.get(**parameter);
         let values = used.iter().filter(other);
-        let values: BTreeMap<_, _> = values.map(|knob| (knob, setting.get(*knob))).collect();
+        let values: BTreeMap<_, _> = values
+            .map(|parameter| (parameter, setting.get(*parameter)))
+            .collect();
         json!({
             "values": values,
             "words": setting.label(&used),

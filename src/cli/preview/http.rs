@@ -181,7 +181,7 @@ fn reason(status: u16) -> &'static str {
 }
 
 /// A connection that is read until a moment.
-struct Patient<'s> {
+struct DeadlineReader<'s> {
     stream: &'s TcpStream,
     until: Instant,
 }
@@ -190,10 +190,10 @@ struct Patient<'s> {
     clippy::disallowed_methods,
     reason = "who is slow is left alone after a while; no picture depends on it"
 )]
-impl Patient<'_> {
-    fn begin(stream: &TcpStream) -> Patient<'_> {
+impl DeadlineReader<'_> {
+    fn begin(stream: &TcpStream) -> DeadlineReader<'_> {
         let until = Instant::now() + PATIENCE;
-        Patient { stream, until }
+        DeadlineReader { stream, until }
     }
 
     /// Reads a piece into `bytes`; there is one.
@@ -220,7 +220,7 @@ impl Patient<'_> {
 
 /// Reads the request on a connection.
 pub(super) fn read(stream: &TcpStream) -> Result<HttpRequest, BadRequest> {
-    let mut patient = Patient::begin(stream);
+    let mut patient = DeadlineReader::begin(stream);
     let mut bytes = Vec::new();
     loop {
         if let Some((mut request, head, body)) = parse(&bytes)? {
@@ -241,7 +241,7 @@ pub(super) fn read(stream: &TcpStream) -> Result<HttpRequest, BadRequest> {
 /// Reads what is left of a request that was refused: a connection that is closed before loses its
 /// reply.
 pub(super) fn read_rest(stream: &TcpStream) {
-    let mut patient = Patient::begin(stream);
+    let mut patient = DeadlineReader::begin(stream);
     let mut bytes = Vec::new();
     let mut left = MAX_REST;
     while left > 0 && patient.more(&mut bytes).is_ok() {

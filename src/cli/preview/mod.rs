@@ -3,30 +3,30 @@
 
 mod against;
 mod asked;
-mod board;
 mod choice;
+mod coarse;
 mod command;
 mod costs;
-mod crude;
+mod events;
 mod http;
-mod news;
 mod pixels;
+mod preview_state;
+mod renderings;
 mod routes;
 mod scene;
 mod serve;
 mod session;
-mod shots;
 mod view;
 mod watch;
 
 use super::interrupt::{self, Interrupt};
 use super::project::Project;
-use super::{Failure, args, input, output, render, talk};
+use super::{Failure, args, input, output, render, reporter};
 use against::Against;
-use board::Board;
 use command::RenderWords;
+use preview_state::PreviewState;
 use routes::Routes;
-use serve::Door;
+use serve::AuthGuard;
 use session::Session;
 use std::ffi::OsString;
 use std::sync::{Arc, Mutex};
@@ -41,26 +41,29 @@ pub(super) fn run(args: &args::Preview, typed: &[OsString]) -> Result<(), Failur
     }
     Interrupt::listen()?;
     let against = Against::new(args)?;
-    let (board, watched) = (Arc::new(Board::default()), Arc::new(Watched::default()));
-    let shown = (Arc::clone(&board), Arc::clone(&watched));
+    let (preview_state, watched) = (
+        Arc::new(PreviewState::default()),
+        Arc::new(Watched::default()),
+    );
+    let shown = (Arc::clone(&preview_state), Arc::clone(&watched));
     let session = Session::new(args, RenderWords::new(typed), shown, against)?;
     let (listener, port) = serve::bind(args.port)?;
-    let door = Door::new(port)?;
+    let auth_guard = AuthGuard::new(port)?;
     let project = Project::of(&args.file, &args.reading)?;
-    let address = door.address();
+    let address = auth_guard.address();
     let routes = Routes {
         path: args.file.clone(),
         options: input::options(&args.reading, project.as_ref())?,
-        board: Arc::clone(&board),
+        preview_state: Arc::clone(&preview_state),
         pen: Mutex::default(),
     };
     serve::begin(
         listener,
-        door,
+        auth_guard,
         Box::new(move |request| routes.answer(request)),
     )?;
     let watch = thread::Builder::new().name("watch".to_owned());
-    let watch = watch.spawn(move || watched.run(&board));
+    let watch = watch.spawn(move || watched.run(&preview_state));
     watch.map_err(|error| serve::no_thread(&error))?;
     output::to_stdout(format!("{address}\n").as_bytes())?;
     if args.open {

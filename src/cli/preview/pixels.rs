@@ -31,8 +31,8 @@ impl PixelTable {
         let mut surfaces = BTreeMap::new();
         for (number, _) in &hits {
             if let Some(index) = number.checked_sub(1) {
-                let told = || surface(index as usize, validated, input);
-                surfaces.entry(*number).or_insert_with(told);
+                let reported = || surface(index as usize, validated, input);
+                surfaces.entry(*number).or_insert_with(reported);
             }
         }
         let value = |pixel: &[f64; 3]| pixel.map(|channel| channel as f32);
@@ -45,7 +45,7 @@ impl PixelTable {
     }
 
     /// What is said of a pixel; none of one outside.
-    pub(super) fn told(&self, x: u32, y: u32) -> Option<Value> {
+    pub(super) fn reported(&self, x: u32, y: u32) -> Option<Value> {
         let [width, height] = self.size;
         if x >= width || y >= height {
             return None;

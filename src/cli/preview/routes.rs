@@ -1,10 +1,10 @@
 //! What is answered: fixed paths alone, none of them a file.
 
-use super::board::{Board, ReadState};
 use super::choice::Choice;
+use super::events::Subscriber;
 use super::http::{HttpReply, HttpRequest};
-use super::news::Follower;
-use super::view::{self, Gaze};
+use super::preview_state::{PreviewState, ReadState};
+use super::view::{self, ViewOverride};
 use super::{Failure, serve};
 use crate::edit;
 use rtc_pipeline::{self as pipeline, FixFilter, Options};
@@ -26,7 +26,7 @@ const VIEW: &str = include_str!("page/view.js");
 pub(super) struct Routes {
     pub(super) path: PathBuf,
     pub(super) options: Options,
-    pub(super) board: Arc<Board>,
+    pub(super) preview_state: Arc<PreviewState>,
     /// Who holds it changes the scene.
     pub(super) pen: Mutex<()>,
 }
@@ -54,28 +54,28 @@ impl Routes {
     pub(super) fn answer(&self, request: &HttpRequest) -> HttpReply {
         match (request.method.as_str(), request.path.as_str()) {
             ("GET", "/") => self.page(),
-            ("GET", "/events") => HttpReply::events(Box::new(Follower::new(&self.board))),
+            ("GET", "/events") => HttpReply::events(Box::new(Subscriber::new(&self.preview_state))),
             ("GET", "/picture") => {
                 let number = request.value("number").unwrap_or_default();
-                let png = self.board.state().png(number);
+                let png = self.preview_state.state().png(number);
                 png.map_or_else(|| HttpReply::empty(404), HttpReply::png)
             }
             ("GET", "/against") => {
                 let number = request.value("number").unwrap_or_default();
-                let png = self.board.state().png_against(number);
+                let png = self.preview_state.state().png_against(number);
                 png.map_or_else(|| HttpReply::empty(404), HttpReply::png)
             }
             ("GET", "/pixel") => self.pixel(request),
             ("POST", "/pixel") => match serde_json::from_slice(&request.body) {
                 Ok(place) => {
-                    self.board.want_pixel(place);
+                    self.preview_state.want_pixel(place);
                     HttpReply::empty(202)
                 }
                 Err(_) => HttpReply::empty(400),
             },
             ("POST", "/settings") => match Choice::read(&request.body) {
                 Some(choice) => {
-                    let age = self.board.choose(choice);
+                    let age = self.preview_state.choose(choice);
                     HttpReply::json(&json!({ "age": age }))
                 }
                 None => HttpReply::empty(400),
@@ -84,11 +84,11 @@ impl Routes {
             ("POST", "/keep") => self.keep(),
             ("POST", "/fix") => self.fix(&request.body),
             ("POST", "/effects") => {
-                self.board.want_effects();
+                self.preview_state.want_effects();
                 HttpReply::empty(202)
             }
             ("POST", "/costs") => {
-                self.board.want_costs();
+                self.preview_state.want_costs();
                 HttpReply::empty(202)
             }
             _ => HttpReply::empty(404),
@@ -112,39 +112,42 @@ impl Routes {
 
     fn pixel(&self, request: &HttpRequest) -> HttpReply {
         let [x, y] = ["x", "y"].map(|name| request.value(name).and_then(|at| at.parse().ok()));
-        let state = self.board.state();
-        let told = state.pixels.as_ref().zip(x.zip(y));
-        let told = told.and_then(|(pixels, (x, y))| pixels.told(x, y));
-        told.map_or_else(|| HttpReply::empty(404), |told| HttpReply::json(&told))
+        let state = self.preview_state.state();
+        let reported = state.pixels.as_ref().zip(x.zip(y));
+        let reported = reported.and_then(|(pixels, (x, y))| pixels.reported(x, y));
+        reported.map_or_else(
+            || HttpReply::empty(404),
+            |reported| HttpReply::json(&reported),
+        )
     }
 
     fn look(&self, body: &[u8]) -> HttpReply {
         let Ok(LookOrder { view, is_moving }) = serde_json::from_slice(body) else {
             return HttpReply::empty(400);
         };
-        let gaze = view.as_ref().map(Gaze::read);
-        if gaze == Some(None) {
+        let view_override = view.as_ref().map(ViewOverride::read);
+        if view_override == Some(None) {
             return HttpReply::empty(400);
         }
-        let age = self.board.look(gaze.flatten(), is_moving);
+        let age = self.preview_state.look(view_override.flatten(), is_moving);
         HttpReply::json(&json!({ "age": age }))
     }
 
     /// Writes the view into the scene, which is then shown as it says.
     fn keep(&self) -> HttpReply {
         let _pen = self.pen.lock().unwrap_or_else(PoisonError::into_inner);
-        let (text, gaze) = {
-            let state = self.board.state();
-            (state.read.text.clone(), state.manner.gaze)
+        let (text, view_override) = {
+            let state = self.preview_state.state();
+            (state.read.text.clone(), state.view_settings.view_override)
         };
-        let (Some(text), Some(gaze)) = (text, gaze) else {
+        let (Some(text), Some(view_override)) = (text, view_override) else {
             return HttpReply::words(409, "there is no other view to write");
         };
-        match view::written(&self.path, &text, &self.options, &gaze) {
+        match view::written(&self.path, &text, &self.options, &view_override) {
             Ok(new) => {
                 let reply = put(&self.path, &text, &new);
                 if reply.is_ok() {
-                    self.board.look(None, false);
+                    self.preview_state.look(None, false);
                 }
                 reply.map_or_else(|words| HttpReply::words(409, &words), |()| done(1))
             }
@@ -159,7 +162,7 @@ impl Routes {
         };
         let _pen = self.pen.lock().unwrap_or_else(PoisonError::into_inner);
         let (text, wish) = {
-            let state = self.board.state();
+            let state = self.preview_state.state();
             match (state.read.text.clone(), wish(&state.read, &order)) {
                 (Some(text), Some(wish)) => (text, wish),
                 _ => return HttpReply::words(409, "the scene is another one by now"),

@@ -1,8 +1,8 @@
 //! A scene as it was read, to be looked at from anywhere in any setting.
 
-use super::board::{Manner, Shot};
-use super::view::{self, Sight};
-use super::{Failure, args, crude, input, render};
+use super::preview_state::{RenderedPicture, ViewSettings};
+use super::view::{self, SceneCamera};
+use super::{Failure, args, coarse, input, render};
 use rtc_diag::Sink;
 use rtc_ir::Camera;
 use rtc_passes::{IntegratorChoice, View};
@@ -20,7 +20,7 @@ pub(super) struct ReadScene {
     /// Whether it has keys for another view.
     pub(super) can_write: bool,
     /// How its own camera sees it, once that is known.
-    pub(super) sight: Option<Sight>,
+    pub(super) scene_camera: Option<SceneCamera>,
 }
 
 /// A scene as it was rendered, and how.
@@ -40,7 +40,7 @@ impl ReadScene {
         Self {
             found: input.take_diagnostics(),
             can_write: own.is_some() && input.text().is_some(),
-            sight: None,
+            scene_camera: None,
             input,
             loaded,
             view,
@@ -52,16 +52,18 @@ impl ReadScene {
     pub(super) fn validate(
         &mut self,
         setup: &PictureSetup,
-        manner: &Manner,
+        view_settings: &ViewSettings,
     ) -> Result<Option<ShownScene>, RenderError> {
-        let yfov = self.sight.as_ref().and_then(Sight::yfov);
-        let gaze = manner.gaze.as_ref();
-        let view = gaze.map_or(self.view, |gaze| gaze.view(yfov.or(self.view.yfov)));
-        let integrator = manner.choice.integrator().or(self.integrator);
+        let yfov = self.scene_camera.as_ref().and_then(SceneCamera::yfov);
+        let view_override = view_settings.view_override.as_ref();
+        let view = view_override.map_or(self.view, |view_override| {
+            view_override.view(yfov.or(self.view.yfov))
+        });
+        let integrator = view_settings.choice.integrator().or(self.integrator);
         self.input
             .restage(|stage| (stage.view, stage.integrator) = (view, integrator));
         self.input.restore_diagnostics(self.found.clone());
-        let mut setup = manner.choice.settle(setup);
+        let mut setup = view_settings.choice.settle(setup);
         let Some(loaded) = self.loaded.clone() else {
             return Ok(None);
         };
@@ -75,11 +77,11 @@ impl ReadScene {
         &mut self,
         (setup, subject): &mut ShownScene,
         observer: &Observer<'_>,
-    ) -> Result<Option<Shot>, RenderError> {
+    ) -> Result<Option<RenderedPicture>, RenderError> {
         let found = self.input.take_diagnostics();
-        let shot = crude::render(setup, subject, &mut self.input, observer);
+        let rendering = coarse::render(setup, subject, &mut self.input, observer);
         self.input.restore_diagnostics(found);
-        shot
+        rendering
     }
 }
 

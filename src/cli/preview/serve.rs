@@ -3,7 +3,7 @@
 
 use super::Failure;
 use super::http::{self, BadRequest, HttpReply, HttpRequest};
-use super::talk;
+use super::reporter;
 use std::collections::BTreeMap;
 use std::io;
 use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
@@ -21,12 +21,12 @@ const PAUSE: Duration = Duration::from_millis(20);
 pub(super) type Answer = dyn Fn(&HttpRequest) -> HttpReply + Send + Sync;
 
 /// Who may come in: who knows the token, under a name of this server, from its own page.
-pub(super) struct Door {
+pub(super) struct AuthGuard {
     token: String,
     port: u16,
 }
 
-impl Door {
+impl AuthGuard {
     /// A door with a new token, of a port.
     pub(super) fn new(port: u16) -> Result<Self, Failure> {
         let token = random()?;
@@ -81,19 +81,26 @@ pub(super) fn bind(port: u16) -> Result<(TcpListener, u16), Failure> {
 }
 
 /// Answers requests from now on, in threads of their own.
-pub(super) fn begin(listener: TcpListener, door: Door, answer: Box<Answer>) -> Result<(), Failure> {
-    let (door, answer) = (Arc::new(door), Arc::<Answer>::from(answer));
-    let room = Arc::new(WaitingRoom::default());
+pub(super) fn begin(
+    listener: TcpListener,
+    auth_guard: AuthGuard,
+    answer: Box<Answer>,
+) -> Result<(), Failure> {
+    let (auth_guard, answer) = (Arc::new(auth_guard), Arc::<Answer>::from(answer));
+    let room = Arc::new(ConnectionPool::default());
     let serve = move || {
         for stream in listener.incoming() {
             let Ok(stream) = stream else {
                 thread::sleep(PAUSE);
                 continue;
             };
-            let seat = Seat::take(&room, stream);
-            let (door, answer) = (Arc::clone(&door), Arc::clone(&answer));
+            let seat = ConnectionPermit::take(&room, stream);
+            let (auth_guard, answer) = (Arc::clone(&auth_guard), Arc::clone(&answer));
             let worker = thread::Builder::new().name("connection".to_owned());
-            if worker.spawn(move || seat.serve(&door, &*answer)).is_err() {
+            if worker
+                .spawn(move || seat.serve(&auth_guard, &*answer))
+                .is_err()
+            {
                 thread::sleep(PAUSE);
             }
         }
@@ -110,41 +117,43 @@ pub(super) fn no_thread(error: &io::Error) -> Failure {
 
 /// The connections that are open.
 #[derive(Default)]
-struct WaitingRoom {
+struct ConnectionPool {
     /// By the order in which they came.
-    guests: Mutex<BTreeMap<u64, Guest>>,
+    guests: Mutex<BTreeMap<u64, Connection>>,
     left: Condvar,
 }
 
-struct Guest {
+struct Connection {
     stream: Arc<TcpStream>,
     /// Its request is there, or it was asked to leave.
     is_settled: bool,
 }
 
-impl WaitingRoom {
-    fn guests(&self) -> MutexGuard<'_, BTreeMap<u64, Guest>> {
+impl ConnectionPool {
+    fn guests(&self) -> MutexGuard<'_, BTreeMap<u64, Connection>> {
         self.guests.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 /// The place of a connection, which it leaves when dropped.
-struct Seat {
-    room: Arc<WaitingRoom>,
+struct ConnectionPermit {
+    room: Arc<ConnectionPool>,
     number: u64,
     stream: Arc<TcpStream>,
 }
 
-impl Seat {
+impl ConnectionPermit {
     /// Waits until there is a place; if need be, the oldest that said nothing is asked to leave.
-    fn take(room: &Arc<WaitingRoom>, stream: TcpStream) -> Self {
+    fn take(room: &Arc<ConnectionPool>, stream: TcpStream) -> Self {
         let mut guests = room.guests();
         while guests.len() >= MOST {
-            let silent = guests.values_mut().find(|guest| !guest.is_settled);
-            if let Some(guest) = silent {
-                guest.is_settled = true;
+            let silent = guests
+                .values_mut()
+                .find(|connection| !connection.is_settled);
+            if let Some(connection) = silent {
+                connection.is_settled = true;
                 // Its thread sees the end of the connection.
-                let _ = guest.stream.shutdown(Shutdown::Both);
+                let _ = connection.stream.shutdown(Shutdown::Both);
             }
             guests = room
                 .left
@@ -153,11 +162,11 @@ impl Seat {
         }
         let number = guests.last_key_value().map_or(0, |(last, _)| last + 1);
         let stream = Arc::new(stream);
-        let guest = Guest {
+        let connection = Connection {
             stream: Arc::clone(&stream),
             is_settled: false,
         };
-        guests.insert(number, guest);
+        guests.insert(number, connection);
         Self {
             room: Arc::clone(room),
             number,
@@ -165,9 +174,9 @@ impl Seat {
         }
     }
 
-    fn serve(self, door: &Door, answer: &Answer) {
+    fn serve(self, auth_guard: &AuthGuard, answer: &Answer) {
         let (reply, is_whole) = match http::read(&self.stream) {
-            Ok(request) if door.admits(&request) => {
+            Ok(request) if auth_guard.admits(&request) => {
                 self.settle();
                 (answer(&request), true)
             }
@@ -183,13 +192,13 @@ impl Seat {
 
     /// Its request is there: it is not asked to leave any more.
     fn settle(&self) {
-        if let Some(guest) = self.room.guests().get_mut(&self.number) {
-            guest.is_settled = true;
+        if let Some(connection) = self.room.guests().get_mut(&self.number) {
+            connection.is_settled = true;
         }
     }
 }
 
-impl Drop for Seat {
+impl Drop for ConnectionPermit {
     fn drop(&mut self) {
         self.room.guests().remove(&self.number);
         self.room.left.notify_all();
@@ -210,7 +219,7 @@ pub(super) fn open(address: &str) {
         .stdout(std::process::Stdio::null())
         .stderr(std::process::Stdio::null());
     if let Err(error) = browser.spawn() {
-        talk::say(&format!("can't open a browser by `{program}`: {error}"));
+        reporter::say(&format!("can't open a browser by `{program}`: {error}"));
     }
 }
 

@@ -2,13 +2,13 @@
 //! a file or the view changes, whatever is under way.
 
 use super::against::Against;
-use super::board::{Board, Manner, ReadState, ToldFinding, Work};
 use super::command::RenderWords;
+use super::preview_state::{PreviewState, ReadState, ToldFinding, ViewSettings, Work};
 use super::scene::{self, ReadScene, ShownScene};
-use super::view::Sight;
+use super::view::SceneCamera;
 use super::watch::Watched;
-use super::{Failure, args, crude, shots};
-use crate::talk::Talk;
+use super::{Failure, args, coarse, renderings};
+use crate::reporter::Reporter;
 use rtc_diag::{self as diag, Diagnostic, Severity};
 use rtc_pipeline::{self as pipeline, Input, Observer, PictureSetup, RenderError, RenderSubject};
 use serde_json::Value;
@@ -20,9 +20,9 @@ const WIDTH: usize = 100;
 /// What is shown, as long as there is a scene.
 pub(super) struct Session<'a> {
     args: &'a args::Preview,
-    pub(super) board: Arc<Board>,
+    pub(super) preview_state: Arc<PreviewState>,
     watched: Arc<Watched>,
-    talk: Talk,
+    reporter: Reporter,
     /// The picture as it is asked for.
     pub(super) setup: PictureSetup,
     /// What was typed, to be said again.
@@ -33,45 +33,45 @@ pub(super) struct Session<'a> {
     pub(super) shown: Option<ShownScene>,
     against: Option<Against>,
     /// Of which reading and in which manner costs are told.
-    costed: (u64, Manner),
+    costed: (u64, ViewSettings),
     /// What was told last.
-    told: Vec<Diagnostic>,
+    reported: Vec<Diagnostic>,
 }
 
 impl<'a> Session<'a> {
     pub(super) fn new(
         args: &'a args::Preview,
         words: RenderWords,
-        (board, watched): (Arc<Board>, Arc<Watched>),
+        (preview_state, watched): (Arc<PreviewState>, Arc<Watched>),
         against: Option<Against>,
     ) -> Result<Self, Failure> {
         let against = match against {
-            Some(Against::Picture(shot)) => {
-                board.put_against(shot, 0);
+            Some(Against::Picture(rendering)) => {
+                preview_state.put_against(rendering, 0);
                 None
             }
             other => other,
         };
         Ok(Self {
             args,
-            board,
+            preview_state,
             watched,
-            talk: Talk::beside_result(&args.talk),
-            setup: shots::setup(args)?,
+            reporter: Reporter::beside_result(&args.reporter),
+            setup: renderings::setup(args)?,
             words,
             loads: 0,
             scene: None,
             shown: None,
             against,
             costed: Default::default(),
-            told: Vec::new(),
+            reported: Vec::new(),
         })
     }
 
     /// Shows the scene until told to stop.
     pub(super) fn run(mut self) -> Result<(), Failure> {
-        self.board.reload();
-        while let Some(work) = self.board.next() {
+        self.preview_state.reload();
+        while let Some(work) = self.preview_state.next() {
             if work.orders.reload {
                 self.load();
             }
@@ -81,14 +81,14 @@ impl<'a> Session<'a> {
                 self.tell_effects(&work);
             }
             // What is newer is done first.
-            if work.orders.pixel.is_some() && !self.board.is_stale(work.age) {
+            if work.orders.pixel.is_some() && !self.preview_state.is_stale(work.age) {
                 self.tell_pixel(&work);
             }
-            if work.orders.costs && !self.board.is_stale(work.age) {
+            if work.orders.costs && !self.preview_state.is_stale(work.age) {
                 self.tell_costs(&work)?;
             }
         }
-        self.talk.finish()?;
+        self.reporter.finish()?;
         Err(Failure::Interrupted)
     }
 
@@ -120,8 +120,8 @@ impl<'a> Session<'a> {
         }
         self.shown = None;
         self.forget_costs(work);
-        let board = Arc::clone(&self.board);
-        let is_stopped = || board.is_stale(work.age);
+        let preview_state = Arc::clone(&self.preview_state);
+        let is_stopped = || preview_state.is_stale(work.age);
         let rendered = self.render(work, &is_stopped);
         match rendered {
             Ok(true) => {
@@ -132,17 +132,17 @@ impl<'a> Session<'a> {
                 }
             }
             // The findings say why.
-            Ok(false) => self.publish(true, &work.manner, None),
+            Ok(false) => self.publish(true, &work.view_settings, None),
             Err(RenderError::Stopped) => return Ok(()),
             Err(RenderError::RanOut(finding)) => {
                 if let Some(scene) = &mut self.scene {
                     scene.input.push(*finding);
                 }
-                self.publish(true, &work.manner, None);
+                self.publish(true, &work.view_settings, None);
             }
             Err(RenderError::Refused(words)) => self.fail(&words),
         }
-        self.board.rest();
+        self.preview_state.rest();
         self.tell()
     }
 
@@ -155,7 +155,8 @@ impl<'a> Session<'a> {
         let Some(scene) = &mut self.scene else {
             return Ok(false);
         };
-        let Some((mut setup, mut subject)) = scene.validate(&self.setup, &work.manner)? else {
+        let Some((mut setup, mut subject)) = scene.validate(&self.setup, &work.view_settings)?
+        else {
             return Ok(false);
         };
         setup.window(&subject.validated.lowered.scene)?;
@@ -165,46 +166,48 @@ impl<'a> Session<'a> {
             is_stopped,
         };
         setup.light(&mut subject, input, &observer)?;
-        self.publish(false, &work.manner, Some(&subject));
+        self.publish(false, &work.view_settings, Some(&subject));
         let Some(ReadScene { input, .. }) = &mut self.scene else {
             return Ok(false);
         };
-        if let Some(shot) = crude::render(&setup, &mut subject, input, &observer)? {
-            self.board.put(shot, None, work.age);
+        if let Some(rendering) = coarse::render(&setup, &mut subject, input, &observer)? {
+            self.preview_state.put(rendering, None, work.age);
         }
-        let (shot, pixels) = shots::finish(&setup, &mut subject, input, &observer)?;
-        self.publish(false, &work.manner, Some(&subject));
-        self.board.put(shot, Some(pixels), work.age);
+        let (rendering, pixels) = renderings::finish(&setup, &mut subject, input, &observer)?;
+        self.publish(false, &work.view_settings, Some(&subject));
+        self.preview_state.put(rendering, Some(pixels), work.age);
         self.shown = Some((setup, subject));
         Ok(true)
     }
 
     /// Shows what was rendered last from elsewhere, crudely; false if it can't be.
     fn move_on(&mut self, work: &Work) -> bool {
-        let (Some(shown), Some(gaze)) = (&mut self.shown, &work.manner.gaze) else {
+        let (Some(shown), Some(view_override)) =
+            (&mut self.shown, &work.view_settings.view_override)
+        else {
             return false;
         };
         let Some(scene) = &mut self.scene else {
             return false;
         };
-        if !gaze.aim(&mut shown.1.validated.lowered) {
+        if !view_override.aim(&mut shown.1.validated.lowered) {
             return false;
         }
-        let is_stopped = || self.board.is_stale(work.age);
+        let is_stopped = || self.preview_state.is_stale(work.age);
         let observer = Observer {
             on_step: &|_| (),
             is_stopped: &is_stopped,
         };
         match scene.glance(shown, &observer) {
-            Ok(Some(shot)) => self.board.put(shot, None, work.age),
+            Ok(Some(rendering)) => self.preview_state.put(rendering, None, work.age),
             Ok(None) | Err(RenderError::Stopped) => {}
             Err(RenderError::RanOut(_) | RenderError::Refused(_)) => return false,
         }
         let camera = &shown.1.validated.lowered.scene.camera;
         if let Some(Against::Scene(other)) = &mut self.against
-            && let Ok(Some(shot)) = other.glance(camera, &observer)
+            && let Ok(Some(rendering)) = other.glance(camera, &observer)
         {
-            self.board.put_against(shot, work.age);
+            self.preview_state.put_against(rendering, work.age);
         }
         true
     }
@@ -220,24 +223,29 @@ impl<'a> Session<'a> {
             is_stopped,
         };
         let camera = &subject.validated.lowered.scene.camera;
-        match other.shot(&self.setup, (&work.manner, camera), &observer) {
-            Ok(Some(shot)) => self.board.put_against(shot, work.age),
+        match other.rendering(&self.setup, (&work.view_settings, camera), &observer) {
+            Ok(Some(rendering)) => self.preview_state.put_against(rendering, work.age),
             Ok(None) => {}
             Err(RenderError::Stopped) => return false,
-            Err(RenderError::RanOut(finding)) => super::talk::say(&finding.message),
-            Err(RenderError::Refused(words)) => super::talk::say(&words),
+            Err(RenderError::RanOut(finding)) => super::reporter::say(&finding.message),
+            Err(RenderError::Refused(words)) => super::reporter::say(&words),
         }
         true
     }
 
     /// Shows what was found so far, and the camera of what is rendered.
-    fn publish(&mut self, is_failed: bool, manner: &Manner, shown: Option<&RenderSubject>) {
+    fn publish(
+        &mut self,
+        is_failed: bool,
+        view_settings: &ViewSettings,
+        shown: Option<&RenderSubject>,
+    ) {
         let Some(scene) = &mut self.scene else {
             return;
         };
         let mut found = scene.input.take_diagnostics();
         found.sort();
-        let least = match self.args.talk.verbose {
+        let least = match self.args.reporter.verbose {
             true => Severity::Note,
             false => Severity::Warning,
         };
@@ -245,36 +253,42 @@ impl<'a> Session<'a> {
             .kept()
             .iter()
             .filter(|finding| finding.severity <= least)
-            .take(self.args.talk.max_errors as usize)
-            .map(|finding| told(finding, &scene.input))
+            .take(self.args.reporter.max_errors as usize)
+            .map(|finding| reported(finding, &scene.input))
             .collect();
         scene.input.restore_diagnostics(found);
         let text = scene.input.text().map(Arc::from);
-        let sight = shown.map(|subject| {
+        let scene_camera = shown.map(|subject| {
             let camera = &subject.validated.lowered.scene.camera;
-            let (own, gaze) = (scene.sight.as_ref(), manner.gaze.as_ref());
-            let sight = Sight::new(camera, gaze, scene.can_write, own);
-            if gaze.is_none() {
-                scene.sight = Some(sight.clone());
+            let (own, view_override) = (
+                scene.scene_camera.as_ref(),
+                view_settings.view_override.as_ref(),
+            );
+            let scene_camera = SceneCamera::new(camera, view_override, scene.can_write, own);
+            if view_override.is_none() {
+                scene.scene_camera = Some(scene_camera.clone());
             }
-            sight
+            scene_camera
         });
         let (load, words) = (self.loads, &self.words);
-        self.board.show(|state| {
+        self.preview_state.show(|state| {
             let read = &mut state.read;
             (read.load, read.text, read.findings) = (load, text, findings);
             (read.is_failed, read.fault) = (is_failed, None);
-            state.sight = sight.or(state.sight.take());
-            let view = state.sight.as_ref().map_or(&[][..], |own| &own.flags);
-            state.command = words.command(view, &manner.choice);
+            state.scene_camera = scene_camera.or(state.scene_camera.take());
+            let view = state
+                .scene_camera
+                .as_ref()
+                .map_or(&[][..], |own| &own.flags);
+            state.command = words.command(view, &view_settings.choice);
         });
     }
 
     /// Shows and tells that there is no picture for a reason that is no finding.
     fn fail(&mut self, words: &str) {
-        self.publish(true, &Manner::default(), None);
+        self.publish(true, &ViewSettings::default(), None);
         let (load, is_read) = (self.loads, self.scene.is_some());
-        self.board.show(|state| {
+        self.preview_state.show(|state| {
             if !is_read {
                 state.read = ReadState::default();
             }
@@ -282,7 +296,7 @@ impl<'a> Session<'a> {
             state.read.is_failed = true;
             state.read.fault = Some(words.to_owned());
         });
-        super::talk::say(&format!("error: {words}"));
+        super::reporter::say(&format!("error: {words}"));
     }
 
     /// Tells what was found on the terminal, once.
@@ -291,23 +305,27 @@ impl<'a> Session<'a> {
             return Ok(());
         };
         let found = scene.input.take_diagnostics();
-        if found.kept() == self.told {
+        if found.kept() == self.reported {
             return Ok(());
         }
-        self.told = found.kept().to_vec();
-        self.talk.file(scene.input.name(), found, scene.input.map())
+        self.reported = found.kept().to_vec();
+        self.reporter
+            .file(scene.input.name(), found, scene.input.map())
     }
 
     /// Forgets the costs, if they are not of the scene as it is looked at now: a choice of values alone
     /// does not change them.
     fn forget_costs(&mut self, work: &Work) {
-        let Manner { gaze, choice } = &work.manner;
-        let manner = Manner {
-            gaze: *gaze,
+        let ViewSettings {
+            view_override,
+            choice,
+        } = &work.view_settings;
+        let view_settings = ViewSettings {
+            view_override: *view_override,
             choice: choice.without_values(),
         };
-        let costed = (self.loads, manner);
-        self.board.show(|state| {
+        let costed = (self.loads, view_settings);
+        self.preview_state.show(|state| {
             state.pixel = Value::Null;
             if self.costed != costed {
                 state.costs = Value::Null;
@@ -318,7 +336,7 @@ impl<'a> Session<'a> {
 }
 
 /// A finding as the page shows it.
-fn told(finding: &Diagnostic, input: &Input) -> ToldFinding {
+fn reported(finding: &Diagnostic, input: &Input) -> ToldFinding {
     let changes = finding
         .hints
         .iter()

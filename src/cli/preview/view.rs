@@ -28,7 +28,7 @@ const UP_DIGITS: usize = 4;
 /// A view that was asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Gaze {
+pub(super) struct ViewOverride {
     eye: [f64; 3],
     center: [f64; 3],
     up: [f64; 3],
@@ -36,7 +36,7 @@ pub(super) struct Gaze {
 
 /// The camera of the scene as it was read, and how another view of it is said.
 #[derive(Clone, Debug)]
-pub(super) struct Sight {
+pub(super) struct SceneCamera {
     eye: [f64; 3],
     center: [f64; 3],
     up: [f64; 3],
@@ -49,17 +49,17 @@ pub(super) struct Sight {
     can_write: bool,
 }
 
-impl Gaze {
+impl ViewOverride {
     /// A view as sent by the page; none of what is no place.
     pub(super) fn read(value: &Value) -> Option<Self> {
-        let gaze = Self::deserialize(value).ok()?;
-        let Self { eye, center, up } = gaze;
+        let view_override = Self::deserialize(value).ok()?;
+        let Self { eye, center, up } = view_override;
         let is_sound = |text: [f64; 3]| parse::vector(&comma(text)).is_ok();
         let is_any = up != [0.0; 3] && eye != center;
         let is_view = is_any && [eye, center, up].into_iter().all(is_sound);
         is_view
-            .then(|| gaze.rounded())
-            .filter(|gaze| gaze.eye != gaze.center)
+            .then(|| view_override.rounded())
+            .filter(|view_override| view_override.eye != view_override.center)
     }
 
     /// The same view, by the digits that show.
@@ -104,12 +104,12 @@ impl Gaze {
     }
 }
 
-impl Sight {
+impl SceneCamera {
     /// What the page is to know of the camera of a scene, seen from elsewhere if there is a gaze; `own`
     /// is how the scene itself sees it.
     pub(super) fn new(
         camera: &Camera,
-        gaze: Option<&Gaze>,
+        view_override: Option<&ViewOverride>,
         can_write: bool,
         own: Option<&Self>,
     ) -> Self {
@@ -118,7 +118,7 @@ impl Sight {
             yfov.map(|yfov| shortest(yfov.to_degrees()))
         };
         let yfov = own.map_or_else(yfov, |own| own.yfov.clone());
-        let flags = gaze.map_or_else(Vec::new, |Gaze { eye, center, up }| {
+        let flags = view_override.map_or_else(Vec::new, |ViewOverride { eye, center, up }| {
             let view = [("--eye", eye), ("--center", center), ("--up", up)];
             let view = view.map(|(name, value)| (name, comma(*value))).into_iter();
             view.chain(yfov.clone().map(|degrees| ("--yfov", degrees)))
@@ -141,7 +141,7 @@ impl Sight {
         parse::degrees(self.yfov.as_deref()?).ok()
     }
 
-    pub(super) fn told(&self) -> Value {
+    pub(super) fn reported(&self) -> Value {
         let Self {
             eye,
             center,
@@ -187,18 +187,18 @@ pub(super) fn written(
     path: &Path,
     text: &str,
     options: &Options,
-    gaze: &Gaze,
+    view_override: &ViewOverride,
 ) -> Result<String, &'static str> {
     let mut input = Input::edited(path, text.as_bytes().to_vec(), options.clone());
     let mut lowered = input.load().ok_or("the scene can't be read")?.lowered;
     let own = keys(&lowered, input.map(), input.name());
     let own = own.ok_or("the scene has no `eye`, `center` and `up` of its own")?;
     let before = lowered.scene.camera.clone();
-    if !gaze.aim(&mut lowered) {
+    if !view_override.aim(&mut lowered) {
         return Err("it is no view");
     }
     let Camera { eye, center, .. } = lowered.scene.camera;
-    let up = gaze.upward(&lowered.scene.camera);
+    let up = view_override.upward(&lowered.scene.camera);
     let mut edits: Vec<_> = own.into_iter().zip([eye, center, up]).collect();
     edits.sort_by_key(|(range, _)| range.start);
     let (mut new, mut from) = (String::with_capacity(text.len()), 0);
@@ -253,7 +253,7 @@ fn comma(numbers: [f64; 3]) -> String {
 mod tests {
     use super::*;
 
-    const GAZE: Gaze = Gaze {
+    const GAZE: ViewOverride = ViewOverride {
         eye: [50.0, 0.0, 0.0],
         center: [0.0; 3],
         up: [0.0, 1.0, 0.0],
@@ -286,16 +286,19 @@ mod tests {
             "center": [0.1 + 0.2, 0, 0],
             "up": [0.12373657560778914, 0.8628125386248774, -0.24284673381895566],
         });
-        let gaze = Gaze::read(&sent).unwrap();
+        let view_override = ViewOverride::read(&sent).unwrap();
         let text = "Camera: {eye: [0, 0, 200], center: [0, 0, 0], up: [0, 0.5, 0], viewSize: [120, 90]}\nObjects: []\n";
         let path = Path::new("a.yaml");
-        let turned = written(path, text, &Options::default(), &gaze).unwrap();
+        let turned = written(path, text, &Options::default(), &view_override).unwrap();
         let is_short = |number: &str| number.len() <= "-155.4744".len();
         let mut numbers = turned.split(|c: char| !c.is_ascii_digit() && !"-.".contains(c));
         assert!(numbers.all(is_short), "{turned}");
         // What is shown is what was sent, but for less than a hundredth of a pixel.
-        let before: Gaze = Gaze::deserialize(&sent).unwrap();
-        for (own, sent) in [(gaze.eye, before.eye), (gaze.center, before.center)] {
+        let before: ViewOverride = ViewOverride::deserialize(&sent).unwrap();
+        for (own, sent) in [
+            (view_override.eye, before.eye),
+            (view_override.center, before.center),
+        ] {
             let apart = Vec3::from_array(own).distance(Vec3::from_array(sent));
             assert!(apart < 0.002, "{apart}");
         }
@@ -315,7 +318,7 @@ mod tests {
     #[test]
     fn views_that_are_none_are_refused() {
         let read = |eye: Value, up: Value| {
-            Gaze::read(&json!({ "eye": eye, "center": [0, 0, 0], "up": up }))
+            ViewOverride::read(&json!({ "eye": eye, "center": [0, 0, 0], "up": up }))
         };
         assert!(read(json!([1, 2, 3]), json!([0, 1, 0])).is_some());
         for (eye, up) in [

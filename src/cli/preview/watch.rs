@@ -1,8 +1,8 @@
 //! Who looks whether files have changed: by their length, the time of their last change and what the
 //! system calls them, some times a second.
 
-use super::board::Board;
 use super::interrupt;
+use super::preview_state::PreviewState;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -63,8 +63,8 @@ impl Watched {
     }
 
     /// Has the scene read again when a file has changed and then rests; returns when told to stop.
-    pub(super) fn run(&self, board: &Board) {
-        let (mut pending, mut told) = (Vec::new(), Vec::new());
+    pub(super) fn run(&self, preview_state: &PreviewState) {
+        let (mut pending, mut reported) = (Vec::new(), Vec::new());
         let mut pause = 0;
         while !interrupt::is_heard() {
             thread::sleep(EVERY);
@@ -76,15 +76,15 @@ impl Watched {
             pause = 0;
             let changed = self.changed();
             // Whoever writes a file is given the time to end, and each change is told once.
-            if !changed.is_empty() && changed == pending && changed != told {
-                told.clone_from(&changed);
-                board.reload();
+            if !changed.is_empty() && changed == pending && changed != reported {
+                reported.clone_from(&changed);
+                preview_state.reload();
             } else if changed.is_empty() {
-                told.clear();
+                reported.clear();
             }
             pending = changed;
         }
-        board.end();
+        preview_state.end();
     }
 }
 

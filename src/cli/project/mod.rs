@@ -52,7 +52,7 @@ struct ProjectFault {
     message: String,
     hint: Option<String>,
     /// What was most likely meant in these bytes.
-    meant: Option<String>,
+    suggestion: Option<String>,
 }
 
 impl Project {
@@ -121,8 +121,10 @@ impl Project {
         for fault in &self.faults {
             let span = Span::new(file, to_u32(fault.at.start), to_u32(fault.at.end));
             let found = Diagnostic::new(fault.code, fault.message.clone()).at(span, "");
-            let found = match (&fault.hint, &fault.meant) {
-                (Some(hint), Some(meant)) => found.guess(hint.clone(), span, meant.clone()),
+            let found = match (&fault.hint, &fault.suggestion) {
+                (Some(hint), Some(suggestion)) => {
+                    found.guess(hint.clone(), span, suggestion.clone())
+                }
                 (Some(hint), None) => found.hint(hint.clone()),
                 (None, _) => found,
             };

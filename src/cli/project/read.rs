@@ -193,8 +193,8 @@ impl ProjectReader<'_> {
 
     fn unknown(&mut self, key: &ProjectKey<'_>, known: &[&str]) {
         let name = key.get_ref().as_ref();
-        let meant = nearest(name, known.iter().copied());
-        let hint = match meant {
+        let suggestion = nearest(name, known.iter().copied());
+        let hint = match suggestion {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the keys here are {}", known.join(", ")),
         };
@@ -203,7 +203,7 @@ impl ProjectReader<'_> {
             at: key.span(),
             message: format!("unknown key `{}`", clip(name)),
             hint: Some(hint),
-            meant: meant.map(str::to_owned),
+            suggestion: suggestion.map(str::to_owned),
         });
     }
 
@@ -222,7 +222,7 @@ impl ProjectReader<'_> {
             at,
             message: format!("{message}, for this file is not trusted"),
             hint: Some("`--trust-project` trusts it if you do".to_owned()),
-            meant: None,
+            suggestion: None,
         });
     }
 
@@ -233,7 +233,7 @@ impl ProjectReader<'_> {
             at,
             message,
             hint: Some(hint.to_owned()).filter(|hint| !hint.is_empty()),
-            meant: None,
+            suggestion: None,
         });
     }
 }

@@ -3,9 +3,9 @@
 
 use super::super::output::Output;
 use super::super::turntable::{Turntable, Views};
-use super::super::{Failure, args, talk};
+use super::super::{Failure, args, reporter};
 use super::RenderSetup;
-use super::checkpoint::Desk;
+use super::checkpoint::RunContext;
 use rtc_image::{AnimatedGif, AnimatedPng, FileFormat, Picture, PictureHead};
 use rtc_pipeline::RenderSubject;
 use std::ffi::OsStr;
@@ -40,13 +40,13 @@ impl RenderSetup {
         &self,
         (views, rate): (&Views, u16),
         subject: &mut RenderSubject,
-        (input, talk, interrupt): Desk<'_>,
+        (input, reporter, interrupt): RunContext<'_>,
     ) -> Result<(), Failure> {
         let output = Output::open(&self.output, input)?;
         let mut failure = None;
         let mut write = |file: &mut File| {
-            let desk = (&mut *input, &mut *talk, interrupt);
-            let written = self.write_frames((views, rate), subject, desk, file);
+            let run_context = (&mut *input, &mut *reporter, interrupt);
+            let written = self.write_frames((views, rate), subject, run_context, file);
             written.map_err(|error| match error {
                 FrameError::File(error) => error,
                 FrameError::Work(error) => {
@@ -63,7 +63,7 @@ impl RenderSetup {
         &self,
         (views, rate): (&Views, u16),
         subject: &mut RenderSubject,
-        (input, talk, interrupt): Desk<'_>,
+        (input, reporter, interrupt): RunContext<'_>,
         file: &mut File,
     ) -> Result<(), FrameError> {
         let table = Turntable::new(&subject.validated.lowered.scene, self.up, views.count);
@@ -77,8 +77,8 @@ impl RenderSetup {
             let window = window.map_err(Failure::from)?;
             let room = self.picture.check_memory(subject, window);
             room.map_err(Failure::from)?;
-            let desk = (&mut *input, &mut *talk, interrupt);
-            let (picture, made) = self.take(subject, &self.output, window, desk)?;
+            let run_context = (&mut *input, &mut *reporter, interrupt);
+            let (picture, made) = self.take(subject, &self.output, window, run_context)?;
             if let Some(file) = file.take() {
                 let head = PictureHead::of(&picture, FileFormat::Png8);
                 begun = Some(match is_gif(&self.output) {
@@ -89,10 +89,10 @@ impl RenderSetup {
             if let Some(animation) = &mut begun {
                 animation.add(&picture)?;
             }
-            talk.made(&made);
+            reporter.made(&made);
         }
-        if let Some(words) = remark(&self.output).filter(|_| !talk.is_quiet()) {
-            talk::say(words);
+        if let Some(words) = remark(&self.output).filter(|_| !reporter.is_quiet()) {
+            reporter::say(words);
         }
         begun.map_or(Ok(()), |animation| Ok(animation.finish()?))
     }

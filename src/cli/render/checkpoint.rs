@@ -4,8 +4,8 @@
 use super::super::merge::{read_part, unfit};
 use super::super::output::Output;
 use super::super::progress::RenderProgress;
-use super::super::{Failure, args, input, interrupt::Interrupt, talk, talk::Talk};
-use super::shot::{KeptGrowth, workers};
+use super::super::{Failure, args, input, interrupt::Interrupt, reporter, reporter::Reporter};
+use super::rendering::{KeptGrowth, workers};
 use super::{MadePicture, RenderSetup, halted};
 use rtc_image::Picture;
 use rtc_pipeline::{
@@ -51,7 +51,7 @@ pub(super) struct Saving<'c> {
 }
 
 /// Findings, talk, and whether to stop.
-pub(super) type Desk<'d> = (&'d mut Input, &'d mut Talk, &'d Interrupt);
+pub(super) type RunContext<'d> = (&'d mut Input, &'d mut Reporter, &'d Interrupt);
 
 impl<'c> Saving<'c> {
     /// Reads what was saved, and looks whether the file can be written, before the work is done.
@@ -111,7 +111,7 @@ impl RenderSetup {
         &self,
         saving: &mut Saving<'_>,
         subject: &mut RenderSubject,
-        (input, talk, interrupt): Desk<'_>,
+        (input, reporter, interrupt): RunContext<'_>,
     ) -> Result<(), Failure> {
         let (window, output) = self.ready(subject, &saving.output, input)?;
         let mut done = self.begun(saving, subject, window)?;
@@ -119,12 +119,12 @@ impl RenderSetup {
             saving.checkpoint.try_save(&done);
         }
         let order = (window, input.rays());
-        let desk = (&mut *input, &mut *talk, interrupt);
+        let run_context = (&mut *input, &mut *reporter, interrupt);
         let (picture, made) = match has_goal(self.picture.goal) {
-            false => self.share_by_share(saving, subject, &mut done, order, desk)?,
-            true => self.round_by_round(saving, subject, &mut done, order, desk)?,
+            false => self.share_by_share(saving, subject, &mut done, order, run_context)?,
+            true => self.round_by_round(saving, subject, &mut done, order, run_context)?,
         };
-        input::tell(input, talk)?;
+        input::tell(input, reporter)?;
         let bytes = self.picture.encode(&picture, subject)?;
         let written = output.commit(&bytes, interrupt);
         if interrupt.is_raised() {
@@ -132,7 +132,7 @@ impl RenderSetup {
         }
         written?;
         saving.finished.push(hash_of_file(&bytes));
-        talk.made(&made);
+        reporter.made(&made);
         Ok(())
     }
 
@@ -163,14 +163,14 @@ impl RenderSetup {
         subject: &mut RenderSubject,
         done: &mut RenderShard,
         (window, rays): (Crop, u64),
-        (input, talk, interrupt): Desk<'_>,
+        (input, reporter, interrupt): RunContext<'_>,
     ) -> Result<(Picture, MadePicture), Failure> {
-        let progress = RenderProgress::start(window.pixels() as u64, talk.is_quiet());
+        let progress = RenderProgress::start(window.pixels() as u64, reporter.is_quiet());
         let watch = (interrupt, &progress);
         let traced = self.trace_saving(saving.checkpoint, subject, done, (window, rays), watch);
         let elapsed = progress.finish();
         if let Err(error) = traced {
-            return Err(ended(error, input, talk));
+            return Err(ended(error, input, reporter));
         }
         // Should the picture not be written, its samples are not lost.
         saving.checkpoint.try_save(done);
@@ -191,7 +191,7 @@ impl RenderSetup {
         subject: &mut RenderSubject,
         done: &mut RenderShard,
         order: (Crop, u64),
-        (input, talk, interrupt): Desk<'_>,
+        (input, reporter, interrupt): RunContext<'_>,
     ) -> Result<(Picture, MadePicture), Failure> {
         let begun = done.take_growth();
         let (checkpoint, is_saved) = (saving.checkpoint, AtomicBool::new(false));
@@ -205,20 +205,21 @@ impl RenderSetup {
             every: checkpoint.every,
             save: &save,
         };
-        let shot = self.approach(subject, order, interrupt, talk.is_quiet(), Some(kept));
-        let shot = match shot {
-            Ok(shot) => shot,
+        let rendering = self.approach(subject, order, interrupt, reporter.is_quiet(), Some(kept));
+        let rendering = match rendering {
+            Ok(rendering) => rendering,
             Err(error) => {
                 if is_saved.into_inner() {
                     checkpoint.tell("what is done");
                 }
-                return Err(ended(error, input, talk));
+                return Err(ended(error, input, reporter));
             }
         };
-        let size = [shot.image.width, shot.image.height];
-        let work = (shot.counts, shot.elapsed);
-        let made = MadePicture::new(&saving.output, &self.picture, size, work).with(shot.quality);
-        let film = (shot.image, shot.coverage, &shot.counts);
+        let size = [rendering.image.width, rendering.image.height];
+        let work = (rendering.counts, rendering.elapsed);
+        let made =
+            MadePicture::new(&saving.output, &self.picture, size, work).with(rendering.quality);
+        let film = (rendering.image, rendering.coverage, &rendering.counts);
         let is_stopped = || interrupt.is_raised();
         let picture = self.picture.develop(subject, film, input, &is_stopped)?;
         Ok((picture, made))
@@ -261,8 +262,8 @@ impl RenderSetup {
 }
 
 /// Why a command ends whose render came to no end.
-pub(crate) fn ended(error: RenderError, input: &mut Input, talk: &mut Talk) -> Failure {
-    halted(error, input, talk)
+pub(crate) fn ended(error: RenderError, input: &mut Input, reporter: &mut Reporter) -> Failure {
+    halted(error, input, reporter)
         .err()
         .unwrap_or(Failure::Findings)
 }
@@ -306,7 +307,7 @@ impl Checkpoint {
 /// Says what was saved, and how to go on.
 pub(crate) fn say_saved(file: &Path, what: &str) {
     let file = file.display();
-    talk::say(&format!(
+    reporter::say(&format!(
         "saved {what} in `{file}`; the same command goes on from there"
     ));
 }
@@ -316,7 +317,7 @@ pub(crate) fn try_save(file: &Path, bytes: &[u8]) -> bool {
     let saved = NewFile::save(file, bytes);
     if let Err(error) = &saved {
         let file = file.display();
-        talk::say(&format!(
+        reporter::say(&format!(
             "warning: `{file}` can't be written: {error}; the render goes on, what was saved before stays"
         ));
     }

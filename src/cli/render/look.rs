@@ -1,7 +1,7 @@
 //! The look that is asked for, and the kind of pixel file that a name stands for.
 
 use super::super::Failure;
-use super::super::args::{BitDepth, LookArgs};
+use super::super::args::{BitDepth, OutputTransformArgs};
 use super::super::output::is_stdout;
 use rtc_color::Tone;
 use rtc_image::FileFormat;
@@ -10,7 +10,7 @@ use rtc_render::Aov;
 use std::path::Path;
 
 /// The look that is asked for.
-pub(super) fn look(args: &LookArgs, output: &Path) -> Result<OutputTransform, Failure> {
+pub(super) fn look(args: &OutputTransformArgs, output: &Path) -> Result<OutputTransform, Failure> {
     let refused = |words: &str| Failure::Trouble(words.to_owned());
     let kind = kind(output, args.bits)?;
     let aovs: Vec<Aov> = args.aov.iter().map(|layer| Aov::from(*layer)).collect();

@@ -1,6 +1,6 @@
 //! Pictures of many scenes, one after the other: what fails is told, and the rest goes on.
 
-use super::super::talk::{self, Talk};
+use super::super::reporter::{self, Reporter};
 use super::super::{Failure, args, files, interrupt};
 use super::sheet::Sheet;
 use super::{RenderSetup, stem};
@@ -140,9 +140,9 @@ pub(super) fn run(
     for (_, plan) in &plans {
         make_folder(&plan.output, &mut made)?;
     }
-    let mut talk = Talk::beside_result(&args.talk);
+    let mut reporter = Reporter::beside_result(&args.reporter);
     let mut shown = BTreeSet::new();
-    let outcome = carry_out(plans, &args, &mut talk, &mut shown);
+    let outcome = carry_out(plans, &args, &mut reporter, &mut shown);
     let outcome = match sheet {
         Some(sheet) if !interrupt::is_heard() => sheet.write(&shown).and(outcome),
         Some(_) | None => outcome,
@@ -151,7 +151,7 @@ pub(super) fn run(
     for folder in made.iter().rev() {
         let _ = fs::remove_dir(folder);
     }
-    talk.finish()?;
+    reporter.finish()?;
     outcome
 }
 
@@ -172,7 +172,7 @@ fn make_folder(output: &Path, made: &mut Vec<PathBuf>) -> Result<(), Failure> {
 fn carry_out(
     plans: Vec<(PathBuf, RenderSetup)>,
     args: &args::Render,
-    talk: &mut Talk,
+    reporter: &mut Reporter,
     made: &mut BTreeSet<PathBuf>,
 ) -> Result<(), Failure> {
     let (all, mut failed) = (plans.len(), 0);
@@ -184,7 +184,7 @@ fn carry_out(
             return Err(Failure::Interrupted);
         }
         let output = plan.output.clone();
-        match plan.begin(&scene, args, talk) {
+        match plan.begin(&scene, args, reporter) {
             Ok(()) => {
                 made.insert(output);
                 continue;
@@ -192,7 +192,7 @@ fn carry_out(
             Err(end @ (Failure::Interrupted | Failure::ClosedPipe)) => return Err(end),
             Err(Failure::Findings | Failure::Unreadable) => {}
             Err(Failure::Input(words) | Failure::Trouble(words)) => {
-                talk::say(&format!("error: `{}`: {words}", scene.display()));
+                reporter::say(&format!("error: `{}`: {words}", scene.display()));
             }
         }
         failed += 1;

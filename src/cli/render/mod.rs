@@ -8,8 +8,8 @@ mod look;
 mod made;
 mod many;
 mod part;
+mod rendering;
 mod sheet;
-mod shot;
 mod show;
 mod strips;
 mod turning;
@@ -18,14 +18,14 @@ use super::Failure;
 use super::args::{self, BackgroundArg};
 use super::input;
 use super::interrupt::Interrupt;
-use super::lead;
 use super::output::{self, Output};
 use super::project;
+use super::reporter::{self, Reporter};
 use super::simd;
-use super::talk::{self, Talk};
+use super::suggest;
 use super::turntable::{self, Turntable, Views};
 use budget::PictureClock;
-use checkpoint::{Checkpoint, Desk, Saving};
+use checkpoint::{Checkpoint, RunContext, Saving};
 pub(super) use checkpoint::{ended, or_restart, say_saved, try_save};
 use layers::LayerFiles;
 pub(super) use look::{kind, refuse_layers};
@@ -78,9 +78,9 @@ pub(super) fn run(args: args::Render, typed: &[OsString]) -> Result<(), Failure>
         return many::run(args, jobs, typed);
     }
     let plan = RenderSetup::new(&args, typed)?;
-    let mut talk = Talk::beside_result(&args.talk);
-    let outcome = plan.begin(args.file(), &args, &mut talk);
-    talk.finish()?;
+    let mut reporter = Reporter::beside_result(&args.reporter);
+    let outcome = plan.begin(args.file(), &args, &mut reporter);
+    reporter.finish()?;
     outcome
 }
 
@@ -148,34 +148,39 @@ impl RenderSetup {
     }
 
     /// Reads the scene at `file` and renders it.
-    fn begin(mut self, file: &Path, args: &args::Render, talk: &mut Talk) -> Result<(), Failure> {
+    fn begin(
+        mut self,
+        file: &Path,
+        args: &args::Render,
+        reporter: &mut Reporter,
+    ) -> Result<(), Failure> {
         let mut input = input::staged(file, &args.reading, &args.stage)?;
         input.use_threads(self.picture.threads);
         set_stage(&mut input, &args.look, args.turntable);
-        self.carry_out(&mut input, talk)?;
+        self.carry_out(&mut input, reporter)?;
         match self.is_shown {
             true => show::show(&self.output),
             false => Ok(()),
         }
     }
 
-    fn carry_out(&mut self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
+    fn carry_out(&mut self, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
         let subject = match input.load() {
             Some(loaded) => self.picture.validate(loaded, input),
             None => Ok(None),
         };
         let mut subject = match subject {
-            Ok(subject) => input::unless_refused(subject, input, talk)?,
+            Ok(subject) => input::unless_refused(subject, input, reporter)?,
             Err(error) => {
-                input::tell(input, talk)?;
+                input::tell(input, reporter)?;
                 return Err(error.into());
             }
         };
         let scene = &subject.validated.lowered.scene;
-        let idle = lead::idle(&self.asked, &scene.settings.mode);
-        idle.filter(|_| !talk.is_quiet())
+        let idle = suggest::idle(&self.asked, &scene.settings.mode);
+        idle.filter(|_| !reporter.is_quiet())
             .into_iter()
-            .for_each(talk::say);
+            .for_each(reporter::say);
         self.picture.window(scene)?;
         let interrupt = Interrupt::listen()?;
         let observer = Observer {
@@ -183,26 +188,26 @@ impl RenderSetup {
             is_stopped: &|| interrupt.is_raised(),
         };
         self.picture.light(&mut subject, input, &observer)?;
-        input::tell(input, talk)?;
+        input::tell(input, reporter)?;
         if let Some(checkpoint) = &self.checkpoint {
             let mut saving = Saving::begin(checkpoint, &self.output, input)?;
-            let desk = (input, talk, &interrupt);
+            let run_context = (input, reporter, &interrupt);
             return match &self.turntable {
-                None => self.shoot_saving(&mut saving, &mut subject, desk),
-                Some(views) => self.turn_saving(views, saving, &mut subject, desk),
+                None => self.shoot_saving(&mut saving, &mut subject, run_context),
+                Some(views) => self.turn_saving(views, saving, &mut subject, run_context),
             };
         }
         if let (Some(views), Some(rate)) = (&self.turntable, self.rate) {
-            let desk = (input, talk, &interrupt);
-            return self.shoot_animation((views, rate), &mut subject, desk);
+            let run_context = (input, reporter, &interrupt);
+            return self.shoot_animation((views, rate), &mut subject, run_context);
         }
         if let Some(views) = &self.turntable {
-            return self.shoot_around(views, &mut subject, input, talk, &interrupt);
+            return self.shoot_around(views, &mut subject, input, reporter, &interrupt);
         }
         if let Some(part) = &self.part {
-            return self.shoot_part(part, &mut subject, input, talk, &interrupt);
+            return self.shoot_part(part, &mut subject, input, reporter, &interrupt);
         }
-        self.shoot(&mut subject, &self.output, input, talk, &interrupt)
+        self.render_picture(&mut subject, &self.output, input, reporter, &interrupt)
     }
 
     /// Renders views around the scene, or a part of the only one, and writes them.
@@ -211,7 +216,7 @@ impl RenderSetup {
         views: &Views,
         subject: &mut RenderSubject,
         input: &mut Input,
-        talk: &mut Talk,
+        reporter: &mut Reporter,
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let table = Turntable::new(&subject.validated.lowered.scene, self.up, views.count);
@@ -225,8 +230,8 @@ impl RenderSetup {
             table.turn(&mut subject.validated, frame)?;
             subject.turn();
             match &self.part {
-                Some(part) => self.shoot_part(part, subject, input, talk, interrupt)?,
-                None => self.shoot(subject, &path(frame), input, talk, interrupt)?,
+                Some(part) => self.shoot_part(part, subject, input, reporter, interrupt)?,
+                None => self.render_picture(subject, &path(frame), input, reporter, interrupt)?,
             }
         }
         Ok(())
@@ -245,26 +250,26 @@ impl RenderSetup {
     }
 
     /// Renders one picture and writes it.
-    fn shoot(
+    fn render_picture(
         &self,
         subject: &mut RenderSubject,
         path: &Path,
         input: &mut Input,
-        talk: &mut Talk,
+        reporter: &mut Reporter,
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         if let Some(rows) = self.strips {
-            return self.shoot_strips(rows, (subject, path), input, talk, interrupt);
+            return self.shoot_strips(rows, (subject, path), input, reporter, interrupt);
         }
         let (window, output) = self.ready(subject, path, input)?;
         let layers = LayerFiles::open(&self.picture.look, path, input)?;
-        let desk = (&mut *input, &mut *talk, interrupt);
-        let (picture, made) = self.take(subject, path, window, desk)?;
+        let run_context = (&mut *input, &mut *reporter, interrupt);
+        let (picture, made) = self.take(subject, path, window, run_context)?;
         let bytes = self.picture.encode(&picture, subject)?;
         let layers = layers.encode(&self.picture, &picture, subject)?;
         output.commit(&bytes, interrupt)?;
         layers.commit(interrupt)?;
-        talk.made(&made);
+        reporter.made(&made);
         Ok(())
     }
 
@@ -274,10 +279,10 @@ impl RenderSetup {
         subject: &mut RenderSubject,
         path: &Path,
         window: Crop,
-        (input, talk, interrupt): Desk<'_>,
+        (input, reporter, interrupt): RunContext<'_>,
     ) -> Result<(Picture, MadePicture), Failure> {
-        let quiet = talk.is_quiet();
-        let shot = match self.picture.goal {
+        let quiet = reporter.is_quiet();
+        let rendering = match self.picture.goal {
             Goal {
                 error: None,
                 time: None,
@@ -286,35 +291,39 @@ impl RenderSetup {
                 self.approach(subject, (window, input.rays()), interrupt, quiet, None)
             }
         };
-        let shot = shot.map_err(|error| ended(error, input, talk))?;
-        let coarse = shot.coarse();
-        let size = [shot.image.width, shot.image.height];
-        let work = (shot.counts, shot.elapsed);
-        let made = MadePicture::new(path, &self.picture, size, work).with(shot.quality);
-        let film = (shot.image, shot.coverage, &shot.counts);
+        let rendering = rendering.map_err(|error| ended(error, input, reporter))?;
+        let coarse = rendering.coarse();
+        let size = [rendering.image.width, rendering.image.height];
+        let work = (rendering.counts, rendering.elapsed);
+        let made = MadePicture::new(path, &self.picture, size, work).with(rendering.quality);
+        let film = (rendering.image, rendering.coverage, &rendering.counts);
         let is_stopped = || interrupt.is_raised();
         let picture = self.picture.develop(subject, film, input, &is_stopped)?;
         let time = self.picture.goal.time;
         let found = self.clock.stop(time, (coarse, window));
         found.into_iter().for_each(|finding| input.push(finding));
-        input::tell(input, talk)?;
+        input::tell(input, reporter)?;
         Ok((picture, made))
     }
 }
 
 /// Ends a command whose render came to no end: where rays ran out is a finding about the scene.
-fn halted(error: RenderError, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
+fn halted(error: RenderError, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
     match error {
         RenderError::RanOut(finding) => {
             input.push(*finding);
-            input::tell(input, talk)
+            input::tell(input, reporter)
         }
         error @ (RenderError::Stopped | RenderError::Refused(_)) => Err(error.into()),
     }
 }
 
 /// Shows a scene as pictures of this look want it, some of them all around.
-pub(super) fn set_stage(input: &mut Input, look: &args::LookArgs, turntable: Option<u32>) {
+pub(super) fn set_stage(
+    input: &mut Input,
+    look: &args::OutputTransformArgs,
+    turntable: Option<u32>,
+) {
     input.restage(|stage| {
         stage.all_around = turntable.is_some();
         if look.background == BackgroundArg::Fill(BackgroundFill::Transparent) {
@@ -342,7 +351,7 @@ fn rules(args: &args::Pruning, goal: Goal) -> Rules {
 /// The picture that is asked for, of a kind that its name says.
 pub(super) fn wanted(
     wanted: &args::WantedArgs,
-    look: &args::LookArgs,
+    look: &args::OutputTransformArgs,
     name: &Path,
 ) -> Result<PictureSetup, Failure> {
     Ok(PictureSetup {

@@ -1,7 +1,7 @@
 //! One share of a picture, for `rtc merge` to put together with the others.
 
 use super::super::progress::{self, RenderProgress};
-use super::super::{Failure, args, interrupt::Interrupt, talk, talk::Talk, typed};
+use super::super::{Failure, args, interrupt::Interrupt, reporter, reporter::Reporter, typed};
 use super::{RenderSetup, beside_here, halted};
 use rtc_pipeline::{Input, Observer, RenderSubject, ShardBy, ShardPlan};
 use std::ffi::OsString;
@@ -76,7 +76,7 @@ impl RenderSetup {
         part: &PartSetup,
         subject: &mut RenderSubject,
         input: &mut Input,
-        talk: &mut Talk,
+        reporter: &mut Reporter,
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let (window, output) = self.ready(subject, &self.output, input)?;
@@ -87,7 +87,7 @@ impl RenderSetup {
             ShardBy::Tiles => window.pixels() as u64 / u64::from(count),
             ShardBy::Samples => window.pixels() as u64,
         };
-        let progress = RenderProgress::start(pixels, talk.is_quiet());
+        let progress = RenderProgress::start(pixels, reporter.is_quiet());
         let observer = Observer {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
@@ -97,13 +97,13 @@ impl RenderSetup {
         let elapsed = progress.finish();
         let made = match made {
             Ok(made) => made.made_by(part.command.clone()),
-            Err(error) => return halted(error, input, talk),
+            Err(error) => return halted(error, input, reporter),
         };
         output.commit(&made.save(), interrupt)?;
-        if !talk.is_quiet() {
+        if !reporter.is_quiet() {
             let path = self.output.display();
             let work = progress::summary(made.counts().rays(), elapsed);
-            talk::say(&format!("{path}: share {first} of {count}, {work}"));
+            reporter::say(&format!("{path}: share {first} of {count}, {work}"));
         }
         Ok(())
     }

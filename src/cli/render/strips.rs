@@ -1,7 +1,7 @@
 //! A picture in strips: each is rendered, written and let go before the next.
 
 use super::super::progress::RenderProgress;
-use super::super::{Failure, input, interrupt::Interrupt, output::Output, talk::Talk};
+use super::super::{Failure, input, interrupt::Interrupt, output::Output, reporter::Reporter};
 use super::{MadePicture, RenderSetup, halted};
 use rtc_pipeline::{Input, Observer, PictureSetup, RenderSubject};
 use std::fs::File;
@@ -15,7 +15,7 @@ impl RenderSetup {
         rows: Option<u32>,
         (subject, path): (&mut RenderSubject, &Path),
         input: &mut Input,
-        talk: &mut Talk,
+        reporter: &mut Reporter,
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let setup = &self.picture;
@@ -24,7 +24,7 @@ impl RenderSetup {
         let strip = PictureSetup::first_strip(window, rows);
         setup.check_memory(subject, strip)?;
         let output = Output::open(path, input)?;
-        let progress = RenderProgress::start(window.pixels() as u64, talk.is_quiet());
+        let progress = RenderProgress::start(window.pixels() as u64, reporter.is_quiet());
         let observer = Observer {
             on_step: &|step| progress.step(step),
             is_stopped: &|| interrupt.is_raised(),
@@ -41,13 +41,13 @@ impl RenderSetup {
         let elapsed = progress.finish();
         let counts = match rendered {
             Some(Ok(counts)) => counts,
-            Some(Err(error)) => return halted(error, input, talk),
+            Some(Err(error)) => return halted(error, input, reporter),
             None => return written,
         };
         written?;
-        input::tell(input, talk)?;
+        input::tell(input, reporter)?;
         let size = [window.width, window.height];
-        talk.made(&MadePicture::new(path, setup, size, (counts, elapsed)));
+        reporter.made(&MadePicture::new(path, setup, size, (counts, elapsed)));
         Ok(())
     }
 }

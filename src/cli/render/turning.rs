@@ -4,7 +4,7 @@ use super::super::Failure;
 use super::super::output::Output;
 use super::super::turntable::{self, Turntable, Views};
 use super::RenderSetup;
-use super::checkpoint::{Desk, Saving};
+use super::checkpoint::{RunContext, Saving};
 use rtc_pipeline::{RenderSubject, hash_of_file};
 use rtc_source::{Loader, SourceMap};
 use std::ops::Range;
@@ -20,7 +20,7 @@ impl RenderSetup {
         views: &Views,
         mut saving: Saving<'_>,
         subject: &mut RenderSubject,
-        (input, talk, interrupt): Desk<'_>,
+        (input, reporter, interrupt): RunContext<'_>,
     ) -> Result<(), Failure> {
         let table = Turntable::new(&subject.validated.lowered.scene, self.up, views.count);
         let path = |frame| turntable::name(&self.output, frame);
@@ -54,10 +54,14 @@ impl RenderSetup {
             }
             turn(subject, frame)?;
             if hash.is_some() {
-                self.shoot(subject, &output, input, talk, interrupt)?;
+                self.render_picture(subject, &output, input, reporter, interrupt)?;
             } else {
                 saving.output = output;
-                self.shoot_saving(&mut saving, subject, (&mut *input, &mut *talk, interrupt))?;
+                self.shoot_saving(
+                    &mut saving,
+                    subject,
+                    (&mut *input, &mut *reporter, interrupt),
+                )?;
             }
         }
         Ok(())

@@ -12,7 +12,7 @@ pub(super) struct Editor {
     pub(super) folder: TempDir,
     last: i32,
     /// What was published, newest last.
-    pub(super) told: Vec<Value>,
+    pub(super) reported: Vec<Value>,
 }
 
 impl Editor {
@@ -30,7 +30,7 @@ impl Editor {
             output,
             folder,
             last: 0,
-            told: Vec::new(),
+            reported: Vec::new(),
         }
     }
 
@@ -86,7 +86,7 @@ impl Editor {
         loop {
             let message = self.read();
             if message["method"] == "textDocument/publishDiagnostics" {
-                self.told.push(message["params"].clone());
+                self.reported.push(message["params"].clone());
             }
             if is_meant(&message) {
                 return message;
@@ -130,11 +130,14 @@ impl Editor {
     /// The findings that a file is next told to have.
     pub(super) fn findings(&mut self, name: &str) -> Vec<Value> {
         let uri = self.uri(name);
-        let told = self.until(|message| {
+        let reported = self.until(|message| {
             message["method"] == "textDocument/publishDiagnostics"
                 && message["params"]["uri"] == uri
         });
-        told["params"]["diagnostics"].as_array().unwrap().clone()
+        reported["params"]["diagnostics"]
+            .as_array()
+            .unwrap()
+            .clone()
     }
 
     /// Its exit code after it was told to go.

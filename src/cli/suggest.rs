@@ -21,7 +21,7 @@ const SAMPLES: [&str; 4] = ["--samples", "--sample-count", "--aa", "--antialiasi
 const SIZES: [&str; 4] = ["--width", "--height", "--resolution", "--res"];
 
 /// Adds to a fault of the arguments, as typed with the name of the program, where they lead.
-pub(super) fn lead(error: &mut Error, typed: &[OsString]) {
+pub(super) fn suggest(error: &mut Error, typed: &[OsString]) {
     let tip = if error.kind() == ErrorKind::InvalidSubcommand {
         verb(typed)
     } else if error.kind() == ErrorKind::UnknownArgument {

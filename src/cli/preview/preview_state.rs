@@ -2,10 +2,10 @@
 //! with every change, and what is asked for.
 
 use super::choice::Choice;
+use super::events::{self, Event};
 use super::interrupt;
-use super::news::{self, News};
 use super::pixels::PixelTable;
-use super::view::{Gaze, Sight};
+use super::view::{SceneCamera, ViewOverride};
 use rtc_pipeline::DiagnosticRef;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
@@ -14,15 +14,15 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// How the scene is looked at.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Manner {
+pub(super) struct ViewSettings {
     /// From where, if not as the scene says.
-    pub(super) gaze: Option<Gaze>,
+    pub(super) view_override: Option<ViewOverride>,
     /// In which settings.
     pub(super) choice: Choice,
 }
 
 /// A picture as the page shows it.
-pub(super) struct Shot {
+pub(super) struct RenderedPicture {
     pub(super) png: Arc<Vec<u8>>,
     /// The size that it has when it is finished.
     pub(super) full: [u32; 2],
@@ -55,28 +55,28 @@ pub(super) struct ReadState {
 
 /// A picture with its number, and by how old an order it was made.
 #[derive(Default)]
-struct NumberedShot {
-    shot: Option<Shot>,
+struct NumberedPicture {
+    rendering: Option<RenderedPicture>,
     number: u64,
     age: u64,
 }
 
 /// All that is shown and asked for.
 #[derive(Default)]
-pub(super) struct BoardState {
+pub(super) struct PreviewData {
     version: u64,
     /// Who follows what is shown, by the order in which they came, and how many ever did.
-    followers: VecDeque<u64>,
+    subscribers: VecDeque<u64>,
     followed: u64,
     pub(super) read: ReadState,
     is_working: bool,
-    shown: NumberedShot,
+    shown: NumberedPicture,
     /// Of which reading of the scene the picture is.
     load: u64,
     /// What it is compared with.
-    against: NumberedShot,
+    against: NumberedPicture,
     pub(super) pixels: Option<PixelTable>,
-    pub(super) sight: Option<Sight>,
+    pub(super) scene_camera: Option<SceneCamera>,
     pub(super) effects: Option<String>,
     /// Which effects took part at a pixel, once that was asked for.
     pub(super) pixel: Value,
@@ -86,7 +86,7 @@ pub(super) struct BoardState {
     pub(super) costs: Value,
     /// The command that renders the same.
     pub(super) command: String,
-    pub(super) manner: Manner,
+    pub(super) view_settings: ViewSettings,
     is_moving: bool,
     wants_effects: bool,
     wants_settings: bool,
@@ -113,32 +113,32 @@ pub(super) struct Orders {
 /// A piece of work for the render.
 pub(super) struct Work {
     pub(super) orders: Orders,
-    pub(super) manner: Manner,
+    pub(super) view_settings: ViewSettings,
     /// The view is still changing: a crude picture will do.
     pub(super) is_moving: bool,
     pub(super) wants_effects: bool,
     pub(super) wants_settings: bool,
-    /// How old the order is; see [`Board::is_stale`].
+    /// How old the order is; see [`PreviewState::is_stale`].
     pub(super) age: u64,
 }
 
 /// The state, and who waits for it to change.
 #[derive(Default)]
-pub(super) struct Board {
-    state: Mutex<BoardState>,
+pub(super) struct PreviewState {
+    state: Mutex<PreviewData>,
     changed: Condvar,
     /// Rises with each order that makes the work of before useless.
     age: AtomicU64,
 }
 
-impl Board {
+impl PreviewState {
     /// The state, to be looked at.
-    pub(super) fn state(&self) -> MutexGuard<'_, BoardState> {
+    pub(super) fn state(&self) -> MutexGuard<'_, PreviewData> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Changes what is shown.
-    pub(super) fn show(&self, change: impl FnOnce(&mut BoardState)) {
+    pub(super) fn show(&self, change: impl FnOnce(&mut PreviewData)) {
         let mut state = self.state();
         change(&mut state);
         state.version += 1;
@@ -146,18 +146,18 @@ impl Board {
     }
 
     /// Shows a picture, made by an order of this age.
-    pub(super) fn put(&self, shot: Shot, pixels: Option<PixelTable>, age: u64) {
+    pub(super) fn put(&self, rendering: RenderedPicture, pixels: Option<PixelTable>, age: u64) {
         self.show(|state| {
             state.load = state.read.load;
-            state.is_working = !shot.is_finished;
-            state.shown.put(shot, age);
+            state.is_working = !rendering.is_finished;
+            state.shown.put(rendering, age);
             state.pixels = pixels;
         });
     }
 
     /// Shows what the picture is compared with, made by an order of this age.
-    pub(super) fn put_against(&self, shot: Shot, age: u64) {
-        self.show(|state| state.against.put(shot, age));
+    pub(super) fn put_against(&self, rendering: RenderedPicture, age: u64) {
+        self.show(|state| state.against.put(rendering, age));
     }
 
     /// Whether work that was ordered at an age is of no use any more.
@@ -171,9 +171,9 @@ impl Board {
     }
 
     /// Has the scene looked at from elsewhere; as it says with `None`. The age of the order.
-    pub(super) fn look(&self, gaze: Option<Gaze>, is_moving: bool) -> u64 {
+    pub(super) fn look(&self, view_override: Option<ViewOverride>, is_moving: bool) -> u64 {
         self.order(|state| {
-            state.manner.gaze = gaze;
+            state.view_settings.view_override = view_override;
             state.is_moving = is_moving;
             state.orders.look = true;
         })
@@ -182,7 +182,7 @@ impl Board {
     /// Has the scene rendered in these settings. The age of the order.
     pub(super) fn choose(&self, choice: Choice) -> u64 {
         self.order(|state| {
-            state.manner.choice = choice;
+            state.view_settings.choice = choice;
             state.is_moving = false;
             state.orders.look = true;
         })
@@ -213,7 +213,7 @@ impl Board {
         self.changed.notify_all();
     }
 
-    fn order(&self, change: impl FnOnce(&mut BoardState)) -> u64 {
+    fn order(&self, change: impl FnOnce(&mut PreviewData)) -> u64 {
         let mut state = self.state();
         change(&mut state);
         self.changed.notify_all();
@@ -227,7 +227,8 @@ impl Board {
 
     /// Waits for work; `None` if there is to be none any more.
     pub(super) fn next(&self) -> Option<Work> {
-        let is_idle = |state: &mut BoardState| !state.is_ended && state.orders == Orders::default();
+        let is_idle =
+            |state: &mut PreviewData| !state.is_ended && state.orders == Orders::default();
         let waited = self.changed.wait_while(self.state(), is_idle);
         let mut state = waited.unwrap_or_else(PoisonError::into_inner);
         if state.is_ended {
@@ -241,7 +242,7 @@ impl Board {
         }
         Some(Work {
             orders,
-            manner: state.manner.clone(),
+            view_settings: state.view_settings.clone(),
             is_moving: state.is_moving,
             wants_effects: state.wants_effects,
             wants_settings: state.wants_settings,
@@ -259,9 +260,9 @@ impl Board {
         let mut state = self.state();
         state.followed += 1;
         let number = state.followed;
-        state.followers.push_back(number);
-        while state.followers.len() > news::MOST {
-            state.followers.pop_front();
+        state.subscribers.push_back(number);
+        while state.subscribers.len() > events::MOST {
+            state.subscribers.pop_front();
         }
         self.changed.notify_all();
         number
@@ -269,51 +270,51 @@ impl Board {
 
     /// Takes the place back.
     pub(super) fn dismiss(&self, number: u64) {
-        self.state().followers.retain(|own| *own != number);
+        self.state().subscribers.retain(|own| *own != number);
     }
 
     /// Waits until what is shown differs from that of a version.
-    pub(super) fn wait(&self, number: u64, since: Option<u64>) -> News {
+    pub(super) fn wait(&self, number: u64, since: Option<u64>) -> Event {
         let should_continue =
-            |state: &BoardState| !state.is_ended && state.followers.contains(&number);
+            |state: &PreviewData| !state.is_ended && state.subscribers.contains(&number);
         let is_same =
-            |state: &mut BoardState| should_continue(state) && Some(state.version) == since;
+            |state: &mut PreviewData| should_continue(state) && Some(state.version) == since;
         let waited = self.changed.wait_while(self.state(), is_same);
         let state = waited.unwrap_or_else(PoisonError::into_inner);
         match (state.is_ended, should_continue(&state)) {
-            (true, _) => News::Ended,
-            (false, true) => News::Shown(state.version, state.told()),
-            (false, false) => News::GaveWay,
+            (true, _) => Event::Ended,
+            (false, true) => Event::Color(state.version, state.reported()),
+            (false, false) => Event::GaveWay,
         }
     }
 }
 
-impl NumberedShot {
-    fn put(&mut self, shot: Shot, age: u64) {
+impl NumberedPicture {
+    fn put(&mut self, rendering: RenderedPicture, age: u64) {
         (self.number, self.age) = (self.number + 1, age);
-        self.shot = Some(shot);
+        self.rendering = Some(rendering);
     }
 
     /// The file of the picture of this number; none if there is another by now.
     fn png(&self, number: &str) -> Option<Arc<Vec<u8>>> {
-        let shot = self.shot.as_ref()?;
-        (self.number.to_string() == number).then(|| Arc::clone(&shot.png))
+        let rendering = self.rendering.as_ref()?;
+        (self.number.to_string() == number).then(|| Arc::clone(&rendering.png))
     }
 
-    fn told(&self, load: u64) -> Option<Value> {
-        self.shot.as_ref().map(|shot| {
+    fn reported(&self, load: u64) -> Option<Value> {
+        self.rendering.as_ref().map(|rendering| {
             json!({
                 "number": self.number,
                 "load": load,
                 "age": self.age,
-                "full": shot.full,
-                "isFinished": shot.is_finished,
+                "full": rendering.full,
+                "isFinished": rendering.is_finished,
             })
         })
     }
 }
 
-impl BoardState {
+impl PreviewData {
     /// The picture of this number; none if there is another by now.
     pub(super) fn png(&self, number: &str) -> Option<Arc<Vec<u8>>> {
         self.shown.png(number)
@@ -325,7 +326,7 @@ impl BoardState {
     }
 
     /// What the page is told.
-    fn told(&self) -> Value {
+    fn reported(&self) -> Value {
         let finding = |finding: &ToldFinding| {
             let fix = match finding.fix {
                 None => Value::Null,
@@ -341,11 +342,11 @@ impl BoardState {
             "isFailed": self.read.is_failed,
             "fault": self.read.fault,
             "findings": self.read.findings.iter().map(finding).collect::<Vec<_>>(),
-            "picture": self.shown.told(self.load),
-            "against": self.against.told(self.load),
-            "view": self.sight.as_ref().map(Sight::told),
-            "isMoved": self.manner.gaze.is_some(),
-            "choice": self.manner.choice,
+            "picture": self.shown.reported(self.load),
+            "against": self.against.reported(self.load),
+            "view": self.scene_camera.as_ref().map(SceneCamera::reported),
+            "isMoved": self.view_settings.view_override.is_some(),
+            "choice": self.view_settings.choice,
             "command": self.command,
             "effects": self.effects,
             "pixel": self.pixel,

@@ -2,7 +2,7 @@
 //! time; where one more comes, the one that has followed longest is told so and ends.
 //! Nobody is woken while nothing changes.
 
-use super::board::Board;
+use super::preview_state::PreviewState;
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -14,8 +14,8 @@ pub(super) const MOST: usize = 4;
 const GIVES_WAY: &str = "event: full\ndata:\n\n";
 
 /// A stream of events, which ends when it is dropped.
-pub(super) struct Follower {
-    board: Arc<Board>,
+pub(super) struct Subscriber {
+    preview_state: Arc<PreviewState>,
     number: u64,
     /// The version that was told last.
     since: Option<u64>,
@@ -23,28 +23,28 @@ pub(super) struct Follower {
 }
 
 /// What there is for a stream of events.
-pub(super) enum News {
+pub(super) enum Event {
     /// What is shown, and its version.
-    Shown(u64, Value),
+    Color(u64, Value),
     /// Others took its place.
     GaveWay,
     /// There will be no more.
     Ended,
 }
 
-impl Follower {
+impl Subscriber {
     /// A new stream.
-    pub(super) fn new(board: &Arc<Board>) -> Self {
+    pub(super) fn new(preview_state: &Arc<PreviewState>) -> Self {
         Self {
-            number: board.admit(),
-            board: Arc::clone(board),
+            number: preview_state.admit(),
+            preview_state: Arc::clone(preview_state),
             since: None,
             is_ended: false,
         }
     }
 }
 
-impl Iterator for Follower {
+impl Iterator for Subscriber {
     type Item = String;
 
     /// Waits for the next event.
@@ -52,23 +52,23 @@ impl Iterator for Follower {
         if self.is_ended {
             return None;
         }
-        match self.board.wait(self.number, self.since) {
-            News::Shown(version, told) => {
+        match self.preview_state.wait(self.number, self.since) {
+            Event::Color(version, reported) => {
                 self.since = Some(version);
-                Some(format!("data: {told}\n\n"))
+                Some(format!("data: {reported}\n\n"))
             }
-            News::GaveWay => {
+            Event::GaveWay => {
                 self.is_ended = true;
                 Some(GIVES_WAY.to_owned())
             }
-            News::Ended => None,
+            Event::Ended => None,
         }
     }
 }
 
-impl Drop for Follower {
+impl Drop for Subscriber {
     fn drop(&mut self) {
-        self.board.dismiss(self.number);
+        self.preview_state.dismiss(self.number);
     }
 }
 
@@ -78,21 +78,21 @@ mod tests {
 
     #[test]
     fn the_oldest_stream_gives_way_and_a_place_that_is_left_is_free() {
-        let board = Arc::new(Board::default());
-        let mut streams: Vec<_> = (0..MOST).map(|_| Follower::new(&board)).collect();
+        let preview_state = Arc::new(PreviewState::default());
+        let mut streams: Vec<_> = (0..MOST).map(|_| Subscriber::new(&preview_state)).collect();
         drop(streams.pop());
-        streams.push(Follower::new(&board));
+        streams.push(Subscriber::new(&preview_state));
         for stream in &mut streams {
             assert!(stream.next().unwrap().starts_with("data: {"));
         }
-        let mut newest = Follower::new(&board);
+        let mut newest = Subscriber::new(&preview_state);
         assert_eq!(streams[0].next().as_deref(), Some(GIVES_WAY));
         assert_eq!(streams[0].next(), None);
-        board.show(|_| ());
+        preview_state.show(|_| ());
         for stream in streams.iter_mut().skip(1).chain([&mut newest]) {
             assert!(stream.next().unwrap().starts_with("data: {"));
         }
-        board.end();
+        preview_state.end();
         assert_eq!(newest.next(), None);
     }
 }

@@ -1,7 +1,7 @@
 //! A crude picture on the way to the finished one: fewer pixels, and few samples of each.
 
-use super::board::Shot;
-use super::shots::shot;
+use super::preview_state::RenderedPicture;
+use super::renderings::rendering;
 use rtc_diag::Sink;
 use rtc_ir::{Mode, Scene, SourceSpans};
 use rtc_pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject, Traced};
@@ -21,7 +21,7 @@ pub(super) fn render(
     subject: &mut RenderSubject,
     input: &mut Input,
     observer: &Observer<'_>,
-) -> Result<Option<Shot>, RenderError> {
+) -> Result<Option<RenderedPicture>, RenderError> {
     let scene = &mut subject.validated.lowered.scene;
     let Crop { width, height, .. } = setup.window(scene)?;
     let (camera, settings) = (scene.camera.clone(), scene.settings.clone());
@@ -41,11 +41,11 @@ pub(super) fn render(
             let whole = std::mem::replace(&mut subject.validated.scene, proof);
             let rendered = trace(&coarse(setup, k), subject, input, observer);
             subject.validated.scene = whole;
-            rendered.map(|shot| {
-                Some(Shot {
+            rendered.map(|rendering| {
+                Some(RenderedPicture {
                     full: [width, height],
                     is_finished: false,
-                    ..shot
+                    ..rendering
                 })
             })
         }
@@ -61,15 +61,15 @@ fn trace(
     subject: &mut RenderSubject,
     input: &mut Input,
     observer: &Observer<'_>,
-) -> Result<Shot, RenderError> {
+) -> Result<RenderedPicture, RenderError> {
     subject.turn();
     let window = setup.window(&subject.validated.lowered.scene)?;
     let Traced { film, .. } = setup.trace(subject, (window, input.rays()), observer)?;
     // What is found in it is told of the finished one.
     let found = input.take_diagnostics();
-    let shot = shot(setup, subject, film, input, observer);
+    let rendering = rendering(setup, subject, film, input, observer);
     input.restore_diagnostics(found);
-    shot
+    rendering
 }
 
 /// Takes fewer pixels and samples; every how manyth pixel of a row is left.

@@ -12,7 +12,7 @@ use std::io::{self, IsTerminal, Write};
 const WIDTH: usize = 100;
 
 /// Tells the findings about one file after another.
-pub(super) struct Talk {
+pub(super) struct Reporter {
     printer: Printer,
     to_stdout: bool,
     quiet: bool,
@@ -23,9 +23,9 @@ pub(super) struct Talk {
     has_told: bool,
 }
 
-impl Talk {
+impl Reporter {
     /// For a command whose result is its findings: those for programs go to standard output.
-    pub(super) fn as_result(args: &args::TalkArgs) -> Self {
+    pub(super) fn as_result(args: &args::ReporterArgs) -> Self {
         let format = Format::from(args.message_format);
         Self {
             to_stdout: !matches!(format, Format::Human | Format::Short),
@@ -34,8 +34,8 @@ impl Talk {
     }
 
     /// For a command with another result: all findings go to standard error.
-    pub(super) fn beside_result(args: &args::TalkArgs) -> Self {
-        let args::TalkArgs {
+    pub(super) fn beside_result(args: &args::ReporterArgs) -> Self {
+        let args::ReporterArgs {
             message_format,
             color,
             max_errors,

@@ -91,7 +91,7 @@ fn one_number_is_both_sides() {
 #[test]
 fn samples_that_change_nothing_are_told() {
     let folder = folder_with_paths();
-    let told = |args: &[&str]| {
+    let reported = |args: &[&str]| {
         let output = rtc(
             &folder,
             &[&["render", "--size", "4", "-o", "-"], args].concat(),
@@ -99,12 +99,12 @@ fn samples_that_change_nothing_are_told() {
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         stderr(&output)
     };
-    let wrong = told(&["ball.json", "--spp", "4"]);
+    let wrong = reported(&["ball.json", "--spp", "4"]);
     assert!(
         wrong.contains("warning: `--spp` changes nothing") && wrong.contains("`--supersampling N`"),
         "{wrong}"
     );
-    let wrong = told(&["paths.json", "--supersampling", "2"]);
+    let wrong = reported(&["paths.json", "--supersampling", "2"]);
     assert!(
         wrong.contains("warning: `--supersampling` changes nothing") && wrong.contains("`--spp N`"),
         "{wrong}"
@@ -114,6 +114,6 @@ fn samples_that_change_nothing_are_told() {
         &["paths.json", "--spp", "2"],
         &["ball.json", "--spp", "4", "-q"],
     ] {
-        assert!(!told(args).contains("changes nothing"), "{args:?}");
+        assert!(!reported(args).contains("changes nothing"), "{args:?}");
     }
 }

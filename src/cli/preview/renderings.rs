@@ -1,7 +1,7 @@
 //! Pictures of scenes: the finished one of `rtc render`, and one pixel of it.
 
-use super::board::Shot;
 use super::pixels::PixelTable;
+use super::preview_state::RenderedPicture;
 use super::{Failure, args, render};
 use crate::project;
 use rtc_pipeline::{Input, Observer, PictureSetup, RenderError, RenderSubject};
@@ -29,7 +29,7 @@ pub(super) fn finish(
     subject: &mut RenderSubject,
     input: &mut Input,
     observer: &Observer<'_>,
-) -> Result<(Shot, PixelTable), RenderError> {
+) -> Result<(RenderedPicture, PixelTable), RenderError> {
     let window = setup.window(&subject.validated.lowered.scene)?;
     let film = trace(setup, subject, window, input, observer)?;
     let job = Job {
@@ -42,8 +42,8 @@ pub(super) fn finish(
     let layers = renderer.layers(&[Aov::Instance, Aov::Depth], &job, &is_going);
     let layers = layers.ok_or(RenderError::Stopped)?;
     let pixels = PixelTable::new(&film.image, &layers, &subject.validated, input);
-    let shot = shot(setup, subject, film, input, observer)?;
-    Ok((shot, pixels))
+    let rendering = rendering(setup, subject, film, input, observer)?;
+    Ok((rendering, pixels))
 }
 
 /// The picture alone.
@@ -52,10 +52,10 @@ pub(super) fn whole(
     subject: &mut RenderSubject,
     input: &mut Input,
     observer: &Observer<'_>,
-) -> Result<Shot, RenderError> {
+) -> Result<RenderedPicture, RenderError> {
     let window = setup.window(&subject.validated.lowered.scene)?;
     let film = trace(setup, subject, window, input, observer)?;
-    shot(setup, subject, film, input, observer)
+    rendering(setup, subject, film, input, observer)
 }
 
 /// What was simulated for a pixel of the picture, which is rendered again alone; none of a pixel outside.
@@ -97,13 +97,13 @@ fn trace(
 }
 
 /// The picture of a film, as a file.
-pub(super) fn shot(
+pub(super) fn rendering(
     setup: &PictureSetup,
     subject: &mut RenderSubject,
     film: Film,
     input: &mut Input,
     observer: &Observer<'_>,
-) -> Result<Shot, RenderError> {
+) -> Result<RenderedPicture, RenderError> {
     let Film {
         image,
         coverage,
@@ -112,7 +112,7 @@ pub(super) fn shot(
     let full = [image.width, image.height];
     let film = (image, coverage, &counts);
     let picture = setup.develop(subject, film, input, observer.is_stopped)?;
-    Ok(Shot {
+    Ok(RenderedPicture {
         png: Arc::new(setup.encode(&picture, subject)?),
         full,
         is_finished: true,

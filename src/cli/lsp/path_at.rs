@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 /// A step from a list or a map to what it holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum WayStep {
+pub(super) enum PathStep {
     /// The value of a key.
     Key {
         map: NodeId,
@@ -17,7 +17,7 @@ pub(super) enum WayStep {
     Item { at: usize, item: NodeId },
 }
 
-impl WayStep {
+impl PathStep {
     /// What it leads to.
     pub(super) fn node(self) -> NodeId {
         match self {
@@ -28,7 +28,7 @@ impl WayStep {
 }
 
 /// The steps from the root to what stands at a byte.
-pub(super) fn way(tree: &Tree<'_>, offset: usize) -> Vec<WayStep> {
+pub(super) fn path_at(tree: &Tree<'_>, offset: usize) -> Vec<PathStep> {
     let holds = |id: NodeId| {
         let span = tree.span(id);
         (span.start as usize..=span.end as usize).contains(&offset)
@@ -43,7 +43,7 @@ pub(super) fn way(tree: &Tree<'_>, offset: usize) -> Vec<WayStep> {
         let item = || tree.items(here).enumerate().find(|(_, item)| holds(*item));
         let (step, next) = match key {
             Some((key, value)) => (
-                WayStep::Key {
+                PathStep::Key {
                     map: here,
                     key,
                     value,
@@ -51,7 +51,7 @@ pub(super) fn way(tree: &Tree<'_>, offset: usize) -> Vec<WayStep> {
                 value,
             ),
             None if tree.is_list(here) && !is_alias => match item() {
-                Some((at, item)) => (WayStep::Item { at, item }, item),
+                Some((at, item)) => (PathStep::Item { at, item }, item),
                 None => return steps,
             },
             None => return steps,
@@ -75,18 +75,18 @@ impl Vocabulary {
     pub(super) fn at<'v>(
         &'v self,
         tree: &Tree<'_>,
-        steps: &[WayStep],
+        steps: &[PathStep],
     ) -> Vec<&'v Map<String, Value>> {
         let mut here = self.plain(&self.schema, tree, tree.root());
         for step in steps {
             let found: Vec<&Value> = match *step {
-                WayStep::Key { key, .. } => {
+                PathStep::Key { key, .. } => {
                     let name = tree.text(key).unwrap_or_default();
                     here.iter()
                         .filter_map(|s| s.get("properties")?.get(name))
                         .collect()
                 }
-                WayStep::Item { at, .. } => here
+                PathStep::Item { at, .. } => here
                     .iter()
                     .filter_map(|s| {
                         s.get("prefixItems")
@@ -107,7 +107,7 @@ impl Vocabulary {
     pub(super) fn keys<'v>(
         &'v self,
         tree: &Tree<'_>,
-        to_map: &[WayStep],
+        to_map: &[PathStep],
     ) -> Vec<(&'v str, &'v Value)> {
         let mut keys: Vec<(&str, &Value)> = Vec::new();
         for schema in self.at(tree, to_map) {
