@@ -117,7 +117,11 @@ impl DiffSide {
     }
 
     /// Its picture, as `rtc render` shows it.
-    fn picture(&mut self, reporter: &mut Reporter, interrupt: &Interrupt) -> Result<ShownPicture, Failure> {
+    fn picture(
+        &mut self,
+        reporter: &mut Reporter,
+        interrupt: &Interrupt,
+    ) -> Result<ShownPicture, Failure> {
         let Self {
             input,
             setup,

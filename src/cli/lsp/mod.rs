@@ -9,11 +9,11 @@ mod hover;
 mod method;
 mod open_text;
 mod outline;
+mod path_at;
 mod place;
 mod protocol;
 mod text;
 mod uri;
-mod path_at;
 mod wire;
 mod workspace;
 
@@ -29,22 +29,22 @@ use text::Columns;
 use wire::{Inbox, Incoming};
 use workspace::Workspace;
 
-/// How far a conversation has come.
+/// The state of the session (LSP, "Server lifecycle").
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum TextRange {
-    /// The editor has not said yet who it is.
-    Greeting,
-    /// It asks and is answered.
-    Reporter,
-    /// It has asked for the end.
-    Farewell,
+enum SessionState {
+    /// Before the request `initialize`.
+    Starting,
+    /// Requests are answered.
+    Running,
+    /// After the request `shutdown`.
+    ShutDown,
 }
 
 /// A server of one editor.
 struct Server {
     inbox: Inbox,
     out: Stdout,
-    stretch: TextRange,
+    state: SessionState,
     workspace: Workspace,
 }
 
@@ -54,7 +54,7 @@ pub(super) fn run(args: args::Lsp) -> Result<(), Failure> {
     let mut server = Server {
         inbox: Inbox::of(BufReader::new(io::stdin())).map_err(trouble)?,
         out: io::stdout(),
-        stretch: TextRange::Greeting,
+        state: SessionState::Starting,
         workspace: Workspace::new(args.reading),
     };
     server.serve()
@@ -101,7 +101,7 @@ impl Server {
             };
             match incoming {
                 Incoming::Message(Message::Notification(own)) if own.method == "exit" => {
-                    let is_asked = self.stretch == TextRange::Farewell;
+                    let is_asked = self.state == SessionState::ShutDown;
                     let words = "the editor left without `shutdown`";
                     let failure = || Failure::Input(words.to_owned());
                     return is_asked.then_some(()).ok_or_else(failure);
@@ -131,7 +131,7 @@ impl Server {
                 let response = self.answered(request);
                 self.send(response);
             }
-            Message::Notification(own) if self.stretch == TextRange::Reporter => {
+            Message::Notification(own) if self.state == SessionState::Running => {
                 let reported = self.workspace.note(own);
                 reported.into_iter().for_each(|message| self.send(message));
             }
@@ -145,28 +145,28 @@ impl Server {
         let refused = |code: ErrorCode, words: &str| {
             Response::new_err(id.clone(), code as i32, words.to_owned())
         };
-        match (self.stretch, request.method.as_str()) {
-            (TextRange::Greeting, "initialize") => {
-                self.stretch = TextRange::Reporter;
+        match (self.state, request.method.as_str()) {
+            (SessionState::Starting, "initialize") => {
+                self.state = SessionState::Running;
                 Response::new_ok(id, self.greet(&request.params))
             }
-            (TextRange::Greeting, _) => {
+            (SessionState::Starting, _) => {
                 refused(ErrorCode::ServerNotInitialized, "`initialize` comes first")
             }
-            (TextRange::Reporter, "initialize") => {
+            (SessionState::Running, "initialize") => {
                 refused(ErrorCode::InvalidRequest, "`initialize` came before")
             }
-            (TextRange::Reporter, "shutdown") => {
-                self.stretch = TextRange::Farewell;
+            (SessionState::Running, "shutdown") => {
+                self.state = SessionState::ShutDown;
                 Response::new_ok(id, Value::Null)
             }
-            (TextRange::Reporter, _) => {
+            (SessionState::Running, _) => {
                 let answer = AssertUnwindSafe(|| self.workspace.answer(request));
                 let words = "internal error of rtc; please report it with the scene";
                 panic::catch_unwind(answer)
                     .unwrap_or_else(|_| refused(ErrorCode::InternalError, words))
             }
-            (TextRange::Farewell, _) => {
+            (SessionState::ShutDown, _) => {
                 refused(ErrorCode::InvalidRequest, "`shutdown` came before")
             }
         }

@@ -66,7 +66,12 @@ impl Bvh {
     /// roughly first; `visit` returns the new `t_max`, which ends the walk when it falls below
     /// 0.
     #[inline]
-    pub(crate) fn traverse(&self, ray: &Ray, mut t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
+    pub(crate) fn traverse(
+        &self,
+        ray: &Ray,
+        mut t_max: f64,
+        mut visit: impl FnMut(u32, f64) -> f64,
+    ) {
         let mut visit_leaf = |node: &BvhNode, mut t_max: f64| {
             for item in &self.order[node.link as usize..(node.link + node.count) as usize] {
                 t_max = visit(*item, t_max);
@@ -186,11 +191,7 @@ pub(crate) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (us
 
 /// The border between bins with the least expected work on both sides, and that work, if any has
 /// items on both.
-fn best_split(
-    items: &[Item],
-    at_once: u32,
-    bin: impl Fn(&Item) -> usize,
-) -> Option<(usize, f64)> {
+fn best_split(items: &[Item], at_once: u32, bin: impl Fn(&Item) -> usize) -> Option<(usize, f64)> {
     let mut bins = [(Bounds::EMPTY, 0_u32); BINS];
     for item in items {
         let (bounds, count) = &mut bins[bin(item)];

@@ -8,14 +8,14 @@
 //! meets the base: then g is right to within rounding, however flat it is.
 
 use crate::ray::{Interaction, Ray};
-use crate::shape::disc::BaselineDisc;
-use crate::shape::geometry::Intersect;
-use crate::shape::interval::{Interval, between_planes, roots};
-use crate::shape::mesh::BaselineMesh;
 use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::disc::BaselineDisc;
+use crate::shape::geometry::Intersect;
+use crate::shape::interval::{Interval, between_planes, roots};
+use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3, cross, difference_of_products, dot};
 use std::sync::Arc;
@@ -222,7 +222,9 @@ impl Intersect for Cone {
 
     /// The point at `t`, moved onto the part that was hit; at the apex the normal is the axis.
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
-        let part = self.intersection(ray).map_or(ConeFace::Side, |(_, part)| part);
+        let part = self
+            .intersection(ray)
+            .map_or(ConeFace::Side, |(_, part)| part);
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let radial = (local - self.axis * along).normalize_or_zero();

@@ -6,14 +6,14 @@
 //! products with the axis.
 
 use crate::ray::{Interaction, Ray};
-use crate::shape::disc::BaselineDisc;
-use crate::shape::geometry::Intersect;
-use crate::shape::interval::{Interval, between_planes, roots};
-use crate::shape::mesh::BaselineMesh;
 use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::disc::BaselineDisc;
+use crate::shape::geometry::Intersect;
+use crate::shape::interval::{Interval, between_planes, roots};
+use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{Bounds, Vec3, cross, dot, unit};
 use std::sync::Arc;

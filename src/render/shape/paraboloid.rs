@@ -8,14 +8,14 @@
 //! double-double, from the numbers as given.
 
 use crate::ray::{Interaction, Ray};
-use crate::shape::disc::BaselineDisc;
-use crate::shape::geometry::{AttributeRequest, ShadingAttributes, Intersect};
-use crate::shape::interval::{Interval, between_planes, roots};
-use crate::shape::mesh::BaselineMesh;
 use crate::shape::baseline::ray::BaselineRay;
 use crate::shape::baseline::real::{Real, Vector};
 use crate::shape::baseline::roots::quadratic;
 use crate::shape::baseline::{Baseline, HasBaseline};
+use crate::shape::disc::BaselineDisc;
+use crate::shape::geometry::{AttributeRequest, Intersect, ShadingAttributes};
+use crate::shape::interval::{Interval, between_planes, roots};
+use crate::shape::mesh::BaselineMesh;
 use crate::shape::triangle::WatertightRay;
 use rtc_math::{
     Basis, Bounds, DoubleDouble, U, Vec3, atan2, cross, difference_of_products, dot, ldexp,
@@ -261,7 +261,13 @@ impl Intersect for Paraboloid {
 
     /// u = φ/2π about the axis. On the side, v is the depth below the vertex in heights; on the cap,
     /// the distance from the axis in radii: 1 at the rim on both.
-    fn shading_attributes(&self, _: &Ray, at: &Interaction, _: u32, _: AttributeRequest) -> ShadingAttributes {
+    fn shading_attributes(
+        &self,
+        _: &Ray,
+        at: &Interaction,
+        _: u32,
+        _: AttributeRequest,
+    ) -> ShadingAttributes {
         let local = at.point - self.base;
         let along = dot(local, self.axis);
         let radial = self.radial(local, along);

@@ -3,9 +3,7 @@
 
 use super::{Candidate, LEAF, NONE, TraversalStack, Wide, leaf_at};
 use crate::accel::conservative_ray::ConservativeRay;
-use crate::accel::lanes::{
-    BoxLanes, LINKS, HitMask, TriangleLanes, TriangleRow, WIDTH, WideNode,
-};
+use crate::accel::lanes::{BoxLanes, HitMask, LINKS, TriangleLanes, TriangleRow, WIDTH, WideNode};
 use crate::accel::simd::at_level;
 use crate::ray::Ray;
 use fearless_simd::{Simd, f32x4};
@@ -126,7 +124,12 @@ impl Wide {
 
     /// A beam at the root.
     #[inline(always)]
-    fn start<S: Simd, V: Visitor>(&self, simd: S, conservative_ray: ConservativeRay, t_max: f64) -> Traversal<'_, S> {
+    fn start<S: Simd, V: Visitor>(
+        &self,
+        simd: S,
+        conservative_ray: ConservativeRay,
+        t_max: f64,
+    ) -> Traversal<'_, S> {
         Traversal {
             nodes: self.nodes.rows(),
             rows: self.triangles.rows(),
@@ -202,7 +205,9 @@ impl<S: Simd> Traversal<'_, S> {
         let all = 0b1111 >> (3 - (self.link & 3));
         let hit_mask = match (V::CULLS, V::IS_SURE) {
             (false, _) => HitMask { may: all, sure: 0 },
-            (true, false) => self.triangles.intersect4::<false>(simd, leaf, [self.limit, 0.0]),
+            (true, false) => self
+                .triangles
+                .intersect4::<false>(simd, leaf, [self.limit, 0.0]),
             (true, true) => {
                 let limits = [self.limit, self.sure_limit];
                 self.triangles.intersect4::<true>(simd, leaf, limits)
