@@ -1,5 +1,5 @@
-//! The basis of decoding: the trait [`Decode`], values with spans, and the context that collects all
-//! findings.
+//! The basis of decoding: the trait [`Decode`], values with spans, and the context that collects
+//! all findings.
 
 use super::schema::Definitions;
 use super::spelling::same_letters;

@@ -69,7 +69,8 @@ macro_rules! record {
     ) => {
         $(#[doc = $doc])+
         pub(in crate::course) struct $name {
-            $($(#[doc = $field_doc])+ pub(in crate::course) $field: record!(@type $requirement $type),)+
+            $($(#[doc = $field_doc])+ pub(in crate::course)
+                $field: record!(@type $requirement $type),)+
         }
 
         impl $name {
@@ -116,9 +117,13 @@ macro_rules! record {
     (@type $requirement:ident $type:ty) => { $type };
     (@requirement required $type:ty) => { $crate::course::record::Requirement::Required };
     (@requirement optional $type:ty) => { $crate::course::record::Requirement::Optional };
-    (@requirement unless $type:ty, $other:expr) => { $crate::course::record::Requirement::Unless($other) };
+    (@requirement unless $type:ty, $other:expr) => {
+        $crate::course::record::Requirement::Unless($other)
+    };
     (@requirement default $type:ty, $default:expr) => {
-        $crate::course::record::Requirement::Default(|| $crate::course::decode::Decode::json(&$default))
+        $crate::course::record::Requirement::Default(|| {
+            $crate::course::decode::Decode::json(&$default)
+        })
     };
     (@value required $found:ident) => { $found.ok()? };
     (@value optional $found:ident) => { $found };

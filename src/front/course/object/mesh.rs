@@ -178,7 +178,7 @@ impl Mesh {
             axis,
             angle,
         };
-        // `transform` overrides all other keys; else one of `scale`, `size` and `fit` gives the size.
+        // `transform` overrides other keys; else one of `scale`, `size` and `fit` gives the size.
         let (scale, sizing) = match (transform, scale, size, fit) {
             (FieldOutcome::Read(transform), ..) => {
                 report_key_without_effect(position.span, "position", context);

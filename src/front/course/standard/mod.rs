@@ -3,8 +3,8 @@
 //! `rtc_tables::parameters!` lists the parameters with their kinds and defaults. The macros here
 //! turn each row into a field of the record [`StandardMaterial`]: the key is the name of the row in
 //! camel case, the kind of the row selects the type of the value (`written!`), its default
-//! (`requirement!`) and its lowering (`lowered!`). A parameter that is added to the table is decoded,
-//! documented and lowered without a change here.
+//! (`requirement!`) and its lowering (`lowered!`). A parameter that is added to the table is
+//! decoded, documented and lowered without a change here.
 //!
 //! `texture` has the record of a texture, with the placement and sampling of glTF; `value` has the
 //! value types that only this material uses. All keys are optional except `type: standard`; the
