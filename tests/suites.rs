@@ -8,6 +8,7 @@
 
 mod api;
 mod assets;
+mod book;
 mod bsdf;
 mod camera;
 mod cli;
@@ -20,6 +21,7 @@ mod hardcases;
 mod honest;
 mod ir_schema;
 mod laws;
+mod links;
 mod mitsuba;
 mod numbers;
 mod obj_oracle;
