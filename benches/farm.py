@@ -1,6 +1,6 @@
 """Pictures in parts: what is moved and worked, on paper and by simulation, and what real runs say.
 
-farm.py                           the tables of docs/scale.md, by simulation; the same on every machine
+farm.py                           the tables of docs/book/src/reference/long-renders.md, by simulation; the same on every machine
 farm.py RTC SCENE [WORD...]       measures: CPU of the start of a part, of 64 parts and of one process; the words go to `rtc render`
 
 A simulated part takes the sum of the costs of its tiles, which a hash has shared out. Tasks go in their order to the worker that is
@@ -16,7 +16,7 @@ import tempfile
 
 TILE = 256  # pixels
 SUMS = 32  # bytes a pixel of a part
-# Measured as told in docs/scale.md, of a build with checks.
+# Measured as told in docs/book/src/reference/long-renders.md, of a build with checks.
 SPREAD = 1.4  # of the costs of the tiles: standard deviation over mean
 MERGE = 0.93e-6  # CPU-seconds a pixel of merging and writing the picture
 READ = 2e-3  # CPU-seconds a part of merging

@@ -1,6 +1,6 @@
-//! The README shows what the program says: each command in it is run in a folder with copies of the
-//! files it names, and the lines shown are those of its output, `…` standing for any others. Times
-//! and counts of renders may differ.
+//! The README and the book show what the program prints: each command in them is run in a folder with
+//! copies of the files it names, and the lines shown are those of its output, `…` standing for any
+//! others. Times and counts of renders may differ.
 //!
 //! `rtc cost` takes too long here: its arguments are parsed, and its lines are about what those of
 //! a study with less work are about. `benches/readme.sh` runs everything in release and writes the
@@ -13,6 +13,7 @@
     reason = "a test stops at the first surprise, makes the files it needs, and writes the README if asked"
 )]
 
+use crate::repo::files;
 use rtc::internals::diag::Sink;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::render::Step;
@@ -28,6 +29,23 @@ use tempfile::TempDir;
 /// Stands for any lines.
 const CUT: &str = "…";
 
+/// The pages whose commands are run: the README, and what is written by hand of these chapters. The
+/// guide has a test of its own.
+fn pages() -> Vec<PathBuf> {
+    let chapters = ["how", "reference", "contributing"]
+        .map(|chapter| files(&root().join("docs/book/src").join(chapter), &["md"]))
+        .concat();
+    let is_written = |path: &PathBuf| !fs::read_to_string(path).unwrap().contains(GENERATED);
+    let chapters = chapters.into_iter().filter(is_written);
+    [root().join("README.md")]
+        .into_iter()
+        .chain(chapters)
+        .collect()
+}
+
+/// In pages that `tests/book.rs` writes.
+const GENERATED: &str = "<!-- Generated";
+
 /// Rays of a study that takes a second.
 const EFFORT: Effort = Effort(1_000_000);
 
@@ -41,8 +59,8 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn readme() -> Vec<String> {
-    fs::read_to_string(root().join("README.md"))
+fn lines(page: &Path) -> Vec<String> {
+    fs::read_to_string(page)
         .unwrap()
         .lines()
         .map(str::to_owned)
@@ -50,10 +68,10 @@ fn readme() -> Vec<String> {
 }
 
 /// The commands in the blocks of kind `console`.
-fn commands(readme: &[String]) -> Vec<Shown> {
+fn commands(page: &[String]) -> Vec<Shown> {
     let mut found: Vec<Shown> = Vec::new();
     let mut inside = false;
-    for (number, line) in readme.iter().enumerate() {
+    for (number, line) in page.iter().enumerate() {
         if let Some(command) = line.strip_prefix("$ rtc ").filter(|_| inside) {
             let args = command.split_whitespace().map(str::to_owned).collect();
             found.push(Shown {
@@ -244,23 +262,28 @@ fn anew(shown: &[String], args: &[String]) -> Vec<String> {
 }
 
 #[test]
-fn the_readme_shows_what_the_program_says() {
-    let mut readme = readme();
-    let commands = commands(&readme);
-    assert!(commands.len() >= 4, "there are commands in the README");
-    if cfg!(not(debug_assertions)) && std::env::var_os("RTC_UPDATE").is_some() {
-        for Shown { args, lines } in commands.iter().rev() {
-            let lines_anew = anew(&readme[lines.clone()], args);
-            readme.splice(lines.clone(), lines_anew);
+fn the_readme_and_the_book_show_what_the_program_says() {
+    let (mut count, mut faults) = (0, Vec::new());
+    for page in pages() {
+        let mut lines = lines(&page);
+        let commands = commands(&lines);
+        count += commands.len();
+        if cfg!(not(debug_assertions)) && std::env::var_os("RTC_UPDATE").is_some() {
+            for Shown { args, lines: shown } in commands.iter().rev() {
+                let anew = anew(&lines[shown.clone()], args);
+                lines.splice(shown.clone(), anew);
+            }
+            fs::write(page, lines.join("\n") + "\n").unwrap();
+            continue;
         }
-        fs::write(root().join("README.md"), readme.join("\n") + "\n").unwrap();
-        return;
+        let fault = |shown: &Shown| {
+            let fault = fault(&lines[shown.lines.clone()], &shown.args)?;
+            let args = shown.args.join(" ");
+            Some(format!("{}: rtc {args}: {fault}", page.display()))
+        };
+        faults.extend(commands.iter().filter_map(fault));
     }
-    let fault = |shown: &Shown| {
-        let fault = fault(&readme[shown.lines.clone()], &shown.args)?;
-        Some(format!("rtc {}: {fault}", shown.args.join(" ")))
-    };
-    let faults = commands.iter().filter_map(fault).collect::<Vec<_>>();
+    assert!(count >= 9, "there are commands in the README and the book");
     assert!(
         faults.is_empty(),
         "run benches/readme.sh\n{}",
@@ -268,9 +291,30 @@ fn the_readme_shows_what_the_program_says() {
     );
 }
 
+/// The lines of a page outside of blocks of code, and the commands in such blocks as code.
+fn prose(page: &Path) -> Vec<String> {
+    let mut is_code = false;
+    let line = |line: String| {
+        let text = line.trim_start().trim_start_matches("$ ");
+        if text.starts_with("```") {
+            is_code = !is_code;
+            return None;
+        }
+        if !is_code {
+            return Some(line);
+        }
+        text.starts_with("rtc ").then(|| format!("`{text}`"))
+    };
+    lines(page).into_iter().filter_map(line).collect()
+}
+
 #[test]
-fn every_command_and_option_that_the_readme_names_is_there() {
-    let text = readme().join("\n");
+fn every_command_and_option_that_the_readme_and_the_book_name_is_there() {
+    let text = pages()
+        .iter()
+        .flat_map(|page| prose(page))
+        .collect::<Vec<_>>()
+        .join("\n");
     let spans = text
         .split('`')
         .skip(1)

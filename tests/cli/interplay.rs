@@ -1,4 +1,4 @@
-//! What goes with what: each cell of the table in `docs/scale.md`.
+//! What goes with what: each cell of the table in `docs/book/src/reference/long-renders.md`.
 
 use super::parts::{bytes, reported, scenes};
 use super::*;
@@ -178,7 +178,8 @@ fn each_cell_of_the_table_is_as_it_says() {
 
 #[test]
 fn the_table_in_the_docs_has_these_cells() {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scale.md");
+    let docs =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/book/src/reference/long-renders.md");
     let docs = fs::read_to_string(docs).unwrap();
     let (_, docs) = docs.split_once("## What goes with what").unwrap();
     for (name, _, _, cells) in ROWS {

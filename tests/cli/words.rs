@@ -148,7 +148,7 @@ fn exit_codes_are_told_alike() {
         .lines()
         .filter_map(|line| line.trim().split_once("  "))
         .collect();
-    let docs = include_str!("../../docs/ARCHITECTURE.md");
+    let docs = include_str!("../../docs/book/src/reference/command-line.md");
     let (_, rows) = docs
         .split_once("| exit code | means |\n| --: | --- |\n")
         .unwrap();

@@ -39,7 +39,7 @@ static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
     )
 });
 
-/// As in docs/ARCHITECTURE.md.
+/// As in the book (`reference/command-line.md`).
 const EXIT_CODES: &str = "Exit codes:
     0  it is done; there may be warnings
     1  the input has errors, or a gate is not met

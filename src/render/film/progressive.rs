@@ -4,7 +4,7 @@
 //! The picture is the mean of the replicates, and their difference estimates its error. How many
 //! samples they take depends on the values of the pilots, and else on the whole film alone: given the
 //! pilots, the choice adds no bias to the picture, nor to the estimate of its variance. Two halves
-//! that choose for each other add both (`docs/decisions/0013-pilots.md`).
+//! that choose for each other add both (`docs/book/src/decisions/0013-pilots.md`).
 
 use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;

@@ -2,7 +2,7 @@
 //! does what [`Tracer::radiance`] does for its ray, in the same order, so that the bytes are the
 //! same. What has no form in lanes is asked lane by lane.
 //!
-//! Only with AVX-512 is it faster than one ray after the other (`docs/decisions/0006`).
+//! Only with AVX-512 is it faster than one ray after the other (`docs/book/src/decisions/0006`).
 
 mod shade;
 
