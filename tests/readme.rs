@@ -320,9 +320,11 @@ fn every_command_and_option_that_the_readme_and_the_book_name_is_there() {
         .skip(1)
         .step_by(2)
         .filter(|span| !span.contains("cargo "));
-    let words = spans.flat_map(str::split_whitespace).collect::<Vec<_>>();
-    let after_rtc = words
-        .windows(2)
+    let spans: Vec<Vec<&str>> = spans.map(|span| span.split_whitespace().collect()).collect();
+    let words = spans.concat();
+    let after_rtc = spans
+        .iter()
+        .flat_map(|span| span.windows(2))
         .filter(|pair| pair[0] == "rtc")
         .map(|pair| pair[1]);
     let mut commands = after_rtc
