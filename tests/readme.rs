@@ -320,7 +320,9 @@ fn every_command_and_option_that_the_readme_and_the_book_name_is_there() {
         .skip(1)
         .step_by(2)
         .filter(|span| !span.contains("cargo "));
-    let spans: Vec<Vec<&str>> = spans.map(|span| span.split_whitespace().collect()).collect();
+    let spans: Vec<Vec<&str>> = spans
+        .map(|span| span.split_whitespace().collect())
+        .collect();
     let words = spans.concat();
     let after_rtc = spans
         .iter()
