@@ -161,7 +161,7 @@ const STAGES: [&str; 5] = ["front", "ir", "valid", "render", "image"];
 
 /// Names that several types share, because the types are one notion at different stages (the first
 /// four), or in code of formats that do not know each other.
-const SHARED_NAMES: [&str; 17] = [
+const SHARED_NAMES: [&str; 16] = [
     "Context",
     "Lowering",
     "PhongMaterial",
@@ -174,7 +174,6 @@ const SHARED_NAMES: [&str; 17] = [
     "Layer",
     "Node",
     "Object",
-    "Presence",
     "Stream",
     "Subject",
     "Transform",

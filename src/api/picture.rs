@@ -158,12 +158,12 @@ impl Picture {
     #[cfg(not(target_family = "wasm"))]
     pub fn save(&self, path: impl AsRef<std::path::Path>) -> Result<(), Error> {
         let path = path.as_ref();
-        let wanted = self.format.extension();
+        let expected = self.format.extension();
         let extension = path.extension().unwrap_or_default().to_string_lossy();
-        if extension.to_lowercase() != wanted {
+        if extension.to_lowercase() != expected {
             let path = path.display();
             return Err(Error::Refused(format!(
-                "the picture was made for a .{wanted}; `{path}` is none"
+                "the picture was made for a .{expected}; `{path}` is none"
             )));
         }
         let bytes = self.encode()?;

@@ -15,13 +15,13 @@ pub(super) fn side(around: BoundingSphere) -> f64 {
 pub(super) fn around(scene: &Scene) -> BoundingSphere {
     let eye = Vec3::from_array(scene.camera.eye);
     let view_direction = Vec3::from_array(scene.camera.center) - eye;
-    let bounding = scene.bounding_sphere().unwrap_or(BoundingSphere {
+    let sphere = scene.bounding_sphere().unwrap_or(BoundingSphere {
         center: eye,
         radius: view_direction.length(),
     });
     BoundingSphere {
-        radius: bounding.radius.max(bounding.center.distance(eye)),
-        ..bounding
+        radius: sphere.radius.max(sphere.center.distance(eye)),
+        ..sphere
     }
 }
 

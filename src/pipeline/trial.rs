@@ -234,7 +234,7 @@ pub fn is_written(scene: Scene) {
     } = &lowered;
     let budget = Budget::default();
     match emit::gltf::emit(scene, source_spans, None, None, &budget, &mut sink) {
-        None => assert!(sink.has_errors(), "what is not written is told of"),
+        None => assert!(sink.has_errors(), "a failed export has an error"),
         Some(asset) => {
             let mut bytes = Vec::new();
             let write = asset.write(&mut bytes);

@@ -157,13 +157,13 @@ pub fn revalidate(scene: &ir::Scene) -> ValidScene {
     let options = ValidationOptions {
         limits: Limits::NONE,
     };
-    let surface_check = validate(
+    let valid_scene = validate(
         scene,
         &SourceSpans::default(),
         &options,
         &mut Sink::default(),
     );
-    surface_check.expect("the scene was proven before, and what was changed is in range")
+    valid_scene.expect("the scene was valid before, and the changes are valid")
 }
 
 /// Validates the scene and reports all errors to the sink, not only the first.

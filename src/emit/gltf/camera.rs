@@ -88,8 +88,8 @@ impl GltfWriter<'_> {
 
     fn orthographic(&self, [xmag, ymag]: [f64; 2], distance: f64) -> document::Projection {
         let eye = Vec3::from_array(self.scene.camera.eye);
-        let far = self.scene.bounding_sphere().map_or(distance, |bounding| {
-            bounding.center.distance(eye) + bounding.radius + distance
+        let far = self.scene.bounding_sphere().map_or(distance, |sphere| {
+            sphere.center.distance(eye) + sphere.radius + distance
         });
         document::Projection::Orthographic {
             xmag,

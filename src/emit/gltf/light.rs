@@ -30,7 +30,7 @@ impl GltfWriter<'_> {
         }
         let middle = scene
             .bounding_sphere()
-            .map_or(Vec3::ZERO, |bounding| bounding.center);
+            .map_or(Vec3::ZERO, |sphere| sphere.center);
         for (index, light) in scene.lights.iter().enumerate() {
             let path = ValuePath::new(EntityKind::Light, index, Field::Whole);
             let light = match light {

@@ -99,7 +99,7 @@ impl GltfWriter<'_> {
             None => serde_json::to_vec(&self.root),
         };
         let Ok(json) = text else {
-            unreachable!("a proven scene holds finite numbers, which JSON can say");
+            unreachable!("a valid scene has only finite numbers");
         };
         if u32::try_from(json.len() + self.bin.len() + HEADS).is_err() {
             let message = "the scene takes more than the 4 GiB that a .glb holds";

@@ -153,13 +153,13 @@ fn corners(corners: &[[f64; 3]]) -> String {
 
 /// Two triangles, if the quadrilateral is flat.
 fn quad(quad: &Quad) -> Option<String> {
-    let corners_ = quad.vertices.map(Vec3::from_array);
-    let halves = split(corners_);
+    let vertices = quad.vertices.map(Vec3::from_array);
+    let halves = split(vertices);
     let halves = halves.iter().map(|half| {
         let half = half.map(|corner| quad.vertices[corner as usize]);
         format!("triangle {{ {} }}", corners(&half))
     });
-    is_flat(corners_).then(|| format!("mesh {{ {}", halves.collect::<Vec<_>>().join(" ")))
+    is_flat(vertices).then(|| format!("mesh {{ {}", halves.collect::<Vec<_>>().join(" ")))
 }
 
 fn cylinder(cylinder: &Cylinder) -> String {
