@@ -1,5 +1,5 @@
-//! APNG: pictures one after another in one file (PNG, third edition, section 4.9). Its first picture is
-//! that of programs which show no other.
+//! APNG: pictures one after another in one file (PNG, third edition, section 4.9). Its first
+//! picture is that of programs which show no other.
 
 use super::Picture;
 use super::file::PictureHead;

@@ -1,5 +1,5 @@
-//! Pictures as they are shown, of 8 bits a channel: JPEG without opacity, and WebP without loss. They
-//! are compressed as a whole, so their strips are kept until the last.
+//! Pictures as they are shown, of 8 bits a channel: JPEG without opacity, and WebP without loss.
+//! They are compressed as a whole, so their strips are kept until the last.
 
 use super::file::{PictureHead, StripSource};
 use super::png::pack;
@@ -93,8 +93,8 @@ mod tests {
 
     #[test]
     fn webp_comes_back_and_jpeg_nearly() {
-        let own = picture(false);
-        let bytes: Vec<u8> = own
+        let encoded = picture(false);
+        let bytes: Vec<u8> = encoded
             .image
             .pixels
             .iter()
@@ -102,8 +102,12 @@ mod tests {
             .map(|v| color::quantize8(*v))
             .collect();
         let read = |form| {
-            let file = own.encode(form).unwrap();
-            assert_eq!(file, own.encode(form).unwrap(), "the same bytes every time");
+            let file = encoded.encode(form).unwrap();
+            assert_eq!(
+                file,
+                encoded.encode(form).unwrap(),
+                "the same bytes every time"
+            );
             ::image::load_from_memory(&file)
                 .unwrap()
                 .to_rgb8()
@@ -126,23 +130,23 @@ mod tests {
             (Rgb8, image_webp::ColorType::Rgb8),
             (Rgba8, image_webp::ColorType::Rgba8),
         ] {
-            let (mut own, mut witness) = (Vec::new(), Vec::new());
+            let (mut encoded, mut witness) = (Vec::new(), Vec::new());
             let height = if color == Rgba8 { 30 } else { height };
             let bytes = &pixels[..(width * height) as usize * if color == Rgba8 { 4 } else { 3 }];
-            super::WebPEncoder::new(&mut own)
+            super::WebPEncoder::new(&mut encoded)
                 .encode(bytes, width, height, of)
                 .unwrap();
             WebPEncoder::new_lossless(&mut witness)
                 .encode(bytes, width, height, color)
                 .unwrap();
-            assert_eq!(own, witness);
+            assert_eq!(encoded, witness);
         }
         let smooth = |at: u32| {
             ((at / 3 % width * 3 + at / 3 / width * 2) % 256 + at % 3 * 20).min(255) as u8
         };
         let pixels: Vec<u8> = (0..width * height * 3).map(smooth).collect();
-        let (mut own, mut witness) = (Vec::new(), Vec::new());
-        super::jpeg(&mut own, &pixels, [width, height]).unwrap();
+        let (mut encoded, mut witness) = (Vec::new(), Vec::new());
+        super::jpeg(&mut encoded, &pixels, [width, height]).unwrap();
         let mut encoder = JpegEncoder::new_with_quality(&mut witness, super::QUALITY);
         encoder.encode(&pixels, width, height, Rgb8).unwrap();
         let read = |file: &[u8]| {
@@ -157,8 +161,11 @@ mod tests {
                 .map(|(a, b)| u64::from(a.abs_diff(*b)).pow(2))
                 .sum::<u64>()
         };
-        assert!(error(&own) * 100 <= error(&witness) * 102, "it is as near");
-        assert!(own.len() * 100 <= witness.len() * 102, "it is as small");
+        assert!(
+            error(&encoded) * 100 <= error(&witness) * 102,
+            "it is as near"
+        );
+        assert!(encoded.len() * 100 <= witness.len() * 102, "it is as small");
     }
 
     #[test]
@@ -169,13 +176,13 @@ mod tests {
 
     #[test]
     fn webp_has_opacity_and_jpeg_has_none() {
-        let own = picture(true);
-        let file = own.encode(FileFormat::Webp).unwrap();
+        let encoded = picture(true);
+        let file = encoded.encode(FileFormat::Webp).unwrap();
         let read = ::image::load_from_memory(&file).unwrap().to_rgba8();
         assert_eq!(
             [read.get_pixel(0, 0).0[3], read.get_pixel(15, 15).0[3]],
             [127, 255]
         );
-        assert!(own.encode(FileFormat::Jpeg).is_err());
+        assert!(encoded.encode(FileFormat::Jpeg).is_err());
     }
 }

@@ -1,5 +1,5 @@
-//! EXR: floats of 32 or 16 bits per channel, as they are but finite, in one part, with what colours the
-//! numbers mean, the view, and where the picture came from.
+//! EXR: floats of 32 or 16 bits per channel, as they are but finite, in one part, with what colours
+//! the numbers mean, the view, and where the picture came from.
 //!
 //! The encoder keeps free attributes in hashed maps, whose order changes from run to run; each map
 //! here holds one.
@@ -138,7 +138,8 @@ fn channels(head: &PictureHead) -> Vec<(&'static str, ChannelSource)> {
     all
 }
 
-/// Fills a row of one channel, in floats of 16 bits or not, from the strip whose first row is given.
+/// Fills a row of one channel, in floats of 16 bits or not, from the strip whose first row is
+/// given.
 fn fill(
     strip: &Picture,
     top: usize,

@@ -1,5 +1,5 @@
-//! A pixel file, written as the strips of its picture come, each a few whole rows from the top: what is
-//! written is let go. A picture as a whole is one strip, so that the bytes are the same.
+//! A pixel file, written as the strips of its picture come, each a few whole rows from the top:
+//! what is written is let go. A picture as a whole is one strip, so that the bytes are the same.
 
 use super::compressed::{self, CompressedForm};
 use super::{EncodeError, FileFormat, Image, Layers, Origin, Picture, exr, png};
@@ -21,14 +21,15 @@ pub struct PictureHead {
     pub layers: Vec<&'static str>,
     /// The form of the file.
     pub form: FileFormat,
-    /// Whether its values are colours as a display shows them, where its form can say so; else numbers.
+    /// Whether its values are colours as a display shows them, where its form can say so; else
+    /// numbers.
     pub is_color: bool,
     /// What it says of where it came from.
     pub origin: Origin,
 }
 
-/// Where the strips of a picture come from, from the top. Each has the width and the channels of its
-/// picture.
+/// Where the strips of a picture come from, from the top. Each has the width and the channels of
+/// its picture.
 pub struct StripSource<'s>(&'s mut dyn FnMut() -> io::Result<Cow<'s, Picture>>);
 
 impl<'s> StripSource<'s> {
@@ -124,20 +125,20 @@ mod tests {
     /// Some rows of a picture.
     fn strip(picture: &Picture, rows: std::ops::Range<u32>) -> Picture {
         let width = picture.image.width as usize;
-        let own = rows.start as usize * width..rows.end as usize * width;
+        let range = rows.start as usize * width..rows.end as usize * width;
         Picture {
             image: Image {
                 width: picture.image.width,
                 height: rows.end - rows.start,
-                pixels: picture.image.pixels[own.clone()].to_vec(),
+                pixels: picture.image.pixels[range.clone()].to_vec(),
             },
             alpha: picture
                 .alpha
                 .as_ref()
-                .map(|alpha| alpha[own.clone()].to_vec()),
+                .map(|alpha| alpha[range.clone()].to_vec()),
             layers: Layers {
                 names: picture.layers.names.clone(),
-                values: picture.layers.values[2 * own.start..2 * own.end].to_vec(),
+                values: picture.layers.values[2 * range.start..2 * range.end].to_vec(),
             },
         }
     }

@@ -105,9 +105,9 @@ mod tests {
         for magic in plain.chain(with_length).chain(others) {
             for head in [magic, &[magic, b" and more"].concat()] {
                 for end in 0..=head.len() {
-                    let own = PictureFormat::of(&head[..end]).map(PictureFormat::name);
-                    assert_eq!(own, witness(&head[..end]), "{:?}", &head[..end]);
-                    match own {
+                    let format = PictureFormat::of(&head[..end]).map(PictureFormat::name);
+                    assert_eq!(format, witness(&head[..end]), "{:?}", &head[..end]);
+                    match format {
                         Some(_) => told += 1,
                         None => untold += 1,
                     }

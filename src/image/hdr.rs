@@ -1,5 +1,5 @@
-//! The reader of Radiance HDR files: pixels of three mantissas and a shared exponent, flat or run-length
-//! encoded, in the old or the new way.
+//! The reader of Radiance HDR files: pixels of three mantissas and a shared exponent, flat or
+//! run-length encoded, in the old or the new way.
 
 use super::decode::{DecodeError, ImageSize};
 
@@ -158,8 +158,8 @@ impl<'a> HdrBytes<'a> {
         Ok(())
     }
 
-    /// Whole pixels of a row, of which the first was read. One of three ones repeats the pixel before
-    /// it; of several in turn, each counts 256 times what the last one did.
+    /// Whole pixels of a row, of which the first was read. One of three ones repeats the pixel
+    /// before it; of several in turn, each counts 256 times what the last one did.
     fn pixels(&mut self, row: &mut [Rgbe], first: Rgbe) -> Result<(), DecodeError> {
         let Some((to, mut left)) = row.split_first_mut() else {
             return Ok(());

@@ -1,5 +1,5 @@
-//! Layers as pictures, for people: colours as a display shows them, directions and places as colours,
-//! distances from white to black, surfaces in colours of their own.
+//! Layers as pictures, for people: colours as a display shows them, directions and places as
+//! colours, distances from white to black, surfaces in colours of their own.
 
 use super::{Image, Picture};
 use rtc_color::srgb_encoded;
@@ -27,16 +27,16 @@ impl Picture {
         let start = self.layers.names.iter().position(|name| name == first)?;
         let kind = first.split('.').next()?;
         let pixels = self.layers.values.chunks_exact(width);
-        let own = pixels.map(|pixel| &pixel[start..start + channels.len()]);
+        let values = pixels.map(|pixel| &pixel[start..start + channels.len()]);
         let ranges = match kind {
-            "depth" | "position" => ranges(own.clone(), channels.len()),
+            "depth" | "position" => ranges(values.clone(), channels.len()),
             _ => Vec::new(),
         };
         Some(LayerPicture {
             image: Image {
                 width: self.image.width,
                 height: self.image.height,
-                pixels: own.map(|values| shown(kind, values, &ranges)).collect(),
+                pixels: values.map(|values| shown(kind, values, &ranges)).collect(),
             },
             is_color: kind == "albedo",
             ranges,
@@ -44,8 +44,8 @@ impl Picture {
     }
 }
 
-/// The least and the most of each channel where a surface is, of places without the outermost fiftieth on
-/// either side, as a ground may be wide; [0, 0] if there is none.
+/// The least and the most of each channel where a surface is, of places without the outermost
+/// fiftieth on either side, as a ground may be wide; [0, 0] if there is none.
 fn ranges<'v>(pixels: impl Iterator<Item = &'v [f32]>, channels: usize) -> Vec<[f32; 2]> {
     let surfaces: Vec<_> = pixels.filter(|values| is_surface(values)).collect();
     let range = |channel: usize| {
@@ -61,8 +61,8 @@ fn ranges<'v>(pixels: impl Iterator<Item = &'v [f32]>, channels: usize) -> Vec<[
         .collect()
 }
 
-/// Whether these are values of a surface: a distance that is near, or a place that is not that of no
-/// hit.
+/// Whether these are values of a surface: a distance that is near, or a place that is not that of
+/// no hit.
 fn is_surface(values: &[f32]) -> bool {
     let is_finite = values.iter().all(|value| value.is_finite());
     is_finite && values[0].abs() < FAR && (values.len() == 1 || values.iter().any(|v| *v != 0.0))
@@ -88,8 +88,8 @@ fn shown(kind: &str, values: &[f32], ranges: &[[f32; 2]]) -> [f64; 3] {
     }
 }
 
-/// How near a distance is: 1 the nearest, 0.1 the farthest, between by the reciprocal, as a ground may reach
-/// the horizon; where distances are not all in front of the eye, in proportion.
+/// How near a distance is: 1 the nearest, 0.1 the farthest, between by the reciprocal, as a ground
+/// may reach the horizon; where distances are not all in front of the eye, in proportion.
 fn nearness(distance: f64, [near, far]: [f64; 2]) -> f64 {
     let scale = |d: f64| if near > 0.0 { 1.0 / d } else { -d };
     let span = scale(near) - scale(far);
@@ -101,8 +101,8 @@ fn nearness(distance: f64, [near, far]: [f64; 2]) -> f64 {
     0.1 + 0.9 * nearness
 }
 
-/// A colour for a surface by its number: hues a golden angle apart, so that neighbours differ; black
-/// for none.
+/// A colour for a surface by its number: hues a golden angle apart, so that neighbours differ;
+/// black for none.
 fn own_color(number: f64) -> [f64; 3] {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     if number < 1.0 {

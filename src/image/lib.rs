@@ -1,11 +1,31 @@
-//! Pixels and pixel files, in memory: a film developed into a picture; a picture written as PNG (8
-//! or 16 bit), JPEG, WebP or EXR, the same bytes every time; PNG, JPEG and WebP read, and pictures of light
-//! from HDR and EXR.
+//! Images in memory, and image files.
+//!
+//! # Reading
+//!
+//! [`PixelFile`] reads PNG, JPEG, WebP and KTX2 (Basis Universal) to 8 bits per channel.
+//! [`RadianceFile`] reads Radiance HDR and OpenEXR to 32-bit floats. Both read the header first and
+//! report what decoding costs ([`DecodeCost`]); the caller charges its budget and then decodes.
+//! Files are not trusted: a damaged file is a [`DecodeError`], never a panic.
+//!
+//! # Writing
+//!
+//! [`DisplayTransform`] turns a film of linear values into a [`Picture`]: exposure, tone map,
+//! background. [`Picture::encode`] writes PNG (8 or 16 bits), JPEG, lossless WebP, or OpenEXR (16
+//! or 32 bits). [`StripSource`] and `file` write the same bytes strip by strip, so a large picture
+//! need not be in memory. [`AnimatedPng`] and `AnimatedGif` write animations. The same picture
+//! gives the same bytes on each platform. [`RangeClipping`] counts the values that a format can't
+//! hold.
+//!
+//! # Images in between
+//!
+//! [`denoise()`] filters noise with feature buffers, [`LayerPicture`] shows a layer as colors, and
+//! `contact_sheet` puts several pictures on one sheet. [`Texels`] are the pixels of a texture.
 
 mod animation;
 mod compressed;
 mod decode;
 mod denoise;
+mod display;
 mod exr;
 mod file;
 mod format;
@@ -13,7 +33,6 @@ mod format;
 mod gif;
 mod hdr;
 mod layer;
-mod look;
 mod png;
 mod radiance;
 mod range;
@@ -25,11 +44,11 @@ mod texels;
 pub use animation::AnimatedPng;
 pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
 pub use denoise::{GUIDES, Guide, NoisyHalf, around, denoise};
+pub use display::{Association, BackgroundFill, DisplayTransform, exposure};
 pub use file::{BLOCK_ROWS, PictureHead, StripSource};
 #[cfg(feature = "cli")]
 pub use gif::AnimatedGif;
 pub use layer::LayerPicture;
-pub use look::{Association, BackgroundFill, Look, exposure};
 pub use png::png_bytes;
 pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::RangeClipping;
@@ -111,8 +130,8 @@ impl FileFormat {
     }
 }
 
-/// What a PNG or an EXR says about where it came from: in a PNG as international text (`iTXt`), in an
-/// EXR as attributes of text.
+/// What a PNG or an EXR says about where it came from: in a PNG as international text (`iTXt`), in
+/// an EXR as attributes of text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Origin {
     /// The program and its version: `Software` in a PNG, the standard attribute `software`.
@@ -151,8 +170,8 @@ impl Origin {
     }
 }
 
-/// From places in the world to places before the camera, which looks along -z, y up: rows of a matrix
-/// that a row vector is multiplied by, as EXR has them.
+/// From places in the world to places before the camera, which looks along -z, y up: rows of a
+/// matrix that a row vector is multiplied by, as EXR has them.
 pub type WorldToCamera = [f32; 16];
 
 /// Why a picture has no pixel file, in the encoder's words; a width or height of 0 is such a

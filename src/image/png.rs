@@ -1,5 +1,5 @@
-//! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. A picture says
-//! that its colours are those of sRGB, and where it came from; never when it was made.
+//! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. A picture
+//! says that its colours are those of sRGB, and where it came from; never when it was made.
 
 use super::Picture;
 use super::file::{PictureHead, StripSource};
@@ -62,7 +62,8 @@ pub fn png_bytes(size: [u32; 2], has_alpha: bool, pixels: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// A PNG of the rows that are written; with a head, of which colours they are and where they came from.
+/// A PNG of the rows that are written; with a head, of which colours they are and where they came
+/// from.
 fn png(
     size: [u32; 2],
     kind: (BitDepth, bool),
@@ -116,8 +117,8 @@ impl<W: Write> Write for CheckedWriter<W> {
             && fault.kind() != io::ErrorKind::Interrupted
             && self.fault.is_none()
         {
-            let own = fault.raw_os_error().map(io::Error::from_raw_os_error);
-            self.fault = Some(own.unwrap_or_else(|| fault.kind().into()));
+            let error = fault.raw_os_error().map(io::Error::from_raw_os_error);
+            self.fault = Some(error.unwrap_or_else(|| fault.kind().into()));
         }
         written
     }

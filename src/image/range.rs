@@ -7,8 +7,8 @@ use super::{FileFormat, Image, Layers, Picture};
 pub struct RangeClipping {
     /// How many pixels have a value that is no number: 0 in every file.
     pub unnumbered: u64,
-    /// The channels with values beyond the largest float that an EXR has for them, 3.4e38 in 32 bits
-    /// and 65 504 in 16: it has that in their place.
+    /// The channels with values beyond the largest float that an EXR has for them, 3.4e38 in 32
+    /// bits and 65 504 in 16: it has that in their place.
     pub beyond: Vec<&'static str>,
 }
 
@@ -47,8 +47,8 @@ impl Picture {
         let layers = names.iter().copied().enumerate();
         let layers = layers.filter(|(k, name)| {
             let most = most(name);
-            let mut own = values.iter().skip(*k).step_by(width);
-            own.any(|value| f64::from(*value).abs() > most)
+            let mut channel = values.iter().skip(*k).step_by(width);
+            channel.any(|value| f64::from(*value).abs() > most)
         });
         RangeClipping {
             unnumbered: pixels.iter().enumerate().filter(is_unnumbered).count() as u64,
@@ -72,8 +72,8 @@ fn largest(is_half: bool) -> f64 {
     }
 }
 
-/// The float nearest to a number, of those that are finite, in 32 bits and perhaps in 16; 0 for what
-/// is no number.
+/// The float nearest to a number, of those that are finite, in 32 bits and perhaps in 16; 0 for
+/// what is no number.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "rounds to the nearest float"

@@ -5,8 +5,8 @@ use font8x8::{BASIC_FONTS, UnicodeFonts};
 use rtc_color::quantize16;
 use std::ops::Range;
 
-/// A picture of display values, of at most so many pixels across and down, of the same shape: each pixel the mean of those
-/// it stands for. One that fits stays as it is.
+/// A picture of display values, of at most so many pixels across and down, of the same shape: each
+/// pixel the mean of those it stands for. One that fits stays as it is.
 #[must_use]
 pub fn shrunk(image: Image, [width, height]: [u32; 2]) -> Image {
     if image.width <= width && image.height <= height {
@@ -77,8 +77,8 @@ const BEHIND: f64 = 0.1;
 const MISSING: f64 = 0.25;
 const INK: f64 = 0.9;
 
-/// One picture that shows all, in rows, each in its shape with its name beneath; grey where there is
-/// none. Names that are too long lose their beginning.
+/// One picture that shows all, in rows, each in its shape with its name beneath; grey where there
+/// is none. Names that are too long lose their beginning.
 #[must_use]
 pub fn contact_sheet(pictures: &[(String, Option<Image>)]) -> Image {
     let columns = pictures.len().clamp(1, COLUMNS);
@@ -187,7 +187,7 @@ mod tests {
             let pixels = pixels
                 .iter()
                 .map(|pixel| pixel.map(|v| f64::from(v) / 65535.0));
-            let own = shrunk(
+            let shrunk_picture = shrunk(
                 Image {
                     width,
                     height,
@@ -197,14 +197,14 @@ mod tests {
             );
             let whole: ImageBuffer<Rgb<u16>, _> =
                 ImageBuffer::from_raw(width, height, whole).unwrap();
-            let small = thumbnail(&whole, own.width, own.height);
+            let small = thumbnail(&whole, shrunk_picture.width, shrunk_picture.height);
             let small: Vec<_> = small.pixels().map(|pixel| pixel.0).collect();
-            let own: Vec<_> = own
+            let shrunk_picture: Vec<_> = shrunk_picture
                 .pixels
                 .iter()
                 .map(|pixel| pixel.map(quantize16))
                 .collect();
-            assert_eq!(own, small, "{width}×{height}");
+            assert_eq!(shrunk_picture, small, "{width}×{height}");
         }
     }
 

@@ -233,7 +233,7 @@ impl ResolvedOutputTransform {
         } else {
             Association::Straight
         };
-        image::Look {
+        image::DisplayTransform {
             stops: self.stops,
             tone: self.tone,
             background: self.background,

@@ -1,6 +1,15 @@
-//! How the intensity of a light without extent depends on the direction.
+//! Angular distributions of the intensity of point lights.
 //!
-//! A distribution is added here: the stages know no more of it than what [`Profile`] answers.
+//! A [`Profile`] is a factor of the intensity by direction:
+//!
+//! - uniform: the same in all directions;
+//! - a cone with a smooth edge, as the spot light of glTF (`KHR_lights_punctual`);
+//! - a measured distribution ([`IesProfile`]): a table over vertical and horizontal angles, as IES
+//!   files hold it, with bilinear interpolation.
+//!
+//! A profile answers what the other stages need: its value in a direction, its integral over the
+//! sphere (for the power of a light), and a cone that bounds its support (for culling). A new kind
+//! of distribution is added here only.
 
 use rtc_math::{Vec3, acos, atan2, cos, unit};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -24,8 +33,8 @@ pub enum Profile {
     Measured(Arc<IesProfile>),
 }
 
-/// A distribution measured in planes around an axis (type C of LM-63-2002), in between linear in both
-/// angles.
+/// A distribution measured in planes around an axis (type C of LM-63-2002), in between linear in
+/// both angles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IesProfile {
     /// The unit axis: vertical angle 0.
@@ -67,8 +76,8 @@ impl Profile {
         })
     }
 
-    /// A measured profile: its unit axis, the direction of the horizontal angle 0, of which only the
-    /// part across the axis counts, and the values, row by row.
+    /// A measured profile: its unit axis, the direction of the horizontal angle 0, of which only
+    /// the part across the axis counts, and the values, row by row.
     ///
     /// # Errors
     /// What is wrong with the angles or the values, in words.

@@ -1,4 +1,4 @@
-//! Accessors: elements of one type within views, and whether they lie where they say.
+//! Accessors: typed elements of buffer views, and whether they are within them.
 
 use super::buffer::{Purpose, Purposes};
 use super::document::Document;
@@ -65,7 +65,7 @@ impl Accessor {
 }
 
 fn layout(fields: Fields<'_, '_>) -> Option<ElementLayout> {
-    let component = Component::from_code(fields.whole("componentType")?)?;
+    let component = Component::from_code(fields.integer("componentType")?)?;
     let (columns, rows) = match fields.text("type")?.as_str() {
         "SCALAR" => (1, 1),
         "VEC2" => (1, 2),
@@ -80,13 +80,13 @@ fn layout(fields: Fields<'_, '_>) -> Option<ElementLayout> {
         component,
         columns,
         rows,
-        normalized: fields.truth("normalized"),
+        normalized: fields.boolean("normalized"),
     })
 }
 
 fn sparse(fields: Fields<'_, '_>) -> Option<Sparse> {
     let (indices, values) = (fields.object("indices")?, fields.object("values")?);
-    let component = Component::from_code(indices.whole("componentType")?)
+    let component = Component::from_code(indices.integer("componentType")?)
         .filter(|component| component.is_index())?;
     Some(Sparse {
         at: fields.at,
@@ -134,7 +134,7 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
                     "the stride of the view is {stride}, and an element has {} bytes",
                     layout.size()
                 );
-                report.say(
+                report.add(
                     &codes::GLTF_ACCESSOR,
                     "ACCESSOR_SMALL_BYTESTRIDE",
                     accessor.at,
@@ -165,8 +165,8 @@ fn depends(accessor: &Accessor, report: &mut AssetReport<'_, '_>) {
         .filter(|_| accessor.view.is_none())
     {
         let message = "there is an offset, and no view that it could be in";
-        let (alias, mended) = ("UNSATISFIED_DEPENDENCY", "it is passed over");
-        report.mend(&codes::GLTF_TOGETHER, alias, at, message, mended);
+        let (alias, repair) = ("UNSATISFIED_DEPENDENCY", "it is passed over");
+        report.repair(&codes::GLTF_TOGETHER, alias, at, message, repair);
     }
 }
 
@@ -180,7 +180,7 @@ fn alone(accessor: &Accessor, layout: ElementLayout, report: &mut AssetReport<'_
             accessor.offset
         );
         let alias = "ACCESSOR_MATRIX_ALIGNMENT";
-        report.mend(&codes::GLTF_ACCESSOR, alias, at, &message, UNALIGNED);
+        report.repair(&codes::GLTF_ACCESSOR, alias, at, &message, UNALIGNED);
     }
     if layout.normalized && matches!(layout.component, Component::F32 | Component::U32) {
         let at = report.json.at_or(accessor.at, "normalized");
@@ -188,7 +188,7 @@ fn alone(accessor: &Accessor, layout: ElementLayout, report: &mut AssetReport<'_
             "{} is not normalised, only bytes and shorts are",
             layout.component.name()
         );
-        report.say(
+        report.add(
             &codes::GLTF_ACCESSOR,
             "ACCESSOR_NORMALIZED_INVALID",
             at,
@@ -207,11 +207,11 @@ fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetRepor
     let kind = report.json.kind(list);
     if kind != NodeKind::List {
         let message = format!("`{key}` is {}, not {}", kind.name(), NodeKind::List.name());
-        return report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", list, message);
+        return report.add(&codes::GLTF_TYPE, "TYPE_MISMATCH", list, message);
     }
     let items: Vec<NodeId> = report.json.items(list).collect();
     if items.is_empty() && layout.component == Component::F32 {
-        return report.mend(
+        return report.repair(
             &codes::GLTF_EMPTY,
             "EMPTY_ENTITY",
             list,
@@ -225,7 +225,7 @@ fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetRepor
             items.len(),
             layout.components()
         );
-        return report.say(
+        return report.add(
             &codes::GLTF_VALUE,
             "ARRAY_LENGTH_NOT_IN_LIST",
             list,
@@ -238,13 +238,13 @@ fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetRepor
                 "an element of `{key}` is {}, not a number",
                 report.json.kind(item).name()
             );
-            report.say(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", item, message);
+            report.add(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", item, message);
             continue;
         };
         let Some([least, most]) = layout.component.range() else {
             if !number.is_finite() {
                 let message = format!("`{key}` is {}, which is not finite", report.shown(item));
-                report.say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", item, message);
+                report.add(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", item, message);
             }
             continue;
         };
@@ -253,14 +253,14 @@ fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetRepor
                 "`{key}` is {}, and the components are whole numbers",
                 report.shown(item)
             );
-            report.say(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", item, message);
+            report.add(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", item, message);
         } else if !(least..=most).contains(&number) {
             let message = format!(
                 "`{key}` is {}, which no {} is",
                 report.shown(item),
                 layout.component.name()
             );
-            report.say(&codes::GLTF_VALUE, "INVALID_GL_VALUE", item, message);
+            report.add(&codes::GLTF_VALUE, "INVALID_GL_VALUE", item, message);
         }
     }
 }
@@ -282,7 +282,7 @@ fn fits(
     if !offset.is_multiple_of(size) {
         let message =
             format!("the offset {offset} is not a multiple of {size}, the size of a component");
-        report.mend(
+        report.repair(
             code,
             "ACCESSOR_OFFSET_ALIGNMENT",
             place,
@@ -296,7 +296,7 @@ fn fits(
             "the offset in the buffer is {total}, not a multiple of {size}, the size of a component"
         );
         let alias = "ACCESSOR_TOTAL_OFFSET_ALIGNMENT";
-        report.mend(code, alias, at, &message, UNALIGNED);
+        report.repair(code, alias, at, &message, UNALIGNED);
     }
     let end = bytes.saturating_add(offset as u64);
     let length = holder.length.unwrap_or(0);
@@ -304,7 +304,7 @@ fn fits(
         let at = if offset > length { place } else { at };
         let message =
             format!("the elements end at byte {end} of buffer view {view}, which has {length}");
-        report.say(code, "ACCESSOR_TOO_LONG", at, message);
+        report.add(code, "ACCESSOR_TOO_LONG", at, message);
     }
 }
 
@@ -321,7 +321,7 @@ fn check_sparse(
             "{} elements are replaced, and there are {count}",
             sparse.count
         );
-        report.say(
+        report.add(
             &codes::GLTF_SPARSE,
             "ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE",
             at,
@@ -341,7 +341,7 @@ fn check_sparse(
             .is_some_and(|view| view.stride.is_some())
         {
             let message = "only a view of vertices has a stride".to_owned();
-            report.say(
+            report.add(
                 &codes::GLTF_VIEW,
                 "BUFFER_VIEW_INVALID_BYTE_STRIDE",
                 at,
@@ -385,7 +385,7 @@ pub(super) fn check_claims(doc: &Document<'_>, report: &mut AssetReport<'_, '_>)
                 let message = format!(
                     "the accessor has no view and claims {count} elements of zeros, {bytes} bytes"
                 );
-                report.say(&codes::GLTF_HUGE, "", at, message);
+                report.add(&codes::GLTF_HUGE, "", at, message);
             }
         }
     }

@@ -1,9 +1,9 @@
-//! Animations: channels that move nodes over time, and the keyframes that they go through.
+//! Animations: channels, samplers and their keyframes.
 
 use super::accessor::{self, Accessor};
 use super::buffer::{Purpose, Purposes};
 use super::channel::{self, Channel, Path};
-use super::demand::{Demand, Demands};
+use super::constraint::{AccessorConstraint, AccessorConstraints};
 use super::document::Document;
 use super::field::Fields;
 use super::layout::{Component, ElementLayout};
@@ -65,7 +65,11 @@ impl Keyframes {
 }
 
 /// What the checks of animations gather.
-pub(super) type AnimationLinks<'l> = (&'l mut Purposes, &'l mut Usages, &'l mut Demands);
+pub(super) type AnimationLinks<'l> = (
+    &'l mut Purposes,
+    &'l mut Usages,
+    &'l mut AccessorConstraints,
+);
 
 /// Checks all animations.
 pub(super) fn check(
@@ -87,7 +91,7 @@ pub(super) fn check(
             if first != index {
                 let at = report.json.at_or(channel.at, "target");
                 let message = format!("channel {first} moves the same");
-                report.mend(
+                report.repair(
                     &codes::GLTF_DUPLICATE,
                     "ANIMATION_DUPLICATE_TARGETS",
                     at,
@@ -118,7 +122,7 @@ fn check_used(animation: &Animation, report: &mut AssetReport<'_, '_>) {
         .zip(used)
         .filter(|(_, used)| !used)
     {
-        report.say(
+        report.add(
             &codes::GLTF_REMARK,
             "UNUSED_OBJECT",
             sampler.at,
@@ -133,7 +137,7 @@ fn check_sampler(
     links: &mut AnimationLinks<'_>,
     report: &mut AssetReport<'_, '_>,
 ) {
-    let (purposes, usages, demands) = links;
+    let (purposes, usages, constraints) = links;
     for (key, index, usage) in [
         ("input", sampler.input, Usage::Times),
         ("output", sampler.output, Usage::Keyframes),
@@ -150,7 +154,7 @@ fn check_sampler(
             .is_some_and(|view| view.stride.is_some())
         {
             let message = "the view of keyframes has a stride".to_owned();
-            report.say(
+            report.add(
                 &codes::GLTF_VIEW,
                 "ANIMATION_SAMPLER_ACCESSOR_WITH_BYTESTRIDE",
                 at,
@@ -160,7 +164,7 @@ fn check_sampler(
         if usage == Usage::Times {
             check_times(accessor, sampler, at, report);
             if accessor.layout.is_some_and(is_time) {
-                demands.add(index, Demand::Times, at);
+                constraints.add(index, AccessorConstraint::Times, at);
             }
         }
     }
@@ -181,7 +185,7 @@ fn check_times(
             .layout
             .map_or("of no known type".to_owned(), ElementLayout::name);
         let message = format!("times are {found}, not scalar of f32");
-        report.say(
+        report.add(
             &codes::GLTF_FORMAT,
             "ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT",
             at,
@@ -189,7 +193,7 @@ fn check_times(
         );
     }
     if !accessor.has_bounds() {
-        report.mend(
+        report.repair(
             &codes::GLTF_FORMAT,
             "ANIMATION_SAMPLER_INPUT_ACCESSOR_WITHOUT_BOUNDS",
             at,
@@ -199,7 +203,7 @@ fn check_times(
     }
     if sampler.interpolation == Interpolation::Cubic && accessor.count == Some(1) {
         let message = "a cubic spline has at least 2 keyframes, and this has 1".to_owned();
-        report.say(
+        report.add(
             &codes::GLTF_COUNT,
             "ANIMATION_SAMPLER_INPUT_ACCESSOR_TOO_FEW_ELEMENTS",
             at,

@@ -1,7 +1,7 @@
-//! Attributes of vertices: their names, their formats, and where they lie.
+//! Vertex attributes: their names, formats and alignment.
 
 use super::accessor::{Accessor, UNALIGNED};
-use super::demand::{Demand, Demands};
+use super::constraint::{AccessorConstraint, AccessorConstraints};
 use super::document::Document;
 use super::field::Fields;
 use super::layout::{Component, ElementLayout};
@@ -88,7 +88,7 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_
         .filter(|attribute| Semantic::of(&attribute.name) == Semantic::None)
     {
         let message = format!("`{}` is no name of an attribute", shown(&attribute.name));
-        report.say(
+        report.add(
             &codes::GLTF_ATTRIBUTE,
             "MESH_PRIMITIVE_INVALID_ATTRIBUTE",
             attribute.at,
@@ -99,7 +99,7 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_
     let at = report.json.at_or(primitive.at, "attributes");
     if !primitive.attributes.is_empty() && !has(Semantic::Position) {
         let message = "the primitive has no `POSITION`, so nothing of it shows".to_owned();
-        report.say(
+        report.add(
             &codes::GLTF_PRIMITIVE_ODD,
             "MESH_PRIMITIVE_NO_POSITION",
             at,
@@ -109,7 +109,7 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_
     if has(Semantic::Tangent) && !has(Semantic::Normal) {
         let at = report.json.at_or(at, "TANGENT");
         let message = "there are tangents and no normals".to_owned();
-        report.say(
+        report.add(
             &codes::GLTF_PRIMITIVE_ODD,
             "MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL",
             at,
@@ -128,18 +128,20 @@ fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut AssetReport<'_, '
         ("WEIGHTS", Semantic::Weights),
     ];
     let mut counts = [0; 4];
-    let own: BTreeSet<Semantic> = semantics.iter().copied().collect();
+    let present: BTreeSet<Semantic> = semantics.iter().copied().collect();
     for ((name, kind), count) in kinds.into_iter().zip(&mut counts) {
         // A set number that no attribute has ends the sets; what lies beyond it is left over.
         *count = semantics
             .iter()
-            .filter(|own| std::mem::discriminant(*own) == std::mem::discriminant(&kind(0)))
+            .filter(|semantic| {
+                std::mem::discriminant(*semantic) == std::mem::discriminant(&kind(0))
+            })
             .count();
-        let gap = (0..*count as u64).find(|set| !own.contains(&kind(*set)));
+        let gap = (0..*count as u64).find(|set| !present.contains(&kind(*set)));
         if let Some(gap) = gap {
             let message =
                 format!("there are {count} sets of `{name}`, and none has the number {gap}");
-            report.say(
+            report.add(
                 &codes::GLTF_ATTRIBUTE,
                 "MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY",
                 at,
@@ -150,7 +152,7 @@ fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut AssetReport<'_, '
     let [_, _, joints, weights] = counts;
     if joints != weights {
         let message = format!("{joints} sets of joints, and {weights} of weights");
-        report.say(
+        report.add(
             &codes::GLTF_COUNT,
             "MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH",
             at,
@@ -170,7 +172,7 @@ pub(super) fn check_format(
 ) {
     let semantic = Semantic::of(&attribute.name);
     if semantic == Semantic::Position && !accessor.has_bounds() {
-        report.mend(
+        report.repair(
             &codes::GLTF_FORMAT,
             "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS",
             attribute.at,
@@ -185,7 +187,7 @@ pub(super) fn check_format(
                 attribute.name
             );
             let alias = "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT";
-            report.say(&codes::GLTF_FORMAT, alias, attribute.at, message);
+            report.add(&codes::GLTF_FORMAT, alias, attribute.at, message);
         }
         return;
     };
@@ -197,7 +199,7 @@ pub(super) fn check_format(
             layout.name(),
             attribute.name
         );
-        report.say(
+        report.add(
             &codes::GLTF_FORMAT,
             "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
             attribute.at,
@@ -205,7 +207,7 @@ pub(super) fn check_format(
         );
     } else if semantic == Semantic::Custom && layout.component == Component::U32 {
         let message = "attributes of vertices are not u32".to_owned();
-        report.say(
+        report.add(
             &codes::GLTF_FORMAT,
             "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT",
             attribute.at,
@@ -267,7 +269,7 @@ pub(super) fn check_place(
         return;
     }
     if !is_aligned(accessor, view.stride) {
-        report.mend(
+        report.repair(
             &codes::GLTF_ACCESSOR,
             "MESH_PRIMITIVE_ACCESSOR_UNALIGNED",
             attribute.at,
@@ -279,7 +281,7 @@ pub(super) fn check_place(
         && *streams.entry(index).or_insert(attribute.accessor) != attribute.accessor
     {
         let message = format!("buffer view {index} holds several attributes and has no stride");
-        report.mend(
+        report.repair(
             &codes::GLTF_VIEW,
             "MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE",
             attribute.at,
@@ -290,19 +292,23 @@ pub(super) fn check_place(
 }
 
 /// What the elements of an attribute must be.
-pub(super) fn demand(attribute: &Attribute, accessor: &Accessor, demands: &mut Demands) {
-    let mut add = |demand| demands.add(attribute.accessor, demand, attribute.at);
+pub(super) fn add_constraints(
+    attribute: &Attribute,
+    accessor: &Accessor,
+    constraints: &mut AccessorConstraints,
+) {
+    let mut add = |constraint| constraints.add(attribute.accessor, constraint, attribute.at);
     match Semantic::of(&attribute.name) {
-        Semantic::Normal => add(Demand::Unit),
+        Semantic::Normal => add(AccessorConstraint::Unit),
         Semantic::Tangent
             if accessor
                 .layout
                 .is_some_and(|layout| layout.components() == 4) =>
         {
-            add(Demand::Unit);
-            add(Demand::Sign);
+            add(AccessorConstraint::Unit);
+            add(AccessorConstraint::Sign);
         }
-        Semantic::Color(_) => add(Demand::Clamped),
+        Semantic::Color(_) => add(AccessorConstraint::Clamped),
         Semantic::Position
         | Semantic::Tangent
         | Semantic::Uv(_)

@@ -1,5 +1,5 @@
-//! Buffers and the views of them: their bytes, and whether the views lie within and serve one
-//! purpose.
+//! Buffers and buffer views: their bytes, whether each view is within its buffer, and whether it is
+//! used for one purpose.
 
 use super::document::Document;
 use super::field::Fields;
@@ -25,10 +25,10 @@ pub(super) struct Buffer<'s> {
 pub(super) type Bytes<'s> = Rc<Cow<'s, [u8]>>;
 
 /// Where bytes are and how many: while the document holds them, what is equal is the same bytes.
-pub(super) type Stretch = (usize, usize);
+pub(super) type ByteRange = (usize, usize);
 
 /// Where these bytes are.
-pub(super) fn stretch(bytes: &[u8]) -> Stretch {
+pub(super) fn byte_range(bytes: &[u8]) -> ByteRange {
     (bytes.as_ptr().addr(), bytes.len())
 }
 
@@ -37,7 +37,7 @@ impl Buffer<'_> {
         let compressed = |name| {
             fields
                 .extension(name)
-                .is_some_and(|fields| fields.truth("fallback"))
+                .is_some_and(|fields| fields.boolean("fallback"))
         };
         Self {
             at: fields.at,
@@ -96,7 +96,7 @@ impl BufferView {
             stride: fields
                 .index("byteStride")
                 .filter(|stride| (4..=252).contains(stride)),
-            target: match fields.whole("target") {
+            target: match fields.integer("target") {
                 Some(34962) => Some(Purpose::Vertices),
                 Some(34963) => Some(Purpose::Indices),
                 _ => None,
@@ -155,7 +155,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
             let at = report.json.at_or(view.at, key);
             let message =
                 format!("the view ends at byte {end} of buffer {buffer}, which has {size}");
-            report.say(&codes::GLTF_VIEW, "BUFFER_VIEW_TOO_LONG", at, message);
+            report.add(&codes::GLTF_VIEW, "BUFFER_VIEW_TOO_LONG", at, message);
         }
     }
 }
@@ -165,13 +165,13 @@ fn stride(view: &BufferView, report: &mut AssetReport<'_, '_>) {
     let at = report.json.at_or(view.at, "byteStride");
     if !stride.is_multiple_of(4) {
         let message = format!("the stride is {stride}, not a multiple of 4");
-        let (alias, mended) = ("VALUE_MULTIPLE_OF", "it is followed all the same");
-        report.mend(&codes::GLTF_VALUE, alias, at, &message, mended);
+        let (alias, repair) = ("VALUE_MULTIPLE_OF", "it is followed all the same");
+        report.repair(&codes::GLTF_VALUE, alias, at, &message, repair);
     }
     if let Some(length) = view.length.filter(|length| *length < stride) {
         let message =
             format!("the stride is {stride}, longer than the view, which has {length} bytes");
-        report.say(
+        report.add(
             &codes::GLTF_VIEW,
             "BUFFER_VIEW_TOO_BIG_BYTE_STRIDE",
             at,
@@ -180,11 +180,11 @@ fn stride(view: &BufferView, report: &mut AssetReport<'_, '_>) {
     }
     if view.target == Some(Purpose::Indices) {
         let message = "a view of indices has a stride";
-        let (alias, mended) = (
+        let (alias, repair) = (
             "BUFFER_VIEW_INVALID_BYTE_STRIDE",
             "what uses it says what it holds",
         );
-        report.mend(&codes::GLTF_VIEW, alias, at, message, mended);
+        report.repair(&codes::GLTF_VIEW, alias, at, message, repair);
     }
 }
 
@@ -215,8 +215,8 @@ impl Purposes {
                     purpose.name(),
                     first.name()
                 );
-                let (alias, mended) = ("BUFFER_VIEW_TARGET_OVERRIDE", "it serves both");
-                report.mend(&codes::GLTF_VIEW, alias, at, &message, mended);
+                let (alias, repair) = ("BUFFER_VIEW_TARGET_OVERRIDE", "it serves both");
+                report.repair(&codes::GLTF_VIEW, alias, at, &message, repair);
             }
             Some(_) => {}
         }

@@ -17,17 +17,19 @@ pub(super) enum Projection {
 
 /// The projection of a camera.
 pub(super) fn projection(fields: Fields<'_, '_>) -> Option<Projection> {
-    let own = |kind| fields.object(kind).filter(|_| fields.is("type", kind));
-    if let Some(own) = own("perspective") {
+    let projection = |kind| fields.object(kind).filter(|_| fields.is("type", kind));
+    if let Some(projection) = projection("perspective") {
         return Some(Projection::Perspective {
-            yfov: own.number("yfov").filter(|yfov| *yfov > 0.0)?,
-            aspect: own.number("aspectRatio").filter(|ratio| *ratio > 0.0),
+            yfov: projection.number("yfov").filter(|yfov| *yfov > 0.0)?,
+            aspect: projection
+                .number("aspectRatio")
+                .filter(|ratio| *ratio > 0.0),
         });
     }
-    let own = own("orthographic")?;
+    let projection = projection("orthographic")?;
     Some(Projection::Orthographic {
-        xmag: own.number("xmag")?,
-        ymag: own.number("ymag")?,
+        xmag: projection.number("xmag")?,
+        ymag: projection.number("ymag")?,
     })
 }
 
@@ -39,12 +41,12 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
             (fields.object("perspective"), fields.object("orthographic"));
         if fields.has("perspective") && fields.has("orthographic") {
             let message = "a camera is perspective or orthographic, not both".to_owned();
-            report.say(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", *camera, message);
+            report.add(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", *camera, message);
         }
         for kind in ["perspective", "orthographic"] {
             if fields.is("type", kind) && !fields.has(kind) {
                 let message = format!("the camera has no `{kind}`");
-                report.say(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", *camera, message);
+                report.add(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", *camera, message);
             }
         }
         for part in [perspective, orthographic].into_iter().flatten() {
@@ -54,7 +56,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
                 let [far, near] = [far, near].map(shortest);
                 let message =
                     format!("the far plane at {far} is no farther than the near one at {near}");
-                report.say(
+                report.add(
                     &codes::GLTF_VALUE,
                     "CAMERA_ZFAR_LEQUAL_ZNEAR",
                     part.at,
@@ -75,7 +77,7 @@ fn check_perspective(part: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     if part.number_or("yfov", 0.0) >= std::f64::consts::PI {
         let message = "the camera opens half a turn or more";
         let alias = "CAMERA_YFOV_GEQUAL_PI";
-        report.say(&codes::GLTF_MATERIAL_ODD, alias, part.at, message);
+        report.add(&codes::GLTF_MATERIAL_ODD, alias, part.at, message);
     }
 }
 
@@ -84,10 +86,10 @@ fn check_orthographic(part: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     if mags.contains(&0.0) {
         let message = "the picture of the camera has no width or no height";
         let alias = "CAMERA_XMAG_YMAG_ZERO";
-        report.say(&codes::GLTF_VALUE, alias, part.at, message);
+        report.add(&codes::GLTF_VALUE, alias, part.at, message);
     } else if mags.iter().any(|mag| *mag < 0.0) {
         let message = "a negative `xmag` or `ymag` mirrors the picture";
         let alias = "CAMERA_XMAG_YMAG_NEGATIVE";
-        report.say(&codes::GLTF_MATERIAL_ODD, alias, part.at, message);
+        report.add(&codes::GLTF_MATERIAL_ODD, alias, part.at, message);
     }
 }

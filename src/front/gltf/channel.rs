@@ -1,8 +1,8 @@
-//! Channels of animations: the property of a node that moves, and the keyframes that fit it.
+//! Animation channels: the animated property, and whether the keyframes fit it.
 
 use super::accessor;
 use super::animation::{Animation, AnimationLinks, Interpolation};
-use super::demand::Demand;
+use super::constraint::AccessorConstraint;
 use super::document::Document;
 use super::field::Fields;
 use super::layout::{Component, ElementLayout};
@@ -54,11 +54,11 @@ impl Channel {
         let target = fields.object("target");
         let pointer = target.filter(|target| target.is("path", "pointer"));
         let pointer = pointer.and_then(|target| target.extension(POINTER)?.text("pointer"));
-        let own = || target.and_then(|target| Path::of(&target.text("path")?));
+        let path_of_target = || target.and_then(|target| Path::of(&target.text("path")?));
         let node = || target.and_then(|target| target.index("node"));
         let (node, path) = match pointer.as_deref().and_then(pointer::of_node) {
             Some((node, path)) => (Some(node), Some(path)),
-            None => (node(), own()),
+            None => (node(), path_of_target()),
         };
         Self {
             at: fields.at,
@@ -85,9 +85,9 @@ pub(super) fn check_pointers(
         if let Some(at) = path.filter(|path| !is_used && report.json.is(*path, "pointer")) {
             let message =
                 format!("the path `pointer` is one of `{POINTER}`, which the asset does not use");
-            report.say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", at, message);
+            report.add(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", at, message);
         }
-        let Some(own) = target.extension(POINTER).filter(|_| is_used) else {
+        let Some(extension) = target.extension(POINTER).filter(|_| is_used) else {
             continue;
         };
         if let Some(at) = path.filter(|path| !report.json.is(*path, "pointer")) {
@@ -96,17 +96,17 @@ pub(super) fn check_pointers(
                 report.shown(at)
             );
             let alias = "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH";
-            report.say(&codes::GLTF_TOGETHER, alias, at, message);
+            report.add(&codes::GLTF_TOGETHER, alias, at, message);
         }
         let named = channel.pointer.as_deref();
         if named.is_some_and(|named| pointer::resolve(doc, report.json, named).is_none()) {
             let message = "what the pointer names is not followed, so it does not move".to_owned();
-            report.say(&codes::GLTF_MATERIAL_ODD, "", own.at, message);
+            report.add(&codes::GLTF_MATERIAL_ODD, "", extension.at, message);
         }
         if target.has("node") {
             let message = "the channel has a pointer and a node".to_owned();
             let alias = "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE";
-            report.say(&codes::GLTF_TOGETHER, alias, own.at, message);
+            report.add(&codes::GLTF_TOGETHER, alias, extension.at, message);
         }
     }
 }
@@ -125,7 +125,7 @@ pub(super) fn check(
     let Some(sampler) = animation.samplers.get(index) else {
         if !animation.samplers.is_empty() {
             let message = format!("the animation has no sampler {index}");
-            report.say(&codes::GLTF_REFERENCE, "UNRESOLVED_REFERENCE", at, message);
+            report.add(&codes::GLTF_REFERENCE, "UNRESOLVED_REFERENCE", at, message);
         }
         return;
     };
@@ -134,18 +134,18 @@ pub(super) fn check(
         return;
     };
     if path == Path::Rotation {
-        let demand = match sampler.interpolation {
-            Interpolation::Cubic => Demand::CubicRotations,
-            Interpolation::Linear | Interpolation::Step => Demand::Rotations,
+        let constraint = match sampler.interpolation {
+            Interpolation::Cubic => AccessorConstraint::CubicRotations,
+            Interpolation::Linear | Interpolation::Step => AccessorConstraint::Rotations,
         };
-        links.2.add(output, demand, at);
+        links.2.add(output, constraint, at);
     }
     if !accessor.layout.is_some_and(|layout| allows(path, layout)) {
         let found = accessor
             .layout
             .map_or("of no known type".to_owned(), ElementLayout::name);
         let message = format!("the keyframes are {found}, which this path does not take");
-        report.say(
+        report.add(
             &codes::GLTF_FORMAT,
             "ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT",
             at,
@@ -186,7 +186,7 @@ fn check_count(
 ) {
     if expected != 0 && expected != count {
         let message = format!("{count} keyframes, and {expected} are expected for {times} times");
-        report.say(
+        report.add(
             &codes::GLTF_COUNT,
             "ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT",
             at,
@@ -228,7 +228,7 @@ fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<
         Some(Path::Translation | Path::Rotation | Path::Scale) => {
             if matches!(node.transform, Transform::Matrix(_)) {
                 let message = "the node has a matrix, which can't be moved".to_owned();
-                report.say(
+                report.add(
                     &codes::GLTF_ANIMATION,
                     "ANIMATION_CHANNEL_TARGET_NODE_MATRIX",
                     at,
@@ -238,7 +238,7 @@ fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<
             if node.skin.is_some() {
                 let message =
                     "the node has a skin, and moving it does not move the mesh".to_owned();
-                report.say(
+                report.add(
                     &codes::GLTF_SKIN_ODD,
                     "ANIMATION_CHANNEL_TARGET_NODE_SKIN",
                     at,
@@ -248,7 +248,7 @@ fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<
         }
         Some(Path::Weights) if mesh(doc, channel).map_or(0, Mesh::targets) == 0 => {
             let message = "the node has no morph targets that weights could move".to_owned();
-            report.say(
+            report.add(
                 &codes::GLTF_ANIMATION,
                 "ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS",
                 at,

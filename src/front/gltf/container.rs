@@ -75,7 +75,7 @@ struct Scan<'a> {
 }
 
 impl Scan<'_> {
-    fn say(&mut self, code: &'static Code, alias: &'static str, at: Range<usize>, message: String) {
+    fn add(&mut self, code: &'static Code, alias: &'static str, at: Range<usize>, message: String) {
         let span = self.span(at);
         self.sink
             .push(Diagnostic::new(code, message).at(span, "").alias(alias));
@@ -89,21 +89,21 @@ impl Scan<'_> {
     /// Reports a chunk whose length is not a multiple of 4.
     fn unaligned(&mut self, header: Range<usize>, name: &str) {
         let message = format!("the length of the {name} chunk is not a multiple of 4");
-        let mended = "the next chunk is looked for behind it";
+        let repair = "the next chunk is looked for behind it";
         let finding = Diagnostic::new(&codes::GLB_CHUNK, &message);
         let finding = if self.is_lenient {
-            Diagnostic::new(&codes::GLB_CHUNK, format!("{message}: {mended}"))
+            Diagnostic::new(&codes::GLB_CHUNK, format!("{message}: {repair}"))
                 .severity(Severity::Warning)
         } else {
-            finding.hint(format!("`--lenient` mends this: {mended}"))
+            finding.hint(format!("`--lenient` mends this: {repair}"))
         };
         let at = self.span(header);
         self.sink
             .push(finding.at(at, "").alias("GLB_CHUNK_LENGTH_UNALIGNED"));
     }
 
-    /// Where the chunk after one that ends at `end` begins. After a length that is not a multiple of
-    /// 4 some programs write padding, and some don't.
+    /// Where the chunk after one that ends at `end` begins. After a length that is not a multiple
+    /// of 4 some programs write padding, and some don't.
     fn next_chunk(&self, end: usize) -> usize {
         let padded = end.next_multiple_of(4);
         let is_chunk = |at: usize| {
@@ -131,7 +131,7 @@ impl Scan<'_> {
             let found = String::from_utf8_lossy(&self.bytes[..4])
                 .escape_debug()
                 .to_string();
-            self.say(
+            self.add(
                 code,
                 "GLB_INVALID_MAGIC",
                 0..4,
@@ -142,7 +142,7 @@ impl Scan<'_> {
         let (Some(version), Some(length)) = (self.word(4), self.word(8)) else {
             let message =
                 format!("the file ends within its header, after {size} of {HEADER} bytes");
-            self.say(code, "GLB_UNEXPECTED_END_OF_HEADER", size..size, message);
+            self.add(code, "GLB_UNEXPECTED_END_OF_HEADER", size..size, message);
             return None;
         };
         if version == 1 {
@@ -152,7 +152,7 @@ impl Scan<'_> {
             return None;
         }
         if version != 2 {
-            self.say(
+            self.add(
                 code,
                 "GLB_INVALID_VERSION",
                 4..8,
@@ -164,7 +164,7 @@ impl Scan<'_> {
             let message = format!(
                 "the header gives the file a length of {length} bytes, no more than its own"
             );
-            self.say(code, "GLB_LENGTH_TOO_SMALL", 8..12, message);
+            self.add(code, "GLB_LENGTH_TOO_SMALL", 8..12, message);
         }
         Some(())
     }
@@ -177,14 +177,14 @@ impl Scan<'_> {
         while at != size {
             if at == declared {
                 let message = format!("{} bytes after the last chunk are ignored", size - declared);
-                self.say(&codes::GLB_EXTRA, "GLB_EXTRA_DATA", declared..size, message);
+                self.add(&codes::GLB_EXTRA, "GLB_EXTRA_DATA", declared..size, message);
                 return true;
             }
             let (Some(length), Some(kind)) =
                 (self.word(at), self.bytes.get(at + 4..at + CHUNK_HEADER))
             else {
                 let message = "the file ends within the header of a chunk".to_owned();
-                self.say(
+                self.add(
                     &codes::GLB_CHUNK,
                     "GLB_UNEXPECTED_END_OF_CHUNK_HEADER",
                     at..size,
@@ -199,7 +199,7 @@ impl Scan<'_> {
             if end > size {
                 self.json = self.json.take().filter(|json| json.start != start);
                 let message = format!("the file ends {} bytes before its chunk does", end - size);
-                self.say(
+                self.add(
                     &codes::GLB_CHUNK,
                     "GLB_UNEXPECTED_END_OF_CHUNK_DATA",
                     size..size,
@@ -212,7 +212,7 @@ impl Scan<'_> {
         if at != declared {
             let message =
                 format!("the header gives the file a length of {declared} bytes, and it has {at}");
-            self.say(&codes::GLB_HEADER, "GLB_LENGTH_MISMATCH", 8..12, message);
+            self.add(&codes::GLB_HEADER, "GLB_LENGTH_MISMATCH", 8..12, message);
         }
         true
     }
@@ -229,6 +229,7 @@ impl Scan<'_> {
         let (header, code) = (at..at + CHUNK_HEADER, &codes::GLB_CHUNK);
         let name = shown(kind);
         self.chunks += 1;
+        // Check the length of the chunk.
         if !(end - content.start).is_multiple_of(4) {
             self.unaligned(header.clone(), &name);
         }
@@ -237,15 +238,16 @@ impl Scan<'_> {
                 "the {name} chunk ends {} bytes after the file should",
                 end - declared
             );
-            self.say(code, "GLB_CHUNK_TOO_BIG", header.clone(), message);
+            self.add(code, "GLB_CHUNK_TOO_BIG", header.clone(), message);
         }
+        // Check the order of the chunks, and for empty ones.
         if self.chunks == 1 && kind != JSON {
             let message = format!("the first chunk is of type {name}, not JSON");
-            self.say(code, "GLB_UNEXPECTED_FIRST_CHUNK", header.clone(), message);
+            self.add(code, "GLB_UNEXPECTED_FIRST_CHUNK", header.clone(), message);
         }
         if kind == BIN && content.is_empty() {
             let message = "an empty binary chunk may as well be left out".to_owned();
-            self.say(
+            self.add(
                 &codes::GLTF_REMARK,
                 "GLB_EMPTY_BIN_CHUNK",
                 header.clone(),
@@ -254,27 +256,28 @@ impl Scan<'_> {
         }
         if kind == BIN && self.chunks > 2 && self.bin.is_none() {
             let message = "the binary chunk is not the second one".to_owned();
-            self.say(code, "GLB_UNEXPECTED_BIN_CHUNK", header.clone(), message);
+            self.add(code, "GLB_UNEXPECTED_BIN_CHUNK", header.clone(), message);
         }
         if kind == JSON && content.is_empty() {
-            self.say(
+            self.add(
                 code,
                 "GLB_EMPTY_CHUNK",
                 header.clone(),
                 "the JSON chunk is empty".to_owned(),
             );
         }
+        // Keep the first JSON chunk and the first binary chunk.
         let slot = match &kind[..] {
             JSON => &mut self.json,
             BIN => &mut self.bin,
             _ => {
                 let message = format!("a chunk of the unknown type {name} is ignored");
-                return self.say(&codes::GLB_EXTRA, "GLB_UNKNOWN_CHUNK_TYPE", header, message);
+                return self.add(&codes::GLB_EXTRA, "GLB_UNKNOWN_CHUNK_TYPE", header, message);
             }
         };
         if slot.is_some() {
             let message = format!("this is the second {name} chunk");
-            self.say(code, "GLB_DUPLICATE_CHUNK", header, message);
+            self.add(code, "GLB_DUPLICATE_CHUNK", header, message);
         } else {
             *slot = Some(content);
         }

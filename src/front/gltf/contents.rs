@@ -1,11 +1,12 @@
-//! What is in the accessors: finite numbers, true bounds, and elements as each use demands them.
+//! Validates the elements of accessors: finite numbers, the declared bounds, and the constraints of
+//! each use.
 
 use super::accessor::Accessor;
-use super::demand::{Demand, Demands, meet};
+use super::accessor_reader::AccessorReader;
+use super::constraint::{AccessorConstraint, AccessorConstraints, check_constraint};
 use super::document::Document;
-use super::elements::Elements;
 use super::report::AssetReport;
-use super::unused::Readers;
+use super::unused::VertexUses;
 use rtc_diag::codes;
 use rtc_math::shortest;
 
@@ -18,8 +19,13 @@ const BOUNDS: &str = "the values count";
 
 /// Checks the elements of each accessor once, whatever uses it. What was compressed is no longer
 /// exact, so bounds and lengths don't count there.
-pub(super) fn check(doc: &Document<'_>, demands: Demands, report: &mut AssetReport<'_, '_>) {
-    let demands = demands.sorted();
+pub(super) fn check(
+    doc: &Document<'_>,
+    constraints: AccessorConstraints,
+    report: &mut AssetReport<'_, '_>,
+) {
+    let constraints = constraints.sorted();
+    // Limit the number of elements to read, since views may overlap.
     let held: u64 = doc
         .buffers
         .iter()
@@ -27,25 +33,27 @@ pub(super) fn check(doc: &Document<'_>, demands: Demands, report: &mut AssetRepo
         .map(|bytes| bytes.len() as u64)
         .sum();
     let mut looks = held.saturating_mul(LOOKS).saturating_add(FREE_LOOKS);
-    let mut rest = &demands[..];
-    let mut readers: Option<Readers> = None;
+    let mut rest = &constraints[..];
+    let mut readers: Option<VertexUses> = None;
     for (index, accessor) in doc.accessors.iter().enumerate() {
-        let own = rest.partition_point(|(of, _, _)| *of <= index);
-        let (own, after) = rest.split_at(own);
+        // Take the constraints of this accessor.
+        let current = rest.partition_point(|(of, _, _)| *of <= index);
+        let (current, after) = rest.split_at(current);
         rest = after;
         if accessor.view.is_none() && accessor.sparse.is_none() {
             continue;
         }
-        let elements = Elements::of(doc, accessor);
-        let is_read = |_: &Elements<'_>| report.is_lenient() || is_aligned(doc, accessor);
+        let elements = AccessorReader::of(doc, accessor);
+        let is_read = |_: &AccessorReader<'_>| report.is_lenient() || is_aligned(doc, accessor);
         let Some(elements) = elements.filter(is_read) else {
             continue;
         };
+        // Charge the reads.
         let cost = (elements.count as u64).saturating_mul(elements.layout.components() as u64);
-        let Some(left) = looks.checked_sub(cost.saturating_mul(1 + own.len() as u64)) else {
+        let Some(left) = looks.checked_sub(cost.saturating_mul(1 + current.len() as u64)) else {
             let message = "the accessors before this one cover the buffers many times over already"
                 .to_owned();
-            return report.say(&codes::GLTF_HUGE, "", accessor.at, message);
+            return report.add(&codes::GLTF_HUGE, "", accessor.at, message);
         };
         looks = left;
         sparse(&elements, accessor, report);
@@ -53,9 +61,10 @@ pub(super) fn check(doc: &Document<'_>, demands: Demands, report: &mut AssetRepo
             .view
             .and_then(|view| doc.views.get(view))
             .is_none_or(|view| view.decoded.is_none());
+        // Check for numbers that are not finite, and the declared bounds.
         let bad = values(&elements, accessor, is_exact, report);
         if let Some(first) = bad.first() {
-            let readers = readers.get_or_insert_with(|| Readers::new(doc));
+            let readers = readers.get_or_insert_with(|| VertexUses::new(doc));
             let is_unused = match looks.checked_sub(readers.cost(doc, index)) {
                 Some(left) => {
                     looks = left;
@@ -65,16 +74,16 @@ pub(super) fn check(doc: &Document<'_>, demands: Demands, report: &mut AssetRepo
             };
             not_finite((bad.len(), *first), is_unused, accessor, report);
         }
-        for (_, demand, at) in own
-            .iter()
-            .filter(|(_, demand, _)| is_exact || matches!(demand, Demand::Below(..)))
-        {
-            meet(&elements, *demand, *at, report);
+        // Check the constraints of its uses.
+        for (_, constraint, at) in current.iter().filter(|(_, constraint, _)| {
+            is_exact || matches!(constraint, AccessorConstraint::Below(..))
+        }) {
+            check_constraint(&elements, *constraint, *at, report);
         }
     }
 }
 
-fn sparse(elements: &Elements<'_>, accessor: &Accessor, report: &mut AssetReport<'_, '_>) {
+fn sparse(elements: &AccessorReader<'_>, accessor: &Accessor, report: &mut AssetReport<'_, '_>) {
     let Some(indices) = elements.replaced() else {
         return;
     };
@@ -93,7 +102,7 @@ fn sparse(elements: &Elements<'_>, accessor: &Accessor, report: &mut AssetReport
             "the indices don't rise: that at {} is no greater than the one before",
             place + 1
         );
-        report.say(
+        report.add(
             &codes::GLTF_SPARSE,
             "ACCESSOR_SPARSE_INDICES_NON_INCREASING",
             at,
@@ -108,7 +117,7 @@ fn sparse(elements: &Elements<'_>, accessor: &Accessor, report: &mut AssetReport
             "the index at {place} is {index}, and there are {} elements",
             elements.count
         );
-        report.say(
+        report.add(
             &codes::GLTF_SPARSE,
             "ACCESSOR_SPARSE_INDEX_OOB",
             at,
@@ -142,16 +151,16 @@ fn not_finite(
         count => format!("{count} elements are not finite, the first is element {first}"),
     };
     if is_unused {
-        let mended = "no index names them, so they are left out";
-        report.mend(code, alias, accessor.at, &message, mended);
+        let repair = "no index names them, so they are left out";
+        report.repair(code, alias, accessor.at, &message, repair);
     } else {
-        report.say(code, alias, accessor.at, message);
+        report.add(code, alias, accessor.at, message);
     }
 }
 
 /// Finds elements that are not finite, which come back, and the true bounds.
 fn values(
-    elements: &Elements<'_>,
+    elements: &AccessorReader<'_>,
     accessor: &Accessor,
     is_exact: bool,
     report: &mut AssetReport<'_, '_>,
@@ -178,10 +187,10 @@ fn values(
             }
         }
     });
-    for (key, own, found) in [("min", &accessor.min, least), ("max", &accessor.max, most)] {
-        let Some(own) = own
+    for (key, declared, found) in [("min", &accessor.min, least), ("max", &accessor.max, most)] {
+        let Some(declared) = declared
             .as_ref()
-            .filter(|own| is_exact && own.len() == components)
+            .filter(|declared| is_exact && declared.len() == components)
         else {
             continue;
         };
@@ -189,20 +198,20 @@ fn values(
             clippy::cast_possible_truncation,
             reason = "bounds of floats are compared as floats"
         )]
-        let own: Vec<f64> = own
+        let declared: Vec<f64> = declared
             .iter()
-            .map(|own| {
+            .map(|declared| {
                 if is_float {
-                    f64::from(*own as f32)
+                    f64::from(*declared as f32)
                 } else {
-                    *own
+                    *declared
                 }
             })
             .collect();
         let mut beyond = None;
         for (component, found) in found.into_iter().enumerate().take(components) {
             bound(
-                (elements, &own, &mut beyond),
+                (elements, &declared, &mut beyond),
                 accessor,
                 (key, component),
                 found,
@@ -214,11 +223,15 @@ fn values(
 }
 
 /// How many elements are beyond a bound, for each component.
-fn count_beyond(elements: &Elements<'_>, own: &[f64], is_min: bool) -> [usize; 16] {
+fn count_beyond(elements: &AccessorReader<'_>, declared: &[f64], is_min: bool) -> [usize; 16] {
     let mut beyond = [0; 16];
     elements.each(|_, element| {
-        for ((count, number), own) in beyond.iter_mut().zip(element).zip(own) {
-            *count += usize::from(if is_min { number < own } else { number > own });
+        for ((count, number), declared) in beyond.iter_mut().zip(element).zip(declared) {
+            *count += usize::from(if is_min {
+                number < declared
+            } else {
+                number > declared
+            });
         }
     });
     beyond
@@ -227,14 +240,14 @@ fn count_beyond(elements: &Elements<'_>, own: &[f64], is_min: bool) -> [usize; 1
 /// Compares one component of a bound with what was found; the elements beyond the bound are counted
 /// when first needed.
 fn bound(
-    (elements, all, beyond): (&Elements<'_>, &[f64], &mut Option<[usize; 16]>),
+    (elements, all, beyond): (&AccessorReader<'_>, &[f64], &mut Option<[usize; 16]>),
     accessor: &Accessor,
     (key, component): (&str, usize),
     found: f64,
     report: &mut AssetReport<'_, '_>,
 ) {
-    let own = all[component];
-    if own.total_cmp(&found).is_eq() || own - found == 0.0 {
+    let declared = all[component];
+    if declared.total_cmp(&found).is_eq() || declared - found == 0.0 {
         return;
     }
     let is_min = key == "min";
@@ -247,17 +260,17 @@ fn bound(
     let at = report.json.items(list).nth(component).unwrap_or(list);
     let message = format!(
         "`{key}` is {}, and the {} value is {}",
-        shortest(own),
+        shortest(declared),
         if is_min { "least" } else { "greatest" },
         shortest(found)
     );
-    report.mend(&codes::GLTF_BOUNDS, mismatch, at, &message, BOUNDS);
+    report.repair(&codes::GLTF_BOUNDS, mismatch, at, &message, BOUNDS);
     let beyond = beyond.get_or_insert_with(|| count_beyond(elements, all, is_min))[component];
     if beyond > 0 {
         let message = format!(
             "{beyond} elements are beyond `{key}`, which is {}",
-            shortest(own)
+            shortest(declared)
         );
-        report.mend(&codes::GLTF_BOUNDS, out, at, &message, BOUNDS);
+        report.repair(&codes::GLTF_BOUNDS, out, at, &message, BOUNDS);
     }
 }

@@ -1,4 +1,5 @@
-//! A whole asset, typed: every part with the node it was read from, references as indices.
+//! An asset as typed objects, each with the JSON node that it was read from. References are
+//! indices.
 
 use super::accessor::Accessor;
 use super::animation::{Animation, Keyframes};

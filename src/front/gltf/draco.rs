@@ -1,7 +1,7 @@
 //! Primitives compressed by Draco (`KHR_draco_mesh_compression`): decoded by `draco-core`, and put
 //! in place as views of the accessors that stand for them. The one file that names the decoder.
 
-use super::buffer::{BufferView, Bytes, Stretch, stretch};
+use super::buffer::{BufferView, ByteRange, Bytes, byte_range};
 use super::document::Document;
 use super::field::Fields;
 use super::layout::{Component, ElementLayout};
@@ -23,7 +23,7 @@ const POINT: u64 = 48;
 const FACE: u64 = 48;
 
 /// What a primitive says of its compressed data.
-struct Packed {
+struct CompressedPrimitive {
     at: NodeId,
     view: usize,
     /// The accessor of each attribute, and its number in the compressed data.
@@ -33,12 +33,12 @@ struct Packed {
 
 /// What was decoded so far, each thing once.
 #[derive(Default)]
-struct Made {
-    meshes: BTreeMap<(Stretch, Size), Result<Rc<Mesh>, String>>,
+struct DecodedData {
+    meshes: BTreeMap<(ByteRange, Size), Result<Rc<Mesh>, String>>,
     /// Attributes by their numbers, and the corners.
-    columns: BTreeMap<(Stretch, Option<u32>, Component), Bytes<'static>>,
+    columns: BTreeMap<(ByteRange, Option<u32>, Component), Bytes<'static>>,
     /// The data and the number that each accessor has now.
-    filled: BTreeMap<usize, (Stretch, Option<u32>)>,
+    filled: BTreeMap<usize, (ByteRange, Option<u32>)>,
 }
 
 /// Points and triangles.
@@ -50,7 +50,7 @@ struct Size {
 
 /// Decodes the primitives that are compressed.
 pub(super) fn expand(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
-    let mut made = Made::default();
+    let mut made = DecodedData::default();
     for packed in find(doc, report) {
         match unpack(doc, &packed, &mut made, report) {
             Ok(accessors) => accessors
@@ -58,23 +58,23 @@ pub(super) fn expand(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
                 .for_each(|(accessor, bytes)| fill(doc, accessor, bytes)),
             Err(fault) => {
                 let message = format!("the primitive can't be decompressed: {fault}");
-                report.say(&codes::GLTF_COMPRESSED, "", packed.at, message);
+                report.add(&codes::GLTF_COMPRESSED, "", packed.at, message);
             }
         }
     }
 }
 
-fn find(doc: &Document<'_>, report: &AssetReport<'_, '_>) -> Vec<Packed> {
+fn find(doc: &Document<'_>, report: &AssetReport<'_, '_>) -> Vec<CompressedPrimitive> {
     let primitives = doc.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let packed = primitives.filter_map(|primitive| {
         let fields = Fields::new(report.json, primitive.draco?);
         let numbers = fields.object("attributes")?;
-        let number = |name: &str| u32::try_from(numbers.whole(name)?).ok();
+        let number = |name: &str| u32::try_from(numbers.integer(name)?).ok();
         let attributes = primitive.attributes.iter();
         let attributes = attributes
-            .filter_map(|own| Some((own.accessor, number(&own.name)?)))
+            .filter_map(|item| Some((item.accessor, number(&item.name)?)))
             .collect();
-        Some(Packed {
+        Some(CompressedPrimitive {
             at: fields.at,
             view: fields.index("bufferView")?,
             attributes,
@@ -87,42 +87,48 @@ fn find(doc: &Document<'_>, report: &AssetReport<'_, '_>) -> Vec<Packed> {
 /// The bytes of each accessor of a primitive that does not have them yet.
 fn unpack(
     doc: &Document<'_>,
-    packed: &Packed,
-    made: &mut Made,
+    packed: &CompressedPrimitive,
+    made: &mut DecodedData,
     report: &mut AssetReport<'_, '_>,
 ) -> Result<Vec<(usize, Bytes<'static>)>, String> {
     let bytes = doc.view_bytes(packed.view).ok_or("its view is not there")?;
-    let own = stretch(bytes);
-    let corners = packed
-        .indices
-        .map_or(Ok(0), |accessor| layout_of(doc, accessor).map(|own| own.1))?;
-    let points = packed.attributes.first().map_or(Ok(corners), |(own, _)| {
-        layout_of(doc, *own).map(|own| own.1)
+    let range = byte_range(bytes);
+    // Find the numbers of points and triangles.
+    let corners = packed.indices.map_or(Ok(0), |accessor| {
+        layout_of(doc, accessor).map(|layout| layout.1)
     })?;
+    let points = packed
+        .attributes
+        .first()
+        .map_or(Ok(corners), |(accessor, _)| {
+            layout_of(doc, *accessor).map(|layout| layout.1)
+        })?;
     let size = Size {
         points: points as u64,
         faces: corners as u64 / 3,
     };
-    let mesh = match made.meshes.get(&(own, size)) {
+    // Decode the data, once for all primitives that share it.
+    let mesh = match made.meshes.get(&(range, size)) {
         Some(known) => known.clone(),
         None => {
             let mesh = charge(size, packed, report).and_then(|()| decode(bytes, size));
-            made.meshes.insert((own, size), mesh.clone());
+            made.meshes.insert((range, size), mesh.clone());
             mesh
         }
     }?;
+    // Convert each attribute to the layout of its accessor.
     let mut accessors = Vec::new();
     let parts = packed
         .attributes
         .iter()
         .map(|(accessor, number)| (*accessor, Some(*number)));
     for (accessor, number) in parts.chain(packed.indices.map(|accessor| (accessor, None))) {
-        if made.filled.insert(accessor, (own, number)) == Some((own, number)) {
+        if made.filled.insert(accessor, (range, number)) == Some((range, number)) {
             continue;
         }
         let (layout, count) = layout_of(doc, accessor)?;
         check(&mesh, number, (layout, count))?;
-        let key = (own, number, layout.component);
+        let key = (range, number, layout.component);
         if let Some(known) = made.columns.get(&key) {
             accessors.push((accessor, Rc::clone(known)));
             continue;
@@ -143,7 +149,11 @@ fn unpack(
     Ok(accessors)
 }
 
-fn charge(size: Size, packed: &Packed, report: &mut AssetReport<'_, '_>) -> Result<(), String> {
+fn charge(
+    size: Size,
+    packed: &CompressedPrimitive,
+    report: &mut AssetReport<'_, '_>,
+) -> Result<(), String> {
     let Size { points, faces } = size;
     let memory = points
         .saturating_mul(POINT)
@@ -224,7 +234,7 @@ fn column(mesh: &Mesh, number: Option<u32>, layout: ElementLayout) -> Vec<u8> {
         ),
         Some(attribute) => {
             let numbers =
-                attribute.map(|own| own.read_f32s(mesh.num_points(), layout.components()));
+                attribute.map(|item| item.read_f32s(mesh.num_points(), layout.components()));
             to_bytes(
                 numbers.unwrap_or_default().into_iter().map(f64::from),
                 layout.component,

@@ -1,5 +1,5 @@
-//! What an image file says beside its pixels and is not followed: colour profiles, pixels that are
-//! no squares, animation. glTF lays down what the numbers mean, whatever the file says.
+//! Features of image files that glTF ignores: color profiles, pixels that are not square,
+//! animation. glTF defines what the values mean, independent of the file.
 
 use super::image::ImageCoding;
 

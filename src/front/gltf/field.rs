@@ -1,7 +1,7 @@
-//! The properties of an object as values, once its shape was checked: what is absent or wrong is
-//! simply not there.
+//! Typed access to the properties of a JSON object. A property that is absent or invalid is `None`;
+//! the schema has reported it.
 
-use super::pointer::Moved;
+use super::pointer::AnimatedValues;
 use rtc_source::tree::{NodeId, NodeKind, Tree};
 
 /// The object at a node.
@@ -9,28 +9,28 @@ use rtc_source::tree::{NodeId, NodeKind, Tree};
 pub(super) struct Fields<'t, 's> {
     pub(super) json: &'t Tree<'s>,
     pub(super) at: NodeId,
-    /// What counts in place of numbers that are written.
-    moved: Option<&'t Moved>,
+    /// Animated values, which replace the numbers of the file.
+    animated: Option<&'t AnimatedValues>,
 }
 
 impl<'t, 's> Fields<'t, 's> {
     pub(super) fn new(json: &'t Tree<'s>, at: NodeId) -> Self {
-        let moved = None;
-        Self { json, at, moved }
+        let animated = None;
+        Self { json, at, animated }
     }
 
-    /// The same, as an animation has moved it.
-    pub(super) fn moved(self, moved: &'t Moved) -> Self {
-        let moved = Some(moved).filter(|moved| !moved.is_empty());
-        Self { moved, ..self }
+    /// The same object with animated values.
+    pub(super) fn animated(self, animated: &'t AnimatedValues) -> Self {
+        let animated = Some(animated).filter(|animated| !animated.is_empty());
+        Self { animated, ..self }
     }
 
-    /// The numbers that `key` was moved to.
-    fn moved_to(&self, key: &str) -> Option<&'t [f64]> {
-        let mut own = self.moved?.range((self.at, "")..);
-        let own = own.by_ref().take_while(|((at, _), _)| *at == self.at);
-        let mut own = own.filter(|((_, name), _)| *name == key);
-        own.next().map(|(_, numbers)| numbers.as_slice())
+    /// The animated value of `key`.
+    fn animated_value(&self, key: &str) -> Option<&'t [f64]> {
+        let mut values = self.animated?.range((self.at, "")..);
+        let values = values.by_ref().take_while(|((at, _), _)| *at == self.at);
+        let mut values = values.filter(|((_, name), _)| *name == key);
+        values.next().map(|(_, numbers)| numbers.as_slice())
     }
 
     pub(super) fn node(&self, key: &str) -> Option<NodeId> {
@@ -54,33 +54,33 @@ impl<'t, 's> Fields<'t, 's> {
         self.object("extensions")?.object(name)
     }
 
-    /// What rtc itself has put into the extras.
-    pub(super) fn own(&self) -> Option<Self> {
+    /// The object `extras.rtc`, which `rtc` writes.
+    pub(super) fn rtc_extras(&self) -> Option<Self> {
         self.object("extras")?.object("rtc")
     }
 
     /// The objects of the list that `key` holds.
     pub(super) fn objects(&self, key: &str) -> impl Iterator<Item = Self> + use<'t, 's> {
-        let (json, list, moved) = (self.json, self.node(key), self.moved);
+        let (json, list, animated) = (self.json, self.node(key), self.animated);
         let list = list.filter(|list| json.kind(*list) == NodeKind::List);
         list.into_iter()
             .flat_map(|list| json.items(list))
-            .map(move |at| Self { json, at, moved })
+            .map(move |at| Self { json, at, animated })
     }
 
-    pub(super) fn whole(&self, key: &str) -> Option<u64> {
+    pub(super) fn integer(&self, key: &str) -> Option<u64> {
         self.json.integer(self.node(key)?)
     }
 
     /// An index or a size.
     pub(super) fn index(&self, key: &str) -> Option<usize> {
-        self.whole(key)
+        self.integer(key)
             .and_then(|number| usize::try_from(number).ok())
     }
 
     /// A count, which is below 2^32.
     pub(super) fn count_or(&self, key: &str, default: u32) -> u32 {
-        let count = self.whole(key).map(u32::try_from);
+        let count = self.integer(key).map(u32::try_from);
         count.and_then(Result::ok).unwrap_or(default)
     }
 
@@ -93,7 +93,7 @@ impl<'t, 's> Fields<'t, 's> {
 
     /// A finite number.
     pub(super) fn number(&self, key: &str) -> Option<f64> {
-        if let Some([number]) = self.moved_to(key) {
+        if let Some([number]) = self.animated_value(key) {
             return Some(*number);
         }
         self.json
@@ -107,7 +107,7 @@ impl<'t, 's> Fields<'t, 's> {
 
     /// A list of finite numbers, whatever their number.
     pub(super) fn numbers(&self, key: &str) -> Option<Vec<f64>> {
-        if let Some(numbers) = self.moved_to(key) {
+        if let Some(numbers) = self.animated_value(key) {
             return Some(numbers.to_vec());
         }
         let list = self
@@ -128,7 +128,7 @@ impl<'t, 's> Fields<'t, 's> {
         self.vector(key).unwrap_or(default)
     }
 
-    pub(super) fn truth(&self, key: &str) -> bool {
+    pub(super) fn boolean(&self, key: &str) -> bool {
         self.node(key)
             .and_then(|node| self.json.boolean(node))
             .unwrap_or_default()

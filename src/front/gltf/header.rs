@@ -1,4 +1,4 @@
-//! What an asset says about itself: its version and its extensions.
+//! The version and the extensions of an asset.
 
 use super::field::Fields;
 use super::report::{AssetReport, shown};
@@ -69,8 +69,8 @@ const PREFIXES: &[&str] = &[
 pub(super) const CONVERT: &str =
     "convert it with `gltf-pipeline -i old.gltf -o new.glb`, or export it anew as glTF 2.0";
 
-/// Where an asset shows that it is glTF 1.0: its version, which may be a number there, a profile, or
-/// parts that have names in place of numbers.
+/// Where an asset shows that it is glTF 1.0: its version, which may be a number there, a profile,
+/// or parts that have names in place of numbers.
 fn of_first_version(json: &Tree<'_>) -> Option<NodeId> {
     let root = json.root();
     let version = json.at(root, &["asset", "version"]);
@@ -98,7 +98,7 @@ pub(super) fn is_refused(report: &mut AssetReport<'_, '_>) -> bool {
     if let Some(at) = at {
         let message = "the asset is glTF 1.0, and this rtc reads 2.0".to_owned();
         let (alias, hint) = ("UNKNOWN_ASSET_MAJOR_VERSION", CONVERT.to_owned());
-        report.advise(&codes::GLTF_VERSION, alias, at, message, hint);
+        report.add_with_hint(&codes::GLTF_VERSION, alias, at, message, hint);
     }
     at.is_some()
 }
@@ -113,7 +113,7 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
     };
     if major != 2 {
         let message = format!("the asset is glTF {major}.{minor}, not 2");
-        report.say(
+        report.add(
             &codes::GLTF_VERSION,
             "UNKNOWN_ASSET_MAJOR_VERSION",
             at,
@@ -121,7 +121,7 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
         );
     } else if minor > 0 {
         let message = format!("the asset is glTF {major}.{minor} and is read as 2.0");
-        report.say(
+        report.add(
             &codes::GLTF_MINOR_VERSION,
             "UNKNOWN_ASSET_MINOR_VERSION",
             at,
@@ -136,7 +136,7 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
             "the asset needs glTF {}.{}, and says that it is {major}.{minor}",
             least.0, least.1
         );
-        report.say(
+        report.add(
             &codes::GLTF_VERSION,
             "ASSET_MIN_VERSION_GREATER_THAN_VERSION",
             at,
@@ -147,7 +147,7 @@ pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
             "the asset needs glTF {}.{}, and this rtc reads 2.0",
             least.0, least.1
         );
-        report.say(&codes::GLTF_VERSION, "", at, message);
+        report.add(&codes::GLTF_VERSION, "", at, message);
     }
     major == 2
 }
@@ -181,7 +181,7 @@ pub(super) fn check_extensions(report: &mut AssetReport<'_, '_>) {
         .filter(|_| !has_used)
     {
         let message = "extensions are required, and none is listed in `extensionsUsed`".to_owned();
-        report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
+        report.add(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
     for (at, name) in &required {
         check_required(*at, name, used_names.contains(*name), report);
@@ -200,13 +200,13 @@ fn check_required(at: NodeId, name: &str, is_listed: bool, report: &mut AssetRep
     if !is_listed {
         let message = format!("`{shown}` is required and not listed in `extensionsUsed`");
         let alias = "UNUSED_EXTENSION_REQUIRED";
-        report.say(&codes::GLTF_EXTENSION, alias, at, message);
+        report.add(&codes::GLTF_EXTENSION, alias, at, message);
     }
     if schema::find(name).is_none() {
         let message = format!("the asset requires the extension `{shown}`, which is not supported");
         let hint = "export the asset without it".to_owned();
         let alias = "UNSUPPORTED_EXTENSION";
-        report.advise(&codes::GLTF_REQUIRES, alias, at, message, hint);
+        report.add_with_hint(&codes::GLTF_REQUIRES, alias, at, message, hint);
     }
 }
 
@@ -220,7 +220,7 @@ fn check_not_required(
     if name == "KHR_mesh_quantization" {
         let message = format!("no reader can do without `{name}`, so it must be required");
         let alias = "NON_REQUIRED_EXTENSION";
-        report.say(&codes::GLTF_EXTENSION, alias, at, message);
+        report.add(&codes::GLTF_EXTENSION, alias, at, message);
     }
     if schema::find(name).is_some() {
         return;
@@ -228,10 +228,10 @@ fn check_not_required(
     let shown = shown(name);
     if is_in_materials {
         let message = format!("materials have `{shown}`, which is not drawn: they look otherwise");
-        report.say(&codes::GLTF_MATERIAL_ODD, "", at, message);
+        report.add(&codes::GLTF_MATERIAL_ODD, "", at, message);
     } else {
         let message = format!("the extension `{shown}` has no effect");
-        report.say(&codes::GLTF_IGNORES, "UNSUPPORTED_EXTENSION", at, message);
+        report.add(&codes::GLTF_IGNORES, "UNSUPPORTED_EXTENSION", at, message);
     }
 }
 
@@ -243,7 +243,7 @@ fn check_name(at: NodeId, name: &str, report: &mut AssetReport<'_, '_>) {
         Some((prefix, _)) => {
             let message = format!("`{}` is no registered prefix of extensions", shown(prefix));
             let alias = "UNRESERVED_EXTENSION_PREFIX";
-            report.say(&codes::GLTF_EXTENSION_ODD, alias, at, message);
+            report.add(&codes::GLTF_EXTENSION_ODD, alias, at, message);
         }
         None => {
             let message = format!(
@@ -251,7 +251,7 @@ fn check_name(at: NodeId, name: &str, report: &mut AssetReport<'_, '_>) {
                 shown(name)
             );
             let alias = "INVALID_EXTENSION_NAME_FORMAT";
-            report.say(&codes::GLTF_EXTENSION_ODD, alias, at, message);
+            report.add(&codes::GLTF_EXTENSION_ODD, alias, at, message);
         }
     }
 }

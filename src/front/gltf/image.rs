@@ -1,6 +1,6 @@
-//! Images: where their bytes are, what they say of themselves, and whether they can be decoded.
+//! Images: their bytes, their media types, and their decoding.
 
-use super::buffer::{Bytes, Purpose, Purposes, Stretch, stretch};
+use super::buffer::{ByteRange, Bytes, Purpose, Purposes, byte_range};
 use super::document::Document;
 use super::features;
 use super::field::Fields;
@@ -134,7 +134,7 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
         let fields = Fields::new(report.json, image.at);
         if fields.text("uri").is_some() == fields.index("bufferView").is_some() {
             let message = "an image has a `uri` or a `bufferView`, and one only".to_owned();
-            report.say(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", image.at, message);
+            report.add(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", image.at, message);
         }
         let Some(at) = fields.node("bufferView").filter(|_| image.view.is_some()) else {
             continue;
@@ -142,7 +142,7 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
         if fields.text("mimeType").is_none() {
             let message =
                 "an image in a buffer view has a `mimeType`, and this has none".to_owned();
-            report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
+            report.add(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
         }
         purposes.set(image.view, Purpose::Image, at, report);
         if image
@@ -151,7 +151,7 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
             .is_some_and(|view| view.stride.is_some())
         {
             let message = "the view of an image has a stride".to_owned();
-            report.say(
+            report.add(
                 &codes::GLTF_VIEW,
                 "IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE",
                 at,
@@ -164,11 +164,11 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
 /// Why an image is refused: a code, the validator's name for it, and words.
 type ImageFault = (&'static Code, &'static str, String);
 
-/// Looks at the bytes of each image, and decodes them on so many threads, 0 for one per core; images
-/// of the same bytes are one picture.
+/// Looks at the bytes of each image, and decodes them on so many threads, 0 for one per core;
+/// images of the same bytes are one picture.
 pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut AssetReport<'_, '_>) {
     let mut decoded = decoded(doc, threads, report.budget);
-    let mut known: BTreeMap<Stretch, Result<usize, ImageFault>> = BTreeMap::new();
+    let mut known: BTreeMap<ByteRange, Result<usize, ImageFault>> = BTreeMap::new();
     for index in 0..doc.images.len() {
         let image = &doc.images[index];
         let Some(bytes) = doc.image_bytes(image) else {
@@ -177,7 +177,7 @@ pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut Asset
         let (at, media) = (image.at, image.media.as_deref());
         let Some(format) = ImageCoding::of(bytes) else {
             let message = "the image is neither PNG, JPEG, WebP nor KTX2".to_owned();
-            report.say(
+            report.add(
                 &codes::GLTF_IMAGE_ODD,
                 "IMAGE_UNRECOGNIZED_FORMAT",
                 at,
@@ -188,36 +188,36 @@ pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut Asset
         check_media(doc, (format, media), at, report);
         if let Some(what) = features::unfollowed(format, bytes) {
             let message = format!("the image has {what}, and that is not followed");
-            report.say(
+            report.add(
                 &codes::GLTF_IMAGE_ODD,
                 "IMAGE_FEATURES_UNSUPPORTED",
                 at,
                 message,
             );
         }
-        let own = stretch(bytes);
-        let picture = match known.get(&own) {
+        let range = byte_range(bytes);
+        let picture = match known.get(&range) {
             Some(picture) => picture.clone(),
-            None => match decoded.remove(&own) {
+            None => match decoded.remove(&range) {
                 Some(Ok(picture)) => {
                     doc.pictures.push(picture);
                     Ok(doc.pictures.len() - 1)
                 }
-                Some(Err(Refusal::Limit(fault))) => {
+                Some(Err(Rejection::Limit(fault))) => {
                     return report.exceeded(at, "the image", &fault);
                 }
-                Some(Err(Refusal::ImageFault(fault))) => Err(fault),
+                Some(Err(Rejection::Fault(fault))) => Err(fault),
                 // One of them asks for too much, and is told.
                 None => continue,
             },
         };
         match &picture {
             Ok(picture) => remark_size(&doc.pictures[*picture], at, report),
-            Err((code, alias, message)) => report.say(code, alias, at, message.clone()),
+            Err((code, alias, message)) => report.add(code, alias, at, message.clone()),
         }
         let image = &mut doc.images[index];
         (image.format, image.picture) = (Some(format), picture.as_ref().ok().copied());
-        known.insert(own, picture);
+        known.insert(range, picture);
     }
 }
 
@@ -234,8 +234,8 @@ fn check_media(
             format.media(),
             super::report::shown(media)
         );
-        let (alias, mended) = ("IMAGE_MIME_TYPE_INVALID", "its bytes count");
-        report.mend(&codes::GLTF_IMAGE, alias, at, &message, mended);
+        let (alias, repair) = ("IMAGE_MIME_TYPE_INVALID", "its bytes count");
+        report.repair(&codes::GLTF_IMAGE, alias, at, &message, repair);
     }
     let (name, extension) = match format {
         ImageCoding::Png | ImageCoding::Jpeg => return,
@@ -244,8 +244,8 @@ fn check_media(
     };
     if !doc.uses(extension) {
         let message = format!("a {name} image needs the extension `{extension}`");
-        let (alias, mended) = ("IMAGE_NON_ENABLED_MIME_TYPE", "it is read");
-        report.mend(&codes::GLTF_IMAGE, alias, at, &message, mended);
+        let (alias, repair) = ("IMAGE_NON_ENABLED_MIME_TYPE", "it is read");
+        report.repair(&codes::GLTF_IMAGE, alias, at, &message, repair);
     }
 }
 
@@ -253,12 +253,12 @@ fn remark_size(picture: &ir::Image, at: NodeId, report: &mut AssetReport<'_, '_>
     let ir::Image { width, height, .. } = picture;
     if !width.is_power_of_two() || !height.is_power_of_two() {
         let message = format!("the image has {width} × {height} pixels");
-        report.say(&codes::GLTF_REMARK, "IMAGE_NPOT_DIMENSIONS", at, message);
+        report.add(&codes::GLTF_REMARK, "IMAGE_NPOT_DIMENSIONS", at, message);
     }
 }
 
-enum Refusal {
-    ImageFault(ImageFault),
+enum Rejection {
+    Fault(ImageFault),
     Limit(Exceeded),
 }
 
@@ -268,21 +268,21 @@ fn decoded(
     doc: &Document<'_>,
     threads: usize,
     budget: &Budget,
-) -> BTreeMap<Stretch, Result<ir::Image, Refusal>> {
+) -> BTreeMap<ByteRange, Result<ir::Image, Rejection>> {
     let (mut pictures, mut admitted) = (BTreeMap::new(), BTreeMap::new());
     let images = doc.images.iter().filter_map(|image| doc.image_bytes(image));
     for (bytes, format) in images.filter_map(|bytes| Some((bytes, ImageCoding::of(bytes)?))) {
-        let own = stretch(bytes);
-        if pictures.contains_key(&own) || admitted.contains_key(&own) {
+        let range = byte_range(bytes);
+        if pictures.contains_key(&range) || admitted.contains_key(&range) {
             continue;
         }
         match admit(format, bytes, budget) {
             Ok(file) => {
-                admitted.insert(own, file);
+                admitted.insert(range, file);
             }
             Err(refusal) => {
-                let is_over = matches!(refusal, Refusal::Limit(_));
-                pictures.insert(own, Err(refusal));
+                let is_over = matches!(refusal, Rejection::Limit(_));
+                pictures.insert(range, Err(refusal));
                 if is_over {
                     break;
                 }
@@ -292,13 +292,13 @@ fn decoded(
     // What is refused for its size is not worth decoding the rest.
     if pictures
         .values()
-        .any(|own| matches!(own, Err(Refusal::Limit(_))))
+        .any(|range| matches!(range, Err(Rejection::Limit(_))))
     {
         return pictures;
     }
     let (places, files): (Vec<_>, Vec<_>) = admitted.into_iter().unzip();
     let made = pixels::decode_all(&files, threads, budget).into_iter();
-    let made = made.map(|pixels| pixels.map(picture).map_err(|fault| Refusal::of(&fault)));
+    let made = made.map(|pixels| pixels.map(picture).map_err(|fault| Rejection::of(&fault)));
     pictures.extend(places.into_iter().zip(made));
     pictures
 }
@@ -308,22 +308,22 @@ fn admit<'a>(
     format: ImageCoding,
     bytes: &'a [u8],
     budget: &Budget,
-) -> Result<ChargedFile<'a>, Refusal> {
+) -> Result<ChargedFile<'a>, Rejection> {
     if format.ends_early(bytes) {
         let message = "the image ends before it tells its size".to_owned();
-        return Err(Refusal::ImageFault((
+        return Err(Rejection::Fault((
             &codes::GLTF_IMAGE,
             "IMAGE_UNEXPECTED_EOS",
             message,
         )));
     }
     pixels::charge_file(bytes, Opacity::Kept, budget).map_err(|refused| match refused {
-        PixelFault::Limit(fault) => Refusal::Limit(fault),
-        PixelFault::File(fault) => Refusal::of(&fault),
+        PixelFault::Limit(fault) => Rejection::Limit(fault),
+        PixelFault::File(fault) => Rejection::of(&fault),
     })
 }
 
-impl Refusal {
+impl Rejection {
     /// That an image can't be decoded.
     fn of(fault: &DecodeError) -> Self {
         let (code, alias) = match fault {
@@ -335,7 +335,7 @@ impl Refusal {
                 (&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID")
             }
         };
-        Self::ImageFault((code, alias, format!("the image {fault}")))
+        Self::Fault((code, alias, format!("the image {fault}")))
     }
 }
 

@@ -1,7 +1,7 @@
-//! Influences: which joints each vertex of a skinned mesh follows, and by how much.
+//! Skinning weights: the joints of each vertex, and their weights.
 
+use super::accessor_reader::AccessorReader;
 use super::document::Document;
-use super::elements::Elements;
 use super::report::AssetReport;
 use rtc_diag::codes;
 use rtc_source::Resource;
@@ -29,13 +29,14 @@ pub(super) fn check(
 ) {
     let part = |accessor: usize| {
         let accessor = doc.accessors.get(accessor)?;
-        Elements::of(doc, accessor).filter(|_| accessor.view.is_some() || accessor.sparse.is_some())
+        AccessorReader::of(doc, accessor)
+            .filter(|_| accessor.view.is_some() || accessor.sparse.is_some())
     };
     let sets = accessors
         .into_iter()
-        .map_while(|[own, weights]| Some([part(own)?, part(weights)?]));
-    let sets: Vec<[Elements<'_>; 2]> = sets.collect();
-    let count = sets.first().map_or(0, |[own, _]| own.count);
+        .map_while(|[joints, weights]| Some([part(joints)?, part(weights)?]));
+    let sets: Vec<[AccessorReader<'_>; 2]> = sets.collect();
+    let count = sets.first().map_or(0, |[joints, _]| joints.count);
     if sets
         .iter()
         .flatten()
@@ -53,12 +54,17 @@ pub(super) fn check(
     let mut vertex = Vec::new();
     for index in 0..count {
         vertex.clear();
-        for [own, weights] in &sets {
-            vertex.extend(own.at::<4>(index).into_iter().zip(weights.at::<4>(index)));
+        for [joints, weights] in &sets {
+            vertex.extend(
+                joints
+                    .at::<4>(index)
+                    .into_iter()
+                    .zip(weights.at::<4>(index)),
+            );
         }
         found.look(index, &vertex, joints);
     }
-    found.tell(at, report);
+    found.report(at, report);
 }
 
 impl Influences {
@@ -93,7 +99,7 @@ impl Influences {
     }
 
     /// Reports what was found of the primitive at a node.
-    fn tell(self, at: NodeId, report: &mut AssetReport<'_, '_>) {
+    fn report(self, at: NodeId, report: &mut AssetReport<'_, '_>) {
         let Influences {
             out,
             twice,
@@ -142,7 +148,7 @@ impl Influences {
             let Some(vertex) = place else { continue };
             let place = report.json.at(at, &["attributes", set]);
             let at = place.unwrap_or(at);
-            report.say(code, alias, at, format!("vertex {vertex} {what}"));
+            report.add(code, alias, at, format!("vertex {vertex} {what}"));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Layouts: the type of a component, and how the components of an element lie.
+//! Element layouts: the type of a component, and the rows and columns of an element.
 
 /// The type of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -109,7 +109,7 @@ impl ElementLayout {
         bound.len() == self.components()
             && bound
                 .iter()
-                .all(|own| is_whole(*own) && (least..=most).contains(own))
+                .all(|number| is_whole(*number) && (least..=most).contains(number))
     }
 
     /// As messages call it: `vec3 of f32`.

@@ -1,4 +1,4 @@
-//! Punctual lights: what goes together.
+//! Punctual lights: rules between their properties.
 
 use super::document::Document;
 use super::field::Fields;
@@ -12,7 +12,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
         let fields = Fields::new(report.json, *light);
         if fields.is("type", "spot") && !fields.has("spot") {
             let message = "the light has no `spot`".to_owned();
-            report.say(
+            report.add(
                 &codes::GLTF_MISSING,
                 "UNDEFINED_PROPERTY",
                 fields.at,
@@ -24,11 +24,11 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
             .filter(|_| fields.is("type", "directional"))
         {
             let message = "a directional light reaches everywhere".to_owned();
-            report.say(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
+            report.add(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
         }
         if let Some(at) = fields.node("spot").filter(|_| !fields.is("type", "spot")) {
             let message = "only a spot light has a cone".to_owned();
-            report.say(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
+            report.add(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
         }
         let Some(spot) = fields.object("spot") else {
             continue;
@@ -40,7 +40,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
             let [inner, outer] = [inner, outer].map(shortest);
             let message =
                 format!("the outer cone opens by {outer}, no wider than the inner one, by {inner}");
-            report.say(
+            report.add(
                 &codes::GLTF_VALUE,
                 "KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES",
                 at,

@@ -1,4 +1,4 @@
-//! Materials: what can be said of them without looking at their textures.
+//! Materials: rules between their properties, without their textures.
 
 use super::document::Document;
 use super::field::Fields;
@@ -34,18 +34,18 @@ pub(super) fn texture_coordinates(
         let transform = fields
             .extension("KHR_texture_transform")
             .filter(|_| doc.uses("KHR_texture_transform"));
-        let transform = transform.and_then(|fields| Some((fields.at, fields.whole("texCoord")?)));
-        let own = || {
+        let transform = transform.and_then(|fields| Some((fields.at, fields.integer("texCoord")?)));
+        let set_of_info = || {
             Some((
                 at,
                 if fields.has("texCoord") {
-                    fields.whole("texCoord")?
+                    fields.integer("texCoord")?
                 } else {
                     0
                 },
             ))
         };
-        found.extend(transform.or_else(own));
+        found.extend(transform.or_else(set_of_info));
     }
     found
 }
@@ -58,7 +58,7 @@ pub(super) fn needs_tangents(doc: &Document<'_>, material: Fields<'_, '_>) -> bo
     ];
     let has = |name, key| {
         extension(doc, material, name)
-            .and_then(|own| own.object(key))
+            .and_then(|object| object.object(key))
             .is_some()
     };
     material.object("normalTexture").is_some()
@@ -74,14 +74,14 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
             .filter(|_| !fields.is("alphaMode", "MASK"))
         {
             let message = "the cutoff has no effect without the mode `MASK`".to_owned();
-            report.say(
+            report.add(
                 &codes::GLTF_MATERIAL_ODD,
                 "MATERIAL_ALPHA_CUTOFF_INVALID_MODE",
                 at,
                 message,
             );
         }
-        super::node::tell_levels(*material, report);
+        super::node::report_levels(*material, report);
         check_models(fields, report);
         check_ior(doc, fields, report);
         check_iridescence(doc, fields, report);
@@ -90,11 +90,11 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
         check_coats(doc, fields, report);
         check_emission(doc, fields, report);
     }
-    tell_occlusion(doc, report);
+    report_occlusion(doc, report);
 }
 
 /// Says once that shade that was baked is not shown: what hides the light is in the scene.
-fn tell_occlusion(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
+fn report_occlusion(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     let json = report.json;
     let mut baked = doc
         .materials
@@ -108,7 +108,7 @@ fn tell_occlusion(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
             more + 1
         ),
     };
-    report.say(&codes::GLTF_REMARK, "", first, message);
+    report.add(&codes::GLTF_REMARK, "", first, message);
 }
 
 /// Unlit and specular-glossiness replace the model that other extensions extend.
@@ -120,7 +120,7 @@ fn check_models(fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     for name in ["KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"] {
         if let Some(one) = fields.extension(name).filter(|_| count > 1) {
             let message = format!("`{name}` does not go together with other extensions");
-            report.say(
+            report.add(
                 &codes::GLTF_EXTENSION_ODD,
                 "MULTIPLE_EXTENSIONS",
                 one.at,
@@ -148,7 +148,7 @@ fn check_ior(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetRepor
         && value < 1.0
     {
         let message = format!("the index of refraction is {value}, neither 0 nor 1 or more");
-        report.say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", at, message);
+        report.add(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", at, message);
     }
 }
 
@@ -167,13 +167,13 @@ fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut As
     {
         let message = "the least thickness has no effect without a texture".to_owned();
         let alias = "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_WITHOUT_TEXTURE";
-        report.say(&codes::GLTF_REMARK, alias, at, message);
+        report.add(&codes::GLTF_REMARK, alias, at, message);
     }
     if texture && least > most {
         let [least, most] = [least, most].map(shortest);
         let message =
             format!("the least thickness is {least}, above the greatest, which is {most}");
-        report.say(
+        report.add(
             &codes::GLTF_VALUE,
             "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_INVALID",
             film.at,
@@ -182,7 +182,7 @@ fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut As
     } else if texture && least - most == 0.0 {
         let at = report.json.at_or(film.at, "iridescenceThicknessTexture");
         let message = "the texture has no effect: the least thickness is the greatest".to_owned();
-        report.say(
+        report.add(
             &codes::GLTF_REMARK,
             "KHR_MATERIALS_IRIDESCENCE_THICKNESS_TEXTURE_UNUSED",
             at,
@@ -205,16 +205,16 @@ fn check_volume(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetRe
         .any(|name| extension(doc, fields, name).is_some())
     {
         let message = "no light enters the volume: the material has no transmission".to_owned();
-        report.say(
+        report.add(
             code,
             "KHR_MATERIALS_VOLUME_NO_TRANSMISSION",
             volume.at,
             message,
         );
     }
-    if fields.truth("doubleSided") && volume.number_or("thicknessFactor", 0.0) > 0.0 {
+    if fields.boolean("doubleSided") && volume.number_or("thicknessFactor", 0.0) > 0.0 {
         let message = "a volume has one outside, and the material two".to_owned();
-        report.say(
+        report.add(
             code,
             "KHR_MATERIALS_VOLUME_DOUBLE_SIDED",
             volume.at,
@@ -230,7 +230,7 @@ fn check_dispersion(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Ass
     {
         let message =
             "only what enters a volume is dispersed, and the material has none".to_owned();
-        report.say(
+        report.add(
             &codes::GLTF_MATERIAL_ODD,
             "KHR_MATERIALS_DISPERSION_NO_VOLUME",
             dispersion.at,
@@ -241,7 +241,7 @@ fn check_dispersion(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Ass
 
 /// Textures that share tangents use the texture coordinates of the normal map.
 fn check_coats(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
-    let set = |texture: Fields<'_, '_>| texture.whole("texCoord").unwrap_or(0);
+    let set = |texture: Fields<'_, '_>| texture.integer("texCoord").unwrap_or(0);
     let Some(normal) = fields.object("normalTexture").map(set) else {
         return;
     };
@@ -261,7 +261,7 @@ fn check_coats(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetRep
         if let Some(texture) = texture.filter(|texture| set(*texture) != normal) {
             let message =
                 "the texture and the normal map use different texture coordinates".to_owned();
-            report.say(&codes::GLTF_MATERIAL_ODD, alias, texture.at, message);
+            report.add(&codes::GLTF_MATERIAL_ODD, alias, texture.at, message);
         }
     }
 }
@@ -278,7 +278,7 @@ fn check_emission(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Asset
             .all(|channel| *channel == 0.0)
     {
         let message = "nothing emits: the emissive factor is zero".to_owned();
-        report.say(
+        report.add(
             &codes::GLTF_MATERIAL_ODD,
             "KHR_MATERIALS_EMISSIVE_STRENGTH_ZERO_FACTOR",
             strength.at,
@@ -307,7 +307,7 @@ pub(super) fn check_variants(doc: &Document<'_>, report: &mut AssetReport<'_, '_
                 if !seen.insert(variant) {
                     let message =
                         format!("the primitive has a material for variant {variant} already");
-                    report.say(
+                    report.add(
                         &codes::GLTF_DUPLICATE,
                         "KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT",
                         item,

@@ -1,7 +1,7 @@
-//! Meshes: primitives and the weights of their morph targets, and whether these go together.
+//! Meshes: primitives and morph target weights, and whether they are consistent.
 
 use super::buffer::Purposes;
-use super::demand::Demands;
+use super::constraint::AccessorConstraints;
 use super::document::Document;
 use super::field::Fields;
 use super::primitive::{self, Primitive};
@@ -53,7 +53,7 @@ impl Mesh {
 pub(super) struct MeshLinks<'l> {
     pub(super) purposes: &'l mut Purposes,
     pub(super) usages: &'l mut Usages,
-    pub(super) demands: &'l mut Demands,
+    pub(super) constraints: &'l mut AccessorConstraints,
     /// The accessor that was first seen in each view without a stride.
     pub(super) streams: &'l mut BTreeMap<usize, usize>,
     /// The textures of each material met so far, each with its set of texture coordinates.
@@ -81,7 +81,7 @@ pub(super) fn check(
                 "{} morph targets, and the first primitive has {targets}",
                 primitive.targets.len()
             );
-            report.say(
+            report.add(
                 &codes::GLTF_COUNT,
                 "MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT",
                 at,
@@ -91,7 +91,7 @@ pub(super) fn check(
         if !mesh.weights.is_empty() && mesh.weights.len() != targets {
             let at = report.json.at_or(mesh.at, "weights");
             let message = format!("{} weights for {targets} morph targets", mesh.weights.len());
-            report.say(
+            report.add(
                 &codes::GLTF_COUNT,
                 "MESH_INVALID_WEIGHTS_COUNT",
                 at,

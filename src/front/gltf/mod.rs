@@ -1,22 +1,47 @@
-//! glTF 2.0, from bytes to an asset that is known to be sound: container, JSON, structure,
-//! references, contents.
+//! The front end for glTF 2.0: it reads a `.gltf` or `.glb` file, validates it, and lowers it to
+//! the IR.
 //!
-//! All mistakes are reported, each with its bytes and its JSON pointer. Nothing recurses, nothing
-//! is read outside the folder of the asset, and what the asset claims is looked at before memory is
-//! taken.
+//! # Stages
+//!
+//! 1. `container` finds the JSON text and the binary chunk. The JSON becomes a tree with the byte
+//!    range of each node.
+//! 2. `header` checks the version of glTF and the extensions.
+//! 3. `schema` checks each object against a table of its properties: types, ranges, required
+//!    properties, unknown properties, and references.
+//! 4. `document` builds typed objects from the tree (`accessor`, `buffer`, `mesh`, `node`,
+//!    `skin`, `material`, `texture`, `animation`, `camera`, `light`). References are
+//!    indices. Each object keeps its node, so each finding has a location.
+//! 5. The `check` functions of these modules test rules between objects: buffer views within their
+//!    buffer, a tree of nodes, attributes of equal length.
+//! 6. `resource` loads buffers and images: data URIs, and files in the folder of the asset.
+//!    `meshopt` and `draco` decompress geometry. `image` decodes pictures.
+//! 7. `contents` reads the elements of accessors and checks them against their bounds and against
+//!    the constraints of each use (`constraint`).
+//! 8. `lower` builds the IR of one scene, at one time of one animation, in one material variant.
+//!
+//! # Findings
+//!
+//! All errors are reported, not only the first. `report` adds the byte range, the JSON pointer, and
+//! the code of Khronos' glTF validator, where it has one. With `--lenient` an error that importers
+//! usually repair becomes a warning, and the value is repaired.
+//!
+//! # Limits
+//!
+//! Assets are not trusted. No function recurses over the depth of the asset. Memory is charged to
+//! the budget of the run before it is allocated. Only files in the folder of the asset are read.
 
 mod accessor;
+mod accessor_reader;
 mod animation;
 mod attribute;
 mod buffer;
 mod camera;
 mod channel;
+mod constraint;
 mod container;
 mod contents;
-mod demand;
 mod document;
 mod draco;
-mod elements;
 mod features;
 mod field;
 mod header;
@@ -46,8 +71,8 @@ pub use summary::{AnimationSummary, AssetSummary, summary};
 
 use super::FrontOptions;
 use buffer::Purposes;
+use constraint::AccessorConstraints;
 use container::Parts;
-use demand::Demands;
 use document::Document;
 use report::AssetReport;
 use resource::Resources;
@@ -69,8 +94,8 @@ pub fn extensions() -> String {
     )
 }
 
-/// A JSON schema of glTF 2.0 and its extensions with words for people, defaults and units (`x-unit`). What is
-/// asked of several properties at once is not in it.
+/// A JSON schema of glTF 2.0 and its extensions with words for people, defaults and units
+/// (`x-unit`). What is asked of several properties at once is not in it.
 #[must_use]
 pub fn schema() -> serde_json::Value {
     schema::schema()
@@ -156,7 +181,7 @@ fn parts(file: FileId, map: &SourceMap, is_lenient: bool, sink: &mut Sink) -> Op
     if is_misnamed {
         let message = "the file is named `.glb` and is the JSON of a `.gltf`";
         let finding = Diagnostic::new(&codes::GLB_HEADER, message).alias("GLB_INVALID_MAGIC");
-        let finding = mended(finding, is_lenient, "its content counts");
+        let finding = repair(finding, is_lenient, "its content counts");
         sink.push(finding.at(Span::new(file, 0, 1), "JSON begins here"));
     }
     match (is_glb, is_misnamed) {
@@ -196,18 +221,18 @@ fn text<'s>(
     };
     let mark = Span::new(file, offset(0), offset(BOM.len()));
     let finding = not_json(mark, "the text starts with a byte order mark");
-    sink.push(mended(finding, is_lenient, "it is passed over"));
+    sink.push(repair(finding, is_lenient, "it is passed over"));
     Some((offset(BOM.len()), rest))
 }
 
 /// A finding of what importers mend: lenient a warning that says how, else an error whose hint
 /// does.
-fn mended(mut finding: Diagnostic, is_lenient: bool, mended: &str) -> Diagnostic {
+fn repair(mut finding: Diagnostic, is_lenient: bool, repair: &str) -> Diagnostic {
     if is_lenient {
-        finding.message = format!("{}: {mended}", finding.message);
+        finding.message = format!("{}: {repair}", finding.message);
         finding.severity(Severity::Warning)
     } else {
-        finding.hint(format!("`--lenient` mends this: {mended}"))
+        finding.hint(format!("`--lenient` mends this: {repair}"))
     }
 }
 
@@ -231,7 +256,7 @@ fn check_keys(tree: &Tree<'_>, is_lenient: bool, sink: &mut Sink) {
             let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message)
                 .at(tree.span(*second), "the second");
             let finding = match are_equal {
-                true => mended(finding, is_lenient, "both say the same"),
+                true => repair(finding, is_lenient, "both say the same"),
                 false => finding,
             };
             finding
@@ -268,23 +293,23 @@ fn fill<'s>(
     threads: usize,
     report: &mut AssetReport<'_, 's>,
 ) -> Document<'s> {
-    resources.bring_buffers(&mut doc, chunk, report);
-    resources.bring_images(&mut doc, report);
-    let demands = check_links(&doc, report);
+    resources.load_buffers(&mut doc, chunk, report);
+    resources.load_images(&mut doc, report);
+    let constraints = check_links(&doc, report);
     meshopt::expand(&mut doc, report);
     draco::expand(&mut doc, report);
     accessor::check_claims(&doc, report);
-    contents::check(&doc, demands, report);
+    contents::check(&doc, constraints, report);
     image::inspect(&mut doc, threads, report);
     texture::check(&doc, report);
     doc
 }
 
 /// Checks how the parts fit together; what that asks of the accessors comes back.
-fn check_links(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> Demands {
+fn check_links(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> AccessorConstraints {
     let mut purposes = Purposes::new(doc);
     let mut usages = Usages::new(doc.accessors.len());
-    let mut demands = Demands::default();
+    let mut constraints = AccessorConstraints::default();
     buffer::check(doc, report);
     accessor::check(doc, &mut purposes, report);
     image::check(doc, &mut purposes, report);
@@ -296,18 +321,22 @@ fn check_links(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> Demands 
     let mut links = mesh::MeshLinks {
         purposes: &mut purposes,
         usages: &mut usages,
-        demands: &mut demands,
+        constraints: &mut constraints,
         streams: &mut streams,
         textures: std::collections::BTreeMap::new(),
     };
     mesh::check(doc, &mut links, report);
-    let forest = node::check(doc, report);
+    let hierarchy = node::check(doc, report);
     skin::check(
         doc,
-        &forest,
-        (&mut purposes, &mut usages, &mut demands),
+        &hierarchy,
+        (&mut purposes, &mut usages, &mut constraints),
         report,
     );
-    animation::check(doc, &mut (&mut purposes, &mut usages, &mut demands), report);
-    demands
+    animation::check(
+        doc,
+        &mut (&mut purposes, &mut usages, &mut constraints),
+        report,
+    );
+    constraints
 }

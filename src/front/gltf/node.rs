@@ -1,4 +1,4 @@
-//! Nodes: transformations and the tree that they form, found without recursion, however deep it is.
+//! Nodes: transforms, and the node hierarchy, which is traversed without recursion.
 
 use super::document::Document;
 use super::field::Fields;
@@ -101,7 +101,7 @@ impl Node {
             weights: fields.numbers("weights").unwrap_or_default(),
             visible: fields
                 .extension("KHR_node_visibility")
-                .is_none_or(|fields| !fields.has("visible") || fields.truth("visible")),
+                .is_none_or(|fields| !fields.has("visible") || fields.boolean("visible")),
             coarser: fields
                 .extension(LEVELS)
                 .map_or_else(Vec::new, |fields| fields.indices("ids")),
@@ -111,14 +111,14 @@ impl Node {
 }
 
 /// Who is whose parent.
-pub(super) struct Forest {
+pub(super) struct NodeHierarchy {
     pub(super) parents: Vec<Option<usize>>,
     /// The root above each node; none in a loop.
     pub(super) roots: Vec<Option<usize>>,
 }
 
 /// Checks each node, and that they form trees.
-pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> Forest {
+pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> NodeHierarchy {
     let joints: BTreeSet<usize> = doc
         .skins
         .iter()
@@ -127,7 +127,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> For
     for (index, node) in doc.nodes.iter().enumerate() {
         check_transform(node, report);
         check_mesh(doc, node, report);
-        tell_levels(node.at, report);
+        report_levels(node.at, report);
         if !joints.contains(&index) && report.is_part(node.at) {
             check_empty(node, report);
         }
@@ -144,7 +144,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> For
                 Some(Some(parent)) if *parent != index => {
                     let before = std::mem::replace(parent, index);
                     let message = format!("node {child} is a child of node {before} already");
-                    report.say(&codes::GLTF_NODES, "NODE_PARENT_OVERRIDE", at, message);
+                    report.add(&codes::GLTF_NODES, "NODE_PARENT_OVERRIDE", at, message);
                 }
                 Some(Some(_)) | None => {}
             }
@@ -158,7 +158,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> For
             };
             if parents.get(node).is_some_and(Option::is_some) {
                 let message = format!("node {node} is a child, and a scene lists roots");
-                report.mend(
+                report.repair(
                     &codes::GLTF_NODES,
                     "SCENE_NON_ROOT_NODE",
                     at,
@@ -168,7 +168,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> For
             }
         }
     }
-    Forest { parents, roots }
+    NodeHierarchy { parents, roots }
 }
 
 /// Walks up from each node until one whose root is known; a walk that meets itself is a loop.
@@ -181,19 +181,19 @@ fn roots(
     enum NodeState {
         New,
         OnWay,
-        Done(Option<usize>),
+        CheckedSkins(Option<usize>),
     }
     let mut states = vec![NodeState::New; parents.len()];
     for start in 0..parents.len() {
-        let (mut way, mut at): (Vec<usize>, usize) = (Vec::new(), start);
+        let (mut path, mut at): (Vec<usize>, usize) = (Vec::new(), start);
         let root = loop {
             match states[at] {
-                NodeState::Done(root) => break root,
+                NodeState::CheckedSkins(root) => break root,
                 NodeState::OnWay => {
-                    let first = way.iter().position(|node| *node == at).unwrap_or(0);
-                    for node in &way[first..] {
+                    let first = path.iter().position(|node| *node == at).unwrap_or(0);
+                    for node in &path[first..] {
                         let message = format!("node {node} lies below itself");
-                        report.say(
+                        report.add(
                             &codes::GLTF_NODES,
                             "NODE_LOOP",
                             doc.nodes[*node].at,
@@ -204,7 +204,7 @@ fn roots(
                 }
                 NodeState::New => {
                     states[at] = NodeState::OnWay;
-                    way.push(at);
+                    path.push(at);
                     match parents[at] {
                         Some(parent) => at = parent,
                         None => break Some(at),
@@ -212,11 +212,11 @@ fn roots(
                 }
             }
         };
-        way.into_iter()
-            .for_each(|node| states[node] = NodeState::Done(root));
+        path.into_iter()
+            .for_each(|node| states[node] = NodeState::CheckedSkins(root));
     }
     let root = |state: &NodeState| {
-        if let NodeState::Done(root) = state {
+        if let NodeState::CheckedSkins(root) = state {
             *root
         } else {
             None
@@ -235,14 +235,14 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
                 .any(|key| fields.numbers(key).is_some())
             {
                 let message = "a node has a matrix or its parts, not both".to_owned();
-                report.say(&codes::GLTF_TOGETHER, "NODE_MATRIX_TRS", at, message);
+                report.add(&codes::GLTF_TOGETHER, "NODE_MATRIX_TRS", at, message);
             }
             if matrix == IDENTITY {
                 let message = "the matrix is the one that a node has anyway".to_owned();
-                report.say(&codes::GLTF_REMARK, "NODE_MATRIX_DEFAULT", at, message);
+                report.add(&codes::GLTF_REMARK, "NODE_MATRIX_DEFAULT", at, message);
             } else if !is_invertible(&matrix) {
                 let message = "the matrix is not made of translation, rotation and scale";
-                report.mend(
+                report.repair(
                     &codes::GLTF_MATRIX,
                     "NODE_MATRIX_NON_TRS",
                     at,
@@ -251,7 +251,7 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
                 );
             } else if is_sheared(&matrix) {
                 let message = "the matrix shears, which not all readers of glTF follow".to_owned();
-                report.say(&codes::GLTF_REMARK, "", at, message);
+                report.add(&codes::GLTF_REMARK, "", at, message);
             }
         }
         Transform::Parts {
@@ -263,19 +263,19 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
             if (length - 1.0).abs() > UNIT {
                 let at = report.json.at_or(node.at, "rotation");
                 let message = format!("the rotation has length {length}, not 1");
-                report.say(&codes::GLTF_VALUE, "ROTATION_NON_UNIT", at, message);
+                report.add(&codes::GLTF_VALUE, "ROTATION_NON_UNIT", at, message);
             }
         }
     }
 }
 
 /// Notes that of the levels of detail at a node or a material the finest is shown.
-pub(super) fn tell_levels(at: NodeId, report: &mut AssetReport<'_, '_>) {
+pub(super) fn report_levels(at: NodeId, report: &mut AssetReport<'_, '_>) {
     let levels = Fields::new(report.json, at).extension(LEVELS);
     if let Some(levels) = levels {
         let count = 1 + levels.indices("ids").len();
         let message = format!("the finest of {count} levels of detail is shown");
-        report.say(&codes::GLTF_IGNORES, "", levels.at, message);
+        report.add(&codes::GLTF_IGNORES, "", levels.at, message);
     }
 }
 
@@ -306,7 +306,7 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>)
     if let Some(at) = fields.node("weights").filter(|_| !node.weights.is_empty()) {
         if node.mesh.is_none() {
             let message = "there are weights, and no mesh that they could move".to_owned();
-            report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
+            report.add(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
         } else if let Some(mesh) =
             mesh.filter(|mesh| !mesh.primitives.is_empty() && mesh.targets() != node.weights.len())
         {
@@ -315,7 +315,7 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>)
                 node.weights.len(),
                 mesh.targets()
             );
-            report.say(&codes::GLTF_COUNT, "NODE_WEIGHTS_INVALID", at, message);
+            report.add(&codes::GLTF_COUNT, "NODE_WEIGHTS_INVALID", at, message);
         }
     }
     if let Some(at) = fields
@@ -323,12 +323,12 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>)
         .filter(|_| node.skin.is_some() && node.mesh.is_none())
     {
         let message = "there is a skin, and no mesh that it could move".to_owned();
-        report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
+        report.add(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
     match (mesh, node.skin.and_then(|skin| doc.skins.get(skin))) {
         (Some(mesh), Some(_)) if mesh.is_skinned() == Some(false) => {
             let message = "the node has a skin, and its mesh no joints".to_owned();
-            report.say(
+            report.add(
                 &codes::GLTF_SKIN,
                 "NODE_SKIN_WITH_NON_SKINNED_MESH",
                 node.at,
@@ -337,7 +337,7 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>)
         }
         (Some(mesh), None) if mesh.is_skinned() == Some(true) => {
             let message = "the mesh has joints, and the node no skin".to_owned();
-            report.say(
+            report.add(
                 &codes::GLTF_SKIN_ODD,
                 "NODE_SKINNED_MESH_WITHOUT_SKIN",
                 node.at,
@@ -352,7 +352,7 @@ fn check_empty(node: &Node, report: &mut AssetReport<'_, '_>) {
     let fields = Fields::new(report.json, node.at);
     let says = ["children", "mesh", "camera", "extensions", "extras"];
     if !says.iter().any(|key| fields.has(key)) {
-        report.say(
+        report.add(
             &codes::GLTF_REMARK,
             "NODE_EMPTY",
             node.at,

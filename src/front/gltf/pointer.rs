@@ -1,5 +1,5 @@
-//! Pointers of animations (`KHR_animation_pointer`): which property of which object one names, and
-//! what an animation has made of it.
+//! Animation pointers (`KHR_animation_pointer`): the property that a pointer names, and its
+//! animated value.
 
 use super::channel::Path;
 use super::document::Document;
@@ -7,8 +7,8 @@ use rtc_source::tree::{NodeId, NodeKind, Tree};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
-/// What the numbers of properties were moved to, by the object and the key.
-pub(super) type Moved = BTreeMap<(NodeId, &'static str), Vec<f64>>;
+/// The animated values of properties, by object and key.
+pub(super) type AnimatedValues = BTreeMap<(NodeId, &'static str), Vec<f64>>;
 
 /// A property that an animation may move.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +28,12 @@ impl AnimatedProperty {
     pub(super) fn kept(&self, numbers: &[f64]) -> Option<Vec<f64>> {
         let [min, max] = self.range;
         let is_finite = numbers.iter().all(|number| number.is_finite());
-        is_finite.then(|| numbers.iter().map(|own| own.clamp(min, max)).collect())
+        is_finite.then(|| {
+            numbers
+                .iter()
+                .map(|number| number.clamp(min, max))
+                .collect()
+        })
     }
 }
 
@@ -155,15 +160,15 @@ pub(super) fn resolve(
         let (at, rest) = split("/extensions/KHR_lights_punctual/lights/").and_then(index)?;
         (part(&doc.lights, at)?, rest, "lights")
     };
-    let (way, key) = rest.rsplit_once('/').unwrap_or(("", rest));
-    let steps = way.split('/').filter(|step| !step.is_empty());
-    let holder = way.rsplit('/').next().filter(|step| !step.is_empty());
+    let (path, key) = rest.rsplit_once('/').unwrap_or(("", rest));
+    let steps = path.split('/').filter(|step| !step.is_empty());
+    let holder = path.rsplit('/').next().filter(|step| !step.is_empty());
     let at = steps
         .take(STEPS)
         .try_fold(part, |at, step| json.get(at, step))?;
     let mut rows = FOLLOWED.iter().chain(OF_EXTENSIONS);
-    let is_row = |(own, name, width, _): &&PointerRow| {
-        *own == holder.unwrap_or(list) && *name == key && *width > 0
+    let is_row = |(number, name, width, _): &&PointerRow| {
+        *number == holder.unwrap_or(list) && *name == key && *width > 0
     };
     let (_, key, width, range) = *rows.find(is_row)?;
     (json.kind(at) == NodeKind::Map).then_some(AnimatedProperty {

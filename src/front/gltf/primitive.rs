@@ -1,10 +1,9 @@
-//! Primitives: geometry of one material, and whether its attributes, indices, morph targets and
-//! material go together.
+//! Primitives: whether attributes, indices, morph targets and material are consistent.
 
 use super::accessor;
 use super::attribute::{self, Attribute};
 use super::buffer::Purpose;
-use super::demand::Demand;
+use super::constraint::AccessorConstraint;
 use super::document::Document;
 use super::field::Fields;
 use super::layout::ElementLayout;
@@ -49,7 +48,7 @@ impl Primitive {
             sorted,
             indices: fields.index("indices"),
             material: fields.index("material"),
-            mode: fields.whole("mode").unwrap_or(TRIANGLES),
+            mode: fields.integer("mode").unwrap_or(TRIANGLES),
             targets: fields.objects("targets").map(attribute::read).collect(),
             draco: fields
                 .extension("KHR_draco_mesh_compression")
@@ -59,15 +58,15 @@ impl Primitive {
 
     /// The accessor of an attribute.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
-        let own = |place: usize| &self.attributes[place];
+        let attribute = |place: usize| &self.attributes[place];
         let first = self
             .sorted
-            .partition_point(|place| own(*place).name.as_str() < name);
+            .partition_point(|place| attribute(*place).name.as_str() < name);
         self.sorted
             .get(first)
-            .map(|place| own(*place))
-            .filter(|own| own.name == name)
-            .map(|own| own.accessor)
+            .map(|place| attribute(*place))
+            .filter(|attribute| attribute.name == name)
+            .map(|attribute| attribute.accessor)
     }
 
     /// The accessors of the joints that vertices follow, and of their weights, set after set.
@@ -98,7 +97,7 @@ pub(super) fn check(
             .set(accessor.view, Purpose::Vertices, attribute.at, report);
         attribute::check_format(doc, attribute, accessor, false, report);
         attribute::check_place(doc, attribute, accessor, links.streams, report);
-        attribute::demand(attribute, accessor, links.demands);
+        attribute::add_constraints(attribute, accessor, links.constraints);
         match vertices {
             None => vertices = accessor.count,
             Some(first) if accessor.count != Some(first) => {
@@ -107,7 +106,7 @@ pub(super) fn check(
                     "`{}` has {count} elements, and the first attribute {first}",
                     attribute.name
                 );
-                report.say(
+                report.add(
                     &codes::GLTF_COUNT,
                     "MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT",
                     attribute.at,
@@ -142,7 +141,7 @@ fn check_indices(
             .is_some_and(|view| view.stride.is_some())
         {
             let message = "the view of the indices has a stride".to_owned();
-            report.say(
+            report.add(
                 &codes::GLTF_VIEW,
                 "MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE",
                 at,
@@ -153,9 +152,9 @@ fn check_indices(
             layout.component.is_index() && layout.components() == 1 && !layout.normalized
         };
         if accessor.layout.is_some_and(is_index) {
-            links.demands.add(
+            links.constraints.add(
                 index,
-                Demand::Below(vertices.unwrap_or(0), primitive.mode),
+                AccessorConstraint::Below(vertices.unwrap_or(0), primitive.mode),
                 at,
             );
         } else {
@@ -163,7 +162,7 @@ fn check_indices(
                 .layout
                 .map_or("of no known type".to_owned(), ElementLayout::name);
             let message = format!("the indices are {found}, not scalar of u8, u16 or u32");
-            report.say(
+            report.add(
                 &codes::GLTF_FORMAT,
                 "MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT",
                 at,
@@ -182,7 +181,7 @@ fn check_indices(
             "{count} vertices or indices leave some over in mode {}",
             primitive.mode
         );
-        report.say(
+        report.add(
             &codes::GLTF_PRIMITIVE_ODD,
             "MESH_PRIMITIVE_INCOMPATIBLE_MODE",
             at,
@@ -225,7 +224,7 @@ fn check_targets(
                 "the target moves `{}`, which the primitive has not",
                 attribute.name
             );
-            report.say(
+            report.add(
                 &codes::GLTF_ATTRIBUTE,
                 "MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR",
                 attribute.at,
@@ -240,7 +239,7 @@ fn check_targets(
                 accessor.count.unwrap_or(0)
             );
             let alias = "MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT";
-            report.say(&codes::GLTF_COUNT, alias, attribute.at, message);
+            report.add(&codes::GLTF_COUNT, alias, attribute.at, message);
         }
     }
 }
@@ -265,7 +264,7 @@ fn check_material(
                 "the material needs `TEXCOORD_{set}` for `{}`",
                 report.json.pointer(*binding)
             );
-            report.say(
+            report.add(
                 &codes::GLTF_ATTRIBUTE,
                 "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS",
                 at,
@@ -291,7 +290,7 @@ fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetR
     if let Some(tangent) = find("TANGENT").filter(|_| !is_needed) {
         let message =
             "no texture of the material follows tangents, so they have no effect".to_owned();
-        report.say(
+        report.add(
             &codes::GLTF_REMARK,
             "UNUSED_MESH_TANGENT",
             tangent.at,
@@ -308,7 +307,7 @@ fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetR
     if material.object("normalTexture").is_some() {
         let message =
             "the material has a normal map, and the tangents it follows are made up".to_owned();
-        report.say(
+        report.add(
             &codes::GLTF_PRIMITIVE_ODD,
             "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE",
             at,
@@ -318,7 +317,7 @@ fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetR
         let message =
             "the material needs tangents, and there are none, nor a normal map to make them by"
                 .to_owned();
-        report.say(
+        report.add(
             &codes::GLTF_ATTRIBUTE,
             "MESH_PRIMITIVE_NO_TANGENT_SPACE",
             at,

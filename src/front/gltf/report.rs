@@ -6,7 +6,7 @@ use rtc_diag::{Code, Diagnostic, Severity, Sink, codes};
 use rtc_source::tree::{NodeId, NodeKind, Tree};
 use rtc_source::{Budget, Exceeded, Resource};
 
-/// Takes the findings about one asset.
+/// Collects the findings about one asset.
 pub(super) struct AssetReport<'r, 's> {
     /// The text that they are about.
     pub(super) json: &'r Tree<'s>,
@@ -14,7 +14,7 @@ pub(super) struct AssetReport<'r, 's> {
     options: &'r FrontOptions,
     /// What the run may still take.
     pub(super) budget: &'r Budget,
-    /// A limit was passed; that is said once.
+    /// Whether a limit was exceeded, which is reported once.
     is_over: bool,
 }
 
@@ -34,22 +34,21 @@ impl<'r, 's> AssetReport<'r, 's> {
         }
     }
 
-    /// Reports what is wrong at a node; `alias` is the validator's name, empty if it has none.
-    pub(super) fn say(
+    /// Adds a finding at a node. `alias` is the code of the validator, empty if it has none.
+    pub(super) fn add(
         &mut self,
         code: &'static Code,
         alias: &'static str,
         at: NodeId,
         message: impl Into<String>,
     ) {
-        self.told((code, self.severity(code)), alias, at, message.into(), None);
+        self.push((code, self.severity(code)), alias, at, message.into(), None);
     }
 
-    /// Reports that a limit would be passed by what stands at a node; `what` is its name, as `the
-    /// image`.
+    /// Adds the finding that an object exceeds a limit. `what` names it, as `the image`.
     pub(super) fn exceeded(&mut self, at: NodeId, what: &str, fault: &Exceeded) {
         if !std::mem::replace(&mut self.is_over, true) {
-            self.advise(
+            self.add_with_hint(
                 &codes::OVER_LIMIT,
                 "",
                 at,
@@ -59,8 +58,8 @@ impl<'r, 's> AssetReport<'r, 's> {
         }
     }
 
-    /// Charges what stands at a node with so much of a resource. False if that is too much, here or
-    /// before: then the asset is refused, and what is missing is not worth a finding.
+    /// Charges the resource that an object takes. False if a limit is exceeded, here or before:
+    /// then the asset is rejected, and further findings are of no use.
     pub(super) fn charge(
         &mut self,
         resource: Resource,
@@ -77,22 +76,22 @@ impl<'r, 's> AssetReport<'r, 's> {
             .is_ok()
     }
 
-    /// Reports what importers mend: lenient, a warning that says what is done; else an error whose
-    /// hint says so. `mended` completes the message, as `they are computed`.
-    pub(super) fn mend(
+    /// Adds a finding about an error that importers repair: a warning with `--lenient`, else an
+    /// error with a hint. `repair` completes the message, as `they are computed`.
+    pub(super) fn repair(
         &mut self,
         code: &'static Code,
         alias: &'static str,
         at: NodeId,
         message: &str,
-        mended: &str,
+        repair: &str,
     ) {
         if self.is_lenient() {
-            let told = format!("{message}: {mended}");
-            return self.told((code, Severity::Warning), alias, at, told, None);
+            let push = format!("{message}: {repair}");
+            return self.push((code, Severity::Warning), alias, at, push, None);
         }
-        let hint = format!("`--lenient` mends this: {mended}");
-        self.told(
+        let hint = format!("`--lenient` mends this: {repair}");
+        self.push(
             (code, code.severity),
             alias,
             at,
@@ -101,13 +100,13 @@ impl<'r, 's> AssetReport<'r, 's> {
         );
     }
 
-    /// True if what importers mend is mended.
+    /// Whether repairable errors are repaired.
     pub(super) fn is_lenient(&self) -> bool {
         self.options.lenient
     }
 
-    /// The same as `say`, with what to do.
-    pub(super) fn advise(
+    /// The same as [`Self::add`], with a hint.
+    pub(super) fn add_with_hint(
         &mut self,
         code: &'static Code,
         alias: &'static str,
@@ -115,10 +114,10 @@ impl<'r, 's> AssetReport<'r, 's> {
         message: String,
         hint: String,
     ) {
-        self.told((code, self.severity(code)), alias, at, message, Some(hint));
+        self.push((code, self.severity(code)), alias, at, message, Some(hint));
     }
 
-    fn told(
+    fn push(
         &mut self,
         (code, severity): (&'static Code, Severity),
         alias: &'static str,
@@ -144,8 +143,7 @@ impl<'r, 's> AssetReport<'r, 's> {
         }
     }
 
-    /// True if the part at a node is an object; what refers to another one refers to nothing, which
-    /// the walk has told.
+    /// Whether the value at a node is an object. The schema has reported other values.
     pub(super) fn is_part(&self, at: NodeId) -> bool {
         self.json.kind(at) == NodeKind::Map
     }
@@ -155,7 +153,7 @@ impl<'r, 's> AssetReport<'r, 's> {
         self.sink.has_errors()
     }
 
-    /// The value of a node as it may stand in a message.
+    /// The value of a node, formatted for a message.
     pub(super) fn shown(&self, at: NodeId) -> String {
         shown(self.json.written(at))
     }
@@ -185,7 +183,7 @@ fn finding(
         .alias((!alias.is_empty()).then_some(alias))
 }
 
-/// A stretch of the text, short and without control characters.
+/// A part of the text, clipped and without control characters.
 pub(super) fn shown(written: &str) -> String {
     const LONG: usize = 40;
     let mut text: String = written

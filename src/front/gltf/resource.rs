@@ -1,5 +1,5 @@
-//! The bytes that an asset names: its chunk, data URIs, and files below its folder, each file read
-//! once.
+//! Loads the bytes that an asset refers to: the binary chunk, data URIs, and files in its folder,
+//! each file once.
 
 use super::buffer::Bytes;
 use super::document::Document;
@@ -40,7 +40,7 @@ impl<'m> Resources<'m> {
     }
 
     /// Brings the bytes of all buffers; `chunk` is what a `.glb` holds beside its text.
-    pub(super) fn bring_buffers<'s>(
+    pub(super) fn load_buffers<'s>(
         &mut self,
         doc: &mut Document<'s>,
         chunk: Option<&'s [u8]>,
@@ -49,6 +49,7 @@ impl<'m> Resources<'m> {
         let is_glb = doc.is_glb;
         for (index, buffer) in doc.buffers.iter_mut().enumerate() {
             let fields = Fields::new(report.json, buffer.at);
+            // Load the file or data URI, or take the binary chunk.
             let bytes: Option<Bytes<'s>> = if let Some(at) = fields.node("uri") {
                 remark_uri(is_glb, at, report);
                 self.fetch((at, None), is_glb, report)
@@ -58,7 +59,7 @@ impl<'m> Resources<'m> {
             } else if is_glb && index == 0 && !buffer.is_fallback && buffer.length.is_some() {
                 if chunk.is_none() {
                     let message = "the buffer is the binary chunk, and there is none".to_owned();
-                    report.say(
+                    report.add(
                         &codes::GLTF_BUFFER,
                         "BUFFER_MISSING_GLB_DATA",
                         buffer.at,
@@ -69,6 +70,7 @@ impl<'m> Resources<'m> {
             } else {
                 None
             };
+            // Compare the length with `byteLength`.
             let (Some(bytes), Some(length)) = (bytes, buffer.length) else {
                 continue;
             };
@@ -77,7 +79,7 @@ impl<'m> Resources<'m> {
                     "the buffer has {} bytes, and `byteLength` says {length}",
                     bytes.len()
                 );
-                report.say(
+                report.add(
                     &codes::GLTF_BUFFER,
                     "BUFFER_BYTE_LENGTH_MISMATCH",
                     buffer.at,
@@ -88,7 +90,7 @@ impl<'m> Resources<'m> {
             let extra = bytes.len() - length;
             if !fields.has("uri") && extra >= 4 {
                 let message = format!("the binary chunk has {extra} bytes more than the buffer");
-                report.say(
+                report.add(
                     &codes::GLB_EXTRA,
                     "BUFFER_GLB_CHUNK_TOO_BIG",
                     buffer.at,
@@ -100,11 +102,7 @@ impl<'m> Resources<'m> {
     }
 
     /// Brings the bytes of all images that are not in a view.
-    pub(super) fn bring_images(
-        &mut self,
-        doc: &mut Document<'_>,
-        report: &mut AssetReport<'_, '_>,
-    ) {
+    pub(super) fn load_images(&mut self, doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
         let is_glb = doc.is_glb;
         for image in &mut doc.images {
             let Some(at) = report.json.get(image.at, "uri") else {
@@ -132,9 +130,9 @@ impl<'m> Resources<'m> {
     ) -> Option<FoundResource> {
         let text = report.json.text(at)?;
         let parsed = uri::parse(text).or_else(|fault| {
-            let (uri, message, mended) = uri::mended(text).ok_or(fault)?;
+            let (uri, message, repair) = uri::repair(text).ok_or(fault)?;
             let message = format!("`{}` {message}", shown(text));
-            report.mend(&codes::GLTF_URI, "INVALID_URI", at, &message, mended);
+            report.repair(&codes::GLTF_URI, "INVALID_URI", at, &message, repair);
             // What is not mended is told, and no file is read for it.
             match report.is_lenient() {
                 true => Ok(uri),
@@ -145,7 +143,7 @@ impl<'m> Resources<'m> {
             Ok(Uri::Data { media, bytes }) => {
                 if is_glb {
                     let message = "data is written in Base64 where a chunk would do".to_owned();
-                    report.say(&codes::GLB_EXTRA, "DATA_URI_GLB", at, message);
+                    report.add(&codes::GLB_EXTRA, "DATA_URI_GLB", at, message);
                 }
                 let bytes: Bytes<'static> = Rc::new(Cow::Owned(bytes));
                 let known = self.data.get(&bytes).cloned();
@@ -167,7 +165,7 @@ impl<'m> Resources<'m> {
             }
             Err(UriFault::Malformed(why)) => {
                 let message = format!("`{}` is no URI: {why}", shown(text));
-                report.say(&codes::GLTF_URI, "INVALID_URI", at, message);
+                report.add(&codes::GLTF_URI, "INVALID_URI", at, message);
                 None
             }
             Err(UriFault::Told) => None,
@@ -202,7 +200,7 @@ impl<'m> Resources<'m> {
                     shown(path)
                 );
                 let hint = "name the folder of its files by `--asset-root`".to_owned();
-                report.advise(&codes::GLTF_NO_FILE, "IO_ERROR", at, message, hint);
+                report.add_with_hint(&codes::GLTF_NO_FILE, "IO_ERROR", at, message, hint);
                 return None;
             }
             Err(Missing::Absent(places)) => {
@@ -212,7 +210,7 @@ impl<'m> Resources<'m> {
                     .map(|place| format!("`{}`", place.display()))
                     .collect();
                 let hint = format!("looked for it at {}", places.join(", "));
-                report.advise(&codes::GLTF_NO_FILE, "IO_ERROR", at, message, hint);
+                report.add_with_hint(&codes::GLTF_NO_FILE, "IO_ERROR", at, message, hint);
                 return None;
             }
         };
@@ -234,7 +232,7 @@ impl<'m> Resources<'m> {
             }
             Err(error) => {
                 let message = format!("can't read `{}`: {error}", found.shown.display());
-                report.say(&codes::GLTF_NO_FILE, "IO_ERROR", at, message);
+                report.add(&codes::GLTF_NO_FILE, "IO_ERROR", at, message);
                 None
             }
         }
@@ -243,7 +241,7 @@ impl<'m> Resources<'m> {
 
 fn remark_uri(is_glb: bool, at: NodeId, report: &mut AssetReport<'_, '_>) {
     if is_glb {
-        report.say(
+        report.add(
             &codes::GLTF_REMARK,
             "URI_GLB",
             at,
@@ -261,7 +259,7 @@ fn outside(text: &str, how: &str, at: NodeId, report: &mut AssetReport<'_, '_>) 
         "put the file beside the asset and name it by a relative path, or allow its folder by \
                 `--asset-root`"
             .to_owned();
-    report.advise(&codes::GLTF_OUTSIDE, "IO_ERROR", at, message, hint);
+    report.add_with_hint(&codes::GLTF_OUTSIDE, "IO_ERROR", at, message, hint);
 }
 
 /// True if a data URI says that it holds a buffer, or is none.
@@ -273,8 +271,8 @@ fn is_buffer(media: Option<&str>, at: NodeId, report: &mut AssetReport<'_, '_>) 
             "the media type of a buffer is application/octet-stream, not `{}`",
             shown(media)
         );
-        let (alias, mended) = ("BUFFER_DATA_URI_MIME_TYPE_INVALID", "its bytes count");
-        report.mend(&codes::GLTF_URI, alias, at, &message, mended);
+        let (alias, repair) = ("BUFFER_DATA_URI_MIME_TYPE_INVALID", "its bytes count");
+        report.repair(&codes::GLTF_URI, alias, at, &message, repair);
     }
     is_buffer || report.is_lenient()
 }

@@ -2,12 +2,12 @@
 
 use super::accessor;
 use super::buffer::{Purpose, Purposes};
-use super::demand::{Demand, Demands};
+use super::constraint::{AccessorConstraint, AccessorConstraints};
 use super::document::Document;
 use super::field::Fields;
 use super::influences;
 use super::layout::{Component, ElementLayout};
-use super::node::{Forest, Node, Transform};
+use super::node::{Node, NodeHierarchy, Transform};
 use super::report::AssetReport;
 use super::usage::{Usage, Usages};
 use rtc_diag::codes;
@@ -37,17 +37,17 @@ impl Skin {
 /// Checks all skins, and the nodes that have one.
 pub(super) fn check(
     doc: &Document<'_>,
-    forest: &Forest,
-    (purposes, usages, demands): (&mut Purposes, &mut Usages, &mut Demands),
+    hierarchy: &NodeHierarchy,
+    (purposes, usages, constraints): (&mut Purposes, &mut Usages, &mut AccessorConstraints),
     report: &mut AssetReport<'_, '_>,
 ) {
-    let order = JointOrder::new(doc, forest);
+    let order = JointOrder::new(doc, hierarchy);
     for skin in &doc.skins {
-        check_tree(doc, skin, forest, &order, report);
-        check_matrices(doc, skin, (purposes, usages, demands), report);
+        check_tree(doc, skin, hierarchy, &order, report);
+        check_matrices(doc, skin, (purposes, usages, constraints), report);
     }
-    let mut shows = Shows::new(doc, forest);
-    let mut done = Done::default();
+    let mut scene_trees = SceneTrees::new(doc, hierarchy);
+    let mut done = CheckedSkins::default();
     for (index, node) in doc.nodes.iter().enumerate() {
         let skin = node
             .skin
@@ -61,10 +61,10 @@ pub(super) fn check(
         else {
             continue;
         };
-        check_node((index, node), forest, report);
-        if shows.apart(forest.roots[index], of) {
+        check_node((index, node), hierarchy, report);
+        if scene_trees.apart(hierarchy.roots[index], of) {
             let message = "a scene shows the mesh and not the joints that move it".to_owned();
-            report.say(&codes::GLTF_SKIN, "NODE_SKIN_NO_SCENE", node.at, message);
+            report.add(&codes::GLTF_SKIN, "NODE_SKIN_NO_SCENE", node.at, message);
         }
         if done.meshes.insert((at, skin.joints.len())) {
             for primitive in &mesh.primitives {
@@ -73,8 +73,8 @@ pub(super) fn check(
                     .influences
                     .insert((accessors.clone(), skin.joints.len()))
                 {
-                    let own = (primitive.at, accessors);
-                    influences::check(doc, own, skin.joints.len(), report);
+                    let vertices = (primitive.at, accessors);
+                    influences::check(doc, vertices, skin.joints.len(), report);
                 }
             }
         }
@@ -82,7 +82,7 @@ pub(super) fn check(
 }
 
 /// Which scenes show which trees.
-struct Shows {
+struct SceneTrees {
     /// The scenes that show the tree of each root.
     scenes: BTreeMap<usize, BTreeSet<usize>>,
     /// The root above the joints of each skin.
@@ -91,15 +91,15 @@ struct Shows {
     known: BTreeMap<(usize, usize), bool>,
 }
 
-impl Shows {
-    fn new(doc: &Document<'_>, forest: &Forest) -> Self {
+impl SceneTrees {
+    fn new(doc: &Document<'_>, hierarchy: &NodeHierarchy) -> Self {
         let mut scenes: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
         for (index, scene) in doc.scenes.iter().enumerate() {
             for node in &scene.nodes {
                 scenes.entry(*node).or_default().insert(index);
             }
         }
-        let root = |node: &usize| forest.roots.get(*node).copied().flatten();
+        let root = |node: &usize| hierarchy.roots.get(*node).copied().flatten();
         let joints = doc
             .skins
             .iter()
@@ -120,11 +120,11 @@ impl Shows {
             known,
         } = self;
         let apart = || {
-            let Some(own) = scenes.get(&root) else {
+            let Some(scenes_of_mesh) = scenes.get(&root) else {
                 return false;
             };
             let of_joints = joints[skin].and_then(|root| scenes.get(&root));
-            of_joints.is_none_or(|of_joints| !own.is_subset(of_joints))
+            of_joints.is_none_or(|of_joints| !scenes_of_mesh.is_subset(of_joints))
         };
         *known.entry((root, skin)).or_insert_with(apart)
     }
@@ -132,7 +132,7 @@ impl Shows {
 
 /// What was checked already.
 #[derive(Default)]
-struct Done {
+struct CheckedSkins {
     /// Meshes, with a number of joints.
     meshes: BTreeSet<(usize, usize)>,
     /// The accessors of joints and weights, with a number of joints.
@@ -146,14 +146,14 @@ struct JointOrder {
 }
 
 impl JointOrder {
-    fn new(doc: &Document<'_>, forest: &Forest) -> Self {
+    fn new(doc: &Document<'_>, hierarchy: &NodeHierarchy) -> Self {
         let count = doc.nodes.len();
         let mut order = Self {
             first: vec![usize::MAX; count],
             after: vec![0; count],
         };
         let mut at = 0;
-        for root in (0..count).filter(|node| forest.roots[*node] == Some(*node)) {
+        for root in (0..count).filter(|node| hierarchy.roots[*node] == Some(*node)) {
             let mut open = vec![(root, false)];
             while let Some((node, is_done)) = open.pop() {
                 if is_done {
@@ -162,11 +162,11 @@ impl JointOrder {
                     order.first[node] = at;
                     at += 1;
                     open.push((node, true));
-                    let own = doc.nodes[node]
+                    let children = doc.nodes[node]
                         .children
                         .iter()
-                        .filter(|child| forest.parents.get(**child) == Some(&Some(node)));
-                    open.extend(own.map(|child| (*child, false)));
+                        .filter(|child| hierarchy.parents.get(**child) == Some(&Some(node)));
+                    open.extend(children.map(|child| (*child, false)));
                 }
             }
         }
@@ -182,7 +182,7 @@ impl JointOrder {
 fn check_tree(
     doc: &Document<'_>,
     skin: &Skin,
-    forest: &Forest,
+    hierarchy: &NodeHierarchy,
     order: &JointOrder,
     report: &mut AssetReport<'_, '_>,
 ) {
@@ -199,24 +199,24 @@ fn check_tree(
             .is_some_and(|node| report.is_part(node.at))
     };
     let known: Vec<usize> = skin.joints.iter().copied().filter(is_node).collect();
-    let root = known.first().and_then(|joint| forest.roots[*joint]);
-    if root.is_none() || known.iter().any(|joint| forest.roots[*joint] != root) {
+    let root = known.first().and_then(|joint| hierarchy.roots[*joint]);
+    if root.is_none() || known.iter().any(|joint| hierarchy.roots[*joint] != root) {
         let message = "no node lies above all joints".to_owned();
-        report.say(&codes::GLTF_SKIN, "SKIN_NO_COMMON_ROOT", at, message);
+        report.add(&codes::GLTF_SKIN, "SKIN_NO_COMMON_ROOT", at, message);
     } else if let Some(skeleton) = skin.skeleton.filter(|skeleton| *skeleton < doc.nodes.len())
         && !known.iter().all(|joint| order.is_below(*joint, skeleton))
     {
         let at = report.json.at_or(skin.at, "skeleton");
         let message = format!("not all joints lie below node {skeleton}");
-        let (alias, mended) = ("SKIN_SKELETON_INVALID", "the hint is passed over");
-        report.mend(&codes::GLTF_SKIN, alias, at, &message, mended);
+        let (alias, repair) = ("SKIN_SKELETON_INVALID", "the hint is passed over");
+        report.repair(&codes::GLTF_SKIN, alias, at, &message, repair);
     }
 }
 
 fn check_matrices(
     doc: &Document<'_>,
     skin: &Skin,
-    (purposes, usages, demands): (&mut Purposes, &mut Usages, &mut Demands),
+    (purposes, usages, constraints): (&mut Purposes, &mut Usages, &mut AccessorConstraints),
     report: &mut AssetReport<'_, '_>,
 ) {
     let Some((index, accessor)) = accessor::find(doc, skin.matrices, report) else {
@@ -231,7 +231,7 @@ fn check_matrices(
         .is_some_and(|view| view.stride.is_some())
     {
         let message = "the view of inverse bind matrices has a stride".to_owned();
-        report.say(
+        report.add(
             &codes::GLTF_VIEW,
             "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE",
             at,
@@ -242,19 +242,19 @@ fn check_matrices(
         layout.columns == 4 && layout.component == Component::F32 && !layout.normalized
     };
     if accessor.layout.is_some_and(is_matrix) {
-        demands.add(index, Demand::Affine, at);
+        constraints.add(index, AccessorConstraint::Affine, at);
     } else {
         let found = accessor
             .layout
             .map_or("of no known type".to_owned(), ElementLayout::name);
         let message = format!("inverse bind matrices are {found}, not mat4 of f32");
-        report.say(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
+        report.add(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
     }
     if let Some(count) =
         Some(accessor.count.unwrap_or(0)).filter(|count| *count < skin.joints.len())
     {
         let message = format!("{count} matrices for {} joints", skin.joints.len());
-        report.say(
+        report.add(
             &codes::GLTF_COUNT,
             "INVALID_IBM_ACCESSOR_COUNT",
             at,
@@ -263,20 +263,24 @@ fn check_matrices(
     }
 }
 
-fn check_node((index, node): (usize, &Node), forest: &Forest, report: &mut AssetReport<'_, '_>) {
+fn check_node(
+    (index, node): (usize, &Node),
+    hierarchy: &NodeHierarchy,
+    report: &mut AssetReport<'_, '_>,
+) {
     let code = &codes::GLTF_SKIN_ODD;
     let unmoved = Transform::Parts {
         translation: [0.0; 3],
         rotation: [0.0, 0.0, 0.0, 1.0],
         scale: [1.0; 3],
     };
-    if forest.parents[index].is_some() {
+    if hierarchy.parents[index].is_some() {
         let message = "the node is no root, and transformations above it don't move a skinned mesh"
             .to_owned();
-        report.say(code, "NODE_SKINNED_MESH_NON_ROOT", node.at, message);
+        report.add(code, "NODE_SKINNED_MESH_NON_ROOT", node.at, message);
     }
     if node.transform != unmoved {
         let message = "the transformation of the node does not move a skinned mesh".to_owned();
-        report.say(code, "NODE_SKINNED_MESH_LOCAL_TRANSFORMS", node.at, message);
+        report.add(code, "NODE_SKINNED_MESH_LOCAL_TRANSFORMS", node.at, message);
     }
 }

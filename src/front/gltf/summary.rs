@@ -1,4 +1,4 @@
-//! What the text of an asset says that it holds, unjudged, for people who ask.
+//! The summary of an asset for `rtc info`: what its JSON lists, without validation.
 
 use super::field::Fields;
 use super::{parts, text};
@@ -69,12 +69,12 @@ pub fn summary(file: FileId, map: &SourceMap) -> Option<AssetSummary> {
             .collect()
     };
     let asset = root.object("asset");
-    let own = |key: &str| asset.and_then(|asset| asset.text(key)).unwrap_or_default();
+    let text = |key: &str| asset.and_then(|asset| asset.text(key)).unwrap_or_default();
     let variants = root.extension("KHR_materials_variants");
     let names = |fields: Fields<'_, '_>| fields.text("name").unwrap_or_default();
     Some(AssetSummary {
-        version: own("version"),
-        generator: own("generator"),
+        version: text("version"),
+        generator: text("generator"),
         counts: COUNTED
             .iter()
             .map(|key| (*key, tree.list(tree.root(), key).count()))

@@ -1,4 +1,4 @@
-//! Textures: which image, and how it is looked up.
+//! Textures: the image, and the sampler.
 
 use super::document::Document;
 use super::field::Fields;
@@ -45,9 +45,9 @@ impl Texture {
 
 impl TextureSampler {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
-        let wrap = |key| fields.whole(key).unwrap_or(REPEAT);
+        let wrap = |key| fields.integer(key).unwrap_or(REPEAT);
         Self {
-            mag_filter: fields.whole("magFilter"),
+            mag_filter: fields.integer("magFilter"),
             wrap: [wrap("wrapS"), wrap("wrapT")],
         }
     }
@@ -58,7 +58,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for texture in &doc.textures {
         let faulty = |report: &mut AssetReport<'_, '_>, at, found: &str, wanted: &str| {
             let message = format!("the image is of the type {}, not {wanted}", shown(found));
-            report.mend(
+            report.repair(
                 &codes::GLTF_IMAGE,
                 "TEXTURE_INVALID_IMAGE_MIME_TYPE",
                 at,

@@ -1,37 +1,37 @@
-//! Vertices that no index names: nothing of them shows, so numbers there that are not finite do no
-//! harm.
+//! Vertices that no index refers to. They are not rendered, so they may hold numbers that are not
+//! finite.
 
 use super::accessor::Accessor;
+use super::accessor_reader::AccessorReader;
 use super::document::Document;
-use super::elements::Elements;
 use super::primitive::Primitive;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The index lists that name elements of each accessor; none where a use takes all of them.
-pub(super) struct Readers(BTreeMap<usize, Option<BTreeSet<usize>>>);
+pub(super) struct VertexUses(BTreeMap<usize, Option<BTreeSet<usize>>>);
 
-impl Readers {
+impl VertexUses {
     pub(super) fn new(doc: &Document<'_>) -> Self {
         let mut readers = Self(BTreeMap::new());
         let primitives = || doc.meshes.iter().flat_map(|mesh| &mesh.primitives);
         for primitive in primitives() {
             readers.of_primitive(primitive);
         }
-        let samplers = doc.animations.iter().flat_map(|own| &own.samplers);
-        let keyframes = samplers.flat_map(|own| [own.input, own.output]);
+        let samplers = doc.animations.iter().flat_map(|item| &item.samplers);
+        let keyframes = samplers.flat_map(|item| [item.input, item.output]);
         let instances = doc.nodes.iter().filter_map(|node| node.instances.as_ref());
-        let instances = instances.flat_map(|own| own.parts);
+        let instances = instances.flat_map(|item| item.parts);
         let matrices = doc.skins.iter().map(|skin| skin.matrices);
-        let whole = keyframes.chain(instances).chain(matrices);
-        for accessor in whole.flatten() {
+        let integer = keyframes.chain(instances).chain(matrices);
+        for accessor in integer.flatten() {
             readers.0.insert(accessor, None);
         }
         readers
     }
 
     fn of_primitive(&mut self, primitive: &Primitive) {
-        let moved = primitive.targets.iter().flatten();
-        for attribute in primitive.attributes.iter().chain(moved) {
+        let animated = primitive.targets.iter().flatten();
+        for attribute in primitive.attributes.iter().chain(animated) {
             let slot = self.0.entry(attribute.accessor);
             let lists = slot.or_insert_with(|| Some(BTreeSet::new()));
             match (lists.as_mut(), primitive.indices) {
@@ -61,7 +61,7 @@ impl Readers {
         };
         let Some(lists) = lists else { return true };
         let names = |indices: &Accessor| {
-            let elements = Elements::of(doc, indices)?;
+            let elements = AccessorReader::of(doc, indices)?;
             Some(elements.integers().iter().any(|at| is_bad(*at as usize)))
         };
         let mut lists = lists.iter().map(|list| doc.accessors.get(*list));

@@ -1,5 +1,4 @@
-//! URIs: data that is written in place, or a path below the folder of the asset or beside it;
-//! nothing else is followed.
+//! URIs: data URIs, and paths in the folder of the asset. Other URIs are rejected.
 
 use base64::Engine as _;
 use base64::alphabet::STANDARD;
@@ -80,7 +79,7 @@ pub(super) fn parse(uri: &str) -> Result<Uri, UriFault> {
 
 /// What importers make of a URI that is none: what is wrong with it, and how it is mended. A mended
 /// path leads nowhere that another may not.
-pub(super) fn mended(uri: &str) -> Option<(Uri, &'static str, &'static str)> {
+pub(super) fn repair(uri: &str) -> Option<(Uri, &'static str, &'static str)> {
     if strip_scheme(uri, "data").is_some() {
         let joined: String = uri.split_ascii_whitespace().collect();
         let is_broken = joined.len() < uri.len();
@@ -205,7 +204,7 @@ mod tests {
 
     #[test]
     fn what_is_mended_stays_below_the_folder_too() {
-        let path = |uri| mended(uri).map(|(uri, ..)| uri);
+        let path = |uri| repair(uri).map(|(uri, ..)| uri);
         assert_eq!(path("a\\b.bin"), Some(Uri::Path("a/b.bin".to_owned())));
         for uri in [
             "..\\x",
@@ -216,7 +215,7 @@ mod tests {
             "%2e%2e%5cx",
             "x",
         ] {
-            assert_eq!(mended(uri), None, "{uri}");
+            assert_eq!(repair(uri), None, "{uri}");
         }
         let bytes = vec![0, 1, 2];
         let media = String::new();

@@ -1,4 +1,4 @@
-//! What each accessor is used for: one purpose only.
+//! The usage of each accessor. An accessor has one usage only.
 
 use super::report::AssetReport;
 use rtc_diag::codes;
@@ -53,7 +53,7 @@ impl Usages {
                     usage.name(),
                     first.name()
                 );
-                report.say(
+                report.add(
                     &codes::GLTF_ACCESSOR,
                     "ACCESSOR_USAGE_OVERRIDE",
                     at,

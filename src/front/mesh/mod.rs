@@ -1,8 +1,22 @@
-//! Mesh files, OBJ, OFF, STL, PLY or points as XYZ, told apart by content: bytes to vertices and
-//! triangles.
+//! Readers of mesh files: OBJ with MTL, OFF, STL, PLY, and XYZ point lists.
 //!
-//! What a mesh takes is charged before it is there; every fault has its place in the file. Who asked
-//! for the file, and what is done without it, is the affair of others.
+//! The content decides the format, not the name of the file. Each reader turns bytes into a
+//! [`Parsed`]: an IR mesh, the materials that the file names, and the faults of the file. The
+//! caller (`front/course/assets`) locates the file and turns faults into findings.
+//!
+//! - `obj` and `mtl`: Wavefront OBJ and its material libraries. `material_use` records which
+//!   triangles use which material.
+//! - `off`: the object file format of Geomview.
+//! - `stl`: binary and text.
+//! - `ply`: binary of either byte order, and text.
+//! - `xyz`: one point per line, with a color or a normal.
+//!
+//! Shared steps: `polygons` collects polygons until all vertices are known, `polygon`
+//! triangulates them by ear clipping with exact predicates, `stroke` makes meshes of points and
+//! lines, and `tint` finds the range of vertex colors that a file does not declare.
+//!
+//! Files are not trusted. The memory of a mesh is charged to the budget before it is allocated, and
+//! no count in a file causes an allocation before the file is known to be long enough.
 
 mod material_use;
 pub mod mtl;
@@ -22,17 +36,17 @@ pub use material_use::{MaterialUse, Named};
 use crate::words::{Lines, Word};
 use rtc_ir::Mesh;
 use rtc_source::{Budget, Exceeded, Resource};
-use stroke::{Pen, Segments, join};
+use stroke::{Segments, StrokeMesher, join};
 
-/// So many faults of one file are told.
+/// The most faults that are reported for one file.
 pub const MAX_FAULTS: usize = 10;
 
 /// A mesh file as read.
 #[derive(Debug, Default)]
 pub struct Parsed {
     /// What is drawn, without a name, its numbers in the precision of the file: normals, texture
-    /// coordinates, tangents and colours only where the file has some, colours at least 0, the corners
-    /// of triangles in range.
+    /// coordinates, tangents and colours only where the file has some, colours at least 0, the
+    /// corners of triangles in range.
     pub mesh: Mesh,
     /// Elements that don't show: the first, and how many.
     pub not_drawn: Option<(WordFault, usize)>,
@@ -56,15 +70,15 @@ impl Parsed {
         if segments.ends.is_empty() {
             return Ok(());
         }
-        let drawn = Pen::new(&self.mesh, budget).draw(segments)?;
-        join(&mut self.mesh, drawn);
+        let drawn_meshes = StrokeMesher::new(&self.mesh, budget).draw(segments)?;
+        join(&mut self.mesh, drawn_meshes);
         Ok(())
     }
 }
 
 /// Bytes of what a mesh has for each vertex, in 64 bits.
 fn columns(mesh: &Mesh) -> u64 {
-    let column = |is_there: bool, numbers: u64| if is_there { 8 * numbers } else { 0 };
+    let column = |exists: bool, numbers: u64| if exists { 8 * numbers } else { 0 };
     column(true, 3)
         + column(!mesh.normals.is_empty(), 3)
         + column(!mesh.uvs.is_empty(), 2)
@@ -122,7 +136,8 @@ fn first_lines(bytes: &[u8]) -> Lines<'_> {
     Lines::new(&bytes[..bytes.len().min(LOOKED_AT)])
 }
 
-/// Whether a file that begins so is a mesh: it starts as PLY, STL or OFF, or as OBJ and has a vertex.
+/// Whether a file that begins so is a mesh: it starts as PLY, STL or OFF, or as OBJ and has a
+/// vertex.
 #[must_use]
 pub fn is_mesh(head: &[u8]) -> bool {
     if ply::is_head(head) || stl::is_head(head) {
@@ -159,7 +174,7 @@ pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
     if parsed.mesh.triangles.is_empty() && parsed.not_drawn.is_none() {
         // Of points alone the vertices themselves are not kept.
         let vertices = std::mem::take(&mut parsed.mesh);
-        let points = Pen::new(&vertices, budget).draw(Segments::points(&vertices))?;
+        let points = StrokeMesher::new(&vertices, budget).draw(Segments::points(&vertices))?;
         join(&mut parsed.mesh, points);
     }
     charge(&mut parsed.mesh, budget)?;

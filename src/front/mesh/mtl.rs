@@ -24,9 +24,9 @@ pub struct Library {
     pub not_shown: Option<(WordFault, usize)>,
 }
 
-/// A value, and where it is written.
+/// A value of a statement, and the location of the statement.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Said<T> {
+pub struct MtlValue<T> {
     /// The value.
     pub value: T,
     /// The statement.
@@ -39,53 +39,53 @@ pub struct MtlMaterial {
     /// Its name in the file.
     pub at: WordSpan,
     /// `Ka`, the ambient reflectance, each channel in 0..=1e6.
-    pub ambient: Option<Said<[f64; 3]>>,
+    pub ambient: Option<MtlValue<[f64; 3]>>,
     /// `Kd`, the diffuse reflectance, each channel in 0..=1e6.
-    pub diffuse: Option<Said<[f64; 3]>>,
+    pub diffuse: Option<MtlValue<[f64; 3]>>,
     /// `Ks`, the specular reflectance, each channel in 0..=1e6.
-    pub specular: Option<Said<[f64; 3]>>,
+    pub specular: Option<MtlValue<[f64; 3]>>,
     /// `Ns`, the exponent of the highlight, in 0..=1e6.
-    pub exponent: Option<Said<f64>>,
+    pub exponent: Option<MtlValue<f64>>,
     /// `d`, or 1 − `Tr`: how much it hides what is behind it, in 0..=1.
-    pub opacity: Option<Said<f64>>,
+    pub opacity: Option<MtlValue<f64>>,
     /// `Ni`, the index of refraction, in 0..=1e6.
-    pub index: Option<Said<f64>>,
+    pub index: Option<MtlValue<f64>>,
     /// `illum`, the number of the illumination model, 0 to 10.
-    pub model: Option<Said<u8>>,
+    pub model: Option<MtlValue<u8>>,
     /// `Ke`, the radiance, each channel in 0..=1e6.
-    pub emissive: Option<Said<[f64; 3]>>,
+    pub emissive: Option<MtlValue<[f64; 3]>>,
     /// `Tf`, the colour that light has behind it, each channel in 0..=1e6.
-    pub filter: Option<Said<[f64; 3]>>,
+    pub filter: Option<MtlValue<[f64; 3]>>,
     /// `Pr`, the roughness, in 0..=1.
-    pub roughness: Option<Said<f64>>,
+    pub roughness: Option<MtlValue<f64>>,
     /// `Pm`, how much of it is metal, in 0..=1.
-    pub metallic: Option<Said<f64>>,
+    pub metallic: Option<MtlValue<f64>>,
     /// `Ps`, its sheen, in 0..=1.
-    pub sheen: Option<Said<f64>>,
+    pub sheen: Option<MtlValue<f64>>,
     /// `Pc`, how much of it is under a clear coat, in 0..=1.
-    pub clearcoat: Option<Said<f64>>,
+    pub clearcoat: Option<MtlValue<f64>>,
     /// `Pcr`, how rough the coat is, in 0..=1.
-    pub clearcoat_roughness: Option<Said<f64>>,
+    pub clearcoat_roughness: Option<MtlValue<f64>>,
     /// `aniso`, how much the mirror image is drawn out, in 0..=1.
-    pub anisotropy: Option<Said<f64>>,
+    pub anisotropy: Option<MtlValue<f64>>,
     /// `anisor`, in which direction, in turns from that of u, in 0..=1.
-    pub anisotropy_rotation: Option<Said<f64>>,
+    pub anisotropy_rotation: Option<MtlValue<f64>>,
     /// `map_Kd`.
-    pub color_map: Option<Said<MtlMap>>,
+    pub color_map: Option<MtlValue<MtlMap>>,
     /// `map_Ks`.
-    pub specular_map: Option<Said<MtlMap>>,
+    pub specular_map: Option<MtlValue<MtlMap>>,
     /// `norm`.
-    pub normal_map: Option<Said<MtlMap>>,
+    pub normal_map: Option<MtlValue<MtlMap>>,
     /// `map_Bump` or `bump`.
-    pub bump: Option<Said<MtlMap>>,
+    pub bump: Option<MtlValue<MtlMap>>,
     /// `map_d`.
-    pub opacity_map: Option<Said<MtlMap>>,
+    pub opacity_map: Option<MtlValue<MtlMap>>,
     /// `map_Ke`.
-    pub emissive_map: Option<Said<MtlMap>>,
+    pub emissive_map: Option<MtlValue<MtlMap>>,
     /// `map_Pr`.
-    pub roughness_map: Option<Said<MtlMap>>,
+    pub roughness_map: Option<MtlValue<MtlMap>>,
     /// `map_Pm`.
-    pub metallic_map: Option<Said<MtlMap>>,
+    pub metallic_map: Option<MtlValue<MtlMap>>,
     /// Whether `Tr` alone said the opacity, 1 of it: some programs write so what hides all.
     pub is_transparency_1: bool,
 }
@@ -137,11 +137,11 @@ struct MtlReader<'a> {
 /// What a statement does.
 #[derive(Clone, Copy)]
 enum Statement {
-    Color(fn(&mut MtlMaterial) -> &mut Option<Said<[f64; 3]>>),
-    Number(fn(&mut MtlMaterial) -> &mut Option<Said<f64>>),
+    Color(fn(&mut MtlMaterial) -> &mut Option<MtlValue<[f64; 3]>>),
+    Number(fn(&mut MtlMaterial) -> &mut Option<MtlValue<f64>>),
     /// A number from 0 to 1.
-    Fraction(fn(&mut MtlMaterial) -> &mut Option<Said<f64>>),
-    Map(fn(&mut MtlMaterial) -> &mut Option<Said<MtlMap>>),
+    Fraction(fn(&mut MtlMaterial) -> &mut Option<MtlValue<f64>>),
+    Map(fn(&mut MtlMaterial) -> &mut Option<MtlValue<MtlMap>>),
     Opacity,
     Transparency,
     Model,
@@ -244,34 +244,34 @@ impl MtlReader<'_> {
         };
         match statement {
             Statement::Color(slot) => {
-                *slot(material) = Some(Said {
+                *slot(material) = Some(MtlValue {
                     value: color(&head, rest)?,
                     at,
                 })
             }
             Statement::Number(slot) => {
                 let value = number(&head, rest.first(), LARGEST)?;
-                *slot(material) = Some(Said { value, at });
+                *slot(material) = Some(MtlValue { value, at });
             }
             Statement::Fraction(slot) => {
                 let value = number(&head, rest.first(), 1.0)?;
-                *slot(material) = Some(Said { value, at });
+                *slot(material) = Some(MtlValue { value, at });
             }
             Statement::Opacity => {
                 let value = number(&head, after_halo(rest).first(), 1.0)?;
-                material.opacity = Some(Said { value, at });
+                material.opacity = Some(MtlValue { value, at });
                 material.is_transparency_1 = false;
             }
             Statement::Transparency => {
                 let value = 1.0 - number(&head, rest.first(), 1.0)?;
                 // Where both are said, the opacity counts.
                 if material.opacity.is_none() {
-                    material.opacity = Some(Said { value, at });
+                    material.opacity = Some(MtlValue { value, at });
                     material.is_transparency_1 = value == 0.0;
                 }
             }
             Statement::Model => {
-                material.model = Some(Said {
+                material.model = Some(MtlValue {
                     value: model(&head, rest.first())?,
                     at,
                 });
@@ -298,7 +298,7 @@ impl MtlReader<'_> {
         };
         if let Statement::Map(slot) = statement {
             let at = at.place();
-            *slot(material) = Some(Said { value, at });
+            *slot(material) = Some(MtlValue { value, at });
             if let Some(option) = unread {
                 let why = format!("the option `{}` is not read", option.text());
                 self.skip(&option, why);

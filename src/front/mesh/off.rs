@@ -214,14 +214,14 @@ fn face(words: &[Word<'_>], vertices: &Count<'_>, content: &mut Content) -> Resu
         match index(corner, vertices)? {
             Ok(vertex) => content.polygons.corner(vertex),
             Err(fault) => {
-                content.polygons.take_back();
+                content.polygons.discard_polygon();
                 content.parsed.skip(|| fault);
                 return Ok(());
             }
         }
     }
     if corners.len() < 3 {
-        let row = content.polygons.take_back();
+        let row = content.polygons.discard_polygon();
         content.strokes.row(&row);
         return Ok(());
     }

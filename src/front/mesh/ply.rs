@@ -20,8 +20,8 @@ pub(super) fn is_head(head: &[u8]) -> bool {
     head.starts_with(b"ply\n") || head.starts_with(b"ply\r")
 }
 
-/// Reads a PLY. Of vertices it keeps positions, normals, texture coordinates, tangents and colours, of
-/// faces and strips their corners, of faces colours and texture coordinates, and edges.
+/// Reads a PLY. Of vertices it keeps positions, normals, texture coordinates, tangents and colours,
+/// of faces and strips their corners, of faces colours and texture coordinates, and edges.
 pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, ParseFault> {
     let one = |fault| ParseFault::Faults(vec![fault]);
     let mut head = head::read(bytes).map_err(one)?;
@@ -72,7 +72,10 @@ impl<'a> PlyReader<'a> {
             // Any number of nothing.
             _ if element.properties.is_empty() => {}
             b"face" | b"tristrips" | b"edge" => {
-                let corner = element.properties.iter().find(|own| own.is_corners());
+                let corner = element
+                    .properties
+                    .iter()
+                    .find(|property| property.is_corners());
                 let size = corner.map_or(1, |corner| self.body.least(corner.kind));
                 let at_most = CORNER * self.body.left() / size;
                 budget.has(Resource::Memory, at_most as u64)?;
@@ -169,7 +172,7 @@ impl<'a> PlyReader<'a> {
                     .skip(|| body.line_fault(message, "the first such line"));
             }
             if !is_sound || corners < 3 {
-                self.polygons.take_back();
+                self.polygons.discard_polygon();
             }
             if is_sound && corners < 3 {
                 let name = &element.name;
@@ -226,7 +229,7 @@ impl<'a> PlyReader<'a> {
                 let mut is_odd = false;
                 for _ in 0..self.body.count(length, element)? {
                     let Some(corner) = self.vertex(property, element)? else {
-                        if !self.body.was(-1.0) {
+                        if !self.body.last_is(-1.0) {
                             self.no_vertex();
                         }
                         (strip, is_odd) = (Vec::new(), false);
@@ -240,7 +243,9 @@ impl<'a> PlyReader<'a> {
                             } else {
                                 [a, b, corner]
                             };
-                            three.into_iter().for_each(|own| self.polygons.corner(own));
+                            three
+                                .into_iter()
+                                .for_each(|property| self.polygons.corner(property));
                             self.polygons.end();
                         }
                         is_odd = !is_odd;
@@ -256,7 +261,8 @@ impl<'a> PlyReader<'a> {
 
     /// Lines from a vertex to another.
     fn edges(&mut self, element: &PlyElement<'_>) -> Result<(), WordFault> {
-        let is_end = |own: &&PlyProperty<'_>| matches!(own.name.bytes, b"vertex1" | b"vertex2");
+        let is_end =
+            |property: &&PlyProperty<'_>| matches!(property.name.bytes, b"vertex1" | b"vertex2");
         if element.properties.iter().filter(is_end).count() != 2 {
             return self.skip(element);
         }

@@ -7,26 +7,26 @@
 use rtc_math::{two_difference, two_product, two_sum};
 
 /// A point as seen along an axis.
-type Flat = [f64; 2];
+type Point2 = [f64; 2];
 
 /// So many corners of ears are compared for a file without being long, and for each of its corners:
 /// what is left of a polygon after that becomes a fan.
 const COMPARED: usize = 1 << 23;
 const COMPARED_PER_CORNER: usize = 32;
 
-/// Cuts the polygons of a file.
+/// Triangulates the polygons of a file by ear clipping.
 #[derive(Debug)]
-pub(super) struct Cutter {
+pub(super) struct EarClipper {
     /// So many corners may still be compared.
     left: usize,
     /// The corners of the polygon, flat.
-    flat: Vec<Flat>,
+    flat: Vec<Point2>,
     /// The corners that are not cut off so far.
     ring: Vec<usize>,
 }
 
-impl Cutter {
-    /// A cutter for a file whose polygons have so many corners in all.
+impl EarClipper {
+    /// A triangulator for a file whose polygons have `corners` corners in all.
     pub(super) fn new(corners: usize) -> Self {
         Self {
             left: COMPARED.saturating_add(COMPARED_PER_CORNER.saturating_mul(corners)),
@@ -66,8 +66,8 @@ impl Cutter {
         // The normal of Newell, from the first corner.
         let first = position(0);
         let from_first = |at: usize| {
-            let own = position(at);
-            [0, 1, 2].map(|axis| own[axis] - first[axis])
+            let point = position(at);
+            [0, 1, 2].map(|axis| point[axis] - first[axis])
         };
         let mut normal = [0.0; 3];
         for at in 2..count {
@@ -91,8 +91,8 @@ impl Cutter {
         }
         self.flat.clear();
         self.flat.extend((0..count).map(|at| {
-            let own = position(at);
-            [own[k], own[l]]
+            let point = position(at);
+            [point[k], point[l]]
         }));
     }
 
@@ -126,7 +126,7 @@ impl Cutter {
             }
             self.left = self.left.saturating_sub(self.ring.len());
             // A corner in the place of one of the three is where a seam leads to a hole.
-            let is_in = |p: Flat| {
+            let is_in = |p: Point2| {
                 ![a, b, c].contains(&p)
                     && self::turn(a, b, p) >= 0.0
                     && self::turn(b, c, p) >= 0.0
@@ -142,7 +142,7 @@ impl Cutter {
 
 /// Above 0 if the way from `a` over `b` to `c` turns left, below if right, 0 if not at all: the
 /// sign is exact (Shewchuk, "Adaptive precision floating-point arithmetic", 1997).
-fn turn([ax, ay]: Flat, [bx, by]: Flat, [cx, cy]: Flat) -> f64 {
+fn turn([ax, ay]: Point2, [bx, by]: Point2, [cx, cy]: Point2) -> f64 {
     /// (3 + 16 u)·u, for the rounding of two differences, a product and a difference.
     const ROUNDING: f64 = 3.330_669_073_875_471_6e-16;
     let (left, right) = ((ax - cx) * (by - cy), (ay - cy) * (bx - cx));
@@ -184,14 +184,14 @@ mod tests {
     use super::*;
 
     /// The triangles of a flat polygon.
-    fn cut(corners: &[Flat]) -> Vec<[usize; 3]> {
-        let (mut cutter, mut triangles) = (Cutter::new(corners.len()), Vec::new());
+    fn cut(corners: &[Point2]) -> Vec<[usize; 3]> {
+        let (mut clipper, mut triangles) = (EarClipper::new(corners.len()), Vec::new());
         let position = |at: usize| [corners[at][0], 7.0, -corners[at][1]];
-        cutter.cut(corners.len(), position, |triangle| triangles.push(triangle));
+        clipper.cut(corners.len(), position, |triangle| triangles.push(triangle));
         triangles
     }
 
-    fn area(corners: &[Flat], [a, b, c]: [usize; 3]) -> f64 {
+    fn area(corners: &[Point2], [a, b, c]: [usize; 3]) -> f64 {
         let [[ax, ay], [bx, by], [cx, cy]] = [corners[a], corners[b], corners[c]];
         ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2.0
     }
@@ -258,13 +258,13 @@ mod tests {
         corners.reverse();
         let triangles = cut(&corners);
         assert_eq!(triangles.len(), corners.len() - 2);
-        let mut cutter = Cutter::new(corners.len());
-        let before = cutter.left;
-        cutter.cut(
+        let mut clipper = EarClipper::new(corners.len());
+        let before = clipper.left;
+        clipper.cut(
             corners.len(),
             |at| [corners[at][0], corners[at][1], 0.0],
             |_| {},
         );
-        assert!(cutter.left < before, "it is counted");
+        assert!(clipper.left < before, "it is counted");
     }
 }

@@ -1,6 +1,6 @@
 //! The polygons of a file until its vertices are there; then their triangles.
 
-use super::polygon::Cutter;
+use super::polygon::EarClipper;
 use super::{Parsed, to_u32};
 use crate::words::WordFault;
 use rtc_ir::Mesh;
@@ -29,13 +29,13 @@ impl Polygons {
         self.corners.push(vertex);
     }
 
-    /// The last polygon has all its corners.
+    /// Ends the last polygon.
     pub(super) fn end(&mut self) {
         self.ends.push(to_u32(self.corners.len()));
     }
 
-    /// The corners of the last polygon are not of one.
-    pub(super) fn take_back(&mut self) -> Vec<u32> {
+    /// Discards the corners of the last polygon, and returns them.
+    pub(super) fn discard_polygon(&mut self) -> Vec<u32> {
         let first = self.first();
         self.uvs.truncate(first);
         self.corners.split_off(first)
@@ -74,18 +74,18 @@ impl Polygons {
         } = self;
         let are_apart = !colors.is_empty() || !uvs.is_empty();
         let count = parsed.mesh.positions.len();
-        let mut cutter = Cutter::new(corners.len());
+        let mut clipper = EarClipper::new(corners.len());
         let (mut triangles, mut first) = (Vec::new(), 0);
         for end in &ends {
-            let own = &corners[first..*end as usize];
-            if own.iter().any(|corner| *corner as usize >= count) {
+            let polygon = &corners[first..*end as usize];
+            if polygon.iter().any(|corner| *corner as usize >= count) {
                 parsed.skip(&missing);
             } else {
-                let position = |at: usize| parsed.mesh.positions.at(own[at] as usize);
-                cutter.cut(own.len(), position, |three| {
+                let position = |at: usize| parsed.mesh.positions.at(polygon[at] as usize);
+                clipper.cut(polygon.len(), position, |three| {
                     triangles.push(three.map(|at| match are_apart {
                         true => to_u32(first + at),
-                        false => own[at],
+                        false => polygon[at],
                     }));
                 });
             }
@@ -95,7 +95,7 @@ impl Polygons {
         if are_apart {
             // All columns in 64 bits, at most.
             budget.has(Resource::Memory, 160 * corners.len() as u64)?;
-            take_apart(&mut parsed.mesh, corners, count);
+            unshare_vertices(&mut parsed.mesh, corners, count);
             if !uvs.is_empty() {
                 parsed.mesh.uvs = uvs.into();
             }
@@ -110,8 +110,8 @@ impl Polygons {
     }
 }
 
-/// Makes a vertex of each corner.
-fn take_apart(mesh: &mut Mesh, mut corners: Vec<u32>, count: usize) {
+/// Gives each corner a vertex of its own.
+fn unshare_vertices(mesh: &mut Mesh, mut corners: Vec<u32>, count: usize) {
     // Those that are not there are of no triangle.
     for corner in &mut corners {
         *corner = if (*corner as usize) < count {

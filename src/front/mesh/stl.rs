@@ -97,14 +97,20 @@ fn colors(bytes: &[u8], triangles: &[[u8; TRIANGLE]]) -> Vec<[f32; 4]> {
                 code if code & HAS != 0 => whole,
                 code => [0, 5, 10].map(|shift| channel(code, shift)),
             };
-            triangles.iter().map(|own| opaque(color(own))).collect()
+            triangles
+                .iter()
+                .map(|triangle| opaque(color(triangle)))
+                .collect()
         }
-        None if triangles.iter().any(|own| code(own) & HAS != 0) => {
+        None if triangles.iter().any(|triangle| code(triangle) & HAS != 0) => {
             let color = |triangle: &[u8; TRIANGLE]| match code(triangle) {
                 code if code & HAS != 0 => [10, 5, 0].map(|shift| channel(code, shift)),
                 _ => GREY,
             };
-            triangles.iter().map(|own| opaque(color(own))).collect()
+            triangles
+                .iter()
+                .map(|triangle| opaque(color(triangle)))
+                .collect()
         }
         None => Vec::new(),
     }

@@ -38,15 +38,15 @@ impl Segments {
     }
 }
 
-/// What draws points and lines between the vertices of a mesh.
-pub(super) struct Pen<'run> {
+/// Makes meshes of points and lines between the vertices of a mesh.
+pub(super) struct StrokeMesher<'run> {
     source: &'run Mesh,
     radius: f64,
     budget: &'run Budget,
 }
 
-impl<'run> Pen<'run> {
-    /// A pen for a file that has these vertices.
+impl<'run> StrokeMesher<'run> {
+    /// A mesher for a file with these vertices.
     pub(super) fn new(source: &'run Mesh, budget: &'run Budget) -> Self {
         Self {
             source,
@@ -63,7 +63,7 @@ impl<'run> Pen<'run> {
         let (points, lines): (Vec<_>, Vec<_>) =
             strokes.ends.into_iter().partition(|[from, to]| from == to);
         let has_normals = !self.source.normals.is_empty();
-        let mut drawn = Vec::new();
+        let mut drawn_meshes = Vec::new();
         for (ends, are_points) in [(points, true), (lines, false)] {
             let count = ends.len() as u64;
             let solid = Glyph::of(are_points, has_normals, count);
@@ -74,17 +74,17 @@ impl<'run> Pen<'run> {
             self.budget
                 .has(Resource::Memory, vertices * vertex + triangles * TRIANGLE)?;
             let glyphs = thin_glyphs(self.source, &ends, DAffine3::IDENTITY, solid);
-            drawn.extend(glyphs.map(|(own, offsets, world)| {
-                let corners = own.positions.iter().zip(offsets.iter());
+            drawn_meshes.extend(glyphs.map(|(mesh, offsets, world)| {
+                let corners = mesh.positions.iter().zip(offsets.iter());
                 let positions = corners.map(|(position, offset)| {
                     let offset = self.radius * Vec3::from_array(offset);
                     (world.translation + Vec3::from_array(position) + offset).to_array()
                 });
                 let positions = positions.collect();
-                Mesh { positions, ..own }
+                Mesh { positions, ..mesh }
             }));
         }
-        Ok(drawn)
+        Ok(drawn_meshes)
     }
 }
 
@@ -107,25 +107,25 @@ pub(super) fn join(mesh: &mut Mesh, more: Vec<Mesh>) {
     }
     let mut all = vec![std::mem::take(mesh)];
     all.extend(more);
-    all.retain(|own| !own.positions.is_empty());
+    all.retain(|mesh| !mesh.positions.is_empty());
     if let [_] = &*all {
         *mesh = all.remove(0);
         return;
     }
     *mesh = Mesh {
-        positions: column(&all, |own| &own.positions, 0.0),
-        normals: column(&all, |own| &own.normals, 0.0),
-        uvs: column(&all, |own| &own.uvs, 0.0),
-        second_uvs: column(&all, |own| &own.second_uvs, 0.0),
-        colors: column(&all, |own| &own.colors, 1.0),
+        positions: column(&all, |mesh| &mesh.positions, 0.0),
+        normals: column(&all, |mesh| &mesh.normals, 0.0),
+        uvs: column(&all, |mesh| &mesh.uvs, 0.0),
+        second_uvs: column(&all, |mesh| &mesh.second_uvs, 0.0),
+        colors: column(&all, |mesh| &mesh.colors, 1.0),
         ..Mesh::default()
     };
     let mut first = 0;
-    for own in &all {
-        let triangles = own.triangles.iter();
+    for part in &all {
+        let triangles = part.triangles.iter();
         let moved = triangles.map(|corners| corners.map(|corner| first + corner));
         mesh.triangles.extend(moved);
-        first += to_u32(own.positions.len());
+        first += to_u32(part.positions.len());
     }
 }
 
@@ -135,14 +135,14 @@ fn column<const N: usize>(
     of: impl Fn(&Mesh) -> &Column<N>,
     none: f64,
 ) -> Column<N> {
-    if meshes.iter().all(|own| of(own).is_empty()) {
+    if meshes.iter().all(|mesh| of(mesh).is_empty()) {
         return Column::default();
     }
-    let mut all = Vec::with_capacity(meshes.iter().map(|own| own.positions.len()).sum());
-    for own in meshes {
-        match of(own).is_empty() {
-            true => all.extend(own.positions.iter().map(|_| [none; N])),
-            false => all.extend(of(own).iter()),
+    let mut all = Vec::with_capacity(meshes.iter().map(|mesh| mesh.positions.len()).sum());
+    for mesh in meshes {
+        match of(mesh).is_empty() {
+            true => all.extend(mesh.positions.iter().map(|_| [none; N])),
+            false => all.extend(of(mesh).iter()),
         }
     }
     all.into()

@@ -20,11 +20,11 @@ pub(super) fn is_head(head: &[u8]) -> bool {
         if !lines.next(&mut words) {
             break;
         }
-        let own = *count.get_or_insert(words.len());
+        let columns = *count.get_or_insert(words.len());
         // The last line may be cut off.
-        let is_cut = lines.is_at_end() && words.len() < own;
+        let is_cut = lines.is_at_end() && words.len() < columns;
         let are_numbers = || words.iter().all(|word| word.number().is_ok());
-        if !is_cut && (own != words.len() || !COUNTS.contains(&own) || !are_numbers()) {
+        if !is_cut && (columns != words.len() || !COUNTS.contains(&columns) || !are_numbers()) {
             return false;
         }
     }
@@ -55,12 +55,12 @@ fn columns(bytes: &[u8]) -> Vec<(usize, Meaning)> {
         _ => &[],
     };
     let meaning = |first: usize| {
-        let own = rows.iter().filter_map(|row| row.get(first..first + 3));
-        let is_unit = |own: &[f64]| {
-            let square: f64 = own.iter().map(|number| number * number).sum();
+        let row = rows.iter().filter_map(|row| row.get(first..first + 3));
+        let is_unit = |row: &[f64]| {
+            let square: f64 = row.iter().map(|number| number * number).sum();
             (square - 1.0).abs() < 0.02
         };
-        if own.clone().all(is_unit) || own.flatten().any(|number| *number < 0.0) {
+        if row.clone().all(is_unit) || row.flatten().any(|number| *number < 0.0) {
             Meaning::Normal
         } else {
             Meaning::Color
@@ -105,10 +105,10 @@ fn point(
     let position = numbers(&words[0], words)?;
     let (mut normal, mut color) = (None, None);
     for (first, meaning) in columns {
-        let own: [f64; 3] = numbers(&words[0], words.get(*first..).unwrap_or_default())?;
+        let row: [f64; 3] = numbers(&words[0], words.get(*first..).unwrap_or_default())?;
         match meaning {
-            Meaning::Normal if normal.is_none() => normal = Some(own),
-            Meaning::Color if color.is_none() => color = Some(own),
+            Meaning::Normal if normal.is_none() => normal = Some(row),
+            Meaning::Color if color.is_none() => color = Some(row),
             Meaning::Normal | Meaning::Color => {}
         }
     }

@@ -466,8 +466,8 @@ mod tests {
 
     #[test]
     fn a_prefix_code_of_one_long_symbol_is_rejected() {
-        // A table of one symbol of 12 bits: 1 used symbol; 14 sizes of the code of sizes, the last of
-        // which, for a size of 12, is 1; then this size.
+        // A table of one symbol of 12 bits: 1 used symbol; 14 sizes of the code of sizes, the last
+        // of which, for a size of 12, is 1; then this size.
         let table = [(1_u32, 14), (14, 5)]
             .into_iter()
             .chain([(0, 3); 13])

@@ -1,5 +1,5 @@
-//! How decoders lay out pixels, and the way from there to bytes of red, green, blue and, it may be,
-//! opacity: in place.
+//! The channels that a decoder writes, and their conversion to bytes of red, green, blue and
+//! opacity, in place.
 
 /// A pixel as a decoder writes it: grey, or red, green and blue, with opacity or without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,14 +30,14 @@ impl PixelLayout {
 
     /// Makes pixels of `channels` bytes, 3 or 4, of those that the decoder wrote.
     pub(super) fn convert(self, buffer: &mut Vec<u8>, channels: usize) {
-        let own = self.bytes();
-        if own == channels && !self.is_wide {
+        let size = self.bytes();
+        if size == channels && !self.is_wide {
             return;
         }
-        let pixels = buffer.len() / own.max(channels);
-        let start = buffer.len() - pixels * own;
+        let pixels = buffer.len() / size.max(channels);
+        let start = buffer.len() - pixels * size;
         for pixel in 0..pixels {
-            let made = self.pixel(&buffer[start + pixel * own..][..own]);
+            let made = self.pixel(&buffer[start + pixel * size..][..size]);
             buffer[pixel * channels..][..channels].copy_from_slice(&made[..channels]);
         }
         buffer.truncate(pixels * channels);

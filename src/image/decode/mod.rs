@@ -1,8 +1,15 @@
-//! Pixel files read: PNG, JPEG and WebP, told apart by content, to 8 bits a channel.
+//! Decoders of PNG, JPEG, WebP and KTX2, to 8 bits per channel. The content decides the format.
 //!
-//! A file is opened first, which reads its header alone and tells what decoding will take; who
-//! opened it decides whether it is decoded. Its pixels are decoded into the buffer that is handed
-//! on, and there turned into bytes: nothing is copied.
+//! [`PixelFile::open`] reads the header only, and [`PixelFile::cost`] says how many pixels and how
+//! much memory decoding takes. The caller charges this to its budget and then calls
+//! [`PixelFile::decode`].
+//!
+//! Each format has a module that opens a file and decodes into a buffer: `png`, `jpeg`, `webp`
+//! and [`ktx2`]. `layout` describes the channels that a decoder writes, and converts them to bytes
+//! of red, green, blue and opacity in the same buffer, so pixels are not copied.
+//!
+//! The modules check what the decoder crates do not: memory that a forged header would make them
+//! allocate, and data that would make them panic.
 
 mod jpeg;
 pub(super) mod ktx2;
@@ -174,7 +181,7 @@ impl<'a> PixelFile<'a> {
     /// Reads the header of a pixel file.
     ///
     /// # Errors
-    /// If the bytes are no such file, the header is damaged, or it tells of more pixels than are
+    /// If the bytes are no such file, the header is damaged, or it declares more pixels than are
     /// allowed.
     pub fn open(bytes: &'a [u8], opacity: Opacity, most_pixels: u64) -> Result<Self, DecodeError> {
         let (size, decoder) = match PictureFormat::of(bytes) {

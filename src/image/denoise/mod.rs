@@ -37,8 +37,8 @@ const LEAST_WEIGHT: f64 = 1e-3;
 const RIDGE: f64 = 1e-2;
 
 /// The denoised picture of two halves of as many samples. `exact` has guides of more rays than
-/// either half: models are read off there, which also takes off noise of edges that the guides know.
-/// All have the same pixels.
+/// either half: models are read off there, which also takes off noise of edges that the guides
+/// know. All have the same pixels.
 #[must_use]
 pub fn denoise(halves: [NoisyHalf<'_>; 2], exact: &[Guide]) -> Image {
     let variance = variances(halves);
@@ -114,13 +114,13 @@ impl LocalModel<'_> {
                 terms.add(weight, &place, self.fitted.image.pixels[near]);
             }
         }
-        let own = self.fitted.image.pixels[index];
+        let noisy = self.fitted.image.pixels[index];
         let value = solve(terms, RIDGE);
         if value.iter().all(|value| value.is_finite()) {
             // Radiance is not negative.
             value.map(|value| value.max(0.0))
         } else {
-            own
+            noisy
         }
     }
 
@@ -132,8 +132,8 @@ impl LocalModel<'_> {
         exp(-guide - self.distance(index, near, size).max(0.0))
     }
 
-    /// The distance of the colours around two pixels, beyond what their noise explains (Rousselle et
-    /// al., "Adaptive rendering with non-local means filtering", 2012, equation 4).
+    /// The distance of the colours around two pixels, beyond what their noise explains (Rousselle
+    /// et al., "Adaptive rendering with non-local means filtering", 2012, equation 4).
     fn distance(&self, index: usize, near: usize, [width, height]: [usize; 2]) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);
         let places = [index, near].map(|at| [at % width, at / width]);
@@ -149,8 +149,8 @@ impl LocalModel<'_> {
             let [p, q] = moved.map(|[x, y]| (y - PATCH) * width + x - PATCH);
             for c in 0..3 {
                 let apart = self.weighing.pixels[p][c] - self.weighing.pixels[q][c];
-                let [own, other] = [p, q].map(|at| self.variance[at][c]);
-                sum += (apart * apart - own - own.min(other)) / (1e-8 + own + other);
+                let [value, other] = [p, q].map(|at| self.variance[at][c]);
+                sum += (apart * apart - value - value.min(other)) / (1e-8 + value + other);
                 count += 1.0;
             }
         }

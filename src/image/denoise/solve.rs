@@ -34,8 +34,8 @@ pub(super) fn solve(terms: Terms, ridge: f64) -> [f64; 3] {
     let mut lower = [[0.0; TERMS]; TERMS];
     for i in 0..TERMS {
         for j in 0..=i {
-            let own = if i == j && i > 0 { ridge } else { 0.0 };
-            let mut rest = matrix[i][j] + own;
+            let damping = if i == j && i > 0 { ridge } else { 0.0 };
+            let mut rest = matrix[i][j] + damping;
             for (a, b) in lower[i][..j].iter().zip(&lower[j][..j]) {
                 rest -= a * b;
             }

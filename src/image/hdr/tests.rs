@@ -13,7 +13,7 @@ fn witness(file: &[u8]) -> Option<Vec<u8>> {
     Some(bytes)
 }
 
-fn own(file: &[u8]) -> Result<Vec<u8>, DecodeError> {
+fn decode(file: &[u8]) -> Result<Vec<u8>, DecodeError> {
     let hdr = Hdr::open(file, 1 << 16)?;
     let mut bytes = hdr.size.buffer(12)?;
     hdr.decode(&mut bytes)?;
@@ -65,7 +65,7 @@ fn the_witness_reads_the_same_bits() {
             file(header, [300, 2], &[new_runs(), old_runs()].concat()),
         ];
         for file in files {
-            let bytes = own(&file).unwrap();
+            let bytes = decode(&file).unwrap();
             assert_eq!(bytes, witness(&file).unwrap());
             assert!(bytes.iter().any(|byte| *byte != 0));
         }
@@ -78,13 +78,17 @@ fn the_witness_refuses_the_same_files() {
     let whole = file(header, [300, 2], &[new_runs(), old_runs()].concat());
     // The lengths of the last row follow the header; every byte is changed in turn.
     for at in 0..whole.len() {
-        assert_eq!(own(&whole[..at]).ok(), witness(&whole[..at]), "cut at {at}");
+        assert_eq!(
+            decode(&whole[..at]).ok(),
+            witness(&whole[..at]),
+            "cut at {at}"
+        );
         for byte in [0, 1, 2, b'=', b'\n', 128, 255, whole[at] ^ 1] {
             let mut file = whole.clone();
             file[at] = byte;
-            let is_larger = matches!(own(&file), Err(DecodeError::TooLarge { .. }));
+            let is_larger = matches!(decode(&file), Err(DecodeError::TooLarge { .. }));
             assert!(
-                is_larger || own(&file).ok() == witness(&file),
+                is_larger || decode(&file).ok() == witness(&file),
                 "{byte} at {at}"
             );
         }
@@ -131,7 +135,7 @@ fn what_is_wrong_is_said() {
         (file(rgbe, [u32::MAX, u32::MAX], b""), "has 4294967295"),
     ];
     for (file, words) in cases {
-        let fault = own(&file).unwrap_err().to_string();
+        let fault = decode(&file).unwrap_err().to_string();
         assert!(fault.contains(words), "{fault}");
     }
 }

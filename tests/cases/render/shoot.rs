@@ -7,7 +7,7 @@ use rtc::internals::color::Tone;
 use rtc::internals::diag::Sink;
 use rtc::internals::front::pixels;
 use rtc::internals::image::{
-    Association, BackgroundFill, FileFormat, Image, Layers, Look, Picture,
+    Association, BackgroundFill, DisplayTransform, FileFormat, Image, Layers, Picture,
 };
 use rtc::internals::ir::Lowered;
 use rtc::internals::passes::{EnvironmentOverride, SceneKind, ViewAndLight};
@@ -134,7 +134,7 @@ fn colors(renderer: &Renderer, scene: &ValidScene, options: &Options) -> Picture
             renderer.render(&job, &|_| true).unwrap()
         }
     };
-    let look = Look {
+    let look = DisplayTransform {
         stops: options.stops,
         tone,
         background: options.background,

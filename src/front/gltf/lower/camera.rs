@@ -1,5 +1,5 @@
-//! The camera: the one that is asked for or the first one that the scene shows, or else one that
-//! looks at all of it.
+//! The camera: the requested one, or the first one of the scene, or a default camera that frames
+//! the scene.
 
 use super::super::camera::{Projection, projection};
 use super::super::field::Fields;
@@ -19,7 +19,7 @@ const OPENING: f64 = 35.0;
 const FROM: [f64; 3] = [2.0, 1.5, 3.0];
 
 /// A camera that the scene shows, by its index and that of its node.
-pub(super) struct Seen {
+pub(super) struct CameraUse {
     pub(super) camera: usize,
     pub(super) node: usize,
     pub(super) world: DAffine3,
@@ -29,11 +29,11 @@ impl Lowering<'_, '_, '_> {
     /// Puts the camera into the scene: the one that is wanted, by its name, that of its node, or
     /// its index.
     pub(super) fn camera(&mut self, wanted: Option<&str>) {
-        let own = match wanted {
-            Some(name) => self.find_camera(name).and_then(|seen| self.own(seen)),
-            None => self.cameras.iter().find_map(|seen| self.own(seen)),
+        let chosen = match wanted {
+            Some(name) => self.find_camera(name).and_then(|seen| self.camera_of(seen)),
+            None => self.cameras.iter().find_map(|seen| self.camera_of(seen)),
         };
-        match own {
+        match chosen {
             Some((at, camera)) => {
                 self.source_spans.record(
                     ValuePath::new(EntityKind::Camera, 0, Field::Whole),
@@ -64,17 +64,17 @@ impl Lowering<'_, '_, '_> {
         }
     }
 
-    fn own(&self, seen: &Seen) -> Option<(NodeId, Camera)> {
+    fn camera_of(&self, seen: &CameraUse) -> Option<(NodeId, Camera)> {
         let at = *self.doc.cameras.get(seen.camera)?;
-        let fields = Fields::new(self.report.json, at).moved(&self.materials.moved);
+        let fields = Fields::new(self.report.json, at).animated(&self.materials.animated);
         let (mut camera, ahead) = through(projection(fields)?, seen.world)?;
-        if let Some(own) = fields.own() {
-            refine(&mut camera, ahead, own);
+        if let Some(extras) = fields.rtc_extras() {
+            refine(&mut camera, ahead, extras);
         }
         Some((at, camera))
     }
 
-    fn find_camera(&self, name: &str) -> Option<&Seen> {
+    fn find_camera(&self, name: &str) -> Option<&CameraUse> {
         (0..3).find_map(|kind| {
             self.cameras
                 .iter()
@@ -83,14 +83,14 @@ impl Lowering<'_, '_, '_> {
     }
 
     /// What a camera can be called: its name, that of its node, its index.
-    fn camera_names(&self, seen: &Seen) -> [String; 3] {
-        let own = self
+    fn camera_names(&self, seen: &CameraUse) -> [String; 3] {
+        let name = self
             .doc
             .cameras
             .get(seen.camera)
             .map(|camera| Fields::new(self.report.json, *camera).name());
         [
-            own.unwrap_or_default(),
+            name.unwrap_or_default(),
             self.doc.nodes[seen.node].name.clone(),
             seen.camera.to_string(),
         ]
@@ -121,12 +121,15 @@ fn through(projection: Projection, world: DAffine3) -> Option<(Camera, Vec3)> {
 
 /// Gives a camera what glTF has no words for: the size of its picture, the plane of focus, where
 /// the middle of the picture lies, in halves of it, and the lens.
-fn refine(camera: &mut Camera, ahead: Vec3, own: Fields<'_, '_>) {
+fn refine(camera: &mut Camera, ahead: Vec3, extras: Fields<'_, '_>) {
     let [eye, center, right, up] =
         [camera.eye, camera.center, camera.right, camera.up].map(Vec3::from_array);
     let [width, height] = camera.size;
-    let size = [own.count_or("width", width), own.count_or("height", height)];
-    let distance = own.number_or("focusDistance", 1.0);
+    let size = [
+        extras.count_or("width", width),
+        extras.count_or("height", height),
+    ];
+    let distance = extras.number_or("focusDistance", 1.0);
     // Halves of the picture in the plane of focus; those of parallel rays are the same in all.
     let reach = reach(eye);
     let far = match camera.projection {
@@ -139,15 +142,15 @@ fn refine(camera: &mut Camera, ahead: Vec3, own: Fields<'_, '_>) {
         right * (far * f64::from(width) / 2.0),
         up * (far * f64::from(height) / 2.0),
     ];
-    let [across, upward] = own.vector_or("shift", [0.0; 2]);
+    let [across, upward] = extras.vector_or("shift", [0.0; 2]);
     let middle = eye + ahead * distance + half[0] * across + half[1] * upward;
     camera.center = middle.to_array();
     camera.right = (half[0] * (2.0 / f64::from(size[0]))).to_array();
     camera.up = (half[1] * (2.0 / f64::from(size[1]))).to_array();
     camera.size = size;
     camera.lens = Lens {
-        radius: own.number_or("lensRadius", 0.0),
-        samples: own.count_or("lensSamples", 1),
+        radius: extras.number_or("lensRadius", 0.0),
+        samples: extras.count_or("lensSamples", 1),
     };
 }
 

@@ -1,8 +1,8 @@
-//! Meshes out of their rest: moved by morph targets, then by the joints of a skin.
+//! Deforms meshes by morph targets and then by skinning.
 
+use super::super::accessor_reader::AccessorReader;
 use super::super::attribute::Attribute;
 use super::super::document::Document;
-use super::super::elements::Elements;
 use super::super::primitive::Primitive;
 use super::shape::Deformation;
 use super::uv::TexCoordSets;
@@ -50,47 +50,48 @@ impl Morph<'_, '_> {
     /// Adds what the targets move of an attribute, to the first `M` of its components. False if
     /// they leave it alone.
     fn add<const N: usize, const M: usize>(&self, name: &str, column: &mut Column<N>) -> bool {
-        let mut moved: Option<Vec<[f64; N]>> = None;
+        let mut animated: Option<Vec<[f64; N]>> = None;
         for (target, weight) in &self.targets {
             let accessor = target
                 .iter()
                 .find(|attribute| attribute.name == name)
                 .map(|attribute| attribute.accessor);
             let accessor = accessor.and_then(|accessor| self.doc.accessors.get(accessor));
-            let Some(deltas) = accessor.and_then(|accessor| Elements::of(self.doc, accessor))
+            let Some(deltas) = accessor.and_then(|accessor| AccessorReader::of(self.doc, accessor))
             else {
                 continue;
             };
-            let moved = moved.get_or_insert_with(|| column.iter().collect());
+            let animated = animated.get_or_insert_with(|| column.iter().collect());
             deltas.each(|at, delta| {
-                let vertex = moved.get_mut(at).into_iter().flatten().take(M);
+                let vertex = animated.get_mut(at).into_iter().flatten().take(M);
                 vertex
                     .zip(delta)
                     .for_each(|(number, delta)| *number += weight * deltas.fraction(*delta));
             });
         }
-        if let Some(moved) = &moved {
-            *column = Column::rounded(moved.iter().copied());
+        if let Some(animated) = &animated {
+            *column = Column::rounded(animated.iter().copied());
         }
-        moved.is_some()
+        animated.is_some()
     }
 }
 
 /// Moves each vertex by the mean of its joints.
 fn skin(doc: &Document<'_>, primitive: &Primitive, joints: &[DAffine3], mesh: &mut ir::Mesh) {
+    // Blend the joint matrices of each vertex.
     let mut blends = vec![(DMat3::ZERO, Vec3::ZERO); mesh.positions.len()];
-    let part = |accessor: usize| Elements::of(doc, doc.accessors.get(accessor)?);
-    for [own, weights] in primitive.influences() {
-        let (Some(own), Some(weights)) = (part(own), part(weights)) else {
+    let part = |accessor: usize| AccessorReader::of(doc, doc.accessors.get(accessor)?);
+    for [indices, weights] in primitive.influences() {
+        let (Some(indices), Some(weights)) = (part(indices), part(weights)) else {
             break;
         };
         for (at, blend) in blends
             .iter_mut()
             .enumerate()
-            .take(own.count.min(weights.count))
+            .take(indices.count.min(weights.count))
         {
-            let own = own.at::<4>(at).into_iter().zip(weights.at::<4>(at));
-            for (joint, weight) in own.filter(|(_, weight)| *weight != 0.0) {
+            let influences = indices.at::<4>(at).into_iter().zip(weights.at::<4>(at));
+            for (joint, weight) in influences.filter(|(_, weight)| *weight != 0.0) {
                 #[expect(
                     clippy::cast_possible_truncation,
                     clippy::cast_sign_loss,
@@ -104,6 +105,7 @@ fn skin(doc: &Document<'_>, primitive: &Primitive, joints: &[DAffine3], mesh: &m
             }
         }
     }
+    // Transform positions, normals and tangents.
     let positions = mesh.positions.iter().map(Vec3::from_array).zip(&blends);
     mesh.positions = Column::rounded(
         positions.map(|(p, (matrix, translation))| (matrix * p + translation).to_array()),

@@ -1,5 +1,5 @@
-//! Punctual lights in the world (`KHR_lights_punctual`): they shine along their negative z axis,
-//! scale has no effect. `extras.rtc` may say that one has no falloff, or how it was measured.
+//! Punctual lights (`KHR_lights_punctual`): they point along their negative z axis, and scale has
+//! no effect. `extras.rtc` holds lights without falloff and photometric profiles.
 
 use super::super::field::Fields;
 use super::Lowering;
@@ -12,12 +12,15 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 impl Lowering<'_, '_, '_> {
     /// Lowers the light at a node that stands at `world`.
     pub(super) fn light(&mut self, light: NodeId, world: DAffine3) {
-        let fields = Fields::new(self.report.json, light).moved(&self.materials.moved);
+        let fields = Fields::new(self.report.json, light).animated(&self.materials.animated);
         let intensity = fields.number_or("intensity", 1.0);
         let position = world.translation.to_array();
         let backward = unit(world.z_axis).unwrap_or(Vec3::ZERO);
-        if let Some(own) = fields.own().and_then(|own| own_light(own, world)) {
-            return self.add_light(light, own);
+        if let Some(measured) = fields
+            .rtc_extras()
+            .and_then(|extras| light_extras(extras, world))
+        {
+            return self.add_light(light, measured);
         }
         let range = fields.number("range").filter(|range| *range > 0.0);
         let emitter = match fields.text("type").as_deref() {
@@ -62,16 +65,16 @@ impl Lowering<'_, '_, '_> {
 }
 
 /// A light for which glTF has no words.
-fn own_light(own: Fields<'_, '_>, world: DAffine3) -> Option<Light> {
+fn light_extras(extras: Fields<'_, '_>, world: DAffine3) -> Option<Light> {
     let position = world.translation.to_array();
-    if let Some(point) = own.object("point") {
+    if let Some(point) = extras.object("point") {
         return Some(Light::Point(PointLight {
             position,
             color: point.vector("color")?,
             radius: point.number_or("radius", 0.0),
         }));
     }
-    let measured = own.object("photometry")?;
+    let measured = extras.object("photometry")?;
     let photometry = Photometry {
         name: measured.text("name").unwrap_or_default(),
         vertical: measured.numbers("vertical")?,

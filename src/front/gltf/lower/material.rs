@@ -1,8 +1,8 @@
-//! Materials: the factors and maps of glTF and of its extensions, each material lowered once.
+//! Materials: factors and textures of glTF and of its extensions. Each material is lowered once.
 
 use super::super::document::Document;
 use super::super::field::Fields;
-use super::super::pointer::Moved;
+use super::super::pointer::AnimatedValues;
 use super::super::primitive::Primitive;
 use super::super::report::AssetReport;
 use super::mesh::to_u32;
@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 /// What became of the materials of the asset.
 pub(super) struct Materials {
     /// The properties of all parts that an animation has moved.
-    pub(super) moved: Moved,
+    pub(super) animated: AnimatedValues,
     made: Vec<Option<MaterialId>>,
     /// That of primitives without one.
     default: Option<MaterialId>,
@@ -45,9 +45,9 @@ pub(super) fn chosen(
 }
 
 impl Materials {
-    pub(super) fn new(doc: &Document<'_>, moved: Moved) -> Self {
+    pub(super) fn new(doc: &Document<'_>, animated: AnimatedValues) -> Self {
         Self {
-            moved,
+            animated,
             made: vec![None; doc.materials.len()],
             default: None,
             textures: LoweredTextures::new(doc),
@@ -61,29 +61,29 @@ impl Materials {
         self.uv_sets.get(&material.0).copied().unwrap_or_default()
     }
 
-    /// The material that points and lines of a material have, and whether it no longer emits what the
-    /// material does.
+    /// The material that points and lines of a material have, and whether it no longer emits what
+    /// the material does.
     pub(super) fn of_strokes(
         &mut self,
         material: MaterialId,
         is_lit: bool,
         scene: &mut Scene,
     ) -> (MaterialId, bool) {
-        let own = scene.materials.get(material.0 as usize);
-        let Some(ir::Material::Standard(own)) = own else {
+        let extension = scene.materials.get(material.0 as usize);
+        let Some(ir::Material::Standard(extension)) = extension else {
             return (material, false);
         };
-        let loses_light = !is_lit && !own.unlit && own.emissive != [0.0; 3];
+        let loses_light = !is_lit && !extension.unlit && extension.emissive != [0.0; 3];
         let next = MaterialId(to_u32(scene.materials.len()));
         let id = *self.of_strokes.entry((material.0, is_lit)).or_insert(next);
         if id == next {
             let stroked = Standard {
                 double_sided: true,
-                unlit: own.unlit || !is_lit,
+                unlit: extension.unlit || !is_lit,
                 normal_map: None,
                 clearcoat_normal_map: None,
                 anisotropy: 0.0,
-                ..(**own).clone()
+                ..(**extension).clone()
             };
             let stroked = ir::Material::Standard(Box::new(stroked));
             scene.materials.push(stroked);
@@ -133,7 +133,8 @@ impl Materials {
         let mut standard = match material {
             None => Standard::default(),
             Some(material) => {
-                let fields = Fields::new(report.json, doc.materials[material]).moved(&self.moved);
+                let fields =
+                    Fields::new(report.json, doc.materials[material]).animated(&self.animated);
                 let mut reader = MaterialReader {
                     doc,
                     textures: &mut self.textures,
@@ -163,7 +164,7 @@ impl Materials {
                  kept, `TEXCOORD_{lost}` is not, and `{first}` is taken"
             );
             let at = doc.materials[material];
-            report.say(&codes::GLTF_MATERIAL_ODD, "", at, message);
+            report.add(&codes::GLTF_MATERIAL_ODD, "", at, message);
         }
         if let Some(material) = material {
             let place = ValuePath::new(EntityKind::Material, scene.materials.len(), Field::Whole);
@@ -198,8 +199,9 @@ impl MaterialReader<'_, '_, '_, '_> {
 
     fn material(&mut self, fields: Fields<'_, '_>) -> Standard {
         let pbr = fields.object("pbrMetallicRoughness");
-        let strength = extension(fields, "emissive_strength")
-            .map_or(1.0, |own| own.number_or("emissiveStrength", 1.0));
+        let strength = extension(fields, "emissive_strength").map_or(1.0, |extension| {
+            extension.number_or("emissiveStrength", 1.0)
+        });
         let normal = fields.object("normalTexture");
         let mut standard = Standard {
             name: fields.name(),
@@ -221,7 +223,7 @@ impl MaterialReader<'_, '_, '_, '_> {
                 Some("BLEND") => Alpha::Blend,
                 _ => Alpha::Opaque,
             },
-            double_sided: fields.truth("doubleSided"),
+            double_sided: fields.boolean("doubleSided"),
             unlit: extension(fields, "unlit").is_some(),
             ..Standard::default()
         };
@@ -236,53 +238,53 @@ impl MaterialReader<'_, '_, '_, '_> {
 
     /// Phong's model, if `extras.rtc` says it.
     fn phong(&mut self, fields: Fields<'_, '_>) -> Option<Phong> {
-        let own = fields.own()?.object("phong")?;
+        let extension = fields.rtc_extras()?.object("phong")?;
         let mut texture = |key| {
-            let index = own.index(key)?;
+            let index = extension.index(key)?;
             self.textures
                 .of_phong(self.doc, index, self.scene, self.source_spans, self.report)
         };
         let matt = Phong::MATT;
         Some(Phong {
-            color: own.vector("color")?,
-            ka: own.number_or("ka", matt.ka),
-            kd: own.number_or("kd", matt.kd),
-            ks: own.number_or("ks", matt.ks),
-            n: own.number_or("n", matt.n),
-            kt: own.number_or("kt", matt.kt),
-            ior: own.number_or("eta", matt.ior),
-            glossy_samples: own.count_or("glossySamples", matt.glossy_samples),
+            color: extension.vector("color")?,
+            ka: extension.number_or("ka", matt.ka),
+            kd: extension.number_or("kd", matt.kd),
+            ks: extension.number_or("ks", matt.ks),
+            n: extension.number_or("n", matt.n),
+            kt: extension.number_or("kt", matt.kt),
+            ior: extension.number_or("eta", matt.ior),
+            glossy_samples: extension.count_or("glossySamples", matt.glossy_samples),
             color_map: texture("colorMap"),
             specular_map: texture("specularMap"),
             normal_map: texture("normalMap"),
             bump: texture("bumpMap").map(|texture| Bump {
                 texture,
-                height: own.number_or("bumpHeight", 1.0),
+                height: extension.number_or("bumpHeight", 1.0),
             }),
         })
     }
 
     fn specular_glossiness(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
-        let own = extension(fields, "pbrSpecularGlossiness");
-        let Some(model) = own else { return };
+        let extension = extension(fields, "pbrSpecularGlossiness");
+        let Some(model) = extension else { return };
         let [r, g, b] = model.vector_or("specularFactor", [1.0; 3]);
         standard.specular_glossiness = Some([r, g, b, model.number_or("glossinessFactor", 1.0)]);
-        standard.specular_glossiness_map = self.map(own, "specularGlossinessTexture");
+        standard.specular_glossiness_map = self.map(extension, "specularGlossinessTexture");
         standard.base_color = model.vector_or("diffuseFactor", [1.0; 4]);
-        standard.base_color_map = self.map(own, "diffuseTexture");
+        standard.base_color_map = self.map(extension, "diffuseTexture");
     }
 
     fn iridescence(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
-        let own = extension(fields, "iridescence");
-        standard.iridescence = number(own, "iridescenceFactor", 0.0);
-        standard.iridescence_map = self.map(own, "iridescenceTexture");
-        standard.iridescence_ior = number(own, "iridescenceIor", 1.3);
-        let thickness = |key, default| number(own, key, default);
+        let extension = extension(fields, "iridescence");
+        standard.iridescence = number(extension, "iridescenceFactor", 0.0);
+        standard.iridescence_map = self.map(extension, "iridescenceTexture");
+        standard.iridescence_ior = number(extension, "iridescenceIor", 1.3);
+        let thickness = |key, default| number(extension, key, default);
         standard.iridescence_thickness = [
             thickness("iridescenceThicknessMinimum", 100.0),
             thickness("iridescenceThicknessMaximum", 400.0),
         ];
-        standard.iridescence_thickness_map = self.map(own, "iridescenceThicknessTexture");
+        standard.iridescence_thickness_map = self.map(extension, "iridescenceThicknessTexture");
     }
 }
 
@@ -298,23 +300,23 @@ fn number(fields: Option<Fields<'_, '_>>, key: &str, default: f64) -> f64 {
 /// Reads a property of an extension into a parameter of a kind of the table; an absent one leaves
 /// the default.
 macro_rules! read {
-    (map, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
-        $parameter = $reader.map(Some($own), $key)
+    (map, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
+        $parameter = $reader.map(Some($extension), $key)
     };
-    (normal_map, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
-        $parameter = $reader.map(Some($own), $key)
+    (normal_map, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
+        $parameter = $reader.map(Some($extension), $key)
     };
-    (distance, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
-        $parameter = $own.number($key)
+    (distance, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
+        $parameter = $extension.number($key)
     };
-    (color, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
-        $parameter = $own.vector_or($key, $parameter)
+    (color, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
+        $parameter = $extension.vector_or($key, $parameter)
     };
-    (fraction_color, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
-        $parameter = $own.vector_or($key, $parameter)
+    (fraction_color, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
+        $parameter = $extension.vector_or($key, $parameter)
     };
-    ($kind:ident, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
-        $parameter = $own.number_or($key, $parameter)
+    ($kind:ident, $parameter:expr, $reader:ident, $extension:ident, $key:literal) => {
+        $parameter = $extension.number_or($key, $parameter)
     };
 }
 
@@ -323,8 +325,8 @@ macro_rules! extensions {
     ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
         impl MaterialReader<'_, '_, '_, '_> {
             fn extensions(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
-                $(if let Some(own) = fields.extension($name) {
-                    $(read!($kind, standard.$field, self, own, $key);)*
+                $(if let Some(extension) = fields.extension($name) {
+                    $(read!($kind, standard.$field, self, extension, $key);)*
                 })*
             }
         }

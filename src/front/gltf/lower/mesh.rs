@@ -1,8 +1,8 @@
-//! Meshes: the attributes of a primitive as the IR has them; what is the same is made once.
+//! Meshes: the attributes of a primitive as an IR mesh. Equal primitives share a mesh.
 
+use super::super::accessor_reader::AccessorReader;
 use super::super::attribute::Attribute;
 use super::super::document::Document;
-use super::super::elements::Elements;
 use super::super::primitive::{Primitive, TRIANGLES};
 use super::super::report::AssetReport;
 use super::shape::{Deformation, ShapeId};
@@ -143,19 +143,24 @@ impl<'d> MeshParts<'d> {
 
 /// How many elements an accessor has.
 fn count(doc: &Document<'_>, accessor: usize) -> u64 {
-    let own = doc.accessors.get(accessor).and_then(|own| own.count);
-    own.unwrap_or(0) as u64
+    let accessor = doc
+        .accessors
+        .get(accessor)
+        .and_then(|accessor| accessor.count);
+    accessor.unwrap_or(0) as u64
 }
 
 /// How many vertices a primitive has.
 fn vertices_of(doc: &Document<'_>, primitive: &Primitive) -> u64 {
-    primitive.find("POSITION").map_or(0, |own| count(doc, own))
+    primitive
+        .find("POSITION")
+        .map_or(0, |accessor| count(doc, accessor))
 }
 
 /// How many corners the parts of a primitive have.
 pub(super) fn corners(doc: &Document<'_>, primitive: &Primitive) -> u64 {
-    let own = primitive.indices.map(|indices| count(doc, indices));
-    own.unwrap_or_else(|| vertices_of(doc, primitive))
+    let accessor = primitive.indices.map(|indices| count(doc, indices));
+    accessor.unwrap_or_else(|| vertices_of(doc, primitive))
 }
 
 /// Charges a mesh: the vertices once for themselves and once for each attribute of a morph target
@@ -221,8 +226,8 @@ pub(super) fn vertex(primitive: &Primitive, sets: TexCoordSets) -> u64 {
         ("COLOR_0", 16),
     ];
     let columns = columns.into_iter();
-    let own = columns.filter(|(name, _)| primitive.find(name).is_some());
-    own.map(|(_, size)| size).sum()
+    let accessor = columns.filter(|(name, _)| primitive.find(name).is_some());
+    accessor.map(|(_, size)| size).sum()
 }
 
 /// Reads a primitive, moves its vertices, and gives it tangents if it needs them. Lenient, vertices
@@ -251,7 +256,7 @@ pub(super) fn vertices(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Optio
         needs_tangents: _,
         uv_sets,
     } = wanted;
-    let elements = |name: &str| Elements::of(doc, doc.accessors.get(primitive.find(name)?)?);
+    let elements = |name: &str| AccessorReader::of(doc, doc.accessors.get(primitive.find(name)?)?);
     let positions = elements("POSITION")?.column();
     let normals = elements("NORMAL").map_or_else(Column::default, |normals| normals.column());
     // Without normals tangents mean nothing (glTF 2.0, section 3.7.2.1).
@@ -268,7 +273,7 @@ pub(super) fn vertices(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Optio
             .filter(|second| *second != first)
             .map_or_else(Column::default, |second| uvs(second)),
         tangents: tangents.map_or_else(Column::default, |tangents| tangents.column()),
-        colors: elements("COLOR_0").map_or_else(Column::default, |own| colors(&own)),
+        colors: elements("COLOR_0").map_or_else(Column::default, |accessor| colors(&accessor)),
         triangles: Shared::default(),
     };
     deform::deform(doc, primitive, (*shape, *uv_sets), &mut mesh);
@@ -276,7 +281,7 @@ pub(super) fn vertices(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Optio
 }
 
 /// Colours with alpha, each channel from 0 to 1.
-fn colors(elements: &Elements<'_>) -> Column<4> {
+fn colors(elements: &AccessorReader<'_>) -> Column<4> {
     let has_alpha = elements.layout.components() == 4;
     let colors = elements.vectors().into_iter();
     clamped(colors.map(|[r, g, b, alpha]| [r, g, b, if has_alpha { alpha } else { 1.0 }]))

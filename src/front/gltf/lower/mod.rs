@@ -1,12 +1,20 @@
-//! A sound asset to the IR: what its scene shows at one moment, in world coordinates, in one set of
-//! materials.
+//! Lowers a valid asset to the IR: one scene, at one time, in world coordinates, in one material
+//! variant.
+//!
+//! `pose` evaluates the animation: the local transforms of nodes, the weights of morph targets, and
+//! properties that animation pointers change. `transform` multiplies local transforms to world
+//! transforms, and lists the nodes of the scene and their instances. For each node with a mesh,
+//! `shape` finds its morph weights and joint matrices, `deform` applies them, and `mesh` builds
+//! the IR mesh with `topology` (strips and fans to triangles), `uv` (two of the texture
+//! coordinate sets) and `tangent` (MikkTSpace). `stroke` turns points and lines into meshes.
+//! `material` and `texture` lower materials once each. `light` and `camera` follow, and
+//! `settings` reads the render settings that `rtc` writes into `extras.rtc`.
 
 mod camera;
 mod deform;
 mod light;
 mod material;
 mod mesh;
-mod place;
 mod pose;
 mod settings;
 mod shape;
@@ -14,6 +22,7 @@ mod stroke;
 mod tangent;
 mod texture;
 mod topology;
+mod transform;
 mod uv;
 
 pub(crate) use camera::{looking_at, pixel};
@@ -26,7 +35,6 @@ use crate::FrontOptions;
 use glam::DAffine3;
 use material::Materials;
 use mesh::Meshes;
-use place::Places;
 use rtc_diag::codes;
 use rtc_ir::{
     self as ir, EntityKind, Field, Lowered, MaterialId, Mode, Scene, SourceSpans, ValuePath,
@@ -36,7 +44,8 @@ use rtc_source::Resource;
 use rtc_source::tree::NodeId;
 use shape::Deformations;
 use std::collections::BTreeMap;
-use stroke::{Strokes, is_stroked};
+use stroke::{StrokeMeshes, is_stroked};
+use transform::InstanceTransforms;
 
 /// Bounces of a path, paths a pixel.
 const DEPTH: u32 = 16;
@@ -54,14 +63,14 @@ struct Lowering<'l, 'r, 's> {
     source_spans: SourceSpans,
     materials: Materials,
     meshes: Meshes<'l>,
-    strokes: Strokes,
+    strokes: StrokeMeshes,
     shapes: Deformations,
     /// The material of each primitive that was met, in the variant.
     chosen: BTreeMap<NodeId, MaterialId>,
     /// The variant of the materials that was asked for.
     variant: Option<usize>,
     /// The cameras that were met.
-    cameras: Vec<camera::Seen>,
+    cameras: Vec<camera::CameraUse>,
 }
 
 /// Lowers an asset without errors.
@@ -80,16 +89,16 @@ pub(super) fn lower<'s>(
         report,
         scene: empty(),
         source_spans: SourceSpans::default(),
-        materials: Materials::new(doc, std::mem::take(&mut pose.moved)),
+        materials: Materials::new(doc, std::mem::take(&mut pose.animated)),
         meshes: Meshes::new(),
-        strokes: Strokes::default(),
+        strokes: StrokeMeshes::default(),
         shapes: Deformations::default(),
         chosen: BTreeMap::new(),
         variant,
         cameras: Vec::new(),
     };
-    let worlds = place::worlds(doc, &pose);
-    let shown = place::shown(doc);
+    let worlds = transform::worlds(doc, &pose);
+    let shown = transform::shown(doc);
     if shown.iter().all(|node| lowering.charge(*node)) {
         shown
             .into_iter()
@@ -129,7 +138,7 @@ fn find_variant(name: &str, report: &mut AssetReport<'_, '_>) -> Option<usize> {
         .flat_map(|fields| fields.objects("variants"))
         .map(|one| one.name())
         .collect();
-    let found = names.iter().position(|own| own == name);
+    let found = names.iter().position(|candidate| candidate == name);
     if found.is_none() {
         missing("variant", name, &names, report);
     }
@@ -149,7 +158,7 @@ fn missing(entity: &str, name: &str, names: &[String], report: &mut AssetReport<
     };
     let root = report.json.root();
     let message = format!("the asset has no {entity} `{}`", super::report::shown(name));
-    report.advise(&codes::GLTF_CHOSEN, "", root, message, hint);
+    report.add_with_hint(&codes::GLTF_CHOSEN, "", root, message, hint);
 }
 
 impl Lowering<'_, '_, '_> {
@@ -160,7 +169,9 @@ impl Lowering<'_, '_, '_> {
             return true;
         };
         let places = node.instances.as_ref().filter(|_| node.skin.is_none());
-        let count = places.map_or(1, |own| Places::many(doc, DAffine3::IDENTITY, own).count());
+        let count = places.map_or(1, |instances| {
+            InstanceTransforms::many(doc, DAffine3::IDENTITY, instances).count()
+        });
         let count = (count as u64).saturating_mul(mesh.primitives.len() as u64);
         let memory = count.saturating_mul(SURFACE + node.name.len() as u64);
         self.report
@@ -174,7 +185,7 @@ impl Lowering<'_, '_, '_> {
     fn camera_and_light(&mut self, index: usize, world: DAffine3) {
         let node = &self.doc.nodes[index];
         if let Some(camera) = node.camera {
-            self.cameras.push(camera::Seen {
+            self.cameras.push(camera::CameraUse {
                 camera,
                 node: index,
                 world,
@@ -192,6 +203,7 @@ impl Lowering<'_, '_, '_> {
         let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else {
             return;
         };
+        // Find the deformation and the instances of the mesh.
         let is_skinned = mesh.is_skinned() == Some(true);
         let skin = node
             .skin
@@ -203,10 +215,11 @@ impl Lowering<'_, '_, '_> {
             return;
         };
         let places = match (skin, &node.instances) {
-            (Some(_), _) => Places::one(DAffine3::IDENTITY),
-            (None, Some(instances)) => Places::many(doc, world, instances),
-            (None, None) => Places::one(world),
+            (Some(_), _) => InstanceTransforms::one(DAffine3::IDENTITY),
+            (None, Some(instances)) => InstanceTransforms::many(doc, world, instances),
+            (None, None) => InstanceTransforms::one(world),
         };
+        // Lower each primitive, and place it at each instance.
         for primitive in &mesh.primitives {
             let material = self.material(primitive);
             let is_stroked = is_stroked(primitive);
@@ -255,9 +268,9 @@ impl Lowering<'_, '_, '_> {
         name: &str,
         at: NodeId,
     ) {
-        if !place::has_volume(world) {
+        if !transform::has_volume(world) {
             let message = "the node is scaled to nothing, so it does not show".to_owned();
-            return self.report.say(&codes::GLTF_REMARK, "", at, message);
+            return self.report.add(&codes::GLTF_REMARK, "", at, message);
         }
         let world_from_object = world.to_cols_array_2d();
         let shape = ir::Shape::Instance(ir::Instance {
@@ -266,11 +279,11 @@ impl Lowering<'_, '_, '_> {
         });
         let place = ValuePath::new(EntityKind::Surface, self.scene.surfaces.len(), Field::Whole);
         self.source_spans.record(place, self.report.json.span(at));
-        let own = Fields::new(self.report.json, at).own();
+        let extras = Fields::new(self.report.json, at).rtc_extras();
         self.scene.surfaces.push(ir::Surface {
             shape,
             material,
-            casts_no_shadow: own.is_some_and(|own| own.truth("castsNoShadow")),
+            casts_no_shadow: extras.is_some_and(|extras| extras.boolean("castsNoShadow")),
         });
         self.scene.names.push(name.to_owned());
     }
@@ -301,15 +314,15 @@ impl Lowering<'_, '_, '_> {
         if loses_light {
             let message = "points and lines without normals show their colour, not what they emit";
             self.report
-                .say(&codes::GLTF_MATERIAL_ODD, "", primitive.at, message);
+                .add(&codes::GLTF_MATERIAL_ODD, "", primitive.at, message);
         }
         id
     }
 
     fn finish(mut self, camera: Option<&str>) -> Lowered {
-        self.strokes.thicken(&mut self.scene);
+        self.strokes.set_radius(&mut self.scene);
         self.camera(camera);
-        self.own_settings();
+        self.settings_extras();
         if self.scene.names.iter().all(String::is_empty) {
             self.scene.names.clear();
         }

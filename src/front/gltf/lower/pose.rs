@@ -1,14 +1,14 @@
-//! The pose: how each node stands in its parent and which weights its mesh has, at rest or at a
-//! moment of an animation.
+//! The pose: the local transforms of nodes and the morph weights of meshes, at rest or at a time of
+//! an animation.
 
+use super::super::accessor_reader::AccessorReader;
 use super::super::animation::{Animation, Interpolation, Keyframes};
 use super::super::channel::Path;
 use super::super::document::Document;
-use super::super::elements::Elements;
 use super::super::node::Transform;
-use super::super::pointer::{self, AnimatedProperty, Moved};
+use super::super::pointer::{self, AnimatedProperty, AnimatedValues};
 use super::super::report::AssetReport;
-use super::place::compose;
+use super::transform::compose;
 use crate::FrontOptions;
 use glam::{DAffine3, DMat4};
 use rtc_diag::codes;
@@ -26,7 +26,7 @@ pub(super) struct Pose {
     /// The weights of nodes, where they have their own.
     weights: BTreeMap<usize, Vec<f64>>,
     /// The properties that moved by pointers.
-    pub(super) moved: Moved,
+    pub(super) animated: AnimatedValues,
 }
 
 impl Pose {
@@ -55,13 +55,13 @@ pub(super) fn pose(
     report: &mut AssetReport<'_, '_>,
 ) -> Pose {
     let nodes = doc.nodes.iter().enumerate();
-    let own = nodes
+    let weights = nodes
         .filter(|(_, node)| !node.weights.is_empty())
         .map(|(index, node)| (index, node.weights.clone()));
     let mut pose = Pose {
         transforms: doc.nodes.iter().map(|node| node.transform).collect(),
-        weights: own.collect(),
-        moved: Moved::new(),
+        weights: weights.collect(),
+        animated: AnimatedValues::new(),
     };
     if let Some(animation) = chosen(doc, options, report) {
         let time = options.time.unwrap_or(0.0);
@@ -73,9 +73,10 @@ pub(super) fn pose(
                 continue;
             };
             let pointer = channel.pointer.as_deref();
-            if let Some(property) = pointer.and_then(|own| pointer::resolve(doc, report.json, own))
+            if let Some(property) =
+                pointer.and_then(|pointer| pointer::resolve(doc, report.json, pointer))
             {
-                pose.move_property(&property, (&keys, time), channel.at, report);
+                pose.animate_property(&property, (&keys, time), channel.at, report);
             }
             let (Some(node), Some(path)) = (channel.node, channel.path) else {
                 continue;
@@ -105,7 +106,7 @@ fn chosen<'d>(
         if doc.animations.is_empty() {
             let [message, hint] =
                 ["the asset is the same at all times", "it has no animations"].map(str::to_owned);
-            report.advise(&codes::GLTF_STILL, "", report.json.root(), message, hint);
+            report.add_with_hint(&codes::GLTF_STILL, "", report.json.root(), message, hint);
         }
         return doc.animations.first();
     };
@@ -126,7 +127,7 @@ fn chosen<'d>(
 
 impl Pose {
     /// Moves a property to where it is at a time.
-    fn move_property(
+    fn animate_property(
         &mut self,
         property: &AnimatedProperty,
         (keys, time): (&Keys<'_>, f64),
@@ -141,11 +142,11 @@ impl Pose {
                 "the keyframes have {} numbers, and `{key}` takes {width}, so it does not move",
                 keys.width()
             );
-            return report.say(&codes::GLTF_MATERIAL_ODD, "", at, message);
+            return report.add(&codes::GLTF_MATERIAL_ODD, "", at, message);
         }
         let numbers = keys.sample(false, time);
         if let Some(numbers) = numbers.and_then(|numbers| property.kept(&numbers)) {
-            self.moved.insert((of, key), numbers);
+            self.animated.insert((of, key), numbers);
         }
     }
 
@@ -174,14 +175,15 @@ impl Pose {
 
 /// The keyframes of a sampler, of which only those about a time are looked at.
 struct Keys<'d> {
-    times: Elements<'d>,
-    output: Elements<'d>,
+    times: AccessorReader<'d>,
+    output: AccessorReader<'d>,
     interpolation: Interpolation,
 }
 
 impl<'d> Keys<'d> {
     fn of(doc: &'d Document<'_>, sampler: &Keyframes) -> Option<Self> {
-        let elements = |accessor: Option<usize>| Elements::of(doc, doc.accessors.get(accessor?)?);
+        let elements =
+            |accessor: Option<usize>| AccessorReader::of(doc, doc.accessors.get(accessor?)?);
         let (times, output) = (elements(sampler.input)?, elements(sampler.output)?);
         Some(Self {
             times,

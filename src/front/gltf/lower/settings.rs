@@ -1,6 +1,6 @@
-//! How the picture is made, and what surrounds the scene, as `extras.rtc` of the asset says it.
+//! Render settings and the environment, from `extras.rtc` of the asset.
 
-use super::super::elements::Elements;
+use super::super::accessor_reader::AccessorReader;
 use super::super::field::Fields;
 use super::super::layout::Component;
 use super::Lowering;
@@ -14,16 +14,18 @@ use rtc_source::Resource;
 
 impl Lowering<'_, '_, '_> {
     /// Takes over what the asset says of the settings and of the environment.
-    pub(super) fn own_settings(&mut self) {
+    pub(super) fn settings_extras(&mut self) {
         let root = Fields::new(self.report.json, self.report.json.root());
-        let Some(own) = root.own() else { return };
-        if own.has("mode") {
+        let Some(extras) = root.rtc_extras() else {
+            return;
+        };
+        if extras.has("mode") {
             let place = ValuePath::new(EntityKind::Settings, 0, Field::Whole);
             self.source_spans
-                .record(place, self.report.json.span(own.at));
+                .record(place, self.report.json.span(extras.at));
         }
-        read(own, &mut self.scene.settings);
-        if let Some(display) = own.object("display") {
+        read(extras, &mut self.scene.settings);
+        if let Some(display) = extras.object("display") {
             let name = display.text("tone");
             self.scene.display = Display {
                 exposure: display.number_or("exposure", 0.0),
@@ -32,16 +34,16 @@ impl Lowering<'_, '_, '_> {
                     .find(|tone| Some(tone.name()) == name.as_deref()),
             };
         }
-        if let Some(environment) = own.object("environment") {
+        if let Some(environment) = extras.object("environment") {
             self.environment(environment);
         }
     }
 
-    fn environment(&mut self, own: Fields<'_, '_>) {
+    fn environment(&mut self, extras: Fields<'_, '_>) {
         let place = ValuePath::new(EntityKind::Environment, 0, Field::Whole);
         self.source_spans
-            .record(place, self.report.json.span(own.at));
-        let image = match (own.index("image"), own.index("pixels")) {
+            .record(place, self.report.json.span(extras.at));
+        let image = match (extras.index("image"), extras.index("pixels")) {
             (Some(image), _) => {
                 let Self {
                     doc,
@@ -53,12 +55,12 @@ impl Lowering<'_, '_, '_> {
                 self.materials
                     .image(doc, image, scene, source_spans, report)
             }
-            (None, Some(pixels)) => self.pixels(own, pixels),
+            (None, Some(pixels)) => self.pixels(extras, pixels),
             (None, None) => None,
         };
-        let rotation = own.vector::<9>("rotation");
+        let rotation = extras.vector::<9>("rotation");
         self.scene.environment = Some(Environment {
-            radiance: own.vector_or("radiance", [0.0; 3]),
+            radiance: extras.vector_or("radiance", [0.0; 3]),
             image,
             image_from_world: rotation
                 .map(|[a, b, c, d, e, f, g, h, i]| [[a, b, c], [d, e, f], [g, h, i]]),
@@ -66,12 +68,12 @@ impl Lowering<'_, '_, '_> {
     }
 
     /// The image whose pixels are the elements of an accessor.
-    fn pixels(&mut self, own: Fields<'_, '_>, accessor: usize) -> Option<ImageId> {
+    fn pixels(&mut self, extras: Fields<'_, '_>, accessor: usize) -> Option<ImageId> {
         let doc = self.doc;
         let accessor = doc.accessors.get(accessor)?;
-        let elements = Elements::of(doc, accessor)?;
+        let elements = AccessorReader::of(doc, accessor)?;
         let count = elements.count as u64;
-        let size = own.whole("width").and_then(|width| {
+        let size = extras.integer("width").and_then(|width| {
             let height = count
                 .checked_div(width)
                 .filter(|height| height * width == count)?;
@@ -82,20 +84,20 @@ impl Lowering<'_, '_, '_> {
         let Some([width, height]) = size.filter(|_| is_color) else {
             let message = "the pixels are not whole rows of `width` vectors of three floats";
             self.report
-                .say(&codes::GLTF_ACCESSOR, "", own.at, message.to_owned());
+                .add(&codes::GLTF_ACCESSOR, "", extras.at, message.to_owned());
             return None;
         };
         let kind = Pixels::Rgb32f;
         let bytes = count.saturating_mul(kind.bytes() as u64);
         if !self
             .report
-            .charge(Resource::Memory, bytes, own.at, "the picture")
+            .charge(Resource::Memory, bytes, extras.at, "the picture")
         {
             return None;
         }
         let place = ValuePath::new(EntityKind::Image, self.scene.images.len(), Field::Whole);
         self.source_spans
-            .record(place, self.report.json.span(own.at));
+            .record(place, self.report.json.span(extras.at));
         let mut pixels = Vec::with_capacity(elements.count * kind.bytes());
         #[expect(
             clippy::cast_possible_truncation,
@@ -116,7 +118,7 @@ impl Lowering<'_, '_, '_> {
 }
 
 /// Changes the settings that are named.
-fn read(own: Fields<'_, '_>, settings: &mut Settings) {
+fn read(extras: Fields<'_, '_>, settings: &mut Settings) {
     let Settings {
         mode,
         shadows,
@@ -127,35 +129,35 @@ fn read(own: Fields<'_, '_>, settings: &mut Settings) {
         toon,
         ambient,
     } = settings;
-    if let Some(own) = own.text("mode").and_then(|word| mode_of(&word, own)) {
-        *mode = own;
+    if let Some(chosen) = extras.text("mode").and_then(|word| mode_of(&word, extras)) {
+        *mode = chosen;
     }
-    if own.has("shadows") {
-        *shadows = own.truth("shadows");
+    if extras.has("shadows") {
+        *shadows = extras.boolean("shadows");
     }
-    *max_depth = own.count_or("maxDepth", *max_depth);
-    *supersampling = own.count_or("supersampling", *supersampling);
-    *light_samples = own.count_or("lightSamples", *light_samples);
-    *toon = own.truth("toon");
-    *ambient = match own.text("ambient").as_deref() {
+    *max_depth = extras.count_or("maxDepth", *max_depth);
+    *supersampling = extras.count_or("supersampling", *supersampling);
+    *light_samples = extras.count_or("lightSamples", *light_samples);
+    *toon = extras.boolean("toon");
+    *ambient = match extras.text("ambient").as_deref() {
         Some("once") => Ambient::Once,
         _ => Ambient::PerLight,
     };
-    *pattern = match own.text("pattern").as_deref() {
+    *pattern = match extras.text("pattern").as_deref() {
         Some("jitter") => Pattern::Jitter,
         Some("random") => Pattern::Random,
         _ => Pattern::Grid,
     };
 }
 
-fn mode_of(word: &str, own: Fields<'_, '_>) -> Option<Mode> {
-    let parameters = own.object(word);
+fn mode_of(word: &str, extras: Fields<'_, '_>) -> Option<Mode> {
+    let parameters = extras.object(word);
     Some(match word {
         "phong" => Mode::Phong,
         "zbuffer" => Mode::Depth,
         "normal" => Mode::Normal,
         "gooch" => {
-            let number = |key| parameters.map_or(0.0, |own| own.number_or(key, 0.0));
+            let number = |key| parameters.map_or(0.0, |extras| extras.number_or(key, 0.0));
             Mode::Gooch(Gooch {
                 b: number("b"),
                 y: number("y"),
@@ -165,12 +167,12 @@ fn mode_of(word: &str, own: Fields<'_, '_>) -> Option<Mode> {
         }
         "path" => {
             let default = PathSettings::default();
-            let samples = parameters.map(|own| own.count_or("samples", default.samples));
-            let scatters = parameters.filter(|own| own.has("multipleScattering"));
+            let samples = parameters.map(|extras| extras.count_or("samples", default.samples));
+            let scatters = parameters.filter(|extras| extras.has("multipleScattering"));
             Mode::Path(PathSettings {
                 samples: samples.unwrap_or(default.samples),
-                multiple_scattering: scatters.map_or(default.multiple_scattering, |own| {
-                    own.truth("multipleScattering")
+                multiple_scattering: scatters.map_or(default.multiple_scattering, |extras| {
+                    extras.boolean("multipleScattering")
                 }),
             })
         }

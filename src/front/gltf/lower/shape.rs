@@ -1,8 +1,7 @@
-//! The shapes that nodes give to meshes: weights of morph targets and joints of a skin, each
-//! different one held once.
+//! The deformation of each node: morph weights and joint matrices. Equal ones are stored once.
 
+use super::super::accessor_reader::AccessorReader;
 use super::super::document::Document;
-use super::super::elements::Elements;
 use super::super::report::AssetReport;
 use super::super::skin::Skin;
 use super::pose::Pose;
@@ -32,20 +31,20 @@ pub(super) struct Deformation<'s> {
 /// The shapes met so far.
 #[derive(Default)]
 pub(super) struct Deformations {
-    weights: Different<f64>,
-    joints: Different<DAffine3>,
+    weights: UniqueLists<f64>,
+    joints: UniqueLists<DAffine3>,
     /// The weights of nodes that have none of their own, by the mesh.
     of_mesh: BTreeMap<usize, usize>,
     of_skin: BTreeMap<usize, usize>,
 }
 
 /// Lists by the bits of their numbers.
-struct Different<T> {
+struct UniqueLists<T> {
     known: BTreeMap<Vec<u64>, usize>,
     lists: Vec<Vec<T>>,
 }
 
-impl<T> Default for Different<T> {
+impl<T> Default for UniqueLists<T> {
     fn default() -> Self {
         Self {
             known: BTreeMap::new(),
@@ -54,7 +53,7 @@ impl<T> Default for Different<T> {
     }
 }
 
-impl<T> Different<T> {
+impl<T> UniqueLists<T> {
     fn name<const N: usize>(&mut self, list: Vec<T>, numbers: impl Fn(&T) -> [f64; N]) -> usize {
         // The sum turns -0 into 0, which is the same shape.
         let bits = list
@@ -92,19 +91,19 @@ impl Deformations {
 
     fn of_weights(&mut self, doc: &Document<'_>, node: usize, pose: &Pose) -> Option<usize> {
         let of = doc.nodes[node].mesh?;
-        let own = pose.weights(node);
-        if let Some(known) = self.of_mesh.get(&of).filter(|_| own.is_none()) {
+        let animated = pose.weights(node);
+        if let Some(known) = self.of_mesh.get(&of).filter(|_| animated.is_none()) {
             return Some(*known);
         }
         let mesh = &doc.meshes[of];
-        let weights = own.unwrap_or(&mesh.weights);
+        let weights = animated.unwrap_or(&mesh.weights);
         let weights = &weights[..weights.len().min(mesh.targets())];
         let last = weights.iter().rposition(|weight| *weight != 0.0);
         let name = self.weights.name(
             weights[..last.map_or(0, |last| last + 1)].to_vec(),
             |weight| [*weight],
         );
-        if own.is_none() {
+        if animated.is_none() {
             self.of_mesh.insert(of, name);
         }
         Some(name)
@@ -150,7 +149,7 @@ impl Deformations {
 fn joints(doc: &Document<'_>, skin: &Skin, worlds: &[DAffine3]) -> Vec<DAffine3> {
     let matrices = skin
         .matrices
-        .and_then(|matrices| Elements::of(doc, doc.accessors.get(matrices)?));
+        .and_then(|matrices| AccessorReader::of(doc, doc.accessors.get(matrices)?));
     let known = |at: usize| matrices.as_ref().filter(|matrices| at < matrices.count);
     let bind = |at: usize| {
         known(at).map_or(DMat4::IDENTITY, |matrices| {

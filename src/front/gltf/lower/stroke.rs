@@ -1,5 +1,4 @@
-//! Points and lines: meshes about them of one radius in the world, since glTF says nothing of how
-//! thick they are.
+//! Points and lines: meshes of one radius in world space, since glTF does not define their width.
 //!
 //! The radius is that of a pixel in the picture that is made of an asset without cameras. It is
 //! chosen once, so size, crop and camera of a picture leave the scene as it is.
@@ -8,8 +7,8 @@ use super::super::document::Document;
 use super::super::primitive::{Primitive, TRIANGLES};
 use super::super::report::AssetReport;
 use super::mesh::{self, MeshKey, WantedMesh, to_u32};
-use super::place::Places;
 use super::topology;
+use super::transform::InstanceTransforms;
 use crate::glyph::{Glyph, radius, thin_glyphs};
 use glam::DAffine3;
 use rtc_ir::{
@@ -25,31 +24,31 @@ const TRIANGLE: u64 = 108;
 
 /// The meshes of points and lines that were made.
 #[derive(Default)]
-pub(super) struct Strokes {
+pub(super) struct StrokeMeshes {
     /// Each with the offsets of its corners at radius 1.
     made: Vec<(MeshId, Column<3>)>,
     /// Of what was wanted, by how it is turned and scaled, the mesh and the place of its first
     /// vertex; none where it shows nothing.
-    known: BTreeMap<(MeshKey, Turn), Option<(MeshId, Vec3)>>,
+    known: BTreeMap<(MeshKey, LinearPartBits), Option<(MeshId, Vec3)>>,
 }
 
 /// The bits of the linear part of a place.
-type Turn = [u64; 9];
+type LinearPartBits = [u64; 9];
 
 /// True if the primitive has points or lines.
 pub(super) fn is_stroked(primitive: &Primitive) -> bool {
     primitive.mode < TRIANGLES
 }
 
-impl Strokes {
-    /// The meshes of a primitive of points or lines at its places, still without a radius, and where
-    /// each stands; none where it shows nothing or asks for too much. Places that differ in where
-    /// they are alone share a mesh.
+impl StrokeMeshes {
+    /// The meshes of a primitive of points or lines at its places, still without a radius, and
+    /// where each stands; none where it shows nothing or asks for too much. Places that differ in
+    /// where they are alone share a mesh.
     pub(super) fn make(
         &mut self,
         doc: &Document<'_>,
         (wanted, key): (&WantedMesh<'_, '_>, MeshKey),
-        places: &Places<'_>,
+        places: &InstanceTransforms<'_>,
         (scene, source_spans): (&mut Scene, &mut SourceSpans),
         report: &mut AssetReport<'_, '_>,
     ) -> Vec<(MeshId, DAffine3)> {
@@ -89,7 +88,7 @@ impl Strokes {
     }
 
     /// Gives all points and lines their radius, once the scene is known.
-    pub(super) fn thicken(&self, scene: &mut Scene) {
+    pub(super) fn set_radius(&self, scene: &mut Scene) {
         if self.made.is_empty() {
             return;
         }
@@ -103,10 +102,10 @@ impl Strokes {
                 continue;
             };
             let corners = mesh.positions.iter().zip(offsets.iter());
-            let moved = corners.map(|(p, offset)| {
+            let animated = corners.map(|(p, offset)| {
                 (Vec3::from_array(p) + radius * Vec3::from_array(offset)).to_array()
             });
-            mesh.positions = Column::rounded(moved.collect::<Vec<_>>());
+            mesh.positions = Column::rounded(animated.collect::<Vec<_>>());
         }
     }
 }

@@ -108,7 +108,7 @@ pub(super) fn generate(mesh: &mut Mesh) {
         return;
     }
     let tangents = corners.tangents;
-    split(mesh, &tangents);
+    split_vertices(mesh, &tangents);
 }
 
 /// In which part of its place each corner is; empty if all places are whole. Corners that are alike
@@ -177,10 +177,10 @@ fn flatten(mesh: &mut Mesh) {
     mesh.normals = Column::rounded(normals);
 }
 
-/// Puts the tangents of corners to the vertices; a vertex with several is split.
-fn split(mesh: &mut Mesh, tangents: &[[f64; 4]]) {
+/// Puts the tangents of corners to the vertices; a vertex with several is tangents_of.
+fn split_vertices(mesh: &mut Mesh, tangents: &[[f64; 4]]) {
     let count = mesh.positions.len();
-    let mut own: Vec<Option<[f64; 4]>> = vec![None; count];
+    let mut tangents_of: Vec<Option<[f64; 4]>> = vec![None; count];
     // The copies of each vertex: the next one, from the vertex itself on.
     let mut next: Vec<Option<u32>> = vec![None; count];
     let mut origin: Vec<u32> = (0..to_u32(count)).collect();
@@ -188,16 +188,16 @@ fn split(mesh: &mut Mesh, tangents: &[[f64; 4]]) {
         for (corner, tangent) in triangle.iter_mut().zip(tangents) {
             let mut at = *corner as usize;
             loop {
-                match (own[at], next[at]) {
-                    (None, _) => own[at] = Some(*tangent),
+                match (tangents_of[at], next[at]) {
+                    (None, _) => tangents_of[at] = Some(*tangent),
                     (Some(known), _) if known == *tangent => break,
                     (Some(_), Some(copy)) => at = copy as usize,
                     (Some(_), None) => {
-                        next[at] = Some(to_u32(own.len()));
+                        next[at] = Some(to_u32(tangents_of.len()));
                         origin.push(*corner);
-                        own.push(None);
+                        tangents_of.push(None);
                         next.push(None);
-                        at = own.len() - 1;
+                        at = tangents_of.len() - 1;
                     }
                 }
             }
@@ -206,7 +206,8 @@ fn split(mesh: &mut Mesh, tangents: &[[f64; 4]]) {
     }
     pick(mesh, &origin);
     mesh.tangents = Column::rounded(
-        own.into_iter()
+        tangents_of
+            .into_iter()
             .map(|tangent| tangent.unwrap_or([1.0, 0.0, 0.0, 1.0])),
     );
 }
@@ -257,7 +258,7 @@ mod tests {
             assert_eq!(parts(&fan(512, hub)), Vec::<u16>::new(), "few are whole");
             let mut mesh = fan(5000, hub);
             generate(&mut mesh);
-            let near = |own: [f64; 4]| (own[0] - 1.0).abs() < 1e-3 && own[3] == -1.0;
+            let near = |tangent: [f64; 4]| (tangent[0] - 1.0).abs() < 1e-3 && tangent[3] == -1.0;
             assert!((0..mesh.tangents.len()).all(|at| near(mesh.tangents.at(at))));
         }
     }

@@ -1,4 +1,4 @@
-//! Textures and their images, each brought once.
+//! Textures and images. Each is lowered once.
 
 use super::super::document::Document;
 use super::super::field::Fields;
@@ -47,8 +47,8 @@ impl LoweredTextures {
         let texture = self.texture(doc, info.index("index")?, scene, source_spans, report)?;
         let transform = info.extension("KHR_texture_transform");
         let set = transform
-            .and_then(|fields| fields.whole("texCoord"))
-            .or(info.whole("texCoord"))
+            .and_then(|fields| fields.integer("texCoord"))
+            .or(info.integer("texCoord"))
             .unwrap_or(0);
         Some(Map {
             texture,
@@ -103,7 +103,7 @@ impl LoweredTextures {
         if image.is_none() {
             let message = "the texture has no image that can be read, so it has no effect";
             let message = message.to_owned();
-            report.say(&codes::GLTF_MATERIAL_ODD, "", texture.at, message);
+            report.add(&codes::GLTF_MATERIAL_ODD, "", texture.at, message);
         }
         let sampler = texture
             .sampler

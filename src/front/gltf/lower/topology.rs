@@ -1,8 +1,8 @@
-//! The points, lines and triangles of a primitive: from lists, loops, strips and fans, with indices or
-//! without.
+//! The points, lines and triangles of a primitive: from lists, loops, strips and fans, with indices
+//! or without.
 
+use super::super::accessor_reader::AccessorReader;
 use super::super::document::Document;
-use super::super::elements::Elements;
 use super::super::primitive::Primitive;
 
 const POINTS: u64 = 0;
@@ -21,7 +21,7 @@ pub(super) fn triangles(
 ) -> Option<Vec<[u32; 3]>> {
     let mut triangles = match primitive.indices {
         Some(index) if primitive.mode == TRIANGLES => {
-            Elements::of(doc, doc.accessors.get(index)?)?.groups()
+            AccessorReader::of(doc, doc.accessors.get(index)?)?.groups()
         }
         _ => assemble(&indices(doc, primitive, vertices)?, primitive.mode)?,
     };
@@ -60,7 +60,7 @@ fn join(indices: &[u32], mode: u64) -> Option<Vec<[u32; 2]>> {
 
 fn indices(doc: &Document<'_>, primitive: &Primitive, vertices: usize) -> Option<Vec<u32>> {
     match primitive.indices {
-        Some(index) => Some(Elements::of(doc, doc.accessors.get(index)?)?.integers()),
+        Some(index) => Some(AccessorReader::of(doc, doc.accessors.get(index)?)?.integers()),
         None => Some((0..super::mesh::to_u32(vertices)).collect()),
     }
 }
@@ -97,8 +97,8 @@ fn assemble(indices: &[u32], mode: u64) -> Option<Vec<[u32; 3]>> {
     }
 }
 
-/// Keeps the vertices that triangles use, if that saves much or has to be: the old index of each that
-/// is kept.
+/// Keeps the vertices that triangles use, if that saves much or has to be: the old index of each
+/// that is kept.
 pub(super) fn compact(
     triangles: &mut [[u32; 3]],
     vertices: usize,

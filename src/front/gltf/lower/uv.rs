@@ -1,5 +1,5 @@
-//! The sets of texture coordinates that a mesh keeps for its material: two of those that glTF
-//! numbers without end.
+//! The texture coordinate sets of a mesh that its material uses. The IR has two; glTF has any
+//! number.
 
 use rtc_ir::{Map, Standard};
 use std::collections::BTreeSet;
@@ -16,8 +16,8 @@ impl Default for TexCoordSets {
 
 impl TexCoordSets {
     /// Chooses the sets of a material whose maps have the numbers of glTF, and gives the maps those
-    /// of the IR. The first of the sets that found no place comes back too; its maps take set 0 of the
-    /// IR.
+    /// of the IR. The first of the sets that found no place comes back too; its maps take set 0 of
+    /// the IR.
     pub(super) fn choose(material: &mut Standard) -> (Self, Option<u32>) {
         let asked: BTreeSet<u32> = material.maps().map(|map| map.set).collect();
         if asked.iter().all(|set| *set < 2) {
@@ -25,11 +25,11 @@ impl TexCoordSets {
         }
         let mut asked = asked.into_iter();
         let first = asked.next().unwrap_or(0);
-        let own = Self([first, asked.next().unwrap_or(first)]);
+        let sets = Self([first, asked.next().unwrap_or(first)]);
         for Map { set, .. } in material.maps_mut() {
-            *set = u32::from(*set != own.0[0] && *set == own.0[1]);
+            *set = u32::from(*set != sets.0[0] && *set == sets.0[1]);
         }
-        (own, asked.next())
+        (sets, asked.next())
     }
 
     /// The names of the attributes.
@@ -62,7 +62,7 @@ mod tests {
             let chosen = TexCoordSets::choose(&mut material);
             (chosen, material.maps().map(|map| map.set).collect())
         };
-        let kept = |own| (TexCoordSets(own), None);
+        let kept = |sets| (TexCoordSets(sets), None);
         assert_eq!(sets(1, 1, 0), (kept([0, 1]), vec![1, 1, 0]));
         assert_eq!(sets(5, 2, 2), (kept([2, 5]), vec![1, 0, 0]));
         assert_eq!(sets(3, 3, 3), (kept([3, 3]), vec![0, 0, 0]));

@@ -9,7 +9,7 @@ mod filter;
 mod index;
 mod vertex;
 
-use super::buffer::{Bytes, Stretch, stretch};
+use super::buffer::{ByteRange, Bytes, byte_range};
 use super::document::Document;
 use super::field::Fields;
 use super::report::AssetReport;
@@ -65,29 +65,30 @@ fn unzigzag(number: u32) -> u32 {
     (number >> 1) ^ 0_u32.wrapping_sub(number & 1)
 }
 
-/// What a view says of its compressed bytes.
+/// The parameters of a compressed buffer view.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
-struct Claim {
-    bytes: Stretch,
+struct StreamHeader {
+    bytes: ByteRange,
     count: usize,
     stride: usize,
     mode: String,
     filter: String,
 }
 
-impl Claim {
-    /// The claim, if the bytes can stand for so much.
-    fn read(bytes: &[u8], own: Fields<'_, '_>) -> Result<Self, Fault> {
-        let (Some(count), Some(stride)) = (own.index("count"), own.index("byteStride")) else {
+impl StreamHeader {
+    /// Reads the header. A size that the bytes cannot decompress to is an error.
+    fn read(bytes: &[u8], extension: Fields<'_, '_>) -> Result<Self, Fault> {
+        let (Some(count), Some(stride)) = (extension.index("count"), extension.index("byteStride"))
+        else {
             return Err("it has no `count` or no `byteStride`");
         };
         let size = count.checked_mul(stride).ok_or("it claims too much")?;
         if size / MAX_RATIO > bytes.len() {
             return Err("it claims more than so few bytes can stand for");
         }
-        let text = |key| own.text(key).unwrap_or_default();
+        let text = |key| extension.text(key).unwrap_or_default();
         Ok(Self {
-            bytes: stretch(bytes),
+            bytes: byte_range(bytes),
             count,
             stride,
             mode: text("mode"),
@@ -104,41 +105,41 @@ impl Claim {
 
 /// Decompresses the views that are compressed, those of the same bytes and claims once.
 pub(super) fn expand(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
-    let mut made: BTreeMap<Claim, Result<Bytes<'static>, Fault>> = BTreeMap::new();
+    let mut made: BTreeMap<StreamHeader, Result<Bytes<'static>, Fault>> = BTreeMap::new();
     for index in 0..doc.views.len() {
         let fields = Fields::new(report.json, doc.views[index].at);
         let names = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
-        let Some(own) = names.iter().find_map(|name| fields.extension(name)) else {
+        let Some(extension) = names.iter().find_map(|name| fields.extension(name)) else {
             continue;
         };
-        let Some(bytes) = source(doc, own) else {
+        let Some(bytes) = source(doc, extension) else {
             continue;
         };
-        let decoded = Claim::read(bytes, own).and_then(|claim| {
-            if let Some(known) = made.get(&claim) {
+        let decoded = StreamHeader::read(bytes, extension).and_then(|header| {
+            if let Some(known) = made.get(&header) {
                 return known.clone();
             }
             if !report.charge(
                 Resource::Memory,
-                claim.memory(),
-                own.at,
+                header.memory(),
+                extension.at,
                 "the compressed view",
             ) {
                 return Err("it asks for too much");
             }
-            let decoded = decode(bytes, &claim).map(|decoded| Rc::new(Cow::Owned(decoded)));
-            made.insert(claim, decoded.clone());
+            let decoded = decode(bytes, &header).map(|decoded| Rc::new(Cow::Owned(decoded)));
+            made.insert(header, decoded.clone());
             decoded
         });
         match decoded {
             Ok(decoded) => doc.views[index].decoded = Some(decoded),
-            Err(fault) => say(own.at, fault, report),
+            Err(fault) => add(extension.at, fault, report),
         }
     }
 }
 
-fn say(at: NodeId, fault: Fault, report: &mut AssetReport<'_, '_>) {
-    report.say(
+fn add(at: NodeId, fault: Fault, report: &mut AssetReport<'_, '_>) {
+    report.add(
         &codes::GLTF_COMPRESSED,
         "",
         at,
@@ -147,23 +148,23 @@ fn say(at: NodeId, fault: Fault, report: &mut AssetReport<'_, '_>) {
 }
 
 /// The compressed bytes of a view.
-fn source<'d>(doc: &'d Document<'_>, own: Fields<'_, '_>) -> Option<&'d [u8]> {
-    let buffer = doc.buffers.get(own.index("buffer")?)?;
-    let offset = own.index("byteOffset").unwrap_or(0);
+fn source<'d>(doc: &'d Document<'_>, extension: Fields<'_, '_>) -> Option<&'d [u8]> {
+    let buffer = doc.buffers.get(extension.index("buffer")?)?;
+    let offset = extension.index("byteOffset").unwrap_or(0);
     buffer
         .bytes
         .as_ref()?
-        .get(offset..offset.checked_add(own.index("byteLength")?)?)
+        .get(offset..offset.checked_add(extension.index("byteLength")?)?)
 }
 
-fn decode(bytes: &[u8], claim: &Claim) -> Result<Vec<u8>, Fault> {
-    let Claim {
+fn decode(bytes: &[u8], header: &StreamHeader) -> Result<Vec<u8>, Fault> {
+    let StreamHeader {
         bytes: _,
         count,
         stride,
         mode,
         filter,
-    } = claim;
+    } = header;
     match mode.as_str() {
         "ATTRIBUTES" => {
             let mut decoded = vertex::decode(bytes, *count, *stride)?;

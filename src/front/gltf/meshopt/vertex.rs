@@ -58,9 +58,9 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
             for (channel, mode) in channels.iter().enumerate() {
                 let delta = [0, 1, 2, 3]
                     .map(|byte| deltas[(4 * channel + byte) * BLOCK_ELEMENTS + element]);
-                let own = &mut last[4 * channel..4 * channel + 4];
-                let next = step(*mode, [own[0], own[1], own[2], own[3]], delta);
-                own.copy_from_slice(&next);
+                let bytes = &mut last[4 * channel..4 * channel + 4];
+                let next = step(*mode, [bytes[0], bytes[1], bytes[2], bytes[3]], delta);
+                bytes.copy_from_slice(&next);
             }
             decoded.extend_from_slice(&last);
         }

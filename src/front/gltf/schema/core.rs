@@ -1,8 +1,8 @@
 //! The objects of glTF 2.0 itself (specification, chapter 5).
 
 use super::Value::{
-    Attributes, Choice, Elements, Index, Indices, Many, Number, Numbers, One, Targets, Text, Texts,
-    Truth, Version, Whole, Word,
+    Attributes, Boolean, Choice, Index, Indices, Integer, Keyword, Many, Number, Numbers, One,
+    PerComponent, Targets, Text, Texts, Version,
 };
 use super::{FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, SIGNED, UNIT, optional, required};
 
@@ -49,19 +49,19 @@ static ACCESSOR: Object = Object {
     keys: &[
         NAME,
         optional("bufferView", Index(IndexTarget::BufferViews)),
-        optional("byteOffset", Whole(0, MANY)),
+        optional("byteOffset", Integer(0, MANY)),
         required(
             "componentType",
             Choice(&[5120, 5121, 5122, 5123, 5125, 5126]),
         ),
-        optional("normalized", Truth),
-        required("count", Whole(1, MANY)),
+        optional("normalized", Boolean),
+        required("count", Integer(1, MANY)),
         required(
             "type",
-            Word(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"]),
+            Keyword(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"]),
         ),
-        optional("min", Elements),
-        optional("max", Elements),
+        optional("min", PerComponent),
+        optional("max", PerComponent),
         optional("sparse", One(&SPARSE)),
     ],
 };
@@ -69,7 +69,7 @@ static ACCESSOR: Object = Object {
 static SPARSE: Object = Object {
     name: "sparse part",
     keys: &[
-        required("count", Whole(1, MANY)),
+        required("count", Integer(1, MANY)),
         required("indices", One(&SPARSE_INDICES)),
         required("values", One(&SPARSE_VALUES)),
     ],
@@ -79,7 +79,7 @@ static SPARSE_INDICES: Object = Object {
     name: "sparse indices",
     keys: &[
         required("bufferView", Index(IndexTarget::BufferViews)),
-        optional("byteOffset", Whole(0, MANY)),
+        optional("byteOffset", Integer(0, MANY)),
         required("componentType", Choice(&[5121, 5123, 5125])),
     ],
 };
@@ -88,7 +88,7 @@ static SPARSE_VALUES: Object = Object {
     name: "sparse values",
     keys: &[
         required("bufferView", Index(IndexTarget::BufferViews)),
-        optional("byteOffset", Whole(0, MANY)),
+        optional("byteOffset", Integer(0, MANY)),
     ],
 };
 
@@ -97,7 +97,7 @@ static BUFFER: Object = Object {
     keys: &[
         NAME,
         optional("uri", Text),
-        required("byteLength", Whole(1, MANY)),
+        required("byteLength", Integer(1, MANY)),
     ],
 };
 
@@ -106,9 +106,9 @@ static BUFFER_VIEW: Object = Object {
     keys: &[
         NAME,
         required("buffer", Index(IndexTarget::Buffers)),
-        optional("byteOffset", Whole(0, MANY)),
-        required("byteLength", Whole(1, MANY)),
-        optional("byteStride", Whole(4, 252)),
+        optional("byteOffset", Integer(0, MANY)),
+        required("byteLength", Integer(1, MANY)),
+        optional("byteStride", Integer(4, 252)),
         optional("target", Choice(&[34962, 34963])),
     ],
 };
@@ -117,7 +117,7 @@ static CAMERA: Object = Object {
     name: "camera",
     keys: &[
         NAME,
-        required("type", Word(&["perspective", "orthographic"])),
+        required("type", Keyword(&["perspective", "orthographic"])),
         optional("perspective", One(&PERSPECTIVE)),
         optional("orthographic", One(&ORTHOGRAPHIC)),
     ],
@@ -150,7 +150,7 @@ static IMAGE: Object = Object {
         optional("uri", Text),
         optional(
             "mimeType",
-            Word(&["image/jpeg", "image/png", "image/webp", "image/ktx2"]),
+            Keyword(&["image/jpeg", "image/png", "image/webp", "image/ktx2"]),
         ),
         optional("bufferView", Index(IndexTarget::BufferViews)),
     ],
@@ -182,7 +182,7 @@ pub(super) static TEXTURE_INFO: Object = Object {
     name: "texture info",
     keys: &[
         required("index", Index(IndexTarget::Textures)),
-        optional("texCoord", Whole(0, MANY)),
+        optional("texCoord", Integer(0, MANY)),
     ],
 };
 
@@ -190,7 +190,7 @@ pub(super) static NORMAL_TEXTURE: Object = Object {
     name: "texture info",
     keys: &[
         required("index", Index(IndexTarget::Textures)),
-        optional("texCoord", Whole(0, MANY)),
+        optional("texCoord", Integer(0, MANY)),
         optional("scale", Number(FREE)),
     ],
 };
@@ -199,7 +199,7 @@ static OCCLUSION_TEXTURE: Object = Object {
     name: "texture info",
     keys: &[
         required("index", Index(IndexTarget::Textures)),
-        optional("texCoord", Whole(0, MANY)),
+        optional("texCoord", Integer(0, MANY)),
         optional("strength", Number(UNIT)),
     ],
 };
@@ -213,9 +213,9 @@ static MATERIAL: Object = Object {
         optional("occlusionTexture", One(&OCCLUSION_TEXTURE)),
         optional("emissiveTexture", One(&TEXTURE_INFO)),
         optional("emissiveFactor", Numbers(&[3], UNIT)),
-        optional("alphaMode", Word(&["OPAQUE", "MASK", "BLEND"])),
+        optional("alphaMode", Keyword(&["OPAQUE", "MASK", "BLEND"])),
         optional("alphaCutoff", Number(FACTOR)),
-        optional("doubleSided", Truth),
+        optional("doubleSided", Boolean),
     ],
 };
 
@@ -245,7 +245,7 @@ static PRIMITIVE: Object = Object {
         required("attributes", Attributes),
         optional("indices", Index(IndexTarget::Accessors)),
         optional("material", Index(IndexTarget::Materials)),
-        optional("mode", Whole(0, 6)),
+        optional("mode", Integer(0, 6)),
         optional("targets", Targets),
     ],
 };
@@ -304,7 +304,7 @@ static TARGET: Object = Object {
         optional("node", Index(IndexTarget::Nodes)),
         required(
             "path",
-            Word(&["translation", "rotation", "scale", "weights", "pointer"]),
+            Keyword(&["translation", "rotation", "scale", "weights", "pointer"]),
         ),
     ],
 };
@@ -313,7 +313,7 @@ static ANIMATION_SAMPLER: Object = Object {
     name: "animation sampler",
     keys: &[
         required("input", Index(IndexTarget::Accessors)),
-        optional("interpolation", Word(&["LINEAR", "STEP", "CUBICSPLINE"])),
+        optional("interpolation", Keyword(&["LINEAR", "STEP", "CUBICSPLINE"])),
         required("output", Index(IndexTarget::Accessors)),
     ],
 };

@@ -1,8 +1,9 @@
-//! The extensions that are known: where their objects stand, and what is in them. An asset may require
-//! each of them.
+//! The extensions that are known: where their objects stand, and what is in them. An asset may
+//! require each of them.
 
 use super::Value::{
-    Attributes, Index, Indices, Many, Number, Numbers, One, Pointer, Text, Truth, Whole, Word,
+    Attributes, Boolean, Index, Indices, Integer, Keyword, Many, Number, Numbers, One, Pointer,
+    Text,
 };
 use super::core::{NORMAL_TEXTURE, TEXTURE_INFO};
 use super::{Bounds, FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, UNIT, optional, required};
@@ -25,7 +26,8 @@ pub(super) fn all() -> impl Iterator<Item = &'static Extension> {
     EXTENSIONS.iter().chain(OF_MATERIALS)
 }
 
-/// A row of Markdown for each extension, by their names: what carries it, and the properties that are read.
+/// A row of Markdown for each extension, by their names: what carries it, and the properties that
+/// are read.
 pub(in super::super) fn rows() -> String {
     let mut sorted: Vec<_> = all().collect();
     sorted.sort_unstable_by_key(|extension| extension.name);
@@ -169,17 +171,17 @@ const fn object(keys: &'static [Key]) -> Object {
 static INSTANCING: Object = object(&[required("attributes", Attributes)]);
 static MESHOPT: Object = object(&[
     required("buffer", Index(IndexTarget::Buffers)),
-    optional("byteOffset", Whole(0, MANY)),
-    required("byteLength", Whole(1, MANY)),
-    required("byteStride", Whole(2, 256)),
-    required("count", Whole(1, MANY)),
-    required("mode", Word(&["ATTRIBUTES", "TRIANGLES", "INDICES"])),
+    optional("byteOffset", Integer(0, MANY)),
+    required("byteLength", Integer(1, MANY)),
+    required("byteStride", Integer(2, 256)),
+    required("count", Integer(1, MANY)),
+    required("mode", Keyword(&["ATTRIBUTES", "TRIANGLES", "INDICES"])),
     optional(
         "filter",
-        Word(&["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"]),
+        Keyword(&["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"]),
     ),
 ]);
-static FALLBACK: Object = object(&[optional("fallback", Truth)]);
+static FALLBACK: Object = object(&[optional("fallback", Boolean)]);
 static SOURCE: Object = object(&[optional("source", Index(IndexTarget::Images))]);
 static ANIMATION_POINTER: Object = object(&[required("pointer", Pointer)]);
 static DRACO: Object = object(&[
@@ -195,7 +197,7 @@ static LIGHT: Object = Object {
         optional("color", Numbers(&[3], UNIT)),
         optional("intensity", Number(FACTOR)),
         optional("spot", One(&SPOT)),
-        required("type", Word(&["directional", "point", "spot"])),
+        required("type", Keyword(&["directional", "point", "spot"])),
         optional("range", Number(POSITIVE)),
     ],
 };
@@ -239,10 +241,10 @@ static MAPPING: Object = Object {
 };
 static NODE_LEVELS: Object = object(&[required("ids", Indices(IndexTarget::Nodes))]);
 static MATERIAL_LEVELS: Object = object(&[required("ids", Indices(IndexTarget::Materials))]);
-static VISIBILITY: Object = object(&[optional("visible", Truth)]);
+static VISIBILITY: Object = object(&[optional("visible", Boolean)]);
 static TEXTURE_TRANSFORM: Object = object(&[
     optional("offset", Numbers(&[2], FREE)),
     optional("rotation", Number(FREE)),
     optional("scale", Numbers(&[2], FREE)),
-    optional("texCoord", Whole(0, MANY)),
+    optional("texCoord", Integer(0, MANY)),
 ]);

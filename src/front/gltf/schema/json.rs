@@ -1,6 +1,6 @@
-//! The tables as a JSON schema, with words for people: what editors tell of glTF. What it is about, the
-//! default and the unit of each property stand in `about.txt`, those of the materials' parameters in
-//! their table.
+//! The tables as a JSON schema, with words for people: what editors tell of glTF. What it is about,
+//! the default and the unit of each property stand in `about.txt`, those of the materials'
+//! parameters in their table.
 
 use super::core::ROOT;
 use super::extension::all;
@@ -40,7 +40,7 @@ impl JsonWriter {
             .map(|key| (key.name.to_owned(), self.property(key, name)))
             .collect();
         let extensions: Map<String, Json> = all()
-            .flat_map(|own| own.places.iter().map(move |place| (own.name, place)))
+            .flat_map(|entry| entry.places.iter().map(move |place| (entry.name, place)))
             .filter(|(_, (kind, _))| *kind == object.name)
             .map(|(extension, (_, carried))| {
                 let mut schema = self.object(carried, extension);
@@ -74,14 +74,16 @@ impl JsonWriter {
         let index = || json!({ "type": "integer", "minimum": 0 });
         let list = |item: Json| json!({ "type": "array", "items": item });
         match value {
-            Value::Truth => json!({ "type": "boolean" }),
+            Value::Boolean => json!({ "type": "boolean" }),
             Value::Text | Value::Version | Value::Pointer => json!({ "type": "string" }),
-            Value::Word(words) => json!({ "type": "string", "enum": words }),
-            Value::Whole(min, max) => json!({ "type": "integer", "minimum": min, "maximum": max }),
+            Value::Keyword(words) => json!({ "type": "string", "enum": words }),
+            Value::Integer(min, max) => {
+                json!({ "type": "integer", "minimum": min, "maximum": max })
+            }
             Value::Choice(numbers) => json!({ "type": "integer", "enum": numbers }),
             Value::Number(bounds) => number(bounds),
             Value::Numbers(_, bounds) => list(number(bounds)),
-            Value::Elements => list(json!({ "type": "number" })),
+            Value::PerComponent => list(json!({ "type": "number" })),
             Value::Texts => list(json!({ "type": "string" })),
             Value::Index(_) => index(),
             Value::Indices(_) => list(index()),
@@ -100,9 +102,9 @@ fn number(bounds: &Bounds) -> Json {
     } else {
         "minimum"
     };
-    for (word, bound) in [(least, bounds.min), ("maximum", bounds.max)] {
+    for (keyword, bound) in [(least, bounds.min), ("maximum", bounds.max)] {
         if bound.is_finite() {
-            schema[word] = bound.into();
+            schema[keyword] = bound.into();
         }
     }
     schema
@@ -122,8 +124,8 @@ impl AboutText {
         let object = &object.replace("KHR_meshopt", "EXT_meshopt");
         let line = ABOUT.lines().find_map(|line| {
             let mut cells = line.splitn(4, '|').map(str::trim);
-            let (own, cells) = (cells.next()?, [cells.next()?, cells.next()?, cells.next()?]);
-            (own.rsplit_once('.') == Some((object.as_str(), key))).then_some(cells)
+            let (entry, cells) = (cells.next()?, [cells.next()?, cells.next()?, cells.next()?]);
+            (entry.rsplit_once('.') == Some((object.as_str(), key))).then_some(cells)
         });
         if let Some([default, unit, words]) = line {
             return Self {
@@ -147,8 +149,8 @@ impl AboutText {
 
 /// What the table of the materials' parameters says of the property of an extension.
 fn of_parameter(key: &str) -> Option<String> {
-    let (_, field) = FIELDS.iter().find(|(own, _)| *own == key)?;
-    let (_, lines) = PARAMETERS.iter().find(|(own, _)| own == field)?;
+    let (_, field) = FIELDS.iter().find(|(entry, _)| *entry == key)?;
+    let (_, lines) = PARAMETERS.iter().find(|(entry, _)| entry == field)?;
     let words: Vec<_> = lines.iter().map(|line| line.trim()).collect();
     Some(words.join(" ").trim_end_matches('.').to_owned())
 }
@@ -176,14 +178,14 @@ mod tests {
     use super::*;
 
     /// The ways to properties without words.
-    fn unsaid(schema: &Json, way: &str, found: &mut Vec<String>) {
+    fn undescribed(schema: &Json, path: &str, found: &mut Vec<String>) {
         let properties = schema.get("properties").and_then(Json::as_object);
         for (name, property) in properties.into_iter().flatten() {
-            let way = format!("{way}/{name}");
+            let path = format!("{path}/{name}");
             if property["description"].as_str().is_none_or(str::is_empty) {
-                found.push(way.clone());
+                found.push(path.clone());
             }
-            unsaid(property, &way, found);
+            undescribed(property, &path, found);
         }
     }
 
@@ -192,7 +194,7 @@ mod tests {
         let (schema, mut found) = (schema(), Vec::new());
         let definitions = schema["$defs"].as_object().unwrap();
         for (name, definition) in definitions {
-            unsaid(definition, name, &mut found);
+            undescribed(definition, name, &mut found);
         }
         assert_eq!(found, [""; 0]);
         let texts = definitions.values().map(Json::to_string);

@@ -1,10 +1,15 @@
-//! What glTF 2.0 lays down about the JSON alone: tables of objects and their properties, and the
-//! walk that checks them.
+//! The JSON schema of glTF 2.0 as tables, and its validation.
+//!
+//! `core` holds the objects of glTF, `extension` those of extensions, and `rtc_extras` those
+//! that `rtc` writes into `extras`. An [`Object`] lists its properties, each with the kind of its
+//! [`Value`]. `traverse` visits the JSON with a stack, finds the table of each object, and reports
+//! unknown and missing properties; `value` checks one value. `json` writes the tables as the JSON
+//! Schema and the documentation in `schema/`, with the descriptions of `about.txt`.
 
 mod core;
 mod extension;
 mod json;
-mod own;
+mod rtc_extras;
 mod traverse;
 mod value;
 
@@ -48,23 +53,23 @@ const fn optional(name: &'static str, value: Value) -> Key {
 /// What a property takes.
 #[derive(Debug)]
 enum Value {
-    Truth,
+    Boolean,
     Text,
     /// One of these words.
-    Word(&'static [&'static str]),
+    Keyword(&'static [&'static str]),
     /// `major.minor`.
     Version,
     /// A JSON pointer.
     Pointer,
     /// A whole number within bounds, both included.
-    Whole(u64, u64),
+    Integer(u64, u64),
     /// One of these numbers.
     Choice(&'static [u64]),
     Number(Bounds),
     /// A list of as many numbers as one of these says; at least one if none does.
     Numbers(&'static [usize], Bounds),
     /// A list of numbers, as many and of the kind that other properties say.
-    Elements,
+    PerComponent,
     /// A list of different texts.
     Texts,
     /// A reference.
@@ -136,7 +141,7 @@ pub(super) enum IndexTarget {
 }
 
 /// Each pool that lies at one place, and the way to it.
-const POOLS: [(IndexTarget, &[&str]); 14] = [
+const TARGETS: [(IndexTarget, &[&str]); 14] = [
     (IndexTarget::Accessors, &["accessors"]),
     (IndexTarget::Buffers, &["buffers"]),
     (IndexTarget::BufferViews, &["bufferViews"]),

@@ -2,7 +2,7 @@
 //! stand.
 
 use super::core::ROOT;
-use super::{IndexTarget, Key, Object, POOLS, extension, own};
+use super::{IndexTarget, Key, Object, TARGETS, extension, rtc_extras};
 use crate::gltf::report::{AssetReport, shown};
 use rtc_diag::codes;
 use rtc_source::tree::{NodeId, NodeKind};
@@ -21,7 +21,7 @@ pub(in super::super) fn traverse(
     if report.json.kind(root) != NodeKind::Map {
         let kind = report.json.kind(root).name();
         let message = format!("an asset is an object, and this is {kind}");
-        report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", root, message);
+        report.add(&codes::GLTF_TYPE, "TYPE_MISMATCH", root, message);
         return BTreeSet::new();
     }
     let json = report.json;
@@ -36,13 +36,13 @@ pub(in super::super) fn traverse(
             Slot::NoPart
         }
     };
-    let slots = POOLS.map(|(_, way)| {
+    let slots = TARGETS.map(|(_, path)| {
         let list = json
-            .at(root, way)
+            .at(root, path)
             .filter(|list| json.kind(*list) == NodeKind::List);
         list.map_or_else(Vec::new, |list| json.items(list).map(slot).collect())
     });
-    let present = POOLS.map(|(_, way)| way.len() == 1 || json.at(root, &way[..2]).is_some());
+    let present = TARGETS.map(|(_, path)| path.len() == 1 || json.at(root, &path[..2]).is_some());
     let mut traverse = Walk {
         report,
         declared,
@@ -55,7 +55,7 @@ pub(in super::super) fn traverse(
         traverse.object(node, object);
     }
     if is_known {
-        traverse.tell_unused();
+        traverse.report_unused();
     }
     traverse.declared
 }
@@ -74,9 +74,9 @@ pub(super) struct Walk<'w, 'r, 's> {
     /// The extensions in `extensionsUsed`; lenient, also those that should be there.
     declared: BTreeSet<String>,
     /// What is in each pool.
-    slots: [Vec<Slot>; POOLS.len()],
+    slots: [Vec<Slot>; TARGETS.len()],
     /// The asset has the extension that the pool lies in, if it lies in one.
-    present: [bool; POOLS.len()],
+    present: [bool; TARGETS.len()],
     /// The asset is glTF 2; else only its header is looked at.
     is_known: bool,
     /// Objects that are still to be checked.
@@ -126,7 +126,7 @@ impl Walk<'_, '_, '_> {
             if *required && seen & (1 << at) == 0 {
                 let message = format!("the {} has no `{name}`", object.name);
                 self.report
-                    .say(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", node, message);
+                    .add(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", node, message);
             }
         }
     }
@@ -135,13 +135,13 @@ impl Walk<'_, '_, '_> {
         let written = self.report.json.text(name).unwrap_or_default();
         let message = format!("the {} has no property `{}`", object.name, shown(written));
         self.report
-            .say(&codes::GLTF_UNKNOWN, "UNEXPECTED_PROPERTY", name, message);
+            .add(&codes::GLTF_UNKNOWN, "UNEXPECTED_PROPERTY", name, message);
     }
 
     /// Extras are anything, but for what rtc itself puts there.
     fn extras(&mut self, value: NodeId, owner: &'static Object) {
         let rtc = self.report.json.get(value, "rtc");
-        if let Some((node, object)) = rtc.zip(own::find(owner.name))
+        if let Some((node, object)) = rtc.zip(rtc_extras::find(owner.name))
             && self.expect(node, NodeKind::Map, "rtc")
         {
             self.open.push((node, object));
@@ -149,7 +149,7 @@ impl Walk<'_, '_, '_> {
         if ![NodeKind::Map, NodeKind::Null].contains(&self.report.json.kind(value)) {
             let message = "extras are best an object".to_owned();
             self.report
-                .say(&codes::GLTF_REMARK, "NON_OBJECT_EXTRAS", value, message);
+                .add(&codes::GLTF_REMARK, "NON_OBJECT_EXTRAS", value, message);
         }
     }
 
@@ -166,9 +166,9 @@ impl Walk<'_, '_, '_> {
                     "the extension `{}` is not listed in `extensionsUsed`",
                     shown(name)
                 );
-                let (alias, mended) = ("UNDECLARED_EXTENSION", "it is taken as listed");
+                let (alias, repair) = ("UNDECLARED_EXTENSION", "it is taken as listed");
                 self.report
-                    .mend(&codes::GLTF_EXTENSION, alias, value, &message, mended);
+                    .repair(&codes::GLTF_EXTENSION, alias, value, &message, repair);
                 if !self.report.is_lenient() {
                     continue;
                 }
@@ -190,7 +190,7 @@ impl Walk<'_, '_, '_> {
                 None => {
                     let message =
                         format!("the extension `{name}` means nothing in a {}", owner.name);
-                    self.report.say(
+                    self.report.add(
                         &codes::GLTF_EXTENSION,
                         "UNEXPECTED_EXTENSION_OBJECT",
                         value,
@@ -204,12 +204,12 @@ impl Walk<'_, '_, '_> {
     /// What an extension says of a part leans on what it says of the asset, if it says anything
     /// there.
     fn has_root(&mut self, name: &str, value: NodeId, owner: &Object) {
-        let pool = POOLS
+        let target = TARGETS
             .iter()
-            .position(|(_, way)| way.len() > 1 && way[1] == name);
-        if owner.name != ROOT.name && pool.is_some_and(|pool| !self.present[pool]) {
+            .position(|(_, path)| path.len() > 1 && path[1] == name);
+        if owner.name != ROOT.name && target.is_some_and(|target| !self.present[target]) {
             let message = format!("this refers to `{name}` of the asset, which has none");
-            self.report.say(
+            self.report.add(
                 &codes::GLTF_TOGETHER,
                 "UNSATISFIED_DEPENDENCY",
                 value,
@@ -224,29 +224,29 @@ impl Walk<'_, '_, '_> {
         if found != kind {
             let message = format!("`{}` is {}, not {}", shown(name), found.name(), kind.name());
             self.report
-                .say(&codes::GLTF_TYPE, "TYPE_MISMATCH", node, message);
+                .add(&codes::GLTF_TYPE, "TYPE_MISMATCH", node, message);
         }
         found == kind
     }
 
-    /// Follows the reference at `node` to the `index` in `pool`.
-    pub(super) fn follow(&mut self, node: NodeId, pool: IndexTarget, index: u64) {
-        let Some(at) = POOLS.iter().position(|(own, _)| *own == pool) else {
+    /// Follows the reference at `node` to the `index` in `target`.
+    pub(super) fn follow(&mut self, node: NodeId, target: IndexTarget, index: u64) {
+        let Some(at) = TARGETS.iter().position(|(entry, _)| *entry == target) else {
             return;
         };
-        let way = POOLS[at].1;
+        let path = TARGETS[at].1;
         if !self.present[at] {
             return;
         }
-        let (count, pool) = (self.slots[at].len(), way[way.len() - 1]);
+        let (count, target) = (self.slots[at].len(), path[path.len() - 1]);
         match usize::try_from(index)
             .ok()
             .and_then(|index| self.slots[at].get_mut(index))
         {
             Some(slot @ (Slot::Unused | Slot::Used)) => *slot = Slot::Used,
             Some(Slot::NoPart) => {
-                let message = format!("what is {index} in `{pool}` is no object");
-                self.report.say(
+                let message = format!("what is {index} in `{target}` is no object");
+                self.report.add(
                     &codes::GLTF_REFERENCE,
                     "UNRESOLVED_REFERENCE",
                     node,
@@ -255,10 +255,10 @@ impl Walk<'_, '_, '_> {
             }
             None => {
                 let message = format!(
-                    "there is no {index} in `{pool}`, which {}",
+                    "there is no {index} in `{target}`, which {}",
                     count_words(count)
                 );
-                self.report.say(
+                self.report.add(
                     &codes::GLTF_REFERENCE,
                     "UNRESOLVED_REFERENCE",
                     node,
@@ -269,11 +269,11 @@ impl Walk<'_, '_, '_> {
     }
 
     /// Notes what nothing refers to: it costs space and has no effect.
-    fn tell_unused(&mut self) {
+    fn report_unused(&mut self) {
         let json = self.report.json;
-        for ((pool, way), slots) in POOLS.iter().zip(&self.slots) {
+        for ((target, path), slots) in TARGETS.iter().zip(&self.slots) {
             if matches!(
-                pool,
+                target,
                 IndexTarget::Nodes
                     | IndexTarget::Scenes
                     | IndexTarget::Lights
@@ -282,8 +282,8 @@ impl Walk<'_, '_, '_> {
                 continue;
             }
             let unused = |(_, slot): &(NodeId, &Slot)| **slot == Slot::Unused;
-            for (node, _) in json.list(json.root(), way[0]).zip(slots).filter(unused) {
-                self.report.say(
+            for (node, _) in json.list(json.root(), path[0]).zip(slots).filter(unused) {
+                self.report.add(
                     &codes::GLTF_REMARK,
                     "UNUSED_OBJECT",
                     node,

@@ -10,24 +10,24 @@ impl Walk<'_, '_, '_> {
     /// Checks the value of the property `name`; what lies in it is put off.
     pub(super) fn value(&mut self, node: NodeId, value: &'static Value, name: &str) {
         match value {
-            Value::Truth => drop(self.expect(node, NodeKind::Bool, name)),
+            Value::Boolean => drop(self.expect(node, NodeKind::Bool, name)),
             Value::Text => drop(self.expect(node, NodeKind::Text, name)),
-            Value::Word(words) => self.word(node, words, name),
+            Value::Keyword(words) => self.keyword(node, words, name),
             Value::Version => self.pattern(node, is_version, "a version, as `2.0`", name),
             Value::Pointer => self.pattern(node, is_pointer, "a JSON pointer, as `/nodes/0`", name),
-            Value::Whole(min, max) => self.whole(node, *min, *max, name),
+            Value::Integer(min, max) => self.bounded_integer(node, *min, *max, name),
             Value::Choice(choices) => self.choice(node, choices, name),
             Value::Number(bounds) => self.number(node, *bounds, name),
             // An accessor is checked with its bounds, once its type is known.
-            Value::Elements => {}
+            Value::PerComponent => {}
             Value::Numbers(lengths, bounds) => self.numbers(node, lengths, *bounds, name),
             Value::Texts => self.texts(node, name),
-            Value::Index(pool) => {
+            Value::Index(target) => {
                 if let Some(index) = self.index(node, name) {
-                    self.follow(node, *pool, index);
+                    self.follow(node, *target, index);
                 }
             }
-            Value::Indices(pool) => self.indices(node, *pool, name),
+            Value::Indices(target) => self.indices(node, *target, name),
             Value::Attributes => self.attributes(node, name),
             Value::Targets => {
                 for item in self.items(node, name) {
@@ -57,7 +57,7 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    fn indices(&mut self, node: NodeId, pool: IndexTarget, name: &str) {
+    fn indices(&mut self, node: NodeId, target: IndexTarget, name: &str) {
         let mut seen = BTreeSet::new();
         for item in self.items(node, name) {
             let Some(index) = self.item_index(item, name) else {
@@ -67,9 +67,9 @@ impl Walk<'_, '_, '_> {
                 let message = format!("`{name}` holds {index} twice");
                 let alias = "DUPLICATE_ELEMENTS";
                 self.report
-                    .say(&codes::GLTF_DUPLICATE, alias, item, message);
+                    .add(&codes::GLTF_DUPLICATE, alias, item, message);
             }
-            self.follow(item, pool, index);
+            self.follow(item, target, index);
         }
     }
 
@@ -93,7 +93,7 @@ impl Walk<'_, '_, '_> {
 
     fn not_empty(&mut self, node: NodeId, count: usize, name: &str) {
         if count == 0 {
-            self.report.mend(
+            self.report.repair(
                 &codes::GLTF_EMPTY,
                 "EMPTY_ENTITY",
                 node,
@@ -103,9 +103,11 @@ impl Walk<'_, '_, '_> {
         }
     }
 
-    fn word(&mut self, node: NodeId, words: &[&str], name: &str) {
+    fn keyword(&mut self, node: NodeId, words: &[&str], name: &str) {
         if self.expect(node, NodeKind::Text, name)
-            && !words.iter().any(|word| self.report.json.is(node, word))
+            && !words
+                .iter()
+                .any(|keyword| self.report.json.is(node, keyword))
         {
             let message = format!(
                 "`{name}` is {}, none of {}",
@@ -113,7 +115,7 @@ impl Walk<'_, '_, '_> {
                 words.join(", ")
             );
             self.report
-                .say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", node, message);
+                .add(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", node, message);
         }
     }
 
@@ -123,7 +125,7 @@ impl Walk<'_, '_, '_> {
         {
             let message = format!("`{name}` is {}, not {what}", self.report.shown(node));
             self.report
-                .say(&codes::GLTF_VALUE, "PATTERN_MISMATCH", node, message);
+                .add(&codes::GLTF_VALUE, "PATTERN_MISMATCH", node, message);
         }
     }
 
@@ -139,13 +141,13 @@ impl Walk<'_, '_, '_> {
                 self.report.shown(node)
             );
             self.report
-                .say(&codes::GLTF_TYPE, "TYPE_MISMATCH", node, message);
+                .add(&codes::GLTF_TYPE, "TYPE_MISMATCH", node, message);
             return None;
         }
         Some(self.report.json.integer(node))
     }
 
-    fn whole(&mut self, node: NodeId, min: u64, max: u64, name: &str) {
+    fn bounded_integer(&mut self, node: NodeId, min: u64, max: u64, name: &str) {
         let Some(number) = self.integer(node, name) else {
             return;
         };
@@ -157,7 +159,7 @@ impl Walk<'_, '_, '_> {
                 format!("{least} to {max}")
             };
             self.report
-                .say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", node, message);
+                .add(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", node, message);
         }
     }
 
@@ -173,7 +175,7 @@ impl Walk<'_, '_, '_> {
                 choices.join(", ")
             );
             self.report
-                .say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", node, message);
+                .add(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", node, message);
         }
     }
 
@@ -182,7 +184,7 @@ impl Walk<'_, '_, '_> {
         if number.is_none() {
             let message = format!("`{name}` is {}, not an index", self.report.shown(node));
             self.report
-                .say(&codes::GLTF_TYPE, "INVALID_INDEX", node, message);
+                .add(&codes::GLTF_TYPE, "INVALID_INDEX", node, message);
         }
         number
     }
@@ -196,7 +198,7 @@ impl Walk<'_, '_, '_> {
                 self.report.shown(node)
             );
             self.report
-                .say(&codes::GLTF_TYPE, "INVALID_INDEX", node, message);
+                .add(&codes::GLTF_TYPE, "INVALID_INDEX", node, message);
         }
         number
     }
@@ -223,7 +225,7 @@ impl Walk<'_, '_, '_> {
             };
             let message = format!("`{name}` is {}, not {range}", self.report.shown(node));
             self.report
-                .say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", node, message);
+                .add(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", node, message);
         }
     }
 
@@ -241,7 +243,7 @@ impl Walk<'_, '_, '_> {
                 items.len(),
                 lengths.join(" or ")
             );
-            self.report.say(
+            self.report.add(
                 &codes::GLTF_VALUE,
                 "ARRAY_LENGTH_NOT_IN_LIST",
                 node,
@@ -265,7 +267,7 @@ impl Walk<'_, '_, '_> {
                 kind.name()
             );
             self.report
-                .say(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", node, message);
+                .add(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", node, message);
         }
         found == kind
     }
@@ -279,7 +281,7 @@ impl Walk<'_, '_, '_> {
             {
                 let message = format!("`{name}` holds {} twice", self.report.shown(item));
                 self.report
-                    .say(&codes::GLTF_DUPLICATE, "DUPLICATE_ELEMENTS", item, message);
+                    .add(&codes::GLTF_DUPLICATE, "DUPLICATE_ELEMENTS", item, message);
             }
         }
     }

@@ -3,8 +3,8 @@
 use super::corner::{Corner, CornerCounts, indices};
 use super::smooth::Smoothing;
 use super::{Check, Vertices, is_face, part_of};
-use crate::mesh::polygon::Cutter;
-use crate::mesh::stroke::{Pen, Segments, join};
+use crate::mesh::polygon::EarClipper;
+use crate::mesh::stroke::{Segments, StrokeMesher, join};
 use crate::mesh::{Named, ParseFault, to_u32};
 use crate::words::Lines;
 use rtc_ir::Mesh;
@@ -33,19 +33,22 @@ impl Check {
             Resource::Memory,
             (passing + vertex * at_most + 12 * self.triangles) as u64,
         )?;
-        let strokes = self.drawn(budget)?;
+        let strokes = self.drawn_meshes(budget)?;
         let mut mesh = if is_plain {
             self.plain(bytes)
         } else {
             self.merged(bytes, smoothing)
         };
         let mut count = mesh.triangles.len();
-        for (named, own) in &strokes {
+        for (named, stroke) in &strokes {
             self.material_use.resume(named.clone());
             self.material_use.face(count);
-            count += own.triangles.len();
+            count += stroke.triangles.len();
         }
-        join(&mut mesh, strokes.into_iter().map(|(_, own)| own).collect());
+        join(
+            &mut mesh,
+            strokes.into_iter().map(|(_, stroke)| stroke).collect(),
+        );
         Ok(mesh)
     }
 
@@ -54,7 +57,7 @@ impl Check {
         let mut smoothing = Smoothing::default();
         if self.smooth_corners > 0 {
             budget.has(Resource::Memory, Smoothing::at_most(self.smooth_corners))?;
-            self.each_face(bytes, |face, group| smoothing.want(face, group));
+            self.each_face(bytes, |face, group| smoothing.request(face, group));
             smoothing.begin();
             self.each_face(bytes, |face, group| {
                 smoothing.add(face, group, &self.vertices.positions);
@@ -67,7 +70,7 @@ impl Check {
 
     /// What lines and points show, each with the material that they ask for; all vertices as points
     /// if nothing else is there.
-    fn drawn(&mut self, budget: &Budget) -> Result<Vec<(Named, Mesh)>, Exceeded> {
+    fn drawn_meshes(&mut self, budget: &Budget) -> Result<Vec<(Named, Mesh)>, Exceeded> {
         let has_nothing = self.triangles == 0 && self.not_drawn.is_none();
         if self.strokes.is_empty() && !has_nothing {
             return Ok(Vec::new());
@@ -84,13 +87,13 @@ impl Check {
             let current = self.material_use.current().clone();
             strokes.push((current, Segments::points(&source)));
         }
-        let pen = Pen::new(&source, budget);
-        let mut drawn = Vec::new();
+        let mesher = StrokeMesher::new(&source, budget);
+        let mut drawn_meshes = Vec::new();
         for (named, strokes) in strokes {
-            let own = pen.draw(strokes)?;
-            drawn.extend(own.into_iter().map(|mesh| (named.clone(), mesh)));
+            let polygon = mesher.draw(strokes)?;
+            drawn_meshes.extend(polygon.into_iter().map(|mesh| (named.clone(), mesh)));
         }
-        Ok(drawn)
+        Ok(drawn_meshes)
     }
 
     /// The mesh of a file whose corners are positions alone: those that are used, in the order of
@@ -99,11 +102,11 @@ impl Check {
         const UNUSED: u32 = u32::MAX;
         let mut vertex_of = vec![UNUSED; self.vertices.positions.len()];
         let (mut used, mut triangles) = (Vec::new(), Vec::with_capacity(self.triangles));
-        let (all, mut cutter) = (&self.vertices.positions, Cutter::new(self.corners));
-        let mut own = Vec::new();
+        let (all, mut clipper) = (&self.vertices.positions, EarClipper::new(self.corners));
+        let mut polygon = Vec::new();
         self.each_face(bytes, |face, _| {
-            own.clear();
-            own.extend(face.iter().map(|corner| {
+            polygon.clear();
+            polygon.extend(face.iter().map(|corner| {
                 let at = corner[0].unwrap_or_default();
                 let vertex = &mut vertex_of[at as usize];
                 if *vertex == UNUSED {
@@ -112,9 +115,9 @@ impl Check {
                 }
                 *vertex
             }));
-            let position = |at: usize| all[used[own[at] as usize] as usize];
-            let take = |three: [usize; 3]| triangles.push(three.map(|at| own[at]));
-            cutter.cut(face.len(), position, take);
+            let position = |at: usize| all[used[polygon[at] as usize] as usize];
+            let take = |three: [usize; 3]| triangles.push(three.map(|at| polygon[at]));
+            clipper.cut(face.len(), position, take);
         });
         let Vertices {
             positions, tints, ..
@@ -132,7 +135,7 @@ impl Check {
         let [_, uvs, normals] = self.vertices.counts();
         let mut sorted = Vec::with_capacity(self.corners);
         let mut triangles = Vec::with_capacity(self.triangles);
-        let (all, mut cutter) = (&self.vertices.positions, Cutter::new(self.corners));
+        let (all, mut clipper) = (&self.vertices.positions, EarClipper::new(self.corners));
         self.each_face(bytes, |face, group| {
             let first = to_u32(sorted.len());
             // Those that have none share one of zeros.
@@ -154,7 +157,7 @@ impl Check {
             }
             let position = |at: usize| all[face[at][0].unwrap_or_default() as usize];
             let take = |three: [usize; 3]| triangles.push(three.map(|at| first + to_u32(at)));
-            cutter.cut(face.len(), position, take);
+            clipper.cut(face.len(), position, take);
         });
         self.merge(sorted, triangles)
     }
@@ -234,10 +237,10 @@ impl Check {
             }
             if is_face(head) && rest.len() > 2 {
                 corners.clear();
-                let own = rest
+                let polygon = rest
                     .iter()
                     .map_while(|corner| indices(corner, so_far, total).ok());
-                corners.extend(own);
+                corners.extend(polygon);
                 if corners.len() == rest.len() {
                     take(&corners, group);
                 }

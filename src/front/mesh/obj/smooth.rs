@@ -37,8 +37,8 @@ impl Smoothing {
         72 * corners as u64
     }
 
-    /// Takes down which corners of a face want a normal.
-    pub(super) fn want(&mut self, face: &[Corner], group: u32) {
+    /// Records the corners of a face that need a normal.
+    pub(super) fn request(&mut self, face: &[Corner], group: u32) {
         if group != 0 {
             let bare = face.iter().filter(|[_, _, normal]| normal.is_none());
             self.corners
@@ -46,7 +46,7 @@ impl Smoothing {
         }
     }
 
-    /// All corners that want a normal are known.
+    /// Allocates the sums, once all corners are recorded.
     pub(super) fn begin(&mut self) {
         self.corners.sort_unstable();
         self.corners.dedup();

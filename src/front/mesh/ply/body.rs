@@ -32,8 +32,8 @@ impl<'a> PlyBody<'a> {
         let rows = head
             .elements
             .iter()
-            .filter(|own| !own.properties.is_empty());
-        let rows = rows.fold(0_usize, |sum, own| sum.saturating_add(own.count));
+            .filter(|element| !element.properties.is_empty());
+        let rows = rows.fold(0_usize, |sum, element| sum.saturating_add(element.count));
         Self {
             bytes,
             form,
@@ -172,8 +172,8 @@ impl<'a> PlyBody<'a> {
         Ok(())
     }
 
-    /// Whether the number that was read last is this one.
-    pub(super) fn was(&self, number: f64) -> bool {
+    /// Whether the number that was read last equals `number`.
+    pub(super) fn last_is(&self, number: f64) -> bool {
         self.value == number
     }
 

@@ -48,13 +48,13 @@ const LINEAR_COLOR: usize = 18;
 type VertexRow = [f64; VALUES.len()];
 
 /// A column in the making; `N` values of each vertex from one on.
-enum GrowingColumn<const N: usize> {
+enum ColumnBuilder<const N: usize> {
     Absent,
     Single(usize, Vec<[f32; N]>),
     Double(usize, Vec<[f64; N]>),
 }
 
-impl<const N: usize> GrowingColumn<N> {
+impl<const N: usize> ColumnBuilder<N> {
     /// An empty column, in 32 bits if those hold all of its values; absent if one is missing.
     fn new(first: usize, slots: &[Option<(usize, NumberKind)>], count: usize) -> Self {
         let kind = |value: usize| {
@@ -71,7 +71,7 @@ impl<const N: usize> GrowingColumn<N> {
         }
     }
 
-    fn is_there(&self) -> bool {
+    fn exists(&self) -> bool {
         !matches!(self, Self::Absent)
     }
 
@@ -123,13 +123,13 @@ pub(super) fn read(
         Resource::Memory,
         (8 * kept as u64).saturating_mul(count as u64),
     )?;
-    let mut positions = GrowingColumn::<3>::new(0, &slots, count);
-    let mut normals = GrowingColumn::<3>::new(NORMAL, &slots, count);
-    let mut uvs = GrowingColumn::<2>::new(UV, &slots, count);
-    let mut second_uvs = GrowingColumn::<2>::new(SECOND_UV, &slots, count);
-    let mut tangents = GrowingColumn::<4>::new(TANGENT, &slots, count);
-    let mut linear = GrowingColumn::<4>::new(LINEAR_COLOR, &slots, count);
-    let is_coded = !linear.is_there() && has(&[COLOR, COLOR + 1, COLOR + 2]);
+    let mut positions = ColumnBuilder::<3>::new(0, &slots, count);
+    let mut normals = ColumnBuilder::<3>::new(NORMAL, &slots, count);
+    let mut uvs = ColumnBuilder::<2>::new(UV, &slots, count);
+    let mut second_uvs = ColumnBuilder::<2>::new(SECOND_UV, &slots, count);
+    let mut tangents = ColumnBuilder::<4>::new(TANGENT, &slots, count);
+    let mut linear = ColumnBuilder::<4>::new(LINEAR_COLOR, &slots, count);
+    let is_coded = !linear.exists() && has(&[COLOR, COLOR + 1, COLOR + 2]);
     let mut coded = Vec::new();
     for _ in 0..count {
         let row = row(element, &slots, body)?;

@@ -4,7 +4,7 @@ use super::super::mesh::MeshFile;
 use super::super::{AssetTarget, PendingAsset};
 use super::bake::Bake;
 use super::{LoadedLibrary, phong, standard};
-use crate::mesh::mtl::{MtlMap, MtlMaterial, Said};
+use crate::mesh::mtl::{MtlMap, MtlMaterial, MtlValue};
 use crate::mesh::{Named, WordSpan};
 use rtc_diag::{Diagnostic, Severity, Sink, codes};
 use rtc_ir::{
@@ -37,7 +37,7 @@ pub(super) struct MapReference<'a> {
 
 impl LoadedLibrary {
     /// Resolves a map statement of one of its materials.
-    pub(super) fn map<'a>(&self, map: &'a Said<MtlMap>) -> MapReference<'a> {
+    pub(super) fn map<'a>(&self, map: &'a MtlValue<MtlMap>) -> MapReference<'a> {
         MapReference {
             path: sibling_path(&self.path, &map.value.file),
             map: &map.value,
@@ -103,7 +103,7 @@ impl MtlCache {
             self.add_unsupported(at.span(loaded.file), format!("{what} only in path tracing"));
         }
         let mut phong = phong::phong(material);
-        let mut texture = |map: &Option<Said<MtlMap>>| {
+        let mut texture = |map: &Option<MtlValue<MtlMap>>| {
             let image = self.image(&loaded.map(map.as_ref()?), false, lowered);
             Some(self.texture(image, None, lowered))
         };
@@ -130,11 +130,11 @@ impl MtlCache {
             file: mesh.file,
             path: mesh.path.clone(),
         };
-        let map = Said {
+        let map = MtlValue {
             value: MtlMap::of(texture.text.clone()),
             at: texture.at,
         };
-        let white = Said {
+        let white = MtlValue {
             value: [1.0; 3],
             at: texture.at,
         };
@@ -263,15 +263,17 @@ impl MapPlacement {
 /// The statements of a material that Phong's model cannot express.
 fn beyond_phong(material: &MtlMaterial) -> Vec<(WordSpan, String)> {
     let m = material;
-    let number = |statement: &Option<Said<f64>>| statement.as_ref().map(|statement| statement.at);
-    let map = |statement: &Option<Said<MtlMap>>| statement.as_ref().map(|statement| statement.at);
-    let color = |statement: &Option<Said<[f64; 3]>>, nothing: f64| {
+    let number =
+        |statement: &Option<MtlValue<f64>>| statement.as_ref().map(|statement| statement.at);
+    let map =
+        |statement: &Option<MtlValue<MtlMap>>| statement.as_ref().map(|statement| statement.at);
+    let color = |statement: &Option<MtlValue<[f64; 3]>>, nothing: f64| {
         let statement = statement.as_ref();
         let statement =
             statement.filter(|statement| statement.value.iter().any(|channel| *channel != nothing));
         statement.map(|statement| statement.at)
     };
-    let placement = |statement: &Option<Said<MtlMap>>| {
+    let placement = |statement: &Option<MtlValue<MtlMap>>| {
         statement
             .as_ref()
             .and_then(|statement| statement.value.placed)

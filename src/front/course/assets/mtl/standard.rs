@@ -5,7 +5,7 @@ use super::cache::{MapPlacement, MtlCache};
 use super::phong::{is_glass, opacity, weight};
 use super::{LoadedLibrary, phong};
 use crate::mesh::WordSpan;
-use crate::mesh::mtl::{MtlMap, MtlMaterial, Said};
+use crate::mesh::mtl::{MtlMap, MtlMaterial, MtlValue};
 use rtc_ir::{Alpha, ImageId, Lowered, MaterialId, Standard};
 use rtc_tables::{PhongTerms, fit_phong};
 use std::f64::consts::TAU;
@@ -66,10 +66,11 @@ pub(super) fn standard(material: &MtlMaterial) -> Standard {
         (true, None) => [1.0; 3],
         (false, _) => base(m, fit.metallic > 0.0),
     };
-    let value = |statement: &Option<Said<f64>>| statement.as_ref().map(|statement| statement.value);
+    let value =
+        |statement: &Option<MtlValue<f64>>| statement.as_ref().map(|statement| statement.value);
     let ior = value(&m.index).filter(|index| *index > 1.0).unwrap_or(IOR);
     let alpha = if glass { 1.0 } else { opacity(m) };
-    let is_mapped = |map: &Option<Said<MtlMap>>| map.is_some();
+    let is_mapped = |map: &Option<MtlValue<MtlMap>>| map.is_some();
     // Explicit PBR statements take precedence over the fit.
     let base = Standard {
         base_color: [r, g, b, alpha],
@@ -110,8 +111,9 @@ fn is_physical(m: &MtlMaterial) -> bool {
 
 /// Adds emission, clearcoat, sheen and anisotropy to a material.
 fn with_layers(base: Standard, m: &MtlMaterial) -> Standard {
-    let value =
-        |statement: &Option<Said<f64>>| statement.as_ref().map_or(0.0, |statement| statement.value);
+    let value = |statement: &Option<MtlValue<f64>>| {
+        statement.as_ref().map_or(0.0, |statement| statement.value)
+    };
     let emissive = m
         .emissive
         .as_ref()
@@ -158,7 +160,7 @@ impl MtlCache {
         lowered: &mut Lowered,
     ) -> Standard {
         // Add the images.
-        let mut image = |map: &Option<Said<MtlMap>>, has_opacity: bool| -> Option<ImageId> {
+        let mut image = |map: &Option<MtlValue<MtlMap>>, has_opacity: bool| -> Option<ImageId> {
             Some(self.image(&loaded.map(map.as_ref()?), has_opacity, lowered))
         };
         let color = image(&m.color_map, false);
@@ -167,7 +169,7 @@ impl MtlCache {
         let heights = image(&m.bump, false).filter(|_| m.normal_map.is_none());
         let direct = [&m.specular_map, &m.normal_map, &m.emissive_map].map(|map| image(map, false));
         // Textures of one image.
-        let mut placement = |map: &Option<Said<MtlMap>>, image: Option<ImageId>| {
+        let mut placement = |map: &Option<MtlValue<MtlMap>>, image: Option<ImageId>| {
             Some(self.placement(&loaded.map(map.as_ref()?), image?, lowered))
         };
         standard.base_color_map = placement(&m.color_map, color);
@@ -175,7 +177,7 @@ impl MtlCache {
         standard.normal_map = placement(&m.normal_map, direct[1]);
         standard.emissive_map = placement(&m.emissive_map, direct[2]);
         // Textures that combine several images.
-        let mut bake = |map: &Option<Said<MtlMap>>, baked: BakedMap| {
+        let mut bake = |map: &Option<MtlValue<MtlMap>>, baked: BakedMap| {
             let Some(map) = map else { return };
             self.bakes.push(Bake {
                 material,

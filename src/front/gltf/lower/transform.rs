@@ -1,7 +1,7 @@
-//! Where nodes stand in the world, found without recursion, and which of them a scene shows.
+//! World transforms of nodes, computed without recursion, and the nodes of a scene.
 
+use super::super::accessor_reader::AccessorReader;
 use super::super::document::Document;
-use super::super::elements::Elements;
 use super::super::node::Instancing;
 use super::pose::Pose;
 use glam::{DAffine3, DQuat};
@@ -80,15 +80,15 @@ fn coarser(doc: &Document<'_>) -> Vec<bool> {
 }
 
 /// The places of a mesh at its node.
-pub(super) struct Places<'d> {
+pub(super) struct InstanceTransforms<'d> {
     /// That of the node.
     world: DAffine3,
     /// The instances of `EXT_mesh_gpu_instancing` at the node: translations, rotations and scales.
-    instances: Option<[Option<Elements<'d>>; 3]>,
+    instances: Option<[Option<AccessorReader<'d>>; 3]>,
     count: usize,
 }
 
-impl<'d> Places<'d> {
+impl<'d> InstanceTransforms<'d> {
     /// That of the node alone.
     pub(super) fn one(world: DAffine3) -> Self {
         Self {
@@ -99,11 +99,11 @@ impl<'d> Places<'d> {
     }
 
     /// Those of instances.
-    pub(super) fn many(doc: &'d Document<'_>, world: DAffine3, own: &Instancing) -> Self {
-        let elements = |accessor| Elements::of(doc, doc.accessors.get(accessor)?);
-        let parts = own.parts.map(|accessor| elements(accessor?));
-        let read = parts.iter().flatten().map(|own| own.count);
-        let all = own.all.iter();
+    pub(super) fn many(doc: &'d Document<'_>, world: DAffine3, instancing: &Instancing) -> Self {
+        let elements = |accessor| AccessorReader::of(doc, doc.accessors.get(accessor)?);
+        let parts = instancing.parts.map(|accessor| elements(accessor?));
+        let read = parts.iter().flatten().map(|reader| reader.count);
+        let all = instancing.all.iter();
         let said = all.filter_map(|accessor| doc.accessors.get(*accessor)?.count);
         Self {
             world,
@@ -122,15 +122,17 @@ impl<'d> Places<'d> {
         let Some([translations, rotations, scales]) = &self.instances else {
             return self.world;
         };
-        let translation = translations.as_ref().map_or([0.0; 3], |own| own.at(at));
+        let translation = translations
+            .as_ref()
+            .map_or([0.0; 3], |reader| reader.at(at));
         let rotation = rotations
             .as_ref()
-            .map_or([0.0, 0.0, 0.0, 1.0], |own| own.at(at));
+            .map_or([0.0, 0.0, 0.0, 1.0], |reader| reader.at(at));
         self.world
             * compose(
                 translation,
                 rotation,
-                scales.as_ref().map_or([1.0; 3], |own| own.at(at)),
+                scales.as_ref().map_or([1.0; 3], |reader| reader.at(at)),
             )
     }
 }

@@ -1,6 +1,7 @@
-//! Demands: what each use of an accessor asks of its elements.
+//! Constraints on the elements of accessors, by their use: unit vectors, rising times, indices in
+//! range.
 
-use super::elements::Elements;
+use super::accessor_reader::AccessorReader;
 use super::node::LAST_ROW;
 use super::report::AssetReport;
 use rtc_diag::codes;
@@ -11,9 +12,9 @@ use rtc_source::tree::NodeId;
 const UNIT_3: f64 = 0.006_74;
 const UNIT_4: f64 = 0.007_69;
 
-/// What a use asks of the elements of an accessor.
+/// A constraint on the elements of an accessor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Demand {
+pub(super) enum AccessorConstraint {
     /// The first three components have length 1.
     Unit,
     /// The fourth component is 1 or -1.
@@ -28,41 +29,41 @@ pub(super) enum Demand {
     CubicRotations,
     /// Indices below so many, of a primitive of this mode.
     Below(usize, u64),
-    /// Matrices that keep points points.
+    /// Matrices whose last row is 0, 0, 0, 1.
     Affine,
 }
 
-/// The demands on accessors, with the place that makes each.
+/// The constraints on accessors, each with the node that refers to the accessor.
 #[derive(Default)]
-pub(super) struct Demands(Vec<(usize, Demand, NodeId)>);
+pub(super) struct AccessorConstraints(Vec<(usize, AccessorConstraint, NodeId)>);
 
-impl Demands {
-    pub(super) fn add(&mut self, accessor: usize, demand: Demand, at: NodeId) {
-        self.0.push((accessor, demand, at));
+impl AccessorConstraints {
+    pub(super) fn add(&mut self, accessor: usize, constraint: AccessorConstraint, at: NodeId) {
+        self.0.push((accessor, constraint, at));
     }
 
-    /// Each demand on each accessor once, in the order of the accessors.
-    pub(super) fn sorted(self) -> Vec<(usize, Demand, NodeId)> {
-        let mut demands = self.0;
-        demands.sort_unstable();
-        demands.dedup_by_key(|(accessor, demand, _)| (*accessor, *demand));
-        demands
+    /// The constraints in the order of the accessors, without duplicates.
+    pub(super) fn sorted(self) -> Vec<(usize, AccessorConstraint, NodeId)> {
+        let mut constraints = self.0;
+        constraints.sort_unstable();
+        constraints.dedup_by_key(|(accessor, constraint, _)| (*accessor, *constraint));
+        constraints
     }
 }
 
-/// Checks what one use demands.
-pub(super) fn meet(
-    elements: &Elements<'_>,
-    demand: Demand,
+/// Checks one constraint.
+pub(super) fn check_constraint(
+    elements: &AccessorReader<'_>,
+    constraint: AccessorConstraint,
     at: NodeId,
     report: &mut AssetReport<'_, '_>,
 ) {
     let components = elements.layout.components();
-    match demand {
-        Demand::Unit if components >= 3 => {
+    match constraint {
+        AccessorConstraint::Unit if components >= 3 => {
             let off =
                 |_: usize, element: &[f64]| (length(elements, &element[..3]) - 1.0).abs() > UNIT_3;
-            tell(
+            report_violations(
                 elements,
                 off,
                 "ACCESSOR_VECTOR3_NON_UNIT",
@@ -71,9 +72,9 @@ pub(super) fn meet(
                 report,
             );
         }
-        Demand::Sign if components == 4 => {
+        AccessorConstraint::Sign if components == 4 => {
             let off = |_: usize, element: &[f64]| elements.fraction(element[3]).abs() - 1.0 != 0.0;
-            tell(
+            report_violations(
                 elements,
                 off,
                 "ACCESSOR_INVALID_SIGN",
@@ -82,11 +83,11 @@ pub(super) fn meet(
                 report,
             );
         }
-        Demand::Clamped if elements.layout.component.range().is_none() => {
+        AccessorConstraint::Clamped if elements.layout.component.range().is_none() => {
             let off = |_: usize, element: &[f64]| {
                 element.iter().any(|number| *number < 0.0 || *number > 1.0)
             };
-            tell(
+            report_violations(
                 elements,
                 off,
                 "ACCESSOR_NON_CLAMPED",
@@ -95,27 +96,27 @@ pub(super) fn meet(
                 report,
             );
         }
-        Demand::Rotations | Demand::CubicRotations if components == 4 => {
-            let counts = |at: usize| demand == Demand::Rotations || at % 3 == 1;
+        AccessorConstraint::Rotations | AccessorConstraint::CubicRotations if components == 4 => {
+            let counts = |at: usize| constraint == AccessorConstraint::Rotations || at % 3 == 1;
             let off = |at: usize, element: &[f64]| {
                 counts(at) && (length(elements, element) - 1.0).abs() > UNIT_4
             };
             let alias = "ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION";
-            tell(elements, off, alias, "are not of length 1", at, report);
+            report_violations(elements, off, alias, "are not of length 1", at, report);
         }
-        Demand::Times => times(elements, at, report),
-        Demand::Below(count, mode) => indices(elements, (count, mode), at, report),
-        Demand::Affine if components == 16 => affine(elements, at, report),
-        Demand::Unit
-        | Demand::Sign
-        | Demand::Clamped
-        | Demand::Rotations
-        | Demand::CubicRotations
-        | Demand::Affine => {}
+        AccessorConstraint::Times => times(elements, at, report),
+        AccessorConstraint::Below(count, mode) => indices(elements, (count, mode), at, report),
+        AccessorConstraint::Affine if components == 16 => affine(elements, at, report),
+        AccessorConstraint::Unit
+        | AccessorConstraint::Sign
+        | AccessorConstraint::Clamped
+        | AccessorConstraint::Rotations
+        | AccessorConstraint::CubicRotations
+        | AccessorConstraint::Affine => {}
     }
 }
 
-fn length(elements: &Elements<'_>, vector: &[f64]) -> f64 {
+fn length(elements: &AccessorReader<'_>, vector: &[f64]) -> f64 {
     vector
         .iter()
         .map(|number| elements.fraction(*number))
@@ -124,9 +125,9 @@ fn length(elements: &Elements<'_>, vector: &[f64]) -> f64 {
         .sqrt()
 }
 
-/// Counts the elements that are off, and tells of them if there are any.
-fn tell(
-    elements: &Elements<'_>,
+/// Counts the elements that violate a constraint, and reports them.
+fn report_violations(
+    elements: &AccessorReader<'_>,
     off: impl Fn(usize, &[f64]) -> bool,
     alias: &'static str,
     what: &str,
@@ -145,12 +146,12 @@ fn tell(
             "{count} of {} elements {what}, the first at {first}",
             elements.count
         );
-        let mended = "they are taken as they are";
-        report.mend(&codes::GLTF_VECTOR, alias, at, &message, mended);
+        let repair = "they are taken as they are";
+        report.repair(&codes::GLTF_VECTOR, alias, at, &message, repair);
     }
 }
 
-fn times(elements: &Elements<'_>, at: NodeId, report: &mut AssetReport<'_, '_>) {
+fn times(elements: &AccessorReader<'_>, at: NodeId, report: &mut AssetReport<'_, '_>) {
     let (mut negative, mut falling, mut before) = (None, None, f64::NEG_INFINITY);
     elements.each(|at, element| {
         let time = element[0];
@@ -165,7 +166,7 @@ fn times(elements: &Elements<'_>, at: NodeId, report: &mut AssetReport<'_, '_>) 
     });
     if let Some(index) = negative {
         let message = format!("the time at {index} is negative");
-        report.say(
+        report.add(
             &codes::GLTF_ANIMATION,
             "ACCESSOR_ANIMATION_INPUT_NEGATIVE",
             at,
@@ -174,7 +175,7 @@ fn times(elements: &Elements<'_>, at: NodeId, report: &mut AssetReport<'_, '_>) 
     }
     if let Some(index) = falling {
         let message = format!("the time at {index} is no later than the one before");
-        report.say(
+        report.add(
             &codes::GLTF_ANIMATION,
             "ACCESSOR_ANIMATION_INPUT_NON_INCREASING",
             at,
@@ -185,7 +186,7 @@ fn times(elements: &Elements<'_>, at: NodeId, report: &mut AssetReport<'_, '_>) 
 
 /// Checks that indices are below `count`, and counts the triangles that have no area.
 fn indices(
-    elements: &Elements<'_>,
+    elements: &AccessorReader<'_>,
     (count, mode): (usize, u64),
     at: NodeId,
     report: &mut AssetReport<'_, '_>,
@@ -214,11 +215,11 @@ fn indices(
     });
     if let Some((place, index)) = beyond {
         let message = format!("the index at {place} is {index}, and there are {count} vertices");
-        report.say(&codes::GLTF_INDEX, "ACCESSOR_INDEX_OOB", at, message);
+        report.add(&codes::GLTF_INDEX, "ACCESSOR_INDEX_OOB", at, message);
     }
     if let Some(place) = restart {
         let message = format!("the index at {place} is {greatest}, which restarts a primitive");
-        report.say(
+        report.add(
             &codes::GLTF_INDEX,
             "ACCESSOR_INDEX_PRIMITIVE_RESTART",
             at,
@@ -230,7 +231,7 @@ fn indices(
             "{degenerate} of {} triangles have two corners in one vertex",
             elements.count / 3
         );
-        report.say(
+        report.add(
             &codes::GLTF_REMARK,
             "ACCESSOR_INDEX_TRIANGLE_DEGENERATE",
             at,
@@ -239,7 +240,7 @@ fn indices(
     }
 }
 
-fn affine(elements: &Elements<'_>, at: NodeId, report: &mut AssetReport<'_, '_>) {
+fn affine(elements: &AccessorReader<'_>, at: NodeId, report: &mut AssetReport<'_, '_>) {
     let mut off = None;
     elements.each(|at, matrix| {
         let row = [matrix[3], matrix[7], matrix[11], matrix[15] - 1.0];
@@ -250,6 +251,6 @@ fn affine(elements: &Elements<'_>, at: NodeId, report: &mut AssetReport<'_, '_>)
     if let Some(index) = off {
         let message = format!("the last row of the matrix at {index} is not 0, 0, 0, 1");
         let alias = "ACCESSOR_INVALID_IBM";
-        report.mend(&codes::GLTF_MATRIX, alias, at, &message, LAST_ROW);
+        report.repair(&codes::GLTF_MATRIX, alias, at, &message, LAST_ROW);
     }
 }

@@ -1,4 +1,4 @@
-//! The look: the conversion of a film of linear values for a file: exposure, tone map, and
+//! The display transform: it turns a film of linear values into a picture by exposure, tone map and
 //! background.
 
 use super::{Image, Layers, Picture};
@@ -29,7 +29,7 @@ pub enum Association {
 
 /// The conversion of a film into a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
+pub struct DisplayTransform {
     /// The exposure in stops: values are multiplied by two to this power, at most 2^±64.
     pub stops: f64,
     /// The tone map.
@@ -45,7 +45,7 @@ pub fn exposure(stops: f64) -> f64 {
     libm::exp2(stops.clamp(-64.0, 64.0))
 }
 
-impl Look {
+impl DisplayTransform {
     /// The picture of a film, with the coverage of its pixels.
     #[must_use]
     pub fn develop(
@@ -111,7 +111,7 @@ mod tests {
         association: Association,
     ) -> Picture {
         let (image, coverage) = film();
-        Look {
+        DisplayTransform {
             stops,
             tone,
             background,

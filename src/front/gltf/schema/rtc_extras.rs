@@ -1,6 +1,6 @@
 //! What `extras.rtc` holds: values for which glTF has no words, as `emit/gltf` writes them.
 
-use super::Value::{Index, Number, Numbers, One, Text, Truth, Whole, Word};
+use super::Value::{Boolean, Index, Integer, Keyword, Number, Numbers, One, Text};
 use super::{FACTOR, FREE, IndexTarget, Key, Object, POSITIVE, optional, required};
 
 /// The object that `extras.rtc` of a kind of object is, if it is read there.
@@ -21,7 +21,7 @@ static PLACES: &[(&str, &Object)] = &[
 const MANY: u64 = u32::MAX as u64;
 
 /// An object of `extras.rtc`.
-const fn own(keys: &'static [Key]) -> Object {
+const fn rtc_object(keys: &'static [Key]) -> Object {
     Object {
         name: "part of `extras.rtc`",
         keys,
@@ -29,71 +29,71 @@ const fn own(keys: &'static [Key]) -> Object {
 }
 
 /// How the picture is made, and what surrounds the scene.
-static SETTINGS: Object = own(&[
+static SETTINGS: Object = rtc_object(&[
     optional(
         "mode",
-        Word(&["phong", "zbuffer", "normal", "gooch", "path"]),
+        Keyword(&["phong", "zbuffer", "normal", "gooch", "path"]),
     ),
-    optional("shadows", Truth),
-    optional("maxDepth", Whole(0, MANY)),
-    optional("supersampling", Whole(1, MANY)),
-    optional("pattern", Word(&["grid", "jitter", "random"])),
-    optional("lightSamples", Whole(1, MANY)),
-    optional("toon", Truth),
-    optional("ambient", Word(&["perLight", "once"])),
+    optional("shadows", Boolean),
+    optional("maxDepth", Integer(0, MANY)),
+    optional("supersampling", Integer(1, MANY)),
+    optional("pattern", Keyword(&["grid", "jitter", "random"])),
+    optional("lightSamples", Integer(1, MANY)),
+    optional("toon", Boolean),
+    optional("ambient", Keyword(&["perLight", "once"])),
     optional("gooch", One(&GOOCH)),
     optional("path", One(&PATH)),
     optional("display", One(&DISPLAY)),
     optional("environment", One(&ENVIRONMENT)),
 ]);
-static GOOCH: Object = own(&[
+static GOOCH: Object = rtc_object(&[
     required("b", Number(FREE)),
     required("y", Number(FREE)),
     required("alpha", Number(FREE)),
     required("beta", Number(FREE)),
 ]);
-static PATH: Object = own(&[
-    required("samples", Whole(1, MANY)),
-    optional("multipleScattering", Truth),
+static PATH: Object = rtc_object(&[
+    required("samples", Integer(1, MANY)),
+    optional("multipleScattering", Boolean),
 ]);
 /// An exposure in stops, and a tone map or that of the mode.
-static DISPLAY: Object = own(&[
+static DISPLAY: Object = rtc_object(&[
     optional("exposure", Number(FREE)),
     optional(
         "tone",
-        Word(&["mode", "none", "srgb", "agx", "pbr-neutral"]),
+        Keyword(&["mode", "none", "srgb", "agx", "pbr-neutral"]),
     ),
 ]);
-/// Its radiance; a picture of all directions, an image or rows of so many floating-point pixels; the
-/// rows of the rotation from the world to the picture.
-static ENVIRONMENT: Object = own(&[
+/// Its radiance; a picture of all directions, an image or rows of so many floating-point pixels;
+/// the rows of the rotation from the world to the picture.
+static ENVIRONMENT: Object = rtc_object(&[
     required("radiance", Numbers(&[3], FACTOR)),
     optional("image", Index(IndexTarget::Images)),
     optional("pixels", Index(IndexTarget::Accessors)),
-    optional("width", Whole(1, MANY)),
+    optional("width", Integer(1, MANY)),
     optional("rotation", Numbers(&[9], FREE)),
 ]);
 
 /// The size of the picture, the plane of focus, the middle in halves of the picture, the lens.
-static CAMERA: Object = own(&[
-    required("width", Whole(1, MANY)),
-    required("height", Whole(1, MANY)),
+static CAMERA: Object = rtc_object(&[
+    required("width", Integer(1, MANY)),
+    required("height", Integer(1, MANY)),
     required("focusDistance", Number(POSITIVE)),
     optional("shift", Numbers(&[2], FREE)),
     optional("lensRadius", Number(FACTOR)),
-    optional("lensSamples", Whole(1, MANY)),
+    optional("lensSamples", Integer(1, MANY)),
 ]);
 
 /// A light without falloff, or a lamp as it was measured.
-static LIGHT: Object = own(&[
+static LIGHT: Object = rtc_object(&[
     optional("point", One(&POINT)),
     optional("photometry", One(&PHOTOMETRY)),
 ]);
-static POINT: Object = own(&[
+static POINT: Object = rtc_object(&[
     required("color", Numbers(&[3], FACTOR)),
     optional("radius", Number(FACTOR)),
 ]);
-static PHOTOMETRY: Object = own(&[
+static PHOTOMETRY: Object = rtc_object(&[
     optional("name", Text),
     required("factor", Numbers(&[3], FACTOR)),
     required("vertical", Numbers(&[], FREE)),
@@ -102,8 +102,8 @@ static PHOTOMETRY: Object = own(&[
 ]);
 
 /// Phong's model.
-static MATERIAL: Object = own(&[optional("phong", One(&PHONG))]);
-static PHONG: Object = own(&[
+static MATERIAL: Object = rtc_object(&[optional("phong", One(&PHONG))]);
+static PHONG: Object = rtc_object(&[
     required("color", Numbers(&[3], FACTOR)),
     optional("ka", Number(FACTOR)),
     optional("kd", Number(FACTOR)),
@@ -111,7 +111,7 @@ static PHONG: Object = own(&[
     optional("n", Number(FACTOR)),
     optional("kt", Number(FACTOR)),
     optional("eta", Number(POSITIVE)),
-    optional("glossySamples", Whole(1, MANY)),
+    optional("glossySamples", Integer(1, MANY)),
     optional("colorMap", Index(IndexTarget::Textures)),
     optional("specularMap", Index(IndexTarget::Textures)),
     optional("normalMap", Index(IndexTarget::Textures)),
@@ -120,4 +120,4 @@ static PHONG: Object = own(&[
 ]);
 
 /// Whether lights shine through what the node shows.
-static NODE: Object = own(&[optional("castsNoShadow", Truth)]);
+static NODE: Object = rtc_object(&[optional("castsNoShadow", Boolean)]);

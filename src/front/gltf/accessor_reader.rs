@@ -1,4 +1,5 @@
-//! The elements of an accessor one after another, from packed, interleaved or sparse data, or none.
+//! Reads the elements of an accessor: packed, interleaved or sparse, or zeros without a buffer
+//! view.
 
 use super::accessor::Accessor;
 use super::document::Document;
@@ -8,8 +9,8 @@ use rtc_ir::Column;
 /// The components of an element; a matrix has the most.
 pub(super) type Element = [f64; 16];
 
-/// Where the elements of an accessor are; all of them lie there.
-pub(super) struct Elements<'d> {
+/// The data of an accessor. All elements are within their buffer views.
+pub(super) struct AccessorReader<'d> {
     pub(super) layout: ElementLayout,
     pub(super) count: usize,
     /// The first element and the bytes from one to the next; none for zeros.
@@ -18,7 +19,7 @@ pub(super) struct Elements<'d> {
     sparse: Option<(Integers<'d>, &'d [u8])>,
 }
 
-/// Whole numbers one after another.
+/// An array of integers.
 #[derive(Clone, Copy)]
 pub(super) struct Integers<'d> {
     bytes: &'d [u8],
@@ -41,12 +42,12 @@ impl Integers<'_> {
         )
     }
 
-    /// Where a number is among rising ones.
+    /// The position of a number in a sorted array.
     fn find(&self, number: usize) -> Option<usize> {
         let (mut low, mut high) = (0, self.len());
         while low < high {
             let middle = low.midpoint(high);
-            if self.get(middle).is_some_and(|own| own < number) {
+            if self.get(middle).is_some_and(|index| index < number) {
                 low = middle + 1;
             } else {
                 high = middle;
@@ -56,10 +57,11 @@ impl Integers<'_> {
     }
 }
 
-impl<'d> Elements<'d> {
-    /// The elements of an accessor; none if some of them can't be had.
+impl<'d> AccessorReader<'d> {
+    /// A reader of an accessor; none if an element is outside its buffer view.
     pub(super) fn of(doc: &'d Document<'_>, accessor: &Accessor) -> Option<Self> {
         let (layout, count) = (accessor.layout?, accessor.count?);
+        // Find the elements in the buffer view.
         let base = match accessor.view {
             None => None,
             Some(view) => {
@@ -75,6 +77,7 @@ impl<'d> Elements<'d> {
         if accessor.view.is_some() && base.is_none() {
             return None;
         }
+        // Find the indices and values of a sparse accessor.
         let sparse = match &accessor.sparse {
             None => None,
             Some(sparse) => {
@@ -130,8 +133,8 @@ impl<'d> Elements<'d> {
         vector
     }
 
-    /// Where the elements are, and the bytes from one to the next, if none is replaced and each is one
-    /// column.
+    /// Where the elements are, and the bytes from one to the next, if none is replaced and each is
+    /// one column.
     fn plain(&self) -> Option<(&'d [u8], usize)> {
         self.base
             .filter(|_| self.sparse.is_none() && self.layout.columns == 1)
@@ -151,18 +154,20 @@ impl<'d> Elements<'d> {
         // What large meshes are made of is read without asking each time of what type it is.
         match (component, rows, self.plain()) {
             (Component::F32, 2, Some(all)) => {
-                records::<2, _, _>(all, float, |at, own| see(at, own))
+                records::<2, _, _>(all, float, |at, element| see(at, element))
             }
             (Component::F32, 3, Some(all)) => {
-                records::<3, _, _>(all, float, |at, own| see(at, own))
+                records::<3, _, _>(all, float, |at, element| see(at, element))
             }
             (Component::F32, 4, Some(all)) => {
-                records::<4, _, _>(all, float, |at, own| see(at, own))
+                records::<4, _, _>(all, float, |at, element| see(at, element))
             }
             (Component::U16, 1, Some(all)) => {
-                records::<1, _, _>(all, short, |at, own| see(at, own))
+                records::<1, _, _>(all, short, |at, element| see(at, element))
             }
-            (Component::U32, 1, Some(all)) => records::<1, _, _>(all, long, |at, own| see(at, own)),
+            (Component::U32, 1, Some(all)) => {
+                records::<1, _, _>(all, long, |at, element| see(at, element))
+            }
             _ => self.each_by_layout(see),
         }
     }
