@@ -50,9 +50,9 @@ const GENERATED: &str = "<!-- Generated";
 const EFFORT: Effort = Effort(1_000_000);
 
 /// A command of the README and the lines shown below it, by their numbers.
-struct Shown {
-    args: Vec<String>,
-    lines: std::ops::Range<usize>,
+pub(crate) struct Shown {
+    pub(crate) args: Vec<String>,
+    pub(crate) lines: std::ops::Range<usize>,
 }
 
 fn root() -> PathBuf {
@@ -68,7 +68,7 @@ fn lines(page: &Path) -> Vec<String> {
 }
 
 /// The commands in the blocks of kind `console`.
-fn commands(page: &[String]) -> Vec<Shown> {
+pub(crate) fn commands(page: &[String]) -> Vec<Shown> {
     let mut found: Vec<Shown> = Vec::new();
     let mut inside = false;
     for (number, line) in page.iter().enumerate() {
@@ -228,7 +228,7 @@ fn cheap_study(path: &str) -> String {
 }
 
 /// What is wrong with the lines shown of a command.
-fn fault(shown: &[String], args: &[String]) -> Option<String> {
+pub(crate) fn fault(shown: &[String], args: &[String]) -> Option<String> {
     if args[0] == "cost" {
         let (_, code) = run(&[args, &["--help".to_owned()]].concat());
         let output = cheap_study(&args[1]);
@@ -240,7 +240,8 @@ fn fault(shown: &[String], args: &[String]) -> Option<String> {
             .then(|| format!("exit code {code}, {missing:?} is not in\n{output}"));
     }
     let (output, code) = run(args);
-    let wanted = i32::from(shown.iter().any(|line| line.starts_with("error[")));
+    let is_error = |line: &String| line.starts_with("error[") || line.starts_with("::error ");
+    let wanted = i32::from(shown.iter().any(is_error));
     let places = places(shown, &output, |a, b| is_same(args, a, b));
     (code != wanted || places.is_none())
         .then(|| format!("exit code {code}, says\n{}", output.join("\n")))

@@ -17,6 +17,7 @@ mod codes;
 mod cost;
 mod course;
 mod gltf;
+mod guide;
 mod hardcases;
 mod honest;
 mod ir_schema;
