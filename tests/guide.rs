@@ -87,17 +87,3 @@ fn the_commands_of_the_guide_work() {
     let faults = faults.collect::<Vec<_>>();
     assert!(faults.is_empty(), "{}", faults.join("\n\n"));
 }
-
-/// A link leads to a file that is there.
-#[test]
-fn links_of_the_guide_lead_to_files() {
-    for (path, page) in pages() {
-        for target in page.split("](").skip(1) {
-            let target = target.split([')', '#']).next().unwrap();
-            let is_here = target.is_empty()
-                || target.contains("://")
-                || path.parent().unwrap().join(target).exists();
-            assert!(is_here, "{}: {target}", path.display());
-        }
-    }
-}
