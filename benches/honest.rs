@@ -104,7 +104,8 @@ fn main() {
     let names: Vec<String> = words.collect();
     let is_asked = |family: &Family| names.is_empty() || names.iter().any(|n| n == family.name);
     println!(
-        "| family | pictures with a bound | without | within the error said | 95 % limit | within the target | true over said | worst | samples a pixel | scenes below 0.9 |"
+        "| family | pictures with a bound | without | within the error said | 95 % limit | \
+         within the target | true over said | worst | samples a pixel | scenes below 0.9 |"
     );
     println!("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     for family in families::all().into_iter().filter(is_asked) {

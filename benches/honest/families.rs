@@ -247,8 +247,10 @@ fn lamps() -> Vec<Case> {
 fn room(roughness: f64, lamp: &str) -> Scene {
     let wall = |corner: &str, up: &str, side: &str| {
         format!(
-            "- {{type: quad, position: {corner}, up: {up}, side: {side}, material: {{type: standard, \
-             baseColor: [0.8, 0.8, 0.8, 1], metallic: 0, roughness: 1, specular: 0, doubleSided: true}}}}\n"
+            "- {{type: quad, position: {corner}, up: {up}, side: {side}, material: {{type: \
+             standard, \
+             baseColor: [0.8, 0.8, 0.8, 1], metallic: 0, roughness: 1, specular: 0, doubleSided: \
+             true}}}}\n"
         )
     };
     let (low, x, y, z) = ("[-2, -2, -2]", "[4, 0, 0]", "[0, 4, 0]", "[0, 0, 4]");
@@ -264,7 +266,8 @@ fn room(roughness: f64, lamp: &str) -> Scene {
          RenderMode: path\nMaxRecursionDepth: 5\n\
          Lights: [{{{lamp}, position: [0, 1.7, 0], intensity: 2}}]\n\
          Objects:\n{}\
-         - {{type: sphere, position: [0, -1, 0], radius: 0.7, material: {{type: standard, transmission: 1, \
+         - {{type: sphere, position: [0, -1, 0], radius: 0.7, material: {{type: standard, \
+         transmission: 1, \
          metallic: 0, roughness: {roughness}, thickness: 1}}}}\n",
         walls.concat()
     );

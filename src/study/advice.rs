@@ -26,8 +26,11 @@ pub fn advice(study: &Study) -> Vec<String> {
     lines.extend(about_paths(study));
     lines.extend(study.bounces.as_ref().and_then(about_more));
     if study.rows.iter().any(|row| !row.is_resolved) {
-        lines
-            .push("The reference does not resolve the error of rows with ≤: these are upper bounds. More effort resolves them.".to_owned());
+        lines.push(
+            "The reference does not resolve the error of rows with ≤: these are upper \
+             bounds. More effort resolves them."
+                .to_owned(),
+        );
     }
     lines
 }
@@ -82,7 +85,8 @@ fn about_paths(study: &Study) -> Option<String> {
     (delta > 0.0).then(|| {
         let [requested, scene_row] = [two_digits(requested), f64::from(scene_row.setting.paths)];
         format!(
-            "An error of 1 ΔE (the mean distance in CIELAB) needs about `--spp {requested}`; the scene's own {scene_row} paths have {} ΔE.",
+            "An error of 1 ΔE (the mean distance in CIELAB) needs about `--spp {requested}`; the \
+             scene's own {scene_row} paths have {} ΔE.",
             digits(delta)
         )
     })
@@ -104,7 +108,8 @@ fn about_more(bounces: &MoreBounces) -> Option<String> {
     (most.difference > INVISIBLE).then(|| {
         let (times, difference) = (most.ray_ratio, digits(most.difference));
         format!(
-            "Errors are measured at the scene's own depth, {scene_row}; depth {depth} gives another picture, {difference} grey levels \
+            "Errors are measured at the scene's own depth, {scene_row}; depth {depth} gives \
+             another picture, {difference} grey levels \
              away, for {times:.2}× the rays."
         )
     })

@@ -24,13 +24,16 @@ fn lamps(size: [u32; 2]) -> Scene {
     let lamp = |[x, y]: [f64; 2]| {
         let (right, above) = (x + 0.04, y + 0.04);
         format!(
-            "- {{type: triangle, v0: [{x}, {y}, -6], v1: [{right}, {y}, -6], v2: [{x}, {above}, -6], material: \
-             {{type: standard, baseColor: [0, 0, 0, 1], doubleSided: true, emissive: [80, 60, 30]}}}}\n"
+            "- {{type: triangle, v0: [{x}, {y}, -6], v1: [{right}, {y}, -6], v2: [{x}, {above}, \
+             -6], material: \
+             {{type: standard, baseColor: [0, 0, 0, 1], doubleSided: true, emissive: [80, 60, \
+             30]}}}}\n"
         )
     };
     let step = 4.4 / f64::from(height);
     let text = format!(
-        "Camera: {{eye: [0, 0, 8], center: [0, 0, 0], up: [0, {step}, 0], viewSize: [{width}, {height}], \
+        "Camera: {{eye: [0, 0, 8], center: [0, 0, 0], up: [0, {step}, 0], viewSize: [{width}, \
+         {height}], \
          apertureRadius: 0.35, apertureSamples: 4}}\nRenderMode: path\nMaxRecursionDepth: 2\n\
          Environment: {{color: 0.05}}\nObjects:\n{}\
          - {{type: sphere, position: [0, 0, 0], radius: 1, material: {{type: standard, \

@@ -28,7 +28,8 @@ impl Pattern {
     /// A scene of objects in the image plane, with pixels of side 1 and the origin in the centre.
     pub(crate) fn new(side: u32, objects: &str, reference: impl Fn(u32, u32) -> f64) -> Self {
         let text = format!(
-            "Camera: {{eye: [0, 0, 100], center: [0, 0, 0], up: [0, 1, 0], viewSize: [{side}, {side}]}}\n\
+            "Camera: {{eye: [0, 0, 100], center: [0, 0, 0], up: [0, 1, 0], viewSize: [{side}, \
+             {side}]}}\n\
              Lights:\n- {{position: [0, 0, 50], color: [1, 1, 1]}}\nObjects:\n{objects}"
         );
         let pixels = (0..side).flat_map(|y| (0..side).map(move |x| (x, y)));
@@ -75,7 +76,8 @@ pub(crate) fn grains(side: u32, radius: f64, share: f64) -> Pattern {
             let (x, y) = (f64::from(index % side), f64::from(index / side));
             let _ = writeln!(
                 text,
-                "- {{type: disc, position: [{}, {}, 0], normal: [0, 0, 1], radius: {radius}, {WHITE}}}",
+                "- {{type: disc, position: [{}, {}, 0], normal: [0, 0, 1], radius: {radius}, \
+                 {WHITE}}}",
                 x + u - half,
                 half - y - v
             );

@@ -44,7 +44,8 @@ fn text(number: u64, [width, height]: [u32; 2]) -> String {
     let mut within =
         |from: f64, to: f64| from + (to - from) * rng.below(1 << 20) as f64 / f64::from(1 << 20);
     let mut text = format!(
-        "Camera: {{eye: [{:.3}, 4, 12], center: [0, 1, 0], up: [0, {}, 0], viewSize: [{width}, {height}]",
+        "Camera: {{eye: [{:.3}, 4, 12], center: [0, 1, 0], up: [0, {}, 0], viewSize: [{width}, \
+         {height}]",
         within(-4.0, 4.0),
         5.0 / f64::from(height)
     );
@@ -69,7 +70,8 @@ fn text(number: u64, [width, height]: [u32; 2]) -> String {
             "- {{position: [{x}, 7, 5], color: [{shade:.3}, 0.5, 0.5], radius: {radius:.3}}}"
         );
     }
-    text += "Objects:\n- {type: plane, position: [0, 0, 0], normal: [0, 1, 0], material: {color: [0.7, 0.7, 0.7], ka: 0.2, kd: 0.7, ks: 0.1, n: 8}}\n";
+    text += "Objects:\n- {type: plane, position: [0, 0, 0], normal: [0, 1, 0], material: {color: \
+     [0.7, 0.7, 0.7], ka: 0.2, kd: 0.7, ks: 0.1, n: 8}}\n";
     let small = if has(number, 4) { 120 } else { 0 };
     for index in 0..8 + small {
         text += &ball(number, index, &mut within);

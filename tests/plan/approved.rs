@@ -110,8 +110,10 @@ fn effects_and_states_are_named_as_in_the_books() {
         .iter()
         .filter(|status| status.of.is_none())
         .map(|status| status.effect.name());
-    let wanted = "depth buffer, normal buffer, surfaces, direct light, shadows, soft light, highlight, bounces, mirror, \
-                  glossy mirror, refraction, textures, corner normals, normal maps, lens, supersampling";
+    let wanted = "depth buffer, normal buffer, surfaces, direct light, shadows, soft light, \
+     highlight, bounces, mirror, \
+                  glossy mirror, refraction, textures, corner normals, normal maps, lens, \
+                  supersampling";
     assert!(names.by_ref().eq(wanted.split(", ")));
     assert_eq!(
         [State::Needed, State::Pruned, State::Absent].map(State::name),

@@ -9,10 +9,13 @@ use rtc::internals::render::Film;
 /// icosahedron.
 fn inside(file: &str, tilt: f64, keys: &str, material: &str) -> Scene {
     let mut scene = scene(&format!(
-        "Camera: {{eye: [0.1, 0.05, -0.02], center: [0.5, 0.3, 0.4], up: [0, 1, 0], viewSize: [100, 100], fov: 100}}\n\
+        "Camera: {{eye: [0.1, 0.05, -0.02], center: [0.5, 0.3, 0.4], up: [0, 1, 0], viewSize: \
+         [100, 100], fov: 100}}\n\
          Shadows: true\n{keys}\nLights:\n- {{position: [3, 4, 5], color: [1, 1, 1]}}\n\
-         - {{position: [-3, -4, 2], color: [1, 1, 1]}}\n- {{position: [0, 1.1, -1], color: [1, 1, 1]}}\nObjects:\n\
-         - {{type: mesh, file: {file}, position: [0, 0, 0], radius: 1, material: {{color: [1, 1, 1], {material}}}}}\n"
+         - {{position: [-3, -4, 2], color: [1, 1, 1]}}\n- {{position: [0, 1.1, -1], color: [1, 1, \
+         1]}}\nObjects:\n\
+         - {{type: mesh, file: {file}, position: [0, 0, 0], radius: 1, material: {{color: [1, 1, \
+         1], {material}}}}}\n"
     ));
     smooth(&mut scene, tilt);
     scene

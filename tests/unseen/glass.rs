@@ -41,7 +41,8 @@ const SHAPES: [(&str, f64); 15] = [
         0.0,
     ),
     (
-        "tetrahedron, v0: [-1, 0.1, 0.6], v1: [0.1, 0.1, 1.4], v2: [1, 0.1, 0.5], v3: [0.2, 1.9, 0.4]",
+        "tetrahedron, v0: [-1, 0.1, 0.6], v1: [0.1, 0.1, 1.4], v2: [1, 0.1, 0.5], v3: [0.2, 1.9, \
+         0.4]",
         0.0,
     ),
     (
@@ -64,12 +65,15 @@ const SHAPES: [(&str, f64); 15] = [
 fn glass(shape: Option<(&str, f64)>, eta: f64, shadows: bool) -> Scene {
     let shape_of = |(numbers, _)| {
         format!(
-            "- {{type: {numbers}, material: {{color: [1, 1, 1], ka: 0, kd: 0, ks: 0, n: 1, kt: 1, eta: 1}}}}\n"
+            "- {{type: {numbers}, material: {{color: [1, 1, 1], ka: 0, kd: 0, ks: 0, n: 1, kt: 1, \
+             eta: 1}}}}\n"
         )
     };
     let mut scene = scene(&format!(
-        "Camera: {{eye: [0.5, 3, 7], center: [0, 1, 0], up: [0, 1, 0], viewSize: [100, 100], fov: 25}}\n\
-         MaxRecursionDepth: 40\nShadows: {shadows}\nLights:\n- {{position: [1, 9, -4], color: [0.9, 0.8, 0.7]}}\nObjects:\n\
+        "Camera: {{eye: [0.5, 3, 7], center: [0, 1, 0], up: [0, 1, 0], viewSize: [100, 100], fov: \
+         25}}\n\
+         MaxRecursionDepth: 40\nShadows: {shadows}\nLights:\n- {{position: [1, 9, -4], color: \
+         [0.9, 0.8, 0.7]}}\nObjects:\n\
          - {{type: sphere, position: [0, -60, -30], radius: 60, material: \
          {{color: [0.8, 0.5, 0.3], ka: 0.2, kd: 0.6, ks: 0.2, n: 20}}}}\n\
          - {{type: sphere, position: [0, 3, -25], radius: 20, material: \
@@ -125,7 +129,8 @@ fn an_index_of_one_is_invisible_for_every_shape() {
                 let largest = worst.iter().copied().fold(0.0, f64::max);
                 let (most, allowed) = if eta == 1.0 { (0, 1e-9) } else { (10, 1e-6) };
                 let told = format!(
-                    "{shape:?}, eta {eta:?}, shadows {shadows}: {outlines} pixels, {largest:e} at most"
+                    "{shape:?}, eta {eta:?}, shadows {shadows}: {outlines} pixels, {largest:e} at \
+                     most"
                 );
                 assert!(outlines <= most && largest <= allowed, "{told}");
             }

@@ -212,7 +212,8 @@ fn mapping(findings: &Findings<'_>) -> EffectStatus {
             vec![settings(Field::Mode)],
         );
     }
-    let reason = "all such maps are on surfaces that have no uv, are invisible, or are neither illuminated nor reflective";
+    let reason = "all such maps are on surfaces that have no uv, are invisible, or are neither \
+     illuminated nor reflective";
     EffectStatus::pruned(effect, Rule::TextureUnseen, reason, vec![])
 }
 

@@ -43,7 +43,8 @@ pub fn html(study: &Study) -> String {
 pub(super) fn page(title: &str, body: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
+         <meta name=\"viewport\" content=\"width=device-width, \
+         initial-scale=1\">\n<title>{title}</title>\n\
          <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n{body}</body>\n</html>\n"
     )
 }
@@ -82,7 +83,8 @@ fn front(study: &Study) -> String {
         "<h2>The Pareto front: error against time</h2>\n<div class=\"plot\">{}</div>\n<p>{}</p>\n\
          <div class=\"wide\"><table><thead><tr>{head}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n",
         chart::front(study),
-        "Points are measured settings, bars their confidence intervals, steps the Pareto front. The reference does not resolve the error of hollow points."
+        "Points are measured settings, bars their confidence intervals, steps the Pareto front. \
+         The reference does not resolve the error of hollow points."
     )
 }
 
@@ -120,10 +122,13 @@ fn times(study: &Study) -> String {
         })
         .collect();
     format!(
-        "<h2>Best setting within a time</h2>\n<input type=\"range\" min=\"0\" max=\"{last}\" value=\"{last}\" \
-         aria-label=\"time\" oninput=\"[...this.nextElementSibling.children].forEach((line, place) => \
+        "<h2>Best setting within a time</h2>\n<input type=\"range\" min=\"0\" max=\"{last}\" \
+         value=\"{last}\" \
+         aria-label=\"time\" oninput=\"[...this.nextElementSibling.children].forEach((line, place) \
+         => \
          line.classList.toggle('at', place == this.value)); this.setAttribute('aria-valuetext', \
-         this.nextElementSibling.children[this.value].textContent)\">\n<ul class=\"buys\">\n{items}</ul>\n"
+         this.nextElementSibling.children[this.value].textContent)\">\n<ul \
+         class=\"buys\">\n{items}</ul>\n"
     )
 }
 
@@ -186,9 +191,11 @@ fn parameters(study: &Study) -> String {
             );
         }
     }
-    let note = "The error of each parameter if all others have none; hollow points are not resolved from noise.";
+    let note = "The error of each parameter if all others have none; hollow points are not \
+     resolved from noise.";
     format!(
-        "<h2>Each parameter alone</h2>\n<p>{note}</p>\n<div class=\"grid\">\n{figures}</div>\n<ul>\n{not_applicable}</ul>\n"
+        "<h2>Each parameter alone</h2>\n<p>{note}</p>\n<div \
+         class=\"grid\">\n{figures}</div>\n<ul>\n{not_applicable}</ul>\n"
     )
 }
 
@@ -211,8 +218,11 @@ fn bounces(study: &Study) -> String {
         );
     }
     format!(
-        "<h2>The effect of more bounces</h2>\n<p>Paths deeper than those of the scene, compared with its own depth. This is not part of the error of any row.</p>\n<div class=\"wide\"><table><thead><tr><th>depth</th><th>rays</th>\
-         <th>picture differs by (grey levels)</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+        "<h2>The effect of more bounces</h2>\n<p>Paths deeper than those of the scene, compared \
+         with its own depth. This is not part of the error of any row.</p>\n<div \
+         class=\"wide\"><table><thead><tr><th>depth</th><th>rays</th>\
+         <th>picture differs by (grey \
+         levels)</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     )
 }
 
@@ -227,14 +237,18 @@ fn effects(study: &Study) -> String {
         let (name, difference) = (escaped(&cost.effect), digits(cost.difference));
         let _ = writeln!(
             rows,
-            "<tr><td>{name}</td><td>{time:.2} ± {off:.1} %</td><td>{rays:.2}</td><td>{noise:.2}</td>\
+            "<tr><td>{name}</td><td>{time:.2} ± {off:.1} \
+             %</td><td>{rays:.2}</td><td>{noise:.2}</td>\
              <td>{difference}</td></tr>"
         );
     }
     format!(
-        "<h2>The cost of each effect, light, object and material</h2>\n<p>Ratios are the scene without it over the complete scene, with the same random numbers. Noise is sampling noise; the difference is beyond noise.</p>\n\
+        "<h2>The cost of each effect, light, object and material</h2>\n<p>Ratios are the scene \
+         without it over the complete scene, with the same random numbers. Noise is sampling \
+         noise; the difference is beyond noise.</p>\n\
          <div class=\"wide\"><table><thead><tr><th>without</th><th>time</th><th>rays</th><th>noise</th>\
-         <th>picture differs by (grey levels)</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+         <th>picture differs by (grey \
+         levels)</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     )
 }
 
@@ -260,8 +274,11 @@ fn precision(study: &Study) -> String {
         );
     }
     format!(
-        "<h2>The cost of each arithmetic</h2>\n<p>The same samples with each arithmetic, compared with the robust one: time, and difference in grey levels.</p>\n<div class=\"wide\"><table><thead><tr><th>arithmetic</th>\
-         <th>time</th><th>error</th><th>largest</th><th>pixels off</th></tr></thead>\n<tbody>\n{rows}</tbody></table>\
+        "<h2>The cost of each arithmetic</h2>\n<p>The same samples with each arithmetic, compared \
+         with the robust one: time, and difference in grey levels.</p>\n<div \
+         class=\"wide\"><table><thead><tr><th>arithmetic</th>\
+         <th>time</th><th>error</th><th>largest</th><th>pixels \
+         off</th></tr></thead>\n<tbody>\n{rows}</tbody></table>\
          </div>\n"
     )
 }
@@ -305,7 +322,8 @@ fn pictures(study: &Study) -> String {
         "The rendered tiles, side by side,"
     };
     format!(
-        "<h2>Pictures</h2>\n<p>{what} and the FLIP map of the error (black is 0, white is 1).</p>\n<div class=\"grid\">\n{figures}</div>\n"
+        "<h2>Pictures</h2>\n<p>{what} and the FLIP map of the error (black is 0, white is \
+         1).</p>\n<div class=\"grid\">\n{figures}</div>\n"
     )
 }
 
@@ -329,9 +347,14 @@ fn notes(study: &Study) -> String {
     let facts = [
         table::part(study),
         table::reference(study),
-        "“Pixels off” differ in a channel by more than one grey level. FLIP is computed for each tile separately, at 67 pixels per degree. Times are medians of rounds in random order with 95 % intervals; × own is relative to the scene's own setting in the same round."
+        "“Pixels off” differ in a channel by more than one grey level. FLIP is computed for each \
+         tile separately, at 67 pixels per degree. Times are medians of rounds in random order \
+         with 95 % intervals; × own is relative to the scene's own setting in the same round."
             .to_owned(),
-        format!("{}, scene {}, seed {}.", about.software, about.hash, study.seed),
+        format!(
+            "{}, scene {}, seed {}.",
+            about.software, about.hash, study.seed
+        ),
         format!("{}, {} cores; {busy}.", about.processor, about.cores),
     ];
     let lines: String = facts

@@ -33,8 +33,10 @@ pub(super) fn section(study: &Study) -> String {
         let (label, most, picture) = (escaped(label), digits(*most), wide(image));
         let _ = writeln!(
             figures,
-            "<figure><img alt=\"{label}\" src=\"{picture}\">\n<img class=\"bar\" alt=\"\" src=\"{bar}\">\
-             <div class=\"ends\"><span>0</span><span>{unit}</span><span>{most} and more</span></div>\
+            "<figure><img alt=\"{label}\" src=\"{picture}\">\n<img class=\"bar\" alt=\"\" \
+             src=\"{bar}\">\
+             <div class=\"ends\"><span>0</span><span>{unit}</span><span>{most} and \
+             more</span></div>\
              <figcaption>{label}</figcaption></figure>"
         );
     }
@@ -43,7 +45,8 @@ pub(super) fn section(study: &Study) -> String {
         _ => " Hatched grey was not rendered.",
     };
     format!(
-        "<h2>Maps of rays and of errors</h2>\n<p>The whole picture. All maps of a measure have the same scale.{hatched}</p>\n\
+        "<h2>Maps of rays and of errors</h2>\n<p>The whole picture. All maps of a measure have the \
+         same scale.{hatched}</p>\n\
          <div class=\"grid maps\">\n{figures}</div>\n"
     )
 }

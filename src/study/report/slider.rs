@@ -44,11 +44,14 @@ fn slider(page: &SliderPage<'_>, [new, old]: [&str; 2]) -> String {
     let map = heat_map([a.width, a.height], page.flips);
     let labels = format!("<p class=\"ends\"><span>{new}</span><span>{old}</span></p>\n");
     format!(
-        "{labels}<div class=\"slider\">\n<img alt=\"{old}\" src=\"{}\">\n<img class=\"over\" alt=\"{new}\" src=\"{}\">\n</div>\n\
-         <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"the fraction of {new}, from the left\" \
+        "{labels}<div class=\"slider\">\n<img alt=\"{old}\" src=\"{}\">\n<img class=\"over\" \
+         alt=\"{new}\" src=\"{}\">\n</div>\n\
+         <input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"the fraction of \
+         {new}, from the left\" \
          oninput=\"this.previousElementSibling.style.setProperty('--at', this.value + '%')\">\n\
          <h2>Where they differ</h2>\n<figure><img alt=\"where they differ\" src=\"{}\">\
-         <figcaption>FLIP of each pixel: dark where the difference is invisible, bright where it is large</figcaption></figure>\n",
+         <figcaption>FLIP of each pixel: dark where the difference is invisible, bright where it \
+         is large</figcaption></figure>\n",
         wide(b),
         wide(a),
         wide(&map),

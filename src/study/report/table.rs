@@ -59,7 +59,8 @@ pub fn table(study: &Study) -> String {
     if study.wall_over_cpu > 1.2 {
         let times = study.wall_over_cpu;
         let note = format!(
-            "The machine was busy (wall time {times:.1}× processor time); these are processor times."
+            "The machine was busy (wall time {times:.1}× processor time); these are processor \
+             times."
         );
         text += &wrapped(&note);
     }
@@ -261,7 +262,9 @@ pub(super) fn part(study: &Study) -> String {
         tiles => {
             let fraction = 100.0 * study.part.fraction;
             format!(
-                "{tiles} random tiles, {fraction:.1} % of the picture of {width}×{height} pixels, were rendered: tiles% is the confidence interval of each error for the whole picture (how much less and more)."
+                "{tiles} random tiles, {fraction:.1} % of the picture of {width}×{height} pixels, \
+                 were rendered: tiles% is the confidence interval of each error for the whole \
+                 picture (how much less and more)."
             )
         }
     }
@@ -272,7 +275,9 @@ pub(super) fn reference(study: &Study) -> String {
     let setting = study.reference.setting.label(&study.used());
     let floor = digits(study.reference.floor);
     format!(
-        "Reference: two renders with {setting}; its own error is {floor} grey levels. Errors are root mean squares in grey levels of clamped display values; rays and processor times are for the whole picture; * marks the Pareto front."
+        "Reference: two renders with {setting}; its own error is {floor} grey levels. Errors are \
+         root mean squares in grey levels of clamped display values; rays and processor times are \
+         for the whole picture; * marks the Pareto front."
     )
 }
 
@@ -295,7 +300,8 @@ pub(super) fn parameter_line(report: &ParameterReport, bounces: Option<&MoreBoun
         }
         (None, Parameter::Depth, Some(bounces)) => depth_line(bounces, last),
         (None, Parameter::Denoise, _) => format!(
-            "{name}: rows with fewer paths are also denoised; their time includes the error estimate"
+            "{name}: rows with fewer paths are also denoised; their time includes the error \
+             estimate"
         ),
         (None, Parameter::Precision, _) => {
             let robust = report.levels.len().saturating_sub(1);

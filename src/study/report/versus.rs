@@ -54,7 +54,8 @@ pub fn versus_table(versus: &Versus) -> String {
         let times = versus.wall_over_cpu;
         let _ = writeln!(
             text,
-            "The machine was busy (wall time {times:.1}× processor time); these are processor times."
+            "The machine was busy (wall time {times:.1}× processor time); these are processor \
+             times."
         );
     }
     text
@@ -66,7 +67,8 @@ fn difference(versus: &Versus) -> String {
         return "The pictures are the same, to the last bit of the rendered part.\n".to_owned();
     }
     format!(
-        "The pictures differ by {} grey levels as they are rendered; beyond noise by {} ({} … {}).\n",
+        "The pictures differ by {} grey levels as they are rendered; beyond noise by {} ({} … \
+         {}).\n",
         digits(versus.rendered),
         digits(error.value),
         digits(error.low),
