@@ -21,7 +21,7 @@ use rtc::internals::passes::ViewAndLight;
 use rtc::internals::pipeline::{Input, Observer, Options, OutputTransform, PictureSetup};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{AnyWorld, Job, Seeds};
-use rtc::internals::study::{Errors, LEVELS, Order, probe};
+use rtc::internals::study::{Errors, LEVELS, RenderOrder, probe};
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
@@ -42,7 +42,7 @@ const SAMPLES: [u32; 2] = [16, 64];
 /// A scene, ready to be rendered.
 struct Case {
     world: AnyWorld,
-    order: Order,
+    order: RenderOrder,
 }
 
 impl Case {
@@ -149,7 +149,7 @@ impl Tally {
             .world
             .denoised(SAMPLES[0], &job, &|_| true, &|| ())
             .unwrap();
-        let order = Order { seed, ..case.order };
+        let order = RenderOrder { seed, ..case.order };
         let probed = probe(&case.world, &order, &picture, SAMPLES[0], &|_| true).unwrap();
         let shown = case.shown(&picture.film.image);
         let truth = mean(&shown, a, b);

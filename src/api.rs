@@ -27,6 +27,6 @@ pub use options::{Format, Options, Reading};
 pub use picture::{Picture, Statistics};
 pub use rtc_color::Tone;
 pub use rtc_diag::Severity;
-pub use rtc_plan::State as EffectState;
+pub use rtc_plan::EffectState;
 pub use rtc_render::Aov;
 pub use scene::Scene;

@@ -3,7 +3,7 @@
 use rtc::internals::ir::{self, Mode, Scene};
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline;
-use rtc::internals::plan::{Effect, Plan, Rules, State};
+use rtc::internals::plan::{Effect, EffectState, Plan, Rules};
 use rtc::internals::render::{Counts, Film, Job, Values};
 use rtc::internals::valid::ValidScene;
 
@@ -49,9 +49,9 @@ pub(crate) fn difference(scene: &ValidScene, unpruned: &Film, rules: Rules) -> O
 }
 
 /// What verdicts say that the counts of the picture deny.
-pub(crate) fn lies(scene: &ValidScene, counts: &Counts) -> Vec<(Effect, State, u64)> {
+pub(crate) fn lies(scene: &ValidScene, counts: &Counts) -> Vec<(Effect, EffectState, u64)> {
     let plan = Plan::new(scene, Rules::ALL);
-    let is_lie = |state: State, count: u64| (state == State::Needed) != (count > 0);
+    let is_lie = |state: EffectState, count: u64| (state == EffectState::Needed) != (count > 0);
     let statuses = plan.statuses.iter().filter(|status| status.of.is_none());
     statuses
         .map(|status| (status.effect, status.state, counts.of(status.effect)))
@@ -63,10 +63,10 @@ pub(crate) fn lies(scene: &ValidScene, counts: &Counts) -> Vec<(Effect, State, u
 /// told to do without.
 pub(crate) fn unmet(name: &str, scene: &ValidScene) -> Vec<String> {
     let counts = film(scene, Rules::ALL).counts;
-    let told = |(effect, state, count): (Effect, State, u64)| {
+    let told = |(effect, state, count): (Effect, EffectState, u64)| {
         assert_eq!(
             state,
-            State::Needed,
+            EffectState::Needed,
             "{name}: {effect:?} is counted {count} times"
         );
         format!("{name}: {}", effect.name())

@@ -1,6 +1,6 @@
 //! The effects of a picture: which are rendered, which are omitted, and why.
 
-use rtc_plan::{EffectStatus, State};
+use rtc_plan::{EffectState, EffectStatus};
 
 /// An effect of light or of the film, and whether the renderer simulates it for a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,7 +11,7 @@ pub struct Effect {
     /// The path of the light, material or surface that it concerns; `None` for the whole scene.
     pub of: Option<String>,
     /// Whether it is simulated.
-    pub state: State,
+    pub state: EffectState,
     /// The rule that proves that the picture is the same without it, if any; `rtc explain` prints
     /// its proof.
     pub rule: Option<&'static str>,

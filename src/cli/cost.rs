@@ -16,7 +16,7 @@ use rtc_image::{FileFormat, Picture};
 use rtc_ir::Scene;
 use rtc_pipeline::{self as pipeline, Input};
 use rtc_source::{Loader, SourceMap};
-use rtc_study::{self as study, About, Clock, Journal, Stopped, Study, StudyRuntime};
+use rtc_study::{self as study, Clock, Journal, Provenance, Stopped, Study, StudyRuntime};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -111,7 +111,7 @@ pub(super) fn threads(args: &args::Cost) -> usize {
 
 fn measure(
     args: &args::Cost,
-    (about, journal): (About, Option<Journal>),
+    (about, journal): (Provenance, Option<Journal>),
     scene: &Scene,
     interrupt: &Interrupt,
 ) -> Result<Study, Failure> {
@@ -161,7 +161,11 @@ pub(super) fn with_runtime<T>(
 }
 
 /// What is rendered of the study, if that is kept.
-fn journal(args: &args::Cost, about: &About, input: &Input) -> Result<Option<Journal>, Failure> {
+fn journal(
+    args: &args::Cost,
+    about: &Provenance,
+    input: &Input,
+) -> Result<Option<Journal>, Failure> {
     let Some(file) = &args.checkpoint else {
         return Ok(None);
     };
@@ -179,8 +183,8 @@ fn journal(args: &args::Cost, about: &About, input: &Input) -> Result<Option<Jou
     Ok(Some(journal))
 }
 
-pub(super) fn about(name: &str, scene: &Scene) -> About {
-    About {
+pub(super) fn about(name: &str, scene: &Scene) -> Provenance {
+    Provenance {
         scene: Path::new(name).file_name().map_or_else(
             || name.to_owned(),
             |name| name.to_string_lossy().into_owned(),

@@ -8,7 +8,7 @@ use super::Failure;
 use super::args::Explanation;
 use indicatif::HumanCount;
 use rtc_pipeline::{self as pipeline, Input, Validated};
-use rtc_plan::{Caustics, EffectStatus, PathPlan, Plan, Rule, Rules, State};
+use rtc_plan::{Caustics, EffectState, EffectStatus, PathPlan, Plan, Rule, Rules};
 use rtc_render::{Counts, Job, KERNELS, PATH_KERNELS, Stride, choose, choose_for_paths};
 use rtc_valid::{Mode, ValidScene};
 use serde_json::{Value, json};
@@ -74,7 +74,7 @@ fn saved(
     unpruned: &Counts,
 ) -> Result<u64, Failure> {
     let is_path = matches!(counter.scene.settings().mode, Mode::Path(_));
-    match status.rule.filter(|_| status.state == State::Pruned) {
+    match status.rule.filter(|_| status.state == EffectState::Pruned) {
         None => Ok(0),
         Some(_) if is_path => Ok(unpruned
             .of(status.effect)

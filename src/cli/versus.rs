@@ -10,7 +10,7 @@ use super::output::Output;
 use super::reporter::Reporter;
 use rtc_ir::Scene;
 use rtc_pipeline::Input;
-use rtc_study::{About, Stopped, Versus, versus, versus_table};
+use rtc_study::{Provenance, Stopped, Versus, versus, versus_table};
 use std::path::Path;
 
 /// Compares the scenes and writes the report.
@@ -77,7 +77,7 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], reporter: &mut Reporter) -> R
 }
 
 /// A scene, proven, and what is told of it.
-fn validated(input: &mut Input, reporter: &mut Reporter) -> Result<(About, Scene), Failure> {
+fn validated(input: &mut Input, reporter: &mut Reporter) -> Result<(Provenance, Scene), Failure> {
     input.lift_rays();
     let validated = input::require(input, reporter, input::fill)?;
     let scene = validated.lowered.scene.clone();

@@ -68,7 +68,8 @@ impl Framing {
         let aspect = f64::from(size[0]) / f64::from(size[1]);
         let tangents = [tangent * aspect, tangent];
         let mut fit = Fit::new(axes, tangents.map(|tangent| tangent * SUBJECT_FRACTION));
-        Subject::of(scene, self.ground).corners(&mut |corner| fit.add(corner - sphere.center));
+        FramingSubject::of(scene, self.ground)
+            .corners(&mut |corner| fit.add(corner - sphere.center));
         let Some((eye, depth)) = fit.eye() else {
             return;
         };
@@ -95,7 +96,7 @@ impl Framing {
 
 /// The bounding box of the subject of a scene; `None` if the scene has a ground or nothing bounded.
 pub(super) fn standing_bounds(scene: &Scene) -> Option<[Vec3; 2]> {
-    let subject = Subject::of(scene, None);
+    let subject = FramingSubject::of(scene, None);
     let mut bounds = EMPTY;
     subject.corners(&mut |corner| bounds = [bounds[0].min(corner), bounds[1].max(corner)]);
     (!subject.has_ground && bounds[0].x <= bounds[1].x).then_some(bounds)
@@ -166,7 +167,7 @@ impl Fit {
 }
 
 /// The surfaces that a picture shows.
-struct Subject<'scene> {
+struct FramingSubject<'scene> {
     scene: &'scene Scene,
     surfaces: Vec<&'scene Surface>,
     /// The bounding boxes of the meshes.
@@ -177,7 +178,7 @@ struct Subject<'scene> {
     has_ground: bool,
 }
 
-impl<'scene> Subject<'scene> {
+impl<'scene> FramingSubject<'scene> {
     /// All visible surfaces, without the surface `ground` and without grounds of the scene.
     fn of(scene: &'scene Scene, ground: Option<usize>) -> Self {
         let is_visible = |surface: &&Surface| {

@@ -2,7 +2,7 @@
 
 use super::{PictureSetup, RayCounter, RenderError, RenderSubject, Renderer};
 use rtc_render::{DenoisedFilm, Film, Job, OnPixel};
-use rtc_study::{Order, ProbedError, probe};
+use rtc_study::{ProbedError, RenderOrder, probe};
 use rtc_valid::{Mode, ValidScene};
 
 /// A picture rendered with the settings of its scene.
@@ -58,7 +58,7 @@ impl Renderer {
     fn denoised(
         &self,
         samples: u32,
-        (job, order): (&Job, &Order),
+        (job, order): (&Job, &RenderOrder),
         (on_pixel, counter): (&OnPixel<'_>, &RayCounter),
     ) -> Option<Traced> {
         self.threads.install(|| {

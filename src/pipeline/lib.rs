@@ -65,7 +65,7 @@ use rtc_render::{
     self as render, AnyWorld, Aov, Film, FilmError, Job, Mismatch, OnPixel, PartialFilm, SimdLevel,
 };
 use rtc_source::{EditedFiles, FileId, SourceMap};
-use rtc_study::{self as study, CheckpointSink, Order, Stopped, TargetResult, Watch};
+use rtc_study::{self as study, CheckpointSink, RenderOrder, Stopped, TargetResult, Watch};
 use rtc_valid::{self as valid, Surface, ValidScene};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -318,7 +318,7 @@ impl Renderer {
     pub fn approach(
         &mut self,
         scene: &Scene,
-        order: &Order,
+        order: &RenderOrder,
         watch: &Watch<'_>,
         keep: Option<CheckpointSink<'_>>,
     ) -> Result<TargetResult, Stopped> {

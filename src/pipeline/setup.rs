@@ -14,7 +14,7 @@ use rtc_ir::{EntityKind, Field, Mode, Scene, ValuePath};
 use rtc_passes::{self as passes, Framing, Overrides};
 use rtc_plan::{self as plan, Plan, Rules};
 use rtc_render::{Aov, Counts, Crop, Job, SimdLevel, Step};
-use rtc_study::{Goal, Order, TargetResult, Watch};
+use rtc_study::{Goal, RenderOrder, TargetResult, Watch};
 use rtc_valid::ValidScene;
 use std::time::Duration;
 
@@ -418,9 +418,9 @@ fn resize(
 impl PictureSetup {
     /// The target of a picture or a part of it, with the remaining time.
     #[must_use]
-    pub fn order(&self, subject: &RenderSubject, crop: Crop, time: Option<Duration>) -> Order {
+    pub fn order(&self, subject: &RenderSubject, crop: Crop, time: Option<Duration>) -> RenderOrder {
         let mode = &subject.validated.scene.settings().mode;
-        Order {
+        RenderOrder {
             goal: Goal { time, ..self.goal },
             crop,
             background: self.look.background(),

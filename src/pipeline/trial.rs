@@ -14,7 +14,7 @@ use rtc_ir::{Lowered, Material, Mode, Scene, SourceSpans};
 use rtc_plan::{Plan, Rules};
 use rtc_render::{Background, Job, Values};
 use rtc_source::{Budget, FileId, Loader, SourceMap};
-use rtc_study::{Goal, Order, ProgressiveRender};
+use rtc_study::{Goal, ProgressiveRender, RenderOrder};
 use rtc_valid as valid;
 use std::path::Path;
 
@@ -142,7 +142,7 @@ pub fn part(bytes: &[u8]) {
 
 /// Checks that the progressive state survives reading and saving.
 fn has_grown(mut part: RenderShard) {
-    let order = Order {
+    let order = RenderOrder {
         goal: Goal::default(),
         crop: part.window(),
         background: Background::default(),

@@ -16,22 +16,22 @@ macro_rules! effects {
         }
 
         /// The index of each effect; the layers follow after the others.
-        enum Index {
+        enum EffectIndex {
             $($effect,)*
             Layers,
         }
 
         impl Effect {
             /// The number of effects.
-            pub const COUNT: usize = Index::Layers as usize + Layer::ALL.len();
+            pub const COUNT: usize = EffectIndex::Layers as usize + Layer::ALL.len();
 
             /// The index of the effect.
             #[must_use]
             #[inline]
             pub const fn index(self) -> usize {
                 match self {
-                    $(Self::$effect => Index::$effect as usize,)*
-                    Self::Layer(layer) => Index::Layers as usize + layer as usize,
+                    $(Self::$effect => EffectIndex::$effect as usize,)*
+                    Self::Layer(layer) => EffectIndex::Layers as usize + layer as usize,
                 }
             }
 
@@ -124,7 +124,7 @@ macro_rules! of_paths {
 
 rtc_tables::layers!(of_paths);
 
-impl State {
+impl EffectState {
     /// The state as one word.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -138,7 +138,7 @@ impl State {
 
 /// The state of an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
+pub enum EffectState {
     /// The picture needs it.
     Needed,
     /// The scene requires it, but a rule proves that its contribution is zero.
@@ -155,7 +155,7 @@ pub struct EffectStatus {
     /// The entity; `None` for the whole scene.
     pub of: Option<ValuePath>,
     /// The state.
-    pub state: State,
+    pub state: EffectState,
     /// The rule that removed it.
     pub rule: Option<Rule>,
     /// The reason in plain words: one line, lower case, no full stop.

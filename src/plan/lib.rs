@@ -56,7 +56,7 @@ mod summary;
 mod surface_bounds;
 mod visibility;
 
-pub use effect::{Effect, EffectStatus, State};
+pub use effect::{Effect, EffectState, EffectStatus};
 pub use features::{Features, PathFeatures, Shapes};
 pub use invisible::invisible_surfaces;
 pub use layer::Layer;
@@ -275,7 +275,7 @@ impl Plan {
     pub fn needs(&self, effect: Effect) -> bool {
         self.statuses
             .iter()
-            .any(|status| status.effect == effect && status.state == State::Needed)
+            .any(|status| status.effect == effect && status.state == EffectState::Needed)
     }
 }
 

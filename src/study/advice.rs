@@ -1,7 +1,7 @@
 //! The advice that follows from a study, as sentences.
 
 use super::metrics::Errors;
-use super::outcome::{MoreBounces, Row, Study};
+use super::outcome::{MoreBounces, Study, StudyRow};
 use super::parameter::Parameter;
 use super::setting::Setting;
 use rtc_math::pow;
@@ -36,13 +36,13 @@ pub fn advice(study: &Study) -> Vec<String> {
 }
 
 /// The rows of the Pareto front.
-fn front(study: &Study) -> Vec<&Row> {
+fn front(study: &Study) -> Vec<&StudyRow> {
     let rows = study.rows.iter().filter(|row| row.front);
     rows.map(|row| stabilised(study, row)).collect()
 }
 
 /// The index of the recommended row: the first whose error is certainly invisible, or the last.
-fn chosen(front: &[&Row]) -> Option<usize> {
+fn chosen(front: &[&StudyRow]) -> Option<usize> {
     front
         .iter()
         .position(|row| row.errors.rmse_high <= INVISIBLE)
@@ -51,7 +51,7 @@ fn chosen(front: &[&Row]) -> Option<usize> {
 
 /// The recommended row: the cheapest on the Pareto front whose error is certainly invisible.
 #[must_use]
-pub fn recommended(study: &Study) -> Option<&Row> {
+pub fn recommended(study: &Study) -> Option<&StudyRow> {
     let front = front(study);
     Some(front[chosen(&front)?])
 }
@@ -117,7 +117,7 @@ fn about_more(bounces: &MoreBounces) -> Option<String> {
 
 /// The row, or the same row with the robust arithmetic if the row is not clearly cheaper: the
 /// difference may be timing noise.
-fn stabilised<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
+fn stabilised<'a>(study: &'a Study, row: &'a StudyRow) -> &'a StudyRow {
     /// A ratio that is certainly below 1.
     const CLEARLY_CHEAPER: f64 = 0.95;
     let robust = Setting {
@@ -137,9 +137,9 @@ fn stabilised<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
 }
 
 /// The recommended row, and the cost of better ones.
-fn best(study: &Study, rows: &[&Row]) -> String {
+fn best(study: &Study, rows: &[&StudyRow]) -> String {
     let (chosen, better) = (rows[0], &rows[1..]);
-    let label = |row: &Row| row.setting.label(&study.used());
+    let label = |row: &StudyRow| row.setting.label(&study.used());
     let line = format!(
         "{}: {} for {}",
         label(chosen),
@@ -161,13 +161,14 @@ fn best(study: &Study, rows: &[&Row]) -> String {
     }
 }
 
-fn about_scene_setting(study: &Study, scene_row: &Row, front: &[&Row]) -> String {
+fn about_scene_setting(study: &Study, scene_row: &StudyRow, front: &[&StudyRow]) -> String {
     let label = scene_row.setting.label(&study.used());
     // The same setting with the other arithmetic may be on the front in its place.
     let is_on_front = scene_row.front || front.iter().any(|row| row.setting == scene_row.setting);
     if is_on_front {
-        let is_better_value =
-            |row: &&&Row| row.ratio.value <= 1.05 && row.errors.rmse <= 0.8 * scene_row.errors.rmse;
+        let is_better_value = |row: &&&StudyRow| {
+            row.ratio.value <= 1.05 && row.errors.rmse <= 0.8 * scene_row.errors.rmse
+        };
         let line = format!("The scene's own setting, {label}, is on the front");
         return match front.iter().rfind(is_better_value) {
             Some(row) => format!("{line}, but {}.", improvement(study, row, scene_row)),
@@ -188,7 +189,7 @@ fn about_scene_setting(study: &Study, scene_row: &Row, front: &[&Row]) -> String
 }
 
 /// The advantage of a row over the scene's own setting.
-fn improvement(study: &Study, row: &Row, scene_row: &Row) -> String {
+fn improvement(study: &Study, row: &StudyRow, scene_row: &StudyRow) -> String {
     let (label, times) = (row.setting.label(&study.used()), row.ratio.value);
     if digits(row.errors.rmse) == digits(scene_row.errors.rmse) {
         return format!("{label} has the same error for {times:.2}× the time");
@@ -201,7 +202,7 @@ fn improvement(study: &Study, row: &Row, scene_row: &Row) -> String {
 }
 
 /// As "error 0.4 grey levels".
-fn error(row: &Row) -> String {
+fn error(row: &StudyRow) -> String {
     match row.errors.rmse {
         0.0 => "no error".to_owned(),
         rmse => format!(

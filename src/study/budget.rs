@@ -6,7 +6,7 @@ use super::progressive::ProgressiveRender;
 use super::rounds::next_round;
 use super::subject::Stopped;
 use super::target::{
-    Order, Progress, TAIL, TargetResult, Watch, first_round, light_samples, new_render,
+    Progress, RenderOrder, TAIL, TargetResult, Watch, first_round, light_samples, new_render,
 };
 use super::target::{set_sampling, tail_of};
 use rtc_ir::Scene;
@@ -48,7 +48,7 @@ struct TimedRender<'run, 'watch> {
 pub(super) fn render_within(
     world: &mut AnyWorld,
     scene: &Scene,
-    order: &Order,
+    order: &RenderOrder,
     watch: &Watch<'_>,
     time: Duration,
 ) -> Result<TargetResult, Stopped> {
@@ -118,7 +118,7 @@ impl TimedRender<'_, '_> {
     }
 
     /// Finds the best number of light samples, if that takes a small fraction of the time.
-    fn choose_lights(&mut self, scene: &Scene, order: &Order) -> Result<(), Stopped> {
+    fn choose_lights(&mut self, scene: &Scene, order: &RenderOrder) -> Result<(), Stopped> {
         /// The maximum number of samples for this search, at one light sample each.
         const SAMPLES: f64 = 1e5;
         const MAX_FRACTION: f64 = 0.1;
@@ -135,7 +135,7 @@ impl TimedRender<'_, '_> {
     }
 
     /// Reserves the time that the output of the picture takes after the last sample.
-    fn reserve_output_time(&mut self, order: &Order) {
+    fn reserve_output_time(&mut self, order: &RenderOrder) {
         let start = self.elapsed();
         let noise = Noise::of(&self.progressive.film, &order.undersampled(self.world));
         let bound = noise.bound(TAIL, order.goal.error);
@@ -146,7 +146,7 @@ impl TimedRender<'_, '_> {
 
     /// Doubles the samples of all pixels until each has those of a first round, then adds samples
     /// where they reduce the error most, until the error or the time is reached.
-    fn rounds(&mut self, scene: &Scene, order: &Order) -> Result<TargetResult, Stopped> {
+    fn rounds(&mut self, scene: &Scene, order: &RenderOrder) -> Result<TargetResult, Stopped> {
         // Set up the round sizes.
         let [first, pilot] = first_round(scene, order, self.world);
         let (start, before) = (self.elapsed(), self.progressive.film.samples());
@@ -187,7 +187,7 @@ impl TimedRender<'_, '_> {
 
     /// The coarse picture: pixels without a sample get the value of the sampled pixel of their
     /// block, above and to the left.
-    fn coarse(&self, order: &Order, complete_after: Duration) -> TargetResult {
+    fn coarse(&self, order: &RenderOrder, complete_after: Duration) -> TargetResult {
         let film = &self.progressive.film;
         let width = film.crop().width as usize;
         let has_samples = |index: usize| film.pixel(index).samples() > 0;

@@ -2,7 +2,7 @@
 //! error estimate.
 
 use super::probe::probe;
-use super::target::{Goal, Order};
+use super::target::{Goal, RenderOrder};
 use rtc_color::Tone;
 use rtc_render::{AnyWorld, Crop, DenoisedFilm, Film, Job, OnPixel, Values};
 use rtc_valid::Mode;
@@ -28,7 +28,7 @@ pub(super) fn film(
     };
     // Render the whole picture in linear values, and denoise it.
     let camera = world.scene().camera();
-    let order = Order {
+    let order = RenderOrder {
         goal: Goal::default(),
         crop: Crop {
             x: 0,

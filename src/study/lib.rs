@@ -85,13 +85,14 @@ pub use journal::Journal;
 pub use maps::{StudyMap, maps};
 pub use metrics::{Errors, LEVELS, rmse};
 pub use outcome::{
-    About, BounceCost, MoreBounces, ParameterReport, Rays, ReferenceReport, Row, Study, StudyArea,
+    BounceCost, MoreBounces, ParameterReport, Provenance, Rays, ReferenceReport, Study, StudyArea,
+    StudyRow,
 };
 pub use parameter::{Parameter, arithmetic, not_applicable};
 pub use precision::PrecisionCost;
 pub use probe::{ProbedError, probe};
 pub use progressive::{CheckpointSink, ProgressiveRender};
-pub use reference::{DepthEnd, Level};
+pub use reference::{DepthEnd, ParameterLevel};
 #[cfg(feature = "cli")]
 pub use report::{
     SliderPage, csv, html, json, maps_page, slider_page, table, value_text, versus_table,
@@ -101,7 +102,9 @@ pub use setting::Setting;
 pub use spread::ErrorSpread;
 pub use statistics::{Estimate, PowerLaw, Rng, median};
 pub use subject::Stopped;
-pub use target::{Goal, Order, Progress, Samples, TargetResult, Watch, approach, approach_keeping};
+pub use target::{
+    Goal, Progress, RenderOrder, Samples, TargetResult, Watch, approach, approach_keeping,
+};
 pub use versus::{DifferentTile, Versus, versus};
 
 use parameter::not_applicable_in;
@@ -163,7 +166,7 @@ const MAX_REFERENCE_ERROR: f64 = 0.2;
 /// If it was stopped.
 pub fn study(
     scene: &Scene,
-    about: About,
+    about: Provenance,
     effort: Effort,
     seed: u64,
     runtime: &StudyRuntime<'_>,
@@ -232,7 +235,7 @@ struct Scope {
 }
 
 /// The reference, against which rows are measured, and the model, by which rows are chosen.
-struct Context {
+struct StudyContext {
     reference: Reference,
     depths: Option<Depths>,
     model: Model,
@@ -313,7 +316,7 @@ impl Scope {
         (1..=count).map(reference::independent).collect()
     }
 
-    fn context(&self, subject: &Subject<'_>) -> Result<Context, Stopped> {
+    fn context(&self, subject: &Subject<'_>) -> Result<StudyContext, Stopped> {
         // Compare the path depths.
         let depths = match self.used.contains(&Parameter::Depth) {
             true => Some(reference::depths(
@@ -354,7 +357,7 @@ impl Scope {
             let rendered = subject.render(coarse, Seeds::NONE)?;
             model.learn_interaction(coarse, rmse(&rendered.tiles, &reference.tiles));
         }
-        Ok(Context {
+        Ok(StudyContext {
             reference,
             depths,
             model,
@@ -362,7 +365,7 @@ impl Scope {
     }
 }
 
-impl Context {
+impl StudyContext {
     fn report(&self) -> ReferenceReport {
         ReferenceReport {
             setting: self.reference.setting,

@@ -4,7 +4,7 @@
 use super::advice;
 use super::difference::heat_map;
 use super::metrics::LEVELS;
-use super::outcome::{Row, Study};
+use super::outcome::{Study, StudyRow};
 use super::setting::Setting;
 use super::subject::{Stopped, Subject};
 use rtc_image::Image;
@@ -34,7 +34,7 @@ pub struct StudyMap {
 
 /// Counts the rays of each pixel in the mapped settings.
 pub(super) fn count(study: &Study, subject: &Subject<'_>) -> Result<Vec<PixelRays>, Stopped> {
-    let count = |(_, row): (_, &Row)| {
+    let count = |(_, row): (_, &StudyRow)| {
         let setting = row.setting;
         let rays = subject.rays_of_pixels(setting)?;
         Ok(PixelRays { setting, rays })
@@ -43,7 +43,7 @@ pub(super) fn count(study: &Study, subject: &Subject<'_>) -> Result<Vec<PixelRay
 }
 
 /// The mapped rows with their names.
-fn mapped(study: &Study) -> Vec<(&'static str, &Row)> {
+fn mapped(study: &Study) -> Vec<(&'static str, &StudyRow)> {
     let own = study.scene_row().map(|row| ("own", row));
     let best = advice::recommended(study).filter(|row| !row.is_scene_setting);
     own.into_iter()
@@ -89,7 +89,7 @@ pub fn maps(study: &Study) -> Vec<StudyMap> {
 
 /// The error of each pixel, the root mean square of its channels in grey levels; 0 outside the
 /// rendered tiles.
-fn errors(study: &Study, row: &Row) -> Vec<f64> {
+fn errors(study: &Study, row: &StudyRow) -> Vec<f64> {
     let [width, height] = study.part.size.map(|side| side as usize);
     let mut values = vec![0.0; width * height];
     for ((area, test), reference_tiles) in study

@@ -3,7 +3,7 @@
 use super::maps::PixelRays;
 use super::metrics::Errors;
 use super::parameter::Parameter;
-use super::reference::{DepthEnd, Level};
+use super::reference::{DepthEnd, ParameterLevel};
 use super::setting::Setting;
 use super::spread::ErrorSpread;
 use super::statistics::{Estimate, PowerLaw};
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 /// The subject of a study, and the machine it ran on.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct About {
+pub struct Provenance {
     /// The name of the scene.
     pub scene: String,
     /// The hash of the scene's IR.
@@ -91,7 +91,7 @@ pub struct ParameterReport {
     pub not_applicable: Option<String>,
     /// Its values, with all other parameters as in the reference.
     #[serde(rename = "rungs")]
-    pub levels: Vec<Level>,
+    pub levels: Vec<ParameterLevel>,
     /// The power law of its error in samples, if there is one.
     pub law: Option<PowerLaw>,
 }
@@ -140,7 +140,7 @@ impl From<Counts> for Rays {
 /// A measured setting.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Row {
+pub struct StudyRow {
     /// The setting.
     pub setting: Setting,
     /// Whether it is the scene's setting.
@@ -179,7 +179,7 @@ pub struct Study {
     /// The schema of this report: `rtc-cost/3`.
     pub schema: String,
     /// The subject, and the machine.
-    pub about: About,
+    pub about: Provenance,
     /// The budget in rays.
     pub effort: Effort,
     /// The seed of its random numbers.
@@ -195,7 +195,7 @@ pub struct Study {
     pub bounces: Option<MoreBounces>,
     /// The measured settings in ascending order of cost: by seconds where these differ clearly,
     /// otherwise by rays.
-    pub rows: Vec<Row>,
+    pub rows: Vec<StudyRow>,
     /// The cost of each effect.
     pub effects: Vec<EffectCost>,
     /// The cost of each arithmetic.
@@ -231,7 +231,7 @@ impl Study {
 
     /// The row of the scene's setting.
     #[must_use]
-    pub fn scene_row(&self) -> Option<&Row> {
+    pub fn scene_row(&self) -> Option<&StudyRow> {
         self.rows.iter().find(|row| row.is_scene_setting)
     }
 }

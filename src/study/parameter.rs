@@ -2,7 +2,7 @@
 
 use super::setting::Setting;
 use rtc_ir::{Light, Material, Mode, Phong, Scene};
-use rtc_plan::{Arithmetic, Effect, EffectStatus, Plan, Rules, State, loss};
+use rtc_plan::{Arithmetic, Effect, EffectState, EffectStatus, Plan, Rules, loss};
 use rtc_valid::revalidate;
 use serde::{Deserialize, Serialize};
 
@@ -251,7 +251,7 @@ fn pruned_reason(parameter: Parameter, scene: &Scene) -> Option<String> {
         || reason.clone(),
         |rule| format!("{reason} ({})", rule.name()),
     );
-    (status.state != State::Needed).then_some(reason)
+    (status.state != EffectState::Needed).then_some(reason)
 }
 
 fn unused_reason(parameter: Parameter, scene: &Scene) -> Option<&'static str> {

@@ -4,7 +4,7 @@ use super::benchmark::{BenchmarkCase, TimedRun, benchmark};
 use super::metrics::Errors;
 use super::outcome::Rays;
 use super::parameter::{Parameter, precision_value, tolerates};
-use super::reference::Level;
+use super::reference::ParameterLevel;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng};
 use super::subject::{Stopped, Subject};
@@ -83,7 +83,7 @@ pub(super) fn costs(
 /// The precision as a parameter alone, over the arithmetics allowed in rows. Its error has no
 /// sampling noise.
 pub(super) fn levels(costs: &[PrecisionCost]) -> Levels {
-    let level = |cost: &PrecisionCost| Level {
+    let level = |cost: &PrecisionCost| ParameterLevel {
         value: precision_value(cost.arithmetic),
         error: cost.difference.rmse,
         resolved: true,

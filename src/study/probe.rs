@@ -7,7 +7,7 @@
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
-use super::target::{Order, TAIL};
+use super::target::{RenderOrder, TAIL};
 use rtc_image::around;
 use rtc_math::{GAMMA, fraction, mix};
 use rtc_render::{AnyWorld, Counts, DenoisedFilm, Film, OnPixel, ProgressiveFilm};
@@ -54,7 +54,7 @@ const MIN_FREEDOM: f64 = 8.0;
 #[must_use]
 pub fn probe(
     world: &AnyWorld,
-    order: &Order,
+    order: &RenderOrder,
     picture: &DenoisedFilm,
     samples: u32,
     on_pixel: &OnPixel<'_>,
@@ -86,7 +86,7 @@ pub fn probe(
 
 /// The probability of each pixel to be probed: a mixture of uniform and of the squared change of
 /// the displayed value by denoising, summed over 3 × 3 pixels.
-fn probabilities(picture: &DenoisedFilm, order: &Order) -> Vec<f64> {
+fn probabilities(picture: &DenoisedFilm, order: &RenderOrder) -> Vec<f64> {
     let (tone, exposure) = order.display;
     let shown = |pixel: &[f64; 3]| tone.display(pixel.map(|value| value * exposure));
     let Film { image, .. } = &picture.film;

@@ -3,7 +3,7 @@
 
 use super::batch::WorkBatch;
 use super::noise::Bound;
-use super::target::{Order, Samples, TargetResult};
+use super::target::{RenderOrder, Samples, TargetResult};
 use rtc_render::{AnyWorld, FilmError, OnPixel, ProgressiveFilm, Replicates, Tiles, Values};
 use std::time::Duration;
 
@@ -145,7 +145,7 @@ impl ProgressiveRender {
     ///
     /// # Errors
     /// If the bytes belong to another render or version, or are corrupt.
-    pub fn load(bytes: &[u8], order: &Order) -> Result<Self, FilmError> {
+    pub fn load(bytes: &[u8], order: &RenderOrder) -> Result<Self, FilmError> {
         /// The maximum number of rounds.
         const MAX_ROUNDS: u32 = 1 << 16;
         const MAX_LENGTH: u32 = 1 << 24;

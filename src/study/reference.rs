@@ -20,7 +20,7 @@ const UNCHANGED: f64 = MIN_ERROR / 10.0;
 
 /// A value of a parameter, and its error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Level {
+pub struct ParameterLevel {
     /// The value.
     pub value: u32,
     /// Its error if all other parameters have none, in grey levels.
@@ -43,7 +43,7 @@ pub(super) struct Reference {
 pub(super) struct Depths {
     /// The error of each depth up to that of the scene, or to the depth where the picture no longer
     /// changes.
-    pub(super) levels: Vec<Level>,
+    pub(super) levels: Vec<ParameterLevel>,
     /// The effect of more bounces.
     pub(super) more: MoreBounces,
 }
@@ -121,7 +121,7 @@ pub(super) fn depths(
     let scene_index = (renders.len() - 1).min(start.depth as usize);
     let level = |(index, rendered): (usize, &DepthProbe)| {
         let error = rendered.error(&renders[scene_index]);
-        Level {
+        ParameterLevel {
             value: depth(index),
             error,
             resolved: error > 0.0,
@@ -132,7 +132,7 @@ pub(super) fn depths(
     // Report the greater depths separately.
     let scene_rays = renders[scene_index].rays().max(1) as f64;
     let deeper = levels.split_off(scene_index + 1).into_iter();
-    let cost = |level: Level| BounceCost {
+    let cost = |level: ParameterLevel| BounceCost {
         depth: level.value,
         ray_ratio: level.rays as f64 / scene_rays,
         difference: level.error,

@@ -3,7 +3,7 @@
 
 use super::benchmark::{BenchmarkCase, TimedRun, benchmark};
 use super::metrics::Errors;
-use super::outcome::Row;
+use super::outcome::StudyRow;
 use super::parameter::Parameter;
 use super::pareto;
 use super::reference::{self, Reference};
@@ -11,17 +11,17 @@ use super::spread::ErrorSpread;
 use super::statistics::Rng;
 use super::subject::{Stopped, Subject};
 use super::tile_errors::TileErrors;
-use super::{Context, FOR_ROWS, MAX_REFERENCE_ERROR, Scope};
+use super::{FOR_ROWS, MAX_REFERENCE_ERROR, Scope, StudyContext};
 
 impl Scope {
     /// Renders, times and measures the scene's setting and the best ones of the model.
     pub(super) fn rows(
         &self,
         subject: &Subject<'_>,
-        context: &Context,
+        context: &StudyContext,
         rng: &mut Rng,
-    ) -> Result<(Vec<Row>, f64), Stopped> {
-        let Context {
+    ) -> Result<(Vec<StudyRow>, f64), Stopped> {
+        let StudyContext {
             reference,
             depths: _,
             model,
@@ -62,7 +62,7 @@ impl Scope {
         // Measure their errors.
         let row = |(case, run): (&BenchmarkCase<'_>, TimedRun)| {
             let errors = Errors::of(&run.rendered.tiles, &reference.tiles, subject.fraction());
-            Row {
+            StudyRow {
                 setting: case.setting,
                 is_scene_setting: case.setting == self.scene_setting,
                 front: false,
@@ -88,16 +88,16 @@ impl Scope {
 
 /// Sorts the rows by cost and marks those on the Pareto front: the rows whose error is certainly
 /// below that of all cheaper ones on the front.
-fn ranked(rows: Vec<Row>, reference: &Reference, fraction: f64) -> Vec<Row> {
-    let points: Vec<_> = rows.iter().map(Row::point).collect();
-    let errors = |row: &Row| TileErrors::of(&row.tiles, &reference.tiles, fraction);
+fn ranked(rows: Vec<StudyRow>, reference: &Reference, fraction: f64) -> Vec<StudyRow> {
+    let points: Vec<_> = rows.iter().map(StudyRow::point).collect();
+    let errors = |row: &StudyRow| TileErrors::of(&row.tiles, &reference.tiles, fraction);
     let errors: Vec<_> = rows.iter().map(errors).collect();
     let is_better =
         |a: usize, b: usize| errors[a].is_clearly_below(&errors[b], pareto::EQUAL_ERROR);
     let mut rows: Vec<_> = rows.into_iter().map(Some).collect();
     let ranked = pareto::ranking(&points, is_better).into_iter();
     let ranked = ranked.filter_map(|(place, front)| {
-        Some(Row {
+        Some(StudyRow {
             front,
             ..rows[place].take()?
         })
@@ -105,7 +105,7 @@ fn ranked(rows: Vec<Row>, reference: &Reference, fraction: f64) -> Vec<Row> {
     ranked.collect()
 }
 
-impl Row {
+impl StudyRow {
     fn point(&self) -> pareto::Point {
         pareto::Point {
             seconds: [self.seconds.low, self.seconds.high],

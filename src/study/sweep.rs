@@ -4,7 +4,7 @@
 use super::metrics::{LEVELS, products};
 use super::outcome::ParameterReport;
 use super::parameter::Parameter;
-use super::reference::{Depths, Level, Reference, independent};
+use super::reference::{Depths, ParameterLevel, Reference, independent};
 use super::setting::Setting;
 use super::statistics::PowerLaw;
 use super::subject::{Stopped, Subject};
@@ -15,7 +15,7 @@ use rtc_render::Seeds;
 /// A parameter at each of its values, with all others as in the reference.
 pub(super) struct Levels {
     pub(super) parameter: Parameter,
-    pub(super) levels: Vec<Level>,
+    pub(super) levels: Vec<ParameterLevel>,
     pub(super) law: Option<PowerLaw>,
 }
 
@@ -29,7 +29,7 @@ pub(super) fn sweep(
     (parameter, base): (Parameter, Setting),
     budget: u64,
 ) -> Result<Levels, Stopped> {
-    let mut levels: Vec<Level> = Vec::new();
+    let mut levels: Vec<ParameterLevel> = Vec::new();
     let mut spent = 0;
     for value in parameter.levels() {
         if let Some(last) = levels.last() {
@@ -71,7 +71,7 @@ fn others(parameter: Parameter, number: u64) -> Seeds {
 }
 
 /// The common error of two renders against the reference, less the error of the reference itself.
-fn level(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) -> Level {
+fn level(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) -> ParameterLevel {
     /// The number of channels of a block of pixels, at most a tile.
     const BLOCK: usize = 3 * 256;
     let floor = reference.floor / LEVELS;
@@ -88,7 +88,7 @@ fn level(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) ->
         .sum::<f64>();
     let deviation = (squares / (blocks * (blocks - 1.0).max(1.0))).sqrt();
     let resolved = whole > 2.0 * deviation && whole > floor * floor;
-    Level {
+    ParameterLevel {
         value,
         error: whole.max(0.0).sqrt() * LEVELS,
         resolved,
@@ -98,8 +98,8 @@ fn level(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) ->
 
 /// The power law of the resolved levels. A single light or lobe sample is at the centre: that is
 /// another picture, not a sample of it.
-fn law(parameter: Parameter, levels: &[Level]) -> Option<PowerLaw> {
-    let is_sample = |level: &&Level| {
+fn law(parameter: Parameter, levels: &[ParameterLevel]) -> Option<PowerLaw> {
+    let is_sample = |level: &&ParameterLevel| {
         level.resolved
             && !(level.value == 1 && matches!(parameter, Parameter::Lights | Parameter::Glossy))
     };
@@ -218,7 +218,7 @@ impl Model {
 impl Levels {
     fn error(&self, value: u32) -> f64 {
         // The first level has the largest error; it counts even if it is not resolved.
-        let counts = |(index, level): &(usize, &Level)| {
+        let counts = |(index, level): &(usize, &ParameterLevel)| {
             *index == 0 || level.resolved || self.parameter == Parameter::Depth
         };
         let clear: Vec<_> = self
@@ -258,7 +258,7 @@ impl Levels {
 
     /// The rays in arbitrary units.
     fn rays(&self, value: u32) -> f64 {
-        let at = |level: &Level| level.rays as f64;
+        let at = |level: &ParameterLevel| level.rays as f64;
         if let Some(level) = self.levels.iter().find(|level| level.value == value) {
             return at(level);
         }
@@ -277,7 +277,12 @@ impl Levels {
     }
 
     /// Linear interpolation between two levels, on logarithmic scales.
-    fn between(&self, [below, above]: [&Level; 2], x: f64, of: impl Fn(&Level) -> f64) -> f64 {
+    fn between(
+        &self,
+        [below, above]: [&ParameterLevel; 2],
+        x: f64,
+        of: impl Fn(&ParameterLevel) -> f64,
+    ) -> f64 {
         let log = |x: f64| ln(x.max(f64::MIN_POSITIVE));
         let (from, to) = (
             log(self.parameter.samples(below.value)),

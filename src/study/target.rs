@@ -33,7 +33,7 @@ pub struct Goal {
 
 /// A render job with a goal.
 #[derive(Clone, Copy, Debug)]
-pub struct Order {
+pub struct RenderOrder {
     /// When to stop.
     pub goal: Goal,
     /// The rendered part of the picture.
@@ -126,7 +126,7 @@ const FIRST_PILOT: u32 = 2;
 pub fn approach(
     world: &mut AnyWorld,
     scene: &Scene,
-    order: &Order,
+    order: &RenderOrder,
     watch: &Watch<'_>,
 ) -> Result<TargetResult, Stopped> {
     approach_keeping(world, scene, order, watch, None)
@@ -139,7 +139,7 @@ pub fn approach(
 pub fn approach_keeping(
     world: &mut AnyWorld,
     scene: &Scene,
-    order: &Order,
+    order: &RenderOrder,
     watch: &Watch<'_>,
     sink: Option<CheckpointSink<'_>>,
 ) -> Result<TargetResult, Stopped> {
@@ -162,7 +162,7 @@ pub fn approach_keeping(
 fn in_rounds(
     world: &mut AnyWorld,
     scene: &Scene,
-    order: &Order,
+    order: &RenderOrder,
     watch: &Watch<'_>,
     mut checkpointer: Option<Checkpointer<'_>>,
 ) -> Result<TargetResult, Stopped> {
@@ -211,7 +211,7 @@ pub(super) fn tail_of(rounds: u32) -> f64 {
 }
 
 /// A render without samples yet.
-pub(super) fn new_render(light_samples: u32, order: &Order) -> ProgressiveRender {
+pub(super) fn new_render(light_samples: u32, order: &RenderOrder) -> ProgressiveRender {
     ProgressiveRender {
         film: order.film(),
         requested: Vec::new(),
@@ -222,7 +222,7 @@ pub(super) fn new_render(light_samples: u32, order: &Order) -> ProgressiveRender
 }
 
 /// The samples of each replicate and of the pilot of all pixels in the first round.
-pub(super) fn first_round(scene: &Scene, order: &Order, world: &AnyWorld) -> [u32; 2] {
+pub(super) fn first_round(scene: &Scene, order: &RenderOrder, world: &AnyWorld) -> [u32; 2] {
     let min = if not_applicable(Parameter::Paths, scene).is_none() {
         FIRST_PATHS
     } else {
@@ -236,7 +236,7 @@ pub(super) fn first_round(scene: &Scene, order: &Order, world: &AnyWorld) -> [u3
     [first, (first / 2).max(FIRST_PILOT)]
 }
 
-impl Order {
+impl RenderOrder {
     /// A film without samples.
     pub(super) fn film(&self) -> ProgressiveFilm {
         let mut film = ProgressiveFilm::new(self.crop, self.seed);
@@ -257,7 +257,7 @@ impl Order {
 /// Renders a mode without random sampling.
 fn render_unsampled(
     world: &AnyWorld,
-    order: &Order,
+    order: &RenderOrder,
     watch: &Watch<'_>,
 ) -> Result<TargetResult, Stopped> {
     let job = Job {
@@ -303,7 +303,7 @@ pub(super) fn set_sampling(world: &mut AnyWorld, scene: &Scene, light_samples: u
 pub(super) fn light_samples(
     world: &mut AnyWorld,
     scene: &Scene,
-    order: &Order,
+    order: &RenderOrder,
     watch: &Watch<'_>,
 ) -> Result<(u32, Counts), Stopped> {
     /// The number of tiles, and the samples per replicate in them.

@@ -294,7 +294,7 @@ fn paths_have_a_ladder_and_a_law_of_their_own() {
         "{table}"
     );
     a_quarter_of_the_paths_is_denoised(&study);
-    let is_plain = |row: &&study::Row| !row.setting.denoise;
+    let is_plain = |row: &&study::StudyRow| !row.setting.denoise;
     for row in study
         .rows
         .iter()

@@ -19,8 +19,8 @@ use rtc::internals::plan::{Arithmetic, Plan, Rules};
 use rtc::internals::render::{Job, Step, Tiles, render};
 use rtc::internals::source::SourceMap;
 use rtc::internals::study::{
-    self, Ablation, About, Clock, DepthEnd, EffectCost, Effort, ErrorSpread, Errors, Parameter,
-    PowerLaw, Row, Setting, Stopped, Study, StudyRuntime,
+    self, Ablation, Clock, DepthEnd, EffectCost, Effort, ErrorSpread, Errors, Parameter, PowerLaw,
+    Provenance, Setting, Stopped, Study, StudyRow, StudyRuntime,
 };
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{LazyLock, Mutex};
@@ -66,9 +66,9 @@ fn study_of(scene: &Scene, rays: u64, threads: usize) -> Study {
 
 /// A study with a clock whose ticks per ray change at each reading.
 fn study_by(scene: &Scene, rays: u64, threads: usize, pace: impl FnMut() -> f64 + Send) -> Study {
-    let about = About {
+    let about = Provenance {
         scene: "<balls> & \"floor\"".to_owned(),
-        ..About::default()
+        ..Provenance::default()
     };
     let study = on_bench(threads, pace, |runtime| {
         study::study(scene, about, Effort(rays), 1, runtime)
@@ -116,7 +116,7 @@ static PART: LazyLock<Study> = LazyLock::new(|| {
 });
 
 /// Whether a row is not significantly worse than another.
-fn dominates(a: &Row, b: &Row) -> bool {
+fn dominates(a: &StudyRow, b: &StudyRow) -> bool {
     let no_worse = a.errors.rmse <= 1.001 * b.errors.rmse_high && a.rays.all() <= b.rays.all();
     no_worse && (a.errors.rmse, a.rays) != (b.errors.rmse, b.rays)
 }
@@ -189,7 +189,14 @@ fn a_study_can_be_stopped() {
     )
     .unwrap();
     assert_eq!(
-        study::study(&scene(&[]), About::default(), Effort::QUICK, 1, &runtime).unwrap_err(),
+        study::study(
+            &scene(&[]),
+            Provenance::default(),
+            Effort::QUICK,
+            1,
+            &runtime
+        )
+        .unwrap_err(),
         Stopped
     );
 }

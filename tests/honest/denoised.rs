@@ -6,12 +6,12 @@ use super::scenes::{order, references, world};
 use rtc::internals::color::Tone;
 use rtc::internals::image::Image;
 use rtc::internals::render::{AnyWorld, Job, Seeds};
-use rtc::internals::study::{Goal, LEVELS, Order, ProbedError, probe};
+use rtc::internals::study::{Goal, LEVELS, ProbedError, RenderOrder, probe};
 
 const SAMPLES: u32 = 16;
 
 /// A denoised picture of a seed in linear values, and its estimated error.
-fn denoised(world: &AnyWorld, order: &Order, seed: u64) -> (Image, ProbedError) {
+fn denoised(world: &AnyWorld, order: &RenderOrder, seed: u64) -> (Image, ProbedError) {
     let job = Job {
         seeds: Seeds {
             pixel: seed,
@@ -22,7 +22,7 @@ fn denoised(world: &AnyWorld, order: &Order, seed: u64) -> (Image, ProbedError) 
     };
     let picture = world.denoised(SAMPLES, &job, &|_| true, &|| ()).unwrap();
     // Probes with other seeds than the picture.
-    let order = Order {
+    let order = RenderOrder {
         seed: 1000 * seed,
         ..*order
     };

@@ -8,7 +8,7 @@ use rtc::internals::pipeline::{self, Options};
 use rtc::internals::plan::{Plan, Rules};
 use rtc::internals::render::{AnyWorld, Background, Crop, Values};
 use rtc::internals::source::SourceMap;
-use rtc::internals::study::{Goal, LEVELS, Order, Rng, TargetResult, Watch, approach};
+use rtc::internals::study::{Goal, LEVELS, RenderOrder, Rng, TargetResult, Watch, approach};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
@@ -140,7 +140,7 @@ pub(crate) fn world(scene: &Scene) -> AnyWorld {
 }
 
 /// All of the picture.
-pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> Order {
+pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> RenderOrder {
     let [width, height] = scene.camera.size;
     let crop = Crop {
         x: 0,
@@ -148,7 +148,7 @@ pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> Order {
         width,
         height,
     };
-    Order {
+    RenderOrder {
         display: (Tone::Srgb, 1.0),
         goal,
         crop,

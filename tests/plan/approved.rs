@@ -5,7 +5,7 @@
 use super::dice::Dice;
 use super::{root, validated};
 use rtc::internals::ir::{Cone, Cylinder, Disc, Scene, Shape, Sphere, Torus};
-use rtc::internals::plan::{Arithmetic, Plan, Rule, Rules, State, loss};
+use rtc::internals::plan::{Arithmetic, EffectState, Plan, Rule, Rules, loss};
 use std::fmt::Write as _;
 use std::fs;
 use xxhash_rust::xxh3::xxh3_64;
@@ -73,9 +73,9 @@ fn line(seed: u64) -> String {
     let mut line = format!("{seed:3} {:016x}", xxh3_64(all.as_bytes()));
     for status in plan.statuses.iter().filter(|status| status.of.is_none()) {
         match (status.state, status.rule) {
-            (State::Needed, _) => line += &format!(", {}", status.effect.name()),
-            (State::Pruned, Some(rule)) => line += &format!(", {}", rule.name()),
-            (State::Pruned | State::Absent, _) => {}
+            (EffectState::Needed, _) => line += &format!(", {}", status.effect.name()),
+            (EffectState::Pruned, Some(rule)) => line += &format!(", {}", rule.name()),
+            (EffectState::Pruned | EffectState::Absent, _) => {}
         }
     }
     line
@@ -116,7 +116,12 @@ fn effects_and_states_are_named_as_in_the_books() {
                   supersampling";
     assert!(names.by_ref().eq(wanted.split(", ")));
     assert_eq!(
-        [State::Needed, State::Pruned, State::Absent].map(State::name),
+        [
+            EffectState::Needed,
+            EffectState::Pruned,
+            EffectState::Absent
+        ]
+        .map(EffectState::name),
         ["needed", "pruned", "absent"]
     );
     assert!(

@@ -3,7 +3,7 @@
 use super::dice::Dice;
 use super::{film, validated};
 use crate::told::lies;
-use rtc::internals::plan::{Effect, Plan, Rules, State};
+use rtc::internals::plan::{Effect, EffectState, Plan, Rules};
 use rtc::internals::render::Values;
 
 #[test]
@@ -14,7 +14,7 @@ fn what_is_told_absent_is_never_simulated() {
         let mut lies = lies(&scene, &counts);
         // Equal vertex normals are still looked up and counted.
         let is_told = |effect: Effect| effect != Effect::NormalInterpolation;
-        lies.retain(|(effect, state, _)| *state != State::Needed && is_told(*effect));
+        lies.retain(|(effect, state, _)| *state != EffectState::Needed && is_told(*effect));
         assert!(lies.is_empty(), "scene {seed}: {lies:?}");
     }
 }

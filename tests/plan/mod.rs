@@ -34,7 +34,7 @@ use rtc::internals::diag::Sink;
 use rtc::internals::ir::Scene;
 use rtc::internals::passes::Overrides;
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Effect, EffectStatus, Plan, Rule, Rules, State};
+use rtc::internals::plan::{Effect, EffectState, EffectStatus, Plan, Rule, Rules};
 use rtc::internals::render::{Film, Job, Values};
 use rtc::internals::source::{Loader, SourceMap};
 use rtc::internals::valid::ValidScene;
@@ -97,7 +97,7 @@ fn status(plan: &Plan, effect: Effect) -> &EffectStatus {
 }
 
 /// The state of an effect, and the rule.
-fn fate(scene: &Scene, effect: Effect) -> (State, Option<Rule>) {
+fn fate(scene: &Scene, effect: Effect) -> (EffectState, Option<Rule>) {
     let plan = Plan::new(&validated(scene), Rules::ALL);
     let EffectStatus { state, rule, .. } = status(&plan, effect);
     (*state, *rule)

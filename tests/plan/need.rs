@@ -7,12 +7,16 @@ use super::scenes::{
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Bump, Lowered, Mode, Scene, SourceSpans};
 use rtc::internals::pipeline::{self, Options};
-use rtc::internals::plan::{Effect, PixelClass, Plan, Rule, Rules, State};
+use rtc::internals::plan::{Effect, EffectState, PixelClass, Plan, Rule, Rules};
 
 fn is_not_needed(effect: Effect, ways: &[(&str, Scene)]) {
     assert!(ways.len() >= 3);
     for (way, scene) in ways {
-        assert_ne!(fate(scene, effect).0, State::Needed, "{effect:?}: {way}");
+        assert_ne!(
+            fate(scene, effect).0,
+            EffectState::Needed,
+            "{effect:?}: {way}"
+        );
     }
 }
 
@@ -162,7 +166,7 @@ fn lights() {
         ],
     );
     let soft = changed(&busy(), |scene| first_light(scene).radius = 0.5);
-    assert_eq!(fate(&soft, Effect::SoftLight).0, State::Needed);
+    assert_eq!(fate(&soft, Effect::SoftLight).0, EffectState::Needed);
     is_not_needed(
         Effect::SoftLight,
         &[
@@ -188,7 +192,7 @@ fn lenses_and_samples() {
             samples: 4,
         }
     });
-    assert_eq!(fate(&lens, Effect::Lens).0, State::Needed);
+    assert_eq!(fate(&lens, Effect::Lens).0, EffectState::Needed);
     let away = |scene: &mut Scene| scene.camera.center = [0.0, 0.0, 20.0];
     is_not_needed(
         Effect::Lens,
@@ -233,7 +237,7 @@ fn glossy_lobes_and_refraction() {
         all(scene, |phong| phong.glossy_samples = 4)
     });
     for effect in [Effect::GlossyReflection, Effect::Refraction] {
-        assert_eq!(fate(&glossy, effect).0, State::Needed);
+        assert_eq!(fate(&glossy, effect).0, EffectState::Needed);
         is_not_needed(
             effect,
             &[
@@ -256,7 +260,7 @@ fn glossy_lobes_and_refraction() {
     let unshiny = changed(&opaque, |scene| all(scene, |phong| phong.ks = 0.0));
     assert_ne!(
         fate(&unshiny, Effect::GlossyReflection).0,
-        State::Needed,
+        EffectState::Needed,
         "of weight 0"
     );
 }
@@ -281,7 +285,7 @@ fn textures_and_normal_maps() {
         material(scene, 1).ks = 0.0;
     };
     for effect in [Effect::Textures, Effect::NormalMapping] {
-        assert_eq!(fate(&mapped, effect).0, State::Needed);
+        assert_eq!(fate(&mapped, effect).0, EffectState::Needed);
         is_not_needed(
             effect,
             &[
@@ -356,7 +360,7 @@ fn pixels_that_show_nothing_are_traced_where_no_rule_may_leave_them_out() {
 fn a_plane_is_never_said_to_spare_itself() {
     assert_eq!(
         fate(&with(&[(plane(-1.0), matt())]), Effect::Shadows).0,
-        State::Needed
+        EffectState::Needed
     );
 }
 

@@ -6,7 +6,7 @@ use super::scenes::{ball, disc};
 use super::validated;
 use crate::told::{film, lies};
 use rtc::internals::ir::{Alpha, Scene, Standard};
-use rtc::internals::plan::{Effect, Layer, PathFeatures, Plan, Rules, State};
+use rtc::internals::plan::{Effect, EffectState, Layer, PathFeatures, Plan, Rules};
 
 /// A sphere of a material before a white disc, under a light.
 pub(super) fn lit(material: &Standard) -> Scene {
@@ -25,7 +25,10 @@ pub(super) fn needs(scene: &Scene) -> (Vec<Effect>, PathFeatures) {
     let lies = lies(&proof, &film(&proof, Rules::ALL).counts);
     assert!(lies.is_empty(), "{lies:?}");
     let plan = Plan::new(&proof, Rules::ALL);
-    let needed = plan.statuses.iter().filter(|v| v.state == State::Needed);
+    let needed = plan
+        .statuses
+        .iter()
+        .filter(|v| v.state == EffectState::Needed);
     let effects = needed.map(|status| status.effect).collect();
     (effects, plan.paths.unwrap().features)
 }

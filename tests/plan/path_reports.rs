@@ -7,10 +7,10 @@ use super::path_rules::white;
 use super::path_scenes::{cover, path, sky, standard};
 use super::validated;
 use rtc::internals::ir::{self, Alpha, Emitter, ImageId, Punctual, Scene, Standard, Texture};
-use rtc::internals::plan::{EffectStatus, Plan, Rule, Rules, State};
+use rtc::internals::plan::{EffectState, EffectStatus, Plan, Rule, Rules};
 
 /// The effects in a state, one line each: the effect, the rule, the reason, the values.
-fn told(scene: &Scene, state: State) -> String {
+fn told(scene: &Scene, state: EffectState) -> String {
     let line = |status: &EffectStatus| {
         let places = status.facts.iter();
         let places = places.map(|place| format!(" {:?} {}", place.entity, place.index));
@@ -70,10 +70,10 @@ supersampling:  4 paths per pixel; Settings 0";
 #[test]
 fn each_effect_is_told_with_its_reason_and_the_values_that_decided() {
     let plain = lit(&white());
-    assert_eq!(told(&plain, State::Absent), ABSENT);
-    assert_eq!(told(&rich(), State::Needed), NEEDED);
+    assert_eq!(told(&plain, EffectState::Absent), ABSENT);
+    assert_eq!(told(&rich(), EffectState::Needed), NEEDED);
     // The last ray in a scene without emitters hits none.
-    let needed = told(&plain, State::Needed);
+    let needed = told(&plain, EffectState::Needed);
     assert!(needed.contains("bounces:  at most 1 bounce;"), "{needed}");
 }
 
@@ -81,7 +81,7 @@ fn each_effect_is_told_with_its_reason_and_the_values_that_decided() {
 fn what_is_pruned_is_told_with_its_own_rule() {
     // A black light was removed before.
     let rule = "P-ALPHA alpha is 1, or above the cutoff, everywhere on the surfaces";
-    let told = told(&rich(), State::Pruned);
+    let told = told(&rich(), EffectState::Pruned);
     assert_eq!(told, format!("alpha: {rule}; Material 1"));
 }
 

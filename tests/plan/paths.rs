@@ -5,7 +5,7 @@ use super::dice::Dice;
 use super::{file_name, files, scene, validated};
 use crate::told::{difference, film, lies, traced, unmet};
 use rtc::internals::ir::Scene;
-use rtc::internals::plan::{Plan, Rule, Rules, State};
+use rtc::internals::plan::{EffectState, Plan, Rule, Rules};
 use std::env;
 
 /// The number of generated scenes: `RTC_SCENES=1000 cargo test --test suites plan::paths` tries
@@ -49,7 +49,7 @@ fn what_is_told_absent_is_never_simulated() {
     for seed in 0..scenes() {
         let proof = validated(&Dice::new(seed).path_scene());
         let mut lies = lies(&proof, &film(&proof, Rules::ALL).counts);
-        lies.retain(|(_, state, _)| *state != State::Needed);
+        lies.retain(|(_, state, _)| *state != EffectState::Needed);
         assert!(lies.is_empty(), "scene {seed}: {lies:?}");
     }
 }

@@ -6,21 +6,25 @@ use super::scenes::{
 };
 use super::{bits, fate, film, validated};
 use rtc::internals::ir::{Mode, Scene};
-use rtc::internals::plan::{Effect, Plan, Rule, Rules, State};
+use rtc::internals::plan::{Effect, EffectState, Plan, Rule, Rules};
 use rtc::internals::render::Values;
 
 /// A scene in which a rule removes an effect, and a change after which it is needed.
 fn turns(effect: Effect, rule: Rule, scene: &Scene, change: impl FnOnce(&mut Scene)) {
-    assert_eq!(fate(scene, effect), (State::Pruned, Some(rule)), "before");
+    assert_eq!(
+        fate(scene, effect),
+        (EffectState::Pruned, Some(rule)),
+        "before"
+    );
     flips(effect, scene, change);
 }
 
 /// A scene without an effect, and a change after which it is needed and the picture changes.
 fn flips(effect: Effect, scene: &Scene, change: impl FnOnce(&mut Scene)) {
-    assert_ne!(fate(scene, effect).0, State::Needed, "before");
+    assert_ne!(fate(scene, effect).0, EffectState::Needed, "before");
     let mut changed = scene.clone();
     change(&mut changed);
-    assert_eq!(fate(&changed, effect).0, State::Needed, "after");
+    assert_eq!(fate(&changed, effect).0, EffectState::Needed, "after");
     let picture = |scene| bits(&film(&validated(scene), Rules::ALL, Values::Linear));
     assert!(
         picture(scene) != picture(&changed),
@@ -177,7 +181,7 @@ fn one_texel_makes_a_texture() {
     scene.settings.mode = Mode::Normal;
     assert_eq!(
         fate(&scene, Effect::Textures),
-        (State::Pruned, Some(Rule::Mode))
+        (EffectState::Pruned, Some(Rule::Mode))
     );
 }
 
@@ -193,7 +197,7 @@ fn one_corner_makes_normals_worth_interpolating() {
     scene.lights.clear();
     assert_eq!(
         fate(&scene, Effect::NormalInterpolation),
-        (State::Pruned, Some(Rule::NormalFlat))
+        (EffectState::Pruned, Some(Rule::NormalFlat))
     );
 }
 

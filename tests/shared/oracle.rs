@@ -3,7 +3,7 @@
 
 use super::scenes::{course, validated};
 use libtest_mimic::Trial;
-use rtc::internals::plan::{Effect, EffectStatus, Plan, Rules, State};
+use rtc::internals::plan::{Effect, EffectState, EffectStatus, Plan, Rules};
 use rtc::internals::valid::ValidScene;
 
 use Effect::{
@@ -136,7 +136,7 @@ fn it_calls_for(scene: &ValidScene, needed: &[Effect], pruned: &[(Effect, &str)]
     let mut faults = Vec::new();
     for effect in EFFECTS {
         let found = status(&plan, effect);
-        let is_needed = found.state == State::Needed;
+        let is_needed = found.state == EffectState::Needed;
         let rule = pruned
             .iter()
             .find(|(of, _)| *of == effect)

@@ -4,7 +4,7 @@
 use super::Failure;
 use crate::cost::{about, with_runtime};
 use rtc_ir::Scene;
-use rtc_study::{self as study, Effort, Parameter, Row, Setting, Study};
+use rtc_study::{self as study, Effort, Parameter, Setting, Study, StudyRow};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -26,7 +26,7 @@ pub(super) fn costs(
 fn reported(study: &Study, own: &Setting) -> Value {
     let used = study.used();
     let best = study::recommended(study).map(|row| row.setting);
-    let row = |row: &Row| {
+    let row = |row: &StudyRow| {
         let setting = &row.setting;
         let other = |parameter: &&Parameter| setting.get(**parameter) != own.get(**parameter);
         let values = used.iter().filter(other);

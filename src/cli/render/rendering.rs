@@ -10,7 +10,8 @@ use rtc_image::Image;
 use rtc_pipeline::{Observer, RayCounter, RenderError, RenderSubject, Traced};
 use rtc_render::{Counts, Crop, Film};
 use rtc_study::{
-    CheckpointSink, CoarsePicture, Goal, Order, ProgressiveRender, Stopped, TargetResult, Watch,
+    CheckpointSink, CoarsePicture, Goal, ProgressiveRender, RenderOrder, Stopped, TargetResult,
+    Watch,
 };
 use std::time::Duration;
 
@@ -76,7 +77,7 @@ pub(super) struct KeptGrowth<'a> {
 impl<'a> KeptGrowth<'a> {
     fn into_keep(
         self,
-        order: &Order,
+        order: &RenderOrder,
         threads: usize,
         elapsed: &'a (dyn Fn() -> Duration + Sync),
     ) -> Result<CheckpointSink<'a>, RenderError> {

@@ -1,7 +1,7 @@
 //! The builder of the path plan: it starts with everything the scene requires, and each rule
 //! removes what provably contributes zero.
 
-use super::facts::{MaterialUses, Presence};
+use super::facts::{MaterialUses, UvPresence};
 use super::rules::PathRule;
 use super::texture::TextureValues;
 use crate::effect::Effect;
@@ -237,7 +237,7 @@ impl PlanBuilder<'_> {
 
     /// Whether all surfaces of a material have the texture coordinates of a map.
     fn is_everywhere(&self, material: usize, map: &Map) -> bool {
-        self.uses[material].presence(map) == Presence::Everywhere
+        self.uses[material].presence(map) == UvPresence::Everywhere
     }
 
     /// Whether a map is 0 in some channels on all surfaces of a material; false without a map.

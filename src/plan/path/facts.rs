@@ -13,7 +13,7 @@ pub(super) struct MaterialUses {
     /// The indices of the surfaces in the scene.
     pub(super) surfaces: Vec<usize>,
     /// For each set of texture coordinates, which surfaces have it.
-    sets: [Presence; 2],
+    sets: [UvPresence; 2],
     /// For each set, the bounding rectangle of all coordinates.
     areas: [UvRect; 2],
     /// Whether any surface has vertex colours. Rounding in the interpolation may leave an alpha
@@ -23,13 +23,13 @@ pub(super) struct MaterialUses {
 
 /// Whether all, some or none of a material's surfaces have a property.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Presence {
+pub(super) enum UvPresence {
     Never,
     Somewhere,
     Everywhere,
 }
 
-impl Presence {
+impl UvPresence {
     fn and(self, exists: bool, is_first: bool) -> Self {
         match (self, exists) {
             (_, true) if is_first => Self::Everywhere,
@@ -45,7 +45,7 @@ impl MaterialUses {
     pub(super) fn of(scene: &ValidScene) -> Vec<Self> {
         let unused = Self {
             surfaces: Vec::new(),
-            sets: [Presence::Never; 2],
+            sets: [UvPresence::Never; 2],
             areas: [UvRect::NONE; 2],
             has_colors: false,
         };
@@ -77,7 +77,7 @@ impl MaterialUses {
     }
 
     /// The surfaces on which a map has its texture coordinates.
-    pub(super) fn presence(&self, map: &Map) -> Presence {
+    pub(super) fn presence(&self, map: &Map) -> UvPresence {
         self.sets[map.set.index()]
     }
 
@@ -92,9 +92,9 @@ impl MaterialUses {
         let value = || textures.value(map, self.areas[map.set.index()], channel);
         // Without texture coordinates, a map has the value 1.
         match self.presence(map) {
-            Presence::Never => Some(1.0),
-            Presence::Everywhere => value(),
-            Presence::Somewhere => value().filter(|value| *value == 1.0),
+            UvPresence::Never => Some(1.0),
+            UvPresence::Everywhere => value(),
+            UvPresence::Somewhere => value().filter(|value| *value == 1.0),
         }
     }
 

@@ -1,7 +1,7 @@
 //! The status of each effect of path tracing, derived from the final [`PlanBuilder`].
 
 use super::builder::{AppliedRule, PlanBuilder, material_requires};
-use crate::effect::{Effect, EffectStatus, State};
+use crate::effect::{Effect, EffectState, EffectStatus};
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_valid::Standard;
 
@@ -34,18 +34,23 @@ fn status(
     };
     let (state, rule, reason, mut facts) = if reduced.requires(effect) {
         let (reason, places) = reduced.need(effect);
-        (State::Needed, None, reason, places)
+        (EffectState::Needed, None, reason, places)
     } else if let Some(AppliedRule { rule, places, .. }) =
         removed_effects().filter(|_| requested.requires(effect))
     {
         (
-            State::Pruned,
+            EffectState::Pruned,
             Some(rule.rule),
             rule.reason.to_owned(),
             places.clone(),
         )
     } else {
-        (State::Absent, None, absence(effect).to_owned(), Vec::new())
+        (
+            EffectState::Absent,
+            None,
+            absence(effect).to_owned(),
+            Vec::new(),
+        )
     };
     // Name only the first facts.
     facts.truncate(MAX_FACTS);

@@ -16,7 +16,7 @@ mod light;
 mod mirror;
 mod picture;
 
-use super::effect::{Effect, EffectStatus, State};
+use super::effect::{Effect, EffectState, EffectStatus};
 use super::pixel_classes::PixelClasses;
 use super::rules::Rule;
 use super::{Findings, MaterialSummary};
@@ -54,7 +54,7 @@ impl EffectStatus {
         Self {
             effect,
             of: None,
-            state: State::Needed,
+            state: EffectState::Needed,
             rule: None,
             reason: reason.into(),
             facts,
@@ -65,7 +65,7 @@ impl EffectStatus {
         Self {
             effect,
             of: None,
-            state: State::Absent,
+            state: EffectState::Absent,
             rule: None,
             reason: reason.into(),
             facts,
@@ -81,7 +81,7 @@ impl EffectStatus {
         Self {
             effect,
             of: None,
-            state: State::Pruned,
+            state: EffectState::Pruned,
             rule: Some(rule),
             reason: reason.into(),
             facts,

@@ -1,7 +1,7 @@
 //! A log–log plot of error against time for a terminal, in braille characters of 2 × 4 dots.
 
 use super::super::advice::{digits, seconds};
-use super::super::outcome::{Row, Study};
+use super::super::outcome::{Study, StudyRow};
 use super::chart::front_steps;
 use rtc_math::ln;
 
@@ -18,7 +18,7 @@ const BITS: [[u8; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x8
 /// Plots all rows with an error as dots and the front as steps; empty if there are too few.
 pub(super) fn plot(study: &Study) -> String {
     let rows = study.rows.iter().filter(|row| row.errors.rmse > 0.0);
-    let rows: Vec<&Row> = rows.collect();
+    let rows: Vec<&StudyRow> = rows.collect();
     let points = rows.iter().map(|row| (row.seconds.value, row.errors.rmse));
     let points: Vec<_> = points.collect();
     let end = points.iter().fold(0.0_f64, |end, (x, _)| end.max(*x));

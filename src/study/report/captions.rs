@@ -2,7 +2,7 @@
 //! time.
 
 use super::super::advice::{digits, interval, seconds};
-use super::super::outcome::{Row, Study};
+use super::super::outcome::{Study, StudyRow};
 use super::super::parameter::Parameter;
 
 /// The meaning of the columns, with their names in the terminal and in the HTML report. Parameters
@@ -69,10 +69,10 @@ pub(super) const MEANINGS: [(&str, &str, &str); 13] = [
 
 /// For times of 1, 2, 5, 10 …, the row of the front with the least error within this time; only the
 /// times at which the row changes.
-pub(super) fn best_by_time(study: &Study) -> Vec<(f64, &Row)> {
+pub(super) fn best_by_time(study: &Study) -> Vec<(f64, &StudyRow)> {
     let front: Vec<_> = study.rows.iter().filter(|row| row.front).collect();
     let times = (-4..6).flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * power_of_ten(decade)));
-    let mut best_within: Vec<(f64, &Row)> = Vec::new();
+    let mut best_within: Vec<(f64, &StudyRow)> = Vec::new();
     for time in times {
         let Some(row) = front.iter().rfind(|row| row.seconds.value <= time) else {
             continue;
@@ -89,7 +89,7 @@ pub(super) fn best_by_time(study: &Study) -> Vec<(f64, &Row)> {
 
 /// For example "0.17 s ± 3.1 %, error 1.07 grey levels, 1.09 ± 0.02 over 12 renders (2×2, depth
 /// 2)".
-pub(super) fn measured(row: &Row, used: &[Parameter]) -> String {
+pub(super) fn measured(row: &StudyRow, used: &[Parameter]) -> String {
     let limit = if row.is_resolved { "" } else { "≤ " };
     let (time, off) = (seconds(row.seconds.value), 100.0 * row.seconds.relative());
     let (error, interval) = (digits(row.errors.rmse), interval(&row.errors));
@@ -112,7 +112,7 @@ fn power_of_ten(decade: i32) -> f64 {
 }
 
 /// For example "in 1.00 s: error 0.4 grey levels (4×4, depth 2)".
-pub(super) fn best_within(study: &Study, (time, row): &(f64, &Row)) -> String {
+pub(super) fn best_within(study: &Study, (time, row): &(f64, &StudyRow)) -> String {
     let limit = if row.is_resolved { "" } else { "≤ " };
     let (time, error) = (seconds(*time), digits(row.errors.rmse));
     let (interval, setting) = (interval(&row.errors), row.setting.label(&study.used()));

@@ -2,9 +2,9 @@
 //! style inverts black in dark mode.
 
 use super::super::advice::{digits, seconds};
-use super::super::outcome::{ParameterReport, Row, Study};
+use super::super::outcome::{ParameterReport, Study, StudyRow};
 use super::super::parameter::Parameter;
-use super::super::reference::Level;
+use super::super::reference::ParameterLevel;
 use super::captions;
 use super::html::escaped;
 use plotters::coord::Shift;
@@ -70,7 +70,7 @@ pub(super) fn front(study: &Study) -> String {
             }
         }
         // Add tooltips.
-        let mark_of = |row: &&Row| ChartMark {
+        let mark_of = |row: &&StudyRow| ChartMark {
             at: chart.backend_coord(&(row.seconds.value, row.errors.rmse)),
             label: captions::measured(row, &used),
         };
@@ -79,7 +79,7 @@ pub(super) fn front(study: &Study) -> String {
 }
 
 /// The vertices of the front's step line: the least error for each time.
-pub(super) fn front_steps(rows: &[&Row], end: f64) -> Vec<(f64, f64)> {
+pub(super) fn front_steps(rows: &[&StudyRow], end: f64) -> Vec<(f64, f64)> {
     let mut steps: Vec<(f64, f64)> = Vec::new();
     for row in rows.iter().filter(|row| row.front) {
         // Rows with similar times are ordered by rays: keep x monotonic.
@@ -94,7 +94,7 @@ pub(super) fn front_steps(rows: &[&Row], end: f64) -> Vec<(f64, f64)> {
     steps
 }
 
-fn draw_row(chart: &mut Chart<'_, '_>, row: &Row) -> Outcome {
+fn draw_row(chart: &mut Chart<'_, '_>, row: &StudyRow) -> Outcome {
     let (x, y) = (row.seconds.value, row.errors.rmse);
     let color = if row.front { ACCENT } else { MUTED };
     let errors = &row.errors;
@@ -116,7 +116,7 @@ fn draw_row(chart: &mut Chart<'_, '_>, row: &Row) -> Outcome {
 /// overlap, no label. `labels` has the positions of all labels.
 fn draw_label(
     chart: &mut Chart<'_, '_>,
-    row: &Row,
+    row: &StudyRow,
     used: &[Parameter],
     labels: &mut Vec<(i32, i32)>,
 ) -> Outcome {
@@ -186,7 +186,7 @@ pub(super) fn parameter(report: &ParameterReport) -> String {
             chart.draw_series([PathElement::new(line, ACCENT.mix(0.6).stroke_width(1))])?;
         }
         // Draw the levels.
-        let mark = |(x, level): &(f64, &Level)| {
+        let mark = |(x, level): &(f64, &ParameterLevel)| {
             let style = if level.resolved {
                 ACCENT.filled()
             } else {
@@ -196,7 +196,7 @@ pub(super) fn parameter(report: &ParameterReport) -> String {
         };
         chart.draw_series(points.iter().map(mark))?;
         // Add tooltips.
-        let mark_of = |(x, level): &(f64, &Level)| ChartMark {
+        let mark_of = |(x, level): &(f64, &ParameterLevel)| ChartMark {
             at: chart.backend_coord(&(*x, level.error)),
             label: format!(
                 "{name} {}: error {} grey levels",

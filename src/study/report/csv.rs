@@ -1,7 +1,7 @@
 //! The rows of a study as CSV (RFC 4180): a header line, then one line per row; errors in grey
 //! levels, times in seconds.
 
-use super::super::outcome::{Row, Study};
+use super::super::outcome::{Study, StudyRow};
 use super::super::parameter::Parameter;
 
 const NAMES: &str = "supersampling,aperture,lights,glossy,paths,denoise,depth,precision,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
@@ -18,8 +18,8 @@ pub fn csv(study: &Study) -> String {
         .collect()
 }
 
-fn line(row: &Row) -> String {
-    let Row {
+fn line(row: &StudyRow) -> String {
+    let StudyRow {
         setting,
         is_scene_setting,
         front,

@@ -2,7 +2,7 @@
 //! light and dark mode.
 
 use super::super::advice::{digits, interval, seconds};
-use super::super::outcome::{BounceCost, Row, Study};
+use super::super::outcome::{BounceCost, Study, StudyRow};
 use super::super::parameter::Parameter;
 use super::captions::{MEANINGS, best_by_time, best_within};
 use super::{chart, maps, picture, table};
@@ -132,7 +132,7 @@ fn times(study: &Study) -> String {
     )
 }
 
-fn cells(row: &Row, used: &[Parameter], fraction: f64) -> Vec<String> {
+fn cells(row: &StudyRow, used: &[Parameter], fraction: f64) -> Vec<String> {
     let star = if row.front { "★" } else { "" };
     let own = if row.is_scene_setting { " own" } else { "" };
     let limit = if row.is_resolved { "" } else { "≤ " };

@@ -1,7 +1,7 @@
 //! The report for a terminal of 80 columns.
 
 use super::super::advice::{digits, seconds};
-use super::super::outcome::{BounceCost, MoreBounces, ParameterReport, Row, Study};
+use super::super::outcome::{BounceCost, MoreBounces, ParameterReport, Study, StudyRow};
 use super::super::parameter::Parameter;
 use super::super::reference::DepthEnd;
 use super::braille;
@@ -191,7 +191,7 @@ fn width(parameter: Parameter) -> usize {
     }
 }
 
-fn line(row: &Row, used: &[Parameter], (columns, fraction): (&[usize], f64)) -> String {
+fn line(row: &StudyRow, used: &[Parameter], (columns, fraction): (&[usize], f64)) -> String {
     let mut line = String::from(if row.front { "*" } else { " " });
     used.iter().for_each(|parameter| {
         write_cell(
@@ -232,7 +232,7 @@ fn line(row: &Row, used: &[Parameter], (columns, fraction): (&[usize], f64)) -> 
 }
 
 /// The relative confidence interval of the error of the whole picture, in percent: "-25+70".
-fn off(row: &Row) -> String {
+fn off(row: &StudyRow) -> String {
     let errors = &row.errors;
     let off = |end: f64| match errors.rmse {
         0.0 => 0.0,

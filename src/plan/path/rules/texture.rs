@@ -3,7 +3,7 @@
 use super::PathRule;
 use crate::Layer;
 use crate::path::builder::PlanBuilder;
-use crate::path::facts::Presence;
+use crate::path::facts::UvPresence;
 use crate::rules::Rule;
 use rtc_ir::{EntityKind, Field, ValuePath};
 use rtc_math::{UnitInterval, Vec3};
@@ -52,7 +52,7 @@ fn without_unused_maps(builder: &PlanBuilder<'_>, index: usize, m: &Standard) ->
         ),
     ];
     let keep = |map: &mut Option<Map>, shows: bool| {
-        let has_places = |map: &Map| builder.uses[index].presence(map) != Presence::Never;
+        let has_places = |map: &Map| builder.uses[index].presence(map) != UvPresence::Never;
         *map = map.filter(|map| shows && has_places(map));
     };
     for (map, shows) in conditions {
