@@ -9,6 +9,7 @@
 mod cases;
 mod hashed;
 mod obj_oracle;
+mod ray_counts;
 mod repo;
 mod scale;
 mod scene_laws;
@@ -17,7 +18,6 @@ mod small;
 mod suite;
 mod texts;
 mod to_gltf;
-mod told;
 
 use std::process::ExitCode;
 

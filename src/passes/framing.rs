@@ -490,7 +490,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_extent_keeps_its_camera() {
+    fn a_scene_without_extent_keeps_its_camera() {
         let mut point = scene(&[]);
         point.surfaces.push(Surface {
             shape: Shape::Triangle(Triangle {

@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said_and_changes_nothing() {
+    fn an_invalid_value_is_reported_and_changes_nothing() {
         let mut settings = paths();
         let unknown = set(&mut settings, "sample", "3").unwrap_err();
         assert!(

@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn the_studio_shows_white_as_it_promises() {
+    fn white_has_the_promised_radiance_in_the_studio() {
         let (front, below) = (reflected_radiance(Vec3::Z), reflected_radiance(Vec3::NEG_Y));
         assert!(
             (front - 0.75).abs() < 0.02 && (below - 0.12).abs() < 0.02,

@@ -365,17 +365,17 @@ mod tests {
     }
 
     #[test]
-    fn the_ball_in_a_cube_touches_its_sides() {
+    fn the_inscribed_sphere_of_a_cube_touches_its_sides() {
         let Some((center, radius)) =
             SphereBound::around(&span([1.0, -2.0, 4.0], [3.0, 0.0, 6.0])).0
         else {
-            panic!("a ball")
+            panic!("a sphere")
         };
         assert_eq!((center, radius), (Vec3::new(2.0, -1.0, 5.0), 1.0));
     }
 
     #[test]
-    fn what_touches_the_way_between_equal_balls_is_off_it_by_room() {
+    fn a_sphere_beside_the_segments_between_equal_spheres_is_missed_by_a_margin() {
         let (start, end) = (ball(0.0, 0.0, 1.0), ball(10.0, 0.0, 1.0));
         let is_clear = |gap: f64| !start.segment_may_hit(&end, &ball(5.0, 3.0 + gap, 2.0));
         // The sum of coordinates and radii is 22: eight times that, and its square over twice the
@@ -384,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_between_unequal_balls_is_a_cone() {
+    fn segments_between_unequal_spheres_form_a_cone() {
         let (small, large) = (ball(0.0, 0.0, 0.5), ball(10.0, 0.0, 2.0));
         // The sine of the cone is 0.15, its cosine √0.9775; its radius half-way is 1.25.
         let touching = (1.0 + 1.25) / 0.9775_f64.sqrt();
@@ -398,7 +398,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_to_a_ball_around_the_start_is_that_ball() {
+    fn segments_to_a_sphere_around_the_start_fill_that_sphere() {
         let is_clear =
             |x: f64| !ball(0.0, 0.0, 1.0).segment_may_hit(&ball(1.0, 0.0, 5.0), &ball(x, 0.0, 1.0));
         assert!(!is_clear(7.0) && is_clear(7.0 + 1e-6));

@@ -158,14 +158,14 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn boxes_that_touch_are_not_apart() {
+    fn boxes_that_touch_are_not_disjoint() {
         assert!(unit(0.0, 0.0, 0.0).is_disjoint_from(&unit(1.1, 0.0, 0.0)));
         assert!(!unit(0.0, 0.0, 0.0).is_disjoint_from(&unit(1.0, 0.0, 0.0)));
         assert!(!unit(0.0, 0.0, 0.0).is_disjoint_from(&unit(0.0, 1.0 + 1e-12, 0.0)));
     }
 
     #[test]
-    fn what_stands_on_the_way_is_seen_and_what_stands_beside_is_not() {
+    fn a_box_between_start_and_end_may_be_hit_and_one_beside_may_not() {
         let (from, light) = (
             unit(0.0, 0.0, 0.0),
             Bounds::about(Vec3::new(10.0, 0.0, 0.0), Vec3::ZERO),
@@ -235,7 +235,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn boxes_are_apart_by_room_of_both() {
+    fn boxes_are_disjoint_by_a_margin_of_both() {
         let small = span([2.0, -1.0, -1.0], [3.0, 1.0, 1.0]);
         let boxes = |gap| [small, small, span([3.0 + gap, -2.0, -2.0], [8.0, 2.0, 2.0])];
         have_margin(11.0 * MARGIN, boxes, |[small, _, large]| {
@@ -246,7 +246,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn what_stands_beside_either_end_is_apart_by_room_of_both_boxes() {
+    fn a_box_beside_either_end_is_missed_by_a_margin_of_both() {
         let (near, far) = (
             span([-3.0, -1.0, -3.0], [3.0, 1.0, 3.0]),
             span([0.0, -10.0, 0.0], [0.0, -10.0, 0.0]),
@@ -268,7 +268,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn what_stands_beside_the_middle_of_the_way_is_apart_by_room_of_the_way_as_well() {
+    fn a_box_beside_the_middle_of_a_segment_is_missed_by_a_larger_margin() {
         let point = |at: f64| span([at, at, 0.0], [at, at, 0.0]);
         let boxes = |gap| {
             [
@@ -285,7 +285,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_box_is_off_a_plane_by_room_of_both() {
+    fn a_box_is_off_a_plane_by_a_margin_of_both() {
         let plane = OrientedPlane {
             point: Vec3::new(0.0, 5.0, -3.0),
             normal: Vec3::Z,

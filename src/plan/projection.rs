@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_behind_or_beside_shows_nowhere_and_what_reaches_the_lens_anywhere() {
+    fn a_box_behind_or_beside_is_outside_and_one_at_the_lens_is_unknown() {
         let projection = projection(0.0);
         assert_eq!(
             screen_rect(&projection, Vec3::Z * 110.0, 1.0),
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn where_rounding_blurs_a_pixel_nothing_is_said() {
+    fn where_rounding_exceeds_a_pixel_the_bounds_are_unknown() {
         let reach = Vec3::splat(1e16);
         let mut projection = projection(0.0);
         projection.camera.eye += reach;
@@ -336,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn a_camera_is_measured() {
+    fn the_camera_gives_the_projection() {
         let projection = pinhole([3.0, 0.0, 4.0], [3.0, 0.0, -4.0], [0.5, 0.25]);
         assert_eq!(
             (projection.depth, projection.depth_scale, projection.reach),
@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_is_blurred_where_rounding_is_a_part_of_a_pixel_or_of_the_way_to_it() {
+    fn a_projection_is_ill_conditioned_where_rounding_is_large_against_a_pixel_or_the_distance() {
         let reach = 1.0 / (1024.0 * U);
         let steps = |steps| pinhole([reach, 0.0, 1_073_741_824.0], [reach, 0.0, 0.0], steps);
         has_margin(0.25, |up| !steps([4.0, up]).is_ill_conditioned);
@@ -378,7 +378,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_shows_where_the_line_to_it_meets_the_picture() {
+    fn a_point_is_projected_along_the_line_through_the_eye() {
         let projection = pinhole([1.0, 2.0, 100.0], [1.0, 2.0, 0.0], [0.5, 0.25]);
         assert_eq!(
             projection.project_through_center(Vec3::new(6.0, 4.5, 0.0)),
@@ -402,7 +402,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_beside_the_eye_is_in_doubt_by_room_of_both_and_the_rounding_of_its_depth() {
+    fn a_box_beside_the_eye_is_unknown_within_the_margin_and_the_rounding_of_its_depth() {
         let beside = |step: f64| pinhole([100.0, 0.0, 0.0], [100.0, 0.0, -128.0], [step; 2]);
         let point = |z: f64| beside(100.0).project_through_center(Vec3::new(100.0, 0.0, -z));
         has_margin(16.0 * 64.0 * 200.0 * U, |z| point(z).is_some());
@@ -428,7 +428,7 @@ mod tests {
     }
 
     #[test]
-    fn the_place_of_a_point_has_its_rounding_and_that_of_the_steps() {
+    fn the_error_of_a_projected_point_has_its_rounding_and_the_skew_of_the_axes() {
         let projection = pinhole([0.0, 0.0, 100.0], [0.0; 3], [0.5, 0.25]);
         let from = Vec3::new(1.0, 2.0, 0.0);
         let project_point = |away: [f64; 3], error_bound: f64| {
@@ -452,7 +452,7 @@ mod tests {
     }
 
     #[test]
-    fn what_shows_nowhere_for_sure_is_not_too_far_aside_nor_without_bounds() {
+    fn a_box_too_far_aside_or_unbounded_is_unknown() {
         let projection = projection(0.0);
         assert_eq!(
             screen_rect(&projection, Vec3::X * 4e7, 1.0),
@@ -469,7 +469,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stretch_of_the_picture_is_taken_with_a_pixel_and_the_doubt_on_each_side() {
+    fn an_interval_is_expanded_by_a_pixel_and_the_error() {
         let projection = projection(0.0);
         assert_eq!(
             projection.rectangle([3.2, -5.0], [6.8, 200.0]),

@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ring_reaches_across_its_axis_and_has_room() {
+    fn a_circle_extends_across_its_axis_with_a_margin() {
         let found = circle_bounds(
             Vec3::new(1.0, 2.0, -1.0),
             Vec3::new(0.0, 3.0, 4.0),
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn a_placed_mesh_has_room_of_its_terms_over_its_flatness() {
+    fn the_margin_of_an_instance_grows_as_its_transform_becomes_singular() {
         let [x, y, z] = [[2.0, 0.0, 0.0], [0.0, 3.0, 4.0], [0.0, 0.0, 5.0]].map(Vec3::from_array);
         let world_from_object = [x, y, z, Vec3::new(7.0, -20.0, 1.0)];
         let mesh = span([-1.0, -2.0, -3.0], [4.0, 5.0, 6.0]);
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_is_clear_of_a_box_by_room_of_both_and_other_solids_by_their_boxes() {
+    fn a_sphere_is_disjoint_from_a_box_by_a_margin_and_other_solids_by_their_boxes() {
         let center = Vec3::X * 3.0;
         let ball = SurfaceBounds::within(
             Bounds::about(center, Vec3::ONE),
@@ -229,7 +229,7 @@ mod tests {
         let corner = span([3.8, 0.8, 0.8], [9.0, 1.0, 1.0]);
         assert!(
             ball.is_disjoint_from(&corner) && !solid.is_disjoint_from(&corner),
-            "a ball has no corners"
+            "a sphere has no corners"
         );
     }
 

@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn tiles_see_what_the_whole_picture_sees() {
+    fn tiles_give_the_same_flip_as_the_whole_picture() {
         let picture = |seed: u32| {
             let mut state = seed;
             let mut next = || {

@@ -64,7 +64,7 @@ impl Journal {
 
     /// The number of renders.
     #[must_use]
-    #[expect(clippy::len_without_is_empty, reason = "nobody asks")]
+    #[expect(clippy::len_without_is_empty, reason = "no caller needs it")]
     pub fn len(&self) -> usize {
         self.entries.len()
     }

@@ -15,7 +15,7 @@
 //! 5. [`pareto`], [`rows`]: choose candidates with the model, render and time them
 //!    ([`benchmark`]), measure their [`Errors`], and find the Pareto front.
 //! 6. [`effects`], [`ablation`]: remove effects, lights, objects and materials one at a time.
-//! 7. [`mod@advice`], [`maps`], [`report`]: derive advice and maps, and write reports.
+//! 7. [`mod@advice`], [`mod@maps`], [`report`]: derive advice and maps, and write reports.
 //!
 //! Decisions depend on ray counts, never on time: the same study renders the same settings on every
 //! machine, and an interrupted study resumes from its [`Journal`]. All errors are in grey levels of

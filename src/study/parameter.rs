@@ -325,7 +325,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ladders_rise_from_the_least() {
+    fn levels_ascend_from_the_lowest() {
         for parameter in Parameter::ALL {
             let values: Vec<_> = parameter.levels().collect();
             assert!(

@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn probes_of_one_pixel_tell_no_more_than_one() {
+    fn probes_of_the_same_pixel_count_as_one() {
         let (one, two) = ([1.0, 4.0].map(once), [1.0, 1.0, 4.0, 4.0].map(once));
         let twice = [1.0, 4.0].map(|square| ProbeResult { square, hits: 2.0 });
         assert_eq!(mean_and_bound(&one), mean_and_bound(&twice));
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn what_noise_takes_below_zero_has_a_bound_above() {
+    fn a_negative_estimate_has_a_positive_bound() {
         let (mean, most) = mean_and_bound(&[-1.0, 0.5, -0.5, 0.0].map(once));
         assert!(
             mean < 0.0 && most > 0.0 && most.is_finite(),
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_say_how_often_a_pixel_is_chosen() {
+    fn probabilities_are_the_frequencies_of_probes() {
         let probabilities: Vec<_> = (0..4096)
             .map(|index| if index % 64 == 0 { 32.5 } else { 0.5 } / 4096.0)
             .collect();

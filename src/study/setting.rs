@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_denoised_is_said() {
+    fn a_denoised_setting_is_labelled() {
         let setting = setting(1, 1, 3)
             .with(Parameter::Paths, 16)
             .with(Parameter::Denoise, 1);
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_set_is_held() {
+    fn a_set_value_is_returned() {
         for parameter in Parameter::ALL {
             assert_eq!(
                 setting(9, 9, 9).with(parameter, 1).get(parameter),

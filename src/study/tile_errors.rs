@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn all_tiles_are_the_picture_and_few_say_little() {
+    fn all_tiles_give_the_exact_error_and_few_a_wide_interval() {
         let squares = [0.01, 0.04, 0.01, 0.02];
         assert_eq!(errors(&squares, 1.0).interval(), [0.02, 0.02]);
         assert_eq!(errors(&[0.5], 0.5).interval(), [0.0, 1.0]);
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_tiles_tell_settings_apart_that_their_errors_do_not() {
+    fn common_tiles_distinguish_settings_with_overlapping_intervals() {
         let coarse = [0.0, 0.9, 0.0, 0.1, 0.02, 0.4];
         let half = errors(&coarse.map(|square| 0.25 * square), 0.1);
         let coarse = errors(&coarse, 0.1);

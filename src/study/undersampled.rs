@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn as_few_samples_as_leave_a_quarter_of_the_square() {
+    fn the_minimum_leaves_a_quarter_of_the_squared_target() {
         let undersampled = Undersampled {
             brightest: 1.0,
             pixels: 1600,
@@ -129,7 +129,7 @@ mod tests {
 
     /// No other distribution of three hits over pixels gives a larger error.
     #[test]
-    fn nothing_unmet_is_worse() {
+    fn no_undersampled_feature_exceeds_the_bound() {
         for (brightest, count) in [(1.0, 1), (1.0, 4), (8.0, 4), (3.0, 16)] {
             let undersampled = Undersampled {
                 brightest,

@@ -72,9 +72,12 @@ fn the_error_told_is_the_distance_to_a_finer_render() {
     let own = Setting::of(&scene);
     let fine = own.with(Parameter::Supersampling, 32);
     let (coarse, fine) = (picture(&scene, own), picture(&scene, fine));
-    let told = WHOLE.scene_row().unwrap().errors.rmse;
+    let reported = WHOLE.scene_row().unwrap().errors.rmse;
     let error = study::rmse(&[coarse], &[fine]);
-    assert!((told / error - 1.0).abs() < 0.02, "{told} for {error}");
+    assert!(
+        (reported / error - 1.0).abs() < 0.02,
+        "{reported} for {error}"
+    );
 }
 
 pub(super) fn picture(scene: &Scene, setting: Setting) -> Image {
@@ -158,8 +161,11 @@ fn the_scenes_own_depth_is_no_error() {
     let own = Setting::of(&flat);
     let fine = own.with(Parameter::Supersampling, 16);
     let error = study::rmse(&[picture(&flat, own)], &[picture(&flat, fine)]);
-    let told = study.scene_row().unwrap().errors.rmse;
-    assert!((told / error - 1.0).abs() < 0.05, "{told} for {error}");
+    let reported = study.scene_row().unwrap().errors.rmse;
+    assert!(
+        (reported / error - 1.0).abs() < 0.05,
+        "{reported} for {error}"
+    );
     assert!(
         study.rows.iter().all(|row| row.setting.depth == 0),
         "{table}"

@@ -286,14 +286,14 @@ fn what_is_recommended_is_never_told_to_be_off_the_front() {
         .find(|row| row.is_scene_setting)
         .unwrap()
         .clone();
-    let mut twin = own.clone();
-    (twin.is_scene_setting, twin.front) = (false, true);
-    twin.setting.precision = Arithmetic::Plain;
-    study.rows.push(twin);
+    let mut other_row = own.clone();
+    (other_row.is_scene_setting, other_row.front) = (false, true);
+    other_row.setting.precision = Arithmetic::Plain;
+    study.rows.push(other_row);
     assert_eq!(study::recommended(&study).unwrap().setting, own.setting);
-    let told = study::advice(&study).join("\n");
+    let reported = study::advice(&study).join("\n");
     assert!(
-        told.contains("is on the front") && !told.contains("off the front"),
-        "{told}"
+        reported.contains("is on the front") && !reported.contains("off the front"),
+        "{reported}"
     );
 }

@@ -2,7 +2,7 @@
 
 use super::dice::Dice;
 use super::{film, validated};
-use crate::told::lies;
+use crate::ray_counts::contradictions;
 use rtc::internals::plan::{Effect, EffectState, Plan, Rules};
 use rtc::internals::render::Values;
 
@@ -11,11 +11,15 @@ fn what_is_told_absent_is_never_simulated() {
     for seed in 0..400 {
         let scene = validated(&Dice::new(seed).scene());
         let counts = film(&scene, Rules::ALL, Values::Linear).counts;
-        let mut lies = lies(&scene, &counts);
+        let mut contradictions = contradictions(&scene, &counts);
         // Equal vertex normals are still looked up and counted.
         let is_told = |effect: Effect| effect != Effect::NormalInterpolation;
-        lies.retain(|(effect, state, _)| *state != EffectState::Needed && is_told(*effect));
-        assert!(lies.is_empty(), "scene {seed}: {lies:?}");
+        contradictions
+            .retain(|(effect, state, _)| *state != EffectState::Needed && is_told(*effect));
+        assert!(
+            contradictions.is_empty(),
+            "scene {seed}: {contradictions:?}"
+        );
     }
 }
 

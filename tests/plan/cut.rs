@@ -1,7 +1,7 @@
 //! Bounces are cut off once the remaining contribution is below half a level of 8 bits, and not
 //! earlier.
 
-use super::scenes::{ball, first_light, material, matt, texture, with};
+use super::scenes::{ball, diffuse, first_light, material, texture, with};
 use super::validated;
 use rtc::internals::ir::{Phong, Scene, Texture, TextureId};
 use rtc::internals::plan::{Plan, Rule, Rules};
@@ -15,7 +15,7 @@ fn mirrors() -> Scene {
         kd: 0.7,
         ks: 0.3,
         kt: 0.1,
-        ..matt()
+        ..diffuse()
     };
     let mut scene = with(&[
         (ball([-1.2, 0.0, 0.0], 1.0), phong.clone()),
@@ -54,7 +54,7 @@ fn bounces_are_cut_off_where_the_rest_is_half_a_level() {
         kd: 0.5,
         ks: 0.25,
         kt: 0.25,
-        ..matt()
+        ..diffuse()
     };
     (0..2).for_each(|index| *material(&mut exact, index) = phong.clone());
     first_light(&mut exact).color = [0.5 / 255.0; 3];

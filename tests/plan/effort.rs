@@ -1,6 +1,6 @@
 //! If a test would take too long, the work stays in the plan, and the reason says so.
 
-use super::scenes::{ball, matt, shiny, with};
+use super::scenes::{ball, diffuse, shiny, with};
 use super::status;
 use rtc::internals::ir::Scene;
 use rtc::internals::plan::{Effect, PixelClass, Plan, Rules};
@@ -17,7 +17,7 @@ fn many(count: u32, mirrors: u32) -> Scene {
     let balls = (0..count).map(|k| {
         (
             ball(place(k), 0.3),
-            if k < mirrors { shiny() } else { matt() },
+            if k < mirrors { shiny() } else { diffuse() },
         )
     });
     let mut scene = with(&balls.collect::<Vec<_>>());
@@ -59,7 +59,7 @@ fn too_many_mirrors_are_followed_without_asking() {
 /// The cells of a large picture are several pixels wide.
 #[test]
 fn a_large_picture_is_looked_at_in_coarse_cells() {
-    let mut scene = with(&[(ball([0.0; 3], 1.0), matt())]);
+    let mut scene = with(&[(ball([0.0; 3], 1.0), diffuse())]);
     (scene.camera.size, scene.camera.right, scene.camera.up) =
         ([2400, 2000], [2.5e-3, 0.0, 0.0], [0.0, 2.5e-3, 0.0]);
     let pixel_classes = Plan::new(&super::validated(&scene), Rules::ALL).pixel_classes;

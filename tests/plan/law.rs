@@ -2,7 +2,7 @@
 //! values, and no rule adds a ray.
 
 use super::dice::Dice;
-use super::scenes::{ball, disc, first_light, matt, shiny, with};
+use super::scenes::{ball, diffuse, disc, first_light, shiny, with};
 use super::{bits, file_name, files, film, scene, small, validated};
 use proptest::prelude::*;
 use rtc::internals::ir::Scene;
@@ -161,7 +161,7 @@ fn the_rules_of_single_rays_leave_out_rays_of_their_kind() {
         camera > 0 && shadow == 0 && mirror == 0,
         "where nothing shows there is nothing to shade"
     );
-    let mut dark = with(&[(disc([0.0; 3], 9.0), matt())]);
+    let mut dark = with(&[(disc([0.0; 3], 9.0), diffuse())]);
     (dark.settings.supersampling, first_light(&mut dark).position) = (3, [0.0, 0.0, -5.0]);
     assert_eq!(
         saved(&dark, Rule::PixelFlat)[0],
@@ -181,8 +181,8 @@ fn the_rules_of_single_rays_leave_out_rays_of_their_kind() {
 fn a_world_that_shows_another_view_keeps_the_law() {
     // The first view removes the disc, which is behind the eye.
     let mut scene = with(&[
-        (ball([0.0; 3], 1.0), matt()),
-        (disc([0.0, 0.0, 30.0], 2.0), matt()),
+        (ball([0.0; 3], 1.0), diffuse()),
+        (disc([0.0, 0.0, 30.0], 2.0), diffuse()),
     ]);
     let first = validated(&scene);
     scene.camera.eye = [0.0, 0.0, 60.0];

@@ -2,7 +2,7 @@
 
 use super::fate;
 use super::scenes::{
-    ball, base_scene, disc, first_light, material, matt, plane, shiny, texture, with,
+    ball, base_scene, diffuse, disc, first_light, material, plane, shiny, texture, with,
 };
 use rtc::internals::diag::Sink;
 use rtc::internals::ir::{Bump, Lowered, Mode, Scene, SourceSpans};
@@ -105,8 +105,8 @@ fn mirrors() {
 #[test]
 fn shadows() {
     let beside = with(&[
-        (ball([0.0; 3], 1.0), matt()),
-        (ball([0.0, -5.0, 0.0], 1.0), matt()),
+        (ball([0.0; 3], 1.0), diffuse()),
+        (ball([0.0, -5.0, 0.0], 1.0), diffuse()),
     ]);
     is_not_needed(
         Effect::Shadows,
@@ -115,8 +115,8 @@ fn shadows() {
                 "not asked for",
                 changed(&busy(), |scene| scene.settings.shadows = false),
             ),
-            ("one ball", with(&[(ball([0.0; 3], 1.0), matt())])),
-            ("one disc", with(&[(disc([0.0; 3], 1.0), matt())])),
+            ("one ball", with(&[(ball([0.0; 3], 1.0), diffuse())])),
+            ("one disc", with(&[(disc([0.0; 3], 1.0), diffuse())])),
             ("nothing between", beside),
             (
                 "a black light",
@@ -343,7 +343,7 @@ fn a_light_that_is_not_finite_is_reported_whatever_it_is_multiplied_by() {
 
 #[test]
 fn pixels_that_show_nothing_are_traced_where_no_rule_may_leave_them_out() {
-    let scene = super::validated(&with(&[(ball([0.0; 3], 1.0), matt())]));
+    let scene = super::validated(&with(&[(ball([0.0; 3], 1.0), diffuse())]));
     let pixel_classes = |rules| Plan::new(&scene, rules).pixel_classes;
     let (some, none) = (
         pixel_classes(Rules::ALL),
@@ -359,7 +359,7 @@ fn pixels_that_show_nothing_are_traced_where_no_rule_may_leave_them_out() {
 #[test]
 fn a_plane_is_never_said_to_spare_itself() {
     assert_eq!(
-        fate(&with(&[(plane(-1.0), matt())]), Effect::Shadows).0,
+        fate(&with(&[(plane(-1.0), diffuse())]), Effect::Shadows).0,
         EffectState::Needed
     );
 }
@@ -368,7 +368,7 @@ fn a_plane_is_never_said_to_spare_itself() {
 #[test]
 fn materials_that_show_no_highlight_are_named_and_the_others_are_not() {
     let scene = with(&[
-        (ball([-1.2, 0.0, 0.0], 1.0), matt()),
+        (ball([-1.2, 0.0, 0.0], 1.0), diffuse()),
         (ball([1.2, 0.0, 0.0], 1.0), shiny()),
     ]);
     let plan = Plan::new(&super::validated(&scene), Rules::ALL);

@@ -1,20 +1,20 @@
 //! The effects of each material parameter in a path-traced scene: a change adds the named effects
 //! and no others. The picture has exactly these, and the kernel exactly their features.
 
-use super::path_rules::{lamp, traced, white};
+use super::path_rules::{light_source, traced, white};
 use super::scenes::{ball, disc};
 use super::validated;
-use crate::told::{film, lies};
+use crate::ray_counts::{contradictions, film};
 use rtc::internals::ir::{Alpha, Scene, Standard};
 use rtc::internals::plan::{Effect, EffectState, Layer, PathFeatures, Plan, Rules};
 
 /// A sphere of a material before a white disc, under a light.
-pub(super) fn lit(material: &Standard) -> Scene {
+pub(super) fn illuminated(material: &Standard) -> Scene {
     let mut scene = traced(&[
         (ball([0.0; 3], 1.0), material.clone()),
         (disc([0.0, 0.0, -2.0], 3.0), white()),
     ]);
-    scene.lights = vec![lamp([3.0, 4.0, 5.0])];
+    scene.lights = vec![light_source([3.0, 4.0, 5.0])];
     scene
 }
 
@@ -22,8 +22,8 @@ pub(super) fn lit(material: &Standard) -> Scene {
 /// and no others.
 pub(super) fn needs(scene: &Scene) -> (Vec<Effect>, PathFeatures) {
     let proof = validated(scene);
-    let lies = lies(&proof, &film(&proof, Rules::ALL).counts);
-    assert!(lies.is_empty(), "{lies:?}");
+    let contradictions = contradictions(&proof, &film(&proof, Rules::ALL).counts);
+    assert!(contradictions.is_empty(), "{contradictions:?}");
     let plan = Plan::new(&proof, Rules::ALL);
     let needed = plan
         .statuses
@@ -53,7 +53,7 @@ fn a_white_ball_before_a_disc_calls_for_light_shadows_and_a_bounce() {
         Effect::Depth,
         Effect::Supersampling,
     ];
-    assert_eq!(needs(&lit(&white())), (effects.to_vec(), LIT));
+    assert_eq!(needs(&illuminated(&white())), (effects.to_vec(), LIT));
 }
 
 /// A name, a change of the white material, the effects that it adds, and the resulting features.
@@ -236,11 +236,11 @@ const OF_MATERIALS: [OfMaterial; 24] = [
 
 #[test]
 fn each_parameter_of_a_material_brings_its_effects() {
-    let (before, _) = needs(&lit(&white()));
+    let (before, _) = needs(&illuminated(&white()));
     for (name, change, effects, features) in OF_MATERIALS {
         let mut material = white();
         change(&mut material);
-        let (after, of_kernel) = needs(&lit(&material));
+        let (after, of_kernel) = needs(&illuminated(&material));
         assert_eq!(beyond(&after, &before), effects, "{name}");
         assert_eq!(beyond(&before, &after), [], "{name}");
         assert_eq!(of_kernel, features, "{name}");

@@ -1,10 +1,10 @@
 //! The rules on the materials and lights of paths, at the edge of each condition: a scene where the
 //! rule holds, and one where a single number is another.
 
-use super::path_rules::{across, add, fires, lamp, placed, traced, white};
+use super::path_rules::{across, add, fires, light_source, placed, traced, white};
 use super::scenes::ball;
 use super::validated;
-use crate::told::film;
+use crate::ray_counts::film;
 use rtc::internals::ir::{
     self, Alpha, ImageId, Map, Mode, Pixels, Punctual, Scene, Standard, Texture, TextureId,
 };
@@ -28,9 +28,9 @@ fn mirror() -> Standard {
 }
 
 /// A sphere under a light.
-fn lit(material: Standard) -> Scene {
+fn illuminated(material: Standard) -> Scene {
     let mut scene = traced(&[(ball([0.0; 3], 1.0), material)]);
-    scene.lights = vec![lamp([3.0, 4.0, 5.0])];
+    scene.lights = vec![light_source([3.0, 4.0, 5.0])];
     scene
 }
 
@@ -39,7 +39,7 @@ fn lights_are_not_aimed_at_where_all_materials_are_mirrors_or_clear_glass() {
     let is_delta = |change: fn(&mut Standard)| {
         let mut material = mirror();
         change(&mut material);
-        fires(Rule::PathDelta, &lit(material))
+        fires(Rule::PathDelta, &illuminated(material))
     };
     let glass = |m: &mut Standard| (m.metallic, m.transmission) = (0.0, 1.0);
     let black = |m: &mut Standard| (m.metallic, m.base_color) = (0.0, [0.0, 0.0, 0.0, 1.0]);
@@ -56,7 +56,7 @@ fn lights_are_not_aimed_at_where_all_materials_are_mirrors_or_clear_glass() {
     ));
     assert!(!is_delta(|m| m.sheen_color = [0.5; 3]));
     assert!(!is_delta(|m| m.specular_glossiness = Some([0.5; 4])));
-    let mut scene = lit(mirror());
+    let mut scene = illuminated(mirror());
     if let Mode::Path(path) = &mut scene.settings.mode {
         path.multiple_scattering = true;
     }
@@ -69,8 +69,8 @@ fn lights_are_not_aimed_at_where_all_materials_are_mirrors_or_clear_glass() {
 #[test]
 fn a_light_is_out_of_reach_where_its_range_ends_before_the_surfaces() {
     let ranged = |end: f64| {
-        let mut scene = lit(white());
-        let mut light = lamp([0.0, 0.0, 5.0]);
+        let mut scene = illuminated(white());
+        let mut light = light_source([0.0, 0.0, 5.0]);
         if let ir::Light::Punctual(Punctual {
             emitter: ir::Emitter::Point { range, .. },
             ..
@@ -95,7 +95,7 @@ fn maps_left(change: impl Fn(&mut Standard, Option<Map>)) -> usize {
 fn maps_left_after(bounces: u32, change: impl Fn(&mut Standard, Option<Map>)) -> usize {
     let mut scene = traced(&[]);
     scene.settings.max_depth = bounces;
-    scene.lights = vec![lamp([3.0, 4.0, 5.0])];
+    scene.lights = vec![light_source([3.0, 4.0, 5.0])];
     scene.textures = vec![Texture::Uv];
     let mut material = white();
     change(&mut material, Some(FIRST));
@@ -170,7 +170,7 @@ fn maps_that_only_light_needs_are_not_looked_up_where_no_path_goes_on() {
 
 /// A ball, and a material with a map of two texels on a triangle before it.
 fn mapped([first, second]: [[u8; 4]; 2], change: impl Fn(&mut Standard)) -> Scene {
-    let mut scene = lit(white());
+    let mut scene = illuminated(white());
     scene.images.push(ir::Image {
         name: "mapped".to_owned(),
         width: 2,

@@ -1,7 +1,7 @@
 //! The explanation of a path-traced scene: each effect, its state, the reason, and the scene values
 //! that decided.
 
-use super::path_effects::lit;
+use super::path_effects::illuminated;
 use super::path_materials::FIRST;
 use super::path_rules::white;
 use super::path_scenes::{cover, path, sky, standard};
@@ -10,7 +10,7 @@ use rtc::internals::ir::{self, Alpha, Emitter, ImageId, Punctual, Scene, Standar
 use rtc::internals::plan::{EffectState, EffectStatus, Plan, Rule, Rules};
 
 /// The effects in a state, one line each: the effect, the rule, the reason, the values.
-fn told(scene: &Scene, state: EffectState) -> String {
+fn report_lines(scene: &Scene, state: EffectState) -> String {
     let line = |status: &EffectStatus| {
         let places = status.facts.iter();
         let places = places.map(|place| format!(" {:?} {}", place.entity, place.index));
@@ -23,7 +23,7 @@ fn told(scene: &Scene, state: EffectState) -> String {
     statuses.map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// What [`told`] says of a white ball before a white disc.
+/// What [`report_lines`] says of a white ball before a white disc.
 const ABSENT: &str = "\
 environment:  the scene has no environment;
 environment map:  the environment has no image;
@@ -69,11 +69,11 @@ supersampling:  4 paths per pixel; Settings 0";
 
 #[test]
 fn each_effect_is_told_with_its_reason_and_the_values_that_decided() {
-    let plain = lit(&white());
-    assert_eq!(told(&plain, EffectState::Absent), ABSENT);
-    assert_eq!(told(&rich(), EffectState::Needed), NEEDED);
+    let plain = illuminated(&white());
+    assert_eq!(report_lines(&plain, EffectState::Absent), ABSENT);
+    assert_eq!(report_lines(&rich(), EffectState::Needed), NEEDED);
     // The last ray in a scene without emitters hits none.
-    let needed = told(&plain, EffectState::Needed);
+    let needed = report_lines(&plain, EffectState::Needed);
     assert!(needed.contains("bounces:  at most 1 bounce;"), "{needed}");
 }
 
@@ -81,8 +81,8 @@ fn each_effect_is_told_with_its_reason_and_the_values_that_decided() {
 fn what_is_pruned_is_told_with_its_own_rule() {
     // A black light was removed before.
     let rule = "P-ALPHA alpha is 1, or above the cutoff, everywhere on the surfaces";
-    let told = told(&rich(), EffectState::Pruned);
-    assert_eq!(told, format!("alpha: {rule}; Material 1"));
+    let report_lines = report_lines(&rich(), EffectState::Pruned);
+    assert_eq!(report_lines, format!("alpha: {rule}; Material 1"));
 }
 
 /// A scene that requires nearly everything, and some of it without contribution.
@@ -92,7 +92,7 @@ fn rich() -> Scene {
         specular: 1.0,
         ..white()
     };
-    let mut scene = lit(&coated);
+    let mut scene = illuminated(&coated);
     standard(&mut scene.materials[1]).clearcoat = 0.5;
     standard(&mut scene.materials[1]).alpha = Alpha::Blend;
     sky(&mut scene, 1.0, Some([9, 10]));

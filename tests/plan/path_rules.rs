@@ -3,7 +3,7 @@
 
 use super::scenes::{ball, base_scene, disc};
 use super::validated;
-use crate::told::{difference, film};
+use crate::ray_counts::{difference, film};
 use rtc::internals::ir::{
     self, Alpha, Emitter, Environment, ImageId, Material, MaterialId, Mode, PathSettings, Pixels,
     Punctual, Scene, Shape, Standard, Surface,
@@ -55,7 +55,7 @@ fn sun(direction: Vec3) -> ir::Light {
 }
 
 /// A white light at a point, which falls off with the square of the distance.
-pub(super) fn lamp(position: [f64; 3]) -> ir::Light {
+pub(super) fn light_source(position: [f64; 3]) -> ir::Light {
     ir::Light::Punctual(Punctual {
         emitter: Emitter::Point {
             position,
@@ -224,10 +224,13 @@ fn what_is_out_of_view_is_left_out_unless_it_may_hide_a_light() {
     assert!(!fires(Rule::PathCullShadow, &by_sun(between)));
     let by_two = |light: ir::Light| {
         let mut scene = beside(apart, 1);
-        scene.lights = vec![lamp([3.0, 4.0, 12.0]), light];
+        scene.lights = vec![light_source([3.0, 4.0, 12.0]), light];
         scene
     };
-    assert!(fires(Rule::PathCullShadow, &by_two(lamp([9.0, 0.0, 9.0]))));
+    assert!(fires(
+        Rule::PathCullShadow,
+        &by_two(light_source([9.0, 0.0, 9.0]))
+    ));
     let choice = by_two(sun(Vec3::Z));
     assert!(
         !fires(Rule::PathCullShadow, &choice),
@@ -245,7 +248,7 @@ fn light_comes_through_glass_where_no_ray_goes_on() {
     };
     let mut scene = traced(&[(disc([0.0; 3], 1.0), frosted)]);
     scene.settings.max_depth = 1;
-    scene.lights = vec![lamp([0.5, 0.0, -3.0])];
+    scene.lights = vec![light_source([0.5, 0.0, -3.0])];
     assert!(fires(Rule::PathLast, &scene));
     let picture = film(&validated(&scene), Rules::ALL).image;
     assert!(picture.pixels.iter().any(|pixel| *pixel != [0.0; 3]));
@@ -268,7 +271,7 @@ fn veils_dim_a_light_alike_with_a_veiled_solid_that_is_left_out() {
         add(&mut scene, &shape, &veil(alpha));
     }
     scene.settings.max_depth = 1;
-    scene.lights = vec![lamp([0.5, 0.0, 12.0])];
+    scene.lights = vec![light_source([0.5, 0.0, 12.0])];
     let plan = Plan::new(&validated(&scene), Rules::ALL);
     assert!(
         !plan.surfaces[1],
@@ -283,7 +286,7 @@ fn a_solid_hides_no_light_unless_the_camera_or_the_light_is_inside() {
         let mut scene = traced(&[(ball([0.0; 3], 1.0), white())]);
         scene.camera.eye[2] = eye;
         scene.camera.center[2] = eye - 10.0;
-        scene.lights = vec![lamp([0.0, 0.0, light])];
+        scene.lights = vec![light_source([0.0, 0.0, light])];
         fires(Rule::PathShadowAlone, &scene)
     };
     assert!(from(10.0, 12.0) && from(1.1, -1.1));
@@ -294,7 +297,7 @@ fn a_solid_hides_no_light_unless_the_camera_or_the_light_is_inside() {
 fn a_flat_surface_hides_a_lamp_in_its_plane() {
     let lit_from = |at: [f64; 3]| {
         let mut scene = traced(&[(disc([0.0; 3], 2.0), white())]);
-        scene.lights = vec![lamp(at)];
+        scene.lights = vec![light_source(at)];
         fires(Rule::PathShadowAlone, &scene)
     };
     assert!(lit_from([3.0, 1.0, 0.1]) && lit_from([3.0, 1.0, -0.1]));
@@ -326,7 +329,7 @@ fn half_a_million_pairs_are_tested_and_no_more() {
     let leaves_out = |seen: u32, unseen: u32| {
         let mut scene = traced(&[]);
         scene.settings.max_depth = 1;
-        scene.lights = vec![lamp([0.0, 0.0, 12.0])];
+        scene.lights = vec![light_source([0.0, 0.0, 12.0])];
         for index in 0..seen + unseen {
             let at = f64::from(index % 1000) * 1e-3;
             let (x, z) = if index < seen {

@@ -1,7 +1,7 @@
 //! The effects of each value of a path-traced scene other than materials: a change of one value
 //! adds and removes the named effects and no others.
 
-use super::path_effects::{GLOSSY, LAYERED, LIT, beyond, lit, needs};
+use super::path_effects::{GLOSSY, LAYERED, LIT, beyond, illuminated, needs};
 use super::path_materials::FIRST;
 use super::path_rules::{across, add, placed, white};
 use rtc::internals::ir::{
@@ -131,8 +131,8 @@ const OF_SCENES: [OfScene; 30] = [
     (
         "a black lamp",
         |s| {
-            if let ir::Light::Punctual(lamp) = &mut s.lights[0] {
-                lamp.intensity = [0.0; 3];
+            if let ir::Light::Punctual(light_source) = &mut s.lights[0] {
+                light_source.intensity = [0.0; 3];
             }
         },
         [&[], &[Effect::DirectLight, Effect::Shadows, Effect::Depth]],
@@ -334,9 +334,9 @@ const OF_SCENES: [OfScene; 30] = [
 
 #[test]
 fn each_value_of_a_scene_brings_and_takes_its_effects() {
-    let (before, _) = needs(&lit(&white()));
+    let (before, _) = needs(&illuminated(&white()));
     for (name, change, [more, less], features) in OF_SCENES {
-        let mut scene = lit(&white());
+        let mut scene = illuminated(&white());
         change(&mut scene);
         let (after, of_kernel) = needs(&scene);
         assert_eq!(beyond(&after, &before), more, "{name}");

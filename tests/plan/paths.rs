@@ -3,7 +3,7 @@
 
 use super::dice::Dice;
 use super::{file_name, files, scene, validated};
-use crate::told::{difference, film, lies, traced, unmet};
+use crate::ray_counts::{contradictions, difference, film, traced, unused_effects};
 use rtc::internals::ir::Scene;
 use rtc::internals::plan::{EffectState, Plan, Rule, Rules};
 use std::env;
@@ -48,9 +48,12 @@ fn no_rule_changes_a_bit_of_a_made_up_scene() {
 fn what_is_told_absent_is_never_simulated() {
     for seed in 0..scenes() {
         let proof = validated(&Dice::new(seed).path_scene());
-        let mut lies = lies(&proof, &film(&proof, Rules::ALL).counts);
-        lies.retain(|(_, state, _)| *state != EffectState::Needed);
-        assert!(lies.is_empty(), "scene {seed}: {lies:?}");
+        let mut contradictions = contradictions(&proof, &film(&proof, Rules::ALL).counts);
+        contradictions.retain(|(_, state, _)| *state != EffectState::Needed);
+        assert!(
+            contradictions.is_empty(),
+            "scene {seed}: {contradictions:?}"
+        );
     }
 }
 
@@ -62,7 +65,7 @@ fn the_scenes_of_the_repo_obey_the_law_and_show_what_they_are_told_to_need() {
         let proof = validated(&traced(scene));
         let difference = difference(&proof, &film(&proof, Rules::NONE), Rules::ALL);
         assert_eq!(difference, None, "{}", file_name(&path));
-        all.extend(unmet(&file_name(&path), &proof));
+        all.extend(unused_effects(&file_name(&path), &proof));
     }
     assert!(all.len() <= 3, "needed, but not met:\n{}", all.join("\n"));
 }

@@ -1,7 +1,7 @@
 //! The precision losses of the non-robust arithmetics: estimates by hand for each shape and
 //! symptom.
 
-use super::scenes::{ball, first_light, material, matt, plane, with};
+use super::scenes::{ball, diffuse, first_light, material, plane, with};
 use super::validated;
 use rtc::internals::ir::{self, Mode, Phong, Scene, Shape, Surface};
 use rtc::internals::plan::{Arithmetic, Loss, MIN_HIT_DISTANCE, Symptom, loss};
@@ -10,7 +10,7 @@ use rtc::internals::plan::{Arithmetic, Loss, MIN_HIT_DISTANCE, Symptom, loss};
 const UNIT: f64 = f32::EPSILON as f64 / 2.0;
 
 fn one(shape: Shape) -> Scene {
-    with(&[(shape, matt())])
+    with(&[(shape, diffuse())])
 }
 
 fn lost(scene: &Scene) -> Option<Loss> {
@@ -201,7 +201,11 @@ fn sends_rays(change: impl FnOnce(&mut Scene)) -> bool {
 fn only_surfaces_that_send_rays_meet_themselves() {
     fn mirror(scene: &mut Scene, max_depth: u32, ks: f64, kt: f64) {
         (scene.settings.shadows, scene.settings.max_depth) = (false, max_depth);
-        *material(scene, 0) = Phong { ks, kt, ..matt() };
+        *material(scene, 0) = Phong {
+            ks,
+            kt,
+            ..diffuse()
+        };
     }
     assert!(
         sends_rays(|scene| scene.settings.max_depth = 0),
@@ -246,7 +250,7 @@ fn round_things_lose_their_shape_by_a_part_of_their_size() {
 
 #[test]
 fn the_worst_of_the_surfaces_that_lose_something_is_named_and_all_are_counted() {
-    let balls = [4.0, 0.5, 1e-3, 1e-2].map(|radius| (ball([0.0; 3], radius), matt()));
+    let balls = [4.0, 0.5, 1e-3, 1e-2].map(|radius| (ball([0.0; 3], radius), diffuse()));
     let mut scene = with(&balls);
     first_light(&mut scene).position = [0.0, 0.0, 20.0];
     let loss = lost(&scene).unwrap();

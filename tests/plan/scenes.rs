@@ -5,7 +5,7 @@ use rtc::internals::ir::{
 };
 
 /// Diffuse grey.
-pub(super) fn matt() -> Phong {
+pub(super) fn diffuse() -> Phong {
     Phong {
         color: [0.5, 0.6, 0.7],
         ka: 0.2,
@@ -24,7 +24,10 @@ pub(super) fn matt() -> Phong {
 
 /// With a highlight and reflection.
 pub(super) fn shiny() -> Phong {
-    Phong { ks: 0.5, ..matt() }
+    Phong {
+        ks: 0.5,
+        ..diffuse()
+    }
 }
 
 /// A test scene with shadows and two bounces, a white light at (3, 4, 12), and no surface.

@@ -2,7 +2,7 @@
 //! picture.
 
 use super::scenes::{
-    ball, disc, first_light, light, material, matt, plane, shiny, square, texture, with,
+    ball, diffuse, disc, first_light, light, material, plane, shiny, square, texture, with,
 };
 use super::{bits, fate, film, validated};
 use rtc::internals::ir::{Mode, Scene};
@@ -33,13 +33,13 @@ fn flips(effect: Effect, scene: &Scene, change: impl FnOnce(&mut Scene)) {
 }
 
 fn one_ball() -> Scene {
-    with(&[(ball([0.0; 3], 1.0), matt())])
+    with(&[(ball([0.0; 3], 1.0), diffuse())])
 }
 
 fn two_balls() -> Scene {
     with(&[
-        (ball([-1.2, 0.0, 0.0], 1.0), matt()),
-        (ball([1.2, 0.0, 0.0], 1.0), matt()),
+        (ball([-1.2, 0.0, 0.0], 1.0), diffuse()),
+        (ball([1.2, 0.0, 0.0], 1.0), diffuse()),
     ])
 }
 
@@ -60,8 +60,8 @@ fn a_second_ball_and_a_light_inside_make_shadows() {
     };
     shadows(&|scene| {
         *scene = with(&[
-            (ball([0.0; 3], 1.0), matt()),
-            (ball([0.75, 1.0, 3.0], 0.25), matt()),
+            (ball([0.0; 3], 1.0), diffuse()),
+            (ball([0.75, 1.0, 3.0], 0.25), diffuse()),
         ])
     });
     // Seen from inside, a sphere occludes the light.
@@ -75,11 +75,11 @@ fn a_second_ball_and_a_light_inside_make_shadows() {
 #[test]
 fn a_light_is_asked_of_those_alone_that_may_hide_it() {
     let mut scene = with(&[
-        (ball([0.0; 3], 1.0), matt()),
-        (ball([0.75, 1.0, 3.0], 0.25), matt()),
-        (ball([0.0, -50.0, 0.0], 1.0), matt()),
-        (plane(-60.0), matt()),
-        (plane(20.0), matt()),
+        (ball([0.0; 3], 1.0), diffuse()),
+        (ball([0.75, 1.0, 3.0], 0.25), diffuse()),
+        (ball([0.0, -50.0, 0.0], 1.0), diffuse()),
+        (plane(-60.0), diffuse()),
+        (plane(20.0), diffuse()),
     ]);
     let asked = |scene: &Scene, rules: Rules| {
         let plan = Plan::new(&validated(scene), rules);
@@ -103,8 +103,8 @@ fn a_light_is_asked_of_those_alone_that_may_hide_it() {
 #[test]
 fn a_plane_between_hides_the_light_and_one_beside_does_not() {
     let far = with(&[
-        (ball([0.0; 3], 1.0), matt()),
-        (ball([0.0, -50.0, 0.0], 1.0), matt()),
+        (ball([0.0; 3], 1.0), diffuse()),
+        (ball([0.0, -50.0, 0.0], 1.0), diffuse()),
     ]);
     turns(Effect::Shadows, Rule::ShadowPair, &far, |scene| {
         scene.surfaces[1].shape = plane(2.0)
@@ -188,7 +188,7 @@ fn one_texel_makes_a_texture() {
 #[test]
 fn one_corner_makes_normals_worth_interpolating() {
     let (up, tilted) = ([0.0, 0.0, 1.0], [1e-3, 0.0, 1.0]);
-    let mut scene = with(&[(ball([3.0, 0.0, 0.0], 0.5), matt())]);
+    let mut scene = with(&[(ball([3.0, 0.0, 0.0], 0.5), diffuse())]);
     square(&mut scene, [up; 4]);
     let lean =
         |scene: &mut Scene| scene.meshes[0].normals = [up, tilted, up, up].into_iter().collect();
@@ -205,7 +205,7 @@ fn one_corner_makes_normals_worth_interpolating() {
 fn a_mirror_shows_what_is_before_it_and_nothing_background() {
     let background = with(&[
         (disc([0.0; 3], 2.0), shiny()),
-        (ball([0.0, 0.0, -4.0], 1.0), matt()),
+        (ball([0.0, 0.0, -4.0], 1.0), diffuse()),
     ]);
     let before = |scene: &mut Scene| scene.surfaces[1].shape = ball([0.0, 0.0, 4.0], 1.0);
     turns(Effect::Mirror, Rule::MirrorUnreached, &background, before);
@@ -252,13 +252,13 @@ fn samples_of_a_pixel_are_needed_as_soon_as_there_are_two() {
 #[test]
 fn a_ball_that_comes_into_view_brings_what_it_needs() {
     let aside = with(&[
-        (ball([0.0; 3], 1.0), matt()),
+        (ball([0.0; 3], 1.0), diffuse()),
         (ball([40.0, 0.0, 0.0], 1.0), shiny()),
     ]);
     turns(Effect::Highlight, Rule::Cull, &aside, |scene| {
         scene.surfaces[1].shape = ball([3.0, 0.0, 0.0], 1.0)
     });
-    let background = with(&[(ball([0.0, 0.0, 14.0], 1.0), matt())]);
+    let background = with(&[(ball([0.0, 0.0, 14.0], 1.0), diffuse())]);
     turns(Effect::Surfaces, Rule::Cull, &background, |scene| {
         scene.surfaces[0].shape = ball([0.0, 0.0, 4.0], 1.0)
     });
@@ -266,7 +266,7 @@ fn a_ball_that_comes_into_view_brings_what_it_needs() {
 
 #[test]
 fn a_second_light_behind_the_disc_is_left_out_alone() {
-    let mut scene = with(&[(disc([0.0; 3], 2.0), matt())]);
+    let mut scene = with(&[(disc([0.0; 3], 2.0), diffuse())]);
     scene.lights.push(light([0.0, 0.0, -3.0]));
     let plan = rtc::internals::plan::Plan::new(&validated(&scene), Rules::ALL);
     assert_eq!(

@@ -2,7 +2,7 @@
 //! nothing; a plan that removes too much is detected, with effect and pixel.
 
 use super::dice::Dice;
-use super::scenes::{ball, disc, matt, shiny, with};
+use super::scenes::{ball, diffuse, disc, shiny, with};
 use super::{file_name, files, scene, small, validated};
 use proptest::prelude::*;
 use rtc::internals::ir::Scene;
@@ -43,7 +43,7 @@ proptest! {
 /// A sphere before a disc that receives its shadow and reflects it.
 fn busy() -> Scene {
     with(&[
-        (ball([1.5, 0.0, 3.0], 1.0), matt()),
+        (ball([1.5, 0.0, 3.0], 1.0), diffuse()),
         (disc([0.0; 3], 4.0), shiny()),
     ])
 }

@@ -2,8 +2,8 @@
 //! is counted.
 
 use super::scenes::{accepted, each, validated};
+use crate::ray_counts::{difference, film, traced, unused_effects};
 use crate::suite::{files, needs};
-use crate::told::{difference, film, traced, unmet};
 use libtest_mimic::Trial;
 use rtc::internals::plan::Rules;
 use std::path::Path;
@@ -33,7 +33,7 @@ fn is_told_rightly(folder: &Path) {
         let Some(scene) = accepted(&path) else {
             continue;
         };
-        all.extend(unmet(
+        all.extend(unused_effects(
             &path.display().to_string(),
             &validated(traced(scene)),
         ));

@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn what_neither_scatters_nor_mirrors_is_black() {
+    fn a_material_without_kd_and_ks_is_black() {
         let kd = NonNegative::ZERO;
         let black = standard_of_phong(&Phong {
             kd,
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn what_refracts_bounds_a_volume_and_keeps_its_colour_map() {
+    fn a_refractive_material_bounds_a_volume_and_keeps_its_colour_map() {
         let glass = Phong {
             color: Vec3::new(2.0, 0.5, 0.0),
             kd: number(0.5),

@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn what_may_wrap_around_shows_all() {
+    fn an_area_that_may_wrap_around_reads_all_texels() {
         assert_eq!(texels([0.0, 0.5], 64, Wrap::Repeat), 0..64);
         assert_eq!(texels([0.5, 1.5], 64, Wrap::Repeat), 0..64);
         assert_eq!(texels([1.4, 1.5], 64, Wrap::Mirror), 0..64);
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn an_affine_map_turns_and_moves_an_area() {
+    fn an_affine_map_rotates_and_translates_an_area() {
         let turned = UvRect::UNIT.mapped(&[[0.0, 2.0, 1.0], [-1.0, 0.0, 0.0]]);
         assert_eq!(turned, UvRect([[1.0, 3.0], [-1.0, 0.0]]));
     }
@@ -276,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_has_a_value_where_its_own_texels_agree() {
+    fn a_region_is_constant_where_its_texels_are_equal() {
         let image = image(2, &[[1, 0, 9], [2, 0, 9], [3, 0, 9], [3, 0, 9]]);
         let values = |columns, rows| {
             let region = ImageRegion {

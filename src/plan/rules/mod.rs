@@ -331,7 +331,7 @@ mod tests {
         assert!(Rule::find("E-NOTHING").is_none());
         assert!(
             !Rules::ALL.contains(Rule::Cut),
-            "what changes a picture is asked for"
+            "a rule that changes the picture is off by default"
         );
     }
 

@@ -15,8 +15,8 @@ pub(super) fn statuses(findings: &Findings<'_>) -> Vec<EffectStatus> {
     all
 }
 
-/// The reason why no bounce adds anything, if so; `requires` says whether a material asks for the
-/// effect.
+/// The status of an effect of bounces if no bounce contributes; `requires` says whether a material
+/// requires the effect.
 fn no_bounce(
     findings: &Findings<'_>,
     effect: Effect,

@@ -5,7 +5,7 @@
 //! needed if any visible surface requires it; absent if the scene does not have it at all;
 //! otherwise pruned, with the rule that removed it. Submodules:
 //!
-//! - [`light`]: direct light, shadows, area lights, highlights;
+//! - [`mod@light`]: direct light, shadows, area lights, highlights;
 //! - [`mirror`]: bounces, reflection, glossy lobes, refraction;
 //! - [`picture`]: buffers, surfaces, textures, normals, lens, supersampling.
 //!

@@ -383,7 +383,7 @@ mod tests {
     }
 
     #[test]
-    fn no_filter_reaches_farther_than_is_told() {
+    fn no_filter_is_wider_than_the_declared_radius() {
         let VisionFilters {
             sensitivity,
             feature,

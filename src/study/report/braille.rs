@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn one_place_is_no_plot() {
+    fn a_single_point_has_no_plot() {
         assert_eq!(drawn(&[(1.0, 2.0)], &[]), None);
         assert_eq!(drawn(&[], &[]), None);
     }

@@ -42,7 +42,7 @@ fn expected(emitter: &Emitter) -> f64 {
 
 #[test]
 fn the_light_of_every_emitter_follows_its_profile() {
-    let mut lit = 0;
+    let mut illuminated = 0;
     for seed in 0..400 {
         let mut dice = Dice::new(seed);
         let emitter = dice.emitter_above();
@@ -60,7 +60,10 @@ fn the_light_of_every_emitter_follows_its_profile() {
                 intensity * expected
             );
         }
-        lit += u32::from(expected > 1e-3);
+        illuminated += u32::from(expected > 1e-3);
     }
-    assert!(lit > 100, "only {lit} of the lights reach the floor");
+    assert!(
+        illuminated > 100,
+        "only {illuminated} of the lights reach the floor"
+    );
 }

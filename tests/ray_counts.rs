@@ -1,4 +1,5 @@
-//! What a plan of paths tells, beside what its picture counts; and that its rules change no bit.
+//! The statuses of a path plan compared with the ray counts of its picture, and the check that
+//! rules change no bit.
 
 use rtc::internals::ir::{self, Mode, Scene};
 use rtc::internals::passes::Overrides;
@@ -35,7 +36,7 @@ pub(crate) fn film(scene: &ValidScene, rules: Rules) -> Film {
         .unwrap()
 }
 
-/// How the picture by some rules differs from that without rules, if it does.
+/// The difference of the picture with some rules from that without rules, if there is any.
 pub(crate) fn difference(scene: &ValidScene, unpruned: &Film, rules: Rules) -> Option<String> {
     let pruned = film(scene, rules);
     let bits = |pixel: &[f64; 3]| pixel.map(f64::to_bits);
@@ -48,22 +49,26 @@ pub(crate) fn difference(scene: &ValidScene, unpruned: &Film, rules: Rules) -> O
     (less > more).then(|| format!("{less} rays instead of {more}"))
 }
 
-/// What verdicts say that the counts of the picture deny.
-pub(crate) fn lies(scene: &ValidScene, counts: &Counts) -> Vec<(Effect, EffectState, u64)> {
+/// The statuses that the ray counts of the picture contradict.
+pub(crate) fn contradictions(
+    scene: &ValidScene,
+    counts: &Counts,
+) -> Vec<(Effect, EffectState, u64)> {
     let plan = Plan::new(scene, Rules::ALL);
-    let is_lie = |state: EffectState, count: u64| (state == EffectState::Needed) != (count > 0);
+    let is_contradiction =
+        |state: EffectState, count: u64| (state == EffectState::Needed) != (count > 0);
     let statuses = plan.statuses.iter().filter(|status| status.of.is_none());
     statuses
         .map(|status| (status.effect, status.state, counts.of(status.effect)))
-        .filter(|(_, state, count)| is_lie(*state, *count))
+        .filter(|(_, state, count)| is_contradiction(*state, *count))
         .collect()
 }
 
-/// Effects that a scene is told to need and does not show; panics where it shows one that it is
-/// told to do without.
-pub(crate) fn unmet(name: &str, scene: &ValidScene) -> Vec<String> {
+/// The effects with status needed that the picture does not count; panics if it counts one that is
+/// not needed.
+pub(crate) fn unused_effects(name: &str, scene: &ValidScene) -> Vec<String> {
     let counts = film(scene, Rules::ALL).counts;
-    let told = |(effect, state, count): (Effect, EffectState, u64)| {
+    let name_of = |(effect, state, count): (Effect, EffectState, u64)| {
         assert_eq!(
             state,
             EffectState::Needed,
@@ -71,5 +76,8 @@ pub(crate) fn unmet(name: &str, scene: &ValidScene) -> Vec<String> {
         );
         format!("{name}: {}", effect.name())
     };
-    lies(scene, &counts).into_iter().map(told).collect()
+    contradictions(scene, &counts)
+        .into_iter()
+        .map(name_of)
+        .collect()
 }
