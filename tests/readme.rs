@@ -18,7 +18,7 @@ use rtc::internals::diag::Sink;
 use rtc::internals::pipeline::{self, Options};
 use rtc::internals::render::Step;
 use rtc::internals::source::{Loader, SourceMap};
-use rtc::internals::study::{self, Clock, Effort, Provenance, StudyRuntime};
+use rtc::internals::study::{self, Clock, Effort, StudyProvenance, StudyRuntime};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -224,7 +224,7 @@ fn cheap_study(path: &str) -> String {
         &on_pixel,
     )
     .unwrap();
-    study::table(&study::study(&scene, Provenance::default(), EFFORT, 0, &bench).unwrap())
+    study::table(&study::study(&scene, StudyProvenance::default(), EFFORT, 0, &bench).unwrap())
 }
 
 /// What is wrong with the lines shown of a command.

@@ -16,7 +16,7 @@ use rtc_image::{FileFormat, Picture};
 use rtc_ir::Scene;
 use rtc_pipeline::{self as pipeline, Input};
 use rtc_source::{Loader, SourceMap};
-use rtc_study::{self as study, Clock, Journal, Provenance, Stopped, Study, StudyRuntime};
+use rtc_study::{self as study, Clock, Journal, Stopped, Study, StudyProvenance, StudyRuntime};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -111,7 +111,7 @@ pub(super) fn threads(args: &args::Cost) -> usize {
 
 fn measure(
     args: &args::Cost,
-    (about, journal): (Provenance, Option<Journal>),
+    (about, journal): (StudyProvenance, Option<Journal>),
     scene: &Scene,
     interrupt: &Interrupt,
 ) -> Result<Study, Failure> {
@@ -163,7 +163,7 @@ pub(super) fn with_runtime<T>(
 /// What is rendered of the study, if that is kept.
 fn journal(
     args: &args::Cost,
-    about: &Provenance,
+    about: &StudyProvenance,
     input: &Input,
 ) -> Result<Option<Journal>, Failure> {
     let Some(file) = &args.checkpoint else {
@@ -183,8 +183,8 @@ fn journal(
     Ok(Some(journal))
 }
 
-pub(super) fn about(name: &str, scene: &Scene) -> Provenance {
-    Provenance {
+pub(super) fn about(name: &str, scene: &Scene) -> StudyProvenance {
+    StudyProvenance {
         scene: Path::new(name).file_name().map_or_else(
             || name.to_owned(),
             |name| name.to_string_lossy().into_owned(),

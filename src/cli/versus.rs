@@ -10,7 +10,7 @@ use super::output::Output;
 use super::reporter::Reporter;
 use rtc_ir::Scene;
 use rtc_pipeline::Input;
-use rtc_study::{Provenance, Stopped, Versus, versus, versus_table};
+use rtc_study::{Stopped, StudyProvenance, Versus, versus, versus_table};
 use std::path::Path;
 
 /// Compares the scenes and writes the report.

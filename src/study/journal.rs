@@ -7,7 +7,7 @@
 //! values; the xxh3 of all that. Numbers are little-endian.
 
 use super::Effort;
-use super::outcome::Provenance;
+use super::outcome::StudyProvenance;
 use super::subject::RenderedTiles;
 use rtc_image::Image;
 use rtc_render::Counts;
@@ -24,7 +24,7 @@ const VERSION: u32 = 2;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 struct JournalHead {
-    about: Provenance,
+    about: StudyProvenance,
     effort: Effort,
     seed: u64,
 }
@@ -49,7 +49,7 @@ pub struct Journal {
 impl Journal {
     /// A journal without renders.
     #[must_use]
-    pub fn new(about: &Provenance, effort: Effort, seed: u64) -> Self {
+    pub fn new(about: &StudyProvenance, effort: Effort, seed: u64) -> Self {
         let head = JournalHead {
             about: about.clone(),
             effort,

@@ -85,8 +85,8 @@ pub use journal::Journal;
 pub use maps::{StudyMap, maps};
 pub use metrics::{Errors, LEVELS, rmse};
 pub use outcome::{
-    BounceCost, MoreBounces, ParameterReport, Provenance, Rays, ReferenceReport, Study, StudyArea,
-    StudyRow,
+    BounceCost, MoreBounces, ParameterReport, Rays, ReferenceReport, Study, StudyArea,
+    StudyProvenance, StudyRow,
 };
 pub use parameter::{Parameter, arithmetic, not_applicable};
 pub use precision::PrecisionCost;
@@ -166,7 +166,7 @@ const MAX_REFERENCE_ERROR: f64 = 0.2;
 /// If it was stopped.
 pub fn study(
     scene: &Scene,
-    about: Provenance,
+    about: StudyProvenance,
     effort: Effort,
     seed: u64,
     runtime: &StudyRuntime<'_>,

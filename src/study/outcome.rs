@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 /// The subject of a study, and the machine it ran on.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Provenance {
+pub struct StudyProvenance {
     /// The name of the scene.
     pub scene: String,
     /// The hash of the scene's IR.
@@ -179,7 +179,7 @@ pub struct Study {
     /// The schema of this report: `rtc-cost/3`.
     pub schema: String,
     /// The subject, and the machine.
-    pub about: Provenance,
+    pub about: StudyProvenance,
     /// The budget in rays.
     pub effort: Effort,
     /// The seed of its random numbers.

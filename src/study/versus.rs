@@ -8,7 +8,7 @@
 
 use super::benchmark::{BenchmarkCase, benchmark};
 use super::metrics::{LEVELS, mean_product, products, rmse};
-use super::outcome::{Provenance, Rays, StudyArea};
+use super::outcome::{Rays, StudyArea, StudyProvenance};
 use super::reference::independent;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng, normal_quantile, paired};
@@ -44,7 +44,7 @@ pub struct Versus {
     /// The schema of this report: `rtc-versus/1`.
     pub schema: String,
     /// The scene and its reference, and the machine.
-    pub scenes: [Provenance; 2],
+    pub scenes: [StudyProvenance; 2],
     /// The rendered part of the pictures.
     pub part: StudyArea,
     /// Processor seconds for the whole pictures.
@@ -108,7 +108,7 @@ impl Versus {
 /// If the pictures differ in size.
 pub fn versus(
     scenes: [&Scene; 2],
-    about: [Provenance; 2],
+    about: [StudyProvenance; 2],
     effort: Effort,
     seed: u64,
     runtime: &StudyRuntime<'_>,

@@ -20,7 +20,7 @@ use rtc::internals::render::{Job, Step, Tiles, render};
 use rtc::internals::source::SourceMap;
 use rtc::internals::study::{
     self, Ablation, Clock, DepthEnd, EffectCost, Effort, ErrorSpread, Errors, Parameter, PowerLaw,
-    Provenance, Setting, Stopped, Study, StudyRow, StudyRuntime,
+    Setting, Stopped, Study, StudyProvenance, StudyRow, StudyRuntime,
 };
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{LazyLock, Mutex};
@@ -66,9 +66,9 @@ fn study_of(scene: &Scene, rays: u64, threads: usize) -> Study {
 
 /// A study with a clock whose ticks per ray change at each reading.
 fn study_by(scene: &Scene, rays: u64, threads: usize, pace: impl FnMut() -> f64 + Send) -> Study {
-    let about = Provenance {
+    let about = StudyProvenance {
         scene: "<balls> & \"floor\"".to_owned(),
-        ..Provenance::default()
+        ..StudyProvenance::default()
     };
     let study = on_bench(threads, pace, |runtime| {
         study::study(scene, about, Effort(rays), 1, runtime)
@@ -191,7 +191,7 @@ fn a_study_can_be_stopped() {
     assert_eq!(
         study::study(
             &scene(&[]),
-            Provenance::default(),
+            StudyProvenance::default(),
             Effort::QUICK,
             1,
             &runtime

@@ -14,7 +14,7 @@ fn go_on(scene: &Scene, kept: &[u8], most: u64) -> (Result<Study, Stopped>, Vec<
         cpu: &clock,
         wall: &clock,
     };
-    let journal = Journal::new(&Provenance::default(), Effort(RAYS), 1);
+    let journal = Journal::new(&StudyProvenance::default(), Effort(RAYS), 1);
     let journal = match kept {
         [] => journal,
         kept => journal.load(kept).unwrap(),
@@ -23,7 +23,7 @@ fn go_on(scene: &Scene, kept: &[u8], most: u64) -> (Result<Study, Stopped>, Vec<
     let save = |journal: &Journal| *saved.lock().unwrap() = journal.save();
     let runtime = StudyRuntime::new(1, clock, &on_pixel).unwrap();
     let runtime = runtime.with_journal(journal, Duration::from_secs(1), &save);
-    let study = study::study(scene, Provenance::default(), Effort(RAYS), 1, &runtime);
+    let study = study::study(scene, StudyProvenance::default(), Effort(RAYS), 1, &runtime);
     runtime.save();
     drop(runtime);
     (study, saved.into_inner().unwrap())
@@ -81,7 +81,7 @@ fn an_interrupted_study_has_the_same_errors_and_says_which_rows_were_timed_befor
 #[test]
 fn renders_of_another_study_or_damaged_ones_are_refused() {
     let (_, kept) = go_on(&scene(&[]), &[], RAYS / 4);
-    let other = |effort, seed| Journal::new(&Provenance::default(), Effort(effort), seed);
+    let other = |effort, seed| Journal::new(&StudyProvenance::default(), Effort(effort), seed);
     let refused = |journal: Journal, bytes: &[u8]| journal.load(bytes).err().unwrap();
     assert_eq!(
         refused(other(RAYS, 2), &kept),

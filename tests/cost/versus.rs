@@ -18,9 +18,9 @@ fn balls(supersampling: u32, color: [f64; 3]) -> Scene {
 const BLUE: [f64; 3] = [0.5, 0.6, 0.7];
 
 fn against(scene: &Scene, reference: &Scene, seed: u64) -> Versus {
-    let about = || Provenance {
+    let about = || StudyProvenance {
         scene: "balls".to_owned(),
-        ..Provenance::default()
+        ..StudyProvenance::default()
     };
     let found = on_bench(
         0,
