@@ -418,7 +418,12 @@ fn resize(
 impl PictureSetup {
     /// The target of a picture or a part of it, with the remaining time.
     #[must_use]
-    pub fn order(&self, subject: &RenderSubject, crop: Crop, time: Option<Duration>) -> RenderOrder {
+    pub fn order(
+        &self,
+        subject: &RenderSubject,
+        crop: Crop,
+        time: Option<Duration>,
+    ) -> RenderOrder {
         let mode = &subject.validated.scene.settings().mode;
         RenderOrder {
             goal: Goal { time, ..self.goal },
