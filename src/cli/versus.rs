@@ -77,7 +77,10 @@ fn carry_out(args: &args::Cost, files: [&Path; 2], reporter: &mut Reporter) -> R
 }
 
 /// A scene, proven, and what is told of it.
-fn validated(input: &mut Input, reporter: &mut Reporter) -> Result<(Provenance, Scene), Failure> {
+fn validated(
+    input: &mut Input,
+    reporter: &mut Reporter,
+) -> Result<(StudyProvenance, Scene), Failure> {
     input.lift_rays();
     let validated = input::require(input, reporter, input::fill)?;
     let scene = validated.lowered.scene.clone();
