@@ -16,14 +16,34 @@ pub(super) fn run(args: &Explain) -> Result<(), Failure> {
             (None, Some(rule)) => format!("## {} (rule)\n\n{}", rule.name(), fill(rule.text())),
             (None, None) => return Err(unknown(id)),
         },
-        None => page(),
+        None if args.all => page(),
+        None => list(),
     };
     output::to_stdout(text.as_bytes())
 }
 
+/// All codes and rules, one line each.
+fn list() -> String {
+    let codes = codes::all().map(|code| {
+        format!(
+            "{}  {:7}  {}\n",
+            code.id,
+            code.severity.name(),
+            code.summary
+        )
+    });
+    let rules = Rule::ALL.iter().map(|rule| format!("  {}\n", rule.name()));
+    format!(
+        "Codes of diagnostics; `rtc explain CODE` explains one:\n\n{}\n\
+         Rules of the plan, which leave out effects; `rtc explain RULE` explains one:\n\n{}",
+        codes.collect::<String>(),
+        rules.collect::<String>()
+    )
+}
+
 fn unknown(id: &str) -> Failure {
     Failure::Trouble(format!(
-        "there is no code `{}`; `rtc explain --all` lists them",
+        "there is no code `{}`; `rtc explain` lists them",
         clip(id)
     ))
 }

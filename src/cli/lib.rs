@@ -20,6 +20,7 @@ mod input;
 mod interrupt;
 mod lsp;
 mod merge;
+mod new;
 mod output;
 mod parse;
 mod preview;
@@ -46,6 +47,18 @@ use std::panic::{self, AssertUnwindSafe, PanicHookInfo};
 
 /// A line of the help is shorter than this; one that repeats what was typed may not be.
 const LONG_LINE: usize = 500;
+
+/// What `rtc` alone prints.
+const FIRST_COMMANDS: &str = "rtc, a compiler for 3-D scenes
+
+Commands to begin with:
+  rtc new scene.yaml              write a first scene
+  rtc preview scene.yaml --open   show it on a page while you edit it
+  rtc check scene.yaml            report mistakes in it
+  rtc render scene.yaml           render it to scene.png
+  rtc render model.glb            render a glTF model
+
+`rtc --help` lists all commands, `rtc explain` all codes of diagnostics.";
 
 /// Why a command did not do its work.
 #[derive(Debug)]
@@ -90,6 +103,10 @@ fn guarded(work: impl FnOnce() -> u8) -> u8 {
 
 fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let typed: Vec<OsString> = arguments.into_iter().collect();
+    if typed.len() < 2 {
+        reporter::say(FIRST_COMMANDS);
+        return 2;
+    }
     let cli = match Cli::try_parse_from(&typed) {
         Ok(cli) => cli,
         Err(mut error) => {
@@ -106,6 +123,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         }
     };
     let outcome = match cli.command {
+        Command::New(args) => new::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Fmt(args) => fmt::run(&args),
         Command::Compile(args) => compile::run(&args),

@@ -29,6 +29,7 @@ mod looks;
 #[cfg(unix)]
 mod lsp;
 mod mesh;
+mod new;
 mod numbers;
 #[cfg(unix)]
 mod outputs;

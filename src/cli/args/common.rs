@@ -8,51 +8,50 @@ use std::path::PathBuf;
 
 /// How the input is read.
 #[derive(Clone, Debug, Args)]
-#[command(next_help_heading = None::<&str>)]
 pub(crate) struct Reading {
-    /// What to call standard input in messages
-    #[arg(long, value_name = "NAME")]
+    /// Call standard input by this name in messages
+    #[arg(long, value_name = "NAME", help_heading = "Input")]
     pub(crate) stdin_name: Option<String>,
-    /// Refuse unknown keys
-    #[arg(long)]
+    /// Treat unknown keys as errors
+    #[arg(long, help_heading = "Input")]
     pub(crate) strict: bool,
     /// Repair mistakes that have one sensible repair, with a warning
-    #[arg(long)]
+    #[arg(long, help_heading = "Input")]
     pub(crate) lenient: bool,
-    /// A folder, beside that of the scene, whose files the scene may name: textures and meshes
-    #[arg(long, value_name = "FOLDER", value_parser = folder, value_hint = ValueHint::DirPath)]
+    /// Also search this folder for textures and meshes
+    #[arg(long, value_name = "FOLDER", value_parser = folder, value_hint = ValueHint::DirPath, help_heading = "Input")]
     pub(crate) asset_root: Option<PathBuf>,
-    /// Show a glTF asset at this moment of its animation [default: at rest]
-    #[arg(long, value_name = "SECONDS", value_parser = moment)]
+    /// Show the animation of a glTF asset at this time [default: at rest]
+    #[arg(long, value_name = "SECONDS", value_parser = moment, help_heading = "Input")]
     pub(crate) time: Option<f64>,
-    /// The animation of a glTF asset, by its name [default: the first, if there is a `--time`]
-    #[arg(long, value_name = "NAME")]
+    /// Select an animation of a glTF asset by name [default: the first, with `--time`]
+    #[arg(long, value_name = "NAME", help_heading = "Input")]
     pub(crate) animation: Option<String>,
-    /// The variant of the materials of a glTF asset, by its name
-    #[arg(long, value_name = "NAME")]
+    /// Select a material variant of a glTF asset by name
+    #[arg(long, value_name = "NAME", help_heading = "Input")]
     pub(crate) variant: Option<String>,
-    /// The camera of a glTF asset: its name, that of its node, or its index [default: the first
-    /// that shows anything]
-    #[arg(long, value_name = "NAME|INDEX")]
+    /// Select a camera of a glTF asset by name, node or index
+    ///
+    /// [default: the first that sees something]
+    #[arg(long, value_name = "NAME|INDEX", help_heading = "Input")]
     pub(crate) camera: Option<String>,
-    /// Do not tell findings of this code, as VA004, or no `warnings`; errors are always told
-    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse)]
+    /// Do not report this code, as VA004, or any `warnings`; errors stay
+    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse, help_heading = "Diagnostics")]
     pub(crate) allow: Vec<LevelSubject>,
-    /// Make findings of this code warnings; what has a code of its own here is no matter of `warnings`
-    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse)]
+    /// Report this code as a warning
+    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse, help_heading = "Diagnostics")]
     pub(crate) warn: Vec<LevelSubject>,
-    /// Make findings of this code, or all `warnings`, errors
-    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse)]
+    /// Report this code, or all `warnings`, as errors
+    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse, help_heading = "Diagnostics")]
     pub(crate) deny: Vec<LevelSubject>,
-    /// Set a limit on what the run may take, as memory=2GiB; `rtc schema limits` lists them
-    #[arg(long, value_name = "NAME=NUMBER", value_parser = limit)]
+    /// Set a limit of the run, as memory=2GiB; `rtc schema limits` lists them
+    #[arg(long, value_name = "NAME=NUMBER", value_parser = limit, help_heading = "Limits")]
     pub(crate) limit: Vec<(Resource, u64)>,
-    /// Lift all limits on what the run may take
-    #[arg(long)]
+    /// Lift all limits of the run
+    #[arg(long, help_heading = "Limits")]
     pub(crate) allow_huge: bool,
-    /// Let the `rtc.toml` of the scene raise limits and lend files outside of its folder, whoever
-    /// wrote it
-    #[arg(long)]
+    /// Let the `rtc.toml` of the scene raise limits and widen `asset-root`
+    #[arg(long, help_heading = "Limits")]
     pub(crate) trust_project: bool,
 }
 
@@ -90,22 +89,33 @@ impl Reading {
 
 /// How findings are told.
 #[derive(Debug, Args)]
-#[command(next_help_heading = None::<&str>)]
 pub(crate) struct ReporterArgs {
-    /// The form of diagnostics
-    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    /// Select the format of diagnostics
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        value_name = "FORMAT",
+        help_heading = "Diagnostics"
+    )]
     pub(crate) message_format: MessageFormat,
-    /// Colours in diagnostics
-    #[arg(long, value_enum, default_value_t, value_name = "WHEN")]
+    /// Colour diagnostics
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        value_name = "WHEN",
+        help_heading = "Diagnostics"
+    )]
     pub(crate) color: Color,
-    /// Show at most this many diagnostics of a file
-    #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Print at most N diagnostics for each file
+    #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Diagnostics")]
     pub(crate) max_errors: u32,
-    /// Only errors: no warnings, no progress, no summary
-    #[arg(short, long, action = ArgAction::SetTrue, conflicts_with = "verbose")]
+    /// Print only errors: no warnings, progress or summary
+    #[arg(short, long, action = ArgAction::SetTrue, conflicts_with = "verbose", help_heading = "Diagnostics")]
     pub(crate) quiet: bool,
-    /// Notes too, and of a render how often each effect was simulated
-    #[arg(short, long, action = ArgAction::SetTrue)]
+    /// Also print notes, and how often each effect was simulated
+    #[arg(short, long, action = ArgAction::SetTrue, help_heading = "Diagnostics")]
     pub(crate) verbose: bool,
 }
 

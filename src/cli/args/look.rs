@@ -10,30 +10,42 @@ use rtc_render::Aov;
 
 #[derive(Debug, Args)]
 pub(crate) struct OutputTransformArgs {
-    /// How a PNG shows linear values; an EXR holds them as they are [default: pbr-neutral for a
-    /// glTF asset, srgb where else paths are traced, else none]
-    #[arg(long, value_enum, value_name = "MAP")]
+    /// Select the tone map of a PNG
+    ///
+    /// An EXR holds linear values [default: pbr-neutral for a glTF asset, srgb for other path-
+    /// traced scenes, else none].
+    #[arg(long, value_enum, value_name = "MAP", help_heading = "Output")]
     pub(crate) tonemap: Option<Tonemap>,
-    /// Exposure in stops, of EXR too: each doubles the values; or `auto`, by what is seen
-    /// [default: auto for the PNG of a glTF asset with lights of its own, else 0]
-    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
+    /// Set the exposure in stops, or `auto`
+    ///
+    /// Each stop doubles the values, in an EXR too [default: auto for the PNG of a glTF asset
+    /// with lights of its own, else 0].
+    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true, help_heading = "Output")]
     pub(crate) exposure: Option<Exposure>,
-    /// What is behind all surfaces of any scene: `env`, the surroundings of the scene;
-    /// `transparent`; `white`, `black` or #rrggbb, as a screen shows it; or a colour R,G,B in the
-    /// values that the file is to hold. Light stays as it is
-    #[arg(long, value_name = "WHAT", default_value = "env", value_parser = background)]
+    /// Set the background: env, transparent, white, black, #rrggbb or R,G,B
+    ///
+    /// `env` shows the environment. R,G,B are linear values. The light of the scene stays.
+    #[arg(long, value_name = "WHAT", default_value = "env", value_parser = background, help_heading = "Output")]
     pub(crate) background: BackgroundArg,
-    /// Layers beside the colours: means over what the camera rays of a pixel meet first. An EXR holds
-    /// their numbers; beside a PNG each is a picture of its own, as `picture.depth.png`
-    #[arg(long, value_enum, value_name = "LAYERS", value_delimiter = ',')]
+    /// Write layers beside the colours: albedo, normal, depth, …
+    ///
+    /// Each value is the mean over the first hits of a pixel. An EXR holds the numbers; for a PNG
+    /// each layer is a picture of its own, as `picture.depth.png`.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "LAYERS",
+        value_delimiter = ',',
+        help_heading = "Output"
+    )]
     pub(crate) aov: Vec<Layer>,
-    /// Bits a channel: 8 or 16 of a PNG, 16 or 32 of an EXR, whose layers of distances, places and
-    /// numbers keep 32 [default: 8, of an EXR 32]
-    #[arg(long)]
+    /// Set the bits of a channel: 8 or 16 in a PNG, 16 or 32 in an EXR
+    ///
+    /// [default: 8, in an EXR 32]; layers of distances, positions and indices keep 32.
+    #[arg(long, help_heading = "Output")]
     pub(crate) bits: Option<BitDepth>,
-    /// Leave out of a PNG or an EXR what made it: the program, the hash of the scene and the settings
-    /// that decide the pixels
-    #[arg(long)]
+    /// Do not write metadata: the program, the hash of the scene, the settings
+    #[arg(long, help_heading = "Output")]
     pub(crate) no_metadata: bool,
 }
 

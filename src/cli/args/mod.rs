@@ -50,7 +50,7 @@ const EXIT_CODES: &str = "Exit codes:
 /// A compiler for 3-D scenes: checks them, lowers them to one IR, renders the IR, the same bytes
 /// every time.
 #[derive(Debug, Parser)]
-#[command(name = "rtc", version = LONG_VERSION.as_str(), max_term_width = 100, arg_required_else_help = true)]
+#[command(name = "rtc", version = LONG_VERSION.as_str(), max_term_width = 100)]
 #[command(after_help = EXIT_CODES)]
 pub(super) struct Cli {
     #[command(subcommand)]
@@ -59,29 +59,31 @@ pub(super) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Check scenes and say what is wrong with them
+    /// Write a first scene, with comments
+    New(New),
+    /// Report mistakes in scenes, and fix them
     Check(CheckArgs),
-    /// Lay out scene texts: indentation, blanks and empty lines; comments stay
+    /// Format scene files; comments stay
     Fmt(Fmt),
-    /// Compile a scene to the intermediate representation
+    /// Convert a scene to the IR, YAML, glTF, Mitsuba or POV-Ray; explain what it needs
     Compile(Compile),
-    /// Render a scene to a picture
+    /// Render scenes to pictures
     Render(Box<Render>),
-    /// Show a scene on a page of this machine while it is edited
+    /// Show a scene on a local web page while you edit it
     Preview(Box<Preview>),
-    /// Serve an editor: findings while one types, their fixes, what keys mean (Language Server Protocol)
+    /// Run the language server (diagnostics, quick fixes, hover, completion)
     Lsp(Lsp),
-    /// Merge parts of a picture, rendered by `rtc render --part`, into the picture
+    /// Join parts of `rtc render --part` into the picture
     Merge(Merge),
-    /// Write a picture in parts as a job for an engine that runs jobs on many machines
+    /// Write a job that renders a picture in parts on many machines
     Farm(Box<Farm>),
-    /// Show what accuracy costs in a scene, and which settings are worth it
+    /// Show the error and the time of each setting, and recommend one
     Cost(Cost),
-    /// Compare two pictures, and hold the difference to gates
+    /// Compare two pictures or scenes, and apply gates
     Diff(Diff),
-    /// Tell what is in a scene, how large it is, and what its picture needs
+    /// Show contents, size and required features of a scene
     Info(Box<Info>),
-    /// Explain a code of a diagnostic
+    /// Explain a code of a diagnostic, or list all codes
     Explain(Explain),
     /// Print the JSON Schema of a format
     Schema(Schema),
@@ -92,19 +94,42 @@ pub(super) enum Command {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct New {
+    /// Write the scene to this file; `-` is standard output
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) file: PathBuf,
+    /// Select the template
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) template: TemplateArg,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum TemplateArg {
+    /// Balls, a light and shadows, in the format of the course
+    #[default]
+    Course,
+    /// A path-traced scene with a sun and physical materials
+    Path,
+    /// A scene with a glTF model, which is written beside it
+    Gltf,
+    /// A scene for a turntable
+    Turntable,
+}
+
+#[derive(Debug, Args)]
 #[command(group = ArgGroup::new("change").args(["fix", "diff"]).multiple(true))]
 pub(super) struct CheckArgs {
     /// Scenes, as YAML, glTF, a mesh or IR; folders, all scenes below them; or patterns, as
     /// 'a/*.glb'. `-` is standard input
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) files: Vec<PathBuf>,
-    /// Put what hints propose into the files, where it is sure what was meant and nothing gets worse
+    /// Apply the suggested fixes that keep the meaning
     #[arg(long)]
     pub(super) fix: bool,
-    /// Print what `--fix` would change, and write nothing
+    /// Print what `--fix` would change; write nothing
     #[arg(long)]
     pub(super) diff: bool,
-    /// With `--fix` or `--diff`: also what was only most likely meant
+    /// With `--fix` or `--diff`: also apply fixes that are guesses
     #[arg(long = "unsafe", requires = "change")]
     pub(super) guesses: bool,
     #[command(flatten)]
@@ -147,13 +172,16 @@ pub(super) struct Compile {
     /// Where to write; `-` is standard output [default: `-`, or nowhere with `--explain`]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) output: Option<PathBuf>,
-    /// Say which effects the picture needs, and why it does without the others
+    /// Explain which effects the picture needs, and why not the others
     #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true, default_missing_value = "human")]
     pub(super) explain: Option<Explanation>,
-    /// What to write [default: by the extension of the output (.json, .rtir, .yaml, .glb, .gltf, .xml for Mitsuba, .pov), or `ir`]
+    /// Select the format [default: by the extension of the output, or `ir`]
+    ///
+    /// Extensions: .json, .rtir, .yaml, .glb, .gltf, .xml (Mitsuba), .pov.
     #[arg(long, value_enum)]
     pub(super) emit: Option<Emit>,
-    /// How far a mesh of the glTF may be from the curved shape it stands for, in scene units
+    /// Set the tolerance of tessellation for glTF, in scene units
+    ///
     /// [default: a thousandth of the radius of each shape]
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub(super) tolerance: Option<f64>,
@@ -175,10 +203,9 @@ pub(super) enum Explanation {
 
 #[derive(Debug, Args)]
 pub(super) struct Explain {
-    /// The code of a diagnostic, as VA001, or the name of a rule, as E-SPEC
-    #[arg(required_unless_present = "all")]
+    /// The code of a diagnostic, as VA001, or the name of a rule, as E-SPEC [default: list both]
     pub(super) code: Option<String>,
-    /// Explain every code there is, as Markdown
+    /// Print the pages of all codes, as Markdown
     #[arg(long, conflicts_with = "code")]
     pub(super) all: bool,
 }
@@ -214,9 +241,9 @@ pub(super) enum Emit {
     Glb,
     /// The same as text, with its vertices and pictures in a folder beside it
     Gltf,
-    /// A scene of Mitsuba 3 (XML), with meshes in a folder beside it; warnings name what has no exact twin there
+    /// A scene of Mitsuba 3 (XML), with meshes in a folder beside it; warnings name approximations
     Mitsuba,
-    /// A scene of POV-Ray 3.7; warnings name what has no exact twin there
+    /// A scene of POV-Ray 3.7; warnings name approximations
     Pov,
 }
 

@@ -10,80 +10,95 @@ use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub(crate) struct Render {
-    /// Scenes, as YAML, glTF, a mesh or IR; folders, all scenes below them; or patterns, as
-    /// 'a/*.glb'. `-` is standard input
+    /// Scenes, folders of scenes, or patterns such as 'a/*.glb'; `-` is standard input
+    ///
+    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, mesh files, and the IR.
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) files: Vec<PathBuf>,
-    /// Where to write: .png, .jpg, .webp (lossless) or .exr; `-` is PNG to standard output. Of many scenes a folder, as
-    /// `out/`, or a name in which `{stem}` is that of the scene, as `out/{stem}.png` [default: the
-    /// scene's name with .png, here]
-    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Write the picture to this file [default: the scene's name with .png, here]
+    ///
+    /// The extension selects the format: .png, .jpg, .webp (lossless) or .exr; `-` is PNG on
+    /// standard output. For many scenes: a folder, as `out/`, or a name with `{stem}` for the
+    /// name of the scene, as `out/{stem}.png`.
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
-    /// Also write one PNG that shows the pictures of all scenes, small, with their names
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "turntable")]
+    /// Also write one PNG with small pictures of all scenes and their names
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "turntable", help_heading = "Output")]
     pub(crate) contact_sheet: Option<PathBuf>,
-    /// Also print the picture in a terminal of 24-bit colours, as wide as `COLUMNS` says
-    #[arg(long, conflicts_with_all = ["turntable", "part"])]
+    /// Also print the picture in the terminal, in 24-bit colours
+    ///
+    /// The width is that of the environment variable `COLUMNS`.
+    #[arg(long, conflicts_with_all = ["turntable", "part"], help_heading = "Output")]
     pub(crate) show: bool,
     #[command(flatten)]
     pub(crate) wanted: WantedArgs,
-    /// Sample until the picture is this close, in grey levels of 8 bits (RMSE, kept by 90 of 100
-    /// pictures), to what ever more samples at this depth would show
-    #[arg(long, value_name = "LEVELS", value_parser = levels, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
+    /// Sample until the error is at most this many grey levels
+    ///
+    /// The error is the RMSE in 8-bit grey levels against the picture of infinitely many samples
+    /// at this depth; it is kept in 90 of 100 pictures.
+    #[arg(long, value_name = "LEVELS", value_parser = levels, conflicts_with_all = ["supersampling", "aperture_samples", "spp"], help_heading = "Sampling")]
     pub(crate) target_error: Option<f64>,
-    /// Have the picture ready in this time, in seconds of the clock from the start of the program:
-    /// crude first, then samples where they help most; it depends on the machine
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
+    /// Finish within this time, counted from the start of the program
+    ///
+    /// A coarse picture comes first, then samples where they reduce the error most. The result
+    /// depends on the machine.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples", "spp"], help_heading = "Sampling")]
     pub(crate) time_budget: Option<Duration>,
-    /// Denoise traced paths, guided by albedo, normal and distance of first hits, of four times as many
-    /// camera rays; some pixels are sampled anew, which tells the error
-    #[arg(long, conflicts_with_all = ["target_error", "time_budget", "part", "checkpoint", "strips", "verify_effects"])]
+    /// Denoise path-traced pictures
+    ///
+    /// The denoiser uses albedo, normal and depth of the first hits, from four times as many
+    /// camera rays. Some pixels are sampled again to estimate the error.
+    #[arg(long, conflicts_with_all = ["target_error", "time_budget", "part", "checkpoint", "strips", "verify_effects"], help_heading = "Sampling")]
     pub(crate) denoise: bool,
-    /// Let a traced path bring no more radiance than this after its first bounce, in any channel: fewer
-    /// bright dots, but less light; the end of the run tells how much less
-    #[arg(long, value_name = "LIMIT", value_parser = radiance, conflicts_with_all = ["target_error", "time_budget", "denoise", "part", "checkpoint", "strips", "verify_effects"])]
+    /// Clamp indirect radiance per channel, to reduce fireflies
+    ///
+    /// The picture loses energy; the fraction is printed at the end.
+    #[arg(long, value_name = "LIMIT", value_parser = radiance, conflicts_with_all = ["target_error", "time_budget", "denoise", "part", "checkpoint", "strips", "verify_effects"], help_heading = "Sampling")]
     pub(crate) clamp: Option<f64>,
-    /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with
-    /// `-%04d`; or is .apng or .gif, one file that shows them all
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects")]
+    /// Render N views around the scene
+    ///
+    /// The name of the output holds `%04d`, or ends with `-%04d`; a .apng or .gif holds all views
+    /// in one file.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects", help_heading = "View")]
     pub(crate) turntable: Option<u32>,
-    /// Only these views of the turntable, from 1 on, the first and the last of them
-    #[arg(long, value_name = "A..B", value_parser = frames, requires = "turntable")]
+    /// Render only this range of turntable frames, 1-based and inclusive
+    #[arg(long, value_name = "A..B", value_parser = frames, requires = "turntable", help_heading = "View")]
     pub(crate) frames: Option<[u32; 2]>,
-    /// Pictures a second of a turntable in one file, .apng or .gif [default: 12]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), requires = "turntable")]
+    /// Set the frames per second of a .apng or .gif turntable [default: 12]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), requires = "turntable", help_heading = "View")]
     pub(crate) fps: Option<u16>,
-    /// Render one of N shares of the picture into a part, .rtp; `rtc merge` makes the picture of all
-    #[arg(long, value_name = "I/N", value_parser = share, conflicts_with = "verify_effects")]
+    /// Render part I of N into a .rtp file; `rtc merge` joins all parts
+    #[arg(long, value_name = "I/N", value_parser = share, conflicts_with = "verify_effects", help_heading = "Checkpoints and parts")]
     pub(crate) part: Option<[u32; 2]>,
-    /// What is shared out: tiles, or the samples of traced paths
+    /// Divide the work by tiles or by samples of path tracing
     #[arg(
         long,
         value_enum,
         default_value_t,
         value_name = "WHAT",
-        requires = "part"
+        requires = "part",
+        help_heading = "Checkpoints and parts"
     )]
     pub(crate) parts_by: SharedByArg,
-    /// The picture that the part is of, .png, .jpg, .webp or .exr [default: the scene's name with .png]
-    #[arg(long, value_name = "FILE", requires = "part", value_hint = ValueHint::FilePath)]
+    /// Name the picture that `rtc merge` makes [default: the scene's name with .png]
+    #[arg(long, value_name = "FILE", requires = "part", value_hint = ValueHint::FilePath, help_heading = "Checkpoints and parts")]
     pub(crate) picture: Option<PathBuf>,
-    /// Save what is done into this file, .rtp, now and then and when told to end; the same command goes
-    /// on from there
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["part", "time_budget", "verify_effects"])]
+    /// Save progress into this .rtp file; the same command resumes from it
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["part", "time_budget", "verify_effects"], help_heading = "Checkpoints and parts")]
     pub(crate) checkpoint: Option<PathBuf>,
-    /// How often to save, in seconds
-    #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = interval, requires = "checkpoint")]
+    /// Save a checkpoint every so many seconds
+    #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = interval, requires = "checkpoint", help_heading = "Checkpoints and parts")]
     pub(crate) every: Duration,
-    /// Begin anew, whatever was saved
-    #[arg(long, requires = "checkpoint")]
+    /// Ignore an existing checkpoint and start over
+    #[arg(long, requires = "checkpoint", help_heading = "Checkpoints and parts")]
     pub(crate) restart: bool,
-    /// Render and write some rows at a time, so that a picture may be larger than memory; so many,
-    /// in sixteens [default: about a million pixels]
-    #[arg(long, value_name = "ROWS", num_args = 0..=1, require_equals = true, value_parser = clap::value_parser!(u32).range(1..), conflicts_with_all = ["part", "checkpoint"])]
+    /// Render and write strips of rows, for pictures larger than memory
+    ///
+    /// The number of rows is a multiple of 16 [default: about a million pixels].
+    #[arg(long, value_name = "ROWS", num_args = 0..=1, require_equals = true, value_parser = clap::value_parser!(u32).range(1..), conflicts_with_all = ["part", "checkpoint"], help_heading = "Checkpoints and parts")]
     pub(crate) strips: Option<Option<u32>>,
-    /// Threads to work on [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    /// Use N threads [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = "Performance")]
     pub(crate) threads: Option<u16>,
     #[command(flatten)]
     pub(crate) look: OutputTransformArgs,
@@ -107,14 +122,16 @@ impl Render {
 /// What is left out of the work for a picture.
 #[derive(Debug, Args)]
 pub(crate) struct Pruning {
-    /// Simulate what a rule would leave out: all rules, or those named, as E-SPEC
-    #[arg(long, value_name = "RULE", num_args = 0.., require_equals = true, value_delimiter = ',', value_parser = rule)]
+    /// Simulate effects that a plan rule would leave out: all, or those of the rules named
+    ///
+    /// For example `--no-prune=E-SPEC`.
+    #[arg(long, value_name = "RULE", num_args = 0.., require_equals = true, value_delimiter = ',', value_parser = rule, help_heading = "Debugging")]
     pub(crate) no_prune: Option<Vec<Rule>>,
-    /// Leave out also what changes the picture by less than half a level of 8 bits
-    #[arg(long)]
+    /// Also leave out what changes the picture by less than half a grey level
+    #[arg(long, help_heading = "Performance")]
     pub(crate) approx: bool,
-    /// Simulate also what is left out, and stop at a pixel where it would show
-    #[arg(long, conflicts_with = "no_prune")]
+    /// Also render without the plan's rules, and fail at the first pixel that differs
+    #[arg(long, conflicts_with = "no_prune", help_heading = "Debugging")]
     pub(crate) verify_effects: bool,
 }
 

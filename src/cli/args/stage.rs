@@ -7,48 +7,53 @@ use std::path::PathBuf;
 
 /// From where a scene is seen, and what lights it.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "View and light")]
 pub(crate) struct StageArgs {
-    /// Where the camera stands [default: as in the scene]
-    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    /// Set the position of the camera [default: as in the scene]
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true, help_heading = "View")]
     pub(crate) eye: Option<[f64; 3]>,
-    /// What is in the middle of the picture [default: with `--eye` the middle of the scene]
-    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    /// Set the point in the middle of the picture [default: with `--eye` the middle of the scene]
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true, help_heading = "View")]
     pub(crate) center: Option<[f64; 3]>,
-    /// The upward direction [default: the axis nearest to that of the scene's camera]
-    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
+    /// Set the upward direction [default: the axis closest to the scene's]
+    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true, help_heading = "View")]
     pub(crate) up: Option<[f64; 3]>,
-    /// The angle the picture spans from bottom to top, in degrees
-    #[arg(long, value_name = "DEGREES", value_parser = degrees)]
+    /// Set the vertical field of view, in degrees
+    #[arg(long, value_name = "DEGREES", value_parser = degrees, help_heading = "View")]
     pub(crate) yfov: Option<f64>,
-    /// All of the scene from an angle, in degrees: around from the front to the right, above the
-    /// horizon, and about the view [default of an asset without a camera: 34,23]
+    /// Frame the whole scene from AZIMUTH,ELEVATION[,ROLL] in degrees
+    ///
+    /// The azimuth goes from the front to the right [default of an asset without a camera:
+    /// 34,23].
     #[arg(long, value_name = "AZIMUTH,ELEVATION[,ROLL]", value_parser = orbit, allow_hyphen_values = true,
-        conflicts_with_all = ["eye", "center", "up"])]
+        conflicts_with_all = ["eye", "center", "up"], help_heading = "View")]
     pub(crate) orbit: Option<passes::Orbit>,
-    /// A picture of the surroundings, .hdr or .exr: longitude across, its middle towards -z
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Light the scene by an environment map, .hdr or .exr
+    ///
+    /// Longitude goes across, the middle of the picture is towards -z.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Light")]
     pub(crate) env: Option<PathBuf>,
-    /// The same radiance from every direction, one number or three; 0 is darkness
-    #[arg(long, value_name = "R,G,B", value_parser = color, conflicts_with = "env")]
+    /// Light the scene by a constant environment; 0 is darkness
+    #[arg(long, value_name = "R,G,B", value_parser = color, conflicts_with = "env", help_heading = "Light")]
     pub(crate) env_color: Option<[f64; 3]>,
-    /// A sun: the direction to it, and the irradiance on a surface that faces it, one number or
-    /// three
-    #[arg(long, value_name = "DX,DY,DZ,E", value_parser = sun, allow_hyphen_values = true)]
+    /// Add a sun: the direction to it, and its irradiance as one number or three
+    #[arg(long, value_name = "DX,DY,DZ,E", value_parser = sun, allow_hyphen_values = true, help_heading = "Light")]
     pub(crate) sun: Vec<passes::Sun>,
     /// Leave out the lights of the scene
-    #[arg(long)]
+    #[arg(long, help_heading = "Light")]
     pub(crate) no_scene_lights: bool,
-    /// Whether it stands in the studio [default: auto]
-    #[arg(long, value_enum, value_name = "WHEN")]
+    /// Light the scene by the built-in studio [default: auto]
+    #[arg(long, value_enum, value_name = "WHEN", help_heading = "Light")]
     pub(crate) studio: Option<StudioArg>,
-    /// Whether a ground that fades out is laid under it, to catch its shadow [default: on for a glTF
-    /// asset without a camera in the studio, unless the background is transparent]
-    #[arg(long, value_enum, value_name = "WHEN")]
+    /// Place the scene on a shadow-catching ground
+    ///
+    /// [default: on for a glTF asset without a camera in the studio, unless the background is
+    /// transparent]
+    #[arg(long, value_enum, value_name = "WHEN", help_heading = "Light")]
     pub(crate) ground: Option<GroundArg>,
-    /// How light is followed [default: all paths of what holds glTF, a sun or surroundings; else
-    /// Whitted's way]
-    #[arg(long, value_enum)]
+    /// Select the integrator
+    ///
+    /// [default: path for scenes with glTF, a sun or an environment, else whitted]
+    #[arg(long, value_enum, help_heading = "Sampling")]
     pub(crate) integrator: Option<IntegratorArg>,
 }
 

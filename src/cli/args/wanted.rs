@@ -8,38 +8,46 @@ use rtc_plan as plan;
 use rtc_render::Crop;
 
 #[derive(Debug, Args)]
-#[command(next_help_heading = None::<&str>)]
 pub(crate) struct WantedArgs {
-    /// Width and height in pixels, one number being both; the picture keeps its height in the scene
-    #[arg(long, value_name = "WxH|N", value_parser = size)]
+    /// Set width and height in pixels; one number is both
+    ///
+    /// The picture keeps its height in the scene.
+    #[arg(long, value_name = "WxH|N", value_parser = size, help_heading = "Picture")]
     pub(crate) size: Option<[u32; 2]>,
-    /// Sub-samples along each side of a pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Take N × N samples in each pixel
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Sampling")]
     pub(crate) supersampling: Option<u32>,
-    /// Points of the lens each sub-sample takes
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Sample N points of the lens for each sample of a pixel
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Sampling")]
     pub(crate) aperture_samples: Option<u32>,
-    /// Points of each soft light
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Sample N points of each soft light
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Sampling")]
     pub(crate) light_samples: Option<u32>,
-    /// Rays of each glossy lobe; what is a mirror stays one
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Trace N rays for each glossy reflection
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Sampling")]
     pub(crate) glossy_samples: Option<u32>,
-    /// Paths a pixel, of scenes whose paths are traced
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Trace N paths in each pixel, in path-traced scenes
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Sampling")]
     pub(crate) spp: Option<u32>,
-    /// Bounces after the first hit
-    #[arg(long, value_name = "N")]
+    /// Follow N bounces after the first hit
+    #[arg(long, value_name = "N", help_heading = "Sampling")]
     pub(crate) depth: Option<u32>,
-    /// Render only this part of the picture, in pixels from the upper left
-    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
+    /// Render only this rectangle, in pixels from the upper left corner
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop, help_heading = "Picture")]
     pub(crate) crop: Option<Crop>,
-    /// How rays meet shapes
-    #[arg(long, value_enum, default_value_t, value_name = "ARITHMETIC")]
+    /// Select the arithmetic of intersections
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        value_name = "ARITHMETIC",
+        help_heading = "Debugging"
+    )]
     pub(crate) arithmetic: ArithmeticArg,
-    /// Replace a setting of the IR by its name there, last of all, as multipleScattering=false;
-    /// `rtc schema ir` lists them
-    #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
+    /// Set a setting of the IR by its name, as `multipleScattering=false`
+    ///
+    /// It is applied last. `rtc schema ir` lists the names.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = setting, help_heading = "Picture")]
     pub(crate) set: Vec<(String, String)>,
 }
 
