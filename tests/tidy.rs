@@ -160,9 +160,8 @@ fn the_proof_passes_on_nothing_of_the_representation() {
 const STAGES: [&str; 5] = ["front", "ir", "valid", "render", "image"];
 
 /// Names that several types share, because the types are one notion at different stages (the first
-/// four), or in code of formats that do not know each other.
-const SHARED_NAMES: [&str; 16] = [
-    "Context",
+/// three), or in code of formats that do not know each other.
+const SHARED_NAMES: [&str; 14] = [
     "Lowering",
     "PhongMaterial",
     "StandardMaterial",
@@ -175,7 +174,6 @@ const SHARED_NAMES: [&str; 16] = [
     "Node",
     "Object",
     "Stream",
-    "Subject",
     "Transform",
     "Value",
 ];

@@ -1,6 +1,6 @@
 //! Helpers for exporting to other renderers.
 
-use super::reporter::Reporter;
+use super::reporter::ExportReporter;
 use rtc_diag::codes;
 use rtc_ir::{EntityKind, Field, Material, Scene, Shape, ShapeKind, ValuePath};
 use rtc_math::shortest;
@@ -16,7 +16,7 @@ pub struct ExportedScene {
     pub files: BTreeMap<String, Vec<u8>>,
 }
 
-impl Reporter<'_> {
+impl ExportReporter<'_> {
     /// Reports a feature that the other renderer does not support exactly.
     pub(super) fn unsupported(&mut self, message: &str, path: ValuePath) {
         self.report(&codes::NO_TWIN, message, path);

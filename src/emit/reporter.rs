@@ -4,12 +4,12 @@ use rtc_diag::{Code, Diagnostic, Severity, Sink};
 use rtc_ir::{SourceSpans, ValuePath};
 
 /// Pushes diagnostics at values of the scene to a sink.
-pub(super) struct Reporter<'t> {
+pub(super) struct ExportReporter<'t> {
     source_spans: &'t SourceSpans,
     sink: &'t mut Sink,
 }
 
-impl<'t> Reporter<'t> {
+impl<'t> ExportReporter<'t> {
     pub(super) fn new(source_spans: &'t SourceSpans, sink: &'t mut Sink) -> Self {
         Self { source_spans, sink }
     }

@@ -19,7 +19,7 @@ mod tessellate;
 mod texture;
 mod writer;
 
-use super::reporter::Reporter;
+use super::reporter::ExportReporter;
 use document::{Asset, Buffer, Index};
 use rtc_diag::{Sink, codes};
 use rtc_ir::{EntityKind, Field, Scene, SourceSpans, ValuePath};
@@ -53,7 +53,7 @@ pub fn emit(
     budget: &Budget,
     sink: &mut Sink,
 ) -> Option<GltfAsset> {
-    let mut reporter = Reporter::new(source_spans, sink);
+    let mut reporter = ExportReporter::new(source_spans, sink);
     let scene = tessellate::only_meshes(scene, tolerance, budget, &mut reporter)?;
     charge_pictures(&scene, budget, &mut reporter)?;
     let mut writer = GltfWriter::new(&scene, folder, budget, reporter);
@@ -68,7 +68,11 @@ pub fn emit(
 
 /// Charges the images of textures as if none were compressed; `None` if they exceed the budget,
 /// which is reported.
-fn charge_pictures(scene: &Scene, budget: &Budget, reporter: &mut Reporter<'_>) -> Option<()> {
+fn charge_pictures(
+    scene: &Scene,
+    budget: &Budget,
+    reporter: &mut ExportReporter<'_>,
+) -> Option<()> {
     for (index, image) in scene.images.iter().enumerate() {
         if let Err(error) = budget.charge(Resource::Memory, image.pixels.len() as u64) {
             let message = format!("the picture takes too much as a PNG: {error}");

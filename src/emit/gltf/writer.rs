@@ -7,7 +7,7 @@ use super::document::{
 };
 use super::material::GltfMaterialKey;
 use super::mesh::MeshAccessors;
-use crate::reporter::Reporter;
+use crate::reporter::ExportReporter;
 use crate::sidecar;
 use rtc_diag::codes;
 use rtc_ir::{self as ir, ImageId, Scene, ValuePath};
@@ -22,7 +22,7 @@ pub(super) struct GltfWriter<'w> {
     pub(super) root: Root,
     pub(super) bin: Vec<u8>,
     pub(super) budget: &'w Budget,
-    pub(super) reporter: Reporter<'w>,
+    pub(super) reporter: ExportReporter<'w>,
     /// The folder of sidecar files and their contents; `None` if there is one file only.
     pub(super) folder: Option<&'w str>,
     pub(super) files: BTreeMap<String, Vec<u8>>,
@@ -42,7 +42,7 @@ impl<'w> GltfWriter<'w> {
         scene: &'w Scene,
         folder: Option<&'w str>,
         budget: &'w Budget,
-        reporter: Reporter<'w>,
+        reporter: ExportReporter<'w>,
     ) -> Self {
         Self {
             scene,
@@ -224,7 +224,7 @@ fn extent<const N: usize>(vectors: &[[f32; N]]) -> [Vec<f64>; 2] {
     extent.map(|bound| bound.map(f64::from).to_vec())
 }
 
-impl Reporter<'_> {
+impl ExportReporter<'_> {
     /// Reports that `what` is written to `extras.rtc`.
     pub(super) fn in_extras(&mut self, what: &str, path: ValuePath) {
         let message = format!("{what} stands in `extras.rtc`, where only rtc reads it");

@@ -8,7 +8,7 @@ mod shape;
 
 use super::ExportedScene;
 use super::export::joined;
-use super::reporter::Reporter;
+use super::reporter::ExportReporter;
 use rtc_diag::Sink;
 use rtc_ir::{
     Display, EntityKind, Environment, Field, Mode, PathSettings, Scene, SourceSpans, ValuePath,
@@ -33,7 +33,7 @@ pub fn emit(
         scene,
         folder,
         budget,
-        reporter: Reporter::new(source_spans, sink),
+        reporter: ExportReporter::new(source_spans, sink),
         text: String::new(),
         files: BTreeMap::new(),
         meshes: BTreeMap::new(),
@@ -58,7 +58,7 @@ struct MitsubaWriter<'w> {
     scene: &'w Scene,
     folder: &'w str,
     budget: &'w Budget,
-    reporter: Reporter<'w>,
+    reporter: ExportReporter<'w>,
     text: String,
     files: BTreeMap<String, Vec<u8>>,
     /// The file names of the meshes written so far.

@@ -6,7 +6,7 @@ mod shape;
 
 use super::ExportedScene;
 use super::export::joined;
-use super::reporter::Reporter;
+use super::reporter::ExportReporter;
 use rtc_diag::Sink;
 use rtc_ir::{
     Camera, Display, EntityKind, Field, Light, Mode, Pattern, PointLight, Projection, Scene,
@@ -28,7 +28,7 @@ pub fn emit(
     let mut writer = PovWriter {
         scene,
         budget,
-        reporter: Reporter::new(source_spans, sink),
+        reporter: ExportReporter::new(source_spans, sink),
         text: String::new(),
     };
     writer.settings();
@@ -46,7 +46,7 @@ pub fn emit(
 struct PovWriter<'w> {
     scene: &'w Scene,
     budget: &'w Budget,
-    reporter: Reporter<'w>,
+    reporter: ExportReporter<'w>,
     text: String,
 }
 

@@ -14,7 +14,7 @@ mod round;
 mod tolerance;
 
 use crate::flat::{around, side};
-use crate::reporter::Reporter;
+use crate::reporter::ExportReporter;
 use glam::DAffine3;
 use round::UnitShape;
 use rtc_diag::codes;
@@ -45,7 +45,7 @@ pub(super) fn only_meshes(
     scene: &Scene,
     tolerance: Option<f64>,
     budget: &Budget,
-    reporter: &mut Reporter<'_>,
+    reporter: &mut ExportReporter<'_>,
 ) -> Option<Scene> {
     let mut tessellator = Tessellator {
         tessellation: Tessellation::new(tolerance),
@@ -85,7 +85,7 @@ impl Tessellator<'_> {
         &mut self,
         shape: &Shape,
         path: ValuePath,
-        reporter: &mut Reporter<'_>,
+        reporter: &mut ExportReporter<'_>,
     ) -> Option<Instance> {
         let shape_mesh = match shape {
             Shape::Instance(instance) => return Some(instance.clone()),
@@ -118,7 +118,7 @@ impl Tessellator<'_> {
         &mut self,
         unit_shape: UnitShape,
         path: ValuePath,
-        reporter: &mut Reporter<'_>,
+        reporter: &mut ExportReporter<'_>,
     ) -> Option<MeshId> {
         if let Some(mesh) = self.unit_meshes.get(&unit_shape) {
             return Some(*mesh);
@@ -135,7 +135,12 @@ impl Tessellator<'_> {
     }
 
     /// Charges vertices; `None` if they exceed the budget, which is reported.
-    fn charge(&self, vertices: u64, path: ValuePath, reporter: &mut Reporter<'_>) -> Option<()> {
+    fn charge(
+        &self,
+        vertices: u64,
+        path: ValuePath,
+        reporter: &mut ExportReporter<'_>,
+    ) -> Option<()> {
         let memory = vertices.saturating_mul(VERTEX);
         let charged = self.budget.charge(Resource::Vertices, vertices);
         let charged = charged.and_then(|()| self.budget.charge(Resource::Memory, memory));
@@ -153,7 +158,7 @@ impl Tessellator<'_> {
         None
     }
 
-    fn report(&self, kind: ShapeKind, path: ValuePath, reporter: &mut Reporter<'_>) {
+    fn report(&self, kind: ShapeKind, path: ValuePath, reporter: &mut ExportReporter<'_>) {
         let message = match kind {
             ShapeKind::Triangle | ShapeKind::Instance => return,
             ShapeKind::Plane => format!(
