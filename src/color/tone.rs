@@ -112,8 +112,8 @@ fn sigmoid(v: f64, pivot: f64) -> f64 {
         (3.25, 1.0 - pivot)
     };
     let scale = libm::pow(2.0 * SLOPE, power) - libm::pow(reach, -power);
-    let bend = libm::pow(1.0 + scale * libm::pow(d.abs(), power), 1.0 / power);
-    0.5 + SLOPE * d / bend
+    let denominator = libm::pow(1.0 + scale * libm::pow(d.abs(), power), 1.0 / power);
+    0.5 + SLOPE * d / denominator
 }
 
 fn min(v: [f64; 3]) -> f64 {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 /// The level of a diagnostic that is not an error by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FindingLevel {
+pub enum DiagnosticLevel {
     /// It is not reported.
     Allow,
     /// A warning.
@@ -14,7 +14,7 @@ pub enum FindingLevel {
     Deny,
 }
 
-impl FindingLevel {
+impl DiagnosticLevel {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Allow, Self::Warn, Self::Deny];
 
@@ -60,20 +60,20 @@ impl LevelSubject {
 
 /// The levels that the command line and the project file set.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct FindingLevels {
-    codes: BTreeMap<&'static str, FindingLevel>,
-    warnings: Option<FindingLevel>,
+pub struct DiagnosticLevels {
+    codes: BTreeMap<&'static str, DiagnosticLevel>,
+    warnings: Option<DiagnosticLevel>,
 }
 
-impl FindingLevels {
+impl DiagnosticLevels {
     /// Sets a level.
     ///
     /// # Errors
     /// A message if the code is an error and the level is lower, or if the subject has another level.
-    pub fn set(&mut self, subject: LevelSubject, level: FindingLevel) -> Result<(), String> {
+    pub fn set(&mut self, subject: LevelSubject, level: DiagnosticLevel) -> Result<(), String> {
         let (name, before) = match subject {
             LevelSubject::Code(code)
-                if code.severity == Severity::Error && level != FindingLevel::Deny =>
+                if code.severity == Severity::Error && level != DiagnosticLevel::Deny =>
             {
                 return Err(format!(
                     "`{code}` is an error, which cannot be lowered; `rtc explain {code}` shows how to \
@@ -106,9 +106,9 @@ impl FindingLevels {
         match self.codes.get(code.id).copied().or(of_all) {
             _ if severity == Severity::Error => Some(severity),
             None => Some(severity),
-            Some(FindingLevel::Allow) => None,
-            Some(FindingLevel::Warn) => Some(Severity::Warning),
-            Some(FindingLevel::Deny) => Some(Severity::Error),
+            Some(DiagnosticLevel::Allow) => None,
+            Some(DiagnosticLevel::Warn) => Some(Severity::Warning),
+            Some(DiagnosticLevel::Deny) => Some(Severity::Error),
         }
     }
 }

@@ -11,7 +11,7 @@
 //! - [`Diagnostic`]: the code, the severity, the message, a primary label, secondary labels, hints
 //!   with replacements, and for JSON a pointer.
 //! - [`codes`]: the table of codes. The page of each code is a Markdown file in `codes/pages`.
-//! - [`FindingLevels`]: what `--deny`, `--warn` and `--allow` set for a code.
+//! - [`DiagnosticLevels`]: what `--deny`, `--warn` and `--allow` set for a code.
 //! - [`Sink`]: applies the levels, counts errors, and keeps a limited number of diagnostics.
 //! - [`Printer`]: formats for people ([`Format::Human`]), editors, programs, SARIF and GitHub.
 //!
@@ -30,7 +30,7 @@ mod sink;
 
 pub use clip::{clip, clip_path, clip_words};
 pub use codes::{Code, Severity};
-pub use levels::{FindingLevel, FindingLevels, LevelSubject};
+pub use levels::{DiagnosticLevel, DiagnosticLevels, LevelSubject};
 pub use nearest::nearest;
 pub use print::{Format, PrintOptions, Printer, one};
 pub use sink::Sink;
@@ -138,7 +138,7 @@ impl Diagnostic {
 
     /// Sets the cause and adds a label for it; `None` changes nothing.
     #[must_use]
-    pub fn because(self, cause: Option<Span>, text: impl Into<String>) -> Self {
+    pub fn caused_by(self, cause: Option<Span>, text: impl Into<String>) -> Self {
         Self {
             cause: cause.or(self.cause),
             ..self.also(cause, text)

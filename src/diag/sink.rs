@@ -1,7 +1,7 @@
 //! The sink: collects diagnostics and counts errors. It keeps a limited number, so that a hostile
 //! file cannot fill the memory.
 
-use super::{Code, Diagnostic, FindingLevels, Severity};
+use super::{Code, Diagnostic, DiagnosticLevels, Severity};
 use rtc_source::{Limits, Resource};
 
 /// The collection into which every stage pushes its diagnostics.
@@ -12,7 +12,7 @@ pub struct Sink {
     kept: Vec<Diagnostic>,
     errors: usize,
     dropped: usize,
-    levels: FindingLevels,
+    levels: DiagnosticLevels,
 }
 
 impl Default for Sink {
@@ -31,13 +31,13 @@ impl Sink {
             kept: Vec::new(),
             errors: 0,
             dropped: 0,
-            levels: FindingLevels::default(),
+            levels: DiagnosticLevels::default(),
         }
     }
 
     /// The same sink with levels for the diagnostics that follow.
     #[must_use]
-    pub fn with_levels(self, levels: FindingLevels) -> Self {
+    pub fn with_levels(self, levels: DiagnosticLevels) -> Self {
         Self { levels, ..self }
     }
 
@@ -97,36 +97,36 @@ impl Sink {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{FindingLevel, LevelSubject, codes};
+    use super::super::{DiagnosticLevel, LevelSubject, codes};
     use super::*;
 
     #[test]
     fn levels_change_what_is_taken_and_make_no_error_less() {
-        let mut levels = FindingLevels::default();
+        let mut levels = DiagnosticLevels::default();
         let of = |code| LevelSubject::Code(code);
         assert!(
             levels
-                .set(of(&codes::NOT_UTF8), FindingLevel::Allow)
+                .set(of(&codes::NOT_UTF8), DiagnosticLevel::Allow)
                 .is_err()
         );
         assert_eq!(
-            levels.set(LevelSubject::Warnings, FindingLevel::Deny),
+            levels.set(LevelSubject::Warnings, DiagnosticLevel::Deny),
             Ok(())
         );
         assert_eq!(
-            levels.set(of(&codes::UNKNOWN_KEY), FindingLevel::Allow),
+            levels.set(of(&codes::UNKNOWN_KEY), DiagnosticLevel::Allow),
             Ok(())
         );
-        assert_eq!(levels.set(of(&codes::TAG), FindingLevel::Warn), Ok(()));
-        assert!(levels.set(of(&codes::TAG), FindingLevel::Deny).is_err());
-        let mut levels = FindingLevels::default();
+        assert_eq!(levels.set(of(&codes::TAG), DiagnosticLevel::Warn), Ok(()));
+        assert!(levels.set(of(&codes::TAG), DiagnosticLevel::Deny).is_err());
+        let mut levels = DiagnosticLevels::default();
         levels
-            .set(LevelSubject::Warnings, FindingLevel::Deny)
+            .set(LevelSubject::Warnings, DiagnosticLevel::Deny)
             .unwrap();
         levels
-            .set(of(&codes::UNKNOWN_KEY), FindingLevel::Allow)
+            .set(of(&codes::UNKNOWN_KEY), DiagnosticLevel::Allow)
             .unwrap();
-        levels.set(of(&codes::TAG), FindingLevel::Warn).unwrap();
+        levels.set(of(&codes::TAG), DiagnosticLevel::Warn).unwrap();
         let mut sink = Sink::default().with_levels(levels);
         let made = |code, severity| Diagnostic::new(code, "x").severity(severity);
         for (code, severity) in [

@@ -101,19 +101,19 @@ mod tests {
             b"hello, this is no picture",
         ];
         let plain = MAGICS.iter().map(|(magic, _)| *magic);
-        let (mut told, mut untold) = (0, 0);
+        let (mut known, mut unknown) = (0, 0);
         for magic in plain.chain(with_length).chain(others) {
             for head in [magic, &[magic, b" and more"].concat()] {
                 for end in 0..=head.len() {
                     let format = PictureFormat::of(&head[..end]).map(PictureFormat::name);
                     assert_eq!(format, witness(&head[..end]), "{:?}", &head[..end]);
                     match format {
-                        Some(_) => told += 1,
-                        None => untold += 1,
+                        Some(_) => known += 1,
+                        None => unknown += 1,
                     }
                 }
             }
         }
-        assert!(told > 200 && untold > 200, "{told} {untold}");
+        assert!(known > 200 && unknown > 200, "{known} {unknown}");
     }
 }

@@ -52,7 +52,7 @@ pub use shard_plan::{ShardBy, ShardPlan};
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use rtc_codec as codec;
-use rtc_diag::{Diagnostic, FindingLevels, Sink, clip, codes};
+use rtc_diag::{Diagnostic, DiagnosticLevels, Sink, clip, codes};
 use rtc_front as front;
 use rtc_front::course::assets::{self, AssetTarget};
 use rtc_front::{course, gltf, mesh, mitsuba};
@@ -78,7 +78,7 @@ pub struct Options {
     /// Options of the validation.
     pub valid: valid::ValidationOptions,
     /// Severity overrides of diagnostics.
-    pub levels: FindingLevels,
+    pub levels: DiagnosticLevels,
     /// Texts that replace files to which scenes refer.
     pub edited: EditedFiles,
 }

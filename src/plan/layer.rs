@@ -9,7 +9,7 @@ macro_rules! kinds {
     ($(
         $(#[doc = $about:literal])*
         $layer:ident = $slot:ident {
-            told: $name:literal, $absence:literal;
+            label: $name:literal, $absence:literal;
             weight: $weight:ident * $weight_map:ident [$channels:expr];
             maps: $($factor:ident * $map:ident),*;
             transmits: $transmits:literal;

@@ -180,35 +180,35 @@ macro_rules! layers {
         $then! {
             /// `KHR_materials_clearcoat`.
             Clearcoat = clearcoat {
-                told: "clearcoat", "no material has a clearcoat";
+                label: "clearcoat", "no material has a clearcoat";
                 weight: clearcoat * clearcoat_map [0..1];
                 maps: clearcoat * clearcoat_map, clearcoat_roughness * clearcoat_roughness_map;
                 transmits: false;
             }
             /// `KHR_materials_sheen`.
             Sheen = sheen {
-                told: "sheen", "no material has sheen";
+                label: "sheen", "no material has sheen";
                 weight: sheen_color * sheen_color_map [0..3];
                 maps: sheen_color * sheen_color_map, sheen_roughness * sheen_roughness_map;
                 transmits: false;
             }
             /// `KHR_materials_anisotropy`.
             Anisotropy = anisotropy {
-                told: "anisotropy", "no material is anisotropic";
+                label: "anisotropy", "no material is anisotropic";
                 weight: anisotropy * anisotropy_map [2..3];
                 maps: anisotropy * anisotropy_map;
                 transmits: false;
             }
             /// `KHR_materials_iridescence`.
             Iridescence = iridescence {
-                told: "iridescence", "no material is iridescent";
+                label: "iridescence", "no material is iridescent";
                 weight: iridescence * iridescence_map [0..1];
                 maps: iridescence * iridescence_map, iridescence * iridescence_thickness_map;
                 transmits: false;
             }
             /// `KHR_materials_diffuse_transmission`.
             DiffuseTransmission = diffuse_transmission {
-                told: "translucency", "no material is translucent";
+                label: "translucency", "no material is translucent";
                 weight: diffuse_transmission * diffuse_transmission_map [3..4];
                 maps: diffuse_transmission * diffuse_transmission_map,
                     diffuse_transmission_color * diffuse_transmission_color_map;

@@ -2,7 +2,7 @@
 
 use super::super::parse::{folder, limit, moment};
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
-use rtc_diag::{self as diag, FindingLevel, FindingLevels, LevelSubject};
+use rtc_diag::{self as diag, DiagnosticLevel, DiagnosticLevels, LevelSubject};
 use rtc_source::{Limits, Resource};
 use std::path::PathBuf;
 
@@ -57,13 +57,13 @@ pub(crate) struct Reading {
 
 impl Reading {
     /// What is made of findings.
-    pub(crate) fn levels(&self) -> Result<FindingLevels, String> {
-        let mut levels = FindingLevels::default();
-        for level in FindingLevel::ALL {
+    pub(crate) fn levels(&self) -> Result<DiagnosticLevels, String> {
+        let mut levels = DiagnosticLevels::default();
+        for level in DiagnosticLevel::ALL {
             let subjects = match level {
-                FindingLevel::Allow => &self.allow,
-                FindingLevel::Warn => &self.warn,
-                FindingLevel::Deny => &self.deny,
+                DiagnosticLevel::Allow => &self.allow,
+                DiagnosticLevel::Warn => &self.warn,
+                DiagnosticLevel::Deny => &self.deny,
             };
             for subject in subjects {
                 let set = levels.set(*subject, level);

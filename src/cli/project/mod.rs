@@ -6,7 +6,7 @@ mod trust;
 
 use super::Failure;
 use super::args::Reading;
-use rtc_diag::{Code, Diagnostic, FindingLevels, clip_path, codes};
+use rtc_diag::{Code, Diagnostic, DiagnosticLevels, clip_path, codes};
 use rtc_passes::Overrides;
 use rtc_pipeline::Input;
 use rtc_source::{Limits, LoadError, Loader, Resource, Span};
@@ -39,7 +39,7 @@ pub(super) struct Project {
 struct ProjectSettings {
     /// Whether it may raise limits.
     is_trusted: bool,
-    levels: FindingLevels,
+    levels: DiagnosticLevels,
     limits: Vec<(Resource, u64)>,
     asset_root: Option<PathBuf>,
     render: Overrides,
@@ -85,7 +85,7 @@ impl Project {
     }
 
     /// Puts what it says of findings below what was said before.
-    pub(super) fn levels(&self, typed: FindingLevels) -> FindingLevels {
+    pub(super) fn levels(&self, typed: DiagnosticLevels) -> DiagnosticLevels {
         let mut levels = self.settings.levels.clone();
         levels.override_by(typed);
         levels

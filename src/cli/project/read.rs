@@ -3,7 +3,7 @@
 use super::super::parse;
 use super::trust::Trust;
 use super::{ProjectFault, ProjectSettings};
-use rtc_diag::{Code, FindingLevel, LevelSubject, clip, codes, nearest};
+use rtc_diag::{Code, DiagnosticLevel, LevelSubject, clip, codes, nearest};
 use rtc_source::{Limits, Resource};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -122,7 +122,7 @@ impl ProjectReader<'_> {
             Err(words) => return self.fault(key.span(), format!("`{}`: {words}", clip(name)), ""),
         };
         let word = value.get_ref().as_str();
-        let level = FindingLevel::ALL
+        let level = DiagnosticLevel::ALL
             .into_iter()
             .find(|level| word == Some(level.name()));
         let set = match level {

@@ -292,7 +292,7 @@ fn report_no_camera(context: &mut Context<'_>) {
     let cause = cause.filter(|cause| *cause != span);
     context.report(&codes::NO_CAMERA, span, message, |d| {
         d.at(span, "the scene")
-            .because(cause, "perhaps this is it")
+            .caused_by(cause, "perhaps this is the cause")
             .hint("add `Camera:` with `eye`, `center`, `up` and `viewSize`; old files have `Eye:`")
     });
 }

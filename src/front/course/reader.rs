@@ -320,7 +320,7 @@ pub(super) fn missing_keys(
     };
     context.report(&codes::MISSING_KEY, head, message, |d| {
         d.at(head, format!("the {record_name}"))
-            .because(cause, "perhaps this is it")
+            .caused_by(cause, "perhaps this is the cause")
     });
 }
 

@@ -110,7 +110,7 @@ fn report(
         || message,
         |d| {
             d.at(head, format!("the {name}"))
-                .because(cause, "perhaps this is it")
+                .caused_by(cause, "perhaps this is the cause")
                 .hint(hint)
         },
     );

@@ -136,7 +136,7 @@ impl<'m> Resources<'m> {
             // What is not mended is told, and no file is read for it.
             match report.is_lenient() {
                 true => Ok(uri),
-                false => Err(UriFault::Told),
+                false => Err(UriFault::Reported),
             }
         });
         match parsed {
@@ -168,7 +168,7 @@ impl<'m> Resources<'m> {
                 report.add(&codes::GLTF_URI, "INVALID_URI", at, message);
                 None
             }
-            Err(UriFault::Told) => None,
+            Err(UriFault::Reported) => None,
             Err(UriFault::Outside(how)) => {
                 outside(text, how, at, report);
                 None

@@ -37,7 +37,7 @@ pub(super) enum UriFault {
     /// It leads out of the folder, in this way.
     Outside(&'static str),
     /// It is one that importers mend, and was told.
-    Told,
+    Reported,
 }
 
 /// Reads a URI.

@@ -193,7 +193,7 @@ fn report_type_as_key(node: NodeId, context: &mut Context<'_>) -> bool {
 fn report_unknown_type(name: &str, node: NodeId, context: &mut Context<'_>) {
     let (lenient, span) = (context.options.lenient, context.tree.span(node));
     let known = KINDS.iter().flat_map(|kind| kind.names).copied();
-    let meant = nearest(name, known).map(|meant| (meant, context.with_quotes_of(node, meant)));
+    let suggestion = nearest(name, known).map(|suggestion| (suggestion, context.with_quotes_of(node, suggestion)));
     context.report(
         &codes::UNKNOWN_TYPE,
         span,
@@ -205,9 +205,9 @@ fn report_unknown_type(name: &str, node: NodeId, context: &mut Context<'_>) {
                     .severity(Severity::Warning),
                 false => d.at(span, "no such type"),
             };
-            match meant {
-                Some((meant, replacement)) => {
-                    d.guess(format!("did you mean `{meant}`?"), span, replacement)
+            match suggestion {
+                Some((suggestion, replacement)) => {
+                    d.guess(format!("did you mean `{suggestion}`?"), span, replacement)
                 }
                 None if lenient => d,
                 None => {

@@ -182,8 +182,8 @@ fn lengths(bits: &mut BitReader<'_>, alphabet: u16) -> Option<Vec<u8>> {
         17, 18, 0, 1, 2, 3, 4, 5, 16, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15,
     ];
     let mut of_lengths = [0; ORDER.len()];
-    let told = 4 + bits.read(4)? as usize;
-    for at in ORDER.get(..told)? {
+    let count = 4 + bits.read(4)? as usize;
+    for at in ORDER.get(..count)? {
         of_lengths[*at] = u8::try_from(bits.read(3)?).ok()?;
     }
     let code = PrefixCode::of(&of_lengths)?;
