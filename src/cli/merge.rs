@@ -35,7 +35,9 @@ pub(super) fn run(args: &Merge) -> Result<(), Failure> {
     let (picture, counts, found) = merged.develop().map_err(|error| refused(error, &merged))?;
     let mut reporter = Reporter::beside_result(&args.reporter);
     let mut sink = Sink::within(&limits);
-    found.into_iter().for_each(|finding| sink.push(finding));
+    found
+        .into_iter()
+        .for_each(|diagnostic| sink.push(diagnostic));
     reporter.file(&args.output.display().to_string(), sink, &map)?;
     reporter.finish()?;
     let bytes = merged.look().encode(&picture, || merged.origin());

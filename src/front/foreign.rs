@@ -323,7 +323,7 @@ mod tests {
     use super::*;
 
     fn message(bytes: &[u8]) -> String {
-        foreign("x", bytes).map_or_else(String::new, |finding| finding.message)
+        foreign("x", bytes).map_or_else(String::new, |diagnostic| diagnostic.message)
     }
 
     #[test]

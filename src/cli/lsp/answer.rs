@@ -8,7 +8,7 @@ use super::protocol::{
 };
 use super::uri::DocumentUri;
 use super::workspace::Workspace;
-use super::{completion, findings, hover, method, outline};
+use super::{completion, diagnostics, hover, method, outline};
 use lsp_server::{ErrorCode, Request, RequestId, Response};
 use rtc_pipeline::Input;
 use serde::Serialize;
@@ -78,7 +78,7 @@ impl Workspace {
         let (reading, columns) = (self.reading.clone(), self.columns);
         let document = self.checked(&params.text_document.uri)?;
         let only = params.context.only.as_deref();
-        Some(findings::actions(
+        Some(diagnostics::actions(
             document,
             params.range,
             only,

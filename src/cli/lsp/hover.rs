@@ -131,21 +131,21 @@ fn aliased(tree: &Tree<'_>, value: rtc_source::tree::NodeId) -> String {
 /// The texts of the codes of what is found at a byte.
 fn codes(document: &OpenText, offset: usize) -> Vec<String> {
     let checked = document.scene().into_iter();
-    let findings = checked.flat_map(|checked| {
+    let diagnostics = checked.flat_map(|checked| {
         let own = |span: rtc_source::Span| {
             let (start, end) = (span.start as usize, span.end as usize);
             checked.is_own(span.file) && (start..=end).contains(&offset)
         };
-        let findings = checked.findings.iter();
-        findings.filter(move |finding| {
-            finding
+        let diagnostics = checked.diagnostics.iter();
+        diagnostics.filter(move |diagnostic| {
+            diagnostic
                 .primary
                 .as_ref()
                 .is_some_and(|label| own(label.span))
         })
     });
-    let mut texts: Vec<String> = findings
-        .map(|finding| explain::entry(finding.code))
+    let mut texts: Vec<String> = diagnostics
+        .map(|diagnostic| explain::entry(diagnostic.code))
         .collect();
     texts.dedup();
     texts

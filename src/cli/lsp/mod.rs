@@ -3,8 +3,8 @@
 
 mod answer;
 mod completion;
+mod diagnostics;
 mod effective;
-mod findings;
 mod hover;
 mod method;
 mod open_text;

@@ -4,7 +4,7 @@ use super::super::Failure;
 use super::super::args::Reading;
 use super::super::input;
 use super::super::project::Project;
-use super::findings::FileFindings;
+use super::diagnostics::FileDiagnostics;
 use super::place;
 use super::protocol::TextDocumentContentChangeEvent;
 use super::text::{Columns, TextLines};
@@ -34,7 +34,7 @@ pub(super) struct OpenText {
     /// What was found in the text as it is; none until it is checked.
     pub(super) checked: Option<CheckedText>,
     /// What the editor was told of it last, by the files that it is about.
-    pub(super) reported: Vec<FileFindings>,
+    pub(super) reported: Vec<FileDiagnostics>,
 }
 
 /// What was found in a text.
@@ -51,7 +51,7 @@ pub(super) struct CheckedScene {
     /// What the text says, if it is sound.
     pub(super) lowered: Option<Lowered>,
     /// Errors and warnings, in the order of the text.
-    pub(super) findings: Vec<Diagnostic>,
+    pub(super) diagnostics: Vec<Diagnostic>,
 }
 
 impl CheckedScene {
@@ -172,9 +172,9 @@ impl OpenText {
         let mut sink = input.take_diagnostics();
         sink.sort();
         let kept = sink.kept().iter();
-        let findings = kept.filter(|finding| finding.severity != Severity::Note);
+        let diagnostics = kept.filter(|diagnostic| diagnostic.severity != Severity::Note);
         Ok(CheckedScene {
-            findings: findings.cloned().collect(),
+            diagnostics: diagnostics.cloned().collect(),
             input,
             lowered,
         })

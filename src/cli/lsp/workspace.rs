@@ -1,7 +1,7 @@
 //! The texts that an editor has open: what happens to them, and telling what is found in them.
 
 use super::super::args::Reading;
-use super::findings::{self, FileFindings};
+use super::diagnostics::{self, FileDiagnostics};
 use super::method;
 use super::open_text::OpenText;
 use super::path_at::Vocabulary;
@@ -182,7 +182,7 @@ impl Workspace {
             .position(|own| own.checked.is_none())?;
         self.check(at);
         let document = self.documents.get_mut(at)?;
-        let found = findings::diagnostics(document, columns);
+        let found = diagnostics::diagnostics(document, columns);
         let before = std::mem::replace(&mut document.reported, found);
         let mut files: Vec<DocumentUri> = before.into_iter().map(|(file, _)| file).collect();
         files.extend(document.reported.iter().map(|(file, _)| file.clone()));
@@ -196,7 +196,7 @@ impl Workspace {
         let publish = |file: DocumentUri| {
             let (mut all, mut known) = (Vec::new(), BTreeSet::new());
             let reported = self.documents.iter().flat_map(|own| &own.reported);
-            let of_file = reported.filter(|(own, _): &&FileFindings| *own == file);
+            let of_file = reported.filter(|(own, _): &&FileDiagnostics| *own == file);
             for diagnostic in of_file.flat_map(|(_, list)| list) {
                 // The same may be found in a file by itself and by scenes that name it.
                 if known.insert(own_words(diagnostic)) {

@@ -31,7 +31,7 @@ pub(super) struct RenderedPicture {
 }
 
 /// A finding as the page shows it.
-pub(super) struct ToldFinding {
+pub(super) struct ReportedDiagnostic {
     pub(super) severity: &'static str,
     /// As `rtc check` prints it.
     pub(super) text: String,
@@ -46,7 +46,7 @@ pub(super) struct ReadState {
     pub(super) load: u64,
     /// Its text, if it has one.
     pub(super) text: Option<Arc<str>>,
-    pub(super) findings: Vec<ToldFinding>,
+    pub(super) diagnostics: Vec<ReportedDiagnostic>,
     /// Why there is no picture, beside the findings.
     pub(super) fault: Option<String>,
     /// There is no picture of it.
@@ -327,13 +327,13 @@ impl PreviewData {
 
     /// What the page is told.
     fn reported(&self) -> Value {
-        let finding = |finding: &ToldFinding| {
-            let fix = match finding.fix {
+        let diagnostic = |diagnostic: &ReportedDiagnostic| {
+            let fix = match diagnostic.fix {
                 None => Value::Null,
                 Some((_, true)) => "guess".into(),
                 Some((_, false)) => "sure".into(),
             };
-            json!({ "severity": finding.severity, "text": finding.text, "fix": fix })
+            json!({ "severity": diagnostic.severity, "text": diagnostic.text, "fix": fix })
         };
         json!({
             "version": self.version,
@@ -341,7 +341,7 @@ impl PreviewData {
             "isWorking": self.is_working,
             "isFailed": self.read.is_failed,
             "fault": self.read.fault,
-            "findings": self.read.findings.iter().map(finding).collect::<Vec<_>>(),
+            "findings": self.read.diagnostics.iter().map(diagnostic).collect::<Vec<_>>(),
             "picture": self.shown.reported(self.load),
             "against": self.against.reported(self.load),
             "view": self.scene_camera.as_ref().map(SceneCamera::reported),

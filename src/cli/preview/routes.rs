@@ -37,7 +37,8 @@ pub(super) struct Routes {
 struct FixOrder {
     /// Of which reading of the scene the finding is.
     load: u64,
-    finding: Option<usize>,
+    #[serde(rename = "finding")]
+    diagnostic: Option<usize>,
 }
 
 /// How the scene is to be looked at.
@@ -184,10 +185,10 @@ fn wish(read: &ReadState, order: &FixOrder) -> Option<FixFilter> {
     if read.load != order.load {
         return None;
     }
-    let Some(index) = order.finding else {
+    let Some(index) = order.diagnostic else {
         return Some(FixFilter::default());
     };
-    let (diagnostic_ref, is_guess) = read.findings.get(index)?.fix.as_ref()?;
+    let (diagnostic_ref, is_guess) = read.diagnostics.get(index)?.fix.as_ref()?;
     Some(FixFilter {
         guesses: *is_guess,
         only: Some(diagnostic_ref.clone()),

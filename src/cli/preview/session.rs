@@ -3,7 +3,7 @@
 
 use super::against::Against;
 use super::command::RenderWords;
-use super::preview_state::{PreviewState, ReadState, ToldFinding, ViewSettings, Work};
+use super::preview_state::{PreviewState, ReadState, ReportedDiagnostic, ViewSettings, Work};
 use super::scene::{self, ReadScene, ShownScene};
 use super::view::SceneCamera;
 use super::watch::Watched;
@@ -134,9 +134,9 @@ impl<'a> Session<'a> {
             // The findings say why.
             Ok(false) => self.publish(true, &work.view_settings, None),
             Err(RenderError::Stopped) => return Ok(()),
-            Err(RenderError::RanOut(finding)) => {
+            Err(RenderError::RanOut(diagnostic)) => {
                 if let Some(scene) = &mut self.scene {
-                    scene.input.push(*finding);
+                    scene.input.push(*diagnostic);
                 }
                 self.publish(true, &work.view_settings, None);
             }
@@ -227,7 +227,7 @@ impl<'a> Session<'a> {
             Ok(Some(rendering)) => self.preview_state.put_against(rendering, work.age),
             Ok(None) => {}
             Err(RenderError::Stopped) => return false,
-            Err(RenderError::RanOut(finding)) => super::reporter::say(&finding.message),
+            Err(RenderError::RanOut(diagnostic)) => super::reporter::say(&diagnostic.message),
             Err(RenderError::Refused(words)) => super::reporter::say(&words),
         }
         true
@@ -249,12 +249,12 @@ impl<'a> Session<'a> {
             true => Severity::Note,
             false => Severity::Warning,
         };
-        let findings = found
+        let diagnostics = found
             .kept()
             .iter()
-            .filter(|finding| finding.severity <= least)
+            .filter(|diagnostic| diagnostic.severity <= least)
             .take(self.args.reporter.max_errors as usize)
-            .map(|finding| reported(finding, &scene.input))
+            .map(|diagnostic| reported(diagnostic, &scene.input))
             .collect();
         scene.input.restore_diagnostics(found);
         let text = scene.input.text().map(Arc::from);
@@ -273,7 +273,7 @@ impl<'a> Session<'a> {
         let (load, words) = (self.loads, &self.words);
         self.preview_state.show(|state| {
             let read = &mut state.read;
-            (read.load, read.text, read.findings) = (load, text, findings);
+            (read.load, read.text, read.diagnostics) = (load, text, diagnostics);
             (read.is_failed, read.fault) = (is_failed, None);
             state.scene_camera = scene_camera.or(state.scene_camera.take());
             let view = state
@@ -336,17 +336,17 @@ impl<'a> Session<'a> {
 }
 
 /// A finding as the page shows it.
-fn reported(finding: &Diagnostic, input: &Input) -> ToldFinding {
-    let changes = finding
+fn reported(diagnostic: &Diagnostic, input: &Input) -> ReportedDiagnostic {
+    let changes = diagnostic
         .hints
         .iter()
         .filter_map(|hint| hint.replacement.as_ref());
     let own = changes.filter(|change| input.is_own(change.span));
     let is_guess = own.map(|change| change.is_guess).reduce(|a, b| a && b);
-    ToldFinding {
-        severity: finding.severity.name(),
-        text: diag::one(finding, input.map(), WIDTH),
-        fix: is_guess.map(|is_guess| (pipeline::diagnostic_ref(finding), is_guess)),
+    ReportedDiagnostic {
+        severity: diagnostic.severity.name(),
+        text: diag::one(diagnostic, input.map(), WIDTH),
+        fix: is_guess.map(|is_guess| (pipeline::diagnostic_ref(diagnostic), is_guess)),
     }
 }
 

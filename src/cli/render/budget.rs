@@ -63,13 +63,13 @@ impl PictureClock {
             (true, Some(coarse)) => format!("{}, and {}", late(took, time), lacking(coarse)),
             (false, Some(coarse)) => lacking(coarse),
         };
-        let finding = Diagnostic::new(&codes::TOO_SHORT, words);
+        let diagnostic = Diagnostic::new(&codes::TOO_SHORT, words);
         Some(match coarse {
-            Some(CoarsePicture { complete_after, .. }) => finding.hint(format!(
+            Some(CoarsePicture { complete_after, .. }) => diagnostic.hint(format!(
                 "a sample for each pixel takes about `--time-budget {:.2}`",
                 (complete_after + writing(crop)).as_secs_f64()
             )),
-            None => finding.hint(
+            None => diagnostic.hint(
                 "reading, preparing and writing take time, too: a smaller `--size` takes less",
             ),
         })

@@ -177,7 +177,9 @@ impl RenderSetup {
         let developed = done.develop();
         let (picture, counts, found) =
             developed.map_err(|error| Failure::Trouble(error.to_string()))?;
-        found.into_iter().for_each(|finding| input.push(finding));
+        found
+            .into_iter()
+            .for_each(|diagnostic| input.push(diagnostic));
         let size = [picture.image.width, picture.image.height];
         let work = (counts, elapsed);
         let made = MadePicture::new(&saving.output, &self.picture, size, work);

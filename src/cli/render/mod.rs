@@ -301,7 +301,9 @@ impl RenderSetup {
         let picture = self.picture.develop(subject, film, input, &is_stopped)?;
         let time = self.picture.goal.time;
         let found = self.clock.stop(time, (coarse, window));
-        found.into_iter().for_each(|finding| input.push(finding));
+        found
+            .into_iter()
+            .for_each(|diagnostic| input.push(diagnostic));
         input::tell(input, reporter)?;
         Ok((picture, made))
     }
@@ -310,8 +312,8 @@ impl RenderSetup {
 /// Ends a command whose render came to no end: where rays ran out is a finding about the scene.
 fn halted(error: RenderError, input: &mut Input, reporter: &mut Reporter) -> Result<(), Failure> {
     match error {
-        RenderError::RanOut(finding) => {
-            input.push(*finding);
+        RenderError::RanOut(diagnostic) => {
+            input.push(*diagnostic);
             input::tell(input, reporter)
         }
         error @ (RenderError::Stopped | RenderError::Refused(_)) => Err(error.into()),

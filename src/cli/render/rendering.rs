@@ -184,7 +184,7 @@ impl RenderSetup {
         let (reached, has_run_out) = match (reached?, ran_out) {
             (Ok(reached), None) => (reached, false),
             (Ok(reached), Some(_)) => (reached, true),
-            (Err(Stopped), Some(finding)) => return Err(RenderError::RanOut(finding)),
+            (Err(Stopped), Some(diagnostic)) => return Err(RenderError::RanOut(diagnostic)),
             (Err(Stopped), None) => return Err(RenderError::Stopped),
         };
         Ok(Rendered::reached(reached, order.goal, elapsed, has_run_out))

@@ -6,7 +6,7 @@ use crate::{Diagnostic, Severity};
 use rtc_source::SourceMap;
 
 /// One diagnostic; `name` is its file if it has no span.
-pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
+pub(super) fn diagnostic(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
     let command = match diagnostic.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",

@@ -17,7 +17,7 @@ use rtc_source::SourceMap;
 type Mark<'a> = (&'a Label, AnnotationKind);
 
 /// One diagnostic, with the number of equal ones, and an empty line.
-pub(super) fn finding(fold: &Fold<'_>, map: &SourceMap, options: &PrintOptions) -> String {
+pub(super) fn diagnostic(fold: &Fold<'_>, map: &SourceMap, options: &PrintOptions) -> String {
     let renderer = if options.color {
         Renderer::styled()
     } else {

@@ -60,7 +60,7 @@ struct JsonChange<'a> {
 }
 
 /// One finding of the file `name`.
-pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
+pub(super) fn diagnostic(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
     let Diagnostic {
         code,
         severity: level,

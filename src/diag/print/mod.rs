@@ -57,7 +57,7 @@ pub fn one(found: &Diagnostic, map: &SourceMap, width: usize) -> String {
         first: found,
         others: Vec::new(),
     };
-    human::finding(&alone, map, &options)
+    human::diagnostic(&alone, map, &options)
 }
 
 /// Options of a printer.
@@ -99,10 +99,10 @@ impl Printer {
 
     /// The note about settings of a project file is printed once even without `-v`: the command line
     /// does not show them.
-    fn shows_settings(&self, finding: &Diagnostic) -> bool {
-        finding.code.id == codes::SETTINGS_READ.id
+    fn shows_settings(&self, diagnostic: &Diagnostic) -> bool {
+        diagnostic.code.id == codes::SETTINGS_READ.id
             && self.options.least != Severity::Error
-            && self.settings.as_ref() != Some(&finding.message)
+            && self.settings.as_ref() != Some(&diagnostic.message)
     }
 
     /// The text for the diagnostics of the file `name`; empty if none is printed.
@@ -127,11 +127,11 @@ impl Printer {
         let text: String = match self.format {
             Format::Human => shown
                 .iter()
-                .map(|fold| human::finding(fold, map, &self.options))
+                .map(|fold| human::diagnostic(fold, map, &self.options))
                 .collect(),
-            Format::Short => each(&|diagnostic| short::finding(name, diagnostic, map)),
-            Format::Json => each(&|diagnostic| json::finding(name, diagnostic, map)),
-            Format::Github => each(&|diagnostic| github::finding(name, diagnostic, map)),
+            Format::Short => each(&|diagnostic| short::diagnostic(name, diagnostic, map)),
+            Format::Json => each(&|diagnostic| json::diagnostic(name, diagnostic, map)),
+            Format::Github => each(&|diagnostic| github::diagnostic(name, diagnostic, map)),
             Format::Sarif => {
                 self.results.extend(
                     shown
@@ -143,9 +143,9 @@ impl Printer {
         };
         let settings = found
             .iter()
-            .find(|finding| finding.code.id == codes::SETTINGS_READ.id);
-        if let Some(finding) = settings {
-            self.settings = Some(finding.message.clone());
+            .find(|diagnostic| diagnostic.code.id == codes::SETTINGS_READ.id);
+        if let Some(diagnostic) = settings {
+            self.settings = Some(diagnostic.message.clone());
         }
         text + &self.after(name, &found, hidden)
     }

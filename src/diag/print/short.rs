@@ -6,7 +6,7 @@ use crate::Diagnostic;
 use rtc_source::SourceMap;
 
 /// One diagnostic; `name` is its file if it has no span.
-pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
+pub(super) fn diagnostic(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
     let place = match (&diagnostic.primary, &diagnostic.pointer) {
         (Some(label), _) => SourceLocation::new(map, label.span).to_string(),
         (None, Some(pointer)) => format!("{}: {}", clean(name), clean(pointer)),

@@ -150,8 +150,8 @@ fn human_shows_far_places_apart() {
 #[test]
 fn human_names_the_byte_or_column_where_lines_mean_nothing() {
     let late = |at: Span| {
-        let finding = Diagnostic::new(&codes::NOT_UTF8, "the file is not UTF-8");
-        vec![finding.at(
+        let diagnostic = Diagnostic::new(&codes::NOT_UTF8, "the file is not UTF-8");
+        vec![diagnostic.at(
             Span {
                 start: 5000,
                 end: 5001,
@@ -293,8 +293,9 @@ fn equal_findings_are_folded_for_people_alone() {
                 "the same word"
             }
         };
-        let finding = |line| Diagnostic::new(&codes::NOT_FINITE, message(line)).at(place(line), "");
-        (0..9).map(finding).collect()
+        let diagnostic =
+            |line| Diagnostic::new(&codes::NOT_FINITE, message(line)).at(place(line), "");
+        (0..9).map(diagnostic).collect()
     };
     let text = print(Format::Human, PLAIN, lines.as_bytes(), flood);
     assert_eq!(text.matches("the same word").count(), 1);
@@ -357,8 +358,8 @@ proptest! {
                 let (a, b) = (u32::from(at[i]) % length, u32::from(at[i + 1]) % length);
                 Span { start: a.min(b), end: a.max(b), ..whole }
             };
-            let finding = Diagnostic::new(&codes::NOT_FINITE, words.clone()).at(span(0), words.clone());
-            vec![finding.also(span(2), words.clone()).replace(words.clone(), span(4), words.clone()).pointer(words.clone())]
+            let diagnostic = Diagnostic::new(&codes::NOT_FINITE, words.clone()).at(span(0), words.clone());
+            vec![diagnostic.also(span(2), words.clone()).replace(words.clone(), span(4), words.clone()).pointer(words.clone())]
         };
         for format in [Format::Human, Format::Short, Format::Json, Format::Sarif, Format::Github] {
             let text = print(format, PLAIN, &bytes, make);

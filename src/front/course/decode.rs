@@ -242,7 +242,7 @@ impl<'a> Context<'a> {
     }
 
     /// The number of different findings so far.
-    pub(super) fn findings(&self) -> usize {
+    pub(super) fn diagnostics(&self) -> usize {
         self.reported.len()
     }
 
@@ -270,12 +270,12 @@ impl<'a> Context<'a> {
         let text = suggestion.as_ref().and_then(|(_, text)| text.as_deref());
         let same = text.is_some_and(|text| same_letters(tree.written(node), text));
         self.report(&codes::WRONG_TYPE, span_shown, message, |d| {
-            let finding = d.at(span_shown, found.clone());
+            let diagnostic = d.at(span_shown, found.clone());
             match suggestion {
-                Some((hint, Some(text))) if same => finding.replace(hint, span_shown, text),
-                Some((hint, Some(text))) => finding.guess(hint, span_shown, text),
-                Some((hint, None)) => finding.hint(hint),
-                None => finding,
+                Some((hint, Some(text))) if same => diagnostic.replace(hint, span_shown, text),
+                Some((hint, Some(text))) => diagnostic.guess(hint, span_shown, text),
+                Some((hint, None)) => diagnostic.hint(hint),
+                None => diagnostic,
             }
         });
         None
@@ -355,12 +355,12 @@ impl<'a> Context<'a> {
         }
         self.steps += 1;
         if self.is_exhausted() {
-            let finding = Diagnostic::new(
+            let diagnostic = Diagnostic::new(
                 &codes::REPETITION,
                 "aliases and merge keys make the scene too large",
             );
             self.sink.push(
-                finding
+                diagnostic
                     .at(self.first_line(node), "the limit was exceeded here")
                     .hint("write it out, or allow more by `--limit nodes=…`"),
             );

@@ -11,10 +11,12 @@ use rtc_source::{FileId, SourceMap};
 /// If there is no tree, or no layout with the same meaning.
 pub fn lay_out(file: FileId, map: &SourceMap, sink: &mut Sink) -> Result<String, LayoutFault> {
     let mut found = Vec::new();
-    let report = &mut |mistake: Mistake<'_>| found.push(syntax::finding(mistake));
+    let report = &mut |mistake: Mistake<'_>| found.push(syntax::diagnostic(mistake));
     let laid_out = yaml::layout(file, map.bytes(file), report);
     if laid_out == Err(LayoutFault::Mistakes) {
-        found.into_iter().for_each(|finding| sink.push(finding));
+        found
+            .into_iter()
+            .for_each(|diagnostic| sink.push(diagnostic));
     }
     laid_out
 }

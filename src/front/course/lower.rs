@@ -31,7 +31,7 @@ pub fn lower(
     options: &FrontOptions,
     sink: &mut Sink,
 ) -> Option<UnfinishedScene> {
-    let report = &mut |mistake: Mistake<'_>| sink.push(syntax::finding(mistake));
+    let report = &mut |mistake: Mistake<'_>| sink.push(syntax::diagnostic(mistake));
     let tree = yaml::parse(file, map.bytes(file), report)?;
     match tree.shape(tree.root()) {
         NodeContent::Map => {}

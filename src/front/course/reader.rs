@@ -227,7 +227,7 @@ impl MapReader {
         let span = context.tree.span(entry.key_node);
         // A suggestion costs a comparison with every key, so it is made only for the first
         // findings.
-        let advise = context.findings() < MAX_SUGGESTIONS;
+        let advise = context.diagnostics() < MAX_SUGGESTIONS;
         let fields = fields.iter().enumerate();
         let unused = fields.filter(|(at, _)| advise && self.rows[*at].is_none());
         let unused = unused.map(|(_, field)| field);

@@ -5,33 +5,33 @@ use rtc_source::Span;
 use rtc_source::tree::yaml::{MAX_DEPTH, Mistake, Separator};
 
 /// The finding for a syntax error.
-pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
+pub(super) fn diagnostic(mistake: Mistake<'_>) -> Diagnostic {
     match mistake {
         Mistake::Utf16 { span } => utf16(span),
         Mistake::NotUtf8 { byte, span } => not_utf8(byte, span),
         Mistake::Control { character, span } => control(character, span),
         Mistake::TooLong { span } => {
             let message = "a scalar is longer than 1 MiB";
-            diagnostic(&codes::TOO_LONG, message, span, "starts here").hint("is this a scene file?")
+            at_span(&codes::TOO_LONG, message, span, "starts here").hint("is this a scene file?")
         }
         Mistake::Empty { span } => empty(span),
         Mistake::TwoDocuments { span } => {
             let message = "a second document starts in this file";
-            diagnostic(&codes::TWO_DOCUMENTS, message, span, "the second document")
+            at_span(&codes::TWO_DOCUMENTS, message, span, "the second document")
                 .hint("keep one scene per file, or remove the `---`")
         }
         Mistake::Tag { span } => {
             let message = "a tag has no meaning in a scene";
-            diagnostic(&codes::TAG, message, span, "read as if it had no tag")
+            at_span(&codes::TAG, message, span, "read as if it had no tag")
         }
         Mistake::SelfAlias { span, anchor } => {
             let message = "an alias refers to a node that contains it";
-            diagnostic(&codes::SELF_ALIAS, message, span, "expands without end")
+            at_span(&codes::SELF_ALIAS, message, span, "expands without end")
                 .also(anchor, "the anchor of that node")
         }
         Mistake::TooDeep { span } => {
             let message = format!("lists and maps are nested more than {MAX_DEPTH} deep");
-            diagnostic(&codes::NESTED_TOO_DEEP, message, span, "too deep here")
+            at_span(&codes::NESTED_TOO_DEEP, message, span, "too deep here")
                 .hint("a scene needs a depth of 6")
         }
         Mistake::Unclosed {
@@ -57,27 +57,27 @@ pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
             span,
             bracket,
         } => {
-            let finding = diagnostic(&codes::SYNTAX, message, span, &label)
+            let diagnostic = at_span(&codes::SYNTAX, message, span, &label)
                 .also(bracket, "inside what this bracket opens");
-            with_hint(finding, hint, replacement)
+            with_hint(diagnostic, hint, replacement)
         }
     }
 }
 
 fn with_hint(
-    finding: Diagnostic,
+    diagnostic: Diagnostic,
     hint: &'static str,
     replacement: Option<Box<(Span, String)>>,
 ) -> Diagnostic {
     match replacement {
-        Some(replacement) => finding.replace(hint, replacement.0, replacement.1),
-        None => finding.hint(hint),
+        Some(replacement) => diagnostic.replace(hint, replacement.0, replacement.1),
+        None => diagnostic.hint(hint),
     }
 }
 
 fn control(character: u32, span: Span) -> Diagnostic {
     let message = format!("control character U+{character:04X}");
-    diagnostic(
+    at_span(
         &codes::CONTROL_CHARACTER,
         message,
         span,
@@ -89,22 +89,17 @@ fn control(character: u32, span: Span) -> Diagnostic {
 /// The finding for an empty file.
 fn empty(span: Span) -> Diagnostic {
     let message = "the file contains no scene";
-    diagnostic(&codes::EMPTY_FILE, message, span, "the end of the file")
+    at_span(&codes::EMPTY_FILE, message, span, "the end of the file")
         .hint("a scene has at least a `Camera`, `Lights` and `Objects`")
 }
 
-fn diagnostic(
-    code: &'static Code,
-    message: impl Into<String>,
-    span: Span,
-    label: &str,
-) -> Diagnostic {
+fn at_span(code: &'static Code, message: impl Into<String>, span: Span, label: &str) -> Diagnostic {
     Diagnostic::new(code, message).at(span, label)
 }
 
 fn utf16(span: Span) -> Diagnostic {
     let message = "the file is UTF-16, not UTF-8";
-    diagnostic(
+    at_span(
         &codes::NOT_UTF8,
         message,
         span,
@@ -119,7 +114,7 @@ fn not_utf8(byte: u8, span: Span) -> Diagnostic {
         span.start
     );
     let hint = "save it as UTF-8; if it is Latin-1, convert it with `iconv -f LATIN1 -t UTF-8`";
-    diagnostic(&codes::NOT_UTF8, message, span, "not UTF-8").hint(hint)
+    at_span(&codes::NOT_UTF8, message, span, "not UTF-8").hint(hint)
 }
 
 /// The finding for a key that repeats because the separator between two list items is missing.
@@ -132,7 +127,7 @@ fn new_item(key: &str, first: Span, second: Span, separator: Separator) -> Diagn
         "the key `{}` occurs twice: {what} is missing before the second",
         clip(key)
     );
-    let finding = diagnostic(
+    let diagnostic = at_span(
         &codes::DUPLICATE_KEY,
         message,
         second,
@@ -141,9 +136,9 @@ fn new_item(key: &str, first: Span, second: Span, separator: Separator) -> Diagn
     .also(first, "the item before it");
     match separator {
         Separator::Dash(blanks) => {
-            finding.guess("each item of a list begins with a dash", blanks, "- ")
+            diagnostic.guess("each item of a list begins with a dash", blanks, "- ")
         }
-        Separator::Braces => finding.hint("each item of a list has its own braces"),
+        Separator::Braces => diagnostic.hint("each item of a list has its own braces"),
     }
 }
 
@@ -153,17 +148,17 @@ fn duplicate_key(key: &str, first: Span, second: Span, is_same: bool) -> Diagnos
         true => format!("the key `{key}` occurs twice, with the same value"),
         false => format!("the key `{key}` occurs twice"),
     };
-    let finding = diagnostic(&codes::DUPLICATE_KEY, message, second, "again")
+    let diagnostic = at_span(&codes::DUPLICATE_KEY, message, second, "again")
         .also(first, "first")
         .hint("remove one of them");
     match is_same {
-        true => finding.severity(Severity::Warning),
-        false => finding,
+        true => diagnostic.severity(Severity::Warning),
+        false => diagnostic,
     }
 }
 
 fn unclosed(bracket: Span, runs_into: Option<Span>, comment: Option<Span>) -> Diagnostic {
-    diagnostic(
+    at_span(
         &codes::UNCLOSED,
         "a bracket is never closed",
         bracket,

@@ -58,10 +58,10 @@ fn wrong_length(node: NodeId, count: usize, expected: usize, context: &mut Conte
         )
     };
     context.report(&codes::WRONG_LENGTH, span, message, |d| {
-        let finding = d.at(span, format!("{found} here"));
+        let diagnostic = d.at(span, format!("{found} here"));
         match suggestion {
-            Some((hint, list)) => finding.replace(hint, span, list),
-            None => finding,
+            Some((hint, list)) => diagnostic.replace(hint, span, list),
+            None => diagnostic,
         }
     });
 }

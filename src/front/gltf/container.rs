@@ -90,16 +90,16 @@ impl Scan<'_> {
     fn unaligned(&mut self, header: Range<usize>, name: &str) {
         let message = format!("the length of the {name} chunk is not a multiple of 4");
         let repair = "the next chunk is looked for behind it";
-        let finding = Diagnostic::new(&codes::GLB_CHUNK, &message);
-        let finding = if self.is_lenient {
+        let diagnostic = Diagnostic::new(&codes::GLB_CHUNK, &message);
+        let diagnostic = if self.is_lenient {
             Diagnostic::new(&codes::GLB_CHUNK, format!("{message}: {repair}"))
                 .severity(Severity::Warning)
         } else {
-            finding.hint(format!("`--lenient` mends this: {repair}"))
+            diagnostic.hint(format!("`--lenient` mends this: {repair}"))
         };
         let at = self.span(header);
         self.sink
-            .push(finding.at(at, "").alias("GLB_CHUNK_LENGTH_UNALIGNED"));
+            .push(diagnostic.at(at, "").alias("GLB_CHUNK_LENGTH_UNALIGNED"));
     }
 
     /// Where the chunk after one that ends at `end` begins. After a length that is not a multiple
@@ -146,9 +146,9 @@ impl Scan<'_> {
             return None;
         };
         if version == 1 {
-            let finding = Diagnostic::new(code, "the file is a `.glb` of glTF 1.0");
-            let finding = finding.at(self.span(4..8), "the version").hint(CONVERT);
-            self.sink.push(finding.alias("GLB_INVALID_VERSION"));
+            let diagnostic = Diagnostic::new(code, "the file is a `.glb` of glTF 1.0");
+            let diagnostic = diagnostic.at(self.span(4..8), "the version").hint(CONVERT);
+            self.sink.push(diagnostic.alias("GLB_INVALID_VERSION"));
             return None;
         }
         if version != 2 {
@@ -308,7 +308,7 @@ mod tests {
             parts,
             sink.kept()
                 .iter()
-                .filter_map(|finding| finding.alias)
+                .filter_map(|diagnostic| diagnostic.alias)
                 .collect(),
         )
     }

@@ -180,9 +180,9 @@ fn parts(file: FileId, map: &SourceMap, is_lenient: bool, sink: &mut Sink) -> Op
     let is_misnamed = is_glb && opens_object(bytes);
     if is_misnamed {
         let message = "the file is named `.glb` and is the JSON of a `.gltf`";
-        let finding = Diagnostic::new(&codes::GLB_HEADER, message).alias("GLB_INVALID_MAGIC");
-        let finding = repair(finding, is_lenient, "its content counts");
-        sink.push(finding.at(Span::new(file, 0, 1), "JSON begins here"));
+        let diagnostic = Diagnostic::new(&codes::GLB_HEADER, message).alias("GLB_INVALID_MAGIC");
+        let diagnostic = repair(diagnostic, is_lenient, "its content counts");
+        sink.push(diagnostic.at(Span::new(file, 0, 1), "JSON begins here"));
     }
     match (is_glb, is_misnamed) {
         (true, false) => container::open(file, bytes, is_lenient, sink),
@@ -220,19 +220,19 @@ fn text<'s>(
         return Some((offset(0), text));
     };
     let mark = Span::new(file, offset(0), offset(BOM.len()));
-    let finding = not_json(mark, "the text starts with a byte order mark");
-    sink.push(repair(finding, is_lenient, "it is passed over"));
+    let diagnostic = not_json(mark, "the text starts with a byte order mark");
+    sink.push(repair(diagnostic, is_lenient, "it is passed over"));
     Some((offset(BOM.len()), rest))
 }
 
 /// A finding of what importers mend: lenient a warning that says how, else an error whose hint
 /// does.
-fn repair(mut finding: Diagnostic, is_lenient: bool, repair: &str) -> Diagnostic {
+fn repair(mut diagnostic: Diagnostic, is_lenient: bool, repair: &str) -> Diagnostic {
     if is_lenient {
-        finding.message = format!("{}: {repair}", finding.message);
-        finding.severity(Severity::Warning)
+        diagnostic.message = format!("{}: {repair}", diagnostic.message);
+        diagnostic.severity(Severity::Warning)
     } else {
-        finding.hint(format!("`--lenient` mends this: {repair}"))
+        diagnostic.hint(format!("`--lenient` mends this: {repair}"))
     }
 }
 
@@ -253,13 +253,13 @@ fn check_keys(tree: &Tree<'_>, is_lenient: bool, sink: &mut Sink) {
         sink.push_with(code, severity, || {
             let key = report::shown(tree.text(*second).unwrap_or_default());
             let message = format!("the key `{key}` stands twice in one object");
-            let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message)
+            let diagnostic = Diagnostic::new(&codes::GLTF_KEY_TWICE, message)
                 .at(tree.span(*second), "the second");
-            let finding = match are_equal {
-                true => repair(finding, is_lenient, "both say the same"),
-                false => finding,
+            let diagnostic = match are_equal {
+                true => repair(diagnostic, is_lenient, "both say the same"),
+                false => diagnostic,
             };
-            finding
+            diagnostic
                 .also(tree.span(*first), "the first")
                 .pointer(tree.pointer(*second))
         });

@@ -127,10 +127,10 @@ impl<'r, 's> AssetReport<'r, 's> {
     ) {
         let json = self.json;
         self.sink.push_with(code, severity, || {
-            let finding = finding(json, (code, severity), alias, at, message);
+            let diagnostic = diagnostic(json, (code, severity), alias, at, message);
             match hint {
-                Some(hint) => finding.hint(hint),
-                None => finding,
+                Some(hint) => diagnostic.hint(hint),
+                None => diagnostic,
             }
         });
     }
@@ -159,7 +159,7 @@ impl<'r, 's> AssetReport<'r, 's> {
     }
 }
 
-fn finding(
+fn diagnostic(
     json: &Tree<'_>,
     (code, severity): (&'static Code, Severity),
     alias: &'static str,

@@ -30,9 +30,9 @@ pub(super) fn load(
                 let image = pixels::environment(&pending.path, &bytes, loader.map.budget());
                 let reject = |fault| {
                     let name = found.shown.display().to_string();
-                    let finding =
+                    let diagnostic =
                         pixels::environment_rejection(&fault, &name).at(pending.span, "named here");
-                    loader.reject(finding, MissingAssetPolicy::Environment);
+                    loader.reject(diagnostic, MissingAssetPolicy::Environment);
                 };
                 image.map_err(reject).ok()
             }

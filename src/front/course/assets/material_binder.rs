@@ -70,8 +70,8 @@ pub(super) fn bind(
     };
     for pending in pending_materials {
         if let Err(fault) = binder.bind(pending) {
-            let finding = over_limit("the mesh", &fault).at(pending.span, "shown here");
-            binder.loader.sink.push(finding);
+            let diagnostic = over_limit("the mesh", &fault).at(pending.span, "shown here");
+            binder.loader.sink.push(diagnostic);
             break;
         }
     }
@@ -226,7 +226,7 @@ impl MaterialBinder<'_, '_> {
 
     /// Reports a mesh without a material in its file, if the scene relies on the file.
     fn report_no_material(&mut self, pending: &PendingMaterial, grey: &str) {
-        let finding = match pending.source {
+        let diagnostic = match pending.source {
             MaterialSource::Scene | MaterialSource::AssetTarget => return,
             MaterialSource::Mtl => {
                 let message =
@@ -240,7 +240,7 @@ impl MaterialBinder<'_, '_> {
                          or its own",
                 ),
         };
-        self.loader.sink.push(finding);
+        self.loader.sink.push(diagnostic);
     }
 
     /// Reports that the materials of a mesh file are unused.

@@ -67,10 +67,10 @@ impl MeshFiles {
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
             if !mesh_file.full_mesh.colors.is_empty() && !is_traced {
                 let message = "only path tracing shows the colours of vertices";
-                let finding = Diagnostic::new(&codes::NOT_DRAWN, message);
+                let diagnostic = Diagnostic::new(&codes::NOT_DRAWN, message);
                 loader
                     .sink
-                    .push(finding.at(pending.span, "has the colour of its material"));
+                    .push(diagnostic.at(pending.span, "has the colour of its material"));
             }
             files.push(mesh_file);
             Some(files.len() - 1)
@@ -96,9 +96,9 @@ impl MeshFiles {
                         found.shown.display(),
                         clip(part)
                     );
-                    let finding = Diagnostic::new(&codes::BAD_MESH_FILE, message);
+                    let diagnostic = Diagnostic::new(&codes::BAD_MESH_FILE, message);
                     loader.reject(
-                        finding.at(pending.span, "named here"),
+                        diagnostic.at(pending.span, "named here"),
                         MissingAssetPolicy::Object,
                     );
                 }
@@ -270,9 +270,9 @@ pub(super) fn report_not_drawn(
 ) {
     if let Some((first, count)) = &parsed.not_drawn {
         let message = format!("{}: {}", count_of(*count), first.message);
-        let finding = Diagnostic::new(&codes::NOT_DRAWN, message);
-        let finding = finding.at(first.span(file), first.label.as_str());
-        sink.push(finding.also(named, "the file is named here"));
+        let diagnostic = Diagnostic::new(&codes::NOT_DRAWN, message);
+        let diagnostic = diagnostic.at(first.span(file), first.label.as_str());
+        sink.push(diagnostic.also(named, "the file is named here"));
     }
 }
 

@@ -343,12 +343,12 @@ impl AssetLoader<'_> {
 
     /// Reports a file that can't be used; with `--lenient` as a warning that states the
     /// consequence.
-    fn reject(&mut self, mut finding: Diagnostic, policy: MissingAssetPolicy) {
+    fn reject(&mut self, mut diagnostic: Diagnostic, policy: MissingAssetPolicy) {
         if self.options.lenient || policy.is_optional() {
-            finding.message = format!("{}; {}", finding.message, policy.consequence());
-            finding.severity = Severity::Warning;
+            diagnostic.message = format!("{}; {}", diagnostic.message, policy.consequence());
+            diagnostic.severity = Severity::Warning;
         }
-        self.sink.push(finding);
+        self.sink.push(diagnostic);
     }
 
     /// Reports a file that was found and can't be read.

@@ -111,10 +111,10 @@ impl MeshFile {
                 _ => format!(", nor {} more that faces ask for", count - 1),
             };
             let message = format!("the MTL has no material `{}`{more}", first.text);
-            let finding = Diagnostic::new(&codes::BAD_MTL, message);
+            let diagnostic = Diagnostic::new(&codes::BAD_MTL, message);
             loader
                 .sink
-                .push(finding.at(first.at.span(self.file), "faces have no material"));
+                .push(diagnostic.at(first.at.span(self.file), "faces have no material"));
         }
         cache.report(loader.sink);
         self.report_mirrors(&libraries, lowered, loader);
@@ -132,10 +132,10 @@ impl MeshFile {
                 named.text,
                 MissingAssetPolicy::Materials.consequence()
             );
-            let finding = Diagnostic::new(&codes::BAD_MTL, message);
+            let diagnostic = Diagnostic::new(&codes::BAD_MTL, message);
             loader
                 .sink
-                .push(finding.at(named.at.span(self.file), "not found"));
+                .push(diagnostic.at(named.at.span(self.file), "not found"));
         }
         let mut libraries = Vec::new();
         for pending in pending_assets {
@@ -196,10 +196,10 @@ fn report(library: &Library, file: FileId, loader: &mut AssetLoader<'_>) {
         not_shown,
     } = library;
     for fault in faults {
-        let finding = Diagnostic::new(&codes::BAD_MTL, fault.message.as_str());
+        let diagnostic = Diagnostic::new(&codes::BAD_MTL, fault.message.as_str());
         loader
             .sink
-            .push(finding.at(fault.span(file), fault.label.as_str()));
+            .push(diagnostic.at(fault.span(file), fault.label.as_str()));
     }
     if let Some((first, count)) = not_shown {
         let message = match count {
@@ -209,9 +209,9 @@ fn report(library: &Library, file: FileId, loader: &mut AssetLoader<'_>) {
                 first.message
             ),
         };
-        let finding = Diagnostic::new(&codes::BAD_MTL, message);
+        let diagnostic = Diagnostic::new(&codes::BAD_MTL, message);
         loader
             .sink
-            .push(finding.at(first.span(file), first.label.as_str()));
+            .push(diagnostic.at(first.span(file), first.label.as_str()));
     }
 }

@@ -40,8 +40,8 @@ pub(super) fn load(
     let memory = 16 * profile.candela.len() as u64;
     if let Err(fault) = loader.map.budget().charge(Resource::Memory, memory) {
         let what = format!("the profile `{}`", found.shown.display());
-        let finding = over_limit(&what, &fault).at(pending.span, "named here");
-        loader.reject(finding, TEXT.policy);
+        let diagnostic = over_limit(&what, &fault).at(pending.span, "named here");
+        loader.reject(diagnostic, TEXT.policy);
         return;
     }
     if let Some(Light::Punctual(Punctual { emitter, .. })) = lowered.scene.lights.get_mut(light)

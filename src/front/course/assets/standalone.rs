@@ -88,8 +88,8 @@ fn parse_file(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::m
     let bytes = map.bytes(file);
     if !is_mesh(bytes) {
         let message = format!("`{}` is {}", map.name(file), mesh::TEXT.is_not);
-        let finding = Diagnostic::new(&codes::BAD_MESH_FILE, message);
-        sink.push(finding.at(Span::new(file, 0, 0), "at its start"));
+        let diagnostic = Diagnostic::new(&codes::BAD_MESH_FILE, message);
+        sink.push(diagnostic.at(Span::new(file, 0, 0), "at its start"));
         return None;
     }
     match parse(bytes, map.budget()) {
@@ -100,8 +100,8 @@ fn parse_file(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::m
         }
         Err(ParseFault::Faults(faults)) => {
             for fault in faults {
-                let finding = Diagnostic::new(&codes::BAD_MESH_FILE, fault.message.as_str());
-                sink.push(finding.at(fault.span(file), fault.label));
+                let diagnostic = Diagnostic::new(&codes::BAD_MESH_FILE, fault.message.as_str());
+                sink.push(diagnostic.at(fault.span(file), fault.label));
             }
         }
     }

@@ -37,8 +37,8 @@ impl AssetLoader<'_> {
             Ok(parsed) => return Some((file, parsed)),
             Err(ParseFault::Limit(fault)) => {
                 let what = format!("the {} `{}`", kind.entity, found.shown.display());
-                let finding = over_limit(&what, &fault).at(pending.span, "named here");
-                self.reject(finding, kind.policy);
+                let diagnostic = over_limit(&what, &fault).at(pending.span, "named here");
+                self.reject(diagnostic, kind.policy);
             }
             Err(ParseFault::Faults(faults)) => {
                 // With `--lenient` the entity is left out once, so one finding is enough.
@@ -48,10 +48,10 @@ impl AssetLoader<'_> {
                     faults.len()
                 };
                 for fault in faults.into_iter().take(count) {
-                    let finding = Diagnostic::new(kind.code, fault.message.as_str())
+                    let diagnostic = Diagnostic::new(kind.code, fault.message.as_str())
                         .at(fault.span(file), fault.label)
                         .also(pending.span, "the file is named here");
-                    self.reject(finding, kind.policy);
+                    self.reject(diagnostic, kind.policy);
                 }
             }
         }
@@ -74,8 +74,8 @@ impl AssetLoader<'_> {
                     true => format!("the {} file `{name}` is empty", kind.entity),
                     false => format!("`{name}` is {}", kind.is_not),
                 };
-                let finding = Diagnostic::new(kind.code, message).at(pending.span, "named here");
-                self.reject(finding, kind.policy);
+                let diagnostic = Diagnostic::new(kind.code, message).at(pending.span, "named here");
+                self.reject(diagnostic, kind.policy);
                 None
             }
             Err(error) => {

@@ -193,7 +193,8 @@ fn report_type_as_key(node: NodeId, context: &mut Context<'_>) -> bool {
 fn report_unknown_type(name: &str, node: NodeId, context: &mut Context<'_>) {
     let (lenient, span) = (context.options.lenient, context.tree.span(node));
     let known = KINDS.iter().flat_map(|kind| kind.names).copied();
-    let suggestion = nearest(name, known).map(|suggestion| (suggestion, context.with_quotes_of(node, suggestion)));
+    let suggestion = nearest(name, known)
+        .map(|suggestion| (suggestion, context.with_quotes_of(node, suggestion)));
     context.report(
         &codes::UNKNOWN_TYPE,
         span,

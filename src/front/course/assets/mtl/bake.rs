@@ -112,8 +112,8 @@ pub(in super::super) fn bake(
             (None, _) => {
                 let bytes = baked.bytes(scene);
                 if let Err(fault) = loader.map.budget().charge(Resource::Textures, bytes) {
-                    let finding = over_limit("the picture", &fault).at(bake.span, "named here");
-                    loader.sink.push(finding);
+                    let diagnostic = over_limit("the picture", &fault).at(bake.span, "named here");
+                    loader.sink.push(diagnostic);
                     return;
                 }
                 let Some(image) = baked.image(scene) else {

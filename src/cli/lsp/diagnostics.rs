@@ -21,13 +21,13 @@ use std::path::Path;
 const SOURCE: &str = "rtc";
 
 /// A file and what is found in it.
-pub(super) type FileFindings = (DocumentUri, Vec<EditorDiagnostic>);
+pub(super) type FileDiagnostics = (DocumentUri, Vec<EditorDiagnostic>);
 
 /// The diagnostics of a text, by the files that they stand in; those without a place stand at the beginning
 /// of the text.
-pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileFindings> {
+pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileDiagnostics> {
     let mut own = Vec::new();
-    let mut others: Vec<FileFindings> = Vec::new();
+    let mut others: Vec<FileDiagnostics> = Vec::new();
     if let Some(CheckedText::Trouble(words)) = &document.checked {
         own.push(EditorDiagnostic {
             range: Range::default(),
@@ -41,8 +41,8 @@ pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileFind
     let mut place_of: BTreeMap<String, usize> = BTreeMap::new();
     if let Some(checked) = document.scene() {
         let atlas = Atlas::new(document, checked, columns);
-        for finding in &checked.findings {
-            let (uri, diagnostic) = atlas.diagnostic(finding);
+        for diagnostic in &checked.diagnostics {
+            let (uri, diagnostic) = atlas.diagnostic(diagnostic);
             if uri == document.uri {
                 own.push(diagnostic);
                 continue;
@@ -78,12 +78,12 @@ impl<'d> Atlas<'d> {
         }
     }
 
-    fn diagnostic(&self, finding: &diag::Diagnostic) -> (DocumentUri, EditorDiagnostic) {
-        let primary = finding.primary.as_ref();
+    fn diagnostic(&self, diagnostic: &diag::Diagnostic) -> (DocumentUri, EditorDiagnostic) {
+        let primary = diagnostic.primary.as_ref();
         let primary = primary.map(|label| self.location(label.span));
         let start = || Location::new(self.document.uri.clone(), Range::default());
         let Location { uri, range } = primary.unwrap_or_else(start);
-        let related = finding
+        let related = diagnostic
             .secondary
             .iter()
             .map(|label| DiagnosticRelatedInformation {
@@ -92,14 +92,14 @@ impl<'d> Atlas<'d> {
             });
         let diagnostic = EditorDiagnostic {
             range,
-            severity: match finding.severity {
+            severity: match diagnostic.severity {
                 Severity::Error => DiagnosticSeverity::ERROR,
                 Severity::Warning => DiagnosticSeverity::WARNING,
                 Severity::Note => DiagnosticSeverity::HINT,
             },
-            code: Some(finding.code.id),
+            code: Some(diagnostic.code.id),
             source: SOURCE,
-            message: message(finding),
+            message: message(diagnostic),
             related_information: Some(related.collect()),
         };
         (uri, diagnostic)
@@ -129,14 +129,14 @@ impl<'d> Atlas<'d> {
 }
 
 /// What is wrong, what is here, and what to do, a line each.
-fn message(finding: &diag::Diagnostic) -> String {
-    let here = finding.primary.as_ref().map(|label| label.text.as_str());
-    let hints = finding
+fn message(diagnostic: &diag::Diagnostic) -> String {
+    let here = diagnostic.primary.as_ref().map(|label| label.text.as_str());
+    let hints = diagnostic
         .hints
         .iter()
         .map(|hint| format!("help: {}", hint.text));
     let lines = here.filter(|text| !text.is_empty()).map(str::to_owned);
-    let all = std::iter::once(finding.message.clone())
+    let all = std::iter::once(diagnostic.message.clone())
         .chain(lines)
         .chain(hints);
     all.collect::<Vec<_>>().join("\n")
@@ -164,10 +164,10 @@ pub(super) fn actions(
         return Vec::new();
     };
     let atlas = Atlas::new(document, checked, columns);
-    let fixes = checked.findings.iter().flat_map(|finding| {
-        let (uri, reported) = atlas.diagnostic(finding);
+    let fixes = checked.diagnostics.iter().flat_map(|diagnostic| {
+        let (uri, reported) = atlas.diagnostic(diagnostic);
         let is_here = uri == document.uri && touch(reported.range, range);
-        let hints = finding.hints.iter().filter(move |_| is_here);
+        let hints = diagnostic.hints.iter().filter(move |_| is_here);
         let changes = hints.filter_map(|hint| {
             let change = hint.replacement.as_ref()?;
             checked.is_own(change.span.file).then_some((hint, change))
