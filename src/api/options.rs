@@ -367,7 +367,10 @@ impl Options {
                 "a pixel takes at least one sample",
             ),
             (
-                matches!(self.exposure, Some(Exposure::Stops(stops)) if !(-64.0..=64.0).contains(&stops)),
+                matches!(
+                    self.exposure,
+                    Some(Exposure::Stops(stops)) if !(-64.0..=64.0).contains(&stops)
+                ),
                 "the exposure is -64 to 64 stops",
             ),
             (
@@ -379,7 +382,10 @@ impl Options {
                 "linear values have no tone map",
             ),
             (
-                matches!(self.background, BackgroundFill::Color(color) if !color.iter().all(|v| v.is_finite())),
+                matches!(
+                    self.background,
+                    BackgroundFill::Color(color) if !color.iter().all(|v| v.is_finite())
+                ),
                 "the background is of finite numbers",
             ),
             (

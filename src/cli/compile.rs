@@ -1,4 +1,5 @@
-//! `rtc compile`: a scene to the IR as text or binary, back to its canonical spelling, to glTF, or to
+//! `rtc compile`: a scene to the IR as text or binary, back to its canonical spelling, to glTF, or
+//! to
 //! the files of other renderers.
 
 use super::Failure;
@@ -220,7 +221,8 @@ fn by_extension(output: &Path) -> Result<Emit, Failure> {
         Some("xml") => Ok(Emit::Mitsuba),
         Some("pov") => Ok(Emit::Pov),
         _ => Err(Failure::Trouble(format!(
-            "can't tell from `{}` what to write; name it .json, .rtir, .yaml, .glb, .gltf, .xml or .pov, or give `--emit`",
+            "can't tell from `{}` what to write; name it .json, .rtir, .yaml, .glb, .gltf, .xml \
+            or .pov, or give `--emit`",
             output.display()
         ))),
     }

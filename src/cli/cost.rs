@@ -35,7 +35,8 @@ pub(super) fn run(args: &args::Cost) -> Result<(), Failure> {
 
 fn alone(args: &args::Cost, file: &Path) -> Result<(), Failure> {
     if args.gate.is_some() {
-        let words = "`--gate` is for a scene and its reference: `rtc cost new.yaml old.yaml --gate 'time<=1.2x'`";
+        let words = "`--gate` is for a scene and its reference: `rtc cost new.yaml old.yaml \
+            --gate 'time<=1.2x'`";
         return Err(Failure::Trouble(words.to_owned()));
     }
     let mut reporter = Reporter::beside_result(&args.reporter);

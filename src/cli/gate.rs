@@ -1,4 +1,5 @@
-//! Gates: limits of measured numbers, for which a command ends with exit code 1 where one is not met.
+//! Gates: limits of measured numbers, for which a command ends with exit code 1 where one is not
+//! met.
 
 use super::{Failure, reporter};
 use serde::Serialize;

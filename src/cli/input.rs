@@ -189,7 +189,8 @@ pub(super) fn unless_refused<T>(
     Ok(made.expect("what is refused has an error in the sink, and `tell` has returned it"))
 }
 
-/// Lets the studio fill in beside the light of a scene if that is asked for, for commands that do not
+/// Lets the studio fill in beside the light of a scene if that is asked for, for commands that do
+/// not
 /// look what its own light shows.
 pub(super) fn fill(lowered: &mut Lowered, provenance: &Provenance) {
     if provenance.fill == FillLight::Always {

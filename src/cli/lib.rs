@@ -159,7 +159,8 @@ fn internal_error(info: &PanicHookInfo) -> String {
         .unwrap_or_default();
     let version = env!("CARGO_PKG_VERSION");
     format!(
-        "internal error: {words}{place}\nThis is a fault of rtc {version}, please report it with the scene."
+        "internal error: {words}{place}\nThis is a fault of rtc {version}, please report it with \
+        the scene."
     )
 }
 

@@ -140,7 +140,8 @@ impl Companions {
         }
     }
 
-    /// Writes one, by its path from the folder of the result. What is there with the same bytes stays;
+    /// Writes one, by its path from the folder of the result. What is there with the same bytes
+    /// stays;
     /// anything else is never written over.
     pub(super) fn put(
         &mut self,

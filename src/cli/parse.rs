@@ -254,7 +254,8 @@ pub(super) fn background(text: &str) -> Result<BackgroundArg, String> {
         _ => match numbers().collect::<Option<Vec<_>>>().as_deref() {
             Some(&[r, g, b]) => Ok(BackgroundArg::Fill(BackgroundFill::Color([r, g, b]))),
             _ => Err(
-                "expected `env`, `transparent`, `white`, `black`, #rrggbb, or red, green and blue, as 1,1,1"
+                "expected `env`, `transparent`, `white`, `black`, #rrggbb, or red, green and \
+                blue, as 1,1,1"
                     .to_owned(),
             ),
         },

@@ -74,7 +74,8 @@ impl Reporter {
         write(self.to_stdout, &text)
     }
 
-    /// Tells of a picture that was made: in words, or where findings are objects as one more of them.
+    /// Tells of a picture that was made: in words, or where findings are objects as one more of
+    /// them.
     pub(super) fn made(&self, picture: &MadePicture) {
         if self.quiet {
             return;

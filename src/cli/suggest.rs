@@ -152,7 +152,8 @@ fn side(count: u32) -> u32 {
     root + u32::from(root * root < count)
 }
 
-/// The flag for a picture of this width, this height or this size; one side alone keeps the shape of
+/// The flag for a picture of this width, this height or this size; one side alone keeps the shape
+/// of
 /// the picture.
 fn pixels(scene: Option<&Scene>, sides: [Option<u32>; 2], whole: Option<[u32; 2]>) -> String {
     let scaled = |side: u32, [own, other]: [u32; 2]| {
@@ -177,11 +178,13 @@ pub(super) fn idle(asked: &Overrides, mode: &Mode) -> Option<&'static str> {
     let (is_spp, is_side) = (asked.spp.is_some(), asked.supersampling.is_some());
     match mode {
         Mode::Path(_) => is_side.then_some(
-            "warning: `--supersampling` changes nothing: paths are traced; `--spp N` takes N of a pixel",
+            "warning: `--supersampling` changes nothing: paths are traced; `--spp N` takes N of a \
+            pixel",
         ),
         Mode::Depth => is_spp.then_some("warning: `--spp` changes nothing: no paths are traced"),
         Mode::Phong | Mode::Gooch(_) | Mode::Normal => is_spp.then_some(
-            "warning: `--spp` changes nothing: no paths are traced; `--supersampling N` takes N×N samples of a pixel",
+            "warning: `--spp` changes nothing: no paths are traced; `--supersampling N` takes N×N \
+            samples of a pixel",
         ),
     }
 }

@@ -2,7 +2,8 @@
 
 use std::ffi::OsString;
 
-/// The words without the program and without these options, each of which has a value: the next word, or
+/// The words without the program and without these options, each of which has a value: the next
+/// word, or
 /// the rest of its own.
 pub(super) fn without(typed: &[OsString], options: &[&str]) -> Vec<String> {
     let mut words = typed.iter().skip(1).map(|word| word.to_string_lossy());

@@ -1,4 +1,5 @@
-//! `rtc cost SCENE REFERENCE`: what a scene costs and shows against another, and whether that is within gates.
+//! `rtc cost SCENE REFERENCE`: what a scene costs and shows against another, and whether that is
+//! within gates.
 
 use super::Failure;
 use super::args::{self, StudyFormat};

@@ -69,14 +69,16 @@ impl DiagnosticLevels {
     /// Sets a level.
     ///
     /// # Errors
-    /// A message if the code is an error and the level is lower, or if the subject has another level.
+    /// A message if the code is an error and the level is lower, or if the subject has another
+    /// level.
     pub fn set(&mut self, subject: LevelSubject, level: DiagnosticLevel) -> Result<(), String> {
         let (name, before) = match subject {
             LevelSubject::Code(code)
                 if code.severity == Severity::Error && level != DiagnosticLevel::Deny =>
             {
                 return Err(format!(
-                    "`{code}` is an error, which cannot be lowered; `rtc explain {code}` shows how to \
+                    "`{code}` is an error, which cannot be lowered; `rtc explain {code}` shows \
+                    how to \
                      fix it"
                 ));
             }

@@ -62,7 +62,8 @@ pub struct Replacement {
     pub span: Span,
     /// By what.
     pub text: String,
-    /// Whether the replacement is a guess at what the author meant. Otherwise it has the same meaning
+    /// Whether the replacement is a guess at what the author meant. Otherwise it has the same
+    /// meaning
     /// as the original text.
     pub is_guess: bool,
 }

@@ -46,7 +46,8 @@ impl Sink {
         self.push_with(diagnostic.code, diagnostic.severity, || diagnostic);
     }
 
-    /// Adds a diagnostic of this code and severity. It is created only if it is kept, so many of them
+    /// Adds a diagnostic of this code and severity. It is created only if it is kept, so many of
+    /// them
     /// cost little.
     pub fn push_with(
         &mut self,

@@ -51,7 +51,8 @@ pub struct ChargedFile<'a> {
     scratch: u64,
 }
 
-/// Charges the cost of a PNG, JPEG, WebP or KTX2. The decoder is dropped, because it holds memory of its
+/// Charges the cost of a PNG, JPEG, WebP or KTX2. The decoder is dropped, because it holds memory
+/// of its
 /// own.
 ///
 /// # Errors

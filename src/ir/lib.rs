@@ -124,7 +124,10 @@ impl Scene {
     #[must_use]
     pub fn is_unlit(&self) -> bool {
         let material = |surface: &Surface| self.materials.get(surface.material.0 as usize);
-        let is_unlit = |surface: &Surface| matches!(material(surface), Some(Material::Standard(standard)) if standard.unlit);
+        let is_unlit = |surface: &Surface| match material(surface) {
+            Some(Material::Standard(standard)) => standard.unlit,
+            _ => false,
+        };
         !self.surfaces.is_empty() && self.surfaces.iter().all(is_unlit)
     }
 }

@@ -113,7 +113,12 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_direction_has_no_length(x in component(), y in component(), z in component(), k in -900..900_i32) {
+        fn a_direction_has_no_length(
+            x in component(),
+            y in component(),
+            z in component(),
+            k in -900..900_i32,
+        ) {
             let v = Vec3::new(x, y, z);
             let scaled = Vec3::new(ldexp(x, k), ldexp(y, k), ldexp(z, k));
             prop_assert_eq!(unit(scaled), unit(v));

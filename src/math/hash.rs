@@ -1,4 +1,5 @@
-//! SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014): bits
+//! SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014):
+//! bits
 //! that look random, the same on every machine.
 
 /// By so much the state of the generator grows with each number.

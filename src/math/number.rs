@@ -1,4 +1,5 @@
-//! Numbers with a range, so that who holds one need not ask again; and numbers as people write them.
+//! Numbers with a range, so that who holds one need not ask again; and numbers as people write
+//! them.
 
 use std::fmt::{Display, LowerExp};
 

@@ -317,7 +317,8 @@ mod tests {
     use super::*;
     use std::fmt::Write as _;
 
-    const HEAD: &str = "Camera: {eye: [0, 1, 6], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8]}\n\
+    const HEAD: &str = "Camera: {eye: [0, 1, 6], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, \
+    8]}\n \
                         Lights: []\nObjects:\n";
 
     /// A text of objects with a misspelt key each; every `every`th can't be improved by the fix.
@@ -327,7 +328,8 @@ mod tests {
             let radius = if at % every == 0 { "-1" } else { "1" };
             let _ = writeln!(
                 text,
-                "- {{type: sphere, position: [0, 0, 0], radus: {radius}, material: {{color: [1, 1, 1], ka: 1, kd: 1, ks: 0, n: 1}}}}"
+                "- {{type: sphere, position: [0, 0, 0], radus: {radius}, material: {{color: [1, \
+                1, 1], ka: 1, kd: 1, ks: 0, n: 1}}}}"
             );
         }
         text

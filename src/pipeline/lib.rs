@@ -184,7 +184,8 @@ pub fn stage(
                     "the scene has no light, so it stands in the studio",
                 );
                 sink.push(note.hint(
-                    "light it by `--env`, `--env-color` or `--sun`; `--env-color 0,0,0` is darkness",
+                    "light it by `--env`, `--env-color` or `--sun`; `--env-color 0,0,0` is \
+                    darkness",
                 ));
             }
             return Some(staged);

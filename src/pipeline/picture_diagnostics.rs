@@ -51,7 +51,8 @@ pub(super) fn fitted(before: [u32; 2], requested: [u32; 2]) -> Option<Diagnostic
 /// A note that the studio adds light to the scene.
 pub(super) fn filled(seen: f64) -> Diagnostic {
     let message = format!(
-        "the scene's own light shows {:.0} % of what is in the picture, so the dimmed studio fills in",
+        "the scene's own light shows {:.0} % of what is in the picture, so the dimmed studio \
+        fills in",
         100.0 * seen
     );
     Diagnostic::new(&codes::FILLED, message).hint(

@@ -1,4 +1,5 @@
-//! The compiled integrators, and the choice of the smallest one with all features that a plan needs.
+//! The compiled integrators, and the choice of the smallest one with all features that a plan
+//! needs.
 
 use crate::film::heartbeat::OnPixel;
 use crate::film::{Film, Job};
@@ -52,8 +53,10 @@ pub fn choose(needed: Features) -> usize {
         .unwrap_or(KERNELS.len() - 1)
 }
 
-/// Calls a method of a world with the features of one kernel of a table: the kernel chosen, or the last
-/// one, which can do everything, if the shapes have no kernels of their own. The list of indices must
+/// Calls a method of a world with the features of one kernel of a table: the kernel chosen, or the
+/// last
+/// one, which can do everything, if the shapes have no kernels of their own. The list of indices
+/// must
 /// name all kernels of the table.
 macro_rules! call_kernel {
     ($table:ident [$($index:literal)* / $last:literal], $chosen:expr, $world:ident.$method:ident $arguments:tt) => {{

@@ -51,7 +51,8 @@ const TABLE: [LimitRow; COUNT] = [
         base: 192 * MIB,
         per_kib: 32 << 10,
         first: NONE,
-        description: "bytes of what files become: vertices, data decompressed, parts of the IR, the picture of an environment",
+        description: "bytes of what files become: vertices, data decompressed, parts of the IR, \
+            the picture of an environment",
     },
     // Ordinary images need at most one byte for some hundred pixels, and many of them 2 GiB
     // together.
@@ -77,7 +78,8 @@ const TABLE: [LimitRow; COUNT] = [
         base: 1 << 24,
         per_kib: 1 << 10,
         first: NONE,
-        description: "vertices made, each as often as it is made: for every primitive, morph target and pose",
+        description: "vertices made, each as often as it is made: for every primitive, morph \
+            target and pose",
     },
     LimitRow {
         resource: Resource::Surfaces,

@@ -31,7 +31,8 @@ macro_rules! parameters {
             emissive: color = [0.0; 3], "is_zero";
             /// Multiplies it; coded as sRGB.
             emissive_map: map = None, "Option::is_none";
-            /// The shading normal in the frame of the surface: red along u, green along v, blue away from it.
+            /// The shading normal in the frame of the surface: red along u, green along v, blue
+            /// away from it.
             normal_map: map = None, "Option::is_none";
             /// How much of its red and green counts.
             normal_scale: number = 1.0, "is_one";
@@ -114,7 +115,8 @@ macro_rules! parameters {
     };
 }
 
-/// The extensions whose properties are parameters as they stand: `"name" { field: kind "property"; }`.
+/// The extensions whose properties are parameters as they stand: `"name" { field: kind "property";
+/// }`.
 #[macro_export]
 macro_rules! extensions {
     ($then:ident) => {
@@ -313,7 +315,8 @@ pub struct PhongFit {
 }
 
 /// The glTF material that comes nearest to Phong's model: the diffuse term becomes Lambert's, a
-/// mirror without one a smooth metal of its weight, and what refracts a volume with a smooth surface.
+/// mirror without one a smooth metal of its weight, and what refracts a volume with a smooth
+/// surface.
 ///
 /// The exponent n of a highlight becomes the width α of a microfacet distribution by n = 2/α² − 2
 /// (Walter et al., "Microfacet models for refraction through rough surfaces", EGSR 2007, section

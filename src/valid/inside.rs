@@ -155,7 +155,8 @@ fn solid_angle([a, b, c]: [Vec3; 3]) -> f64 {
     2.0 * atan2(volume, scale)
 }
 
-/// Reports each light inside a solid: with shadows, the solid blocks all its light to the outside. A
+/// Reports each light inside a solid: with shadows, the solid blocks all its light to the outside.
+/// A
 /// solid that also contains the eye is a room.
 pub(super) fn lights(scene: &ir::Scene, check: &mut Checker<'_>) {
     if !scene.settings.shadows {

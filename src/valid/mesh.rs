@@ -180,7 +180,8 @@ fn error_in_lengths(mesh: &ir::Mesh) -> Option<String> {
     let is_valid = matches(uvs) && matches(tangents) && matches(colors);
     (!is_valid).then(|| {
         format!(
-            "a mesh has {count} positions, {uvs} second uvs, {tangents} tangents and {colors} colours"
+            "a mesh has {count} positions, {uvs} second uvs, {tangents} tangents and {colors} \
+            colours"
         )
     })
 }

@@ -19,7 +19,13 @@ pub(crate) struct Reading {
     #[arg(long, help_heading = "Input")]
     pub(crate) lenient: bool,
     /// Also search this folder for textures and meshes
-    #[arg(long, value_name = "FOLDER", value_parser = folder, value_hint = ValueHint::DirPath, help_heading = "Input")]
+    #[arg(
+        long,
+        value_name = "FOLDER",
+        value_parser = folder,
+        value_hint = ValueHint::DirPath,
+        help_heading = "Input",
+    )]
     pub(crate) asset_root: Option<PathBuf>,
     /// Show the animation of a glTF asset at this time [default: at rest]
     #[arg(long, value_name = "SECONDS", value_parser = moment, help_heading = "Input")]
@@ -36,13 +42,31 @@ pub(crate) struct Reading {
     #[arg(long, value_name = "NAME|INDEX", help_heading = "Input")]
     pub(crate) camera: Option<String>,
     /// Do not report this code, as VA004, or any `warnings`; errors stay
-    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse, help_heading = "Diagnostics")]
+    #[arg(
+        long,
+        value_name = "CODE",
+        value_delimiter = ',',
+        value_parser = LevelSubject::parse,
+        help_heading = "Diagnostics",
+    )]
     pub(crate) allow: Vec<LevelSubject>,
     /// Report this code as a warning
-    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse, help_heading = "Diagnostics")]
+    #[arg(
+        long,
+        value_name = "CODE",
+        value_delimiter = ',',
+        value_parser = LevelSubject::parse,
+        help_heading = "Diagnostics",
+    )]
     pub(crate) warn: Vec<LevelSubject>,
     /// Report this code, or all `warnings`, as errors
-    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = LevelSubject::parse, help_heading = "Diagnostics")]
+    #[arg(
+        long,
+        value_name = "CODE",
+        value_delimiter = ',',
+        value_parser = LevelSubject::parse,
+        help_heading = "Diagnostics",
+    )]
     pub(crate) deny: Vec<LevelSubject>,
     /// Set a limit of the run, as memory=2GiB; `rtc schema limits` lists them
     #[arg(long, value_name = "NAME=NUMBER", value_parser = limit, help_heading = "Limits")]
@@ -73,7 +97,8 @@ impl Reading {
         Ok(levels)
     }
 
-    /// What the run may take, where by default it is what `settle` makes of the limits of the house.
+    /// What the run may take, where by default it is what `settle` makes of the limits of the
+    /// house.
     pub(crate) fn limits(&self, settle: impl FnOnce(&mut Limits)) -> Limits {
         let mut limits = Limits::default();
         settle(&mut limits);
@@ -109,10 +134,22 @@ pub(crate) struct ReporterArgs {
     )]
     pub(crate) color: Color,
     /// Print at most N diagnostics for each file
-    #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Diagnostics")]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "100",
+        value_parser = clap::value_parser!(u32).range(1..),
+        help_heading = "Diagnostics",
+    )]
     pub(crate) max_errors: u32,
     /// Print only errors: no warnings, progress or summary
-    #[arg(short, long, action = ArgAction::SetTrue, conflicts_with = "verbose", help_heading = "Diagnostics")]
+    #[arg(
+        short,
+        long,
+        action = ArgAction::SetTrue,
+        conflicts_with = "verbose",
+        help_heading = "Diagnostics",
+    )]
     pub(crate) quiet: bool,
     /// Also print notes, and how often each effect was simulated
     #[arg(short, long, action = ArgAction::SetTrue, help_heading = "Diagnostics")]

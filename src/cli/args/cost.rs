@@ -10,22 +10,31 @@ use std::time::Duration;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Errors are against the picture of the scene's own depth; what more bounces would add is told apart. Of a large \
-picture some random tiles are looked at: `tiles%` is how much less or more the error of the whole may be, and a row is on the \
-front only if these tiles show that it has less error than cheaper ones. Where paths are traced and the whole picture is looked \
-at, a quarter and a sixteenth of the scene's paths are tried denoised, too (`dn`), with the time that telling their errors takes.\n\n\
-A scene and its reference are looked at in their own settings: what one takes against the other, and whether their pictures \
-differ by more than noise. Traced paths are coded after they are averaged, which darkens what is noisy: scenes with other numbers of paths \
+    after_help = "Errors are against the picture of the scene's own depth; what more bounces \
+    would add is told apart. Of a large \
+picture some random tiles are looked at: `tiles%` is how much less or more the error of the whole \
+may be, and a row is on the \
+front only if these tiles show that it has less error than cheaper ones. Where paths are traced \
+and the whole picture is looked \
+at, a quarter and a sixteenth of the scene's paths are tried denoised, too (`dn`), with the time \
+that telling their errors takes.\n\n \
+A scene and its reference are looked at in their own settings: what one takes against the other, \
+and whether their pictures \
+differ by more than noise. Traced paths are coded after they are averaged, which darkens what is \
+noisy: scenes with other numbers of paths \
 differ by that, too.\n\n\
-Examples:\n  rtc cost scene.yaml --html cost.html\n  rtc cost scene.yaml --maps maps\n  rtc cost model.glb --effort quick\n  \
+Examples:\n  rtc cost scene.yaml --html cost.html\n  rtc cost scene.yaml --maps maps\n  rtc cost \
+model.glb --effort quick\n \
 rtc cost new.yaml old.yaml --effort quick --gate 'error<=1.0,time<=1.2x'"
 )]
 pub(crate) struct Cost {
-    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input. With a second one as reference: what
+    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input. With a second one as
+    /// reference: what
     /// the scene costs and shows against that
     #[arg(value_name = "FILE", required = true, num_args = 1..=2, value_hint = ValueHint::FilePath)]
     pub(crate) files: Vec<PathBuf>,
-    /// With a reference: what must hold, or the exit code is 1: `MEASURE<=VALUE`, several with commas between;
+    /// With a reference: what must hold, or the exit code is 1: `MEASURE<=VALUE`, several with
+    /// commas between;
     /// measures are error (in grey levels, beyond noise), and as ratios time, rays and noise
     #[arg(long, value_name = "GATES", value_parser = of_scenes)]
     pub(crate) gate: Option<Gates>,
@@ -38,23 +47,33 @@ pub(crate) struct Cost {
     /// Also write a page for a browser, with plots and pictures
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) html: Option<PathBuf>,
-    /// Also write maps into this folder, which is made if there is none: PNGs of the size of the picture with the rays
-    /// and the error of each pixel, in the scene's own setting and in the recommended one, and `maps.html` with their scales
+    /// Also write maps into this folder, which is made if there is none: PNGs of the size of the
+    /// picture with the rays
+    /// and the error of each pixel, in the scene's own setting and in the recommended one, and
+    /// `maps.html` with their scales
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) maps: Option<PathBuf>,
     /// How much work the study may be
     #[arg(long, value_enum, default_value_t)]
     pub(crate) effort: EffortArg,
-    /// Which tiles of the picture are looked at, in which order settings are timed, and with which random
+    /// Which tiles of the picture are looked at, in which order settings are timed, and with which
+    /// random
     /// numbers two scenes are compared
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) seed: u64,
-    /// Keep what is rendered in this file, now and then and when told to end; the same command goes on from
+    /// Keep what is rendered in this file, now and then and when told to end; the same command goes
+    /// on from
     /// there, with the seconds measured before
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) checkpoint: Option<PathBuf>,
     /// How often to save, in seconds
-    #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = interval, requires = "checkpoint")]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value = "60s",
+        value_parser = interval,
+        requires = "checkpoint",
+    )]
     pub(crate) every: Duration,
     /// Begin anew, whatever was saved
     #[arg(long, requires = "checkpoint")]

@@ -7,8 +7,10 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Values of pixel files are compared as they are stored, up to 16 bits; those of EXR and HDR by the code of sRGB, cut off \
-at 1, and `relmse` by what they hold: highlights beyond 1 show in it alone. Of an EXR the first red, green and blue are read, negative values as \
+    after_help = "Values of pixel files are compared as they are stored, up to 16 bits; those of \
+    EXR and HDR by the code of sRGB, cut off \
+at 1, and `relmse` by what they hold: highlights beyond 1 show in it alone. Of an EXR the first \
+red, green and blue are read, negative values as \
 0, and no opacity. Colours count as on black; opacity of its own shows in `max` and `share`.\n\n\
 Examples:\n  rtc diff new.png golden.png\n  rtc diff new.png golden.png --gate 'rmse<=1,share<=0.1%' -o map.png\n  rtc diff new.yaml old.yaml --html page.html"
 )]
@@ -16,14 +18,16 @@ pub(crate) struct Diff {
     /// The picture (PNG, JPEG, WebP, EXR or HDR), or the scene
     #[arg(value_name = "NEW", value_hint = ValueHint::FilePath)]
     pub(crate) new: PathBuf,
-    /// What it is compared with: a picture of the same size, or a scene, which is seen by the camera of the
+    /// What it is compared with: a picture of the same size, or a scene, which is seen by the
+    /// camera of the
     /// new one
     #[arg(value_name = "OLD", value_hint = ValueHint::FilePath)]
     pub(crate) old: PathBuf,
     /// Pixels count as different if a channel is off by more than so many grey levels of 8 bits
     #[arg(long, value_name = "LEVELS", default_value = "1", value_parser = levels)]
     pub(crate) levels: f64,
-    /// What must hold, or the exit code is 1: `MEASURE<=VALUE`, several with commas between; measures are rmse, max, relmse, flip
+    /// What must hold, or the exit code is 1: `MEASURE<=VALUE`, several with commas between;
+    /// measures are rmse, max, relmse, flip
     /// and share (as `0.5%` or 0.005)
     #[arg(long, value_name = "GATES", value_parser = of_pictures)]
     pub(crate) gate: Option<Gates>,

@@ -17,12 +17,18 @@ pub(crate) struct Farm {
     /// The folder to make, with the scene and the job; nothing is run
     #[arg(short, long, required = true, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     pub(crate) output: PathBuf,
-    /// The name of the picture in that folder, .png or .exr; of a turntable, `-` and four digits are
+    /// The name of the picture in that folder, .png or .exr; of a turntable, `-` and four digits
+    /// are
     /// put before the extension
     #[arg(long, value_name = "NAME", default_value = "picture.png")]
     pub(crate) picture: String,
     /// How many parts a picture has
-    #[arg(long, value_name = "N", default_value = "64", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SHARDS)))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "64",
+        value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SHARDS)),
+    )]
     pub(crate) parts: u32,
     /// What is shared out: tiles, or the samples of traced paths
     #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
@@ -30,22 +36,45 @@ pub(crate) struct Farm {
     /// So many views, all around the scene, each in parts
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999))]
     pub(crate) turntable: Option<u32>,
-    /// The first and the last picture, from 1 on: of the views of `--turntable`, or with `--fps` of the
+    /// The first and the last picture, from 1 on: of the views of `--turntable`, or with `--fps` of
+    /// the
     /// animation of a glTF asset
     #[arg(long, value_name = "A..B", value_parser = frames)]
     pub(crate) frames: Option<[u32; 2]>,
-    /// Pictures a second of an animation; the first is at 0 seconds, and each is that of `rtc render
+    /// Pictures a second of an animation; the first is at 0 seconds, and each is that of `rtc
+    /// render
     /// --time`
-    #[arg(long, value_name = "N", value_parser = rate, requires = "frames", conflicts_with_all = ["turntable", "time"])]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = rate,
+        requires = "frames",
+        conflicts_with_all = ["turntable", "time"],
+    )]
     pub(crate) fps: Option<f64>,
     /// Threads of each task, and cores that it asks the engine for
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "1",
+        value_parser = clap::value_parser!(u16).range(1..=1024),
+    )]
     pub(crate) threads: u16,
     /// Memory that each task asks the engine for, in GiB
-    #[arg(long, value_name = "GIB", default_value = "4", value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    #[arg(
+        long,
+        value_name = "GIB",
+        default_value = "4",
+        value_parser = clap::value_parser!(u32).range(1..=65_536),
+    )]
     pub(crate) memory: u32,
     /// How often a task that failed is tried again
-    #[arg(long, value_name = "N", default_value = "3", value_parser = clap::value_parser!(u32).range(0..=1000))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "3",
+        value_parser = clap::value_parser!(u32).range(0..=1000),
+    )]
     pub(crate) retries: u32,
     #[command(flatten)]
     pub(crate) wanted: WantedArgs,

@@ -20,12 +20,24 @@ pub(crate) struct OutputTransformArgs {
     ///
     /// Each stop doubles the values, in an EXR too [default: auto for the PNG of a glTF asset
     /// with lights of its own, else 0].
-    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true, help_heading = "Output")]
+    #[arg(
+        long,
+        value_name = "STOPS",
+        value_parser = exposure,
+        allow_negative_numbers = true,
+        help_heading = "Output",
+    )]
     pub(crate) exposure: Option<Exposure>,
     /// Set the background: env, transparent, white, black, #rrggbb or R,G,B
     ///
     /// `env` shows the environment. R,G,B are linear values. The light of the scene stays.
-    #[arg(long, value_name = "WHAT", default_value = "env", value_parser = background, help_heading = "Output")]
+    #[arg(
+        long,
+        value_name = "WHAT",
+        default_value = "env",
+        value_parser = background,
+        help_heading = "Output",
+    )]
     pub(crate) background: BackgroundArg,
     /// Write layers beside the colours: albedo, normal, depth, …
     ///

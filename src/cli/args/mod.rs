@@ -173,7 +173,14 @@ pub(super) struct Compile {
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) output: Option<PathBuf>,
     /// Explain which effects the picture needs, and why not the others
-    #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true, default_missing_value = "human")]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "FORM",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "human",
+    )]
     pub(super) explain: Option<Explanation>,
     /// Select the format [default: by the extension of the output, or `ir`]
     ///

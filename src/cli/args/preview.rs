@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The page is for this machine alone, and for who has its address. The finished picture has the bytes of `rtc render` with the \
+    after_help = "The page is for this machine alone, and for who has its address. The finished \
+    picture has the bytes of `rtc render` with the \
 same options. Ctrl-C ends it.\n\n\
 Examples:\n  rtc preview scene.yaml --open\n  rtc preview scene.yaml --size 320x240 --port 8080\n  rtc preview scene.yaml --against golden.png\n  rtc preview scene.yaml --against HEAD~1"
 )]
@@ -20,8 +21,10 @@ pub(crate) struct Preview {
     /// Open the page in the browser
     #[arg(long)]
     pub(crate) open: bool,
-    /// What the page lays over the picture of the scene, behind a slider: a picture file (PNG, JPEG, WebP, EXR, HDR), another
-    /// scene, or a commit of git, whose text of the scene is taken; scenes are looked at as the first one
+    /// What the page lays over the picture of the scene, behind a slider: a picture file (PNG,
+    /// JPEG, WebP, EXR, HDR), another
+    /// scene, or a commit of git, whose text of the scene is taken; scenes are looked at as the
+    /// first one
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) against: Option<PathBuf>,
     /// Threads to work on [default: one a core]

@@ -20,10 +20,22 @@ pub(crate) struct Render {
     /// The extension selects the format: .png, .jpg, .webp (lossless) or .exr; `-` is PNG on
     /// standard output. For many scenes: a folder, as `out/`, or a name with `{stem}` for the
     /// name of the scene, as `out/{stem}.png`.
-    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Output")]
+    #[arg(
+        short,
+        long,
+        value_name = "FILE",
+        value_hint = ValueHint::FilePath,
+        help_heading = "Output",
+    )]
     pub(crate) output: Option<PathBuf>,
     /// Also write one PNG with small pictures of all scenes and their names
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "turntable", help_heading = "Output")]
+    #[arg(
+        long,
+        value_name = "FILE",
+        value_hint = ValueHint::FilePath,
+        conflicts_with = "turntable",
+        help_heading = "Output",
+    )]
     pub(crate) contact_sheet: Option<PathBuf>,
     /// Also print the picture in the terminal, in 24-bit colours
     ///
@@ -36,39 +48,85 @@ pub(crate) struct Render {
     ///
     /// The error is the RMSE in 8-bit grey levels against the picture of infinitely many samples
     /// at this depth; it is kept in 90 of 100 pictures.
-    #[arg(long, value_name = "LEVELS", value_parser = levels, conflicts_with_all = ["supersampling", "aperture_samples", "spp"], help_heading = "Sampling")]
+    #[arg(
+        long,
+        value_name = "LEVELS",
+        value_parser = levels,
+        conflicts_with_all = ["supersampling", "aperture_samples", "spp"],
+        help_heading = "Sampling",
+    )]
     pub(crate) target_error: Option<f64>,
     /// Finish within this time, counted from the start of the program
     ///
     /// A coarse picture comes first, then samples where they reduce the error most. The result
     /// depends on the machine.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples", "spp"], help_heading = "Sampling")]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        value_parser = seconds,
+        conflicts_with_all = ["supersampling", "aperture_samples", "spp"],
+        help_heading = "Sampling",
+    )]
     pub(crate) time_budget: Option<Duration>,
     /// Denoise path-traced pictures
     ///
     /// The denoiser uses albedo, normal and depth of the first hits, from four times as many
     /// camera rays. Some pixels are sampled again to estimate the error.
-    #[arg(long, conflicts_with_all = ["target_error", "time_budget", "part", "checkpoint", "strips", "verify_effects"], help_heading = "Sampling")]
+    #[arg(
+        long,
+        conflicts_with_all = ["target_error", "time_budget", "part", "checkpoint", "strips", "verify_effects"],
+        help_heading = "Sampling",
+    )]
     pub(crate) denoise: bool,
     /// Clamp indirect radiance per channel, to reduce fireflies
     ///
     /// The picture loses energy; the fraction is printed at the end.
-    #[arg(long, value_name = "LIMIT", value_parser = radiance, conflicts_with_all = ["target_error", "time_budget", "denoise", "part", "checkpoint", "strips", "verify_effects"], help_heading = "Sampling")]
+    #[arg(
+        long,
+        value_name = "LIMIT",
+        value_parser = radiance,
+        conflicts_with_all = ["target_error", "time_budget", "denoise", "part", "checkpoint", "strips", "verify_effects"],
+        help_heading = "Sampling",
+    )]
     pub(crate) clamp: Option<f64>,
     /// Render N views around the scene
     ///
     /// The name of the output holds `%04d`, or ends with `-%04d`; a .apng or .gif holds all views
     /// in one file.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects", help_heading = "View")]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(1..=9999),
+        conflicts_with = "verify_effects",
+        help_heading = "View",
+    )]
     pub(crate) turntable: Option<u32>,
     /// Render only this range of turntable frames, 1-based and inclusive
-    #[arg(long, value_name = "A..B", value_parser = frames, requires = "turntable", help_heading = "View")]
+    #[arg(
+        long,
+        value_name = "A..B",
+        value_parser = frames,
+        requires = "turntable",
+        help_heading = "View",
+    )]
     pub(crate) frames: Option<[u32; 2]>,
     /// Set the frames per second of a .apng or .gif turntable [default: 12]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), requires = "turntable", help_heading = "View")]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u16).range(1..=1000),
+        requires = "turntable",
+        help_heading = "View",
+    )]
     pub(crate) fps: Option<u16>,
     /// Render part I of N into a .rtp file; `rtc merge` joins all parts
-    #[arg(long, value_name = "I/N", value_parser = share, conflicts_with = "verify_effects", help_heading = "Checkpoints and parts")]
+    #[arg(
+        long,
+        value_name = "I/N",
+        value_parser = share,
+        conflicts_with = "verify_effects",
+        help_heading = "Checkpoints and parts",
+    )]
     pub(crate) part: Option<[u32; 2]>,
     /// Divide the work by tiles or by samples of path tracing
     #[arg(
@@ -81,13 +139,32 @@ pub(crate) struct Render {
     )]
     pub(crate) parts_by: SharedByArg,
     /// Name the picture that `rtc merge` makes [default: the scene's name with .png]
-    #[arg(long, value_name = "FILE", requires = "part", value_hint = ValueHint::FilePath, help_heading = "Checkpoints and parts")]
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "part",
+        value_hint = ValueHint::FilePath,
+        help_heading = "Checkpoints and parts",
+    )]
     pub(crate) picture: Option<PathBuf>,
     /// Save progress into this .rtp file; the same command resumes from it
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["part", "time_budget", "verify_effects"], help_heading = "Checkpoints and parts")]
+    #[arg(
+        long,
+        value_name = "FILE",
+        value_hint = ValueHint::FilePath,
+        conflicts_with_all = ["part", "time_budget", "verify_effects"],
+        help_heading = "Checkpoints and parts",
+    )]
     pub(crate) checkpoint: Option<PathBuf>,
     /// Save a checkpoint every so many seconds
-    #[arg(long, value_name = "SECONDS", default_value = "60s", value_parser = interval, requires = "checkpoint", help_heading = "Checkpoints and parts")]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value = "60s",
+        value_parser = interval,
+        requires = "checkpoint",
+        help_heading = "Checkpoints and parts",
+    )]
     pub(crate) every: Duration,
     /// Ignore an existing checkpoint and start over
     #[arg(long, requires = "checkpoint", help_heading = "Checkpoints and parts")]
@@ -95,10 +172,23 @@ pub(crate) struct Render {
     /// Render and write strips of rows, for pictures larger than memory
     ///
     /// The number of rows is a multiple of 16 [default: about a million pixels].
-    #[arg(long, value_name = "ROWS", num_args = 0..=1, require_equals = true, value_parser = clap::value_parser!(u32).range(1..), conflicts_with_all = ["part", "checkpoint"], help_heading = "Checkpoints and parts")]
+    #[arg(
+        long,
+        value_name = "ROWS",
+        num_args = 0..=1,
+        require_equals = true,
+        value_parser = clap::value_parser!(u32).range(1..),
+        conflicts_with_all = ["part", "checkpoint"],
+        help_heading = "Checkpoints and parts",
+    )]
     pub(crate) strips: Option<Option<u32>>,
     /// Use N threads [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = "Performance")]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u16).range(1..=1024),
+        help_heading = "Performance",
+    )]
     pub(crate) threads: Option<u16>,
     #[command(flatten)]
     pub(crate) look: OutputTransformArgs,
@@ -125,7 +215,15 @@ pub(crate) struct Pruning {
     /// Simulate effects that a plan rule would leave out: all, or those of the rules named
     ///
     /// For example `--no-prune=E-SPEC`.
-    #[arg(long, value_name = "RULE", num_args = 0.., require_equals = true, value_delimiter = ',', value_parser = rule, help_heading = "Debugging")]
+    #[arg(
+        long,
+        value_name = "RULE",
+        num_args = 0..,
+        require_equals = true,
+        value_delimiter = ',',
+        value_parser = rule,
+        help_heading = "Debugging",
+    )]
     pub(crate) no_prune: Option<Vec<Rule>>,
     /// Also leave out what changes the picture by less than half a grey level
     #[arg(long, help_heading = "Performance")]

@@ -9,13 +9,31 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 pub(crate) struct StageArgs {
     /// Set the position of the camera [default: as in the scene]
-    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true, help_heading = "View")]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_parser = vector,
+        allow_hyphen_values = true,
+        help_heading = "View",
+    )]
     pub(crate) eye: Option<[f64; 3]>,
     /// Set the point in the middle of the picture [default: with `--eye` the middle of the scene]
-    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true, help_heading = "View")]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_parser = vector,
+        allow_hyphen_values = true,
+        help_heading = "View",
+    )]
     pub(crate) center: Option<[f64; 3]>,
     /// Set the upward direction [default: the axis closest to the scene's]
-    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true, help_heading = "View")]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_parser = direction,
+        allow_hyphen_values = true,
+        help_heading = "View",
+    )]
     pub(crate) up: Option<[f64; 3]>,
     /// Set the vertical field of view, in degrees
     #[arg(long, value_name = "DEGREES", value_parser = degrees, help_heading = "View")]
@@ -33,10 +51,22 @@ pub(crate) struct StageArgs {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Light")]
     pub(crate) env: Option<PathBuf>,
     /// Light the scene by a constant environment; 0 is darkness
-    #[arg(long, value_name = "R,G,B", value_parser = color, conflicts_with = "env", help_heading = "Light")]
+    #[arg(
+        long,
+        value_name = "R,G,B",
+        value_parser = color,
+        conflicts_with = "env",
+        help_heading = "Light",
+    )]
     pub(crate) env_color: Option<[f64; 3]>,
     /// Add a sun: the direction to it, and its irradiance as one number or three
-    #[arg(long, value_name = "DX,DY,DZ,E", value_parser = sun, allow_hyphen_values = true, help_heading = "Light")]
+    #[arg(
+        long,
+        value_name = "DX,DY,DZ,E",
+        value_parser = sun,
+        allow_hyphen_values = true,
+        help_heading = "Light",
+    )]
     pub(crate) sun: Vec<passes::Sun>,
     /// Leave out the lights of the scene
     #[arg(long, help_heading = "Light")]

@@ -15,19 +15,44 @@ pub(crate) struct WantedArgs {
     #[arg(long, value_name = "WxH|N", value_parser = size, help_heading = "Picture")]
     pub(crate) size: Option<[u32; 2]>,
     /// Take N × N samples in each pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Sampling")]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(1..),
+        help_heading = "Sampling",
+    )]
     pub(crate) supersampling: Option<u32>,
     /// Sample N points of the lens for each sample of a pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Sampling")]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(1..),
+        help_heading = "Sampling",
+    )]
     pub(crate) aperture_samples: Option<u32>,
     /// Sample N points of each soft light
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Sampling")]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(1..),
+        help_heading = "Sampling",
+    )]
     pub(crate) light_samples: Option<u32>,
     /// Trace N rays for each glossy reflection
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Sampling")]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(1..),
+        help_heading = "Sampling",
+    )]
     pub(crate) glossy_samples: Option<u32>,
     /// Trace N paths in each pixel, in path-traced scenes
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Sampling")]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(1..),
+        help_heading = "Sampling",
+    )]
     pub(crate) spp: Option<u32>,
     /// Follow N bounces after the first hit
     #[arg(long, value_name = "N", help_heading = "Sampling")]

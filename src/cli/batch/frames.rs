@@ -1,4 +1,5 @@
-//! The pictures of a job: one, views of a turntable, or moments of an animation; and which scenes they
+//! The pictures of a job: one, views of a turntable, or moments of an animation; and which scenes
+//! they
 //! are of.
 
 use super::super::Failure;

@@ -1,4 +1,5 @@
-//! `rtc diff`: how far two pictures, or two scenes and their pictures, are apart, and whether that is within
+//! `rtc diff`: how far two pictures, or two scenes and their pictures, are apart, and whether that
+//! is within
 //! gates.
 
 mod pictures;
@@ -47,7 +48,8 @@ pub(super) fn run(args: &Diff) -> Result<(), Failure> {
                 &files[usize::from(is_picture)],
             );
             Err(Failure::Trouble(format!(
-                "`{picture}` is a picture, and `{scene}` a scene: compare two of a kind, or render the scene"
+                "`{picture}` is a picture, and `{scene}` a scene: compare two of a kind, or \
+                render the scene"
             )))
         }
     }
@@ -62,7 +64,8 @@ struct Compared<'a> {
     changes: Option<&'a [Change]>,
 }
 
-/// Writes what was asked for, tells how two pictures differ, and their scenes, and passes the gates.
+/// Writes what was asked for, tells how two pictures differ, and their scenes, and passes the
+/// gates.
 fn report(
     args: &Diff,
     outputs: DiffOutputs,

@@ -1,4 +1,5 @@
-//! Findings as the diagnostics of editors, in the files that they are about, and what they propose as quick
+//! Findings as the diagnostics of editors, in the files that they are about, and what they propose
+//! as quick
 //! fixes.
 
 use super::super::args::Reading;
@@ -23,7 +24,8 @@ const SOURCE: &str = "rtc";
 /// A file and what is found in it.
 pub(super) type FileDiagnostics = (DocumentUri, Vec<EditorDiagnostic>);
 
-/// The diagnostics of a text, by the files that they stand in; those without a place stand at the beginning
+/// The diagnostics of a text, by the files that they stand in; those without a place stand at the
+/// beginning
 /// of the text.
 pub(super) fn diagnostics(document: &OpenText, columns: Columns) -> Vec<FileDiagnostics> {
     let mut own = Vec::new();
@@ -142,7 +144,8 @@ fn message(diagnostic: &diag::Diagnostic) -> String {
     all.collect::<Vec<_>>().join("\n")
 }
 
-/// The quick fixes of what is found in a range of a text that is checked; all that is sure at once where
+/// The quick fixes of what is found in a range of a text that is checked; all that is sure at once
+/// where
 /// it is asked for by its name, as that checks many times.
 pub(super) fn actions(
     document: &OpenText,

@@ -1,4 +1,5 @@
-//! What a value comes to in the IR, where that is not as it is written: with its defaults, in the units of the
+//! What a value comes to in the IR, where that is not as it is written: with its defaults, in the
+//! units of the
 //! renderer.
 
 use super::open_text::OpenText;
@@ -12,7 +13,8 @@ use serde_json::Value;
 /// So many bytes of it are told at most.
 const MOST: usize = 1000;
 
-/// What the value of a key comes to, in Markdown; none of a text that is not sound, and of what is in effect
+/// What the value of a key comes to, in Markdown; none of a text that is not sound, and of what is
+/// in effect
 /// as it is written.
 pub(super) fn value(
     document: &OpenText,

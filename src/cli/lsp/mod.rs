@@ -1,4 +1,5 @@
-//! `rtc lsp`: a language server for scenes over standard input and output (Language Server Protocol 3.17): what
+//! `rtc lsp`: a language server for scenes over standard input and output (Language Server Protocol
+//! 3.17): what
 //! `rtc check` finds while one types, with its fixes, and what keys mean.
 
 mod answer;

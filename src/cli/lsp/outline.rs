@@ -1,4 +1,5 @@
-//! What a text holds: its outline, its colours, the defaults that it leaves unsaid, and where names lead.
+//! What a text holds: its outline, its colours, the defaults that it leaves unsaid, and where names
+//! lead.
 
 use super::completion::is_file;
 use super::hover::default;

@@ -1,4 +1,5 @@
-//! Where in a tree a byte stands: the keys and items that lead there, and what the schema of scenes says of
+//! Where in a tree a byte stands: the keys and items that lead there, and what the schema of scenes
+//! says of
 //! each.
 
 use rtc_source::tree::{NodeId, Tree};
@@ -122,7 +123,8 @@ impl Vocabulary {
         keys
     }
 
-    /// A schema with what it refers to, its alternatives, and what the kind of the node asks for beside it.
+    /// A schema with what it refers to, its alternatives, and what the kind of the node asks for
+    /// beside it.
     fn plain<'v>(
         &'v self,
         schema: &'v Value,

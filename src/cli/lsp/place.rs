@@ -5,7 +5,8 @@ use percent_encoding::percent_decode_str;
 use rtc_source::uri_path;
 use std::path::{Path, PathBuf};
 
-/// The path of a file; of what is no file, as a text that was not saved yet, its last component in the
+/// The path of a file; of what is no file, as a text that was not saved yet, its last component in
+/// the
 /// current folder.
 pub(super) fn path(uri: &DocumentUri) -> PathBuf {
     let decoded = percent_decode_str(uri.path()).decode_utf8_lossy();

@@ -1,4 +1,5 @@
-//! The messages of the Language Server Protocol 3.17, by its names; of each message only the fields that
+//! The messages of the Language Server Protocol 3.17, by its names; of each message only the fields
+//! that
 //! are used here.
 
 use super::uri::DocumentUri;

@@ -1,4 +1,5 @@
-//! Messages as they stand on a wire: lines of a head, then JSON (Language Server Protocol 3.17, "Base Protocol"),
+//! Messages as they stand on a wire: lines of a head, then JSON (Language Server Protocol 3.17,
+//! "Base Protocol"),
 //! and those that wait for an answer.
 
 use lsp_server::{Message, RequestId};

@@ -72,7 +72,8 @@ impl Workspace {
         }
     }
 
-    /// Takes note of what happened in the editor, and returns what there is to tell; what is not as it
+    /// Takes note of what happened in the editor, and returns what there is to tell; what is not as
+    /// it
     /// should be is passed over.
     pub(super) fn note(&mut self, own: Notification) -> Vec<Message> {
         let Notification { method, params } = own;

@@ -1,4 +1,5 @@
-//! What the picture is compared with: a picture file, or another scene, which is looked at as the first
+//! What the picture is compared with: a picture file, or another scene, which is looked at as the
+//! first
 //! one: another file, or what a commit of git has in place of the scene's own.
 
 use super::preview_state::{RenderedPicture, ViewSettings};
@@ -81,7 +82,8 @@ impl Against {
 }
 
 impl OtherScene {
-    /// Its picture as the first scene is looked at, by the same camera if that is not the scene's own;
+    /// Its picture as the first scene is looked at, by the same camera if that is not the scene's
+    /// own;
     /// `None` if it is shown so already.
     pub(super) fn rendering(
         &mut self,
@@ -155,7 +157,8 @@ fn picture(path: &Path, reading: &args::Reading) -> Result<RenderedPicture, Fail
     })
 }
 
-/// The text that the scene has in a commit of git; none if there is no such commit, or no scene in it.
+/// The text that the scene has in a commit of git; none if there is no such commit, or no scene in
+/// it.
 fn committed(revision: &Path, scene: &Path) -> Option<Vec<u8>> {
     let revision = revision.to_str().filter(|own| !own.starts_with('-'))?;
     let folder = scene.parent().filter(|own| !own.as_os_str().is_empty());

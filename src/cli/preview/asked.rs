@@ -1,4 +1,5 @@
-//! What the session tells when it is asked for: the effects of the picture and of a pixel, the settings
+//! What the session tells when it is asked for: the effects of the picture and of a pixel, the
+//! settings
 //! and what they cost.
 
 use super::preview_state::{ViewSettings, Work};

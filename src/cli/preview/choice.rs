@@ -1,4 +1,5 @@
-//! Settings that the page chooses in place of those of the scene: what the scene has of them, and the
+//! Settings that the page chooses in place of those of the scene: what the scene has of them, and
+//! the
 //! same as flags of `rtc render`.
 
 use crate::args::IntegratorArg;
@@ -101,7 +102,8 @@ pub(super) fn own_setting(scene: &Scene, setup: &PictureSetup) -> Setting {
     }
 }
 
-/// What the page is told of the settings of a scene, which is without the values of the choice: each
+/// What the page is told of the settings of a scene, which is without the values of the choice:
+/// each
 /// knob with its own value, and why it is to be left alone, if it is.
 pub(super) fn reported(scene: &Scene, own: &Setting) -> Value {
     let parameter = |parameter: Parameter| {

@@ -1,4 +1,5 @@
-//! The command that renders what the page shows: `rtc render` with what was typed for the preview, the
+//! The command that renders what the page shows: `rtc render` with what was typed for the preview,
+//! the
 //! view and the settings.
 
 use super::choice::Choice;

@@ -1,4 +1,5 @@
-//! What accuracy costs in the scene that is shown, as `rtc cost --effort quick` measures it: settings,
+//! What accuracy costs in the scene that is shown, as `rtc cost --effort quick` measures it:
+//! settings,
 //! each with its seconds and its error.
 
 use super::Failure;

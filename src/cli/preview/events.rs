@@ -1,4 +1,5 @@
-//! News for the page as server-sent events: what is shown, each time it has changed. Few follow at a
+//! News for the page as server-sent events: what is shown, each time it has changed. Few follow at
+//! a
 //! time; where one more comes, the one that has followed longest is told so and ends.
 //! Nobody is woken while nothing changes.
 
@@ -6,7 +7,8 @@ use super::preview_state::PreviewState;
 use serde_json::Value;
 use std::sync::Arc;
 
-/// The most streams of events at a time: a browser opens six connections to a server, and some must be
+/// The most streams of events at a time: a browser opens six connections to a server, and some must
+/// be
 /// left for pictures.
 pub(super) const MOST: usize = 4;
 

@@ -131,7 +131,8 @@ impl HttpReply {
     fn head(&self) -> String {
         let allowed = self.nonce.as_ref().map_or_else(String::new, |nonce| {
             format!(
-                "; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; img-src data:; connect-src 'self'"
+                "; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; img-src data:; \
+                connect-src 'self'"
             )
         });
         // Events end with their connection.
@@ -141,8 +142,10 @@ impl HttpReply {
         };
         format!(
             "HTTP/1.1 {} {}\r\nContent-Type: {}\r\n{length}Connection: close\r\n\
-             Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\n\
-             Cross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: same-origin\r\n\
+             Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: \
+             no-referrer\r\n \
+             Cross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: \
+             same-origin\r\n \
              Content-Security-Policy: default-src 'none'; base-uri 'none'; form-action 'none'; \
              frame-ancestors {ANCESTORS}{allowed}\r\n\r\n",
             self.status,
@@ -306,7 +309,8 @@ mod tests {
 
     #[test]
     fn a_request_is_read_with_what_is_asked_of_it() {
-        let text = b"POST /fix?token=ab&token2=c HTTP/1.1\r\nHost: a\r\nHOST:  b \r\ncontent-length: 2\r\n\r\n{}";
+        let text = b"POST /fix?token=ab&token2=c HTTP/1.1\r\nHost: a\r\nHOST:  b \
+            \r\ncontent-length: 2\r\n\r\n{}";
         let (request, head, body) = parse(text).unwrap().unwrap();
         assert_eq!((head + body, body), (text.len(), 2));
         assert_eq!(

@@ -1,4 +1,5 @@
-//! `rtc preview`: a page that shows a scene while it is edited: a server on this machine, a watch on
+//! `rtc preview`: a page that shows a scene while it is edited: a server on this machine, a watch
+//! on
 //! the files of the scene, and a session that renders.
 
 mod against;

@@ -1,4 +1,5 @@
-//! What a pixel of the finished picture shows: its value, which surface is met there and how far away,
+//! What a pixel of the finished picture shows: its value, which surface is met there and how far
+//! away,
 //! what it is called, and the line that says it.
 
 use rtc_image::{Image, Layers};
@@ -18,7 +19,8 @@ pub(super) struct PixelTable {
 }
 
 impl PixelTable {
-    /// That of a picture, by its values before the tone map and its layers `instance.X` and `depth.Z`.
+    /// That of a picture, by its values before the tone map and its layers `instance.X` and
+    /// `depth.Z`.
     pub(super) fn new(
         image: &Image,
         layers: &Layers,

@@ -198,7 +198,8 @@ impl PreviewState {
         }
     }
 
-    /// Has the settings told from now on, and their costs measured. What is being done goes on before.
+    /// Has the settings told from now on, and their costs measured. What is being done goes on
+    /// before.
     pub(super) fn want_costs(&self) {
         let mut state = self.state();
         state.wants_settings = true;

@@ -58,7 +58,8 @@ pub(super) fn whole(
     rendering(setup, subject, film, input, observer)
 }
 
-/// What was simulated for a pixel of the picture, which is rendered again alone; none of a pixel outside.
+/// What was simulated for a pixel of the picture, which is rendered again alone; none of a pixel
+/// outside.
 pub(super) fn pixel(
     setup: &PictureSetup,
     subject: &mut RenderSubject,

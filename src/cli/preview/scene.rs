@@ -71,7 +71,8 @@ impl ReadScene {
         Ok(validated.map(|subject| (setup, subject)))
     }
 
-    /// A crude picture of what was rendered before, of which but the camera was changed; what is found
+    /// A crude picture of what was rendered before, of which but the camera was changed; what is
+    /// found
     /// in it is forgotten.
     pub(super) fn glance(
         &mut self,

@@ -1,4 +1,5 @@
-//! The server: bound to this machine alone, with few connections at a time. Where all are taken, the
+//! The server: bound to this machine alone, with few connections at a time. Where all are taken,
+//! the
 //! oldest of those that have said nothing gives way, so that idle ones keep nobody out.
 
 use super::Failure;

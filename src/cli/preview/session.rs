@@ -1,4 +1,5 @@
-//! The session: reads the scene, shows what is found, and renders it, crude first; all of it anew when
+//! The session: reads the scene, shows what is found, and renders it, crude first; all of it anew
+//! when
 //! a file or the view changes, whatever is under way.
 
 use super::against::Against;
@@ -313,7 +314,8 @@ impl<'a> Session<'a> {
             .file(scene.input.name(), found, scene.input.map())
     }
 
-    /// Forgets the costs, if they are not of the scene as it is looked at now: a choice of values alone
+    /// Forgets the costs, if they are not of the scene as it is looked at now: a choice of values
+    /// alone
     /// does not change them.
     fn forget_costs(&mut self, work: &Work) {
         let ViewSettings {

@@ -105,7 +105,8 @@ impl ViewOverride {
 }
 
 impl SceneCamera {
-    /// What the page is to know of the camera of a scene, seen from elsewhere if there is a gaze; `own`
+    /// What the page is to know of the camera of a scene, seen from elsewhere if there is a gaze;
+    /// `own`
     /// is how the scene itself sees it.
     pub(super) fn new(
         camera: &Camera,
@@ -267,7 +268,8 @@ mod tests {
     fn the_values_of_the_keys_alone_are_replaced() {
         let text = |eye: &str, center: &str, up: &str| {
             format!(
-                "# Mine.\nCamera:\n  up: {up} # a pixel\n  eye: {eye} # far away\n  center: {center}\n  \
+                "# Mine.\nCamera:\n  up: {up} # a pixel\n  eye: {eye} # far away\n  center: \
+                {center}\n \
                  viewSize: [8, 6]\nObjects: []\n"
             )
         };
@@ -287,7 +289,8 @@ mod tests {
             "up": [0.12373657560778914, 0.8628125386248774, -0.24284673381895566],
         });
         let view_override = ViewOverride::read(&sent).unwrap();
-        let text = "Camera: {eye: [0, 0, 200], center: [0, 0, 0], up: [0, 0.5, 0], viewSize: [120, 90]}\nObjects: []\n";
+        let text = "Camera: {eye: [0, 0, 200], center: [0, 0, 0], up: [0, 0.5, 0], viewSize: \
+            [120, 90]}\nObjects: []\n";
         let path = Path::new("a.yaml");
         let turned = written(path, text, &Options::default(), &view_override).unwrap();
         let is_short = |number: &str| number.len() <= "-155.4744".len();
@@ -308,8 +311,10 @@ mod tests {
     fn what_has_no_such_keys_is_left_as_it_is() {
         for text in [
             "Eye: [200, 200, 1000]\nObjects: []\n",
-            "Camera: {eye: &a [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 6]}\nLights: [{position: *a, color: [1, 1, 1]}]\nObjects: []\n",
-            "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], right: [2, 0, 0], viewSize: [8, 6]}\nObjects: []\n",
+            "Camera: {eye: &a [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, \
+            6]}\nLights: [{position: *a, color: [1, 1, 1]}]\nObjects: []\n",
+            "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], right: [2, 0, 0], \
+            viewSize: [8, 6]}\nObjects: []\n",
         ] {
             assert!(turned(text).is_err(), "{text}");
         }

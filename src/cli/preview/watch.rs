@@ -1,4 +1,5 @@
-//! Who looks whether files have changed: by their length, the time of their last change and what the
+//! Who looks whether files have changed: by their length, the time of their last change and what
+//! the
 //! system calls them, some times a second.
 
 use super::interrupt;

@@ -1,4 +1,5 @@
-//! `rtc.toml`: what holds for the scenes of a folder and of those below, where the command line says
+//! `rtc.toml`: what holds for the scenes of a folder and of those below, where the command line
+//! says
 //! nothing else.
 
 mod read;
@@ -56,7 +57,8 @@ struct ProjectFault {
 }
 
 impl Project {
-    /// That of a scene: in its folder, or the nearest above up to the root of a repository. Standard
+    /// That of a scene: in its folder, or the nearest above up to the root of a repository.
+    /// Standard
     /// input lies in the current folder.
     pub(super) fn of(scene: &Path, reading: &Reading) -> Result<Option<Self>, Failure> {
         let Some((path, scenes)) = nearest_file(scene) else {
@@ -133,7 +135,8 @@ impl Project {
     }
 }
 
-/// How the pictures of a scene are made by its project. A compiled scene has that settled, and what is
+/// How the pictures of a scene are made by its project. A compiled scene has that settled, and what
+/// is
 /// sampled until it is good enough has no number of samples.
 pub(super) fn picture(scene: &Path, reading: &Reading, goal: Goal) -> Result<Overrides, Failure> {
     let is_compiled = scene.extension().is_some_and(|own| own == "rtir");

@@ -1,4 +1,5 @@
-//! A turntable as one file, an animated PNG or a GIF: its pictures are written as they are rendered, and the
+//! A turntable as one file, an animated PNG or a GIF: its pictures are written as they are
+//! rendered, and the
 //! file appears with the last.
 
 use super::super::output::Output;
@@ -98,7 +99,8 @@ impl RenderSetup {
     }
 }
 
-/// The picture file by whose kind each frame is made: one without opacities where a GIF, which has no
+/// The picture file by whose kind each frame is made: one without opacities where a GIF, which has
+/// no
 /// shades of them, shows it.
 pub(super) fn still(output: &Path) -> PathBuf {
     output.with_extension(if is_gif(output) { "jpg" } else { "png" })

@@ -39,7 +39,8 @@ impl PictureClock {
         self.0.set(Instant::now());
     }
 
-    /// The time until samples end for the picture to be ready in a time, on a machine that is not quite
+    /// The time until samples end for the picture to be ready in a time, on a machine that is not
+    /// quite
     /// idle.
     pub(super) fn sampling(time: Duration, crop: Crop) -> Duration {
         const BUSY: f64 = 0.98;

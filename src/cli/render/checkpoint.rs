@@ -1,4 +1,5 @@
-//! A render that is saved on its way: what is done of it lies in a part (`.rtp`), and the same command
+//! A render that is saved on its way: what is done of it lies in a part (`.rtp`), and the same
+//! command
 //! goes on from there, to the same bytes.
 
 use super::super::merge::{read_part, unfit};
@@ -320,13 +321,15 @@ pub(crate) fn try_save(file: &Path, bytes: &[u8]) -> bool {
     if let Err(error) = &saved {
         let file = file.display();
         reporter::say(&format!(
-            "warning: `{file}` can't be written: {error}; the render goes on, what was saved before stays"
+            "warning: `{file}` can't be written: {error}; the render goes on, what was saved \
+            before stays"
         ));
     }
     saved.is_ok()
 }
 
-/// The first shares that are missing, side by side, at most so many: the first and the last of them.
+/// The first shares that are missing, side by side, at most so many: the first and the last of
+/// them.
 fn next(done: &RenderShard, most: u32) -> Option<[u32; 2]> {
     let mut missing = done.missing();
     let first = missing.next()?;

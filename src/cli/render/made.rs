@@ -85,7 +85,8 @@ impl MadePicture {
         Self { quality, ..self }
     }
 
-    /// In words: its size, its light, its rays and how long they took; if `verbose`, how often each effect
+    /// In words: its size, its light, its rays and how long they took; if `verbose`, how often each
+    /// effect
     /// was simulated and what is on huge pages; how good it is.
     pub(crate) fn words(&self, verbose: bool) -> String {
         let ([width, height], light) = (self.size, &self.light);
@@ -182,7 +183,8 @@ impl Quality {
                 let end = match (has_run_out, ends_above) {
                     (true, _) => ", ended by `--limit rays`".to_owned(),
                     (_, Some(target)) => format!(
-                        ", more than {target}: few pixels have most of the noise, so a bound would take far more samples than the picture"
+                        ", more than {target}: few pixels have most of the noise, so a bound \
+                        would take far more samples than the picture"
                     ),
                     _ => String::new(),
                 };
@@ -235,7 +237,8 @@ impl Quality {
     }
 }
 
-/// A bound on the error in grey levels, in words; or how bright light may be, in multiples of white, that
+/// A bound on the error in grey levels, in words; or how bright light may be, in multiples of
+/// white, that
 /// leaves none.
 fn bound(levels: f64, undersampled: Option<f64>) -> String {
     match undersampled {
@@ -245,11 +248,13 @@ fn bound(levels: f64, undersampled: Option<f64>) -> String {
             error(levels)
         ),
         Some(white) if white.is_infinite() => format!(
-            "no bound: paths find the light of lamps by way of smooth metal or glass by chance; {} (90 %) of what was met",
+            "no bound: paths find the light of lamps by way of smooth metal or glass by chance; \
+            {} (90 %) of what was met",
             error(levels)
         ),
         Some(white) => format!(
-            "no bound: light {white:.0} times as bright as white may be unmet; {} (90 %) of what was met",
+            "no bound: light {white:.0} times as bright as white may be unmet; {} (90 %) of what \
+            was met",
             error(levels)
         ),
     }

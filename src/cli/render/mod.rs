@@ -1,4 +1,5 @@
-//! `rtc render`: a scene to a picture. What was typed becomes a [`RenderSetup`] before anything is read.
+//! `rtc render`: a scene to a picture. What was typed becomes a [`RenderSetup`] before anything is
+//! read.
 
 mod animation;
 mod budget;

@@ -135,7 +135,8 @@ impl RenderSetup {
         })
     }
 
-    /// The picture with the samples that its goal takes, or where its rays ran out; kept on its way where
+    /// The picture with the samples that its goal takes, or where its rays ran out; kept on its way
+    /// where
     /// that is asked for.
     pub(super) fn approach(
         &self,

@@ -1,4 +1,5 @@
-//! A picture as text for a terminal: each letter is two pixels, one above the other, in 24-bit colours.
+//! A picture as text for a terminal: each letter is two pixels, one above the other, in 24-bit
+//! colours.
 
 use super::super::{Failure, output};
 use rtc_image::{Image, ShownPicture, shrunk};
@@ -26,7 +27,8 @@ pub(super) fn show(path: &Path) -> Result<(), Failure> {
     output::to_stdout(half_blocks(&shrunk(picture.image(), [width, width])).as_bytes())
 }
 
-/// The picture in lines of upper halves of blocks: their colour is that of the upper pixel, what is behind
+/// The picture in lines of upper halves of blocks: their colour is that of the upper pixel, what is
+/// behind
 /// them that of the lower.
 fn half_blocks(image: &Image) -> String {
     let mut text = String::new();

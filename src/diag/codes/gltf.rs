@@ -72,7 +72,8 @@ super::codes! { GL:
          "ACCESSOR_NORMALIZED_INVALID", "MESH_PRIMITIVE_ACCESSOR_UNALIGNED",
          "ACCESSOR_USAGE_OVERRIDE"];
     GLTF_HUGE = "GL027", Error, "a glTF asset claims more data than it holds";
-    GLTF_NOT_FINITE = "GL028", Error, "an accessor of a glTF asset holds a number that is not finite",
+    GLTF_NOT_FINITE = "GL028", Error, "an accessor of a glTF asset holds a number that is not \
+        finite",
         ["ACCESSOR_INVALID_FLOAT"];
     GLTF_BOUNDS = "GL029", Error, "the bounds of an accessor of a glTF asset are wrong",
         ["ACCESSOR_MIN_MISMATCH", "ACCESSOR_MAX_MISMATCH", "ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND",
@@ -147,6 +148,7 @@ super::codes! { GL:
     GLTF_CHOSEN = "GL048", Error, "the scene has no camera, animation or variant of that name";
     GLTF_STILL = "GL049", Warning, "`--time` is given for a scene without animations";
     GLTF_NEARLY = "GL050", Note, "the glTF file only approximates the scene";
-    GLTF_OWN_WORDS = "GL051", Note, "a value is written to `extras.rtc`, because glTF cannot hold it";
+    GLTF_OWN_WORDS = "GL051", Note, "a value is written to `extras.rtc`, because glTF cannot hold \
+        it";
     GLTF_UNSAID = "GL052", Warning, "a value cannot be written to glTF and is left out";
 }

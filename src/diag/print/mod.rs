@@ -97,7 +97,8 @@ impl Printer {
         }
     }
 
-    /// The note about settings of a project file is printed once even without `-v`: the command line
+    /// The note about settings of a project file is printed once even without `-v`: the command
+    /// line
     /// does not show them.
     fn shows_settings(&self, diagnostic: &Diagnostic) -> bool {
         diagnostic.code.id == codes::SETTINGS_READ.id

@@ -196,7 +196,12 @@ macro_rules! written {
 macro_rules! extensions {
     ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
         impl GltfWriter<'_> {
-            fn blocks(&mut self, standard: &Standard, blocks: &mut Block<String, Value>, path: ValuePath) {
+            fn blocks(
+                &mut self,
+                standard: &Standard,
+                blocks: &mut Block<String, Value>,
+                path: ValuePath,
+            ) {
                 $(
                     let mut block = Block::new();
                     $(if let Some(value) = written!($kind, standard.$field, self, path) {

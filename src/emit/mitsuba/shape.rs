@@ -100,7 +100,8 @@ impl MitsubaWriter<'_> {
     /// Reports an emissive surface, which in rtc emits on both sides.
     fn report_two_sided_emission(&mut self, material: u32, path: ValuePath) {
         if self.emitted(material) != [0.0; 3] {
-            let message = "Mitsuba's emitters shine to the front alone, or outwards: this one shines \
+            let message = "Mitsuba's emitters shine to the front alone, or outwards: this one \
+            shines \
                            both ways";
             self.reporter.unsupported(message, path);
         }

@@ -35,7 +35,8 @@ impl PovWriter<'_> {
         let color = vector(phong.color);
         let [kd, ks, n] = [phong.kd, phong.ks, phong.n].map(shortest);
         self.line(&format!(
-            "#declare M{index} = texture {{ pigment {{ rgb {color} }} finish {{ ambient rgb {ambient} \
+            "#declare M{index} = texture {{ pigment {{ rgb {color} }} finish {{ ambient rgb \
+            {ambient} \
              diffuse {kd} phong {ks} phong_size {n} reflection {ks} }} }}"
         ));
     }

@@ -56,7 +56,10 @@ impl PovWriter<'_> {
     /// Whether it is an instance of a mesh without triangles.
     fn is_empty(&self, shape: &Shape) -> bool {
         let meshes = &self.scene.meshes;
-        matches!(shape, Shape::Instance(instance) if meshes[instance.mesh.0 as usize].triangles.is_empty())
+        match shape {
+            Shape::Instance(instance) => meshes[instance.mesh.0 as usize].triangles.is_empty(),
+            _ => false,
+        }
     }
 
     /// A shape without its closing brace; `None` if POV-Ray has no such shape.

@@ -206,7 +206,8 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
     ForeignKeys {
         record: "scene",
         keys: &["Materials", "Material", "Textures", "Colors"],
-        advice: "materials are written in objects; mark a shared one `&red` and repeat it by `*red`",
+        advice: "materials are written in objects; mark a shared one `&red` and repeat it by \
+            `*red`",
     },
     ForeignKeys {
         record: "scene",

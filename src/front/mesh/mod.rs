@@ -148,7 +148,10 @@ pub fn is_mesh(head: &[u8]) -> bool {
     if !has_words || !obj::is_keyword(&words[0]) {
         return has_words && (off::is_head(&words[0]) || xyz::is_head(head));
     }
-    let is_vertex = |words: &[Word<'_>]| matches!(words, [Word { bytes: b"v", .. }, x, ..] if x.number().is_ok());
+    let is_vertex = |words: &[Word<'_>]| match words {
+        [Word { bytes: b"v", .. }, x, ..] => x.number().is_ok(),
+        _ => false,
+    };
     while !is_vertex(&words) {
         if !lines.next(&mut words) {
             return false;

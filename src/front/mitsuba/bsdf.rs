@@ -292,7 +292,8 @@ impl<'run> Lowering<'run> {
         let base = self.channel(node, "base_color", [0.5; 3], flip);
         let fraction =
             |name: &str, default: f64| node.number(name).unwrap_or(default).clamp(0.0, 1.0);
-        // `specular` s stands for a reflectance of 0.08·s along the normal (Burley 2012, section 5.2).
+        // `specular` s stands for a reflectance of 0.08·s along the normal (Burley 2012, section
+        // 5.2).
         let ior = match (node.number("eta"), node.number("specular")) {
             (Some(eta), _) => eta.max(1.0),
             (None, specular) => {

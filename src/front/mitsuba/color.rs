@@ -86,7 +86,8 @@ fn matching(nm: f64) -> [f64; 3] {
     ]
 }
 
-/// XYZ, each relative to that of a white, as linear Rec. 709 with the white at (1, 1, 1): the matrix
+/// XYZ, each relative to that of a white, as linear Rec. 709 with the white at (1, 1, 1): the
+/// matrix
 /// of the primaries with the columns scaled to that white.
 fn linear([x, y, z]: [f64; 3]) -> [f64; 3] {
     // Of D65, whose X and Z the factors take out.

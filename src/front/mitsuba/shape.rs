@@ -146,7 +146,8 @@ impl<'run> Lowering<'run> {
         Some(placed(mesh, to_world))
     }
 
-    /// A sphere; one that is scaled unevenly, or that emits light and so has to be sampled, is a mesh.
+    /// A sphere; one that is scaled unevenly, or that emits light and so has to be sampled, is a
+    /// mesh.
     fn sphere(
         &mut self,
         node: &'run Node,

@@ -38,9 +38,11 @@ impl Slabs {
     /// Whether the ray may meet the box before `t_max`, a root that may itself be rounded.
     ///
     /// Conservative as in Ize, "Robust BVH ray traversal" (JCGT 2, 2013), but the far end grows by
-    /// 2γ₄, as its growing is rounded too: `docs/proofs/slabs.g`. Comparisons are written so that the
+    /// 2γ₄, as its growing is rounded too: `docs/proofs/slabs.g`. Comparisons are written so that
+    /// the
     /// NaN of a ray inside a slab's plane leaves the interval as it is. `t_max` grows by more, as a
-    /// root may be known less well than the ends of a slab: of surfaces at the same t none is passed
+    /// root may be known less well than the ends of a slab: of surfaces at the same t none is
+    /// passed
     /// over.
     #[must_use]
     #[inline]

@@ -1,4 +1,5 @@
-//! A ray in the cube about some geometry, in single precision: what may be hit is never passed over.
+//! A ray in the cube about some geometry, in single precision: what may be hit is never passed
+//! over.
 //!
 //! All is measured in a cube about the geometry, so that no number leaves the range of f32 whatever
 //! the scale of the scene. Rays are brought to the cube in f64; a bound on what rounding does to
@@ -34,7 +35,8 @@ pub(crate) struct QuantizationFrame {
 }
 
 impl QuantizationFrame {
-    /// The cube around some boxes, not far larger than needed; `error_bound` bounds the error of the
+    /// The cube around some boxes, not far larger than needed; `error_bound` bounds the error of
+    /// the
     /// corners of what is in them.
     ///
     /// Where that costs few bits the cube lies about the origin: then corners of 32 bits stay as

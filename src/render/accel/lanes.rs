@@ -15,14 +15,16 @@ pub(in crate::accel) const WIDTH: usize = 8;
 /// Triangles of a leaf.
 pub(in crate::accel) const TRIANGLES: usize = 4;
 
-/// A node: for each axis the lower and the upper ends of eight boxes, then eight links as the bits of
+/// A node: for each axis the lower and the upper ends of eight boxes, then eight links as the bits
+/// of
 /// numbers; four cache lines.
 pub(in crate::accel) type WideNode = [f32; 64];
 
 /// Where the links of a node are.
 pub(in crate::accel) const LINKS: usize = 6 * WIDTH;
 
-/// What a hierarchy keeps of a triangle: the nine coordinates of its corners, and its item as the bits
+/// What a hierarchy keeps of a triangle: the nine coordinates of its corners, and its item as the
+/// bits
 /// of a number. The triangles of a leaf share their rows.
 pub(in crate::accel) type TriangleRow = [f32; ITEM + 1];
 
@@ -36,7 +38,8 @@ const SEEN: usize = 64;
 /// their items.
 #[derive(Clone, Copy)]
 pub(in crate::accel) struct WideLeaf<'rows> {
-    /// Its numbers, and some of the leaves after it: so four can be read wherever one may be, and no
+    /// Its numbers, and some of the leaves after it: so four can be read wherever one may be, and
+    /// no
     /// place needs to be checked.
     numbers: &'rows [f32],
     count: usize,

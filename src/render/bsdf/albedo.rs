@@ -21,7 +21,8 @@ const ROUGHNESSES: usize = 64;
 /// Entries of a table.
 const ENTRIES: usize = ROUGHNESSES * COSINES;
 
-/// Little-endian numbers, a row for each roughness: both terms of each entry of microfacets, then the
+/// Little-endian numbers, a row for each roughness: both terms of each entry of microfacets, then
+/// the
 /// albedos of sheen.
 static STORED: [u8; 3 * 8 * ENTRIES] = *include_bytes!("albedo.bin");
 

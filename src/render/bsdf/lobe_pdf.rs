@@ -20,7 +20,8 @@ pub(super) struct LobePdf {
 }
 
 impl LobePdf {
-    /// Probabilities proportional to the estimated albedo of each lobe: the diffuse base, reflecting
+    /// Probabilities proportional to the estimated albedo of each lobe: the diffuse base,
+    /// reflecting
     /// and transmitting, and the microfacets, below sheen and coat.
     #[inline]
     pub(super) fn new(

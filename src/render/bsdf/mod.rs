@@ -301,7 +301,8 @@ impl<const F: u32> Lobes<F> {
 
     /// Samples a direction with two numbers in [0, 1); `None` if the direction is invalid.
     ///
-    /// The first one chooses the lobe, too, so that the points of each lobe stay stratified. A third
+    /// The first one chooses the lobe, too, so that the points of each lobe stay stratified. A
+    /// third
     /// one, also in [0, 1), is asked for where microfacets both reflect and transmit.
     #[must_use]
     #[inline(always)]

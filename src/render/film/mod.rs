@@ -34,7 +34,8 @@ pub struct Job {
     pub background: Background,
     /// The maximum number of samples per pixel. The first samples of the scene are taken.
     pub samples: Option<NonZeroU32>,
-    /// The radiance that a traced path brings at most after its first bounce, in its largest channel, more
+    /// The radiance that a traced path brings at most after its first bounce, in its largest
+    /// channel, more
     /// than 0; all of it without.
     pub clamp: Option<f64>,
 }
@@ -91,7 +92,8 @@ impl Tiles {
         mix(mix(seed) ^ (u64::from(tile[0]) << 32 | u64::from(tile[1])))
     }
 
-    /// The tiles of the shares `first` to `last`, counted from 1, of `count`: those whose rank lies in these
+    /// The tiles of the shares `first` to `last`, counted from 1, of `count`: those whose rank lies
+    /// in these
     /// of `count` equal stretches. None if the last is below the first.
     #[must_use]
     pub fn shares([first, last]: [u32; 2], count: u32) -> Self {
@@ -226,7 +228,8 @@ pub struct Film {
 }
 
 impl Film {
-    /// The pixels of `crop` of a film of the whole picture. A film of the size of `crop` stays as it
+    /// The pixels of `crop` of a film of the whole picture. A film of the size of `crop` stays as
+    /// it
     /// is.
     #[must_use]
     pub fn cut(self, crop: Crop) -> Self {

@@ -200,7 +200,8 @@ impl FilmLayout {
     }
 }
 
-/// The pixels row by row as `show` has them, and what of each is covered, in one walk over the film.
+/// The pixels row by row as `show` has them, and what of each is covered, in one walk over the
+/// film.
 fn shown(
     film: &Tiled<PixelSum>,
     show: impl Fn(&PixelSum) -> [f64; 3],

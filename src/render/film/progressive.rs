@@ -2,7 +2,8 @@
 //! a pilot.
 //!
 //! The picture is the mean of the replicates, and their difference estimates its error. How many
-//! samples they take depends on the values of the pilots, and else on the whole film alone: given the
+//! samples they take depends on the values of the pilots, and else on the whole film alone: given
+//! the
 //! pilots, the choice adds no bias to the picture, nor to the estimate of its variance. Two halves
 //! that choose for each other add both (`docs/book/src/decisions/0013-pilots.md`).
 
@@ -16,7 +17,8 @@ use rtc_math::Vec3;
 /// The samples of a pixel so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Replicates {
-    /// The tone map of the mean, and what the mean is multiplied by before; `None` where each sample
+    /// The tone map of the mean, and what the mean is multiplied by before; `None` where each
+    /// sample
     /// is clamped to [0, 1].
     tone: Option<(Tone, f64)>,
     /// Of each replicate and of the pilot, the sum of its samples, clamped if `tone` is `None`.

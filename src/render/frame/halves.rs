@@ -1,4 +1,5 @@
-//! Denoised pictures: two halves of the samples of each pixel, the guides of both, and guides of more
+//! Denoised pictures: two halves of the samples of each pixel, the guides of both, and guides of
+//! more
 //! camera rays.
 
 use super::{Selection, run};

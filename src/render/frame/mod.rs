@@ -40,7 +40,8 @@ impl Selection {
 pub(crate) type MakeIntegrator<'work, 'run, Sample> =
     dyn Fn() -> Box<dyn Integrator<'run, Sample = Sample> + 'work> + Sync + 'work;
 
-/// Renders the pixels selected, as `open` begins each of them, by integrators that `make_integrator` makes;
+/// Renders the pixels selected, as `open` begins each of them, by integrators that
+/// `make_integrator` makes;
 /// the rays traced, or `None` if the observer said stop.
 pub(crate) fn run<A: Accumulator>(
     film: &mut Tiled<A::PixelState>,
@@ -56,7 +57,8 @@ pub(crate) fn run<A: Accumulator>(
     is_done.then_some(counts)
 }
 
-/// As [`run`], in tiles all over the picture; if the observer said stop, tiles that are not done are as
+/// As [`run`], in tiles all over the picture; if the observer said stop, tiles that are not done
+/// are as
 /// before. The rays traced, and whether all are done.
 pub(crate) fn run_tiles<A: Accumulator<PixelState: Copy>>(
     film: &mut Tiled<A::PixelState>,
@@ -83,7 +85,8 @@ pub(crate) fn run_tiles<A: Accumulator<PixelState: Copy>>(
 type RenderTile<'work, 'run, Sample, T> =
     dyn Fn(&mut (dyn Integrator<'run, Sample = Sample> + '_), T) -> bool + Sync + 'work;
 
-/// Shares tiles among the integrators of all threads: each renders the next that is left, until none is or
+/// Shares tiles among the integrators of all threads: each renders the next that is left, until
+/// none is or
 /// the observer said stop. The rays of the tiles that are done, and whether all are.
 fn share<'run, Sample: Copy, T: Send>(
     tiles: Vec<T>,

@@ -1,4 +1,5 @@
-//! Whole pictures and parts of them: each pixel takes the samples that the scene asks for, or some of them.
+//! Whole pictures and parts of them: each pixel takes the samples that the scene asks for, or some
+//! of them.
 
 use super::{Selection, run};
 use crate::film::heartbeat::OnPixel;

@@ -58,7 +58,8 @@ impl<S: Intersect> World<S> {
     }
 }
 
-/// Takes the samples wanted by integrators that `make_integrator` makes, shown by `tone`; false if the
+/// Takes the samples wanted by integrators that `make_integrator` makes, shown by `tone`; false if
+/// the
 /// observer said stop.
 fn add_samples(
     film: &mut ProgressiveFilm,

@@ -1,6 +1,7 @@
 //! Powers in four lanes: the steps of [`rtc_math::pow`] on four numbers at once, so that each
 //! lane has its bits. Those of `libm` are of `e_pow.c` of FreeBSD's msun (Sun Microsystems, 1993):
-//! log₂x in two parts, y·log₂x in two parts, its whole part n, and 2ⁿ times a power between ½ and 2.
+//! log₂x in two parts, y·log₂x in two parts, its whole part n, and 2ⁿ times a power between ½ and
+//! 2.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4, u64x4};

@@ -28,7 +28,8 @@ use std::f64::consts::PI;
 /// Fewer lights with a place are chosen by power alone: among 8 a tree loses (benches/sampling.md).
 const LEAST_FOR_TREE: usize = 16;
 
-/// At most so many lights are listed, of some 300 bytes each: instances may show the triangles of a mesh more
+/// At most so many lights are listed, of some 300 bytes each: instances may show the triangles of a
+/// mesh more
 /// often than there is memory for.
 const MOST_LISTED: usize = 1 << 21;
 
@@ -65,7 +66,8 @@ pub(crate) struct Incident {
     pub(crate) place: Option<Vec3>,
 }
 
-/// Whether so many triangles of a surface are listed after so many lights. If not, only BSDF sampling
+/// Whether so many triangles of a surface are listed after so many lights. If not, only BSDF
+/// sampling
 /// finds them.
 fn is_room_for(triangles: usize, listed: usize) -> bool {
     listed.saturating_add(triangles) <= MOST_LISTED

@@ -2,7 +2,8 @@
 //! distance and orientation (Conty Estevez, Kulla, "Importance Sampling of Many Lights with
 //! Adaptive Tree Splitting", Proc. ACM Comput. Graph. Interact. Tech. 1(2), 2018), unsplit.
 //!
-//! No light has probability 0 anywhere, so the tree moves noise, not the mean; what is chosen less often
+//! No light has probability 0 anywhere, so the tree moves noise, not the mean; what is chosen less
+//! often
 //! than once in 2³² times is met as often as the bits of a number allow.
 
 use crate::sampler::remapped;

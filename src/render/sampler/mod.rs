@@ -51,7 +51,8 @@ impl Key {
     }
 }
 
-/// The number of the next decision, in [0, 1), where a number was found in an interval: how far above
+/// The number of the next decision, in [0, 1), where a number was found in an interval: how far
+/// above
 /// its lower end, over its width. An interval of no width gives a number, too.
 #[expect(clippy::manual_clamp, reason = "0/0 becomes a number")]
 #[inline]

@@ -1,7 +1,9 @@
-//! Numbers for paths: Owen-scrambled points, padded: four dimensions belong together, each such group has
+//! Numbers for paths: Owen-scrambled points, padded: four dimensions belong together, each such
+//! group has
 //! its own shuffling and scrambling.
 //!
-//! After Burley, "Practical hash-based Owen scrambling" (JCGT 9, 2020). Numbers depend on pixel, sample and
+//! After Burley, "Practical hash-based Owen scrambling" (JCGT 9, 2020). Numbers depend on pixel,
+//! sample and
 //! dimension alone, and in a picture of a given number of samples on that number.
 
 use super::Key;
@@ -71,12 +73,16 @@ impl Sobol {
 
     /// The numbers of path `index` of a pixel in a picture of so many paths a pixel, at least 1.
     ///
-    /// Its pixels share a sequence along a curve that fills squares one after another, so that the errors of
-    /// neighbours cancel: that of a pixel is as large as by [`Self::new`], that of a blurred picture is less
-    /// (Ahmed, Wonka, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical
+    /// Its pixels share a sequence along a curve that fills squares one after another, so that the
+    /// errors of
+    /// neighbours cancel: that of a pixel is as large as by [`Self::new`], that of a blurred
+    /// picture is less
+    /// (Ahmed, Wonka, "Screen-space blue-noise diffusion of Monte Carlo sampling error via
+    /// hierarchical
     /// ordering of pixels", SIGGRAPH Asia 2020).
     pub(crate) fn in_picture(pixel: [u32; 2], index: u32, seeds: Seeds, samples: u32) -> Self {
-        // Of the bits of an index the lowest count samples; as many of the others as fit are a place on the curve.
+        // Of the bits of an index the lowest count samples; as many of the others as fit are a
+        // place on the curve.
         let low = u32::BITS - (samples - 1).leading_zeros();
         let side = (u32::BITS - low) / 2;
         let [tile, place] = [pixel.map(|x| x >> side), pixel.map(|x| x & !(!0 << side))];
@@ -143,7 +149,8 @@ mod tests {
 
     const PAIRS: [Pair; 4] = [Pair::FILM, Pair::LENS, Pair(5), Pair(12)];
 
-    /// Demands that points, of which there is a power of two, are in [0, 1) and fill all elementary intervals.
+    /// Demands that points, of which there is a power of two, are in [0, 1) and fill all elementary
+    /// intervals.
     fn assert_filled(points: &[[f64; 2]], of: &str) {
         let numbers = points.iter().flatten();
         assert!(

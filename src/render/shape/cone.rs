@@ -167,7 +167,8 @@ impl Cone {
         }
     }
 
-    /// As [`Self::intersection`] for a cone far wider than high, and a ray that meets the plane of its
+    /// As [`Self::intersection`] for a cone far wider than high, and a ray that meets the plane of
+    /// its
     /// base.
     fn crossing_flat(
         &self,

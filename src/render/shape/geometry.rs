@@ -17,7 +17,8 @@ pub trait Intersect: Sized + Send + Sync {
     /// Whether four rays at once meet them by the same operations as one.
     const HAS_SHAPE4: bool = false;
 
-    /// The smallest root above 0 and its primitive; `watertight` is that of the ray. Roots beyond `t_max`
+    /// The smallest root above 0 and its primitive; `watertight` is that of the ray. Roots beyond
+    /// `t_max`
     /// may be left out.
     #[must_use]
     fn intersect(&self, ray: &Ray, watertight: &WatertightRay, t_max: f64) -> Option<(f64, u32)>;
@@ -36,7 +37,8 @@ pub trait Intersect: Sized + Send + Sync {
         self.intersect(ray, watertight, t_max)
     }
 
-    /// Calls `visit` with roots above 0 and their primitives: all up to `t_max` that may be the nearest.
+    /// Calls `visit` with roots above 0 and their primitives: all up to `t_max` that may be the
+    /// nearest.
     fn visit_roots(
         &self,
         ray: &Ray,
@@ -122,7 +124,8 @@ pub trait Intersect: Sized + Send + Sync {
         self.intersect_prim(ray, prim_id).filter(|t| *t < t_max)
     }
 
-    /// Whether its triangles are those of an instance that is not moved: the coordinates of the shape
+    /// Whether its triangles are those of an instance that is not moved: the coordinates of the
+    /// shape
     /// are those of the world.
     #[must_use]
     fn is_in_place(&self) -> bool {

@@ -7,7 +7,12 @@ macro_rules! dispatch {
             const HAS_SHAPE4: bool = true;
 
             #[inline]
-            fn intersect(&self, ray: &Ray, watertight: &WatertightRay, t_max: f64) -> Option<(f64, u32)> {
+            fn intersect(
+                &self,
+                ray: &Ray,
+                watertight: &WatertightRay,
+                t_max: f64,
+            ) -> Option<(f64, u32)> {
                 match self {
                     $(Self::$Name(shape) => <$Name as Intersect>::intersect(shape, ray, watertight, t_max),)*
                 }
@@ -20,7 +25,12 @@ macro_rules! dispatch {
             }
 
             #[inline]
-            fn closest_hit(&self, ray: &Ray, watertight: &WatertightRay, t_max: f64) -> Option<(f64, u32)> {
+            fn closest_hit(
+                &self,
+                ray: &Ray,
+                watertight: &WatertightRay,
+                t_max: f64,
+            ) -> Option<(f64, u32)> {
                 match self {
                     $(Self::$Name(shape) => <$Name as Intersect>::closest_hit(shape, ray, watertight, t_max),)*
                 }
@@ -61,7 +71,13 @@ macro_rules! dispatch {
                 }
             }
 
-            fn shading_attributes(&self, ray: &Ray, at: &Interaction, prim_id: u32, asked: AttributeRequest) -> ShadingAttributes {
+            fn shading_attributes(
+                &self,
+                ray: &Ray,
+                at: &Interaction,
+                prim_id: u32,
+                asked: AttributeRequest,
+            ) -> ShadingAttributes {
                 match self {
                     $(Self::$Name(shape) => <$Name as Intersect>::shading_attributes(shape, ray, at, prim_id, asked),)*
                 }
@@ -100,7 +116,12 @@ macro_rules! dispatch {
             }
 
             #[inline]
-            fn intersect_prim_before(&self, ray: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
+            fn intersect_prim_before(
+                &self,
+                ray: &LocalRay,
+                prim_id: u32,
+                t_max: f64,
+            ) -> Option<f64> {
                 match self {
                     $(Self::$Name(shape) => <$Name as Intersect>::intersect_prim_before(shape, ray, prim_id, t_max),)*
                 }

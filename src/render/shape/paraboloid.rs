@@ -1,5 +1,6 @@
 //! The capped paraboloid: the stretch inside the infinite paraboloid and the stretch between base
-//! and vertex, intersected. After Pharr, Jakob, Humphreys, "Physically Based Rendering" (3rd ed.), §3.5.
+//! and vertex, intersected. After Pharr, Jakob, Humphreys, "Physically Based Rendering" (3rd ed.),
+//! §3.5.
 //!
 //! With m the depth of a point below the vertex and k = radius²/height, it is inside where
 //! F = ρ² − k·m ≤ 0. The ray is first moved to the point nearest to the axis, so that the terms of
@@ -259,7 +260,8 @@ impl Intersect for Paraboloid {
         true
     }
 
-    /// u = φ/2π about the axis. On the side, v is the depth below the vertex in heights; on the cap,
+    /// u = φ/2π about the axis. On the side, v is the depth below the vertex in heights; on the
+    /// cap,
     /// the distance from the axis in radii: 1 at the rim on both.
     fn shading_attributes(
         &self,

@@ -38,7 +38,8 @@ impl Axis {
         self.sign * step + self.sign * error
     }
 
-    /// Whether a point lies on the plane through `anchor`, and has no 0 whose sign a sum may change.
+    /// Whether a point lies on the plane through `anchor`, and has no 0 whose sign a sum may
+    /// change.
     #[inline(always)]
     fn is_on(self, anchor: Vec3, p: Vec3) -> bool {
         p[self.index] == anchor[self.index] && p.x != 0.0 && p.y != 0.0 && p.z != 0.0

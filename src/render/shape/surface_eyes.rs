@@ -33,7 +33,8 @@ fn directions() -> impl Iterator<Item = Vec3> {
     })
 }
 
-/// Asks a shape, which `make` builds about a centre and in a scale, from eyes given in its own frame.
+/// Asks a shape, which `make` builds about a centre and in a scale, from eyes given in its own
+/// frame.
 /// Outwards a convex shape is not seen, any other not at once; inwards its far side is.
 fn check_eyes(name: &str, make: impl Fn(Vec3, f64) -> FirstRoot, is_convex: bool, eyes: &[Eye]) {
     for scale in SCALES {

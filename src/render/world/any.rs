@@ -144,7 +144,8 @@ impl AnyWorld {
         each!(self, world => world.whole(job, |_, job| world.sum(samples, job, on_pixel)))
     }
 
-    /// The guides of a denoiser, by three ranges of the samples of traced paths, and the rays they take;
+    /// The guides of a denoiser, by three ranges of the samples of traced paths, and the rays they
+    /// take;
     /// `between` is called between two of them.
     pub(crate) fn guides(
         &self,
@@ -171,7 +172,8 @@ impl AnyWorld {
     }
 
     /// Takes samples until each pixel has those wanted: `wanted(i)` is how many each replicate of
-    /// pixel i, and its pilot, are to have at least. False if `on_pixel` said stop; tiles that were not
+    /// pixel i, and its pilot, are to have at least. False if `on_pixel` said stop; tiles that were
+    /// not
     /// done are then as before.
     ///
     /// `on_pixel` is called from all threads, after each pixel and within long ones.

@@ -60,7 +60,8 @@ impl<S: Intersect> World<S> {
         hits
     }
 
-    /// For each ray and its `t_max` whether anything that casts shadows is hit with 0 < t < `t_max`.
+    /// For each ray and its `t_max` whether anything that casts shadows is hit with 0 < t <
+    /// `t_max`.
     #[must_use]
     pub fn any_hits(&self, rays: &[(Ray, f64)]) -> Vec<bool> {
         let Some(flattened) = &self.flattened else {

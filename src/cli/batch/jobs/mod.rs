@@ -74,7 +74,8 @@ impl<'a> FarmJob<'a> {
         let whole = self.commands.whole(&example(self.frames)).join(" ");
         let run = match self.engine {
             Engine::OpenJd => format!(
-                "`openjd run template.json` here; on Deadline Cloud `deadline bundle submit` with `--max-retries-per-task {retries}`"
+                "`openjd run template.json` here; on Deadline Cloud `deadline bundle submit` with \
+                `--max-retries-per-task {retries}`"
             ),
             Engine::Slurm => "`sh submit.sh` in this folder, which all nodes share".to_owned(),
             Engine::Dask => {
@@ -84,7 +85,8 @@ impl<'a> FarmJob<'a> {
             }
         };
         format!(
-            "{title}, which all workers need: on their path, or where `RTC` points (OpenJD: the parameter `Rtc`).\n\
+            "{title}, which all workers need: on their path, or where `RTC` points (OpenJD: the \
+            parameter `Rtc`).\n \
              To run: {run}.\n\
              The first picture is that of `rtc {whole}`, byte for byte; parts that failed can be run again, one by one.\n"
         )

@@ -160,7 +160,8 @@ impl Materials {
         if let (Some(lost), Some(material)) = (lost, material) {
             let [first, second] = sets.names();
             let message = format!(
-                "textures ask for more than two sets of texture coordinates: `{first}` and `{second}` are \
+                "textures ask for more than two sets of texture coordinates: `{first}` and \
+                `{second}` are \
                  kept, `TEXCOORD_{lost}` is not, and `{first}` is taken"
             );
             let at = doc.materials[material];

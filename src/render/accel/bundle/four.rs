@@ -1,4 +1,5 @@
-//! Bundles asked for by four rays at once, one in each lane. Shapes that are asked in four lanes cost
+//! Bundles asked for by four rays at once, one in each lane. Shapes that are asked in four lanes
+//! cost
 //! less than a bundle of few rays, so after such a one some rays go without.
 
 use super::{BoundingSpheres, LEVELS, ONE, RayCone, RayConeCache, Shaft};
@@ -33,7 +34,8 @@ impl Shaft {
 }
 
 impl RayConeCache {
-    /// As [`Self::along`], of the rays of some lanes: those whose bundle can say, and the items that
+    /// As [`Self::along`], of the rays of some lanes: those whose bundle can say, and the items
+    /// that
     /// one of them may meet.
     #[inline(always)]
     pub(crate) fn along_each<S: Simd>(

@@ -197,7 +197,8 @@ impl RayCone {
 /// The sine of the widest cone around a ray whose rays, from origins within `reach`, all miss a
 /// ball, below 0 if there is none; and how large the ball is from there, about its sine.
 ///
-/// At t those rays are within `reach + t·sine` of the one: they miss the ball if the cone misses the
+/// At t those rays are within `reach + t·sine` of the one: they miss the ball if the cone misses
+/// the
 /// ball grown by `reach`. As both are round, that depends on three angles alone.
 fn cone_clearance(ray: &Ray, reach: f64, ball: &BoundingSphere) -> (f64, f64) {
     let f = ball.center - ray.origin;

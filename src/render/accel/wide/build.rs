@@ -1,7 +1,8 @@
 //! How a hierarchy is built: from the top, a node taking the parts of its parts until it is full
 //! (Dammertz, Hanika, Keller, "Shallow bounding volume hierarchies", 2008).
 //!
-//! Its upper part is built first, then what hangs below, on all threads if they may help; the result
+//! Its upper part is built first, then what hangs below, on all threads if they may help; the
+//! result
 //! does not depend on how many there are.
 
 use super::split::{BoxedItem, BuildRange};

@@ -1,6 +1,8 @@
-//! A hierarchy over triangles, eight wide: it finds candidates; the hit itself is decided elsewhere.
+//! A hierarchy over triangles, eight wide: it finds candidates; the hit itself is decided
+//! elsewhere.
 //!
-//! Nodes hold the boxes of up to eight children, leaves the corners of up to four triangles, both in
+//! Nodes hold the boxes of up to eight children, leaves the corners of up to four triangles, both
+//! in
 //! single precision in a cube about the geometry; a ray meets all boxes or triangles at once.
 
 mod build;

@@ -27,7 +27,8 @@ struct PacketTraversal<'traverse, 'rays, S: Simd, V> {
 }
 
 impl Wide {
-    /// As [`Wide::traverse`] for each of some rays, with the `t_max` and the visitor of each. Fastest
+    /// As [`Wide::traverse`] for each of some rays, with the `t_max` and the visitor of each.
+    /// Fastest
     /// where rays side by side visit the same nodes.
     pub(crate) fn traverse_packets<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
         at_level!(self.simd, simd => self.traverse_all_packets(simd, rays));

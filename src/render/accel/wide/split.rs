@@ -20,7 +20,8 @@ fn bins_of(count: usize) -> usize {
     (4 + count / 4).min(BINS)
 }
 
-/// The box of a triangle in the cube, and its number: in the row that the triangle has later, so that
+/// The box of a triangle in the cube, and its number: in the row that the triangle has later, so
+/// that
 /// building takes no memory of its own.
 pub(super) trait BoxedItem {
     /// Of a number and the lowest and the highest corner of its box.
@@ -161,7 +162,8 @@ impl<'items> BuildRange<'items> {
         [self.bounds.min[axis], self.bounds.max[axis]]
     }
 
-    /// Its parts, at most eight: the one that is met most often is split next, which has the largest
+    /// Its parts, at most eight: the one that is met most often is split next, which has the
+    /// largest
     /// area, or, deep down, the most items.
     pub(super) fn into_children(self, builders: Builders, depth: usize) -> ArrayVec<Self, WIDTH> {
         let is_deep = depth >= HEURISTIC_DEPTH;

@@ -1,10 +1,12 @@
-//! The albedo of a rough dielectric after single scattering, reflected and transmitted: tables over the
+//! The albedo of a rough dielectric after single scattering, reflected and transmitted: tables over
+//! the
 //! index of refraction, the roughness and the cosine.
 
 use super::{Split, interpolate, stored};
 use std::sync::LazyLock;
 
-/// Entries along the index, denser towards 1: entry i is at 1 + 2·(i/(n − 1))², and 3 stands for more.
+/// Entries along the index, denser towards 1: entry i is at 1 + 2·(i/(n − 1))², and 3 stands for
+/// more.
 pub(super) const INDICES: usize = 24;
 
 /// Entries along the roughness.

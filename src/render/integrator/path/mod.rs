@@ -109,7 +109,8 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
         Self::can(feature) && self.planned.contains(feature)
     }
 
-    /// The numbers of a sample. In a picture of a given number of samples a pixel shares its sequence with
+    /// The numbers of a sample. In a picture of a given number of samples a pixel shares its
+    /// sequence with
     /// its neighbours; samples beyond that number come from a sequence of its own.
     fn numbers(&self, id: &SampleId) -> Sobol {
         let (pixel, index, seeds) = (id.pixel, id.index, id.stream.seeds());
@@ -159,7 +160,8 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
             .map_or(state.radiance, |limit| self.clamp(&state, limit))
     }
 
-    /// The radiance of a path of which the first vertex brings all its light, and the others no more in
+    /// The radiance of a path of which the first vertex brings all its light, and the others no
+    /// more in
     /// any channel than the limit.
     fn clamp(&mut self, state: &PathState, limit: f64) -> Vec3 {
         let first = match state.bounces {

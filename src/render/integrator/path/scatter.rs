@@ -246,7 +246,8 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     }
 }
 
-/// Veach's balance heuristic: by trial, higher powers leave more noise in most scenes (decision 16).
+/// Veach's balance heuristic: by trial, higher powers leave more noise in most scenes (decision
+/// 16).
 fn balance_heuristic(own: f64, other: f64) -> f64 {
     1.0 / (1.0 + other / own)
 }

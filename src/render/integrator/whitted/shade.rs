@@ -53,7 +53,8 @@ struct Incidence {
 pub(super) const OUTLINE: Vec3 = Vec3::splat(0.1);
 
 impl Incidence {
-    /// As in a cartoon: N·L falls in steps, and a highlight is there or not. The numbers are those of
+    /// As in a cartoon: N·L falls in steps, and a highlight is there or not. The numbers are those
+    /// of
     /// a program for the course's JSON years.
     fn stepped(self) -> Self {
         let n_dot_l = match self.n_dot_l {

@@ -148,7 +148,8 @@ impl<R: Real> Intersect for BaselineShape<R> {
         self.robust.shading_attributes(ray, at, prim_id, asked)
     }
 
-    /// The lights are those of the robust shape: light is sampled in the same way by each arithmetic.
+    /// The lights are those of the robust shape: light is sampled in the same way by each
+    /// arithmetic.
     fn triangles(&self) -> usize {
         self.robust.triangles()
     }

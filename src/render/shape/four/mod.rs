@@ -1,4 +1,5 @@
-//! The shapes that four rays meet at once, the sphere and interactions in four lanes: the steps of [`Sphere::intersect`],
+//! The shapes that four rays meet at once, the sphere and interactions in four lanes: the steps of
+//! [`Sphere::intersect`],
 //! [`Sphere::interaction`] and [`Interaction`] on four rays at once. What those decide in
 //! double-double is asked of them, lane by lane.
 

@@ -134,7 +134,8 @@ fn message_of(kind: &ErrorKind) -> (String, &'static str, &'static str) {
         parts(
             "a colon where no key can stand",
             "this colon",
-            "write `key: value` on a line of its own, with a space after each colon, or put text with `: ` in quotes",
+            "write `key: value` on a line of its own, with a space after each colon, or put text \
+            with `: ` in quotes",
         )
     } else if matches!(kind, ErrorKind::SimpleKeyExpected) {
         parts(
