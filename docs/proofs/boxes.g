@@ -1,8 +1,8 @@
 # Eight boxes against a beam in single precision (BoxLanes::meet): what a ray enters before it leaves
 # is met.
 #
-# from src/render/accel/beam.rs: let shift = (origin.abs() * ({SHIFT} * ROUND) + {BASE} * base).copysign(direction);
-# from src/render/accel/lanes.rs: pub(in crate::accel) const GROWN: f32 = 1.0 + {GROWN} * f32::EPSILON;
+# from src/render/accel/conservative_ray.rs: let shift = (origin.abs() * ({SHIFT} * ROUND) + {BASE} * base).copysign(direction);
+# from src/render/accel/lanes.rs: pub(in crate::accel) const FAR_SCALE: f32 = 1.0 + {GROWN} * f32::EPSILON;
 #
 # The origin o, shifted along the beam and rounded, is more than base beyond o: base is what the beam
 # may be off by. So what is left to the near end of a box is less than it was, to the far end

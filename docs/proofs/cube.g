@@ -1,11 +1,11 @@
-# The way of a ray into the cube, in double precision (Beam::new): for the length that may matter a beam
+# The way of a ray into the cube, in double precision (ConservativeRay::new): for the length that may matter a beam
 # is within `base` of the ray, and a ray that meets the cube is not told to miss it.
 #
-# from src/render/accel/beam.rs: const STEEP: f64 = 1.0 / {STEEP};
-# from src/render/accel/beam.rs: const FLOOR: f64 = 1.0 / {FLOOR};
-# from src/render/accel/beam.rs: let base = FLOOR + {BASE} * U * (1.0 + distance);
-# from src/render/accel/beam.rs: let start = (distance - {BEFORE}).max(0.0);
-# from src/render/accel/beam.rs: if largest > {REACH} + base
+# from src/render/accel/conservative_ray.rs: const MIN_SLOPE: f64 = 1.0 / {STEEP};
+# from src/render/accel/conservative_ray.rs: const MIN_DISTANCE: f64 = 1.0 / {FLOOR};
+# from src/render/accel/conservative_ray.rs: let base = MIN_DISTANCE + {BASE} * U * (1.0 + distance);
+# from src/render/accel/conservative_ray.rs: let start = (distance - {BEFORE}).max(0.0);
+# from src/render/accel/conservative_ray.rs: if largest > {REACH} + base
 #
 # All is divided by 1 + distance, and q is 1 of the cube so divided. x and d are a coordinate of the
 # exact origin in the cube and of the exact direction, whose largest is 1; s is the start. The

@@ -1,9 +1,9 @@
-# The ends of a beam (Beam::limit, Beam::sure_limit): a root may be wrong by 2^-21 of itself, and the one end
+# The ends of a beam (ConservativeRay::t_far, ConservativeRay::t_certain): a root may be wrong by 2^-21 of itself, and the one end
 # still lies beyond it, the other before it.
 #
-# from src/render/accel/beam.rs: end as f32 * (1.0 + {UP} * f32::EPSILON) + self.error
-# from src/render/accel/beam.rs: end as f32 * (1.0 - {DOWN} * f32::EPSILON) - 2.0 * self.error
-# from src/render/accel/beam.rs: const ROUNDED: f64 = 1.0 / {ROUNDED};
+# from src/render/accel/conservative_ray.rs: end as f32 * (1.0 + {UP} * f32::EPSILON) + self.error
+# from src/render/accel/conservative_ray.rs: end as f32 * (1.0 - {DOWN} * f32::EPSILON) - 2.0 * self.error
+# from src/render/accel/conservative_ray.rs: const T_SLACK: f64 = 1.0 / {ROUNDED};
 #
 # end is t_max * rate * (1 + or - ROUNDED) - start. With a = t_max * rate, and d the exact end for a root
 # wrong by 2^-21, it is a * more + d or d - a * less, times a rounding, as a * more and a * less are

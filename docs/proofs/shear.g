@@ -1,7 +1,7 @@
 # The corner of a triangle, seen from a beam and sheared along it, in single precision
 # (TriangleLanes::sheared): within the beam's error of what exact arithmetic gives.
 #
-# from src/render/accel/beam.rs: error: ({CORNER} * ROUND * (1.0 + largest) + 2.0 * base + 2.0 * frame.error_bound) as f32,
+# from src/render/accel/conservative_ray.rs: error: ({CORNER} * ROUND * (1.0 + largest) + 2.0 * base + 2.0 * frame.error_bound) as f32,
 #
 # All is divided by 1 + largest. o and w are coordinates of the origin, across and along the beam; a
 # and b those of the corner as seen from it, s the slope. The origin and the slope are rounded when the

@@ -1,6 +1,6 @@
 # A box against a ray in double precision (Slabs::meet): what a ray enters before it leaves is met.
 #
-# from src/render/accel/bounds.rs: const GROWN: f64 = 1.0 + 2.0 * ({ROUNDINGS} * U / (1.0 - {ROUNDINGS} * U));
+# from src/render/accel/bounds.rs: const FAR_SCALE: f64 = 1.0 + 2.0 * ({ROUNDINGS} * U / (1.0 - {ROUNDINGS} * U));
 #
 # Where a ray enters an axis at t it is computed below t * entered, where it leaves at t above
 # t * left: three roundings each, of the inverse, the difference and the product, and one as the far

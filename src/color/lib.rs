@@ -1,5 +1,5 @@
-//! Colour: display values, how linear ones become such, and how they become integers. A display
-//! value of 1 is the full integer; there is no gamma.
+//! Colour: tone mapping of linear values to display values, and quantization to integers. A display
+//! value of 1 is the largest integer; there is no gamma.
 
 mod tone;
 

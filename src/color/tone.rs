@@ -1,5 +1,5 @@
-//! Tone maps: linear values of Rec. 709 to values that a display shows. All are defined for every
-//! number and give numbers in [0, 1], but for [`Tone::None`].
+//! Tone mapping: linear Rec. 709 values to display values. Every operator accepts every number, and
+//! all but [`Tone::None`] return values in [0, 1].
 
 use super::srgb_encoded;
 use arbitrary::Arbitrary;

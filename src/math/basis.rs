@@ -1,4 +1,4 @@
-//! The basis of a camera from what people write: an eye, a centre and an `up`.
+//! The camera basis from an eye, a centre and an up vector.
 
 use super::{Vec3, cross, dot, ldexp, length, unit_scale};
 

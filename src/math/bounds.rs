@@ -1,4 +1,4 @@
-//! Axis-aligned boxes. What is rounded outward holds what it should for certain.
+//! Axis-aligned boxes. A box that is rounded outward contains the exact box.
 
 use super::{U, Vec3};
 

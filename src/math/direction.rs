@@ -1,5 +1,5 @@
-//! Directions and lengths of vectors of any size: scaled by a power of two first, which rounds
-//! nothing, so that no square leaves the range of f64.
+//! Directions and lengths of vectors of any size. They are scaled by a power of two first, which is
+//! exact, so no square overflows or underflows.
 
 use super::{Vec3, ldexp};
 

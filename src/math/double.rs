@@ -1,5 +1,5 @@
-//! Double-double: a number as an unevaluated sum of two f64, about 106 bits. For the cold paths
-//! that decide what one f64 can't.
+//! Double-double arithmetic: a number as an unevaluated sum of two f64, about 106 bits. It serves
+//! the rare cases that one f64 cannot decide.
 
 use super::{two_difference, two_product, two_sum};
 use std::ops::{Add, Div, Mul, Sub};

@@ -1,5 +1,4 @@
-//! Numbers with a range, so that who holds one need not ask again; and numbers as people write
-//! them.
+//! Numbers with a range guaranteed by their type; and the parsing and printing of numbers.
 
 use std::fmt::{Display, LowerExp};
 

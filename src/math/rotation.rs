@@ -1,4 +1,4 @@
-//! Rotations by an axis and an angle, as textures of spheres are turned; and back.
+//! Rotations by an axis and an angle, used for textures of spheres; and their inverse.
 
 use super::{Vec3, atan2, cos, difference_of_products, dot, sin};
 

@@ -1,4 +1,4 @@
-//! Angles as 64-bit fractions of a turn: they add and reduce without error.
+//! Angles as 64-bit fractions of 2π: addition and reduction are exact.
 
 use super::func::sin_cos;
 use std::f64::consts::TAU;

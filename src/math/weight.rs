@@ -1,4 +1,4 @@
-//! Numbers and colours by which something is weighed.
+//! Numbers and colours used as weights.
 
 use super::{UnitInterval, Vec3};
 

@@ -1,5 +1,4 @@
-//! The compiled integrators, and the choice of the smallest one with all features that a plan
-//! needs.
+//! The compiled integrators, and the choice of the smallest one with all features of a plan.
 
 use crate::film::heartbeat::OnPixel;
 use crate::film::{Film, Job};
@@ -54,10 +53,8 @@ pub fn choose(needed: Features) -> usize {
 }
 
 /// Calls a method of a world with the features of one kernel of a table: the kernel chosen, or the
-/// last
-/// one, which can do everything, if the shapes have no kernels of their own. The list of indices
-/// must
-/// name all kernels of the table.
+/// last one, which can do everything, if the shapes have no kernels of their own. The list of
+/// indices must name all kernels of the table.
 macro_rules! call_kernel {
     ($table:ident [$($index:literal)* / $last:literal], $chosen:expr, $world:ident.$method:ident $arguments:tt) => {{
         const { assert!([$($index,)* $last].len() == $table.len() && $last + 1 == $table.len()) };

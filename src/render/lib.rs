@@ -1,5 +1,34 @@
-//! A proven scene becomes a world, the world a film. Nothing here can fail, and nothing depends on
-//! the threads: a pixel is a function of the scene and its coordinates alone.
+//! The renderer: builds a [`World`] from a validated scene and renders it into a [`Film`].
+//!
+//! # Data flow
+//!
+//! 1. `world` builds a [`World`] from a `ValidScene` and a `Plan`: shapes, materials, textures and
+//!    lights, with acceleration structures over the shapes.
+//! 2. `kernel` chooses the smallest compiled integrator that has all features of the plan
+//!    ([`choose`] for Whitted kernels, [`choose_for_paths`] for path kernels).
+//! 3. `frame` loops over the tiles on all threads of the pool. Each thread calls the integrator for
+//!    each pixel of its tile.
+//! 4. `integrator` traces the camera rays of a pixel and shades their hits.
+//! 5. `film` sums the samples of each pixel and returns the [`Film`]; a [`PartialFilm`] holds part
+//!    of the picture, a [`ProgressiveFilm`] can be refined.
+//!
+//! # Modules
+//!
+//! - `accel`: bounding volume hierarchies, SIMD ray packets, the ray-cone cache. It knows no
+//!   shapes.
+//! - `shape`: the robust ray–shape intersections, and the [`BaselineShape`] variants.
+//! - `material`, `texture`, `bsdf`: material parameters at a hit, and the BSDF of the glTF
+//!   material.
+//! - `light`, `sampler`, `camera`: light sampling, sample sequences, camera rays.
+//! - `integrator`: Whitted ray tracing, path tracing ([`Strategy`]), depth buffers and [`Aov`]s.
+//!
+//! # Guarantees
+//!
+//! - Rendering does not fail: validation rejects every scene that could make it fail.
+//! - The value of a pixel depends on the scene, the settings and the pixel's coordinates alone. It
+//!   does not depend on the number of threads, the order of tiles or the [`SimdLevel`].
+//! - Geometry and shading use f64. Acceleration structures use f32 with conservative error bounds,
+//!   so they never miss a hit.
 
 mod accel;
 mod bsdf;

@@ -1,4 +1,4 @@
-//! Tables that several stages read. A table is a macro that passes all its rows to the macro of a
+//! Tables shared by several stages. A table is a macro that passes all its rows to a macro of the
 //! stage.
 
 mod shape;

@@ -1,9 +1,10 @@
-//! A slab test that never misses what the shape inside a box would hit; and balls.
+//! Bounding spheres, and a conservative slab test: it never misses a box whose content the ray
+//! hits.
 
 use crate::ray::Ray;
 use rtc_math::{Bounds, U, Vec3};
 
-/// A ball.
+/// A sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct BoundingSphere {
     /// Its centre.
@@ -39,11 +40,9 @@ impl Slabs {
     ///
     /// Conservative as in Ize, "Robust BVH ray traversal" (JCGT 2, 2013), but the far end grows by
     /// 2γ₄, as its growing is rounded too: `docs/proofs/slabs.g`. Comparisons are written so that
-    /// the
-    /// NaN of a ray inside a slab's plane leaves the interval as it is. `t_max` grows by more, as a
-    /// root may be known less well than the ends of a slab: of surfaces at the same t none is
-    /// passed
-    /// over.
+    /// the NaN of a ray inside a slab's plane leaves the interval as it is. `t_max` grows by more,
+    /// as a root may be known less well than the ends of a slab: of surfaces at the same t none is
+    /// missed.
     #[must_use]
     #[inline]
     pub(crate) fn meet(&self, bounds: &Bounds, t_max: f64) -> bool {
@@ -86,7 +85,7 @@ mod tests {
         "at 1e6",
     ];
 
-    /// A triangle, and a ray that aims at its inside, at an edge, or at a corner by turns.
+    /// A triangle, and a ray that aims at its inside, at an edge, or at a corner in turn.
     fn aimed(family: usize, index: u64) -> (Triangle, Ray) {
         let key = Key::new([u32::try_from(family).unwrap(), 5], index);
         let frame =

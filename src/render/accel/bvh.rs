@@ -1,7 +1,7 @@
-//! A bounding volume hierarchy over boxes: it finds candidates and decides nothing about a hit.
+//! A binary bounding volume hierarchy over boxes. It finds candidates and decides no hits.
 //!
-//! Built by the binned surface area heuristic (Wald, "On fast construction of SAH-based bounding
-//! volume hierarchies", 2007). A few boxes make a single leaf, which is the plain loop.
+//! It is built with the binned surface area heuristic (Wald, "On fast construction of SAH-based
+//! bounding volume hierarchies", 2007). A few boxes form a single leaf, which is a linear loop.
 
 use crate::accel::bounds::Slabs;
 use crate::ray::Ray;
@@ -31,7 +31,7 @@ struct BvhNode {
     axis: u8,
 }
 
-/// The hierarchy.
+/// The BVH.
 #[derive(Debug)]
 pub(crate) struct Bvh {
     nodes: Vec<BvhNode>,
@@ -39,7 +39,7 @@ pub(crate) struct Bvh {
 }
 
 impl Bvh {
-    /// Builds the hierarchy of the boxes given; an item is known by its index.
+    /// Builds the BVH of the boxes given; an item is known by its index.
     #[must_use]
     pub(crate) fn build(boxes: &[Bounds]) -> Self {
         let items = (0_u32..)
@@ -109,7 +109,7 @@ impl Bvh {
     }
 }
 
-/// What a hierarchy is built of.
+/// What a BVH is built of.
 #[derive(Clone, Copy)]
 pub(crate) struct Item {
     pub(crate) index: u32,

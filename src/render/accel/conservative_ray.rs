@@ -1,9 +1,9 @@
-//! A ray in the cube about some geometry, in single precision: what may be hit is never passed
-//! over.
+//! A conservative f32 ray in the local cube of a BVH. Traversal with it may report false hits but
+//! never misses one.
 //!
-//! All is measured in a cube about the geometry, so that no number leaves the range of f32 whatever
-//! the scale of the scene. Rays are brought to the cube in f64; a bound on what rounding does to
-//! each widens every comparison. The hit itself is decided elsewhere, in f64.
+//! All coordinates are relative to a cube around the geometry, so f32 does not overflow at any
+//! scale of the scene. The ray is transformed into the cube in f64. Every comparison is widened by
+//! a bound on the rounding errors. The hit itself is computed in f64 by the shape.
 
 use crate::ray::Ray;
 use rtc_math::{Bounds, U, Vec3, ldexp};
@@ -18,10 +18,11 @@ const MIN_SLOPE: f64 = 1.0 / 1_099_511_627_776.0;
 /// The least distance that counts.
 const MIN_DISTANCE: f64 = 1.0 / 68_719_476_736.0;
 
-/// By how much a root may be wrong, and more.
+/// Relative slack on t: more than the relative error of a root.
 const T_SLACK: f64 = 1.0 / 1_048_576.0;
 
-/// A cube about the origin may be so many times as large as one about the geometry.
+/// The cube is centred on the origin if it is at most this many times as large as one around the
+/// geometry.
 const OFF_CENTER: f64 = 16.0;
 
 /// Where the cube [−1, 1]³ lies in space.
@@ -36,8 +37,7 @@ pub(crate) struct QuantizationFrame {
 
 impl QuantizationFrame {
     /// The cube around some boxes, not far larger than needed; `error_bound` bounds the error of
-    /// the
-    /// corners of what is in them.
+    /// the corners of what is in them.
     ///
     /// Where that costs few bits the cube lies about the origin: then corners of 32 bits stay as
     /// they are but for a power of two. Else it is finest where most of the boxes are, about the
@@ -93,12 +93,12 @@ fn rounded_down(x: f64) -> f32 {
     }
 }
 
-/// Why there is no beam.
+/// Why there is no conservative ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RayRejection {
     /// The ray misses the cube.
     Missed,
-    /// The arithmetic can't tell: anything may be hit.
+    /// The arithmetic cannot decide: the ray may hit anything.
     Indeterminate,
 }
 
@@ -188,7 +188,8 @@ impl ConservativeRay {
         })
     }
 
-    /// The end of the beam for a `t_max` of the ray, rounded up by more than a root may be wrong.
+    /// The end of the conservative ray for a `t_max` of the ray, rounded up by more than a root may
+    /// be wrong.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
     pub(crate) fn limit(&self, t_max: f64) -> f32 {
@@ -196,7 +197,7 @@ impl ConservativeRay {
         end as f32 * (1.0 + 2.0 * f32::EPSILON) + self.error
     }
 
-    /// Where the beam is surely before a `t_max` of the ray.
+    /// Where the conservative ray is certainly before a `t_max` of the ray.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounded down")]
     pub(in crate::accel) fn sure_limit(&self, t_max: f64) -> f32 {

@@ -1,8 +1,8 @@
-//! Eight boxes or four triangles against one ray at once, or one triangle against eight rays, in
-//! single precision.
+//! SIMD tests in f32: eight boxes or four triangles against one ray, or one triangle against eight
+//! rays.
 //!
-//! Each level of [`super::simd`] does the same operations in the same order, and none of them is a
-//! fused one: so all find the same.
+//! Each level of [`super::simd`] does the same operations in the same order, without fused
+//! multiply-add, so all levels give the same bits.
 
 use crate::accel::conservative_ray::ConservativeRay;
 use fearless_simd::prelude::*;
@@ -16,16 +16,14 @@ pub(in crate::accel) const WIDTH: usize = 8;
 pub(in crate::accel) const TRIANGLES: usize = 4;
 
 /// A node: for each axis the lower and the upper ends of eight boxes, then eight links as the bits
-/// of
-/// numbers; four cache lines.
+/// of numbers; four cache lines.
 pub(in crate::accel) type WideNode = [f32; 64];
 
 /// Where the links of a node are.
 pub(in crate::accel) const LINKS: usize = 6 * WIDTH;
 
-/// What a hierarchy keeps of a triangle: the nine coordinates of its corners, and its item as the
-/// bits
-/// of a number. The triangles of a leaf share their rows.
+/// What a BVH keeps of a triangle: the nine coordinates of its corners, and its item as the bits of
+/// a number. The triangles of a leaf share their rows.
 pub(in crate::accel) type TriangleRow = [f32; ITEM + 1];
 
 /// So many rows at least follow the first row of each leaf.
@@ -39,14 +37,13 @@ const SEEN: usize = 64;
 #[derive(Clone, Copy)]
 pub(in crate::accel) struct WideLeaf<'rows> {
     /// Its numbers, and some of the leaves after it: so four can be read wherever one may be, and
-    /// no
-    /// place needs to be checked.
+    /// no place needs to be checked.
     numbers: &'rows [f32],
     count: usize,
 }
 
 impl<'rows> WideLeaf<'rows> {
-    /// The leaf of so many triangles from a row on.
+    /// The leaf of `count` triangles whose first row is `first`.
     #[inline(always)]
     pub(in crate::accel) fn new(rows: &'rows [TriangleRow], first: usize, count: usize) -> Self {
         let numbers = rows[first..][..=ROWS_AFTER].as_flattened();
@@ -78,7 +75,7 @@ impl<'rows> WideLeaf<'rows> {
         f32x4::from_slice(simd, &self.numbers[at..at + TRIANGLES])
     }
 
-    /// Asks for its memory.
+    /// Prefetches it.
     #[inline(always)]
     pub(in crate::accel) fn prefetch(&self) {
         black_box([self.numbers[0], self.numbers[16], self.numbers[32]]);
@@ -122,7 +119,7 @@ pub(in crate::accel) fn nearer_ends([x, y, z]: [bool; 3]) -> [usize; 3] {
     [nearer(x), nearer(y), nearer(z)]
 }
 
-/// What of a beam boxes are met by.
+/// What of a conservative ray boxes are met by.
 #[derive(Clone, Copy)]
 pub(in crate::accel) struct BoxLanes<S: Simd> {
     near_origin: [f32x8<S>; 3],
@@ -143,7 +140,7 @@ impl<S: Simd> BoxLanes<S> {
         }
     }
 
-    /// Where the beam enters the slabs of an axis.
+    /// Where the conservative ray enters the slabs of an axis.
     #[inline(always)]
     fn enter<const AXIS: usize>(&self, simd: S, node: &WideNode) -> f32x8<S> {
         let at = 2 * WIDTH * AXIS + (self.near[AXIS] & WIDTH);
@@ -151,7 +148,7 @@ impl<S: Simd> BoxLanes<S> {
         (ends - self.near_origin[AXIS]) * self.inverse[AXIS]
     }
 
-    /// Where the beam leaves the slabs of an axis.
+    /// Where the conservative ray leaves the slabs of an axis.
     #[inline(always)]
     fn leave<const AXIS: usize>(&self, simd: S, node: &WideNode) -> f32x8<S> {
         let at = 2 * WIDTH * AXIS + (!self.near[AXIS] & WIDTH);
@@ -159,7 +156,7 @@ impl<S: Simd> BoxLanes<S> {
         (ends - self.far_origin[AXIS]) * self.inverse[AXIS]
     }
 
-    /// Which boxes of a node the beam may meet before `limit`, as bits, and where.
+    /// Which boxes of a node the conservative ray may meet before `limit`, as bits, and where.
     ///
     /// As in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end is [`FAR_SCALE`].
     #[inline(always)]
@@ -190,11 +187,12 @@ pub(in crate::accel) fn bits(mask: u64) -> u32 {
     mask as u32
 }
 
-/// A corner in each lane, after the shear that turns the lane's beam into its main axis.
+/// A corner in each lane, after the shear that turns the lane's conservative ray into its main
+/// axis.
 type Sheared<V> = [V; 3];
 
-/// What of beams triangles are hit by: one beam in all lanes, or one in each. All have the same
-/// main axis.
+/// What of conservative rays triangles are hit by: one conservative ray in all lanes, or one in
+/// each. All have the same main axis.
 #[derive(Clone, Copy)]
 pub(in crate::accel) struct TriangleLanes<V> {
     pub(in crate::accel) axes: [usize; 3],
@@ -204,7 +202,7 @@ pub(in crate::accel) struct TriangleLanes<V> {
     pub(in crate::accel) error: V,
 }
 
-/// Which lanes may be hits, and which of them are hits for sure, as bits.
+/// Which lanes may be hits, and which of them are certain hits, as bits.
 #[derive(Clone, Copy)]
 pub(in crate::accel) struct HitMask {
     pub(in crate::accel) may: u32,
@@ -212,7 +210,7 @@ pub(in crate::accel) struct HitMask {
 }
 
 impl<S: Simd> TriangleLanes<f32x4<S>> {
-    /// One beam.
+    /// One conservative ray.
     #[inline(always)]
     pub(in crate::accel) fn new(simd: S, conservative_ray: &ConservativeRay) -> Self {
         let [x, y] = conservative_ray.slopes;
@@ -225,8 +223,8 @@ impl<S: Simd> TriangleLanes<f32x4<S>> {
         }
     }
 
-    /// Which triangles of a leaf the beam may hit before `limit`; if `SURE`, also which it surely
-    /// hits before `sure_limit`.
+    /// Which triangles of a leaf the conservative ray may hit before `limit`; if `SURE`, also which
+    /// it certainly hits before `sure_limit`.
     #[inline(always)]
     pub(in crate::accel) fn intersect4<const SURE: bool>(
         &self,
@@ -243,7 +241,7 @@ impl<S: Simd> TriangleLanes<f32x4<S>> {
 }
 
 impl<V> TriangleLanes<V> {
-    /// A corner as seen from the origin, along the k-th axis of the beam.
+    /// A corner as seen from the origin, along the k-th axis of the conservative ray.
     #[inline(always)]
     fn seen<S: Simd>(&self, corner: usize, k: usize, coordinate: &impl Fn(usize) -> V) -> V
     where
@@ -265,7 +263,7 @@ impl<V> TriangleLanes<V> {
         ]
     }
 
-    /// Which lanes may be hits before their limit; if `SURE`, also which surely are before their
+    /// Which lanes may be hits before their limit; if `SURE`, also which certainly are before their
     /// second limit. `coordinate` gives those of the triangles at a place.
     ///
     /// The signs of the edge functions are those of exact arithmetic where they exceed a bound on
@@ -305,7 +303,7 @@ impl<V> TriangleLanes<V> {
     }
 }
 
-/// The larger of the sizes of both coordinates across the beam.
+/// The larger of the sizes of both coordinates across the conservative ray.
 #[inline(always)]
 fn size_of<S: Simd, V: SimdFloat<S, Element = f32>>(corner: &Sheared<V>) -> V {
     corner[0].abs().max(corner[1].abs())

@@ -1,8 +1,8 @@
-//! Eight rays that go nearly the same way against the boxes of a node, and against a triangle: what
-//! none of them meets alone, they don't meet together.
+//! Packets of eight coherent rays against the boxes of a node and against a triangle, with interval
+//! arithmetic. If the packet misses a box, each of its rays misses it.
 //!
-//! Rounding keeps order: what is found for the ends of an interval bounds what is found for each
-//! ray in it, so that intervals need no error bounds beyond those of a single ray.
+//! Rounding is monotonic: a result for the ends of an interval bounds the results for each ray in
+//! it. So intervals need no error bounds beyond those of a single ray.
 
 use crate::accel::conservative_ray::ConservativeRay;
 use crate::accel::lanes::{
@@ -17,7 +17,7 @@ pub(in crate::accel) const RAYS: usize = 8;
 /// A number of each ray.
 type OfRays = [f32; RAYS];
 
-/// Eight beams that have the same main axis, and the same signs along all axes.
+/// Eight conservative rays that have the same main axis, and the same signs along all axes.
 pub(in crate::accel) struct Packet<S: Simd> {
     /// Where the nearer ends of boxes are among those of an axis.
     near: [usize; 3],
@@ -32,7 +32,7 @@ pub(in crate::accel) struct Packet<S: Simd> {
     triangles: TriangleLanes<f32x8<S>>,
 }
 
-/// A number of each beam, and its range.
+/// A number of each conservative ray, and its range.
 #[inline(always)]
 fn of_each(
     conservative_rays: &[ConservativeRay; RAYS],
@@ -59,7 +59,7 @@ fn are_alike(conservative_rays: &[ConservativeRay; RAYS]) -> bool {
 }
 
 impl<S: Simd> Packet<S> {
-    /// The packet of eight beams; `None` if they don't go the same way.
+    /// The packet of eight conservative rays; `None` if they are not coherent.
     #[inline(always)]
     pub(in crate::accel) fn new(
         simd: S,
@@ -158,8 +158,8 @@ impl<S: Simd> Packet<S> {
         a.max(b)
     }
 
-    /// Which boxes of a node any of the beams may meet before `limit`, as bits, and where at the
-    /// earliest.
+    /// Which boxes of a node any of the conservative rays may meet before `limit`, as bits, and
+    /// where at the earliest.
     #[inline(always)]
     pub(in crate::accel) fn meet(
         &self,
@@ -180,7 +180,7 @@ impl<S: Simd> Packet<S> {
         (bits(met.to_bitmask()), enter.into())
     }
 
-    /// Whether any beam meets the box of a child before its own limit.
+    /// Whether any conservative ray meets the box of a child before its own limit.
     #[inline(always)]
     pub(in crate::accel) fn is_met(
         &self,
@@ -203,8 +203,8 @@ impl<S: Simd> Packet<S> {
         bits(met.to_bitmask()) != 0
     }
 
-    /// Which beams may hit a triangle of a leaf before their limits; if `SURE`, also which surely
-    /// hit it before the second ones.
+    /// Which conservative rays may hit a triangle of a leaf before their limits; if `SURE`, also
+    /// which certainly hit it before the second ones.
     #[inline(always)]
     pub(in crate::accel) fn intersect4<const SURE: bool>(
         &self,

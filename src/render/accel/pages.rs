@@ -1,5 +1,5 @@
-//! Memory for the rows of a hierarchy: on huge pages where the system grants them, since rays that
-//! go anywhere wait for the addresses of pages as much as for the rows themselves.
+//! Memory for the rows of a BVH, in huge pages where the system grants them: incoherent rays wait
+//! for address translation as much as for the rows themselves.
 
 use bytemuck::Pod;
 use memmap2::{MmapMut, MmapOptions};
@@ -21,7 +21,7 @@ pub(in crate::accel) enum Pages<T> {
 }
 
 impl<T: Pod> Pages<T> {
-    /// So many rows of zeros.
+    /// `count` rows of zeros.
     pub(in crate::accel) fn zeroed(count: usize) -> Self {
         let pages = Self::mapped_from(WORTH, count);
         // Without huge pages it is slower, and no less right.
@@ -32,7 +32,7 @@ impl<T: Pod> Pages<T> {
         pages
     }
 
-    /// So many rows of zeros, in memory asked of the system if there are so many bytes.
+    /// `count` rows of zeros, in memory asked of the system if there are so many bytes.
     fn mapped_from(bytes: usize, count: usize) -> Self {
         let length = count * size_of::<T>();
         let map = (length >= bytes).then(|| MmapOptions::new().len(length).map_anon());

@@ -1,8 +1,8 @@
-//! Which vector instructions a machine has, and which of them are used. All give the same bits.
+//! The SIMD instruction sets of a machine, and the choice of one. All give the same bits.
 
 use fearless_simd::{Fallback, Level};
 
-/// The vector instructions that hierarchies are searched with.
+/// The SIMD instructions that BVHs are searched with.
 #[derive(Clone, Copy, Debug)]
 pub struct SimdLevel(Tokens);
 
@@ -90,7 +90,7 @@ impl SimdLevel {
     }
 }
 
-/// The vector instructions that each machine of this architecture has, for unit tests of functions
+/// The SIMD instructions that each machine of this architecture has, for unit tests of functions
 /// over lanes.
 #[cfg(all(test, target_arch = "x86_64"))]
 pub(crate) fn baseline() -> fearless_simd::Sse2 {
@@ -105,7 +105,7 @@ pub(crate) fn baseline() -> fearless_simd::aarch64::Neon {
     level.expect("each 64-bit ARM has NEON")
 }
 
-/// One lane after the other, where no vector instructions are common to all machines.
+/// One lane after the other, where no SIMD instructions are common to all machines.
 #[cfg(all(test, not(any(target_arch = "x86_64", target_arch = "aarch64"))))]
 pub(crate) fn baseline() -> Fallback {
     Fallback::new()

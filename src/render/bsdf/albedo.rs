@@ -22,8 +22,7 @@ const ROUGHNESSES: usize = 64;
 const ENTRIES: usize = ROUGHNESSES * COSINES;
 
 /// Little-endian numbers, a row for each roughness: both terms of each entry of microfacets, then
-/// the
-/// albedos of sheen.
+/// the albedos of sheen.
 static STORED: [u8; 3 * 8 * ENTRIES] = *include_bytes!("albedo.bin");
 
 /// The tables.

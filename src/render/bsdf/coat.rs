@@ -1,4 +1,4 @@
-//! The clear layer on top of a material, with a roughness and a normal of its own.
+//! The clearcoat layer, with its own roughness and normal (`KHR_materials_clearcoat`).
 
 use super::fresnel::schlick;
 use super::ggx::Ggx;

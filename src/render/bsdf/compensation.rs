@@ -1,8 +1,8 @@
-//! The light that leaves a rough surface after more than one bounce between microfacets.
+//! Compensation of the energy that single scattering between microfacets loses.
 //!
-//! Kulla, Conty, "Revisiting physically based shading at Imageworks" (2017): a diffuse lobe that
-//! returns exactly the energy that single bounces lose, and a diffuse base that receives exactly
-//! the energy that both lobes leave. Both are reciprocal; a white surface in a white sky is white.
+//! Kulla, Conty, "Revisiting physically based shading at Imageworks" (2017): a diffuse lobe returns
+//! exactly the lost energy, and the diffuse base receives exactly what both lobes transmit. Both
+//! are reciprocal. A white surface in a white environment stays white.
 
 use super::albedo::{Split, anisotropic, half_way, tables};
 use super::fresnel::Fresnel;

@@ -1,5 +1,5 @@
-//! The Fresnel reflectance of a smooth boundary: Schlick's formula, that of a dielectric where
-//! light goes through, or the interference of a thin film.
+//! The Fresnel reflectance of a smooth interface: Schlick's approximation, the dielectric equations
+//! for transmissive materials, or thin-film interference.
 
 use super::thin_film::ThinFilm;
 use rtc_math::Vec3;

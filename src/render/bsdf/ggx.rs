@@ -70,7 +70,7 @@ impl Ggx {
         (self.x * self.y).sqrt().sqrt()
     }
 
-    /// The density D of microfacets with normal `h`, per projected area.
+    /// The GGX distribution D(h) of microfacet normals, per projected area.
     #[must_use]
     #[inline]
     pub(super) fn density(self, h: Vec3) -> f64 {

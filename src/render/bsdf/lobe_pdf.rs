@@ -1,4 +1,4 @@
-//! How likely each lobe of a material is to be sampled.
+//! The probability of sampling each lobe of a material.
 
 use super::coat::Coat;
 use super::microfacet::LobeWeights;
@@ -21,8 +21,7 @@ pub(super) struct LobePdf {
 
 impl LobePdf {
     /// Probabilities proportional to the estimated albedo of each lobe: the diffuse base,
-    /// reflecting
-    /// and transmitting, and the microfacets, below sheen and coat.
+    /// reflecting and transmitting, and the microfacets, below sheen and coat.
     #[inline]
     pub(super) fn new(
         base: Vec3,

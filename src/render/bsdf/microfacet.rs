@@ -1,5 +1,4 @@
-//! The rough boundary: the reflection of its microfacets, and the transmission of the dielectric
-//! ones.
+//! The microfacet lobes of a rough interface: reflection, and transmission for dielectrics.
 
 use super::albedo::dielectric;
 use super::compensation::{Compensation, grazing_share};
@@ -38,7 +37,7 @@ pub(super) struct Microfacet<const F: u32> {
 /// How light continues behind the boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Crossing {
-    /// Through a thin wall: the reflected direction, mirrored to the other side.
+    /// Through a thin wall: the reflected direction, reflected to the other side.
     Wall,
     /// Into a medium of the same index.
     Straight,

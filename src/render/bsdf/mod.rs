@@ -262,8 +262,8 @@ impl<const F: u32> Lobes<F> {
         sum
     }
 
-    /// The BSDF of a white base, which transmits like it reflects: by the direction mirrored to the
-    /// side of the viewer.
+    /// The BSDF of a white base, which transmits like it reflects: by the direction reflected to
+    /// the side of the viewer.
     fn base_f(&self, wi: Vec3) -> f64 {
         match self.compensation() {
             Some(compensation) => compensation.base_f(compensation.towards(wi)),
@@ -302,8 +302,7 @@ impl<const F: u32> Lobes<F> {
     /// Samples a direction with two numbers in [0, 1); `None` if the direction is invalid.
     ///
     /// The first one chooses the lobe, too, so that the points of each lobe stay stratified. A
-    /// third
-    /// one, also in [0, 1), is asked for where microfacets both reflect and transmit.
+    /// third one, also in [0, 1), is asked for where microfacets both reflect and transmit.
     #[must_use]
     #[inline(always)]
     pub fn sample(&self, u: [f64; 2], third: impl FnOnce() -> f64) -> Option<BsdfSample> {

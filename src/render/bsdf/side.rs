@@ -1,4 +1,4 @@
-//! The side of a surface that is looked at, brought above.
+//! The side of a surface that faces the viewer, flipped so that it has z > 0.
 
 use rtc_math::Vec3;
 

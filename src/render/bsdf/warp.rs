@@ -1,9 +1,9 @@
-//! From the unit square to directions.
+//! Mappings from the unit square to directions.
 
 use rtc_math::{Vec3, cos_sin_revolutions};
 use std::f64::consts::PI;
 
-/// The unit vector with the z given and the azimuth in turns, in [0, 1).
+/// The unit vector with the z given and the azimuth in units of 2π, in [0, 1).
 #[must_use]
 #[inline]
 #[expect(

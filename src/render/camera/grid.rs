@@ -1,5 +1,5 @@
-//! The samples of a pixel in a scene of the course: sub-samples in cells, and lens points for each
-//! sub-sample.
+//! The samples of a pixel in a course scene: sub-samples in a grid of cells, and lens points for
+//! each sub-sample.
 
 use super::{Camera, CranleyPatterson, image_point, lens_point, ray_through};
 use crate::film::Seeds;

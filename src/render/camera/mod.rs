@@ -1,4 +1,4 @@
-//! Camera rays: from points of the lens through points of the image plane.
+//! Camera rays: from points on the lens through points on the image plane.
 
 pub(crate) mod grid;
 

@@ -1,10 +1,12 @@
-//! The bytes of a part of a picture: a head, its nodes, and a checksum. Numbers are little-endian,
-//! floating-point numbers keep every bit. Bytes from anywhere are safe to load: no memory is taken
-//! that they do not fill or the caller allows.
+//! The byte format of a [`PartialFilm`](super::partial::PartialFilm): header, sums, checksum.
 //!
-//! Magic, version, channels, values, summation (1 byte each but the first two), samples, crop (4
-//! numbers of 32 bits); how many counts, and each in 64 bits; how many nodes, and of each its tile,
-//! its first and last block and the sums of its pixels; CRC-32 of all before.
+//! Numbers are little-endian; floating-point numbers keep every bit. Untrusted bytes are safe to
+//! load: no more memory is allocated than they fill or the caller permits.
+//!
+//! Layout: magic, version, channels, values, summation (1 byte each but the first two); samples and
+//! crop (32 bits each, 4 for the crop); the number of counts, and each count (64 bits); the number
+//! of nodes, and for each its tile, its first and last block and the sums of its pixels; a CRC-32
+//! of all preceding bytes.
 
 use super::partial::{FilmError, FilmLayout, PartialFilm, SumNode, Summation, insert, position};
 use super::pixel::PixelSum;

@@ -1,5 +1,4 @@
-//! How many rays were traced and how often each effect was evaluated: counted where the ray or the
-//! lobe is made.
+//! Ray and effect counts. They are incremented where the ray or the lobe is created.
 
 use rtc_plan::Effect;
 
@@ -10,7 +9,7 @@ pub struct Counts {
     pub camera: u64,
     /// To a light.
     pub shadow: u64,
-    /// Mirrored, glossy ones too; of traced paths all that stay on their side of a surface.
+    /// Reflected, glossy ones too; of traced paths all that stay on their side of a surface.
     pub mirror: u64,
     /// Through a surface.
     pub refracted: u64,
@@ -36,7 +35,7 @@ pub struct ClampedLight {
 }
 
 impl ClampedLight {
-    /// The share of the light of all paths that was taken, from 0 to 1.
+    /// The fraction of the light of all paths that was taken, from 0 to 1.
     #[must_use]
     pub fn share(&self) -> f64 {
         self.taken as f64 / self.all.max(1) as f64
@@ -103,7 +102,7 @@ impl Counts {
         self.camera + self.shadow + self.secondary()
     }
 
-    /// Mirrored and refracted rays.
+    /// Reflected and refracted rays.
     #[must_use]
     pub fn secondary(&self) -> u64 {
         self.mirror + self.refracted

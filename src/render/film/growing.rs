@@ -1,6 +1,8 @@
-//! The bytes of a growing film: magic and version, seed, crop (4 numbers of 32 bits), whether its
-//! means are shown by a tone map, its counts, and the samples of its pixels, tile by tile. Numbers
-//! are little-endian, floating-point numbers keep every bit.
+//! The byte format of a progressive film.
+//!
+//! Layout: magic, version, seed, crop (4 numbers of 32 bits), whether the means are tone mapped,
+//! the counts, and the samples of its pixels, tile by tile. Numbers are little-endian;
+//! floating-point numbers keep every bit.
 
 use super::Crop;
 use super::bytes::FilmBytes;

@@ -1,8 +1,8 @@
-//! Progress of a thread: it calls an observer after each pixel, and inside long pixels every few
-//! thousand steps of work. The observer says whether to go on.
+//! Progress reports of a thread. It calls an observer after each pixel, and inside long pixels
+//! after every few thousand steps. The observer returns whether to continue.
 //!
-//! A stopped thread leaves its pixel with a wrong value. The film is then dropped, so no finished
-//! picture has such a pixel.
+//! A stopped thread leaves a wrong value in its pixel. The caller then drops the film, so no
+//! finished picture contains such a pixel.
 
 use crate::film::Counts;
 
@@ -66,7 +66,7 @@ impl<'run> Heartbeat<'run> {
         self.open = open;
     }
 
-    /// Whether to go on. Call it once per step of work: a path, a bounce, a sample, a point of a
+    /// Whether to continue. Call it once per step of work: a path, a bounce, a sample, a point of a
     /// light.
     #[inline]
     pub(crate) fn should_continue(&mut self, counts: &Counts) -> bool {
@@ -74,7 +74,7 @@ impl<'run> Heartbeat<'run> {
         self.left > 0 || self.ask(counts.rays(), false)
     }
 
-    /// Reports the end of the pixel, given the rays traced so far. Returns whether to go on.
+    /// Reports the end of the pixel, given the rays traced so far. Returns whether to continue.
     pub(crate) fn done(&mut self, rays: u64) -> bool {
         self.ask(rays, true)
     }

@@ -1,4 +1,11 @@
-//! The film: the sums of a picture, the picture, and its rays.
+//! The film: what a render is asked to compute ([`Job`]), and the pixels and counts it returns
+//! ([`Film`]).
+//!
+//! - `pixel`: the accumulators, with a fixed order of summation.
+//! - `tile`, `tiled`: the tile a thread works on, and the storage of all tiles.
+//! - `partial`, `bytes`: a film of part of a picture, which can be saved and merged.
+//! - `progressive`, `growing`: a film that can be refined, and its bytes.
+//! - `heartbeat`: progress reports and interruption. `counts`: ray and effect counts.
 
 mod bytes;
 mod counts;
@@ -35,8 +42,7 @@ pub struct Job {
     /// The maximum number of samples per pixel. The first samples of the scene are taken.
     pub samples: Option<NonZeroU32>,
     /// The radiance that a traced path brings at most after its first bounce, in its largest
-    /// channel, more
-    /// than 0; all of it without.
+    /// channel, more than 0; all of it without.
     pub clamp: Option<f64>,
 }
 
@@ -93,8 +99,7 @@ impl Tiles {
     }
 
     /// The tiles of the shares `first` to `last`, counted from 1, of `count`: those whose rank lies
-    /// in these
-    /// of `count` equal stretches. None if the last is below the first.
+    /// in these of `count` equal stretches. None if the last is below the first.
     #[must_use]
     pub fn shares([first, last]: [u32; 2], count: u32) -> Self {
         if last < first {
@@ -228,9 +233,8 @@ pub struct Film {
 }
 
 impl Film {
-    /// The pixels of `crop` of a film of the whole picture. A film of the size of `crop` stays as
-    /// it
-    /// is.
+    /// The pixels of `crop` of a film of the complete picture. A film of the size of `crop` stays
+    /// as it is.
     #[must_use]
     pub fn cut(self, crop: Crop) -> Self {
         if (self.image.width, self.image.height) == (crop.width, crop.height) {

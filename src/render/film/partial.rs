@@ -1,6 +1,7 @@
-//! A film of a part of a picture: sums of some samples in some tiles. Parts can be saved, loaded
-//! and added, on any machine and in any order. Together they are, bit for bit, the picture rendered
-//! at once.
+//! A film of part of a picture: sums of some samples in some tiles.
+//!
+//! Partial films can be saved, loaded and merged, on any machine and in any order. The merged film
+//! equals, bit for bit, the film of one complete render.
 
 use super::pixel::{BLOCK, PixelSum};
 use super::tiled::{Tiled, tiles_of};

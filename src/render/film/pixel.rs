@@ -1,7 +1,7 @@
-//! What a pixel adds up from its samples, and in which order.
+//! The accumulators of a pixel.
 //!
-//! The order is fixed for each kind of picture and depends on nothing but the numbers of the
-//! samples, so that a picture is the same bytes however its samples are shared out.
+//! The order of summation is fixed for each kind of picture and depends on the sample indices
+//! alone, so a picture has the same bytes however its samples are distributed.
 
 use super::{Seeds, Values, coverage};
 use rtc_math::Vec3;
@@ -21,7 +21,7 @@ pub(crate) struct SampleId {
 /// A sequence of samples of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Stream {
-    /// The samples that the scene asks for.
+    /// The samples of the scene's settings.
     Picture(Seeds),
     /// One of three sequences without end that are independent of each other: two replicates and
     /// a pilot. Those of other numbers are independent too.
@@ -74,7 +74,7 @@ pub(crate) trait Accumulator {
 /// The samples that a pixel is to take.
 #[derive(Clone, Debug)]
 pub(crate) enum SampleRanges {
-    /// A range of those that the scene asks for.
+    /// A range of the samples of the scene's settings.
     Picture(Seeds, Range<u32>),
     /// A range for each of the two replicates, and one for the pilot; keyed by a seed.
     Replicates(u64, [Range<u32>; 2]),

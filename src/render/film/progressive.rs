@@ -1,11 +1,11 @@
-//! A progressive film: each pixel has three independent sequences of samples, two replicates and
-//! a pilot.
+//! A progressive film: each pixel has three independent sample sequences, two replicates and a
+//! pilot.
 //!
-//! The picture is the mean of the replicates, and their difference estimates its error. How many
-//! samples they take depends on the values of the pilots, and else on the whole film alone: given
-//! the
-//! pilots, the choice adds no bias to the picture, nor to the estimate of its variance. Two halves
-//! that choose for each other add both (`docs/book/src/decisions/0013-pilots.md`).
+//! The picture is the mean of the replicates; their difference estimates its error. The number of
+//! samples depends on the pilots and on the film as a whole, but not on the replicates of the
+//! pixel. So adaptive sampling biases neither the picture nor its estimated variance. If two halves
+//! chose the number for each other, both would be biased
+//! (`docs/book/src/decisions/0013-pilots.md`).
 
 use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;
@@ -18,8 +18,7 @@ use rtc_math::Vec3;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Replicates {
     /// The tone map of the mean, and what the mean is multiplied by before; `None` where each
-    /// sample
-    /// is clamped to [0, 1].
+    /// sample is clamped to [0, 1].
     tone: Option<(Tone, f64)>,
     /// Of each replicate and of the pilot, the sum of its samples, clamped if `tone` is `None`.
     sums: [Vec3; 3],
@@ -39,7 +38,7 @@ pub(super) const SHOWN: usize = 0;
 /// The index of the pilot among counts, and its place among the sequences.
 const PILOT: (usize, usize) = (1, 2);
 
-/// A part of a growing picture, with 136 bytes per pixel.
+/// A part of a progressive picture, with 136 bytes per pixel.
 #[derive(Clone, Debug)]
 pub struct ProgressiveFilm {
     seed: u64,

@@ -1,5 +1,4 @@
-//! A tile under way: which of its pixels are rendered, the samples each is to take, and where the
-//! film keeps what they add up to.
+//! A tile being rendered: the pixels selected, the samples of each, and the storage of their sums.
 
 use super::pixel::{Accumulator, SampleId, SampleRanges};
 use super::{Crop, Stride};

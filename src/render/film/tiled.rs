@@ -1,6 +1,5 @@
-//! Values of the pixels of a part of the picture, tile by tile, so that threads work on tiles that
-//! are their own, and a film of some tiles takes no memory for the others. Tiles are cut from the
-//! picture at multiples of [`Tiles::SIDE`], whatever part of it is held.
+//! Pixel values stored tile by tile, so that each thread owns its tile, and tiles that are not held
+//! need no memory. Tiles start at multiples of [`Tiles::SIDE`] of the picture, for every crop.
 
 use super::{Crop, Tiles};
 use std::ops::Range;

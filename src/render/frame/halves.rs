@@ -1,6 +1,5 @@
-//! Denoised pictures: two halves of the samples of each pixel, the guides of both, and guides of
-//! more
-//! camera rays.
+//! Denoised pictures: two half buffers with independent samples, the guides of both, and guides
+//! from additional camera rays.
 
 use super::{Selection, run};
 use crate::film::heartbeat::OnPixel;

@@ -1,5 +1,5 @@
-//! From world to film: the one loop over tiles, on all threads of the pool. It renders whole
-//! pictures, parts, growing pictures and layers.
+//! The loop over tiles, on all threads of the pool. It renders complete, partial and progressive
+//! pictures, and AOVs.
 
 pub(crate) mod halves;
 pub(crate) mod layers;
@@ -41,8 +41,7 @@ pub(crate) type MakeIntegrator<'work, 'run, Sample> =
     dyn Fn() -> Box<dyn Integrator<'run, Sample = Sample> + 'work> + Sync + 'work;
 
 /// Renders the pixels selected, as `open` begins each of them, by integrators that
-/// `make_integrator` makes;
-/// the rays traced, or `None` if the observer said stop.
+/// `make_integrator` makes; the rays traced, or `None` if the observer said stop.
 pub(crate) fn run<A: Accumulator>(
     film: &mut Tiled<A::PixelState>,
     selection: Selection,
@@ -58,8 +57,7 @@ pub(crate) fn run<A: Accumulator>(
 }
 
 /// As [`run`], in tiles all over the picture; if the observer said stop, tiles that are not done
-/// are as
-/// before. The rays traced, and whether all are done.
+/// are as before. The rays traced, and whether all are done.
 pub(crate) fn run_tiles<A: Accumulator<PixelState: Copy>>(
     film: &mut Tiled<A::PixelState>,
     selection: Selection,
@@ -86,8 +84,7 @@ type RenderTile<'work, 'run, Sample, T> =
     dyn Fn(&mut (dyn Integrator<'run, Sample = Sample> + '_), T) -> bool + Sync + 'work;
 
 /// Shares tiles among the integrators of all threads: each renders the next that is left, until
-/// none is or
-/// the observer said stop. The rays of the tiles that are done, and whether all are.
+/// none is or the observer said stop. The rays of the tiles that are done, and whether all are.
 fn share<'run, Sample: Copy, T: Send>(
     tiles: Vec<T>,
     make_integrator: &MakeIntegrator<'_, 'run, Sample>,

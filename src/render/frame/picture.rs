@@ -1,5 +1,4 @@
-//! Whole pictures and parts of them: each pixel takes the samples that the scene asks for, or some
-//! of them.
+//! Complete and partial pictures: each pixel takes the samples of the scene's settings, or a range.
 
 use super::{Selection, run};
 use crate::film::heartbeat::OnPixel;
@@ -67,7 +66,7 @@ impl<S: Intersect> World<S> {
         Some((film, counts))
     }
 
-    /// Distances of the whole picture: the brightness of a pixel depends on all of them.
+    /// Distances of the complete picture: the brightness of a pixel depends on all of them.
     fn sum_distances(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Sums> {
         let open = |pixel: [u32; 2], _: usize, _: &PixelSum| {
             let is_blank = self.plan.pixel_classes.class_of(pixel) == PixelClass::Nothing;
@@ -83,7 +82,7 @@ impl<S: Intersect> World<S> {
         Some((film, counts))
     }
 
-    /// Renders a whole picture from the sums that `sum` makes of all samples.
+    /// Renders a complete picture from the sums that `sum` makes of all samples.
     pub(crate) fn whole(
         &self,
         job: &Job,

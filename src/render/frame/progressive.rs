@@ -1,4 +1,4 @@
-//! Growing pictures: each pixel takes the samples wanted that its replicates do not have yet.
+//! Progressive pictures: each pixel takes the requested samples that its replicates lack.
 
 use super::{MakeIntegrator, Selection, run_tiles};
 use crate::film::heartbeat::OnPixel;
@@ -59,8 +59,7 @@ impl<S: Intersect> World<S> {
 }
 
 /// Takes the samples wanted by integrators that `make_integrator` makes, shown by `tone`; false if
-/// the
-/// observer said stop.
+/// the observer said stop.
 fn add_samples(
     film: &mut ProgressiveFilm,
     wanted: &SampleRange<'_>,

@@ -1,5 +1,5 @@
-//! Faults of a plan: a render without rules checks every term that the plan says adds nothing, and
-//! the two pictures are compared.
+//! Plan validation: a render without pruning checks each term that the plan calls zero, and
+//! compares the two pictures.
 
 use crate::film::{Film, Job};
 use rtc_plan::{Effect, Plan, Rule};

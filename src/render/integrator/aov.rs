@@ -1,5 +1,5 @@
-//! Layers (AOVs) for denoisers and compositors: the first hits of the camera rays of a pixel,
-//! averaged over the rays with a hit. The rays are the same as for the colours.
+//! AOVs for denoisers and compositors: the first hits of the camera rays of a pixel, averaged over
+//! the rays that hit. The rays are the same as for the colours.
 
 use super::Integrator;
 use crate::camera::Camera;

@@ -1,5 +1,5 @@
-//! Buffers of depths: the distance along the ray through the middle of each pixel to what it
-//! meets first.
+//! Depth buffers: the distance from the eye to the first hit, along the ray through the centre of
+//! each pixel.
 
 use super::Integrator;
 use crate::camera::grid::Grid;

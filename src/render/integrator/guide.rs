@@ -1,5 +1,5 @@
-//! Guides of a denoiser: of each pixel the share of camera rays with a hit, and the albedo, the
-//! normal and the distance of first hits, added up over all rays, those without a hit as zero.
+//! Denoiser guides of a pixel: the fraction of camera rays that hit, and the albedo, normal and
+//! distance of the first hits, summed over all rays (a miss adds zero).
 
 use super::aov::{CameraHit, FirstHitSums};
 use crate::camera::Camera;

@@ -1,4 +1,8 @@
-//! The integrators: each is a way to find what a sample of a pixel shows.
+//! The integrators. Each estimates the value of one sample of a pixel.
+//!
+//! - [`whitted`]: the integrator of course scenes, local shading plus specular rays.
+//! - [`path`]: the path tracer.
+//! - [`first_hit`]: depth buffers. [`aov`], [`guide`]: AOVs and denoiser guides.
 
 pub(crate) mod aov;
 pub(crate) mod first_hit;
@@ -30,7 +34,7 @@ pub(crate) trait Integrator<'run> {
         None
     }
 
-    /// Whether all samples of the pixel and the stream begun are proven to be equal.
+    /// Whether all samples of the pixel and the stream begun are validated to be equal.
     fn is_uniform(&self) -> bool {
         false
     }
@@ -38,10 +42,10 @@ pub(crate) trait Integrator<'run> {
     /// The rays traced so far.
     fn counts(&self) -> &Counts;
 
-    /// Tells the observer how far the work is, and whether to go on.
+    /// Tells the observer how far the work is, and whether to continue.
     fn heartbeat(&mut self) -> &mut Heartbeat<'run>;
 
-    /// Whether to go on: to be asked before each sample.
+    /// Whether to continue: to be asked before each sample.
     fn should_continue(&mut self) -> bool;
 
     /// Takes the samples that a tile is to have; false if the observer said stop. In which order

@@ -1,5 +1,5 @@
-//! Four vectors at once, one in each lane. Every operation is that of one vector in the same order,
-//! so that each lane has its bits.
+//! Four vectors at once, one per lane. Every operation has the order of its scalar form, so each
+//! lane has the same bits.
 
 pub(crate) mod pow;
 

@@ -1,4 +1,4 @@
-//! A light of the course: a point, or a sphere that is sampled as a disc.
+//! A light of a course scene: a point, or a sphere that is sampled as a disc.
 
 use crate::accel::bounds::BoundingSphere;
 use rtc_math::{NonNegative, Vec3};

@@ -17,7 +17,7 @@ pub(crate) struct Environment {
 /// An image of all directions.
 struct EnvironmentMap {
     image: Arc<Image>,
-    /// The value of all pixels, where they are proven to be equal.
+    /// The value of all pixels, where they are validated to be equal.
     constant: Option<Vec3>,
     /// The distribution that places are sampled from.
     table: BilinearDistribution,
@@ -38,7 +38,7 @@ pub(crate) struct EnvironmentRadiance {
 /// The density of directions that are uniform over the sphere.
 const UNIFORM: f64 = 0.5 / TAU;
 
-/// The least share of its radiance that a direction is sampled by.
+/// The least fraction of its radiance that a direction is sampled by.
 const LEAST: f64 = 1.0 / 64.0;
 
 impl Environment {

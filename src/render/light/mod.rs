@@ -1,7 +1,7 @@
-//! The lights for next-event estimation: punctual lights, emissive triangles, and the environment.
-//! Each is chosen by its power, or, where many have a place, by a tree over these.
+//! The lights for next-event estimation: punctual lights, emissive triangles and the environment. A
+//! light is sampled in proportion to its power, or by a light tree if there are many local lights.
 //!
-//! A light of weight 0 is never chosen; only BSDF sampling finds it.
+//! A light of zero weight is never sampled; only BSDF sampling finds it.
 
 pub(crate) mod course;
 pub(crate) mod environment;
@@ -29,8 +29,7 @@ use std::f64::consts::PI;
 const LEAST_FOR_TREE: usize = 16;
 
 /// At most so many lights are listed, of some 300 bytes each: instances may show the triangles of a
-/// mesh more
-/// often than there is memory for.
+/// mesh more often than there is memory for.
 const MOST_LISTED: usize = 1 << 21;
 
 /// All lights of a world.
@@ -67,8 +66,7 @@ pub(crate) struct Incident {
 }
 
 /// Whether so many triangles of a surface are listed after so many lights. If not, only BSDF
-/// sampling
-/// finds them.
+/// sampling finds them.
 fn is_room_for(triangles: usize, listed: usize) -> bool {
     listed.saturating_add(triangles) <= MOST_LISTED
 }

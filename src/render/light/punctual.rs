@@ -1,4 +1,4 @@
-//! Punctual lights in physical units: delta lights, which BSDF sampling cannot find.
+//! Punctual lights in physical units. They are delta lights, which BSDF sampling cannot hit.
 
 use super::Incident;
 use rtc_math::Vec3;
@@ -91,7 +91,7 @@ impl PointLight {
         self.intensity.max_element() * weight
     }
 
-    /// The unit vector to the light, and the share of its intensity that arrives.
+    /// The unit vector to the light, and the fraction of its intensity that arrives.
     fn towards(&self, from: Vec3) -> Option<(Vec3, f64)> {
         let wi = (self.position - from).try_normalize()?;
         let attenuation = self

@@ -1,10 +1,10 @@
-//! A tree over many lights: it chooses one by what its cluster may bring to a point, by power,
-//! distance and orientation (Conty Estevez, Kulla, "Importance Sampling of Many Lights with
-//! Adaptive Tree Splitting", Proc. ACM Comput. Graph. Interact. Tech. 1(2), 2018), unsplit.
+//! A light tree: it samples one of many lights by the estimated contribution of its cluster, from
+//! power, distance and orientation (Conty Estevez, Kulla, "Importance Sampling of Many Lights with
+//! Adaptive Tree Splitting", Proc. ACM Comput. Graph. Interact. Tech. 1(2), 2018), without
+//! splitting.
 //!
-//! No light has probability 0 anywhere, so the tree moves noise, not the mean; what is chosen less
-//! often
-//! than once in 2³² times is met as often as the bits of a number allow.
+//! Every light has a probability above 0 at every point, so the tree changes the variance, not the
+//! mean. Probabilities below 2⁻³² are limited by the resolution of the random numbers.
 
 use crate::sampler::remapped;
 use rtc_math::{Bounds, Vec3};

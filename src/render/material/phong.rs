@@ -1,4 +1,4 @@
-//! Phong's material, prepared: each map holds its image.
+//! The prepared Phong material: each map holds its image.
 
 use crate::texture::Texture;
 use crate::texture::bilinear::Bump;

@@ -1,4 +1,4 @@
-//! The glTF material, prepared: defaults are resolved, and each map holds its image.
+//! The prepared glTF material: defaults are resolved, and each map holds its image.
 
 use crate::bsdf::standard::*;
 use crate::shape::geometry::AttributeRequest;

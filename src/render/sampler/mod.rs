@@ -1,4 +1,4 @@
-//! Random numbers, keyed by pixel, sample and path vertex: they never depend on time or on the
+//! Random numbers keyed by pixel, sample and path vertex. They depend neither on time nor on the
 //! order of calls.
 
 pub(crate) mod discrete;
@@ -52,8 +52,7 @@ impl Key {
 }
 
 /// The number of the next decision, in [0, 1), where a number was found in an interval: how far
-/// above
-/// its lower end, over its width. An interval of no width gives a number, too.
+/// above its lower end, over its width. An interval of no width gives a number, too.
 #[expect(clippy::manual_clamp, reason = "0/0 becomes a number")]
 #[inline]
 pub(crate) fn remapped(above: f64, width: f64) -> f64 {
@@ -134,7 +133,7 @@ impl PhongLobeSampler {
             .normalize()
     }
 
-    /// How many directions lie on the side of both normals, as long as the count goes on.
+    /// How many directions lie on the side of both normals, as long as the count continues.
     #[must_use]
     pub(crate) fn count_above(
         &self,

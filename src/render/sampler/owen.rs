@@ -1,29 +1,23 @@
 //! The points of a sequence in four dimensions, and Owen's scrambling of their coordinates.
 //!
 //! Faure's sequence in base 4 (Niederreiter, "Point sets and sequences with small discrepancy",
-//! Monatshefte für
-//! Mathematik 104 (1987), over GF(4)), with its digits mapped so that the first two dimensions are
-//! those of
-//! Sobol', and the last two are with each other as good in base 2. Coordinates are given from their
-//! lowest bit on,
-//! so that their highest bits come first.
+//! Monatshefte für Mathematik 104 (1987), over GF(4)), with its digits mapped so that the first two
+//! dimensions are those of Sobol', and the last two are with each other as good in base 2.
+//! Coordinates are given from their lowest bit on, so that their highest bits come first.
 
 /// The first two coordinates of a point: van der Corput's, which turns the index round, and
-/// Pascal's matrix.
-/// Each 2ᵐ points from a multiple of 2ᵐ on have one in each elementary interval.
+/// Pascal's matrix. Each 2ᵐ points from a multiple of 2ᵐ on have one in each elementary interval.
 #[inline]
 pub(crate) fn first_two(index: u32) -> [u32; 2] {
     [index, within_digits(pascal(u64::from(index)) as u32)]
 }
 
 /// The other two coordinates: with each other they are as good as the first two, and each 4ᵐ points
-/// have
-/// one in each elementary interval in base 4 of all four dimensions.
+/// have one in each elementary interval in base 4 of all four dimensions.
 ///
 /// With D = diag(1, ω, ω², …) over digits of two bits, the third matrix is D⁻¹·P·D, the fourth
-/// D⁻²·P·D²; P is
-/// Pascal's matrix of digits. In the second and the fourth coordinate it is applied to the bits of
-/// each digit, too.
+/// D⁻²·P·D²; P is Pascal's matrix of digits. In the second and the fourth coordinate it is applied
+/// to the bits of each digit, too.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "the halves are meant")]
 pub(crate) fn last_two(index: u32) -> [u32; 2] {
@@ -62,8 +56,7 @@ fn times(x: u64, omega: u64, omega_squared: u64) -> u64 {
 }
 
 /// Pascal's matrix modulo 2 over digits of two bits, in both halves: digit i is the sum of the
-/// digits j whose places
-/// have all bits of i.
+/// digits j whose places have all bits of i.
 #[inline]
 fn pascal(mut x: u64) -> u64 {
     for (step, mask) in [
@@ -79,8 +72,7 @@ fn pascal(mut x: u64) -> u64 {
 
 /// Owen's nested scrambling from the lowest bit up: each bit is flipped by a hash of those below it
 /// (Laine, Karras, "Stratified sampling for stochastic transparency", 2011, with the constants of
-/// Vegdahl,
-/// "Building a better LK hash", 2021).
+/// Vegdahl, "Building a better LK hash", 2021).
 #[inline]
 pub(crate) fn scrambled(mut x: u32, seed: u32) -> u32 {
     x ^= x.wrapping_mul(0x3D20_ADEA);

@@ -7,10 +7,8 @@ use crate::sampler::Key;
 use crate::sampler::owen::{first_two, scrambled};
 
 /// The direction numbers of the dimensions of the lens (Joe and Kuo, "Constructing Sobol sequences
-/// with better
-/// two-dimensional projections", SIAM Journal on Scientific Computing 30 (2008)). Those of the
-/// pixel are
-/// van der Corput's, which turns the index round, and Pascal's matrix.
+/// with better two-dimensional projections", SIAM Journal on Scientific Computing 30 (2008)). Those
+/// of the pixel are van der Corput's, which turns the index round, and Pascal's matrix.
 const LENS: [[u32; 32]; 2] = [directions(2, 1, [1, 3, 0]), directions(3, 1, [1, 3, 1])];
 
 /// The direction numbers of a primitive polynomial, given by its degree and its inner coefficients
@@ -63,8 +61,7 @@ impl Sequence {
     }
 
     /// The coordinate of a dimension, of its bits from the lowest on: scrambled, then shifted,
-    /// which
-    /// makes each point uniform by itself.
+    /// which makes each point uniform by itself.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "the halves of the hash are meant"

@@ -1,10 +1,8 @@
 //! Numbers for paths: Owen-scrambled points, padded: four dimensions belong together, each such
-//! group has
-//! its own shuffling and scrambling.
+//! group has its own shuffling and scrambling.
 //!
 //! After Burley, "Practical hash-based Owen scrambling" (JCGT 9, 2020). Numbers depend on pixel,
-//! sample and
-//! dimension alone, and in a picture of a given number of samples on that number.
+//! sample and dimension alone, and in a picture of a given number of samples on that number.
 
 use super::Key;
 use super::owen::{first_two, last_two, scrambled};
@@ -32,7 +30,7 @@ impl Pair {
         Self(4 * bounces + 4)
     }
 
-    /// Which wavelength a vertex picks, and whether the path goes on.
+    /// Which wavelength a vertex picks, and whether the path continues.
     pub(crate) fn russian_roulette(bounces: u32) -> Self {
         Self(4 * bounces + 6)
     }
@@ -74,12 +72,9 @@ impl Sobol {
     /// The numbers of path `index` of a pixel in a picture of so many paths a pixel, at least 1.
     ///
     /// Its pixels share a sequence along a curve that fills squares one after another, so that the
-    /// errors of
-    /// neighbours cancel: that of a pixel is as large as by [`Self::new`], that of a blurred
-    /// picture is less
-    /// (Ahmed, Wonka, "Screen-space blue-noise diffusion of Monte Carlo sampling error via
-    /// hierarchical
-    /// ordering of pixels", SIGGRAPH Asia 2020).
+    /// errors of neighbours cancel: that of a pixel is as large as by [`Self::new`], that of a
+    /// blurred picture is less (Ahmed, Wonka, "Screen-space blue-noise diffusion of Monte Carlo
+    /// sampling error via hierarchical ordering of pixels", SIGGRAPH Asia 2020).
     pub(crate) fn in_picture(pixel: [u32; 2], index: u32, seeds: Seeds, samples: u32) -> Self {
         // Of the bits of an index the lowest count samples; as many of the others as fit are a
         // place on the curve.

@@ -1,4 +1,4 @@
-//! The shapes of most course scenes alone: an integrator of these holds no code of the others.
+//! The shapes of most course scenes: an integrator over these contains no code for the others.
 
 use super::kinds::{Plane, Sphere, Triangle};
 use crate::accel::bounds::BoundingSphere;

@@ -168,8 +168,7 @@ impl Cone {
     }
 
     /// As [`Self::intersection`] for a cone far wider than high, and a ray that meets the plane of
-    /// its
-    /// base.
+    /// its base.
     fn crossing_flat(
         &self,
         start: Vec3,
@@ -341,7 +340,7 @@ mod tests {
     use super::*;
     use crate::reflect;
 
-    /// 200 times as long as wide, seen from afar: mirrored rays don't meet the side that they
+    /// 200 times as long as wide, seen from afar: reflected rays do not meet the side that they
     /// leave.
     #[test]
     fn a_needle_does_not_mirror_itself() {

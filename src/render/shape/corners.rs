@@ -1,4 +1,4 @@
-//! What the corners of a triangle say, and what lies between them.
+//! Attributes at the corners of a triangle, and their interpolation.
 
 use rtc_math::Column;
 

@@ -1,4 +1,4 @@
-//! The disc: a plane, and a test of the distance from its centre in the disc's own frame.
+//! The disc: a plane intersection, and a test of the distance from the centre in the disc's frame.
 
 use crate::ray::{Interaction, Ray};
 use crate::shape::baseline::ray::BaselineRay;

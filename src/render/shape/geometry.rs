@@ -1,4 +1,4 @@
-//! What a world asks of the shapes in it.
+//! The intersection interface that every shape implements.
 
 use crate::accel::bounds::BoundingSphere;
 use crate::ray::{Interaction, Ray};
@@ -18,8 +18,7 @@ pub trait Intersect: Sized + Send + Sync {
     const HAS_SHAPE4: bool = false;
 
     /// The smallest root above 0 and its primitive; `watertight` is that of the ray. Roots beyond
-    /// `t_max`
-    /// may be left out.
+    /// `t_max` may be left out.
     #[must_use]
     fn intersect(&self, ray: &Ray, watertight: &WatertightRay, t_max: f64) -> Option<(f64, u32)>;
 
@@ -29,7 +28,7 @@ pub trait Intersect: Sized + Send + Sync {
         false
     }
 
-    /// As [`Intersect::intersect`], but of roots that rounding cannot tell apart, the one on the
+    /// As [`Intersect::intersect`], but of roots that rounding cannot distinguish, the one on the
     /// first primitive.
     #[must_use]
     #[inline]
@@ -125,8 +124,7 @@ pub trait Intersect: Sized + Send + Sync {
     }
 
     /// Whether its triangles are those of an instance that is not moved: the coordinates of the
-    /// shape
-    /// are those of the world.
+    /// shape are those of the world.
     #[must_use]
     fn is_in_place(&self) -> bool {
         false

@@ -1,5 +1,5 @@
-//! An instance of a mesh: rays are transformed to object space, where all instances share triangles
-//! and hierarchy.
+//! An instance of a mesh. Rays are transformed to object space, where all instances share the
+//! triangles and the BVH.
 
 use crate::accel::wide::{Candidate, Visitor};
 use crate::ray::{Interaction, Ray};
@@ -102,7 +102,7 @@ impl Instance {
         }
     }
 
-    /// The root above 0 of a triangle found in the hierarchy of the mesh.
+    /// The root above 0 of a triangle found in the BVH of the mesh.
     #[inline(always)]
     fn root(&self, local: &LocalRay, candidate: &Candidate<'_>) -> Option<f64> {
         match candidate.corners() {
@@ -335,7 +335,7 @@ impl HasBaseline for Instance {
     }
 }
 
-/// Its triangles in plain arithmetic, in the hierarchy of the robust ones.
+/// Its triangles in plain arithmetic, in the BVH of the robust ones.
 #[derive(Clone, Debug)]
 pub(crate) struct BaselineInstance<R> {
     mesh: Arc<BaselineMesh<R>>,

@@ -1,5 +1,5 @@
-//! Intervals of a ray inside a convex region. Solids are intersections of such intervals, so they
-//! have no crack between side and caps.
+//! The t-interval of a ray inside a convex region. A capped solid is the intersection of such
+//! intervals, so there is no gap between its side and its caps.
 
 use rtc_math::{Vec3, dot};
 

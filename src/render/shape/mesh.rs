@@ -1,4 +1,4 @@
-//! A mesh in its own coordinates, prepared once for all its instances.
+//! A mesh in object space, prepared once for all its instances.
 
 use crate::accel::simd::SimdLevel;
 use crate::accel::wide::{Builders, Wide};
@@ -41,10 +41,9 @@ pub struct PreparedMesh {
     corners: Shared<[u32; 3]>,
     /// The triangles, if they are few.
     few: Vec<Triangle>,
-    /// What its hierarchy is searched with.
+    /// What its BVH is searched with.
     simd: SimdLevel,
-    /// Built when a ray first asks for it: most meshes stand once, in the hierarchy of their
-    /// world.
+    /// Built when a ray first asks for it: most meshes stand once, in the BVH of their world.
     hierarchy: OnceLock<Option<Wide>>,
 }
 
@@ -144,7 +143,7 @@ impl PreparedMesh {
         triangle.is_some_and(|triangle| triangle.is_beyond(&ray.ray, t_max))
     }
 
-    /// The hierarchy of the triangles, if there are any.
+    /// The BVH of the triangles, if there are any.
     pub(crate) fn hierarchy(&self) -> Option<&Wide> {
         let vertices = |item: u32| self.vertices(item);
         let build = || {
@@ -179,11 +178,10 @@ fn places(positions: &Column<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
     [place(a), place(b), place(c)]
 }
 
-/// A mesh ready to be hit by plain formulas, in object coordinates.
+/// A mesh ready to be hit by baseline formulas, in object coordinates.
 #[derive(Debug)]
 pub struct BaselineMesh<R> {
-    /// The robust mesh: the same triangles in the same order, their hierarchy, and what is known
-    /// of them.
+    /// The robust mesh: the same triangles in the same order, their BVH, and what is known of them.
     pub(crate) robust: Arc<PreparedMesh>,
     pub(in crate::shape) triangles: Vec<BaselineTriangle<R>>,
 }

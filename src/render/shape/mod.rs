@@ -1,4 +1,12 @@
-//! A shape of any kind, ready to be hit: each in its own file, its robust form and its plain twin.
+//! The shapes. Each file holds the robust intersection of one shape and its textbook baseline.
+//!
+//! - [`geometry`]: the trait [`geometry::Intersect`] that every shape implements.
+//! - [`tie`]: the choice between hits that coincide within their rounding errors.
+//! - [`interval`]: convex regions as intervals of t, for capped solids.
+//! - [`baseline`]: the textbook formulas in f64 and f32. [`four`]: four rays at once.
+//!
+//! A robust intersection bounds its rounding error. If the error leaves a decision in doubt, it
+//! repeats the computation in double-double arithmetic.
 
 /// Makes an enum of shapes answer as the shape it holds.
 macro_rules! dispatch {

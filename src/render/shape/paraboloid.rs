@@ -261,8 +261,7 @@ impl Intersect for Paraboloid {
     }
 
     /// u = φ/2π about the axis. On the side, v is the depth below the vertex in heights; on the
-    /// cap,
-    /// the distance from the axis in radii: 1 at the rim on both.
+    /// cap, the distance from the axis in radii: 1 at the rim on both.
     fn shading_attributes(
         &self,
         _: &Ray,

@@ -37,8 +37,7 @@ pub struct Sphere {
 
 impl Sphere {
     /// The smallest root above 0, right to within 64 u for all rays that were tried (`docs/proofs`
-    /// has
-    /// what is proven of it); a tangent ray hits.
+    /// has what is validated of it); a tangent ray hits.
     #[must_use]
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {

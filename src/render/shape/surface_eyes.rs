@@ -1,4 +1,4 @@
-//! Eyes exactly on a shape do not see what they stand on, and see the far side of it.
+//! Rays that start exactly on a shape do not hit the point they start from, but hit the far side.
 
 use super::cone::Cone;
 use super::cylinder::Cylinder;
@@ -34,8 +34,7 @@ fn directions() -> impl Iterator<Item = Vec3> {
 }
 
 /// Asks a shape, which `make` builds about a centre and in a scale, from eyes given in its own
-/// frame.
-/// Outwards a convex shape is not seen, any other not at once; inwards its far side is.
+/// frame. Outwards a convex shape is not seen, any other not at once; inwards its far side is.
 fn check_eyes(name: &str, make: impl Fn(Vec3, f64) -> FirstRoot, is_convex: bool, eyes: &[Eye]) {
     for scale in SCALES {
         let center = Vec3::new(3.0, -7.0, 9.0) * scale;

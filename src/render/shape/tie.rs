@@ -1,9 +1,9 @@
-//! Ties: of surfaces that coincide within rounding, the first one is hit, in any order of
+//! Ties: of surfaces that coincide within rounding, the first in the scene is hit, in any order of
 //! traversal.
 //!
-//! Each hit has an interval of t: its rounding error. Among all hits whose interval overlaps that
-//! of the hit with the least upper end, the hit with the lowest key is taken. This set does not
-//! depend on the order.
+//! Each hit has an interval of t, its rounding error. Consider all hits whose interval overlaps
+//! that of the hit with the least upper end: the one with the lowest key wins. This set does not
+//! depend on the order of traversal.
 
 use crate::ray::{Interaction, Ray};
 use rtc_math::U;
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn the_first_of_those_that_meet_the_surely_nearest_wins_in_any_order() {
-        // The first meets the second, and the second the third, which is the surely nearest.
+        // The first meets the second, and the second the third, which is certainly the nearest.
         let hits = [(5.0, 1.0, 0), (4.0, 0.5, 1), (3.3, 0.3, 2), (4.2, 0.1, 3)];
         for order in orders(&hits) {
             let mut tie = Tie::new();

@@ -26,7 +26,7 @@ pub struct WatertightRay {
 }
 
 impl WatertightRay {
-    /// For shapes that look at none.
+    /// For shapes that do not use it.
     pub(crate) const UNUSED: Self = Self {
         axes: [0, 1, 2],
         x: 0.0,

@@ -1,4 +1,4 @@
-//! Texture lookup by the rules of the course, and its normal and bump maps.
+//! Texture lookup, normal maps and bump maps by the rules of the course.
 
 use super::{Image, Texture};
 use rtc_math::{Vec3, cross};

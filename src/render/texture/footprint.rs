@@ -1,4 +1,4 @@
-//! The texels that a look-up reads: wrap modes and filters by the rules of glTF.
+//! The texels of a lookup: wrap modes and filters by the rules of glTF.
 
 use super::{Filter, Wrap};
 use rtc_math::Lanes;

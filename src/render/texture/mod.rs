@@ -36,7 +36,7 @@ pub(crate) struct Image {
 pub(crate) enum Wrap {
     /// Repeat the image.
     Repeat,
-    /// Repeat the image, mirrored at each edge.
+    /// Repeat the image, reflected at each edge.
     Mirror,
     /// Clamp to the texel at the edge.
     Clamp,

@@ -1,4 +1,4 @@
-//! The alpha-tested surfaces of a world. They decide the order in which the transmittances along a
+//! The alpha-tested surfaces of a world. They fix the order in which the transmittances along a
 //! shadow ray are multiplied.
 
 use super::flattened::flattened_surfaces;

@@ -1,4 +1,4 @@
-//! A world of any shapes and arithmetic, built once for all its renders.
+//! A world of any shape set and arithmetic, built once for several renders.
 
 use crate::accel::simd::SimdLevel;
 use crate::film::heartbeat::OnPixel;
@@ -21,9 +21,9 @@ pub enum AnyWorld {
     Basic(World<Basic>),
     /// Of all shapes.
     All(World<Shape>),
-    /// By plain formulas.
+    /// By baseline formulas.
     Plain(World<BaselineShape<f64>>),
-    /// By plain formulas in f32.
+    /// By baseline formulas in f32.
     F32(World<BaselineShape<f32>>),
 }
 
@@ -46,7 +46,7 @@ impl AnyWorld {
         Self::prepare_at(scene, plan, SimdLevel::best())
     }
 
-    /// As [`AnyWorld::prepare`], for rays traced with the vector instructions of a level: pictures
+    /// As [`AnyWorld::prepare`], for rays traced with the SIMD instructions of a level: pictures
     /// are the same bytes.
     #[must_use]
     pub fn prepare_at(scene: &ValidScene, plan: &Plan, simd: SimdLevel) -> Self {
@@ -90,7 +90,7 @@ impl AnyWorld {
         each!(self, world => world.brightest())
     }
 
-    /// Renders a picture; `None` if `on_pixel` said stop.
+    /// Renders a picture; `None` if `on_pixel` returned false.
     ///
     /// `on_pixel` is called from all threads, after each pixel and within long ones.
     #[must_use]
@@ -145,8 +145,7 @@ impl AnyWorld {
     }
 
     /// The guides of a denoiser, by three ranges of the samples of traced paths, and the rays they
-    /// take;
-    /// `between` is called between two of them.
+    /// take; `between` is called between two of them.
     pub(crate) fn guides(
         &self,
         samples: &[Range<u32>; 3],
@@ -173,8 +172,7 @@ impl AnyWorld {
 
     /// Takes samples until each pixel has those wanted: `wanted(i)` is how many each replicate of
     /// pixel i, and its pilot, are to have at least. False if `on_pixel` said stop; tiles that were
-    /// not
-    /// done are then as before.
+    /// not done are then as before.
     ///
     /// `on_pixel` is called from all threads, after each pixel and within long ones.
     pub fn grow(

@@ -1,4 +1,4 @@
-//! Many rays at once: what each meets is what it meets alone.
+//! Closest-hit and any-hit queries for many rays. The results equal those of single queries.
 
 use super::flattened::{Flattened, FlattenedRay};
 use super::search::{AnySearch, ClosestSearch};

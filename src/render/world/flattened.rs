@@ -1,4 +1,4 @@
-//! Flattened instances: meshes whose triangles are in one world-space hierarchy.
+//! Flattened instances: meshes whose triangles are in one world-space BVH.
 
 use super::Surface;
 use crate::accel::simd::SimdLevel;
@@ -55,8 +55,8 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
         }
     }
 
-    /// The root above 0 of a triangle of the hierarchy, and its surface and primitive; `None` for
-    /// the triangle that the ray starts at.
+    /// The root above 0 of a triangle of the BVH, and its surface and primitive; `None` for the
+    /// triangle that the ray starts at.
     #[inline(always)]
     pub(super) fn root(&mut self, candidate: &Candidate<'_>) -> Option<(f64, (usize, u32))> {
         let key = self.flattened.key(candidate.item);
@@ -94,7 +94,7 @@ impl<'traverse, S: Intersect> FlattenedRay<'traverse, S> {
         Some((shape.intersect_prim_before(local, key.1, t_max)?, key))
     }
 
-    /// Whether the ray starts at a triangle of the hierarchy.
+    /// Whether the ray starts at a triangle of the BVH.
     #[inline]
     pub(super) fn starts_at(&self, item: u32) -> bool {
         self.flattened.key(item) == self.from

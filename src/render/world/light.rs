@@ -1,4 +1,4 @@
-//! The lights of a world, as its integrator sees them.
+//! The lights of a world, in the form that its integrator needs.
 
 use super::World;
 use super::texture::Textures;

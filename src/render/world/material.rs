@@ -1,5 +1,5 @@
-//! The materials of a world, as its integrator sees them: defaults filled, constants folded, maps
-//! resolved to their images.
+//! The materials of a world, in the form that its integrator needs: defaults filled, constants
+//! folded, maps resolved to their images.
 
 use super::texture::Textures;
 use crate::bsdf::dispersed;

@@ -1,5 +1,15 @@
-//! The world: a proven scene prepared for tracing, and the two ray queries: closest hit and any
-//! hit.
+//! The world: a validated scene prepared for ray tracing, with the two ray queries: closest hit and
+//! any hit.
+//!
+//! - `prepare` builds a [`World`] from a `ValidScene`; `shape`, `material`, `light`, `texture` and
+//!   `settings` prepare its parts.
+//! - Triangles of meshes that may be flattened are in one 8-wide BVH (`flattened`); all other
+//!   surfaces are in the `ObjectBvh`. A scene with few surfaces has a [`SmallScene`] as well, which
+//!   tests the candidates of the ray-cone cache only.
+//! - `search` holds the BVH visitors, `batch` the queries of many rays, `alpha` the alpha test.
+//! - `any` chooses the shape set and the arithmetic; `verify` renders without pruning.
+//!
+//! Queries accept directions of any length. `t` is in units of the direction's length.
 
 pub(crate) mod alpha;
 pub(crate) mod any;
@@ -37,10 +47,10 @@ use search::{AnySearch, ClosestSearch};
 use settings::Settings;
 use small_scene::SmallScene;
 
-/// The first hit of a ray.
+/// The closest hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Where along the ray.
+    /// The ray parameter, in units of the direction's length, > 0.
     pub t: f64,
     /// The surface: an index into [`World::surfaces`].
     pub surface: usize,
@@ -61,7 +71,7 @@ pub struct Surface<S = Shape> {
 
 /// A scene prepared for tracing, of shapes `S`.
 pub struct World<S = Shape> {
-    /// The scene as proven, for what a change of its camera and settings may need again.
+    /// The scene as validated, for what a change of its camera and settings may need again.
     scene: ValidScene,
     /// The camera.
     pub camera: Camera,
@@ -69,23 +79,23 @@ pub struct World<S = Shape> {
     pub(crate) settings: Settings,
     /// What the picture needs of it.
     pub plan: Plan,
-    /// The materials that Whitted's integrator asks for, without maps that show one value.
+    /// The materials of the Whitted integrator; constant maps are folded into the factors.
     pub(crate) phongs: Vec<PhongMaterial>,
-    /// The materials that paths ask for.
+    /// The materials of the path tracer.
     pub(crate) standards: Vec<StandardMaterial>,
     /// The lights.
     pub(crate) lights: LightList,
-    /// The surfaces that are planned, in the order of the scene.
+    /// The surfaces that the plan keeps, in the order of the scene.
     pub surfaces: Vec<Surface<S>>,
-    /// The plan to be validated by a naive render.
+    /// The plan to validate by a render without pruning.
     pub(crate) verify: Option<Verify>,
     /// The surfaces that shadow rays of paths test for alpha.
     pub(crate) alpha_tested: AlphaTested,
     apart: ObjectBvh,
-    /// The surfaces apart that cast shadows, if some of them don't.
+    /// The surfaces of `objects` that cast shadows, if some do not.
     casters: Option<ObjectBvh>,
     flattened: Option<Flattened>,
-    /// The vector instructions that rays are traced with.
+    /// The SIMD instructions that rays are traced with.
     pub(crate) simd: SimdLevel,
     /// All surfaces, if they are few and the integrator asks for bundles of rays.
     pub(crate) few: Option<SmallScene>,
@@ -95,7 +105,7 @@ pub struct World<S = Shape> {
 struct ObjectBvh {
     unbounded: Vec<u32>,
     bounded: Vec<u32>,
-    /// The hierarchy of `bounded`.
+    /// The BVH of `bounded`.
     bvh: Bvh,
 }
 
@@ -107,7 +117,7 @@ impl ObjectBvh {
     }
 }
 
-/// The `t_max` that ends a walk.
+/// The `t_max` that ends a traversal.
 const STOP: f64 = -1.0;
 
 /// The primitive of a ray that starts at no surface.
@@ -122,7 +132,7 @@ impl<S: Intersect> World<S> {
     }
 
     /// As [`World::closest_hit`], for a ray that starts at a primitive of a surface. A flattened
-    /// triangle is flat, so the ray can't hit it again.
+    /// triangle is flat, so the ray cannot hit it again.
     pub(crate) fn closest_hit_from(&self, ray: &Ray, from: (usize, u32)) -> Option<Hit> {
         // A NaN passes every slab test, so such a ray would visit every node.
         if !(ray.origin.is_finite() && ray.direction.is_finite()) {
@@ -336,8 +346,8 @@ impl<S: Intersect> World<S> {
 /// The end of a segment is known to this many units of its size.
 pub(crate) const END: f64 = 16.0 * rtc_math::U;
 
-/// The ray from one point to another, and the t before which nothing belongs to the other; `None`
-/// if they are as good as one.
+/// The ray from one point to another, and the far bound that excludes the surface at its end;
+/// `None` if the points coincide within rounding.
 pub(crate) fn segment(from: Vec3, to: Vec3) -> Option<(Ray, f64)> {
     let direction = to - from;
     let size = (from.abs() + to.abs()).element_sum();

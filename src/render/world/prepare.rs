@@ -1,4 +1,5 @@
-//! How a world is made of a proof: all that a hit would ask again and again is asked once, here.
+//! Builds a world from a validated scene. Everything that does not depend on the ray is computed
+//! here.
 
 use super::alpha::AlphaTested;
 use super::flattened::{Flattened, flattened_surfaces};
@@ -18,13 +19,13 @@ use std::sync::Arc;
 
 impl<S: Prepare> World<S> {
     /// Prepares a scene as planned: materials and lights as its integrator sees them, shapes, and
-    /// the hierarchies of those.
+    /// the BVHs of those.
     #[must_use]
     pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
         Self::prepare_at(scene, plan, SimdLevel::best())
     }
 
-    /// As [`World::prepare`], for rays traced with the vector instructions of a level: the hits are
+    /// As [`World::prepare`], for rays traced with the SIMD instructions of a level: the hits are
     /// the same.
     #[must_use]
     pub fn prepare_at(scene: &ValidScene, plan: &Plan, simd: SimdLevel) -> Self {
@@ -136,7 +137,7 @@ impl Lookup {
         let casters: Vec<u32> = casters
             .filter(|index| casts(&surfaces[*index as usize]))
             .collect();
-        // A naive world asks all surfaces, so that a validation sees what a bundle passed over.
+        // A world without pruning tests all surfaces, so validation finds a hit that a cone missed.
         let bundled = !is_path && plan.rules != Rules::NONE;
         let few = || {
             let mut few = SmallScene::new(surfaces, &apart, &casters)?;

@@ -1,5 +1,4 @@
-//! What a ray asks of the flattened triangles it may hit: which is the nearest, or whether there is
-//! any.
+//! The BVH visitors for flattened triangles: closest hit and any hit.
 
 use super::STOP;
 use super::flattened::FlattenedRay;
@@ -49,7 +48,7 @@ impl<S: Intersect> Visitor for AnySearch<'_, S> {
         if self.is_hit { STOP } else { self.t_max }
     }
 
-    /// What is hit for sure in single precision is hit in double precision.
+    /// A certain hit in single precision is a hit in double precision.
     #[inline(always)]
     fn is_settled_by(&mut self, item: u32) -> bool {
         self.is_hit = !self.triangles.starts_at(item);

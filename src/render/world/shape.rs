@@ -1,4 +1,4 @@
-//! The shapes of a world: how each kind is made of a proven one.
+//! Preparation of each kind of shape from its validated form.
 
 use crate::accel::simd::SimdLevel;
 use crate::shape::Shape;
@@ -14,12 +14,12 @@ use rtc_math::Vec3;
 use rtc_valid as valid;
 use std::sync::Arc;
 
-/// A kind of shape that is made of proven ones.
+/// A kind of shape that is made of validated ones.
 pub trait Prepare: Intersect {
     /// A mesh prepared once for all its instances.
     type Mesh: Send + Sync;
 
-    /// Prepares a mesh, for rays traced with the vector instructions of a level.
+    /// Prepares a mesh, for rays traced with the SIMD instructions of a level.
     #[must_use]
     fn prepare_mesh(mesh: &valid::Mesh, simd: SimdLevel) -> Self::Mesh;
 
@@ -56,7 +56,7 @@ impl Prepare for Shape {
     }
 }
 
-/// A proven shape of one kind.
+/// A validated shape of one kind.
 trait PrepareShape {
     /// What stands for it in a world.
     type Prepared;
@@ -94,7 +94,7 @@ macro_rules! by_values {
     };
 }
 
-/// A proven value as a number or a vector of them.
+/// A validated value as a number or a vector of them.
 macro_rules! number {
     (length $value:expr) => {
         $value.get()
@@ -124,7 +124,7 @@ impl PrepareShape for valid::Sphere {
 impl PrepareShape for valid::Triangle {
     type Prepared = TexturedTriangle;
 
-    /// `None` for a triangle whose area the arithmetic can't tell from 0: no ray hits it.
+    /// `None` for a triangle whose area the arithmetic cannot distinguish from 0: no ray hits it.
     fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<TexturedTriangle> {
         Some(TexturedTriangle {
             triangle: triangle::Triangle::new(self.vertices)?,

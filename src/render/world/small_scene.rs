@@ -1,8 +1,8 @@
-//! The surfaces of a world that has only a few, none of them flattened: a ray is told which of them
-//! it can meet, and asks no others.
+//! A world of at most 64 surfaces, none of them flattened, as bit sets. A ray tests only the
+//! candidates of its cone.
 
 use super::{Hit, NO_PRIMITIVE, Surface, World, segment};
-use crate::accel::bundle::{BoundingSpheres, MAX_ITEMS};
+use crate::accel::ray_cone_cache::{BoundingSpheres, MAX_ITEMS};
 use crate::ray::Ray;
 use crate::shape::geometry::Intersect;
 use crate::shape::tie::Nearest;

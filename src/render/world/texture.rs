@@ -1,4 +1,4 @@
-//! The textures of a world: each with its image at hand.
+//! The textures of a world, each with its image.
 
 use crate::texture::sampled::{ColorSpace, Map};
 use crate::texture::{Filter, Image, Texture, Wrap};

@@ -1,4 +1,4 @@
-//! Validation of a plan: the picture is made once more with everything that was left out.
+//! Plan validation: renders the picture again without pruning.
 
 use super::World;
 use super::any::render;

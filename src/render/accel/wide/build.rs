@@ -1,9 +1,8 @@
-//! How a hierarchy is built: from the top, a node taking the parts of its parts until it is full
+//! Construction of the wide BVH, top down: a node splits its ranges until it has eight children
 //! (Dammertz, Hanika, Keller, "Shallow bounding volume hierarchies", 2008).
 //!
-//! Its upper part is built first, then what hangs below, on all threads if they may help; the
-//! result
-//! does not depend on how many there are.
+//! The upper levels are built first, then the subtrees, on all threads if that is allowed. The
+//! result does not depend on the number of threads.
 
 use super::split::{BoxedItem, BuildRange};
 use super::{LEAF, NONE, Wide};
@@ -23,19 +22,19 @@ pub(crate) const MOST: usize = 1 << 29;
 /// Parts of so few triangles are built by one thread.
 const ALONE: usize = 4096;
 
-/// Who builds a hierarchy.
+/// Who builds a BVH.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Builders {
-    /// This thread. It must be so where others wait until the hierarchy is there: a thread that is
-    /// helped may meanwhile be handed work which waits for that too, and would wait for itself.
+    /// This thread. It must be so where others wait until the BVH is there: a thread that is helped
+    /// may meanwhile be handed work which waits for that too, and would wait for itself.
     One,
     /// All threads of the pool.
     All,
 }
 
 impl Wide {
-    /// Builds the hierarchy of some triangles, each known by its number, with corners that may be
-    /// wrong by `error_bound`; `None` if there is none.
+    /// Builds the BVH of some triangles, each known by its number, with corners that may be wrong
+    /// by `error_bound`; `None` if there is none.
     pub(crate) fn build(
         builders: Builders,
         simd: SimdLevel,

@@ -1,9 +1,7 @@
-//! A hierarchy over triangles, eight wide: it finds candidates; the hit itself is decided
-//! elsewhere.
+//! An 8-wide BVH over triangles. It finds candidates; the visitor computes the hits.
 //!
-//! Nodes hold the boxes of up to eight children, leaves the corners of up to four triangles, both
-//! in
-//! single precision in a cube about the geometry; a ray meets all boxes or triangles at once.
+//! A node holds the boxes of up to eight children, a leaf the corners of up to four triangles, both
+//! in f32 in a cube around the geometry. One SIMD operation tests all of them against a ray.
 
 mod build;
 mod packet_traversal;
@@ -22,8 +20,8 @@ pub(crate) use traverse::Visitor;
 /// Below this depth the heuristic chooses; above it the middle, which needs at most 12 more.
 const HEURISTIC_DEPTH: usize = 16;
 
-/// What a walk has left for later, with where the ray enters it: each level leaves at most seven
-/// children.
+/// What a traversal has left for later, with where the ray enters it: each level leaves at most
+/// seven children.
 type TraversalStack = ArrayVec<(f32, u32), { (HEURISTIC_DEPTH + 12) * (WIDTH - 1) + 1 }>;
 
 /// The bit of a link that leads to a leaf; the two lowest are then one less than the triangles in
@@ -33,7 +31,7 @@ const LEAF: u32 = 1 << 31;
 /// The link to a child that is not there.
 const NONE: u32 = u32::MAX;
 
-/// The hierarchy.
+/// The BVH.
 #[derive(Debug)]
 pub(crate) struct Wide {
     simd: SimdLevel,

@@ -1,5 +1,4 @@
-//! How rays that go nearly the same way go through a hierarchy together: each node is looked at
-//! once for eight of them.
+//! BVH traversal for packets of eight coherent rays: each node is fetched once per packet.
 
 use super::traverse::{Visitor, lanes_of};
 use super::{Candidate, LEAF, TraversalStack, Wide, leaf_at};
@@ -13,13 +12,13 @@ use fearless_simd::Simd;
 /// The limit of a ray that looks for nothing more.
 const ENDED: f32 = f32::NEG_INFINITY;
 
-/// Where a packet is in the hierarchy.
+/// Where a packet is in the BVH.
 struct PacketTraversal<'traverse, 'rays, S: Simd, V> {
     wide: &'traverse Wide,
     packet: Packet<S>,
     conservative_rays: [ConservativeRay; RAYS],
     rays: &'rays mut [(Ray, f64, V); RAYS],
-    /// The limits of the beams, and their sure limits.
+    /// The limits of the conservative rays, and their sure limits.
     limits: [[f32; RAYS]; 2],
     /// The greatest of the limits.
     limit: f32,
@@ -28,8 +27,7 @@ struct PacketTraversal<'traverse, 'rays, S: Simd, V> {
 
 impl Wide {
     /// As [`Wide::traverse`] for each of some rays, with the `t_max` and the visitor of each.
-    /// Fastest
-    /// where rays side by side visit the same nodes.
+    /// Fastest where rays side by side visit the same nodes.
     pub(crate) fn traverse_packets<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
         at_level!(self.simd, simd => self.traverse_all_packets(simd, rays));
     }
@@ -55,7 +53,7 @@ impl Wide {
         let Some(any) = conservative_rays.iter().flatten().next().copied() else {
             return;
         };
-        // A ray without a beam goes along with another's, and has ended.
+        // A ray without a conservative ray goes along with another's, and has ended.
         let mut full = [any; RAYS];
         let mut limits = [[ENDED; RAYS]; 2];
         for lane in 0..RAYS {
@@ -85,8 +83,8 @@ impl Wide {
         packet_traversal.traverse(simd);
     }
 
-    /// The beam of a ray; `None` if it meets nothing, or where arithmetic can't tell and all
-    /// triangles have been visited.
+    /// The conservative ray of a ray; `None` if it meets nothing, or where arithmetic cannot decide
+    /// and all triangles have been visited.
     #[inline(always)]
     pub(super) fn conservative_ray<V: Visitor>(
         &self,

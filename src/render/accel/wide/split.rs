@@ -1,5 +1,5 @@
-//! How a list of boxes is split into two or eight: by the surface area heuristic over bins (Wald,
-//! "On fast construction of SAH-based bounding volume hierarchies", 2007).
+//! Splits a list of boxes into two or eight with the surface area heuristic over bins (Wald, "On
+//! fast construction of SAH-based bounding volume hierarchies", 2007).
 
 use super::{Builders, HEURISTIC_DEPTH};
 use crate::accel::lanes::{TRIANGLES, TriangleRow, WIDTH};
@@ -21,8 +21,7 @@ fn bins_of(count: usize) -> usize {
 }
 
 /// The box of a triangle in the cube, and its number: in the row that the triangle has later, so
-/// that
-/// building takes no memory of its own.
+/// that building needs no memory of its own.
 pub(super) trait BoxedItem {
     /// Of a number and the lowest and the highest corner of its box.
     fn of_box(number: u32, ends: [[f32; 3]; 2]) -> Self;
@@ -163,8 +162,7 @@ impl<'items> BuildRange<'items> {
     }
 
     /// Its parts, at most eight: the one that is met most often is split next, which has the
-    /// largest
-    /// area, or, deep down, the most items.
+    /// largest area, or, deep down, the most items.
     pub(super) fn into_children(self, builders: Builders, depth: usize) -> ArrayVec<Self, WIDTH> {
         let is_deep = depth >= HEURISTIC_DEPTH;
         let weight = |part: &Self| match part.items.len() {
@@ -207,7 +205,7 @@ impl<'items> BuildRange<'items> {
         }
     }
 
-    /// What falls into so many bins.
+    /// Sorts the items into `count` bins.
     fn fill(
         &self,
         builders: Builders,

@@ -1,5 +1,4 @@
-//! How rays go through a hierarchy: one by one, or several by turns, so that while the memory that
-//! one waits for is fetched the others go on.
+//! BVH traversal, for a single ray or for several interleaved rays, which hides memory latency.
 
 use super::{Candidate, LEAF, NONE, TraversalStack, Wide, leaf_at};
 use crate::accel::conservative_ray::ConservativeRay;
@@ -9,10 +8,10 @@ use crate::ray::Ray;
 use fearless_simd::{Simd, f32x4};
 use std::hint::black_box;
 
-/// So many rays go by turns.
+/// The number of interleaved rays.
 const TURNS: usize = 4;
 
-/// Where a ray is in the hierarchy.
+/// Where a ray is in the BVH.
 struct Traversal<'traverse, S: Simd> {
     nodes: &'traverse [WideNode],
     rows: &'traverse [TriangleRow],
@@ -26,19 +25,19 @@ struct Traversal<'traverse, S: Simd> {
     open: TraversalStack,
 }
 
-/// What a ray asks of the triangles it may hit.
+/// The callbacks of a traversal, for the triangles that the ray may hit.
 pub(crate) trait Visitor {
-    /// Whether triangles that are missed for sure are passed over; else all are visited whose boxes
-    /// the ray may meet.
+    /// Whether triangles that the ray certainly misses are skipped. Otherwise all triangles are
+    /// visited whose boxes the ray may hit.
     const CULLS: bool = true;
 
-    /// Whether triangles that are hit for sure are told apart, before the end of the ray.
+    /// Whether certain hits before the end of the ray are reported to [`Visitor::accept_certain`].
     const IS_SURE: bool = false;
 
-    /// Looks at a triangle, and says beyond which t no other counts; below 0 ends the walk.
+    /// Visits a candidate and returns the new far bound of t; a value below 0 ends the traversal.
     fn visit(&mut self, candidate: Candidate<'_>) -> f64;
 
-    /// Told of a triangle that is hit for sure; whether that ends the walk.
+    /// Receives a triangle that is certainly hit. Returns whether to end the traversal.
     fn is_settled_by(&mut self, _item: u32) -> bool {
         false
     }
@@ -51,7 +50,7 @@ impl<F: FnMut(Candidate<'_>) -> f64> Visitor for F {
     }
 }
 
-/// Whether a walk goes on.
+/// Whether a traversal continues.
 #[derive(PartialEq, Eq)]
 enum TraversalStep {
     GoesOn,
@@ -122,7 +121,7 @@ impl Wide {
         }
     }
 
-    /// A beam at the root.
+    /// A conservative ray at the root.
     #[inline(always)]
     fn start<S: Simd, V: Visitor>(
         &self,

@@ -1,6 +1,5 @@
 //! The albedo of a rough dielectric after single scattering, reflected and transmitted: tables over
-//! the
-//! index of refraction, the roughness and the cosine.
+//! the index of refraction, the roughness and the cosine.
 
 use super::{Split, interpolate, stored};
 use std::sync::LazyLock;

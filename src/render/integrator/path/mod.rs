@@ -57,7 +57,7 @@ pub(crate) struct PathTracer<'world, S, const F: u32> {
     max_bounces: u32,
     /// The planned features; `F` may have more.
     planned: PathFeatures,
-    /// Tells of the pixel under way, and whether to go on with it.
+    /// Tells of the pixel under way, and whether to continue with it.
     heartbeat: Heartbeat<'world>,
     counts: Counts,
 }
@@ -110,8 +110,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// The numbers of a sample. In a picture of a given number of samples a pixel shares its
-    /// sequence with
-    /// its neighbours; samples beyond that number come from a sequence of its own.
+    /// sequence with its neighbours; samples beyond that number come from a sequence of its own.
     fn numbers(&self, id: &SampleId) -> Sobol {
         let (pixel, index, seeds) = (id.pixel, id.index, id.stream.seeds());
         match (id.stream, self.world.settings.mode) {
@@ -161,8 +160,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// The radiance of a path of which the first vertex brings all its light, and the others no
-    /// more in
-    /// any channel than the limit.
+    /// more in any channel than the limit.
     fn clamp(&mut self, state: &PathState, limit: f64) -> Vec3 {
         let first = match state.bounces {
             0 => state.radiance,

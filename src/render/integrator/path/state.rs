@@ -1,4 +1,4 @@
-//! The state of a path.
+//! The state of a path between two vertices.
 
 use crate::ray::Ray;
 use crate::sampler::sobol::{Pair, Sobol};
@@ -75,7 +75,7 @@ impl PathState {
     }
 
     /// Russian roulette: ends paths of low throughput at random; false if the path ends. One that
-    /// goes on has a throughput of at least `1/RR_SURVIVAL`.
+    /// continues has a throughput of at least `1/RR_SURVIVAL`.
     pub(super) fn russian_roulette(&mut self) -> bool {
         let largest = self.beta.max_element();
         let survival = largest * RR_SURVIVAL;

@@ -1,4 +1,4 @@
-//! The vertices of a path: where its rays meet surfaces.
+//! Path vertices: the surface interactions of the rays of a path.
 
 use super::PathTracer;
 use super::state::PathState;
@@ -64,7 +64,7 @@ impl<'world, S: Intersect, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// The closest hit of the ray. It is a function of its own, as is [`Self::visibility`], so that
-    /// `benches/kernels.sh` can count what the hierarchies take of a picture.
+    /// `benches/kernels.sh` can count what the BVHs take of a picture.
     #[inline(never)]
     fn next_hit(&self, state: &PathState) -> Option<Hit> {
         self.world.closest_hit_from(&state.ray, state.from)

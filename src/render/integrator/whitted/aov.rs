@@ -1,4 +1,4 @@
-//! The first hit of a camera ray, as the course's integrator sees it.
+//! The first hit of a camera ray, for the AOVs of the Whitted integrator.
 
 use super::Tracer;
 use crate::film::Seeds;

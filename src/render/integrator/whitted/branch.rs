@@ -1,4 +1,4 @@
-//! The branches of a camera ray: mirrored and refracted rays, kept pending until their turn.
+//! The ray tree of a camera ray: reflected and refracted rays, on a stack until they are traced.
 
 use super::Tracer;
 use super::shade::ShadingPoint;
@@ -49,7 +49,7 @@ pub(super) struct GlossyBatch {
 }
 
 impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
-    /// Adds the mirrored and refracted paths from here to the pending ones.
+    /// Adds the reflected and refracted paths from here to the pending ones.
     pub(super) fn branch(&mut self, path: &Branch, shading_point: &ShadingPoint<'_>) {
         if path.bounces_left == 0 || path.beta == 0.0 {
             return;
@@ -162,7 +162,8 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         })
     }
 
-    /// The next path to follow: refracted before mirrored, and the directions of a lobe one by one.
+    /// The next path to follow: refracted before reflected, and the directions of a lobe one by
+    /// one.
     pub(super) fn next_branch(&mut self) -> Option<Branch> {
         let path = loop {
             if !self.should_continue() {
@@ -225,7 +226,7 @@ fn mirror_direction(direction: Vec3, shading_point: &ShadingPoint<'_>) -> Vec3 {
 
 /// The refracted direction, if the material transmits light and there is no total reflection.
 ///
-/// The geometric normal decides where the shading normal can't: where it is turned away from the
+/// The geometric normal decides where the shading normal cannot: where it is turned away from the
 /// ray, or totally reflects what its mirror then sends into the surface. With `sided` it also does
 /// where the shading normal would keep on this side of the surface what is to go through. So an eta
 /// of 1 bends no ray, whatever the shading normal.

@@ -1,6 +1,6 @@
-//! The integrator of the course: local shading plus mirror and refracted rays (Whitted, "An
-//! improved illumination model for shaded display", CACM 23 (1980)), as a loop with a throughput: a
-//! long path takes no call stack.
+//! The Whitted integrator: local shading plus reflected and refracted rays (Whitted, "An improved
+//! illumination model for shaded display", CACM 23, 1980). It is a loop over a stack of rays with
+//! their throughputs, so long paths need no call stack.
 
 mod aov;
 mod branch;
@@ -12,7 +12,7 @@ mod four;
 mod pixel;
 mod shade;
 
-use crate::accel::bundle::RayConeCache;
+use crate::accel::ray_cone_cache::RayConeCache;
 use crate::camera::grid::Grid;
 use crate::film::Counts;
 use crate::film::heartbeat::{Heartbeat, OnPixel};
@@ -34,7 +34,7 @@ use shade::{OUTLINE, ShadingPoint};
 pub(crate) struct Tracer<'world, S, const F: u32> {
     pub(crate) world: &'world World<S>,
     pending: Vec<Pending>,
-    /// Tells of the pixel under way, and whether to go on with it.
+    /// Tells of the pixel under way, and whether to continue with it.
     pub(crate) heartbeat: Heartbeat<'world>,
     /// Whether the path under way counts 0 times: then nothing it meets says anything about a
     /// plan.
@@ -113,7 +113,7 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
 
     /// What a camera ray sees, by the mode of the scene; black where it meets nothing.
     ///
-    /// It is compiled once for pictures, growing pictures and layers, so that what it calls at
+    /// It is compiled once for pictures, progressive pictures and layers, so that what it calls at
     /// every hit is compiled into it.
     #[inline(never)]
     pub(crate) fn radiance(&mut self, ray: Ray, key: Key) -> Vec3 {

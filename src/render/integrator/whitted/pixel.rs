@@ -1,4 +1,4 @@
-//! The samples of a pixel, and what a validation asks of them.
+//! The samples of a pixel, and their checks during plan validation.
 
 use super::Tracer;
 use crate::camera::grid::{Cell, Grid};
@@ -23,7 +23,7 @@ pub(super) struct PixelState {
     cell: Option<Cell>,
     /// The previous sample, if samples are checked for being equal.
     last: Option<Sample>,
-    /// Whether all samples are proven to be equal.
+    /// Whether all samples are validated to be equal.
     pub(super) is_uniform: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Local shading: the light that reaches a point directly, by Phong's and by Gooch's model.
+//! Local shading: direct illumination with Phong's or Gooch's model.
 
 use super::Tracer;
 use crate::bsdf::optics::highlight;
@@ -54,8 +54,7 @@ pub(super) const OUTLINE: Vec3 = Vec3::splat(0.1);
 
 impl Incidence {
     /// As in a cartoon: N·L falls in steps, and a highlight is there or not. The numbers are those
-    /// of
-    /// a program for the course's JSON years.
+    /// of a program for the course's JSON years.
     fn stepped(self) -> Self {
         let n_dot_l = match self.n_dot_l {
             n if n < 0.1 => 0.0,

@@ -1,9 +1,9 @@
-//! The formulas of the textbooks, in f64 or f32, beside the robust ones: they show the cost and the
-//! benefit of accuracy. Each shape has them in its own file, as its twin.
+//! The textbook intersection formulas in f64 or f32, next to the robust ones. They measure the cost
+//! and benefit of accuracy. Each shape's file contains its baseline.
 //!
-//! Hits nearer than 1e-5 are ignored: they are taken for the start of the ray, and rays start at
-//! the point itself. The robust shape answers all questions that do not depend on the arithmetic
-//! (texture coordinates, shading normals, boxes).
+//! Hits with t < 1e-5 are taken for the origin of the ray and ignored; rays start at the surface
+//! point itself. The robust shape supplies what does not depend on the arithmetic: texture
+//! coordinates, shading normals and bounds.
 
 pub(crate) mod ray;
 pub(crate) mod real;
@@ -22,7 +22,7 @@ use rtc_math::{Bounds, Vec3};
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// How rays meet a shape by plain formulas.
+/// How rays meet a shape by baseline formulas.
 pub(crate) trait Baseline<R>: Clone + Debug + Send + Sync {
     /// The first root that counts, and the part of the shape it is on; roots beyond `t_max` may be
     /// left out.
@@ -43,7 +43,7 @@ impl<R, P: Baseline<R>> Baseline<R> for Box<P> {
     }
 }
 
-/// A robust shape that has a plain twin.
+/// A robust shape that has a baseline.
 pub(crate) trait HasBaseline {
     /// The twin; a large one in a box.
     type Baseline<R: Real>: Baseline<R>;
@@ -53,7 +53,7 @@ pub(crate) trait HasBaseline {
     fn plain<R: Real>(&self, mesh: Option<&Arc<BaselineMesh<R>>>) -> Option<Self::Baseline<R>>;
 }
 
-/// A shape of any kind, ready to be hit by the plain formulas in `R`.
+/// A shape of any kind, ready to be hit by the baseline formulas in `R`.
 #[derive(Clone, Debug)]
 pub struct BaselineShape<R: Real> {
     form: BaselineKind<R>,

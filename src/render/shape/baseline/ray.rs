@@ -1,10 +1,10 @@
-//! A ray in the numbers of the plain formulas, and which of their roots count.
+//! The ray of the baseline formulas, and the selection of valid roots.
 
 use super::real::{Real, Vector};
 use crate::ray::Ray;
 use rtc_plan::MIN_HIT_DISTANCE;
 
-/// A ray in the numbers of the plain formulas.
+/// A ray in the numbers of the baseline formulas.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaselineRay<R> {
     pub(in crate::shape) origin: Vector<R>,

@@ -1,4 +1,4 @@
-//! The numbers the plain formulas are written for: f32 and f64, and vectors of them.
+//! The number types of the baseline formulas, f32 and f64, and their vectors.
 
 use rtc_math::Vec3;
 use std::fmt::Debug;

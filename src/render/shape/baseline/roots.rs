@@ -1,5 +1,4 @@
-//! Real roots of polynomials by the closed forms of the books, with the cancellation that belongs
-//! to them.
+//! Closed-form real roots of polynomials, with their usual cancellation errors.
 
 use super::real::Real;
 

@@ -1,7 +1,6 @@
-//! The shapes that four rays meet at once, the sphere and interactions in four lanes: the steps of
-//! [`Sphere::intersect`],
-//! [`Sphere::interaction`] and [`Interaction`] on four rays at once. What those decide in
-//! double-double is asked of them, lane by lane.
+//! Shapes that are intersected with four rays at once, and the sphere and surface interactions in
+//! four lanes: the steps of [`Sphere::intersect`], [`Sphere::interaction`] and [`Interaction`].
+//! Lanes that need double-double arithmetic use the scalar code.
 
 mod plane;
 mod torus;

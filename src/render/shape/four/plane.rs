@@ -1,5 +1,5 @@
-//! The plane along an axis in four lanes: the steps of [`Plane::intersect`] and
-//! [`Plane::interaction`] on four rays at once. Other planes are asked lane by lane.
+//! The axis-aligned plane in four lanes: the steps of [`Plane::intersect`] and
+//! [`Plane::interaction`]. Other planes use the scalar code.
 
 use super::Interactions;
 use crate::lanes::{Ray4, Vectors, lanes_of, two_difference};

@@ -1,5 +1,5 @@
-//! The torus in four lanes: the steps of [`Torus::intersect`] on four rays at once. A lane whose
-//! search has ended goes on to no effect until the others have.
+//! The torus in four lanes: the steps of [`Torus::intersect`]. A lane whose search has ended
+//! continues without effect until all have.
 
 use super::Interactions;
 use crate::lanes::{Ray4, Vectors, lanes_of};

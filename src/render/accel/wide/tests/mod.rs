@@ -1,4 +1,4 @@
-//! Whatever is hit is visited, and little else.
+//! Traversal visits every triangle that is hit, and few others.
 
 mod copies;
 mod packet_traversal;
@@ -9,7 +9,7 @@ use crate::sampler::Key;
 use crate::shape::triangle::{Triangle, WatertightRay};
 use rayon::prelude::*;
 
-/// Triangles in each hierarchy.
+/// Triangles in each BVH.
 const COUNT: u32 = 96;
 
 /// How triangles and rays are made: the scale and the place of all, how far the eye is, and
@@ -94,7 +94,7 @@ impl<F: FnMut(u32) -> f64> Visitor for Boxed<F> {
     }
 }
 
-/// Visits triangles that may be hit, and hears of those that are for sure.
+/// Visits triangles that may be hit, and records the certain hits.
 #[derive(Default)]
 struct Sure {
     may: Vec<u32>,
@@ -285,7 +285,7 @@ fn the_walk_ends_where_it_is_told_to_and_visits_each_triangle_once() {
     let mut once = visited(ray, f64::INFINITY);
     once.dedup();
     assert_eq!(once, visited(ray, f64::INFINITY));
-    // What the arithmetic can't tell is not decided here.
+    // What the arithmetic cannot decide is not decided here.
     assert_eq!(
         visited(
             Ray {
@@ -314,8 +314,8 @@ fn the_walk_ends_where_it_is_told_to_and_visits_each_triangle_once() {
     );
 }
 
-/// A mesh builds its hierarchy when a ray first asks for it, while others wait for it: a thread that
-/// were helped could be handed a ray that waits for the same.
+/// A mesh builds its BVH when a ray first asks for it, while others wait for it: a thread that were
+/// helped could be handed a ray that waits for the same.
 #[test]
 fn a_hierarchy_built_amid_the_work_of_all_threads_ends() {
     let corners = |item: u32| {

@@ -1,4 +1,4 @@
-//! Rays that go together visit whatever each of them hits.
+//! Packet traversal visits every triangle that one of its rays hits.
 
 use super::*;
 

@@ -1,8 +1,8 @@
-//! Four samples of a pixel at once, one in each lane, where paths are chains of mirrors: each lane
-//! does what [`Tracer::radiance`] does for its ray, in the same order, so that the bytes are the
-//! same. What has no form in lanes is asked lane by lane.
+//! Four samples of a pixel at once, one per lane, for scenes whose ray trees do not branch.
 //!
-//! Only with AVX-512 is it faster than one ray after the other (`docs/book/src/decisions/0006`).
+//! Each lane does the operations of [`Tracer::radiance`] for its ray in the same order, so the
+//! bytes are the same. Operations without a four-lane form run lane by lane. This is faster than
+//! one ray at a time only with AVX-512 (`docs/book/src/decisions/0006`).
 
 mod shade;
 
@@ -295,7 +295,7 @@ impl<V: Simd> Points<V> {
     }
 }
 
-/// The rays mirrored at points where nothing bends the normal.
+/// The rays reflected at points where nothing bends the normal.
 #[inline(always)]
 fn mirrored<V: Simd>(simd: V, rays: &Ray4<V>, points: &Points<V>) -> Ray4<V> {
     let number = |x: f64| f64x4::splat(simd, x);

@@ -1,4 +1,4 @@
-//! Phong's model in four lanes, and the shadow rays it asks for.
+//! Phong's model in four lanes, with its shadow rays.
 
 use super::Points;
 use crate::bsdf::optics::highlight;
@@ -179,8 +179,8 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
     }
 }
 
-/// Where the segments of rays to one point end, as [`crate::world::segment`] says; 0 where
-/// both ends are as good as one.
+/// Where the segments of rays to one point end, as [`crate::world::segment`] says; 0 where both
+/// ends are equal within rounding.
 #[inline(always)]
 fn ends<V: Simd>(simd: V, rays: &Ray4<V>, to: Vectors<V>) -> f64x4<V> {
     let number = |x: f64| f64x4::splat(simd, x);

@@ -1,4 +1,4 @@
-//! No bundle passes over what a ray in it hits.
+//! A cached cone contains every item that one of its rays hits.
 
 use super::*;
 use crate::accel::simd::baseline;
@@ -157,7 +157,7 @@ fn no_shaft_passes_over_what_one_of_its_segments_hits() {
     });
 }
 
-/// Four rays, or the starts of four segments, at a time, near one another or far apart: with bundles
+/// Four rays, or the starts of four segments, at a time, near one another or far apart: with cones
 /// and in the pauses between them.
 #[test]
 fn four_lanes_are_told_of_all_that_each_may_hit() {
@@ -218,7 +218,7 @@ fn rays_that_are_not_of_length_one_or_not_finite_have_no_cone() {
     for (origin, direction) in rays {
         let ray = Ray { origin, direction };
         assert!(RayCone::EMPTY.around(&ray, &balls).is_none());
-        // With a bundle that is asked for, and in a pause.
+        // With a cone that is asked for, and in a pause.
         let (simd, mut bundles) = (baseline(), RayConeCache::EMPTY);
         let four = Ray4::each(simd, &[ray, case.ray, case.ray, ray]);
         for pause in [0, ConeSizeHeuristic::PAUSE] {

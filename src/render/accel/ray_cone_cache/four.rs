@@ -1,6 +1,5 @@
-//! Bundles asked for by four rays at once, one in each lane. Shapes that are asked in four lanes
-//! cost
-//! less than a bundle of few rays, so after such a one some rays go without.
+//! Lookup in the ray-cone cache for four rays at once. Four-lane shape tests cost less than
+//! building a cone for few rays, so after a cone with few uses some rays skip the cache.
 
 use super::{BoundingSpheres, LEVELS, ONE, RayCone, RayConeCache, Shaft};
 use crate::accel::bounds::BoundingSphere;
@@ -34,8 +33,7 @@ impl Shaft {
 }
 
 impl RayConeCache {
-    /// As [`Self::along`], of the rays of some lanes: those whose bundle can say, and the items
-    /// that
+    /// As [`Self::along`], of the rays of some lanes: those that a cone answers, and the items that
     /// one of them may meet.
     #[inline(always)]
     pub(crate) fn along_each<S: Simd>(

@@ -1,6 +1,5 @@
-//! Bundles of rays that start near one another and run alike: which of a few balls they can meet at
-//! all is asked once for the whole bundle. What a bundle says never decides a hit; it only says
-//! which shapes need not be asked.
+//! A cache of cones and shafts of similar rays, each with the set of bounding spheres that its rays
+//! may hit. The cache never decides a hit; it only removes shapes that no ray of the cone can hit.
 //!
 //! Cones: Amanatides, "Ray tracing with cones" (SIGGRAPH 1984). Shafts: Haines, Wallace, "Shaft
 //! culling for efficient ray-cast radiosity" (1991).
@@ -12,7 +11,7 @@ use crate::ray::Ray;
 use arrayvec::ArrayVec;
 use rtc_math::Vec3;
 
-/// At most so many items have bits.
+/// The greatest number of items, one bit each.
 pub(crate) const MAX_ITEMS: usize = 64;
 
 /// The margin, as a fraction of the coordinates it is for: 2⁻³², 2²¹ units of rounding. Hits are
@@ -28,11 +27,11 @@ const ONE: f64 = 1.0 / 1_073_741_824.0;
 /// The widest cone, by its sine.
 const WIDEST: f64 = 0.5;
 
-/// The balls of a few items, each known by a bit.
+/// The spheres of a few items, each known by a bit.
 #[derive(Debug)]
 pub(crate) struct BoundingSpheres {
     balls: Vec<(u64, BoundingSphere)>,
-    /// The items without a ball: every ray may meet them.
+    /// The items without a sphere: every ray may meet them.
     unbounded: u64,
     /// All items.
     all: u64,
@@ -41,7 +40,7 @@ pub(crate) struct BoundingSpheres {
 }
 
 impl BoundingSpheres {
-    /// The balls of some items by their bits, at most [`MAX_ITEMS`].
+    /// The spheres of some items by their bits, at most [`MAX_ITEMS`].
     pub(crate) fn new(items: impl Iterator<Item = (usize, Option<BoundingSphere>)>) -> Self {
         let (mut balls, mut smallest) = (Vec::new(), f64::INFINITY);
         let (mut unbounded, mut all) = (0, 0);
@@ -79,14 +78,14 @@ impl BoundingSpheres {
     }
 }
 
-/// How wide the next bundle is to be: bundles that few rays used become wider, those that many used
+/// How wide the next cone is to be: cones that few rays used become wider, those that many used
 /// narrower. It changes how long something takes, never what is found.
 #[derive(Clone, Copy, Debug)]
 struct ConeSizeHeuristic {
     uses: u32,
-    /// The width wanted, in radii of the smallest ball.
+    /// The width wanted, in radii of the smallest sphere.
     width: f64,
-    /// How many rays are yet to go without a bundle, and one more; 0 outside of a pause.
+    /// How many rays are yet to go without a cone, and one more; 0 outside of a pause.
     pause: u32,
 }
 
@@ -97,10 +96,10 @@ impl ConeSizeHeuristic {
         pause: 0,
     };
 
-    /// A bundle of fewer rays costs more than it saves rays that are asked four at a time.
+    /// A cone of fewer rays costs more than it saves rays that are asked four at a time.
     const FEW: u32 = 16;
 
-    /// So many rays go without a bundle after one of few.
+    /// The number of rays that skip the cache after a cone with few uses.
     const PAUSE: u32 = 64;
 
     fn next(self) -> Self {
@@ -116,7 +115,7 @@ impl ConeSizeHeuristic {
         }
     }
 
-    /// Whether so many rays are to go without a bundle.
+    /// Whether the next `rays` rays skip the cache.
     #[inline(always)]
     fn pauses(&mut self, rays: u32) -> bool {
         if self.pause == 0 && self.uses < Self::FEW {
@@ -136,7 +135,7 @@ struct RayCone {
     origin: Vec3,
     /// Of length 1.
     direction: Vec3,
-    /// The largest squared distance of their origins; below 0 for no bundle.
+    /// The largest squared distance of their origins; below 0 for no cone.
     near: f64,
     /// The largest squared distance of their directions.
     alike: f64,
@@ -195,11 +194,10 @@ impl RayCone {
 }
 
 /// The sine of the widest cone around a ray whose rays, from origins within `reach`, all miss a
-/// ball, below 0 if there is none; and how large the ball is from there, about its sine.
+/// sphere, below 0 if there is none; and how large the sphere is from there, about its sine.
 ///
-/// At t those rays are within `reach + t·sine` of the one: they miss the ball if the cone misses
-/// the
-/// ball grown by `reach`. As both are round, that depends on three angles alone.
+/// At t those rays are within `reach + t·sine` of the one: they miss the sphere if the cone misses
+/// the sphere grown by `reach`. As both are round, that depends on three angles alone.
 fn cone_clearance(ray: &Ray, reach: f64, ball: &BoundingSphere) -> (f64, f64) {
     let f = ball.center - ray.origin;
     let size = (ray.origin.abs() + ball.center.abs()).element_sum() + ball.radius;
@@ -213,7 +211,7 @@ fn cone_clearance(ray: &Ray, reach: f64, ball: &BoundingSphere) -> (f64, f64) {
     }
     let tangent = square_tangent.sqrt();
     let seen = ball.radius / (tangent + ball.radius);
-    // The angle between the axis and the nearest tangent of the ball.
+    // The angle between the axis and the nearest tangent of the sphere.
     let sine = (beside * tangent - along * radius) / square;
     let cosine = along * tangent + beside * radius;
     let clearance = if sine > 0.0 && cosine <= 0.0 {
@@ -232,7 +230,7 @@ fn cone_clearance(ray: &Ray, reach: f64, ball: &BoundingSphere) -> (f64, f64) {
 struct Shaft {
     light: usize,
     from: Vec3,
-    /// The largest squared distance from there; below 0 for no bundle.
+    /// The largest squared distance from there; below 0 for no cone.
     near: f64,
     /// The items that they may meet.
     items: u64,
@@ -279,8 +277,8 @@ impl Shaft {
     }
 }
 
-/// How far a ball stays off a segment: as far as both ends of it may be moved without meeting the
-/// ball. Below 0 if it may be met.
+/// How far a sphere stays off a segment: as far as both ends of it may be moved without meeting the
+/// sphere. Below 0 if it may be met.
 fn segment_clearance(from: Vec3, to: Vec3, ball: &BoundingSphere) -> f64 {
     let (f, d) = (ball.center - from, to - from);
     let size = (from.abs() + to.abs() + ball.center.abs()).element_sum() + ball.radius;
@@ -288,13 +286,13 @@ fn segment_clearance(from: Vec3, to: Vec3, ball: &BoundingSphere) -> f64 {
     (f - d * nearest).length() - ball.radius - MARGIN * size
 }
 
-/// Bounces that have bundles of their own.
+/// Bounces that have cones of their own.
 const LEVELS: usize = 8;
 
-/// Bundles of shadow rays kept at once.
+/// Cones of shadow rays kept at once.
 const SHAFTS: usize = 32;
 
-/// The bundles under way: of rays by bounce, of shadow rays by bounce and light.
+/// The cones under way: of rays by bounce, of shadow rays by bounce and light.
 #[derive(Debug)]
 pub(crate) struct RayConeCache {
     cones: [RayCone; LEVELS],
@@ -308,7 +306,7 @@ impl RayConeCache {
         shafts: [Shaft::EMPTY; SHAFTS],
     };
 
-    /// The items that a ray after so many bounces may meet; `None` if its bundle can't say.
+    /// The items that a ray after so many bounces may meet; `None` if no cone contains the ray.
     #[inline(always)]
     pub(crate) fn along(
         &mut self,
@@ -342,7 +340,7 @@ impl RayConeCache {
         shaft.items
     }
 
-    /// The bundle of the shadow rays after so many bounces to a light, one of so many. Late bounces
+    /// The cone of the shadow rays after so many bounces to a light, one of so many. Late bounces
     /// share one where there are many lights.
     #[inline(always)]
     fn shaft(&mut self, [bounce, light, lights]: [usize; 3]) -> &mut Shaft {
