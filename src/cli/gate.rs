@@ -2,6 +2,7 @@
 //! met.
 
 use super::{Failure, reporter};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
@@ -117,12 +118,16 @@ impl Gate {
 }
 
 /// A gate, and what was measured.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct JudgedGate {
+    /// The name of the measure.
     measure: &'static str,
+    /// The measured value.
     value: f64,
+    /// The limit.
     most: f64,
+    /// Whether the value is within the limit.
     pub(super) is_met: bool,
 }
 

@@ -201,7 +201,7 @@ impl PlanReport {
     /// The report in the form asked for.
     pub(super) fn print(&self, form: Explanation) -> String {
         match form {
-            Explanation::Human => self.table(),
+            Explanation::Table => self.table(),
             Explanation::Json => format!("{:#}\n", self.object()),
         }
     }

@@ -1,22 +1,52 @@
 //! What rtc tells about itself: `rtc schema`, `rtc completions`, `rtc man`.
 
 use super::args::{Cli, Completions, Man, Schema, SchemaFormat};
+use super::diff::DiffReport;
+use super::info::InfoReport;
+use super::versus::VersusReport;
 use super::{Failure, output};
 use clap::CommandFactory;
 use rtc_codec as codec;
+use rtc_diag::json_schema;
 use rtc_front::{course, gltf};
 use rtc_source::budget;
+use rtc_study::Study;
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
 
 /// Prints the JSON Schema of a format, or its page.
 pub(super) fn schema(args: &Schema) -> Result<(), Failure> {
     let text = match args.of {
         SchemaFormat::Scene => format!("{:#}\n", course::schema()),
         SchemaFormat::Ir => format!("{:#}\n", codec::schema()),
+        SchemaFormat::Info => of_report::<InfoReport<'_>>(),
+        SchemaFormat::Cost => of_report::<CostReport<'_>>(),
+        SchemaFormat::Diff => of_report::<DiffReport<'_>>(),
+        SchemaFormat::Check => format!("{:#}\n", json_schema(settings()).to_value()),
         SchemaFormat::Page => course::page(),
         SchemaFormat::Limits => budget::page(),
         SchemaFormat::Extensions => gltf::extensions(),
     };
     output::to_stdout(text.as_bytes())
+}
+
+/// The report of `rtc cost`: the study of one scene, or the comparison of two.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[expect(dead_code, reason = "only its schema is used")]
+enum CostReport<'a> {
+    Study(Study),
+    Versus(VersusReport<'a>),
+}
+
+/// The schema describes what is written: a key that may be null is always there.
+fn settings() -> SchemaSettings {
+    SchemaSettings::draft2020_12().for_serialize()
+}
+
+fn of_report<T: JsonSchema>() -> String {
+    let schema = settings().into_generator().into_root_schema_for::<T>();
+    format!("{:#}\n", schema.to_value())
 }
 
 /// Prints a completion script.

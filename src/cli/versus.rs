@@ -12,7 +12,18 @@ use super::reporter::Reporter;
 use rtc_ir::Scene;
 use rtc_pipeline::Input;
 use rtc_study::{Stopped, StudyProvenance, Versus, versus, versus_table};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::path::Path;
+
+/// The JSON report of a comparison.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct VersusReport<'a> {
+    #[serde(flatten)]
+    found: &'a Versus,
+    /// The gates of `--gate`, in their order.
+    gates: &'a [JudgedGate],
+}
 
 /// Compares the scenes and writes the report.
 pub(super) fn run(args: &args::Cost, files: [&Path; 2]) -> Result<(), Failure> {
@@ -98,9 +109,7 @@ fn measure(found: &Versus, name: &str) -> f64 {
 }
 
 fn json(found: &Versus, gates: &[JudgedGate]) -> Result<String, Failure> {
-    let trouble = |error: serde_json::Error| Failure::Trouble(error.to_string());
-    let mut object = serde_json::to_value(found).map_err(trouble)?;
-    object["gates"] = serde_json::to_value(gates).map_err(trouble)?;
-    let text = serde_json::to_string_pretty(&object).map_err(trouble)?;
-    Ok(text + "\n")
+    let text = serde_json::to_string_pretty(&VersusReport { found, gates });
+    text.map(|text| text + "\n")
+        .map_err(|error| Failure::Trouble(error.to_string()))
 }

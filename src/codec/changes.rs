@@ -3,13 +3,14 @@
 
 use super::{NotFinite, tree};
 use rtc_ir::{Column, Image, Mesh, Scene};
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 
 /// A value that differs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Change {
     /// The path, for example `materials[2].phong.kd`. Its index is that in the new scene, or in the
     /// old scene for a removed value.

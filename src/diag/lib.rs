@@ -32,7 +32,7 @@ pub use clip::{clip, clip_path, clip_words};
 pub use codes::{Code, Severity};
 pub use levels::{DiagnosticLevel, DiagnosticLevels, LevelSubject};
 pub use nearest::nearest;
-pub use print::{Format, PrintOptions, Printer, one};
+pub use print::{Format, PrintOptions, Printer, json_schema, one};
 pub use sink::Sink;
 
 use rtc_source::Span;

@@ -71,6 +71,7 @@ use path::PlannedPaths;
 use projection::{ScreenProjection, ScreenRect};
 use rtc_math::Vec3;
 use rtc_valid::{Mode, PathSettings, Projection, Shape, ValidScene};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use summary::MaterialSummary;
 use visibility::Visibility;
@@ -79,7 +80,7 @@ use visibility::Visibility;
 const MAX_PAIRS: usize = 500_000;
 
 /// The arithmetic of ray intersection. Shading is always in f64.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub enum Arithmetic {
     /// f64 with bounds on its errors.

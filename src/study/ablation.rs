@@ -2,6 +2,7 @@
 
 use rtc_ir::{Light, Material, Mode, Phong, Scene, Shape, Standard, Surface};
 use rtc_math::Vec3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -9,7 +10,7 @@ use std::ops::Range;
 const MAX_PER_KIND: usize = 8;
 
 /// The kind of an ablation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub enum Ablation {
     /// An effect of the whole scene.

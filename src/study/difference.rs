@@ -3,10 +3,11 @@
 use super::flip::{PIXELS_PER_DEGREE, REACH, flip};
 use super::metrics::{LEVELS, relative};
 use rtc_image::{Image, ShownPicture};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The difference of a picture from a reference.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct Difference {
     /// The root of the mean square difference of all channels of all pixels, in grey levels of 8

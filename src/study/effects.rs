@@ -11,10 +11,11 @@ use super::setting::Setting;
 use super::statistics::{Estimate, Rng};
 use super::subject::{Stopped, Subject};
 use rtc_image::Image;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The measurements of one ablation.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct EffectCost {
     /// The kind of the removed feature.

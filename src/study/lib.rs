@@ -111,13 +111,14 @@ use parameter::not_applicable_in;
 use reference::{Depths, Reference};
 use rtc_ir::{Mode, Scene, Shape, Surface};
 use rtc_render::Seeds;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use subject::Subject;
 use sweep::{Model, sweep};
 
 /// The ray budget of a study, in rays of a simple scene of a few spheres. Other scenes are weighted
 /// by [`ray_cost`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct Effort(pub u64);
 

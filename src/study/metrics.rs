@@ -4,13 +4,14 @@
 use super::flip::{PIXELS_PER_DEGREE, delta_e, flip};
 use super::tile_errors::TileErrors;
 use rtc_image::Image;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The full brightness in grey levels of 8 bits.
 pub const LEVELS: f64 = 255.0;
 
 /// The errors of pictures against a reference.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct Errors {
     /// The root of the mean square of all channels of all pixels, in grey levels.

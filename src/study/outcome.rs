@@ -10,10 +10,11 @@ use super::statistics::{Estimate, PowerLaw};
 use super::{EffectCost, Effort, PrecisionCost};
 use rtc_image::Image;
 use rtc_render::{Counts, Crop};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The subject of a study, and the machine it ran on.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct StudyProvenance {
     /// The name of the scene.
@@ -29,7 +30,7 @@ pub struct StudyProvenance {
 }
 
 /// The part of the picture that was rendered.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct StudyArea {
     /// Width and height of the whole picture.
@@ -44,7 +45,7 @@ pub struct StudyArea {
 }
 
 /// The reference of a study.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct ReferenceReport {
     /// Its setting, for each of its two halves.
@@ -55,7 +56,7 @@ pub struct ReferenceReport {
 
 /// The effect of more bounces than the scene has. It is not an error: all errors are measured
 /// against a picture with the scene's depth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct MoreBounces {
     /// The depth of the scene.
@@ -68,7 +69,7 @@ pub struct MoreBounces {
 }
 
 /// A depth greater than that of the scene.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct BounceCost {
     /// The depth.
@@ -80,7 +81,7 @@ pub struct BounceCost {
 }
 
 /// The study of one parameter, with all others fixed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct ParameterReport {
     /// The parameter.
@@ -97,7 +98,7 @@ pub struct ParameterReport {
 }
 
 /// Rays by kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Rays {
     /// Camera rays.
     pub camera: u64,
@@ -138,7 +139,7 @@ impl From<Counts> for Rays {
 }
 
 /// A measured setting.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct StudyRow {
     /// The setting.
@@ -173,10 +174,11 @@ pub struct StudyRow {
 }
 
 /// The cost of accuracy in a scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct Study {
     /// The schema of this report: `rtc-cost/3`.
+    #[schemars(extend("const" = "rtc-cost/3"))]
     pub schema: String,
     /// The subject, and the machine.
     pub about: StudyProvenance,

@@ -4,10 +4,13 @@ use super::setting::Setting;
 use rtc_ir::{Light, Material, Mode, Phong, Scene};
 use rtc_plan::{Arithmetic, Effect, EffectState, EffectStatus, Plan, Rules, loss};
 use rtc_valid::revalidate;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A parameter that trades work for accuracy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "camelCase")]
 pub enum Parameter {
     /// Sub-samples along each side of a pixel.

@@ -10,10 +10,11 @@ use super::statistics::{Estimate, Rng};
 use super::subject::{Stopped, Subject};
 use super::sweep::Levels;
 use rtc_plan::Arithmetic;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A scene rendered with one arithmetic.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct PrecisionCost {
     /// The arithmetic.

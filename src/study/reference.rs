@@ -9,6 +9,7 @@ use super::setting::Setting;
 use super::subject::{RenderedTiles, Stopped, Subject};
 use rtc_image::Image;
 use rtc_render::Seeds;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The smallest error worth a row, in grey levels: a twentieth of a level is invisible.
@@ -19,7 +20,7 @@ pub(super) const MIN_ERROR: f64 = 0.05;
 const UNCHANGED: f64 = MIN_ERROR / 10.0;
 
 /// A value of a parameter, and its error.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ParameterLevel {
     /// The value.
     pub value: u32,
@@ -49,7 +50,7 @@ pub(super) struct Depths {
 }
 
 /// How the search for deeper paths ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub enum DepthEnd {
     /// No path goes deeper: greater depths add nothing.

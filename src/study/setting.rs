@@ -4,10 +4,11 @@ use super::parameter::{Parameter, arithmetic, precision_value};
 use rtc_ir::{Material, Mode, Scene};
 use rtc_passes::Overrides;
 use rtc_plan::Arithmetic;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A value for each parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct Setting {
     /// Sub-samples along each side of a pixel.

@@ -6,12 +6,13 @@ use super::subject::RenderedTiles;
 use rtc_image::Image;
 use rtc_ir::{Mode, Pattern, Settings};
 use rtc_render::Seeds;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The error over renders with other seeds (Celarek, Jakob, Wimmer, Lehtinen, "Quantifying the
 /// error of light transport algorithms", Computer Graphics Forum 38(4), 2019): the expectation of
 /// the mean square error, and its deviation. Fixed sampling patterns are the same in all renders.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct ErrorSpread {
     /// The number of renders.

@@ -2,10 +2,11 @@
 //! seeded random number generator.
 
 use rtc_math::{GAMMA, exp, ln, mix, pow};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A number with its 95 % confidence interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Estimate {
     /// The best estimate.
     pub value: f64,
@@ -126,7 +127,7 @@ fn middle(values: &mut [f64]) -> f64 {
 }
 
 /// A law of the form `y = c·x^−p`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PowerLaw {
     /// y at x = 1.
     pub c: f64,

@@ -17,6 +17,7 @@ use super::{Effort, StudyRuntime};
 use rtc_image::Image;
 use rtc_ir::Scene;
 use rtc_render::Crop;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The number of renders of each scene with independent samples.
@@ -38,10 +39,11 @@ const MIN_TILES: usize = 8;
 const FALSE_ALARM: f64 = 0.05;
 
 /// The comparison of a scene with its reference; ratios are scene over reference.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct Versus {
     /// The schema of this report: `rtc-versus/1`.
+    #[schemars(extend("const" = "rtc-versus/1"))]
     pub schema: String,
     /// The scene and its reference, and the machine.
     pub scenes: [StudyProvenance; 2],
@@ -68,7 +70,7 @@ pub struct Versus {
 }
 
 /// A tile of two pictures that differ by more than noise.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub struct DifferentTile {
     /// Its first column and row.

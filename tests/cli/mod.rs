@@ -42,6 +42,7 @@ mod render;
 mod reports;
 #[cfg(unix)]
 mod running;
+mod schemas;
 mod set;
 #[cfg(unix)]
 mod settings;

@@ -156,6 +156,39 @@ pub(crate) struct ReporterArgs {
     pub(crate) verbose: bool,
 }
 
+/// The format of a result that is a report.
+#[derive(Debug, Args)]
+pub(crate) struct ReportFormatArgs {
+    /// Select the format of the report
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        value_name = "FORMAT",
+        help_heading = "Output"
+    )]
+    format: ReportFormat,
+    /// The former spelling of `--format json`
+    #[arg(long, hide = true, conflicts_with = "format")]
+    json: bool,
+}
+
+impl ReportFormatArgs {
+    /// Whether the report is one JSON object.
+    pub(crate) fn is_json(&self) -> bool {
+        self.json || self.format == ReportFormat::Json
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum ReportFormat {
+    /// Text for people
+    #[default]
+    Table,
+    /// One JSON object; `rtc schema` prints its JSON Schema
+    Json,
+}
+
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MessageFormat {
     /// For people, with the source

@@ -1,7 +1,7 @@
 //! What `rtc diff` is told.
 
 use super::super::gate::{Gates, of_pictures};
-use super::{Reading, ReporterArgs, WantedArgs};
+use super::{Reading, ReportFormatArgs, ReporterArgs, WantedArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -37,9 +37,8 @@ pub(crate) struct Diff {
     /// Write a page with a slider between the two
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) html: Option<PathBuf>,
-    /// Print one JSON object
-    #[arg(long)]
-    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) format: ReportFormatArgs,
     #[command(flatten)]
     pub(crate) wanted: WantedArgs,
     #[command(flatten)]

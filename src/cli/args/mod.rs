@@ -12,7 +12,7 @@ mod render;
 mod stage;
 mod wanted;
 
-pub(super) use common::{Color, MessageFormat, Reading, ReporterArgs};
+pub(super) use common::{Color, MessageFormat, Reading, ReportFormatArgs, ReporterArgs};
 pub(super) use cost::{Cost, StudyFormat};
 pub(super) use diff::Diff;
 pub(super) use farm::{Engine, Farm};
@@ -153,9 +153,8 @@ pub(super) struct Info {
     /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: PathBuf,
-    /// One JSON object, of the form `rtc-info/1`
-    #[arg(long)]
-    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) format: ReportFormatArgs,
     #[command(flatten)]
     pub(super) stage: StageArgs,
     #[command(flatten)]
@@ -176,10 +175,10 @@ pub(super) struct Compile {
     #[arg(
         long,
         value_enum,
-        value_name = "FORM",
+        value_name = "FORMAT",
         num_args = 0..=1,
         require_equals = true,
-        default_missing_value = "human",
+        default_missing_value = "table",
     )]
     pub(super) explain: Option<Explanation>,
     /// Select the format [default: by the extension of the output, or `ir`]
@@ -203,7 +202,8 @@ pub(super) struct Compile {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Explanation {
     /// A table to read
-    Human,
+    #[value(alias = "human")]
+    Table,
     /// One JSON object
     Json,
 }
@@ -261,6 +261,14 @@ pub(super) enum SchemaFormat {
     Scene,
     /// The text form of the IR
     Ir,
+    /// The report of `rtc info --format json`
+    Info,
+    /// The report of `rtc cost --format json`, of one scene or of two
+    Cost,
+    /// The report of `rtc diff --format json`
+    Diff,
+    /// A line of `rtc check --message-format json`
+    Check,
     /// Scenes, as a page to read in Markdown
     Page,
     /// What a run may take of the machine, as a page to read in Markdown

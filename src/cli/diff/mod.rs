@@ -16,7 +16,8 @@ use rtc_codec::Change;
 use rtc_image::{FileFormat, Image, Picture, ShownPicture};
 use rtc_source::{Budget, Resource};
 use rtc_study::{Difference, SliderPage, heat_map, slider_page, value_text};
-use serde_json::Value;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// The results of a comparison, each fit to be written.
 struct DiffOutputs {
@@ -64,6 +65,27 @@ struct Compared<'a> {
     changes: Option<&'a [Change]>,
 }
 
+/// The JSON report of a comparison.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct DiffReport<'a> {
+    /// The schema of this report: `rtc-diff/1`.
+    #[schemars(extend("const" = "rtc-diff/1"))]
+    schema: &'static str,
+    /// The new picture or scene, as on the command line.
+    picture: String,
+    /// The old picture or scene.
+    reference: String,
+    /// Width and height of the pictures.
+    size: [u32; 2],
+    /// The difference of the pictures.
+    difference: Difference,
+    /// The gates of `--gate`, in their order.
+    gates: &'a [JudgedGate],
+    /// The values of the IR that differ; absent if pictures were compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    changes: Option<&'a [Change]>,
+}
+
 /// Writes what was asked for, tells how two pictures differ, and their scenes, and passes the
 /// gates.
 fn report(
@@ -82,7 +104,7 @@ fn report(
     let is_resolved = gates.map_or_else(Vec::new, |gates| {
         gates.is_resolved(|name| measure(&found, name))
     });
-    if args.json {
+    if args.format.is_json() {
         output::to_stdout(json(args, compared, &found, &is_resolved)?.as_bytes())?;
     } else if !args.reporter.quiet {
         let scenes = compared.changes.map_or_else(String::new, changed);
@@ -154,7 +176,9 @@ fn changed(changes: &[Change]) -> String {
         0 => "the scenes are alike\n".to_owned(),
         count if count > MOST => {
             let more = count - MOST;
-            format!("values that differ: {count}\n{lines}  and {more} more (`--json` has all)\n")
+            format!(
+                "values that differ: {count}\n{lines}  and {more} more (`--format json` has all)\n"
+            )
         }
         count => format!("values that differ: {count}\n{lines}"),
     }
@@ -198,18 +222,16 @@ fn json(
     found: &Difference,
     gates: &[JudgedGate],
 ) -> Result<String, Failure> {
-    let mut object = serde_json::json!({
-        "schema": "rtc-diff/1",
-        "picture": args.new.display().to_string(),
-        "reference": args.old.display().to_string(),
-        "size": compared.size,
-        "difference": found,
-        "gates": gates,
-    });
-    if let Some(changes) = compared.changes {
-        object["changes"] = serde_json::to_value(changes).unwrap_or(Value::Null);
-    }
-    let text = serde_json::to_string_pretty(&object);
+    let report = DiffReport {
+        schema: "rtc-diff/1",
+        picture: args.new.display().to_string(),
+        reference: args.old.display().to_string(),
+        size: compared.size,
+        difference: *found,
+        gates,
+        changes: compared.changes,
+    };
+    let text = serde_json::to_string_pretty(&report);
     text.map(|text| text + "\n")
         .map_err(|error| Failure::Trouble(error.to_string()))
 }

@@ -6,14 +6,17 @@ use super::location::SourceLocation;
 use super::text;
 use crate::{Diagnostic, Hint, Label, Replacement};
 use rtc_source::{SourceMap, Span};
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 /// One diagnostic.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct JsonDiagnostic<'a> {
     /// The code, as `VA001`.
     code: &'a str,
     /// `error`, `warning` or `note`.
+    #[schemars(extend("enum" = ["error", "warning", "note"]))]
     severity: &'a str,
     /// What is wrong.
     message: &'a str,
@@ -33,7 +36,7 @@ struct JsonDiagnostic<'a> {
 }
 
 /// A location with the text of a label, or with the new text of a replacement.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Marked<'a> {
     #[serde(flatten)]
     location: SourceLocation<'a>,
@@ -42,7 +45,7 @@ struct Marked<'a> {
 }
 
 /// Advice.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Advice<'a> {
     /// What to do.
     text: &'a str,
@@ -51,12 +54,35 @@ struct Advice<'a> {
 }
 
 /// A change of the source.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct JsonChange<'a> {
     #[serde(flatten)]
     mark: Marked<'a>,
     /// Whether it is a guess at what the author meant.
     guess: bool,
+}
+
+/// The last line, if diagnostics were left out.
+#[derive(Serialize, JsonSchema)]
+struct Omitted {
+    /// The number of diagnostics left out.
+    omitted: usize,
+}
+
+/// One line of the JSON format.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[expect(dead_code, reason = "only its schema is used")]
+enum JsonLine<'a> {
+    Diagnostic(JsonDiagnostic<'a>),
+    Omitted(Omitted),
+}
+
+/// The schema of one line of the JSON format.
+pub(super) fn schema(settings: SchemaSettings) -> Schema {
+    settings
+        .into_generator()
+        .into_root_schema_for::<JsonLine<'_>>()
 }
 
 /// One finding of the file `name`.
@@ -88,7 +114,7 @@ pub(super) fn diagnostic(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -
 
 /// The last line, if `count` diagnostics were left out.
 pub(super) fn omitted(count: usize) -> String {
-    line(&serde_json::json!({ "omitted": count }))
+    line(&Omitted { omitted: count })
 }
 
 fn labelled<'a>(map: &'a SourceMap, label: &'a Label) -> Marked<'a> {

@@ -2,11 +2,12 @@
 
 use super::text::clean;
 use rtc_source::{SourceMap, Span};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
 /// A location in a file.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SourceLocation<'a> {
     /// The name of the file as the user gave it.
@@ -24,7 +25,7 @@ pub(super) struct SourceLocation<'a> {
 }
 
 /// Line and column, both from 1, columns in characters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub(super) struct TextPosition {
     pub(super) line: u32,
     pub(super) column: u32,

@@ -19,6 +19,8 @@ mod tests;
 use super::{Diagnostic, Severity, Sink, codes};
 use fold::Fold;
 use rtc_source::SourceMap;
+use schemars::Schema;
+use schemars::generate::SchemaSettings;
 
 /// The format of the text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -58,6 +60,12 @@ pub fn one(found: &Diagnostic, map: &SourceMap, width: usize) -> String {
         others: Vec::new(),
     };
     human::diagnostic(&alone, map, &options)
+}
+
+/// The JSON Schema of one line of [`Format::Json`].
+#[must_use]
+pub fn json_schema(settings: SchemaSettings) -> Schema {
+    json::schema(settings)
 }
 
 /// Options of a printer.

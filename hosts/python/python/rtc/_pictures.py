@@ -106,6 +106,6 @@ def diff(new: Image | str | os.PathLike[str], old: Image | str | os.PathLike[str
             picture.save(file)
             return str(file)
 
-        words = ["diff", "--json", "--allow-huge", "--", path(new, "new"), path(old, "old")]
+        words = ["diff", "--format", "json", "--allow-huge", "--", path(new, "new"), path(old, "old")]
         found = json.loads(ask(words))["difference"]
     return Difference(found["rmse"], found["max"], found["relMse"], found["flip"], found["share"])

@@ -1,15 +1,22 @@
-//! `rtc info`: what is in a scene, how large it is, and what its picture needs.
+//! `rtc info`: the content of a scene, its size, and the effects that its picture requires.
+
+mod report;
+
+pub(super) use report::InfoReport;
 
 use super::args::Info;
 use super::reporter::Reporter;
 use super::{Failure, input, output};
 use indicatif::{BinaryBytes, HumanCount};
-use rtc_front::gltf::AssetSummary;
+use report::{
+    AssetReport, BoundsReport, CameraReport, ContentCounts, ContentReport, EffectReport,
+    ImageReport, PictureReport, SettingsReport,
+};
 use rtc_ir::{Light, Mesh, Mode, Projection, Scene, Shape};
 use rtc_math::{Vec3, shortest};
 use rtc_pipeline::{Input, Validated};
 use rtc_plan::{Plan, Rule, Rules};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// The version of the JSON form.
@@ -35,29 +42,24 @@ fn carry_out(args: &Info, input: &mut Input, reporter: &mut Reporter) -> Result<
     let content = loaded.as_ref().map(|own| content(&own.lowered.scene));
     let validated = loaded.and_then(|own| input.validate(own, input::fill));
     let validated = input::unless_refused(validated, input, reporter)?;
-    let mut facts = json!({ "schema": SCHEMA, "file": input.name() });
-    for part in [content.unwrap_or_default(), picture(&validated)] {
-        extend(&mut facts, part);
-    }
-    extend(
-        &mut facts,
-        json!({ "asset": asset.map(|own| of_asset(&own)) }),
-    );
-    let text = match args.json {
+    let report = InfoReport {
+        schema: SCHEMA,
+        file: input.name().to_owned(),
+        content: content.unwrap_or_default(),
+        settings: settings(&validated),
+        asset: asset.as_ref().map(AssetReport::new),
+    };
+    let facts =
+        serde_json::to_value(report).map_err(|error| Failure::Trouble(error.to_string()))?;
+    let text = match args.format.is_json() {
         true => format!("{facts:#}\n"),
         false => lines(&facts),
     };
     output::to_stdout(text.as_bytes())
 }
 
-fn extend(facts: &mut Value, part: Value) {
-    if let (Value::Object(facts), Value::Object(part)) = (facts, part) {
-        facts.extend(part);
-    }
-}
-
-/// What the scene itself holds, before anything is put around it.
-fn content(scene: &Scene) -> Value {
+/// The content of the scene itself, without a studio or other additions.
+fn content(scene: &Scene) -> ContentReport {
     let mut shapes: BTreeMap<&str, usize> = BTreeMap::new();
     let mut lights: BTreeMap<&str, usize> = BTreeMap::new();
     let mut materials: BTreeMap<&str, usize> = BTreeMap::new();
@@ -77,38 +79,35 @@ fn content(scene: &Scene) -> Value {
         let kind = material.phong().map_or("standard", |_| "phong");
         *materials.entry(kind).or_default() += 1;
     }
-    let images = scene.images.iter().map(|image| {
-        json!({
-            "name": image.name,
-            "width": image.width,
-            "height": image.height,
-            "bytes": image.pixels.len(),
-        })
+    let images = scene.images.iter().map(|image| ImageReport {
+        name: image.name.clone(),
+        width: image.width,
+        height: image.height,
+        bytes: image.pixels.len(),
     });
-    let environment = match &scene.environment {
-        None => "none",
-        Some(around) if around.image.is_some() => "image",
-        Some(_) => "color",
-    };
-    json!({
-        "counts": {
-            "surfaces": scene.surfaces.len(),
-            "triangles": triangles,
-            "meshes": scene.meshes.len(),
-            "materials": scene.materials.len(),
-            "textures": scene.textures.len(),
-            "images": scene.images.len(),
-            "lights": scene.lights.len(),
+    ContentReport {
+        counts: ContentCounts {
+            surfaces: scene.surfaces.len(),
+            triangles,
+            meshes: scene.meshes.len(),
+            materials: scene.materials.len(),
+            textures: scene.textures.len(),
+            images: scene.images.len(),
+            lights: scene.lights.len(),
         },
-        "shapes": shapes,
-        "materials": materials,
-        "lights": lights,
-        "environment": environment,
-        "bounds": bounds(scene),
-        "meshBytes": scene.meshes.iter().map(mesh_bytes).sum::<usize>(),
-        "imageBytes": scene.images.iter().map(|image| image.pixels.len()).sum::<usize>(),
-        "images": images.collect::<Vec<_>>(),
-    })
+        shapes,
+        materials,
+        lights,
+        environment: match &scene.environment {
+            None => "none",
+            Some(environment) if environment.image.is_some() => "image",
+            Some(_) => "color",
+        },
+        bounds: bounds(scene),
+        mesh_bytes: scene.meshes.iter().map(mesh_bytes).sum(),
+        image_bytes: scene.images.iter().map(|image| image.pixels.len()).sum(),
+        images: images.collect(),
+    }
 }
 
 /// The triangles that a surface shows.
@@ -132,25 +131,24 @@ fn mesh_bytes(mesh: &Mesh) -> usize {
         + corners
 }
 
-/// A box around all that has an end, from boxes around its shapes.
-fn bounds(scene: &Scene) -> Value {
+/// The bounding box of all bounded shapes; `None` if there is none.
+fn bounds(scene: &Scene) -> Option<BoundsReport> {
     let boxes = scene.mesh_boxes();
     let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     for surface in &scene.surfaces {
         let shape = &surface.shape;
         shape.corners_around(&boxes, &mut |at| (low, high) = (low.min(at), high.max(at)));
     }
-    if low.is_finite() && high.is_finite() {
-        // What is added makes a plain 0 of −0.
-        let point = |at: Vec3| (at + Vec3::ZERO).to_array();
-        json!({ "low": point(low), "high": point(high) })
-    } else {
-        Value::Null
-    }
+    // Adding 0 turns −0 into 0.
+    let point = |at: Vec3| (at + Vec3::ZERO).to_array();
+    (low.is_finite() && high.is_finite()).then(|| BoundsReport {
+        low: point(low),
+        high: point(high),
+    })
 }
 
-/// How the scene is shown, and what that needs.
-fn picture(validated: &Validated) -> Value {
+/// The settings of the picture, and the effects that it requires.
+fn settings(validated: &Validated) -> SettingsReport {
     let Scene {
         camera, settings, ..
     } = &validated.lowered.scene;
@@ -163,56 +161,32 @@ fn picture(validated: &Validated) -> Value {
     };
     let grid = u64::from(settings.supersampling).pow(2);
     let plan = Plan::new(&validated.scene, Rules::ALL);
-    let whole = plan.statuses.iter().filter(|status| status.of.is_none());
-    let effects = whole.map(|status| {
-        json!({
-            "effect": status.effect.name(),
-            "verdict": status.state.name(),
-            "rule": status.rule.map(Rule::name),
-            "because": status.reason,
-        })
+    let statuses = plan.statuses.iter().filter(|status| status.of.is_none());
+    let effects = statuses.map(|status| EffectReport {
+        effect: status.effect.name(),
+        status: status.state.name(),
+        rule: status.rule.map(Rule::name),
+        reason: status.reason.to_string(),
     });
-    json!({
-        "picture": {
-            "width": camera.size[0],
-            "height": camera.size[1],
-            "mode": mode,
-            "samplesPerPixel": samples.map_or(grid, u64::from),
-            "maxDepth": settings.max_depth,
+    SettingsReport {
+        picture: PictureReport {
+            width: camera.size[0],
+            height: camera.size[1],
+            mode,
+            samples_per_pixel: samples.map_or(grid, u64::from),
+            max_depth: settings.max_depth,
         },
-        "camera": {
-            "eye": camera.eye,
-            "center": camera.center,
-            "projection": match camera.projection {
+        camera: CameraReport {
+            eye: camera.eye,
+            center: camera.center,
+            projection: match camera.projection {
                 Projection::Perspective => "perspective",
                 Projection::Orthographic => "orthographic",
             },
-            "yfov": camera.yfov(),
+            yfov: camera.yfov(),
         },
-        "effects": effects.collect::<Vec<_>>(),
-    })
-}
-
-fn of_asset(asset: &AssetSummary) -> Value {
-    let counts: serde_json::Map<String, Value> = asset
-        .counts
-        .iter()
-        .map(|(key, count)| ((*key).to_owned(), json!(count)))
-        .collect();
-    let animations = asset
-        .animations
-        .iter()
-        .map(|own| json!({ "name": own.name, "channels": own.channels, "seconds": own.seconds }));
-    json!({
-        "version": asset.version,
-        "generator": asset.generator,
-        "counts": counts,
-        "extensionsUsed": asset.extensions,
-        "extensionsRequired": asset.required,
-        "animations": animations.collect::<Vec<_>>(),
-        "cameras": asset.cameras,
-        "variants": asset.variants,
-    })
+        effects: effects.collect(),
+    }
 }
 
 /// The facts as aligned lines.
