@@ -9,8 +9,8 @@ use super::reporter::Reporter;
 use super::{Failure, input, output};
 use indicatif::{BinaryBytes, HumanCount};
 use report::{
-    AssetReport, BoundsReport, CameraReport, ContentCounts, ContentReport, EffectReport,
-    ImageReport, PictureReport, SettingsReport,
+    BoundsReport, CameraReport, ContentCounts, ContentReport, EffectReport, ImageReport, InfoAsset,
+    PictureReport, SettingsReport,
 };
 use rtc_ir::{Light, Mesh, Mode, Projection, Scene, Shape};
 use rtc_math::{Vec3, shortest};
@@ -47,7 +47,7 @@ fn carry_out(args: &Info, input: &mut Input, reporter: &mut Reporter) -> Result<
         file: input.name().to_owned(),
         content: content.unwrap_or_default(),
         settings: settings(&validated),
-        asset: asset.as_ref().map(AssetReport::new),
+        asset: asset.as_ref().map(InfoAsset::new),
     };
     let facts =
         serde_json::to_value(report).map_err(|error| Failure::Trouble(error.to_string()))?;
