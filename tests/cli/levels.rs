@@ -98,6 +98,6 @@ fn errors_can_not_be_allowed_and_unknown_codes_lead_on() {
     refused(&["--allow", "nonsense"], "`rtc explain --all` lists them");
     refused(
         &["--allow", &id, "--deny", &id],
-        "can't be both `allow` and `deny`",
+        "cannot be both `allow` and `deny`",
     );
 }
