@@ -1,4 +1,5 @@
-//! What every command with a scene is told: how to read it, and how to tell findings.
+//! Arguments shared by all commands that read a scene: how to read it, and how to report
+//! diagnostics.
 
 use super::super::parse::{folder, limit, moment};
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
@@ -80,7 +81,7 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
-    /// What is made of findings.
+    /// The levels of diagnostics.
     pub(crate) fn levels(&self) -> Result<DiagnosticLevels, String> {
         let mut levels = DiagnosticLevels::default();
         for level in DiagnosticLevel::ALL {
@@ -112,7 +113,7 @@ impl Reading {
     }
 }
 
-/// How findings are told.
+/// How diagnostics are printed.
 #[derive(Debug, Args)]
 pub(crate) struct ReporterArgs {
     /// Select the format of diagnostics

@@ -1,4 +1,4 @@
-//! What `rtc cost` is told.
+//! The arguments of `rtc cost`.
 
 use super::super::gate::{Gates, of_scenes};
 use super::super::parse::interval;
@@ -9,64 +9,62 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Errors are against the picture of the scene's own depth; what more bounces \
-    would add is told apart. Of a large \
-picture some random tiles are looked at: `tiles%` is how much less or more the error of the whole \
-may be, and a row is on the \
-front only if these tiles show that it has less error than cheaper ones. Where paths are traced \
-and the whole picture is looked \
-at, a quarter and a sixteenth of the scene's paths are tried denoised, too (`dn`), with the time \
-that telling their errors takes.\n\n \
-A scene and its reference are looked at in their own settings: what one takes against the other, \
-and whether their pictures \
-differ by more than noise. Traced paths are coded after they are averaged, which darkens what is \
-noisy: scenes with other numbers of paths \
-differ by that, too.\n\n\
-Examples:\n  rtc cost scene.yaml --html cost.html\n  rtc cost scene.yaml --maps maps\n  rtc cost \
-model.glb --effort quick\n \
-rtc cost new.yaml old.yaml --effort quick --gate 'error<=1.0,time<=1.2x'"
-)]
+#[command(after_help = "\
+Errors are measured against a picture with the depth of the scene. The effect of more bounces is
+reported separately. In a large picture random tiles are rendered: `tiles%` is the interval of the
+error of the whole picture, and a row is on the front only if these tiles show that its error is
+below that of cheaper rows. In a path-traced scene, if the whole picture is rendered, a quarter
+and a sixteenth of its paths are also measured with denoising (`dn`).
+
+A scene and its reference are compared with their own settings: the ratio of their costs, and
+whether their pictures differ by more than noise. Pixels are averaged before they are encoded, so
+noise makes pictures darker, and scenes with different numbers of paths differ by that, too.
+
+Examples:
+  rtc cost scene.yaml --html cost.html
+  rtc cost scene.yaml --maps maps
+  rtc cost model.glb --effort quick
+  rtc cost new.yaml old.yaml --effort quick --gate 'error<=1.0,time<=1.2x'")]
 pub(crate) struct Cost {
-    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input. With a second one as
-    /// reference: what
-    /// the scene costs and shows against that
+    /// The scene, and an optional reference scene; `-` is standard input
+    ///
+    /// Formats: YAML or JSON of the course, glTF, Mitsuba XML, mesh files, and the IR. With a
+    /// reference, the costs and pictures of the two are compared.
     #[arg(value_name = "FILE", required = true, num_args = 1..=2, value_hint = ValueHint::FilePath)]
     pub(crate) files: Vec<PathBuf>,
-    /// With a reference: what must hold, or the exit code is 1: `MEASURE<=VALUE`, several with
-    /// commas between;
-    /// measures are error (in grey levels, beyond noise), and as ratios time, rays and noise
+    /// Exit with 1 if a measure exceeds its limit, as `error<=1.0,time<=1.2x`
+    ///
+    /// It needs a reference. Measures: error (in grey levels, beyond noise), and the ratios time,
+    /// rays and noise.
     #[arg(long, value_name = "GATES", value_parser = of_scenes)]
     pub(crate) gate: Option<Gates>,
-    /// Where to write; `-` is standard output
+    /// Write the report to this file; `-` is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-", value_hint = ValueHint::FilePath)]
     pub(crate) output: PathBuf,
-    /// The form of the report
+    /// Select the format of the report
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub(crate) format: StudyFormat,
-    /// Also write a page for a browser, with plots and pictures
+    /// Also write an HTML page with plots and pictures
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) html: Option<PathBuf>,
-    /// Also write maps into this folder, which is made if there is none: PNGs of the size of the
-    /// picture with the rays
-    /// and the error of each pixel, in the scene's own setting and in the recommended one, and
-    /// `maps.html` with their scales
+    /// Also write maps of the rays and the error of each pixel into this folder
+    ///
+    /// The maps are PNGs, for the setting of the scene and for the recommended one; `maps.html`
+    /// shows their scales. The folder is created if necessary.
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) maps: Option<PathBuf>,
-    /// How much work the study may be
+    /// Select the ray budget of the study
     #[arg(long, value_enum, default_value_t)]
     pub(crate) effort: EffortArg,
-    /// Which tiles of the picture are looked at, in which order settings are timed, and with which
-    /// random
-    /// numbers two scenes are compared
+    /// Seed for tile selection, timing order and comparison
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) seed: u64,
-    /// Keep what is rendered in this file, now and then and when told to end; the same command goes
-    /// on from
-    /// there, with the seconds measured before
+    /// Save progress into this file; the same command resumes from it
+    ///
+    /// It is also saved when the program is interrupted. Times measured before count.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) checkpoint: Option<PathBuf>,
-    /// How often to save, in seconds
+    /// Save a checkpoint every so many seconds
     #[arg(
         long,
         value_name = "SECONDS",
@@ -75,10 +73,10 @@ pub(crate) struct Cost {
         requires = "checkpoint",
     )]
     pub(crate) every: Duration,
-    /// Begin anew, whatever was saved
+    /// Ignore an existing checkpoint and start over
     #[arg(long, requires = "checkpoint")]
     pub(crate) restart: bool,
-    /// Threads for what is not timed [default: one a core]
+    /// Use N threads for work that is not timed [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
     #[command(flatten)]
@@ -91,12 +89,12 @@ pub(crate) struct Cost {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StudyFormat {
-    /// A table of 80 columns
+    /// A table of 80 columns, for people
     #[default]
     Table,
-    /// The rows, as comma-separated values
+    /// The rows, as comma-separated values (not for two scenes)
     Csv,
-    /// All there is, as JSON
+    /// The whole report; `rtc schema cost` prints its JSON Schema
     Json,
 }
 

@@ -1,4 +1,4 @@
-//! What `rtc farm` is told.
+//! The arguments of `rtc farm`.
 
 use super::super::parse::{frames, rate};
 use super::{OutputTransformArgs, Reading, ReporterArgs, SharedByArg, StageArgs, WantedArgs};
@@ -11,18 +11,18 @@ pub(crate) struct Farm {
     /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
-    /// The engine that is to run the job
+    /// Select the engine that will run the job
     #[arg(long, value_enum, value_name = "ENGINE")]
     pub(crate) to: Engine,
-    /// The folder to make, with the scene and the job; nothing is run
+    /// Create this folder with the scene and the job; nothing is run
     #[arg(short, long, required = true, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     pub(crate) output: PathBuf,
-    /// The name of the picture in that folder, .png or .exr; of a turntable, `-` and four digits
-    /// are
-    /// put before the extension
+    /// Name the picture in that folder, .png or .exr
+    ///
+    /// For several pictures, `-` and four digits are put before the extension.
     #[arg(long, value_name = "NAME", default_value = "picture.png")]
     pub(crate) picture: String,
-    /// How many parts a picture has
+    /// Divide each picture into N parts
     #[arg(
         long,
         value_name = "N",
@@ -30,20 +30,20 @@ pub(crate) struct Farm {
         value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SHARDS)),
     )]
     pub(crate) parts: u32,
-    /// What is shared out: tiles, or the samples of traced paths
+    /// Divide the work by tiles or by samples of path tracing
     #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
     pub(crate) parts_by: SharedByArg,
-    /// So many views, all around the scene, each in parts
+    /// Render N views around the scene
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999))]
     pub(crate) turntable: Option<u32>,
-    /// The first and the last picture, from 1 on: of the views of `--turntable`, or with `--fps` of
-    /// the
-    /// animation of a glTF asset
+    /// Range of frames to render, 1-based and inclusive
+    ///
+    /// Frames are views of `--turntable`, or with `--fps` of the animation of a glTF asset.
     #[arg(long, value_name = "A..B", value_parser = frames)]
     pub(crate) frames: Option<[u32; 2]>,
-    /// Pictures a second of an animation; the first is at 0 seconds, and each is that of `rtc
-    /// render
-    /// --time`
+    /// Set the frames per second of an animation
+    ///
+    /// The first frame is at 0 seconds. Each frame is the picture of `rtc render --time`.
     #[arg(
         long,
         value_name = "N",
@@ -52,7 +52,7 @@ pub(crate) struct Farm {
         conflicts_with_all = ["turntable", "time"],
     )]
     pub(crate) fps: Option<f64>,
-    /// Threads of each task, and cores that it asks the engine for
+    /// Request N cores for each task, and run N threads in it
     #[arg(
         long,
         value_name = "N",
@@ -60,7 +60,7 @@ pub(crate) struct Farm {
         value_parser = clap::value_parser!(u16).range(1..=1024),
     )]
     pub(crate) threads: u16,
-    /// Memory that each task asks the engine for, in GiB
+    /// Request this memory for each task, in GiB
     #[arg(
         long,
         value_name = "GIB",
@@ -68,7 +68,7 @@ pub(crate) struct Farm {
         value_parser = clap::value_parser!(u32).range(1..=65_536),
     )]
     pub(crate) memory: u32,
-    /// How often a task that failed is tried again
+    /// Retry a failed task N times
     #[arg(
         long,
         value_name = "N",
@@ -88,10 +88,10 @@ pub(crate) struct Farm {
     pub(crate) reporter: ReporterArgs,
 }
 
-/// What runs jobs on many machines.
+/// An engine that runs jobs on many machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Engine {
-    /// Open Job Description, as AWS Deadline Cloud takes it
+    /// Open Job Description, for AWS Deadline Cloud
     #[value(name = "openjd")]
     OpenJd,
     /// Slurm: arrays of tasks

@@ -1,26 +1,29 @@
-//! What `rtc fmt` is told.
+//! The arguments of `rtc fmt`.
 
 use super::ReporterArgs;
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Words, their order, comments and where lines end stay as they are; a text that \
-    would say something else is left alone. \
-JSON is laid out likewise; assets, meshes and IR are not.\n\n\
-Examples:\n  rtc fmt scene.yaml\n  rtc fmt --check scenes\n  rtc fmt --diff 'scenes/*.yaml'"
-)]
+#[command(after_help = "\
+Keys, values, their order, comments and line ends stay as they are. A text that would change its
+meaning is left as it is. YAML and JSON are formatted; assets, meshes and IR are not.
+
+Examples:
+  rtc fmt scene.yaml
+  rtc fmt --check scenes
+  rtc fmt --diff 'scenes/*.yaml'")]
 pub(crate) struct Fmt {
-    /// Scene texts, as YAML or JSON; folders, all YAML below them; or patterns, as 'a/*.yaml'. `-`
-    /// is
-    /// standard input, laid out on standard output
+    /// Scene files, folders, or patterns such as 'a/*.yaml'; `-` is standard input
+    ///
+    /// Files are YAML or JSON; in folders, all YAML files are formatted. Standard input is
+    /// formatted to standard output.
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) files: Vec<PathBuf>,
-    /// Write nothing; name the files that are not laid out, and end with 1 if there are any
+    /// Write nothing; list unformatted files, and exit with 1 if there are any
     #[arg(long)]
     pub(crate) check: bool,
-    /// Write nothing; show what would change
+    /// Write nothing; print the changes
     #[arg(long)]
     pub(crate) diff: bool,
     #[command(flatten)]

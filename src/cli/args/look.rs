@@ -1,5 +1,4 @@
-//! What `rtc render` is told of the look of a picture: how bright, by which tone map, before what,
-//! with which layers.
+//! The output transform: exposure, tone map, background and layers.
 
 use super::super::parse::{background, exposure};
 use clap::{Args, ValueEnum};

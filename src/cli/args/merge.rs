@@ -1,4 +1,4 @@
-//! What `rtc merge` is told.
+//! The arguments of `rtc merge`.
 
 use super::ReporterArgs;
 use clap::{Args, ValueHint};
@@ -6,13 +6,15 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct Merge {
-    /// The parts, as `rtc render --part` writes them; in any order, some of them twice
+    /// The parts that `rtc render --part` wrote
+    ///
+    /// In any order; a part may be given twice.
     #[arg(required = true, value_name = "PART", value_hint = ValueHint::FilePath)]
     pub(crate) parts: Vec<PathBuf>,
-    /// Where to write: the picture, of the kind that they are parts of; or a larger part, .rtp
+    /// Write the picture, or a larger part (.rtp), to this file
     #[arg(short, long, required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) output: PathBuf,
-    /// Take pictures of any size
+    /// Accept pictures of any size
     #[arg(long)]
     pub(crate) allow_huge: bool,
     #[command(flatten)]

@@ -1,33 +1,36 @@
-//! What `rtc preview` is told.
+//! The arguments of `rtc preview`.
 
 use super::{OutputTransformArgs, Reading, ReporterArgs, StageArgs, WantedArgs};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-#[command(
-    after_help = "The page is for this machine alone, and for who has its address. The finished \
-    picture has the bytes of `rtc render` with the \
-same options. Ctrl-C ends it.\n\n\
-Examples:\n  rtc preview scene.yaml --open\n  rtc preview scene.yaml --size 320x240 --port 8080\n  rtc preview scene.yaml --against golden.png\n  rtc preview scene.yaml --against HEAD~1"
-)]
+#[command(after_help = "\
+Only this machine can open the page, and only with the address that is printed. The finished
+picture has the same bytes as that of `rtc render` with the same options. Ctrl-C ends the server.
+
+Examples:
+  rtc preview scene.yaml --open
+  rtc preview scene.yaml --size 320x240 --port 8080
+  rtc preview scene.yaml --against golden.png
+  rtc preview scene.yaml --against HEAD~1")]
 pub(crate) struct Preview {
     /// The scene, as YAML, glTF, a mesh or IR
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
-    /// The port to listen on; 0 is any that is free
+    /// Listen on this port; 0 selects a free one
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) port: u16,
     /// Open the page in the browser
     #[arg(long)]
     pub(crate) open: bool,
-    /// What the page lays over the picture of the scene, behind a slider: a picture file (PNG,
-    /// JPEG, WebP, EXR, HDR), another
-    /// scene, or a commit of git, whose text of the scene is taken; scenes are looked at as the
-    /// first one
+    /// Compare with a picture, another scene, or a git commit of the scene
+    ///
+    /// The page shows both behind a slider. Pictures: PNG, JPEG, WebP, EXR or HDR. Scenes are
+    /// rendered with the view of the first one.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) against: Option<PathBuf>,
-    /// Threads to work on [default: one a core]
+    /// Use N threads [default: one for each core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! What `rtc render` is told.
+//! The arguments of `rtc render`.
 
 use super::super::parse::{frames, interval, levels, radiance, rule, seconds, share};
 use super::{OutputTransformArgs, Reading, ReporterArgs, StageArgs, WantedArgs};

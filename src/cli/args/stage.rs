@@ -1,4 +1,4 @@
-//! What every command that shows a scene is told of view and light.
+//! The view and the light, for every command that shows a scene.
 
 use super::super::parse::{color, degrees, orbit, sun, vector};
 use clap::{Args, ValueEnum, ValueHint};

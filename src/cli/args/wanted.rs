@@ -1,5 +1,4 @@
-//! What every command that makes pictures of a scene is told of them: size, samples, which part, by
-//! which arithmetic.
+//! The settings of a picture, for every command that renders: size, samples, and the region.
 
 use super::super::parse::{crop, setting, size};
 use clap::{Args, ValueEnum};
