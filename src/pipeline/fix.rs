@@ -317,8 +317,8 @@ mod tests {
     use super::*;
     use std::fmt::Write as _;
 
-    const HEAD: &str = "Camera: {eye: [0, 1, 6], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, \
-    8]}\n \
+    const HEAD: &str = "Camera: {eye: [0, 1, 6], center: [0, 0, 0], up: [0, 1, 0], \
+                        viewSize: [8, 8]}\n\
                         Lights: []\nObjects:\n";
 
     /// A text of objects with a misspelt key each; every `every`th can't be improved by the fix.

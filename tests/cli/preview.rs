@@ -93,11 +93,17 @@ fn the_page_needs_nothing_else_and_stands_in_no_page_of_the_web() {
         "X-Content-Type-Options: nosniff\r\n",
         "Cache-Control: no-store\r\n",
         "Referrer-Policy: no-referrer\r\n",
+        "Cross-Origin-Resource-Policy: same-origin\r\n",
+        "Cross-Origin-Opener-Policy: same-origin\r\n",
         "Content-Security-Policy: default-src 'none'; ",
-        "; frame-ancestors vscode-file: vscode-webview:;",
     ] {
-        assert!(head.contains(line), "{head}");
+        // A space before a name would make the line a part of the header above it.
+        assert!(head.contains(&format!("\r\n{line}")), "{head}");
     }
+    assert!(
+        head.contains("; frame-ancestors vscode-file: vscode-webview:;"),
+        "{head}"
+    );
     let text = String::from_utf8(page.body).unwrap();
     let nonce = head.split("script-src 'nonce-").nth(1).unwrap();
     let nonce = nonce.split('\'').next().unwrap();

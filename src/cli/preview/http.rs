@@ -142,10 +142,10 @@ impl HttpReply {
         };
         format!(
             "HTTP/1.1 {} {}\r\nContent-Type: {}\r\n{length}Connection: close\r\n\
-             Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: \
-             no-referrer\r\n \
-             Cross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: \
-             same-origin\r\n \
+             Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n\
+             Referrer-Policy: no-referrer\r\n\
+             Cross-Origin-Resource-Policy: same-origin\r\n\
+             Cross-Origin-Opener-Policy: same-origin\r\n\
              Content-Security-Policy: default-src 'none'; base-uri 'none'; form-action 'none'; \
              frame-ancestors {ANCESTORS}{allowed}\r\n\r\n",
             self.status,

@@ -268,9 +268,8 @@ mod tests {
     fn the_values_of_the_keys_alone_are_replaced() {
         let text = |eye: &str, center: &str, up: &str| {
             format!(
-                "# Mine.\nCamera:\n  up: {up} # a pixel\n  eye: {eye} # far away\n  center: \
-                {center}\n \
-                 viewSize: [8, 6]\nObjects: []\n"
+                "# Mine.\nCamera:\n  up: {up} # a pixel\n  eye: {eye} # far away\n\
+                 \x20 center: {center}\n  viewSize: [8, 6]\nObjects: []\n"
             )
         };
         assert_eq!(

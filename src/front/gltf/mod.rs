@@ -88,9 +88,9 @@ pub fn extensions() -> String {
     format!(
         "# Extensions of glTF\n\n\
          What rtc reads and draws beside glTF 2.0 itself, printed by `rtc schema extensions`: an \
-         asset may require\n \
+         asset may require\n\
          each of these. One that is required and not here is an error; one that is only used is \
-         told and left out.\n\n \
+         told and left out.\n\n\
          | extension | in | properties |\n| --- | --- | --- |\n{}",
         schema::extension_rows()
     )

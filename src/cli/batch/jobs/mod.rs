@@ -85,8 +85,8 @@ impl<'a> FarmJob<'a> {
             }
         };
         format!(
-            "{title}, which all workers need: on their path, or where `RTC` points (OpenJD: the \
-            parameter `Rtc`).\n \
+            "{title}, which all workers need: on their path, or where `RTC` points \
+             (OpenJD: the parameter `Rtc`).\n\
              To run: {run}.\n\
              The first picture is that of `rtc {whole}`, byte for byte; parts that failed can be run again, one by one.\n"
         )
