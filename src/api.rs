@@ -17,7 +17,7 @@ mod options;
 mod picture;
 mod scene;
 
-#[allow(deprecated)]
+#[allow(deprecated, reason = "the alias is handed out for one more version")]
 pub use diagnostic::Finding;
 pub use diagnostic::{Diagnostic, Hint, Label, Location};
 pub use effect::Effect;

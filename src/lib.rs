@@ -58,7 +58,7 @@
 
 mod api;
 
-#[allow(deprecated)]
+#[allow(deprecated, reason = "the alias is handed out for one more version")]
 pub use api::Finding;
 pub use api::{
     Aov, Diagnostic, Effect, EffectState, Error, Format, Hint, Label, Light, Location, Options,

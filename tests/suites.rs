@@ -3,6 +3,9 @@
 #![expect(
     clippy::unwrap_used,
     clippy::disallowed_methods,
+    clippy::wildcard_enum_match_arm,
+    clippy::string_slice,
+    clippy::type_complexity,
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 

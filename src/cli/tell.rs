@@ -33,7 +33,11 @@ pub(super) fn schema(args: &Schema) -> Result<(), Failure> {
 /// The report of `rtc cost`: the study of one scene, or the comparison of two.
 #[derive(JsonSchema)]
 #[schemars(untagged)]
-#[expect(dead_code, reason = "only its schema is used")]
+#[expect(
+    dead_code,
+    clippy::large_enum_variant,
+    reason = "only its schema is used"
+)]
 enum CostReport<'a> {
     Study(Study),
     Versus(VersusReport<'a>),

@@ -5,9 +5,8 @@
 ///
 /// A row holds the type, its key in the IR, how enums store it, and its values in one of two ways:
 /// - `derived { "type" value: rule "key" "words"; … }`: a rule says how each value is
-/// validated, prepared and written. The rules are `point`; `direction`, of any length but 0;
-/// `step`,
-///   a direction with a length; `length`, above 0. The type and the keys are what `emit` writes,
+///   validated, prepared and written. The rules are `point`; `direction`, of any length but 0;
+///   `step`, a direction with a length; `length`, above 0. The type and the keys are what `emit` writes,
 ///   the words name the value in a finding.
 /// - `custom { "value" … }`: the paths to the values in the IR; each stage has an `impl` for the
 ///   shape.

@@ -6,6 +6,11 @@
 //! winding numbers", eq. 5) decides: it is ±1 inside a closed surface, 0 outside, and in between
 //! for an open one.
 
+#![expect(
+    clippy::wildcard_enum_match_arm,
+    reason = "every shape that is not flat is a solid of its own kind"
+)]
+
 use super::check::Checker;
 use rtc_diag::{Diagnostic, codes};
 use rtc_ir::{self as ir, EntityKind, Field, Shape, ValuePath};

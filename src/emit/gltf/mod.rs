@@ -3,7 +3,7 @@
 //! # Steps
 //! 1. `tessellate` tessellates shapes into meshes.
 //! 2. [`GltfWriter`] adds surfaces (`mesh`, `material`, `texture`), lights, the camera and
-//! settings to the [`document`].
+//!    settings to the [`document`].
 //! 3. `finish` adds the buffer and makes a [`GltfAsset`], which can be written.
 //!
 //! The Phong model is approximated by the metallic-roughness model. What glTF can't express goes to

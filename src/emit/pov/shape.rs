@@ -56,10 +56,10 @@ impl PovWriter<'_> {
     /// Whether it is an instance of a mesh without triangles.
     fn is_empty(&self, shape: &Shape) -> bool {
         let meshes = &self.scene.meshes;
-        match shape {
-            Shape::Instance(instance) => meshes[instance.mesh.0 as usize].triangles.is_empty(),
-            _ => false,
-        }
+        let Shape::Instance(instance) = shape else {
+            return false;
+        };
+        meshes[instance.mesh.0 as usize].triangles.is_empty()
     }
 
     /// A shape without its closing brace; `None` if POV-Ray has no such shape.

@@ -9,7 +9,6 @@ const HEAD: &str = "Camera: {eye: [0, 1, 6], center: [0, 0, 0], up: [0, 1, 0], v
                     Lights: [{position: [3, 5, 5], color: [1, 1, 1]}]\nObjects:\n";
 
 /// All of them.
-#[expect(clippy::too_many_lines, reason = "a table, one row a run")]
 pub(crate) fn all() -> Vec<Repro> {
     vec![
         asked(
