@@ -8,8 +8,8 @@
 //! [`study`] runs these steps, each with a fraction of the ray budget ([`Effort`]):
 //!
 //! 1. [`subject`]: choose random tiles of the picture, as many as the budget allows.
-//! 2. [`reference`]: compare path depths; render a reference twice, which gives its own error.
-//! 3. [`sweep`]: vary each [`Parameter`] alone and fit a power law to its error; the [`Model`]
+//! 2. [`mod@reference`]: compare path depths; render a reference twice, which gives its own error.
+//! 3. [`mod@sweep`]: vary each [`Parameter`] alone and fit a power law to its error; the [`Model`]
 //!    predicts the error and the rays of any [`Setting`].
 //! 4. [`precision`]: measure the error and time of each arithmetic.
 //! 5. [`pareto`], [`rows`]: choose candidates with the model, render and time them

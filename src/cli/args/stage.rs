@@ -38,7 +38,7 @@ pub(crate) struct StageArgs {
     /// Set the vertical field of view, in degrees
     #[arg(long, value_name = "DEGREES", value_parser = degrees, help_heading = "View")]
     pub(crate) yfov: Option<f64>,
-    /// Frame the whole scene from AZIMUTH,ELEVATION[,ROLL] in degrees
+    /// Frame the whole scene from azimuth, elevation and roll, in degrees
     ///
     /// The azimuth goes from the front to the right [default of an asset without a camera:
     /// 34,23].

@@ -6,7 +6,7 @@
 //!
 //! - [`xml`] reads the text. It resolves `<default>`, `<include>` and `<ref>`, converts the names of
 //!   older versions (`toWorld`) to those of version 3 (`to_world`), and collects all mistakes. Each
-//!   [`Node`](xml::Node) keeps the spans of its element and of its properties.
+//!   [`Node`] keeps the spans of its element and of its properties.
 //! - [`value`] parses numbers, vectors and transforms, [`color`] colours and spectra.
 //! - [`sensor`], [`bsdf`], [`emitter`] and [`shape`] lower one kind of plugin each. A plugin that is
 //!   not supported is replaced by the closest one, and a property without effect is ignored, both

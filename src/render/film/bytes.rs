@@ -1,4 +1,4 @@
-//! The byte format of a [`PartialFilm`](super::partial::PartialFilm): header, sums, checksum.
+//! The byte format of a [`PartialFilm`]: header, sums, checksum.
 //!
 //! Numbers are little-endian; floating-point numbers keep every bit. Untrusted bytes are safe to
 //! load: no more memory is allocated than they fill or the caller permits.

@@ -6,7 +6,7 @@
 //! - [`Tessellator`] converts shape by shape and charges vertices to the budget.
 //! - [`Tessellation`] computes the numbers of steps from the tolerance.
 //! - [`UnitShape`] is a round shape of radius 1; `round` and `flat` build the meshes with
-//!   [`MeshBuilder`].
+//!   `MeshBuilder`.
 
 mod builder;
 mod flat;

@@ -40,7 +40,7 @@ pub(super) fn missing(
 /// The hint for a file in another folder.
 const HINT: &str = "put the file beside the scene, or allow its folder by `--asset-root`";
 
-/// The paths where a file was searched, at most [`MAX_SHOWN`] of them.
+/// The paths where a file was searched, at most a few of them.
 fn searched_paths(searched: &[PathBuf]) -> String {
     const MAX_SHOWN: usize = 6;
     let shown: Vec<String> = searched

@@ -31,7 +31,7 @@ pub(crate) trait Visitor {
     /// visited whose boxes the ray may hit.
     const CULLS: bool = true;
 
-    /// Whether certain hits before the end of the ray are reported to [`Visitor::accept_certain`].
+    /// Whether certain hits before the end of the ray are reported to [`Visitor::is_settled_by`].
     const IS_SURE: bool = false;
 
     /// Visits a candidate and returns the new far bound of t; a value below 0 ends the traversal.
