@@ -44,7 +44,7 @@ impl<'s> Solids<'s> {
         let mut solids = Vec::new();
         let mut start = 0;
         while start < scene.surfaces.len() {
-            let object = span(start).filter(|_| is_flat(start));
+            let object = is_flat(start).then(|| span(start)).flatten();
             let is_same =
                 |index: &usize| object.is_some() && is_flat(*index) && span(*index) == object;
             let end = (start + 1..scene.surfaces.len()).find(|index| !is_same(index));
