@@ -13,8 +13,11 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
         false => Reporter::as_result(&args.reporter),
     };
     let mut worst = Ok(());
-    let scenes = files::scenes(&args.files)?;
-    for path in &scenes {
+    let scenes = match args.skip_others {
+        true => files::scenes_only(&args.files)?,
+        false => files::scenes(&args.files)?,
+    };
+    for path in &scenes.paths {
         let read = input::read(path, &args.reading)?;
         let mut input = match fix::run(path, read, args, &reporter) {
             Ok(input) => input,
@@ -36,9 +39,10 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
         }
     }
     let is_in_doubt = reporter.left_in_doubt();
+    reporter.skipped(&scenes);
     reporter.finish()?;
     if worst.is_ok() && is_in_doubt {
-        reporter::say(&nothing_found(scenes.len()));
+        reporter::say(&nothing_found(scenes.paths.len()));
     }
     worst
 }

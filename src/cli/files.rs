@@ -1,11 +1,16 @@
 //! Scenes by folders and patterns: which files are meant.
 //!
+//! In a folder, and among what fits a pattern, a YAML, JSON or XML file is a scene only if it looks
+//! like one. A file that the command line names always is.
+//!
 //! No link is followed but the one that the command line names: it may lead round in circles, or to
 //! what is no matter of the folder.
 
 use super::Failure;
 use globset::{GlobBuilder, GlobMatcher};
 use rtc_front::{is_scene_name, is_scene_text_name};
+use rtc_pipeline::is_scene;
+use rtc_source::{Loader, SourceMap};
 use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
 use walkdir::{DirEntry, WalkDir};
@@ -16,20 +21,68 @@ const WILD: [char; 3] = ['*', '?', '['];
 /// Whether a file of this name is meant where a folder is given.
 type NameTest = fn(&str) -> bool;
 
-/// The files that are meant: each path as it is; of a folder all scenes below it, by their names;
-/// of a pattern that is no file by itself, what fits it. What is found comes in the order of its
-/// names, without what is hidden and without links, and once.
-pub(super) fn scenes(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+/// The extensions of scenes that other programs use for files of their own.
+const SHARED_EXTENSIONS: [&str; 4] = ["yaml", "yml", "json", "xml"];
+
+/// Larger files are taken for scenes without a look.
+const LONGEST_READ: u64 = 64 << 20;
+
+/// The scenes that are meant.
+pub(super) struct SceneFiles {
+    pub(super) paths: Vec<PathBuf>,
+    /// The number of files that have the name of a scene and are none.
+    pub(super) skipped: usize,
+}
+
+impl SceneFiles {
+    /// The skipped files, for the summary of a command; empty if there are none.
+    pub(super) fn skipped_words(&self) -> String {
+        match self.skipped {
+            0 => String::new(),
+            1 => "1 file skipped that is no scene".to_owned(),
+            skipped => format!("{skipped} files skipped that are no scenes"),
+        }
+    }
+}
+
+/// The scenes that are meant: each path as it is; of a folder all scenes below it; of a pattern
+/// that is no file by itself, the scenes that fit it. What is found comes in the order of its
+/// names, without hidden files and without links, and once.
+pub(super) fn scenes(paths: &[PathBuf]) -> Result<SceneFiles, Failure> {
     named(paths, is_scene_name)
 }
 
+/// The same, where named files that do not look like scenes are skipped, too.
+pub(super) fn scenes_only(paths: &[PathBuf]) -> Result<SceneFiles, Failure> {
+    let named = scenes(paths)?;
+    let (paths, others): (Vec<_>, Vec<_>) = named
+        .paths
+        .into_iter()
+        .partition(|path| looks_like_scene(path));
+    Ok(SceneFiles {
+        paths,
+        skipped: named.skipped + others.len(),
+    })
+}
+
 /// The same for scenes that are texts of people.
-pub(super) fn texts(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+pub(super) fn texts(paths: &[PathBuf]) -> Result<SceneFiles, Failure> {
     named(paths, is_scene_text_name)
 }
 
-fn named(paths: &[PathBuf], is_meant: NameTest) -> Result<Vec<PathBuf>, Failure> {
-    let (mut scenes, mut known) = (Vec::new(), BTreeSet::new());
+/// Whether a file is a scene as far as its name and its first look tell. A file that can't be read
+/// is one: the command that reads it reports why it can't.
+fn looks_like_scene(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    let is_shared = SHARED_EXTENSIONS
+        .iter()
+        .any(|shared| extension.eq_ignore_ascii_case(shared));
+    let bytes = || Loader.bytes(path, LONGEST_READ, &SourceMap::default());
+    !is_shared || bytes().map_or(true, |bytes| is_scene(&path.to_string_lossy(), &bytes))
+}
+
+fn named(paths: &[PathBuf], is_meant: NameTest) -> Result<SceneFiles, Failure> {
+    let (mut scenes, mut known, mut skipped) = (Vec::new(), BTreeSet::new(), 0);
     for path in paths {
         let found = if path.is_dir() {
             below(path, is_meant)?
@@ -40,10 +93,23 @@ fn named(paths: &[PathBuf], is_meant: NameTest) -> Result<Vec<PathBuf>, Failure>
             scenes.push(path.clone());
             continue;
         };
+        // Keep the scenes among the files that were not found before.
         let new = found.into_iter().filter(|path| known.insert(path.clone()));
-        scenes.extend(new);
+        let (of_scenes, others): (Vec<_>, Vec<_>) = new.partition(|path| looks_like_scene(path));
+        if of_scenes.is_empty() && !others.is_empty() {
+            let count = others.len();
+            return Err(Failure::Trouble(format!(
+                "`{}`: there are no scenes among its {count} YAML, JSON and XML files",
+                path.display()
+            )));
+        }
+        skipped += others.len();
+        scenes.extend(of_scenes);
     }
-    Ok(scenes)
+    Ok(SceneFiles {
+        paths: scenes,
+        skipped,
+    })
 }
 
 /// Whether a path is none of a file but a pattern.

@@ -10,8 +10,9 @@ use std::path::Path;
 pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
     let mut reporter = Reporter::beside_result(&args.reporter);
     let mut worst = Ok(());
-    for path in files::texts(&args.files)? {
-        match one(&path, args, &mut reporter) {
+    let scenes = files::texts(&args.files)?;
+    for path in &scenes.paths {
+        match one(path, args, &mut reporter) {
             Err(gone @ Failure::ClosedPipe) => return Err(gone),
             Err(Failure::Trouble(words)) => {
                 reporter::say(&format!("error: {words}"));
@@ -26,6 +27,7 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
             Ok(()) => {}
         }
     }
+    reporter.skipped(&scenes);
     reporter.finish()?;
     worst
 }
@@ -33,6 +35,12 @@ pub(super) fn run(args: &Fmt) -> Result<(), Failure> {
 fn one(path: &Path, args: &Fmt, reporter: &mut Reporter) -> Result<(), Failure> {
     let mut input = input::open(path, None, Options::default());
     let laid_out = input.lay_out();
+    if let Err(LayoutError::NoScene) = laid_out {
+        // Not a mistake: a hook names all YAML files of a repository.
+        let name = input.name();
+        reporter.note(&format!("`{name}` is unchanged: it has no key of a scene"));
+        return Ok(());
+    }
     input::tell(&mut input, reporter)?;
     let text = laid_out.map_err(|fault| refusal(&input, fault))?;
     let before = input.text().unwrap_or_default();
@@ -61,6 +69,7 @@ fn refusal(input: &Input, fault: LayoutError) -> Failure {
     let name = input.name();
     Failure::Input(match fault {
         LayoutError::Findings => return Failure::Findings,
+        LayoutError::NoScene => format!("`{name}` is no scene"),
         LayoutError::NoText => {
             format!("`{name}` is left as it is: only scene texts, YAML and JSON, are laid out")
         }

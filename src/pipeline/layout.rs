@@ -4,7 +4,7 @@ use super::Input;
 use rtc_codec as codec;
 use rtc_diag as diag;
 use rtc_front::course;
-use rtc_front::{self as front, gltf, mesh};
+use rtc_front::{self as front, gltf, mesh, mitsuba};
 use rtc_source::tree::yaml::LayoutFault;
 
 /// Why a scene is not formatted.
@@ -14,6 +14,8 @@ pub enum LayoutError {
     Findings,
     /// It is an asset, a mesh or IR.
     NoText,
+    /// The text has no top-level key of a scene.
+    NoScene,
     /// The result would differ.
     Differs,
 }
@@ -25,7 +27,7 @@ pub enum SourceKind {
     Scene,
     /// IR.
     Ir,
-    /// An asset, or a mesh.
+    /// An asset, a mesh, or a scene of another renderer.
     Other,
 }
 
@@ -33,13 +35,24 @@ impl SourceKind {
     /// The kind of a file with this name and content.
     #[must_use]
     pub fn of(name: &str, bytes: &[u8]) -> Self {
-        let is_asset = || gltf::is_gltf(name, bytes) || mesh::is_mesh_file(name, bytes);
+        let is_asset = || {
+            gltf::is_gltf(name, bytes)
+                || mesh::is_mesh_file(name, bytes)
+                || mitsuba::is_mitsuba(bytes)
+        };
         match codec::detect_format(bytes) {
             Some(_) => Self::Ir,
             None if is_asset() => Self::Other,
             None => Self::Scene,
         }
     }
+}
+
+/// Whether a file with this name and content is a scene, or is meant as one. A text of the course
+/// that is broken still is, as long as it has a top-level key of the format.
+#[must_use]
+pub fn is_scene(name: &str, bytes: &[u8]) -> bool {
+    SourceKind::of(name, bytes) != SourceKind::Scene || course::is_scene_text(bytes)
 }
 
 impl Input {
@@ -56,6 +69,9 @@ impl Input {
         }
         if SourceKind::of(name, bytes) != SourceKind::Scene {
             return Err(LayoutError::NoText);
+        }
+        if !course::is_scene_text(bytes) {
+            return Err(LayoutError::NoScene);
         }
         let mut sink = diag::Sink::default();
         let laid_out = course::lay_out(file, self.map(), &mut sink);

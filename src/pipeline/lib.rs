@@ -43,7 +43,7 @@ pub use exposure::LightMeasurement;
 pub use file::{NewFile, NewFolder, WriteObserver};
 pub use fix::{DiagnosticRef, FixFilter, FixedText, diagnostic_ref, fix};
 pub use input::{Input, Loaded, Provenance, Validated};
-pub use layout::{LayoutError, SourceKind};
+pub use layout::{LayoutError, SourceKind, is_scene};
 pub use output_transform::{Exposure, OutputTransform, ResolvedOutputTransform};
 pub use ray_counter::RayCounter;
 pub use setup::{Observer, PictureSetup, RenderError, RenderSubject};

@@ -70,7 +70,7 @@ fn no_walk_follows_links() {
     use std::os::unix::ffi::OsStrExt;
     use std::os::unix::fs::symlink;
     let (shelf, elsewhere) = (shelf(), tempfile::tempdir().unwrap());
-    fs::write(elsewhere.path().join("secret.json"), "password: hunter2").unwrap();
+    fs::write(elsewhere.path().join("secret.json"), "Lights: hunter2").unwrap();
     let path = |name: &str| shelf.path().join("set").join(name);
     for name in ["l1", "l2", "deep/up"] {
         symlink(".", path(name)).unwrap();
@@ -272,4 +272,58 @@ fn a_contact_sheet_shows_what_this_call_made() {
         &["render", "set/a.json", "--contact-sheet", "all.png"],
     );
     assert!(code(&one) == 2 && stderr(&one).contains("is for many scenes"));
+}
+
+/// A repository with one scene, one broken scene, and files of other programs.
+fn repository() -> TempDir {
+    let repository = folder();
+    let write = |name: &str, text: &str| fs::write(repository.path().join(name), text).unwrap();
+    write("scene.json", SCENE);
+    write("broken.yaml", "Objects:\n  - {type: sphere\nLights: []\n");
+    write("package.json", "{\"name\": \"x\", \"version\": \"1.0.0\"}");
+    write(
+        "mkdocs.yml",
+        "site_name:    x\nnav:\n    - Objects:   a.md\n",
+    );
+    write("pom.xml", "<project><scene/></project>");
+    repository
+}
+
+#[test]
+fn the_files_of_other_programs_are_no_scenes_in_folders_and_patterns() {
+    let repository = repository();
+    let checked = rtc(&repository, &["check", "."]);
+    assert_eq!(code(&checked), 1, "{}", stderr(&checked));
+    let text = stderr(&checked);
+    assert!(text.contains("broken.yaml"), "{text}");
+    assert!(
+        text.contains("3 files skipped that are no scenes"),
+        "{text}"
+    );
+    for other in ["package.json", "mkdocs.yml", "pom.xml"] {
+        assert!(!text.contains(other), "{text}");
+        let named = rtc(&repository, &["check", other]);
+        assert_eq!(code(&named), 1, "a named file is a scene: {other}");
+        let skipped = rtc(&repository, &["check", "--skip-others", other]);
+        assert_eq!(code(&skipped), 0, "{}", stderr(&skipped));
+    }
+    let none = rtc(&repository, &["check", "*.yml"]);
+    assert_eq!(code(&none), 2, "{}", stderr(&none));
+}
+
+#[test]
+fn fmt_leaves_the_yaml_of_other_programs_as_it_is() {
+    let repository = repository();
+    let path = repository.path().join("mkdocs.yml");
+    let before = fs::read_to_string(&path).unwrap();
+    let laid_out = rtc(&repository, &["fmt", "mkdocs.yml"]);
+    assert_eq!(code(&laid_out), 0, "{}", stderr(&laid_out));
+    assert!(stderr(&laid_out).contains("no key of a scene"));
+    assert_eq!(fs::read_to_string(&path).unwrap(), before);
+    // A text of several documents is reported, and stays.
+    let two = format!("{SCENE}\n---\n{SCENE}");
+    fs::write(&path, &two).unwrap();
+    let refused = rtc(&repository, &["fmt", "mkdocs.yml"]);
+    assert_eq!(code(&refused), 1);
+    assert_eq!(fs::read_to_string(&path).unwrap(), two);
 }

@@ -132,6 +132,11 @@ pub(super) struct CheckArgs {
     /// With `--fix` or `--diff`: also apply fixes that are guesses
     #[arg(long = "unsafe", requires = "change")]
     pub(super) guesses: bool,
+    /// Skip YAML, JSON and XML files that do not look like scenes, as in folders
+    ///
+    /// A scene has at least one top-level key of the format, nearly right, or names its schema.
+    #[arg(long)]
+    pub(super) skip_others: bool,
     #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]

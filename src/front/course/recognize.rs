@@ -1,0 +1,132 @@
+//! Recognises scene texts by their top-level keys, without parsing them: a text that is broken may
+//! be a scene, and a text without mistakes may be the settings of another program.
+
+use super::settings::Scene;
+use rtc_diag::nearest;
+
+/// The schema that an editor is pointed to, at the end of its address.
+const SCHEMA: &str = "scene.schema.json";
+
+/// Shorter keys have to be spelt exactly: they are near too many words.
+const SHORTEST_MISSPELT: usize = 5;
+
+/// Whether a text looks like a scene of the course: a top-level key is one of the format, or nearly
+/// so, or the text names the schema of scenes. Takes time linear in the length of the text.
+#[must_use]
+pub fn is_scene_text(bytes: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return false;
+    };
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    text.contains(SCHEMA) || top_level_keys(text).iter().any(|key| is_scene_key(key))
+}
+
+/// Whether the key is one of a scene, or nearly so.
+fn is_scene_key(key: &str) -> bool {
+    let keys = || {
+        let fields = Scene::RECORD.fields.iter();
+        let fields = fields.filter(|field| field.name != "_schema");
+        fields.flat_map(|field| field.spellings.iter().copied().flatten().copied())
+    };
+    let long = || keys().filter(|known| known.len() >= SHORTEST_MISSPELT);
+    keys().any(|known| known == key)
+        || key.len() >= SHORTEST_MISSPELT && nearest(key, long()).is_some()
+}
+
+/// The top-level keys of a text in block or flow style. The text begins with what is no blank.
+fn top_level_keys(text: &str) -> Vec<&str> {
+    let content = text.lines().find(|line| {
+        let line = line.trim_start();
+        !(line.is_empty() || line.starts_with(['#', '%']) || line.starts_with("---"))
+    });
+    match content {
+        Some(line) if line.trim_start().starts_with(['{', '/']) => flow_keys(text),
+        _ => text.lines().filter_map(block_key).collect(),
+    }
+}
+
+/// The key of a line in block style that has no indentation.
+fn block_key(line: &str) -> Option<&str> {
+    let (key, value) = line.split_once(':')?;
+    let is_key = !key.starts_with([' ', '\t', '#', '-', '{', '[']);
+    let ends = value.is_empty() || value.starts_with([' ', '\t', '\r']);
+    (is_key && ends).then(|| key.trim_end().trim_matches(['"', '\'']))
+}
+
+/// The keys in the outermost brackets: the words before a colon.
+fn flow_keys(text: &str) -> Vec<&str> {
+    let (mut keys, mut depth, mut word) = (Vec::new(), 0_usize, None);
+    let mut rest = text.char_indices().peekable();
+    while let Some((at, letter)) = rest.next() {
+        match letter {
+            // A comment ends with its line.
+            '#' | '/' => while rest.next_if(|(_, next)| *next != '\n').is_some() {},
+            '"' | '\'' => {
+                let start = at + 1;
+                let mut end = start;
+                while let Some((at, next)) = rest.next_if(|(_, next)| *next != letter) {
+                    end = at + next.len_utf8();
+                    // What is escaped does not end the string.
+                    if next == '\\' && letter == '"' {
+                        rest.next();
+                    }
+                }
+                rest.next();
+                word = text.get(start..end);
+            }
+            '{' | '[' => {
+                depth += 1;
+                word = None;
+            }
+            '}' | ']' => depth = depth.saturating_sub(1),
+            ':' if depth == 1 => keys.extend(word.take()),
+            _ if letter.is_alphanumeric() => {
+                let mut end = at + letter.len_utf8();
+                let is_part = |next: char| next.is_alphanumeric() || next == '_' || next == '-';
+                while let Some((at, next)) = rest.next_if(|(_, next)| is_part(*next)) {
+                    end = at + next.len_utf8();
+                }
+                word = text.get(at..end);
+            }
+            _ => {}
+        }
+    }
+    keys
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scenes_are_recognised_by_their_top_level_keys() {
+        for text in [
+            "Objects: []",
+            "---\n# A scene\nLights:\n  - {position: [0, 0, 0]}\n",
+            "{\"Eye\": [200, 200, 1000], \"Objects\": []}",
+            "// A comment\n{\n  Objects: [ {type: sphere} ]}",
+            "Objcts:\n  - type: sphere\n",
+            "\u{feff}\"Camera\": {}\n",
+            "# yaml-language-server: $schema=../schema/scene.schema.json\nx: 1\n",
+            "Objects: [{a: 1}\nLights\n",
+        ] {
+            assert!(is_scene_text(text.as_bytes()), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_settings_of_other_programs_are_no_scenes() {
+        for text in [
+            "",
+            "name: build\non: push\njobs:\n  Objects: {}\n",
+            "{\"name\": \"x\", \"dependencies\": {\"Objects\": \"1\"}, \"a\": \"Lights: \\\"\"}",
+            "site_name: x\nnav:\n  - Camera: a.md\n",
+            "- Objects\n- Lights\n",
+            "# Objects: []\nx: y\n",
+            "{\"$schema\": \"https://json.schemastore.org/package.json\", \"version\": 1}",
+            "\u{0}Objects",
+        ] {
+            assert!(!is_scene_text(text.as_bytes()), "{text}");
+        }
+    }
+}
