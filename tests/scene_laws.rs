@@ -41,8 +41,8 @@ pub(crate) fn is_the_same_laid_out(path: &Path) {
     let edited = |text: &str| Input::edited(path, text.as_bytes().to_vec(), options());
     let text = match Input::file(path, options()).lay_out() {
         Ok(text) => text,
-        // It is no YAML.
-        Err(LayoutError::Findings) => return,
+        // It is no YAML, or no scene.
+        Err(LayoutError::Findings | LayoutError::NoScene) => return,
         Err(fault) => panic!("{}: {fault:?}", path.display()),
     };
     let again = edited(&text).lay_out();

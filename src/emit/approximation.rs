@@ -10,7 +10,7 @@ pub(super) fn approximate_phong(phong: &Phong) -> Standard {
     let fit = fit_phong(&PhongTerms {
         color: phong.color,
         kd: phong.kd,
-        ks: phong.ks,
+        ks: phong.mirror_weight(),
         n: phong.n,
         kt: phong.kt,
         ior: phong.ior,

@@ -39,7 +39,7 @@ impl Material {
     }
 }
 
-/// The Phong model: `I = Σ_l c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)^n)] + ks·I(mirror)
+/// The Phong model: `I = Σ_l c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)^n)] + kr·I(mirror)
 /// + kt·I(refracted)`; with [`super::Ambient::Once`] the term ka·C stands before the sum.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
@@ -53,9 +53,13 @@ pub struct Phong {
     /// The weight of the diffuse term, at least 0.
     #[schemars(range(min = 0.0))]
     pub kd: f64,
-    /// The weight of the highlight and of the reflected ray, at least 0.
+    /// The weight of the highlight, at least 0.
     #[schemars(range(min = 0.0))]
     pub ks: f64,
+    /// The weight of the reflected ray, at least 0; by default ks, times its map.
+    #[schemars(range(min = 0.0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kr: Option<f64>,
     /// The exponent of the highlight and of the glossy lobe, at least 0.
     #[schemars(range(min = 0.0))]
     pub n: f64,
@@ -85,12 +89,19 @@ pub struct Phong {
 }
 
 impl Phong {
+    /// The weight of the reflected ray where no map scales it.
+    #[must_use]
+    pub fn mirror_weight(&self) -> f64 {
+        self.kr.unwrap_or(self.ks)
+    }
+
     /// A white, opaque, purely diffuse material.
     pub const MATT: Self = Self {
         color: [1.0; 3],
         ka: 0.0,
         kd: 1.0,
         ks: 0.0,
+        kr: None,
         n: 1.0,
         kt: 0.0,
         ior: 1.0,

@@ -110,6 +110,11 @@ impl Findings<'_> {
         (0..self.facts.surface_bounds.len()).filter(|surface| self.visibility.visible[*surface])
     }
 
+    /// The Phong material of a surface.
+    pub(super) fn phong(&self, surface: usize) -> &Phong {
+        &self.facts.materials[self.facts.scene.surfaces()[surface].material]
+    }
+
     /// Whether the material of any visible surface has a property.
     pub(super) fn any(&self, shows: impl Fn(&MaterialSummary) -> bool) -> bool {
         self.visible()

@@ -6,7 +6,7 @@
 
 use super::shape::shape_facts;
 use super::{Arithmetic, facts};
-use rtc_valid::{Mode, Phong, Surface, ValidScene};
+use rtc_valid::{Mode, Surface, ValidScene};
 
 /// The epsilon of the non-robust arithmetics, in world units: hits nearer than this are ignored as
 /// self-intersections.
@@ -98,8 +98,9 @@ fn sends_rays(scene: &ValidScene, surface: &Surface, has_shadows: bool) -> bool 
         Mode::Path(_) => return true,
         Mode::Normal | Mode::Gooch(_) | Mode::Depth => return false,
     }
-    let Phong { ks, kt, .. } = facts::material::phong(&scene.materials()[surface.material]);
-    has_shadows || settings.max_depth > 0 && (ks.get() > 0.0 || kt.get() > 0.0)
+    let phong = facts::material::phong(&scene.materials()[surface.material]);
+    let bounces = phong.mirror_weight() > 0.0 || phong.kt.get() > 0.0;
+    has_shadows || settings.max_depth > 0 && bounces
 }
 
 /// The sizes that determine the accuracy of hits on a surface.

@@ -1,7 +1,7 @@
 //! Summaries of Phong materials, with maps and constant textures taken into account.
 
 use super::shape::shape_facts;
-use rtc_math::Vec3;
+use rtc_math::{NonNegative, Vec3};
 use rtc_valid::{Maps, Mesh, Phong, Shape, Surface, Texture, ValidScene};
 
 /// A summary of the material of a surface.
@@ -13,7 +13,9 @@ pub(super) struct MaterialSummary {
     pub(super) diffuse: bool,
     /// ks is not 0 everywhere.
     pub(super) is_specular: bool,
-    /// The maximum of ks + kt.
+    /// The weight of the reflected ray is not 0 everywhere.
+    pub(super) mirrors: bool,
+    /// The maximum of the weights of the reflected and the refracted ray.
     pub(super) weight: f64,
     /// The maximum of its direct terms for a light of colour 1.
     pub(super) max_direct: f64,
@@ -44,6 +46,7 @@ impl MaterialSummary {
             ka,
             kd,
             ks,
+            kr,
             kt,
             glossy_samples,
             ..
@@ -63,11 +66,13 @@ impl MaterialSummary {
         let most_ks = ks.get() * scale.unwrap_or_else(|| largest(scene, specular_map).x);
         let colored = color != Some(Vec3::ZERO);
         let is_specular = ks.get() > 0.0 && scale != Some(0.0);
+        let most_kr = kr.map_or(most_ks, NonNegative::get);
         Self {
             ambient: ka.get() > 0.0 && colored,
             diffuse: kd.get() > 0.0 && colored,
             is_specular,
-            weight: most_ks + kt.get(),
+            mirrors: kr.map_or(is_specular, |kr| kr.get() > 0.0),
+            weight: most_kr + kt.get(),
             max_direct: (ka.get() + kd.get())
                 * color
                     .unwrap_or_else(|| largest(scene, color_map))
@@ -90,7 +95,7 @@ impl MaterialSummary {
 
     /// Whether a reflected or refracted ray has a nonzero weight.
     pub(super) fn has_bounce(&self) -> bool {
-        self.is_specular || self.refracts
+        self.mirrors || self.refracts
     }
 
     /// Whether the shading normal may differ from the geometric one.

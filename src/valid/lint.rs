@@ -67,6 +67,7 @@ fn weights(phong: &ir::Phong, index: usize, check: &mut Checker<'_>) {
         ("ka", phong.ka, Field::Ka),
         ("kd", phong.kd, Field::Kd),
         ("ks", phong.ks, Field::Ks),
+        ("kr", phong.kr.unwrap_or(0.0), Field::Kr),
         ("kt", phong.kt, Field::Kt),
     ] {
         if weight < PERCENT {

@@ -15,8 +15,10 @@ pub struct Phong {
     pub ka: NonNegative,
     /// The weight of the diffuse term.
     pub kd: NonNegative,
-    /// The weight of the highlight and of the reflected ray.
+    /// The weight of the highlight.
     pub ks: NonNegative,
+    /// The weight of the reflected ray; by default `ks`, times its map.
+    pub kr: Option<NonNegative>,
     /// The exponent of the highlight and of the glossy lobe.
     pub n: NonNegative,
     /// The weight of the refracted ray.
@@ -62,6 +64,7 @@ pub(super) fn phong(
         ka,
         kd,
         ks,
+        kr,
         n,
         kt,
         ior,
@@ -77,6 +80,9 @@ pub(super) fn phong(
     let ka = check.non_negative(*ka, "ka", at(Field::Ka));
     let kd = check.non_negative(*kd, "kd", at(Field::Kd));
     let ks = check.non_negative(*ks, "ks", at(Field::Ks));
+    let kr = check.optional(kr.as_ref(), |check, kr| {
+        check.non_negative(*kr, "kr", at(Field::Kr))
+    });
     let n = check.exponent(*n, at(Field::N));
     let kt = check.non_negative(*kt, "refract", at(Field::Kt));
     let ior = check.length(*ior, at(Field::Ior), &codes::ETA, "index of refraction");
@@ -105,12 +111,21 @@ pub(super) fn phong(
         ka: ka?,
         kd: kd?,
         ks: ks?,
+        kr: kr?,
         n: n?,
         kt: kt?,
         ior: ior?,
         glossy_samples: glossy_samples?,
         maps: maps.has_some().then(|| Box::new(maps)),
     })
+}
+
+impl Phong {
+    /// The weight of the reflected ray where no map scales it.
+    #[must_use]
+    pub fn mirror_weight(&self) -> f64 {
+        self.kr.unwrap_or(self.ks).get()
+    }
 }
 
 fn height_field(

@@ -318,6 +318,7 @@ fn phong() -> impl Strategy<Value = Material> {
                     ka,
                     kd,
                     ks,
+                    kr: (glossy_samples % 2 == 0).then_some(kd),
                     n,
                     kt,
                     ior: eta,

@@ -214,6 +214,7 @@ impl Dice {
             ka: self.pick(&[0.0, 0.2]),
             kd: self.pick(&[0.0, 0.7]),
             ks: self.pick(&[0.0, 0.0, 0.5]),
+            kr: None,
             n: self.pick(&[0.0, 1.0, 8.0]),
             kt: self.pick(&[0.0, 0.0, 0.0, 0.6]),
             ior: self.pick(&[1.0, 1.5]),

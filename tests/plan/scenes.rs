@@ -11,6 +11,7 @@ pub(super) fn diffuse() -> Phong {
         ka: 0.2,
         kd: 0.7,
         ks: 0.0,
+        kr: None,
         n: 8.0,
         kt: 0.0,
         ior: 1.5,

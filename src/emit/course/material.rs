@@ -23,6 +23,7 @@ impl<'s> SceneWriter<'s> {
             ka,
             kd,
             ks,
+            kr,
             n,
             kt,
             ior,
@@ -38,6 +39,9 @@ impl<'s> SceneWriter<'s> {
             self.number(key, *value, 6);
         }
         // Parameters that are usually absent.
+        if let Some(kr) = kr {
+            self.number("kr", *kr, 6);
+        }
         if *kt != 0.0 || *ior != 1.0 {
             self.number("kt", *kt, 6);
             self.number("eta", *ior, 6);

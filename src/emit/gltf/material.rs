@@ -266,6 +266,7 @@ impl GltfWriter<'_> {
             ka,
             kd,
             ks,
+            kr,
             n,
             kt,
             ior,
@@ -289,6 +290,9 @@ impl GltfWriter<'_> {
             "eta": ior,
             "glossySamples": glossy_samples,
         });
+        if let Some(kr) = kr {
+            rtc_extras["kr"] = json!(kr);
+        }
         let bump_map = bump.as_ref().map(|Bump { texture, .. }| *texture);
         let maps = [
             ("colorMap", color_map),

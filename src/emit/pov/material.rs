@@ -33,11 +33,11 @@ impl PovWriter<'_> {
         }
         let ambient = vector(self.ambient_light().map(|channel| channel * phong.ka));
         let color = vector(phong.color);
-        let [kd, ks, n] = [phong.kd, phong.ks, phong.n].map(shortest);
+        let [kd, ks, kr, n] = [phong.kd, phong.ks, phong.mirror_weight(), phong.n].map(shortest);
         self.line(&format!(
             "#declare M{index} = texture {{ pigment {{ rgb {color} }} finish {{ ambient rgb \
             {ambient} \
-             diffuse {kd} phong {ks} phong_size {n} reflection {ks} }} }}"
+             diffuse {kd} phong {ks} phong_size {n} reflection {kr} }} }}"
         ));
     }
 

@@ -74,13 +74,13 @@ impl Lowering {
     }
 
     fn report_materials(&self, context: &mut Context<'_>) {
-        let is_glossy = |phong: &ir::Phong| phong.glossy_samples > 1 && phong.ks > 0.0;
+        let is_glossy = |phong: &ir::Phong| phong.glossy_samples > 1 && phong.mirror_weight() > 0.0;
         let has_bounces = self.scene.settings.max_depth > 0;
         let mut materials = self.scene.materials.iter().filter_map(ir::Material::phong);
         if !(has_bounces && materials.any(is_glossy)) {
             let message = "`glossySamples` has no effect without a mirror reflection";
             let hint = match has_bounces {
-                true => "`ks` is the weight of the mirror reflection",
+                true => "`kr`, or else `ks`, is the weight of the mirror reflection",
                 false => "`MaxRecursionDepth: 1` shows mirror reflections",
             };
             let span = self.dependent.glossy_samples;

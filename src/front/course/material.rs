@@ -36,9 +36,12 @@ record! {
         ka: Spanned<NonNegative>, required, keys!["ka" "ambient"], json "ka";
         /// The weight of the diffuse light.
         kd: Spanned<NonNegative>, required, keys!["kd" "diffuse"], json "kd";
-        /// The weight of the highlight and of the mirror reflection; 1 beside a `specularMap` that
-        /// replaces it.
+        /// The weight of the highlight, and of the mirror reflection where there is no `kr`; 1
+        /// beside a `specularMap` that replaces it.
         ks: Spanned<NonNegative>, unless("specular_map"), keys!["ks" "specular"], json "ks";
+        /// The weight of the mirror reflection alone; `specularMap` does not scale it.
+        kr: Spanned<NonNegative>, optional,
+            keys!["kr" "reflect" "reflection" "reflectivity" "reflectance" "mirror"];
         /// The exponent of the highlight; a larger one makes it smaller and sharper.
         n: Spanned<NonNegative>, required,
             keys!["n" "shininess" "exponent" "specularExponent"], json "n";
@@ -197,6 +200,7 @@ impl Lowering {
             ka,
             kd,
             ks,
+            kr,
             n,
             kt,
             eta,
@@ -210,6 +214,7 @@ impl Lowering {
             ka: ka.value.0,
             kd: kd.value.0,
             ks: specular(ks).value.0,
+            kr: kr.ok().map(|kr| kr.value.0),
             n: n.value.0,
             kt,
             ior: eta,
@@ -236,7 +241,7 @@ impl Lowering {
         let shows =
             self.scene.settings.max_depth > 0 && self.scene.settings.mode == ir::Mode::Phong;
         let ks = specular(&material.ks);
-        if shows && ks.value.0 > 0.0 {
+        if shows && ks.value.0 > 0.0 && material.kr.is_absent() {
             let message = || "`type: default` mirrors by `ks` here".to_owned();
             context.report(&codes::TWO_READINGS, span, message, |d| {
                 d.at(span, "no mirror in some programs")
@@ -270,6 +275,7 @@ impl Lowering {
             ka,
             kd,
             ks,
+            kr,
             n,
             kt,
             eta,
@@ -283,6 +289,7 @@ impl Lowering {
             (Field::Ka, ka.span),
             (Field::Kd, kd.span),
             (Field::Ks, specular(ks).span),
+            (Field::Kr, kr.ok().and_then(|kr| kr.span)),
             (Field::N, n.span),
             (Field::Kt, kt.span),
             (Field::Ior, eta.span),

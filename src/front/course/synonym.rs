@@ -227,18 +227,6 @@ const FOREIGN_KEYS: &[ForeignKeys] = &[
     },
     ForeignKeys {
         record: "material",
-        keys: &[
-            "reflect",
-            "reflection",
-            "reflectivity",
-            "reflectance",
-            "mirror",
-            "kr",
-        ],
-        advice: "`ks` is the weight of the highlight and of the mirror image alike",
-    },
-    ForeignKeys {
-        record: "material",
         keys: &["emission", "emissive", "emit", "glow"],
         advice: "a surface that shines is a material of `type: standard`, with `emissive`",
     },

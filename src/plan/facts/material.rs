@@ -33,6 +33,7 @@ fn phong_of_standard(standard: &Standard) -> Phong {
         ka: NonNegative::ZERO,
         kd: standard.metallic.complement().into(),
         ks: standard.metallic.into(),
+        kr: None,
         n: NonNegative::saturating(1.0 / (roughness * roughness).max(1e-4)),
         kt: NonNegative::ZERO,
         ior: Positive::ONE,
@@ -45,7 +46,7 @@ fn standard_of_phong(phong: &Phong) -> Standard {
     let fit = fit_phong(&PhongTerms {
         color: phong.color.to_array(),
         kd: phong.kd.get(),
-        ks: phong.ks.get(),
+        ks: phong.mirror_weight(),
         n: phong.n.get(),
         kt: phong.kt.get(),
         ior: phong.ior.get(),

@@ -184,8 +184,8 @@ impl Rule {
             ),
             Self::MirrorKs => (
                 "E-REFL-KS",
-                "The radiance along a reflected or refracted ray is multiplied by ks or kt. If \
-                 this factor is 0, the ray is not traced.",
+                "The radiance along a reflected or refracted ray is multiplied by kr (ks by \
+                 default) or kt. If this factor is 0, the ray is not traced.",
             ),
             Self::MirrorDepth => ("E-REFL-DEPTH", "The scene allows no bounce."),
             Self::MirrorUnreached => (

@@ -84,19 +84,25 @@ fn no_visible_reflection(findings: &Findings<'_>, effect: Effect, requested: boo
             .visible()
             .map(|surface| findings.material(surface, Field::Ks)),
     );
-    EffectStatus::pruned(
-        effect,
-        Rule::MirrorKs,
-        "ks is 0 on all visible surfaces",
-        facts,
-    )
+    EffectStatus::pruned(effect, Rule::MirrorKs, NO_MIRROR, facts)
+}
+
+/// Where no visible surface reflects.
+const NO_MIRROR: &str = "ks is 0 on all visible surfaces";
+
+/// The key of the weight of the reflected ray.
+fn weight_key(material: &Phong) -> &'static str {
+    match material.kr {
+        Some(_) => "kr",
+        None => "ks",
+    }
 }
 
 /// The number of bounces after the first hit.
 fn depth(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Depth;
     if let Some(status) = no_bounce(findings, effect, |material| {
-        material.ks.get() + material.kt.get() > 0.0
+        material.mirror_weight() + material.kt.get() > 0.0
     }) {
         return status;
     }
@@ -124,7 +130,7 @@ fn depth(findings: &Findings<'_>) -> EffectStatus {
 
 fn mirror(findings: &Findings<'_>) -> EffectStatus {
     let effect = Effect::Mirror;
-    if let Some(status) = no_bounce(findings, effect, |material| material.ks.get() > 0.0) {
+    if let Some(status) = no_bounce(findings, effect, |material| material.mirror_weight() > 0.0) {
         return status;
     }
     match findings.first(MaterialSummary::has_bounce) {
@@ -133,20 +139,18 @@ fn mirror(findings: &Findings<'_>) -> EffectStatus {
                 findings.material(surface, Field::Ks),
                 findings.surface(surface, Field::Whole),
             ];
-            let is_specular = findings.facts.summaries[surface].is_specular;
-            let reason = if is_specular {
-                "ks > 0 on a visible surface"
+            let mirrors = findings.facts.summaries[surface].mirrors;
+            let reason = if mirrors {
+                format!(
+                    "{} > 0 on a visible surface",
+                    weight_key(findings.phong(surface))
+                )
             } else {
-                "total internal reflection is possible"
+                "total internal reflection is possible".to_owned()
             };
             EffectStatus::needed(effect, reason, facts)
         }
-        None => EffectStatus::pruned(
-            effect,
-            Rule::MirrorKs,
-            "ks is 0 on all visible surfaces",
-            vec![],
-        ),
+        None => EffectStatus::pruned(effect, Rule::MirrorKs, NO_MIRROR, vec![]),
     }
 }
 
@@ -158,7 +162,8 @@ fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = Eff
         .filter(move |_| is_needed);
     surfaces.map(|surface| {
         let facts = vec![findings.material(surface, Field::Ks)];
-        let status = EffectStatus::pruned(Effect::Mirror, Rule::MirrorKs, "its ks is 0", facts);
+        let reason = format!("its {} is 0", weight_key(findings.phong(surface)));
+        let status = EffectStatus::pruned(Effect::Mirror, Rule::MirrorKs, reason, facts);
         status.of(findings.material(surface, Field::Whole))
     })
 }

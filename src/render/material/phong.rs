@@ -14,8 +14,10 @@ pub(crate) struct PhongMaterial {
     pub(crate) ka: NonNegative,
     /// The weight of the diffuse term.
     pub(crate) kd: NonNegative,
-    /// The weight of the highlight and of the mirror ray.
+    /// The weight of the highlight.
     pub(crate) ks: NonNegative,
+    /// The weight of the reflected ray; by default `ks`, times its map.
+    pub(crate) kr: Option<NonNegative>,
     /// The exponent of the highlight and of the glossy lobe.
     pub(crate) n: NonNegative,
     /// The weight of the refracted ray.

@@ -251,6 +251,7 @@ impl MaterialReader<'_, '_, '_, '_> {
             ka: extension.number_or("ka", matt.ka),
             kd: extension.number_or("kd", matt.kd),
             ks: extension.number_or("ks", matt.ks),
+            kr: extension.number("kr"),
             n: extension.number_or("n", matt.n),
             kt: extension.number_or("kt", matt.kt),
             ior: extension.number_or("eta", matt.ior),

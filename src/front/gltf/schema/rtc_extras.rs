@@ -108,6 +108,7 @@ static PHONG: Object = rtc_object(&[
     optional("ka", Number(FACTOR)),
     optional("kd", Number(FACTOR)),
     optional("ks", Number(FACTOR)),
+    optional("kr", Number(FACTOR)),
     optional("n", Number(FACTOR)),
     optional("kt", Number(FACTOR)),
     optional("eta", Number(POSITIVE)),

@@ -57,8 +57,8 @@ impl<'world, S: Intersect, const F: u32> Tracer<'world, S, F> {
         let direction = path.ray.direction;
         let refracted = transmit(direction, shading_point, self.world.settings.shadows);
         let mirror_weight = match refracted {
-            Some(_) => shading_point.ks,
-            None => shading_point.ks + shading_point.material.kt.get(),
+            Some(_) => shading_point.mirror_weight(),
+            None => shading_point.mirror_weight() + shading_point.material.kt.get(),
         };
         if self.is_nonzero(path.beta * mirror_weight) {
             let mirror = mirror_direction(direction, shading_point);

@@ -10,7 +10,7 @@ use crate::sampler::{DiscPoints, Key};
 use crate::shape::geometry::Intersect;
 use crate::world::settings::Gooch;
 use crate::world::small_scene::SmallScene;
-use rtc_math::{Basis, Vec3};
+use rtc_math::{Basis, NonNegative, Vec3};
 use rtc_plan::{Effect, Features, Rule};
 
 /// A point seen from one side.
@@ -31,6 +31,13 @@ pub(crate) struct ShadingPoint<'world> {
     pub(crate) surface: usize,
     /// Names the point for sampling.
     pub(crate) key: Key,
+}
+
+impl ShadingPoint<'_> {
+    /// The weight of the reflected ray at this point.
+    pub(crate) fn mirror_weight(&self) -> f64 {
+        self.material.kr.map_or(self.ks, NonNegative::get)
+    }
 }
 
 /// Whether something may hide a light from a point.

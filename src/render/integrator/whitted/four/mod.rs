@@ -45,6 +45,7 @@ struct Points<V: Simd> {
     ka: f64x4<V>,
     kd: f64x4<V>,
     ks: f64x4<V>,
+    kr: f64x4<V>,
     n: f64x4<V>,
     /// The index of the surface in the scene.
     surfaces: [usize; LANES],
@@ -136,7 +137,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
             if !Self::can(Features::BOUNCE) || bounce == depth {
                 break;
             }
-            let weight = beta * points.ks;
+            let weight = beta * points.kr;
             let weight = weight
                 .simd_lt(number(f64::MAX))
                 .select(weight, number(f64::MAX));
@@ -237,6 +238,7 @@ impl<S: Intersect, const F: u32> Tracer<'_, S, F> {
                 ka: number(material.ka.get()),
                 kd: number(material.kd.get()),
                 ks: number(material.ks.get()),
+                kr: number(material.kr.unwrap_or(material.ks).get()),
                 n: number(material.n.get()),
                 surfaces: [surface.index; LANES],
                 met: hits.met,
@@ -288,6 +290,7 @@ impl<V: Simd> Points<V> {
             ka: mask.select(self.ka, others.ka),
             kd: mask.select(self.kd, others.kd),
             ks: mask.select(self.ks, others.ks),
+            kr: mask.select(self.kr, others.kr),
             n: mask.select(self.n, others.n),
             surfaces,
             met: self.met,
